@@ -1,0 +1,63 @@
+# make demo   builds cinesplat and films a generated room
+# make test   the gate: formatting, lints, docs, tests
+# make        this list
+
+SHELL := /bin/bash
+BIN := target/release/cinesplat
+SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+# What ffmpeg-next needs to build, besides libclang (see deps).
+PACKAGES := build-essential pkg-config libavcodec-dev libavformat-dev libavutil-dev
+DEMO_SCENE := synth:room:7
+DEMO_PROMPT := slowly push in on the sofa, then orbit it to the right
+
+.DEFAULT_GOAL := help
+.PHONY: help deps build demo test train bench clean
+
+help:
+	@sed -n 's/^# //p' $(firstword $(MAKEFILE_LIST)) | sed -n '1,/^make   /p'
+
+# Installs only what is missing. libclang comes under a version number that differs by release: the newest there is.
+deps:
+	@command -v cargo >/dev/null || { echo "cargo is missing: install Rust 1.95 or newer from https://rustup.rs" >&2; exit 69; }
+	@command -v dpkg-query >/dev/null || { echo "not Debian or Ubuntu: install FFmpeg's development files (libavcodec, libavformat, libavutil), pkg-config, a C compiler and libclang, then 'make build'" >&2; pkg-config --exists libavcodec libavformat libavutil; exit; }
+	@installed() { dpkg-query -W -f='$${db:Status-Abbrev}\n' "$$1" 2>/dev/null | grep -q '^ii'; }; \
+	missing=""; for package in $(PACKAGES); do installed "$$package" || missing="$$missing $$package"; done; \
+	{ installed 'libclang1-*' || installed 'libclang-[0-9]*-dev'; } && installed 'libclang-common-*-dev' || missing="$$missing clang"; \
+	[ -n "$$missing" ] || exit 0; \
+	echo "installing:$$missing"; \
+	$(SUDO) apt-get update -q || exit 69; \
+	if [[ "$$missing" == *" clang" ]]; then \
+		missing="$${missing% clang}"; \
+		for number in $$(apt-cache search --names-only '^libclang-common-[0-9]+-dev$$' | grep -oE '[0-9]+' | sort -rnu); do \
+			library=$$(apt-cache search --names-only "^libclang1-$${number}(t64)?$$" | cut -d' ' -f1 | head -n1); \
+			[ -n "$$library" ] && { missing="$$missing $$library libclang-common-$${number}-dev"; break; }; \
+		done; \
+	fi; \
+	$(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $$missing || exit 69
+
+build: deps
+	cargo build --release --locked
+
+# Leaves renders/demo.mp4, renders/demo.shot.json and renders/demo.sheet.png. Needs nothing but this folder.
+demo: build
+	$(BIN) render $(DEMO_SCENE) -p "$(DEMO_PROMPT)" -o renders/demo.mp4 \
+		--save-shot renders/demo.shot.json --sheet renders/demo.sheet.png --overwrite
+
+# One gate for people and CI. Tests run optimized and share the demo's compiled dependencies.
+test: deps
+	cargo fmt --check
+	cargo clippy --release --locked --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps
+	cargo test --release --locked
+
+# Long ones, never part of the gate.
+train: build
+	$(BIN) dataset --help
+	$(BIN) train --help
+
+bench: build
+	$(BIN) bench
+
+clean:
+	cargo clean
+	rm -f renders/demo.*

@@ -1,0 +1,75 @@
+use std::path::PathBuf;
+use std::time::Instant;
+
+use super::console;
+use super::failure::Failure;
+use crate::director::{DatasetSettings, write_dataset};
+use crate::operator::Effort;
+
+/// Makes the director's training data.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Example:
+  cinesplat dataset -o shots --scenes 256 --shots 24
+Shots that the operator finds for the phrasebook's prompts in generated scenes, as JSON lines. Shards that are there
+already stay: the same command goes on where it was stopped.")]
+pub(super) struct Args {
+    /// Folder for the shards
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Number of scenes
+    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().scenes)]
+    scenes: u64,
+    /// Shots tried in each
+    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().shots)]
+    shots: u64,
+    /// Number of Gaussians of a scene, relative to film quality
+    #[arg(long, value_name = "FRAC", default_value_t = DatasetSettings::default().detail)]
+    detail: f64,
+    /// How long the operator looks for cameras
+    #[arg(long, value_name = "off|fast|full", default_value = "fast", value_parser = parse_effort)]
+    solve: Effort,
+    /// Seed of scenes and prompts
+    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().seed)]
+    seed: u64,
+    /// Threads that make shards side by side
+    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().threads)]
+    threads: usize,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let settings = DatasetSettings {
+            out: self.output,
+            seed: self.seed,
+            scenes: self.scenes,
+            shots: self.shots,
+            detail: self.detail,
+            effort: self.solve,
+            threads: self.threads,
+        };
+        let start = Instant::now();
+        let summary = write_dataset(&settings, &|done, total| {
+            let left_mins = start.elapsed().as_secs_f64() / done as f64 * total.saturating_sub(done) as f64 / 60.0;
+            console::note(&format!("scene {done}/{total}, {left_mins:.0} min left"));
+        })?;
+        console::note(&format!(
+            "{}: {} shots in {} scenes; {} left out (not all found, or too long); {} shards kept",
+            settings.out.display(),
+            summary.shots,
+            summary.scenes,
+            summary.left_out,
+            summary.shards_kept
+        ));
+        Ok(())
+    }
+}
+
+fn parse_effort(name: &str) -> Result<Effort, String> {
+    match name {
+        "off" => Ok(Effort::Off),
+        "fast" => Ok(Effort::Fast),
+        "full" => Ok(Effort::Full),
+        _ => Err("expected off, fast or full".into()),
+    }
+}

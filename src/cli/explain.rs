@@ -1,0 +1,109 @@
+use std::fmt::Write as _;
+
+use crate::lens::Effect;
+use crate::objects::ObjectSet;
+use crate::operator::{Amount, Framing, Part, Pass, Speed, Step};
+use crate::pipeline::Directed;
+
+/// How a prompt was understood, clause by clause: its words, what they mean, what was wanted and got, and what each
+/// effect decided.
+pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
+    let mut text = format!("prompt: {}\n\nunderstood as\n", directed.shot.prompt);
+    for (number, reading) in directed.steps.iter().enumerate() {
+        let words = if reading.words.is_empty() { "(no words of its own)" } else { &reading.words };
+        let (weakest, weakest_sure) = reading.weakest;
+        let (sure, weakest_sure) = (100.0 * reading.probability, 100.0 * weakest_sure);
+        let _ = writeln!(text, "  {}. \"{words}\"", number + 1);
+        let _ = writeln!(text, "     {}", sentence(&reading.step, objects));
+        let _ = writeln!(text, "     {sure:.0} % sure, least of {weakest} ({weakest_sure:.0} %)");
+    }
+    text.push_str("\nwanted and got\n");
+    for line in &directed.shot.report {
+        let verdict = if line.met { "met    " } else { "NOT MET" };
+        let note = if line.note.is_empty() { String::new() } else { format!(" ({})", line.note) };
+        let _ = writeln!(text, "  {verdict} {}: wanted {}, got {:.3}{note}", line.clause, line.wanted, line.got);
+    }
+    text.push_str("\neffects\n");
+    for effect in Effect::ALL {
+        let decided = directed.effects.iter().find(|decision| decision.call.kind == effect.name());
+        let sentence = decided.map_or_else(|| format!("{}: not called for", effect.name()), |d| d.sentence());
+        let _ = writeln!(text, "  {sentence}");
+    }
+    for decision in directed.effects.iter().filter(|decision| Effect::from_name(&decision.call.kind).is_none()) {
+        let _ = writeln!(text, "  {}", decision.sentence());
+    }
+    text
+}
+
+/// A step in words.
+fn sentence(step: &Step, objects: &ObjectSet) -> String {
+    let mut parts = vec![step.movement.name().to_owned()];
+    if step.either_way {
+        parts.push("in either direction".to_owned());
+    }
+    parts.extend(step.amount.map(amount));
+    parts.extend(framing("from", &step.start, objects));
+    parts.extend(framing("to", &step.end, objects));
+    if let Some(via) = &step.via {
+        let how = match via.how {
+            Pass::Past => "past",
+            Pass::Between => "between",
+            Pass::Over => "over",
+        };
+        parts.push(format!("{how} {}", names(&via.objects, objects)));
+    }
+    match step.speed {
+        Speed::Slow => parts.push("slow".to_owned()),
+        Speed::Normal => {}
+        Speed::Fast => parts.push("fast".to_owned()),
+    }
+    parts.extend(step.duration_secs.map(|secs| format!("{secs} s")));
+    parts.extend(step.easing.map(|easing| easing.name().to_owned()));
+    if step.cut {
+        parts.push("after a cut".to_owned());
+    }
+    if step.returns {
+        parts.push("back to where it began".to_owned());
+    }
+    parts.join(", ")
+}
+
+fn amount(amount: Amount) -> String {
+    match amount {
+        Amount::Degrees(degrees) => format!("{degrees} degrees"),
+        Amount::Units(units) => format!("{units} units"),
+        Amount::Factor(factor) => format!("factor {factor}"),
+        Amount::Slight => "a little".to_owned(),
+        Amount::Large => "a lot".to_owned(),
+    }
+}
+
+/// One end of a step; `None` where it is left open.
+fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<String> {
+    if *framing == Framing::default() {
+        return None;
+    }
+    let mut parts = Vec::new();
+    parts.extend(framing.angle.map(|angle| angle.name().to_owned()));
+    parts.extend(framing.size.map(|size| size.name().to_owned()));
+    let part = match framing.part {
+        Part::Middle => "",
+        Part::Top => "the top of ",
+        Part::Bottom => "the bottom of ",
+        Part::Left => "the left end of ",
+        Part::Right => "the right end of ",
+    };
+    if !framing.subjects.is_empty() {
+        let whole = if framing.whole { " whole" } else { "" };
+        parts.push(format!("{part}{}{whole}", names(&framing.subjects, objects)));
+    }
+    Some(format!("{preposition} {}", parts.join(" ")))
+}
+
+fn names(ids: &[u32], objects: &ObjectSet) -> String {
+    let name = |id: &u32| match objects.get(*id) {
+        Some(object) if !object.label.is_empty() => format!("{} <obj-{id}>", object.label),
+        _ => format!("<obj-{id}>"),
+    };
+    ids.iter().map(name).collect::<Vec<_>>().join(" and ")
+}

@@ -1,0 +1,42 @@
+use std::path::PathBuf;
+
+use super::export::parse_format;
+use super::failure::Failure;
+use super::{console, outputs};
+use crate::export::{self, Format, shot_json};
+
+/// Makes a shot of another program's camera path.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat import camera_path.json -o shot.json
+  cinesplat import poses.txt --from kitti -o shot.json")]
+pub(super) struct Args {
+    /// The camera path, or a folder with a COLMAP model
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// The shot
+    #[arg(short, long, value_name = "SHOT.JSON")]
+    output: PathBuf,
+    /// The format, instead of what the content says
+    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
+    from: Option<Format>,
+    /// Replaces a shot that is already there
+    #[arg(long)]
+    overwrite: bool,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        outputs::check_new(&self.output, self.overwrite)?;
+        let in_file = |error| Failure::from(error).in_file(&self.file);
+        let imported = export::read(&self.file, self.from).map_err(in_file)?;
+        let format = imported.format.name();
+        let (shot, assumed) = imported.into_shot().map_err(in_file)?;
+        assumed.iter().for_each(|line| console::note(&format!("warning: {line}")));
+        outputs::write(&self.output, shot_json::write(&shot).as_bytes())?;
+        let (keys, secs) = (shot.keyframes.len(), shot.duration_secs);
+        console::note(&format!("{}: {keys} keys, {secs:.2} s, from {format}", self.output.display()));
+        Ok(())
+    }
+}

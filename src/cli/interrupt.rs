@@ -1,0 +1,33 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::console;
+use super::failure::Failure;
+
+/// Counts Ctrl-C: the first asks for a clean end, the second ends at once.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Interrupt {
+    count: Arc<AtomicUsize>,
+}
+
+impl Interrupt {
+    /// Takes over Ctrl-C (and SIGTERM, SIGHUP) for the rest of the program.
+    pub(super) fn listen() -> Result<Self, Failure> {
+        let interrupt = Self::default();
+        let count = Arc::clone(&interrupt.count);
+        let listening = ctrlc::set_handler(move || {
+            if count.fetch_add(1, Ordering::SeqCst) == 0 {
+                console::note("stopping after this frame; Ctrl-C again stops at once");
+            } else {
+                std::process::exit(130);
+            }
+        });
+        listening.map_err(|error| Failure::fault(&error.to_string()))?;
+        Ok(interrupt)
+    }
+
+    /// Whether somebody asked for an end.
+    pub(super) fn is_asked(&self) -> bool {
+        self.count.load(Ordering::SeqCst) > 0
+    }
+}

@@ -1,0 +1,133 @@
+//! The command line: one file a subcommand, and the only place that prints.
+//!
+//! Enters: arguments. Leaves: data on stdout, everything else on stderr, files, an exit code. An error is one line
+//! `error[CODE]: FILE: what was found, what was expected` and a second line `help: ` with the fix.
+
+mod bench;
+mod console;
+mod dataset;
+mod eval;
+mod explain;
+mod export;
+mod failure;
+mod import;
+mod info;
+mod interrupt;
+mod npy;
+mod objects;
+mod outputs;
+mod plan;
+mod progress;
+mod render;
+mod reproduce;
+mod scene_args;
+mod shot_args;
+mod still;
+mod train;
+mod usage;
+
+use std::ffi::OsString;
+use std::panic::{self, AssertUnwindSafe};
+use std::process::ExitCode;
+use std::sync::{Arc, Mutex};
+
+use clap::{Parser, Subcommand};
+
+use failure::Failure;
+
+/// A splat scene and a sentence become a camera move, filmed.
+#[derive(Debug, Parser)]
+#[command(name = "cinesplat", version, max_term_width = 110, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  cinesplat info room.spz
+  cinesplat objects room.spz -o objects.json --sheet objects.png
+  cinesplat render room.spz -p \"push in on the lamp, then orbit it\" --objects objects.json -o lamp.mp4
+  cinesplat render synth:room:1 -p \"slowly orbit the sofa\" -o sofa.mp4
+
+SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or synth:room:SEED.
+Exit codes: 0 done, 2 usage, 65 bad data, 66 no such input, 69 codec missing, 70 our fault, 71 over a cap,
+73 cannot create the output, 74 I/O, 75 stopped early, 77 permission, 130 interrupted twice.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Says what a scene is: format, Gaussians, bounds, up axis, what was dropped.
+    Info(info::Args),
+    /// Finds or reads the objects of a scene.
+    Objects(objects::Args),
+    /// Makes a sentence into keyframes, without rendering.
+    Plan(plan::Args),
+    /// Films a sentence or a shot.
+    Render(render::Args),
+    /// Takes still pictures from given cameras.
+    Still(still::Args),
+    /// Writes a shot's camera path for other programs.
+    Export(export::Args),
+    /// Makes a shot of another program's camera path.
+    Import(import::Args),
+    /// Compares two trajectories: absolute and relative pose error.
+    Eval(eval::Args),
+    /// Trains the director.
+    Train(train::Args),
+    /// Makes the director's training data.
+    Dataset(dataset::Args),
+    /// Measures accuracy against time.
+    Bench(bench::Args),
+}
+
+impl Command {
+    fn run(self) -> Result<(), Failure> {
+        match self {
+            Self::Info(args) => args.run(),
+            Self::Objects(args) => args.run(),
+            Self::Plan(args) => args.run(),
+            Self::Render(args) => args.run(),
+            Self::Still(args) => args.run(),
+            Self::Export(args) => args.run(),
+            Self::Import(args) => args.run(),
+            Self::Eval(args) => args.run(),
+            Self::Train(args) => args.run(),
+            Self::Dataset(args) => args.run(),
+            Self::Bench(args) => args.run(),
+        }
+    }
+}
+
+/// Runs the program with its arguments (the program's name first) and says how it ended.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let ended = match Cli::try_parse_from(arguments) {
+        Ok(cli) => catch_faults(|| cli.command.run()),
+        Err(refused) => usage::answer(&refused),
+    };
+    match ended {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            console::error(&failure);
+            ExitCode::from(failure.exit_code())
+        }
+    }
+}
+
+/// Runs `work`; a panic in it, a fault of ours, ends as a [`Failure`] with its place instead of a stack of frames.
+fn catch_faults(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+    let place = Arc::new(Mutex::new(String::new()));
+    let seen = Arc::clone(&place);
+    panic::set_hook(Box::new(move |panic| {
+        if let Ok(mut first) = seen.lock().map(|guard| guard).map_err(drop)
+            && first.is_empty()
+        {
+            *first = panic.to_string().replace('\n', " ");
+        }
+    }));
+    let ended = panic::catch_unwind(AssertUnwindSafe(work));
+    drop(panic::take_hook());
+    ended.unwrap_or_else(|_| {
+        let place = place.lock().map(|place| place.clone()).unwrap_or_default();
+        Err(Failure::fault(&place))
+    })
+}

@@ -1,0 +1,96 @@
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::scene_args::{SceneArgs, print_up};
+use super::{console, outputs, reproduce};
+use crate::objects::{self, Object, ObjectSet, SheetSettings};
+use crate::{pipeline, video};
+
+/// Finds or reads the objects of a scene.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat objects room.spz -o objects.json --sheet objects.png
+  cinesplat objects room.spz --labels labels.npy -o objects.json
+Give names in objects.json (\"label\": \"lamp\") so that a prompt can say \"the lamp\"; <obj-ID> always works.")]
+pub(super) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The objects with their boxes and sparse clouds, and their labels beside them
+    #[arg(short, long, value_name = "OBJECTS.JSON")]
+    output: Option<PathBuf>,
+    /// One object id a Gaussian, .npy of u8, u16 or u32, instead of a search
+    #[arg(long, value_name = "FILE", conflicts_with = "objects")]
+    labels: Option<PathBuf>,
+    /// Objects to read instead of a search
+    #[arg(long, value_name = "FILE")]
+    objects: Option<PathBuf>,
+    /// Writes a picture with every object and its id
+    #[arg(long, value_name = "SHEET.PNG")]
+    sheet: Option<PathBuf>,
+    /// One JSON list instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Replaces files that are already there
+    #[arg(long)]
+    overwrite: bool,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        for path in self.output.iter().chain(&self.sheet) {
+            outputs::check_new(path, self.overwrite)?;
+        }
+        let (scene, mut set) = match &self.labels {
+            Some(labels) => {
+                let scene = self.scene.open()?.scene;
+                print_up(&scene);
+                let set = objects::from_labels(&scene, objects::read_labels(labels, &scene)?);
+                (scene, set)
+            }
+            None => self.scene.open_with_objects(self.objects.as_deref())?,
+        };
+        if let Some(path) = &self.sheet {
+            let picture = objects::sheet(&scene, &set, &SheetSettings::default())?;
+            video::write_png(path, &picture, picture.width(), picture.height())?;
+            console::note(&format!("{}: a view of every object", path.display()));
+        }
+        if let Some(path) = &self.output {
+            pipeline::prepare_objects(&scene, &mut set)?;
+            objects::write(path, &set, &scene)?;
+            console::note(&format!("{}: {} objects", path.display(), set.objects.len()));
+        }
+        console::data(&if self.json { format!("{:#}\n", as_json(&set)) } else { table(&set) })?;
+        reproduce::print(&[]);
+        Ok(())
+    }
+}
+
+fn as_json(set: &ObjectSet) -> Value {
+    let entry = |object: &Object| {
+        json!({
+            "id": object.id,
+            "label": object.label,
+            "center": object.center.to_array(),
+            "half_extents": object.half_extents.to_array(),
+            "rotation_xyzw": object.rotation.to_array(),
+            "num_gaussians": object.num_gaussians,
+        })
+    };
+    set.objects.iter().map(entry).collect()
+}
+
+fn table(set: &ObjectSet) -> String {
+    let widest = set.objects.iter().map(|object| object.label.chars().count()).max().unwrap_or(0).max(5);
+    let mut text = format!("{:>5}  {:<widest$}  {:>9}  {:<25}  size\n", "id", "label", "gaussians", "center");
+    for object in &set.objects {
+        let vector = |v: glam::DVec3| format!("{:.3} {:.3} {:.3}", v.x, v.y, v.z);
+        let (center, size) = (vector(object.center), vector(object.half_extents * 2.0));
+        let (id, label, count) = (object.id, &object.label, object.num_gaussians);
+        let _ = writeln!(text, "{id:>5}  {label:<widest$}  {count:>9}  {center:<25}  {size}");
+    }
+    text
+}

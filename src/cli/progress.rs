@@ -1,0 +1,61 @@
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::console;
+
+/// How often a line is written where no terminal shows a bar.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
+
+/// Frames done of frames wanted: a bar with rate and time left on a terminal, a line every five seconds elsewhere.
+pub(super) struct FrameProgress {
+    bar: Option<ProgressBar>,
+    start: Instant,
+    last_line: Instant,
+}
+
+impl FrameProgress {
+    pub(super) fn new() -> Self {
+        let start = Instant::now();
+        Self { bar: console::is_watched().then(new_bar), start, last_line: start }
+    }
+
+    /// Shows that `done` of `total` frames are there.
+    pub(super) fn show(&mut self, done: usize, total: usize) {
+        if let Some(bar) = &self.bar {
+            bar.set_length(total as u64);
+            bar.set_position(done as u64);
+        } else if self.last_line.elapsed() >= LINE_INTERVAL || done == total {
+            self.last_line = Instant::now();
+            console::note(&line(done, total, self.start.elapsed()));
+        }
+    }
+
+    /// Takes the bar away.
+    pub(super) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn new_bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::stderr_with_hz(10));
+    let template = "frame {pos}/{len} {bar:30} {per_sec}, {eta} left";
+    match ProgressStyle::with_template(template) {
+        Ok(style) => bar.with_style(style.with_key(
+            "per_sec",
+            |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
+                // A bar that cannot be drawn is no reason to stop a film.
+                let _ = write!(out, "{:.1} fps", state.per_sec());
+            },
+        )),
+        Err(_) => bar,
+    }
+}
+
+fn line(done: usize, total: usize, elapsed: Duration) -> String {
+    let rate_fps = done as f64 / elapsed.as_secs_f64().max(1e-9);
+    let left_secs = total.saturating_sub(done) as f64 / rate_fps.max(1e-9);
+    format!("frame {done}/{total}, {rate_fps:.1} fps, {left_secs:.0} s left")
+}

@@ -1,0 +1,178 @@
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use super::failure::Failure;
+use super::interrupt::Interrupt;
+use super::progress::FrameProgress;
+use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
+use super::shot_args::ShotArgs;
+use super::{console, outputs, reproduce};
+use crate::export::shot_json;
+use crate::pipeline::{self, FilmReport, FilmSettings, Flow, FrameRange, StageTimes};
+use crate::render::Quality;
+use crate::scene::Scene;
+use crate::trajectory::Shot;
+use crate::video::{self, Preset, VideoSettings};
+
+/// Films a sentence or a shot.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat render room.spz -p \"push in on the lamp\" --objects objects.json -o lamp.mp4
+  cinesplat render room.spz --shot shot.json -o frames/%05d.png --frames 0..120 --quality final
+Ctrl-C ends after the frame in work and keeps what is there (a film as NAME.partial.EXT); twice ends at once.")]
+pub(super) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    #[command(flatten)]
+    what: What,
+    /// The film (.mp4 .mkv .webm .mov), or pictures such as frames/%05d.png
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    shot: ShotArgs,
+    #[command(flatten)]
+    picture: PictureArgs,
+    /// Part of the film's frames, B one after the last
+    #[arg(long, value_name = "A..B", default_value = "..")]
+    frames: FrameRange,
+    /// Quality of the encoder: lower is better and larger, 18 is hard to tell from the frames
+    #[arg(long, value_name = "N", default_value_t = 18)]
+    crf: u8,
+    /// Effort of the H.264 encoder: ultrafast, veryfast, fast, medium, slow or veryslow
+    #[arg(long, value_name = "PRESET", default_value = "medium", value_parser = parse_preset)]
+    preset: Preset,
+    /// Writes the shot too
+    #[arg(long, value_name = "SHOT.JSON")]
+    save_shot: Option<PathBuf>,
+    /// Writes a contact sheet too: twelve small frames of the film
+    #[arg(long, value_name = "SHEET.PNG")]
+    sheet: Option<PathBuf>,
+    /// Replaces what is already there
+    #[arg(long)]
+    overwrite: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[group(required = true, multiple = false)]
+struct What {
+    /// What the camera does, in words; objects by name or as <obj-ID>
+    #[arg(short, long, value_name = "PROMPT")]
+    prompt: Option<String>,
+    /// A shot made before, instead of words
+    #[arg(long = "shot", value_name = "SHOT.JSON")]
+    file: Option<PathBuf>,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let start = Instant::now();
+        self.check_outputs()?;
+        let mut times = StageTimes::default();
+        let (scene, shot) = self.open(&mut times)?;
+        // Once more, now that size and number of frames are known.
+        let format = video::check_output(&self.output, &self.video(&shot)?)?;
+        video::size_note(&format, shot.width, shot.height).iter().for_each(|note| console::note(note));
+        if let Some(path) = &self.save_shot {
+            let mut saved = shot.clone();
+            saved.scene.path = outputs::relative_to(path, &scene.path);
+            outputs::write(path, shot_json::write(&saved).as_bytes())?;
+        }
+        let report = self.film(&scene, &shot)?;
+        times.add("render", report.render_time);
+        times.add("encode", report.encode_time);
+        print_times(&times, &report, start.elapsed());
+        reproduce::print(&self.shot.deciding(&shot));
+        finish(&report)
+    }
+
+    /// Everything that can be refused before the scene is read.
+    fn check_outputs(&self) -> Result<(), Failure> {
+        let video =
+            VideoSettings { crf: self.crf, preset: self.preset, overwrite: self.overwrite, ..Default::default() };
+        video::check_output(&self.output, &video)?;
+        for path in self.save_shot.iter().chain(&self.sheet) {
+            outputs::check_new(path, self.overwrite)?;
+        }
+        Ok(())
+    }
+
+    fn open(&self, times: &mut StageTimes) -> Result<(Scene, Shot), Failure> {
+        if let Some(file) = &self.what.file {
+            let scene = times.measure("load", || self.scene.open())?.scene;
+            let shot = self.shot.read_shot(file, &scene)?;
+            match shot.scene.up {
+                Some(up) => print_up_of(up, "the shot"),
+                None => print_up(&scene),
+            }
+            return Ok((scene, shot));
+        }
+        let prompt = self.what.prompt.as_deref().unwrap_or_default();
+        let (scene, objects) = times.measure("load", || self.scene.open_with_objects(self.shot.objects.as_deref()))?;
+        let directed = self.shot.direct(&scene, &objects, prompt)?;
+        times.extend(&directed.times);
+        Ok((scene, directed.shot))
+    }
+
+    fn video(&self, shot: &Shot) -> Result<VideoSettings, Failure> {
+        let frames = self.frames.of_film(shot.num_frames())?;
+        Ok(VideoSettings {
+            width: shot.width,
+            height: shot.height,
+            rate_fps: shot.fps,
+            crf: self.crf,
+            preset: self.preset,
+            first_frame: frames.start,
+            num_frames: frames.len(),
+            overwrite: self.overwrite,
+        })
+    }
+
+    fn film(&self, scene: &Scene, shot: &Shot) -> Result<FilmReport, Failure> {
+        let settings = FilmSettings {
+            render: self.picture.settings(scene, Quality::Standard, None, None)?,
+            video: self.video(shot)?,
+            frames: self.frames,
+            sheet: self.sheet.clone(),
+        };
+        let interrupt = Interrupt::listen()?;
+        let mut bar = FrameProgress::new();
+        let mut watch = |progress: pipeline::Progress| {
+            bar.show(progress.done, progress.total);
+            if interrupt.is_asked() { Flow::Stop } else { Flow::Continue }
+        };
+        let report = pipeline::film(scene, shot, &self.output, &settings, &mut watch);
+        bar.finish();
+        Ok(report?)
+    }
+}
+
+/// Wall time of every stage; encoding runs beside rendering, so the parts are more than the whole.
+fn print_times(times: &StageTimes, report: &FilmReport, total: Duration) {
+    let stages: Vec<String> =
+        times.iter().map(|(stage, time)| format!("{stage} {:.2} s", time.as_secs_f64())).collect();
+    let rate_fps = report.num_frames as f64 / report.total_time.as_secs_f64().max(1e-9);
+    console::note(&format!(
+        "{}: {} frames; {} (beside render); all {:.2} s, film {rate_fps:.1} fps",
+        report.path.display(),
+        report.num_frames,
+        stages.join(", "),
+        total.as_secs_f64()
+    ));
+}
+
+/// A film that was stopped is no success, but what is there is kept.
+fn finish(report: &FilmReport) -> Result<(), Failure> {
+    if !report.is_partial() {
+        return Ok(());
+    }
+    let (done, wanted) = (report.num_frames, report.num_wanted);
+    let found = format!("{}: stopped after {done} of {wanted} frames", report.path.display());
+    Err(Failure::new("STOPPED", found, format!("render the rest with --frames, from frame {done} of this part on"), 75))
+}
+
+fn parse_preset(name: &str) -> Result<Preset, String> {
+    let all = [Preset::Ultrafast, Preset::Veryfast, Preset::Fast, Preset::Medium, Preset::Slow, Preset::Veryslow];
+    let found = all.into_iter().find(|preset| preset.name() == name);
+    found.ok_or_else(|| format!("expected one of {}", all.map(Preset::name).join(", ")))
+}

@@ -1,0 +1,42 @@
+use std::ffi::OsString;
+
+use super::console;
+
+/// Prints the command that gives the same result: this one's arguments, and the defaults that decide the result too.
+pub(super) fn print(deciding: &[(&str, String)]) {
+    console::note(&format!("reproduce with: {}", command(std::env::args_os().skip(1).collect(), deciding)));
+}
+
+fn command(arguments: Vec<OsString>, deciding: &[(&str, String)]) -> String {
+    let given: Vec<String> = arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect();
+    let is_given = |flag: &str| given.iter().any(|word| word == flag || word.starts_with(&format!("{flag}=")));
+    let missing = deciding.iter().filter(|(flag, _)| !is_given(flag));
+    let added = missing.flat_map(|(flag, value)| [(*flag).to_owned(), value.clone()]);
+    let words = given.iter().cloned().chain(added).map(|word| quoted(&word));
+    std::iter::once("cinesplat".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// A word as a POSIX shell takes it back.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,%+@".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_with_spaces_and_quotes_survive_a_shell() {
+        let arguments = ["plan", "my room.spz", "-p", "the cat's bed", "--seed=4"].map(OsString::from).to_vec();
+        let deciding = [("--seed", "0".to_owned()), ("--fps", "30".to_owned())];
+        assert_eq!(
+            command(arguments, &deciding),
+            r"cinesplat plan 'my room.spz' -p 'the cat'\''s bed' --seed=4 --fps 30"
+        );
+    }
+}

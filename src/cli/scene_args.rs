@@ -1,0 +1,138 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use glam::DVec3;
+
+use super::console;
+use super::failure::Failure;
+use crate::objects::{self, FindSettings, ObjectSet};
+use crate::pipeline::{self, Source};
+use crate::render::{Quality, RenderSettings};
+use crate::scene::{LoadOptions, Scene, SplatFilter, UpSource};
+
+/// Which scene, and what the caller knows better than its file.
+#[derive(Debug, Clone, Args)]
+pub(super) struct SceneArgs {
+    /// Scene file (.ply .spz .sog .splat), folder of an unbundled SOG, synth:room:SEED or synth:tabletop:SEED
+    #[arg(value_name = "SCENE")]
+    pub(super) scene: PathBuf,
+    /// World up, instead of what the file says or what is estimated, such as 0,-1,0
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    up: Option<DVec3>,
+    /// Most Gaussians that are read
+    #[arg(long, value_name = "N", default_value_t = LoadOptions::default().max_gaussians)]
+    max_gaussians: usize,
+    /// Largest file that is read, packed or unpacked, in bytes
+    #[arg(long, value_name = "N", default_value_t = LoadOptions::default().max_file_bytes)]
+    max_file_bytes: u64,
+}
+
+impl SceneArgs {
+    /// Opens the scene and says which way is up, and what was dropped.
+    pub(super) fn open(&self) -> Result<Source, Failure> {
+        let (max_file_bytes, max_gaussians) = (self.max_file_bytes, self.max_gaussians);
+        let options = LoadOptions { up: self.up, max_file_bytes, max_gaussians };
+        let source = pipeline::open_scene(&self.scene, &options)?;
+        source.scene.notes.iter().for_each(|note| console::note(&format!("scene: {note}")));
+        Ok(source)
+    }
+
+    /// Opens the scene with its objects: of `file`, of the scene itself, or found. An objects file may correct the up
+    /// axis, `--up` goes before both.
+    pub(super) fn open_with_objects(&self, file: Option<&Path>) -> Result<(Scene, ObjectSet), Failure> {
+        let Source { mut scene, objects } = self.open()?;
+        let set = match (file, objects) {
+            (Some(file), _) => {
+                let read = objects::read(file, &scene)?;
+                if let (Some(up), None) = (read.up, self.up) {
+                    (scene.up, scene.up_source) = (up, UpSource::ObjectsFile);
+                }
+                read.set
+            }
+            (None, Some(known)) => known,
+            (None, None) if !scene.gaussians.ids.is_empty() => {
+                objects::from_labels(&scene, scene.gaussians.ids.clone())
+            }
+            (None, None) => {
+                let found = objects::find(&scene, &FindSettings::default());
+                console::note(&format!("objects: {} found (cinesplat objects lists them)", found.objects.len()));
+                found
+            }
+        };
+        print_up(&scene);
+        Ok((scene, set))
+    }
+}
+
+/// Says which way is up and how that is known.
+pub(super) fn print_up(scene: &Scene) {
+    print_up_of(scene.up, &scene.up_source.to_string());
+}
+
+/// As [`print_up`], for a direction from elsewhere.
+pub(super) fn print_up_of(up: DVec3, source: &str) {
+    let [x, y, z] = up.to_array();
+    console::note(&format!("up: {x:.3} {y:.3} {z:.3} ({source})"));
+}
+
+/// How pictures are rendered.
+#[derive(Debug, Clone, Args)]
+pub(super) struct PictureArgs {
+    /// Accuracy against time: draft, standard, final or reference
+    #[arg(long, value_name = "Q", value_parser = parse_quality)]
+    quality: Option<Quality>,
+    /// Splat filter: auto (what the scene's file says), classic or mip
+    #[arg(long, value_name = "FILTER", value_parser = ["auto", "classic", "mip"])]
+    filter: Option<String>,
+    /// Near plane in scene units, instead of 0.01 of the scene size, at most 0.2
+    #[arg(long, value_name = "D", value_parser = parse_distance)]
+    near: Option<f64>,
+    /// Threads to render with, instead of one a core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+impl PictureArgs {
+    /// Settings for a scene; `filter` and `near` are what a cameras file says, which a flag goes before.
+    pub(super) fn settings(
+        &self,
+        scene: &Scene,
+        default: Quality,
+        filter: Option<&str>,
+        near: Option<f64>,
+    ) -> Result<RenderSettings, Failure> {
+        if let Some(threads) = self.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+            pool.map_err(|error| Failure::fault(&error.to_string()))?;
+        }
+        let stated = scene.filter.unwrap_or(SplatFilter::Classic);
+        let filter = match self.filter.as_deref().or(filter) {
+            Some("classic") => SplatFilter::Classic,
+            Some("mip") if stated == SplatFilter::MipSmall => SplatFilter::MipSmall,
+            Some("mip") => SplatFilter::Mip,
+            _ => stated,
+        };
+        let near = self.near.or(near).unwrap_or_else(|| scene.bounds().default_near());
+        Ok(RenderSettings { quality: self.quality.unwrap_or(default), filter, near, ..RenderSettings::default() })
+    }
+}
+
+fn parse_quality(name: &str) -> Result<Quality, String> {
+    let names = Quality::ALL.map(Quality::name).join(", ");
+    Quality::from_name(name).ok_or_else(|| format!("expected one of {names}"))
+}
+
+fn parse_distance(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|near: &f64| *near >= 0.0 && near.is_finite())
+        .ok_or("expected a distance, 0 or more".to_owned())
+}
+
+fn parse_vector(text: &str) -> Result<DVec3, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    let vector = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).map(DVec3::from_array);
+    let usable = vector.filter(|vector| vector.is_finite() && vector.length() > 0.0);
+    usable
+        .ok_or_else(|| "expected three numbers with commas between them that are not all 0, such as 0,-1,0".to_owned())
+}

@@ -1,0 +1,149 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::console;
+use super::failure::Failure;
+use super::outputs;
+use crate::director::Director;
+use crate::lens::{self, Call, Decision, EffectChoice};
+use crate::objects::ObjectSet;
+use crate::operator::Effort;
+use crate::pipeline::{self, DirectSettings, Directed, StageTimes};
+use crate::scene::Scene;
+use crate::trajectory::{Shot, retimed};
+
+/// What a shot is to be like, for `plan` and `render`.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ShotArgs {
+    /// Objects file: ids, boxes or labels, and names for the prompt; without it objects are found
+    #[arg(long, value_name = "FILE")]
+    pub(super) objects: Option<PathBuf>,
+    /// Frame size in pixels [default: 1280x720, or the shot's]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<(u32, u32)>,
+    /// Frames a second [default: 30, or the shot's]
+    #[arg(long, value_name = "F", value_parser = parse_rate)]
+    fps: Option<f64>,
+    /// Length of the film in seconds, instead of what words and moves need
+    #[arg(long, value_name = "S", value_parser = parse_duration)]
+    duration: Option<f64>,
+    /// Effects of the lens: auto (what the words call for), off, or names with commas
+    #[arg(long, value_name = "LIST", default_value = "auto")]
+    effects: EffectChoice,
+    /// Seed of the search for cameras [default: 0, or the shot's]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Moves the inner keys in time so that the camera cruises at even speed
+    #[arg(long)]
+    retime: bool,
+    /// Time against how well open choices are made: off, fast or full
+    #[arg(long, value_name = "EFFORT", default_value = "full", value_parser = ["off", "fast", "full"])]
+    effort: String,
+    /// Weights of the director from a folder, instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    model: Option<PathBuf>,
+}
+
+impl ShotArgs {
+    /// Directs a prompt; what was guessed and what was not met goes to stderr.
+    pub(super) fn direct(&self, scene: &Scene, objects: &ObjectSet, prompt: &str) -> Result<Directed, Failure> {
+        let mut times = StageTimes::default();
+        let director = times.measure("load", || match &self.model {
+            Some(folder) => Director::load(folder),
+            None => Director::embedded(),
+        })?;
+        let (width, height) = self.size.unwrap_or((1280, 720));
+        let settings = DirectSettings {
+            width,
+            height,
+            rate_fps: self.fps.unwrap_or(30.0),
+            duration_secs: self.duration,
+            seed: self.seed.unwrap_or(0),
+            effort: self.effort(),
+            effects: self.effects.clone(),
+        };
+        let mut directed = pipeline::direct(scene, objects, prompt, &director, &settings)?;
+        if self.retime {
+            directed.shot = retimed(&directed.shot);
+        }
+        times.extend(&directed.times);
+        directed.times = times;
+        print_gaps(&directed);
+        Ok(directed)
+    }
+
+    /// Reads a shot and lets the flags change it.
+    pub(super) fn read_shot(&self, path: &Path, scene: &Scene) -> Result<Shot, Failure> {
+        let text = outputs::read_text(path)?;
+        let shot = crate::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
+        let made_for_another = !shot.scene.sha256.is_empty() && shot.scene.sha256 != scene.sha256;
+        if made_for_another {
+            console::note(&format!("warning: {} was made for another scene ({})", path.display(), shot.scene.path));
+        }
+        let mut shot = self.changed(shot);
+        let calls = shot.effects.iter().map(|e| Call { kind: e.kind.clone(), because: e.because.clone() });
+        let decisions = lens::decide(&self.effects, &calls.collect::<Vec<_>>());
+        shot.effects.retain(|effect| decisions.iter().any(|d| d.call.kind == effect.kind && d.request().is_some()));
+        print_effects(&decisions);
+        Ok(shot)
+    }
+
+    fn changed(&self, mut shot: Shot) -> Shot {
+        (shot.width, shot.height) = self.size.unwrap_or((shot.width, shot.height));
+        shot.fps = self.fps.unwrap_or(shot.fps);
+        if let Some(wanted) = self.duration.filter(|_| shot.duration_secs > 0.0) {
+            let factor = wanted / shot.duration_secs;
+            shot.keyframes.iter_mut().for_each(|key| key.time_secs *= factor);
+            shot.duration_secs = wanted;
+        }
+        if self.retime { retimed(&shot) } else { shot }
+    }
+
+    fn effort(&self) -> Effort {
+        match self.effort.as_str() {
+            "off" => Effort::Off,
+            "fast" => Effort::Fast,
+            _ => Effort::Full,
+        }
+    }
+
+    /// Flags and defaults that decide the result, for the command that reproduces it.
+    pub(super) fn deciding(&self, shot: &Shot) -> Vec<(&'static str, String)> {
+        vec![
+            ("--size", format!("{}x{}", shot.width, shot.height)),
+            ("--fps", shot.fps.to_string()),
+            ("--seed", shot.seed.to_string()),
+        ]
+    }
+}
+
+/// Guesses, effects, and every line of the report that was not met.
+fn print_gaps(directed: &Directed) {
+    directed.warnings.iter().for_each(|warning| console::note(&format!("warning: {warning}")));
+    print_effects(&directed.effects);
+    let is_effect = |clause: &str| directed.effects.iter().any(|decision| decision.call.because == clause);
+    for line in directed.shot.report.iter().filter(|line| !line.met && !is_effect(&line.clause)) {
+        console::note(&format!("not met: {}: wanted {}, got {:.3}: {}", line.clause, line.wanted, line.got, line.note));
+    }
+}
+
+fn print_effects(decisions: &[Decision]) {
+    decisions.iter().for_each(|decision| console::note(&format!("effect: {}", decision.sentence())));
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let number = |digits: &str| digits.parse::<u32>().ok().filter(|n| (1..=16384).contains(n));
+    let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((number(width)?, number(height)?)));
+    size.ok_or_else(|| "expected WIDTHxHEIGHT in pixels such as 1280x720, each 1 to 16384".to_owned())
+}
+
+fn parse_rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| (0.01..=1000.0).contains(rate));
+    rate.ok_or_else(|| "expected 0.01 to 1000 frames a second".to_owned())
+}
+
+fn parse_duration(text: &str) -> Result<f64, String> {
+    let secs = text.parse().ok().filter(|secs: &f64| *secs > 0.0 && *secs <= 86_400.0);
+    secs.ok_or_else(|| "expected seconds, above 0 and at most 86400".to_owned())
+}

@@ -1,0 +1,196 @@
+use std::fmt::Write as _;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Instant;
+
+use super::console;
+use super::failure::Failure;
+use super::interrupt::Interrupt;
+use crate::director::language::program_to_notation;
+use crate::director::{Director, Marks, Paper, Progress, TrainSettings, examine, train};
+
+/// candle's matrix products run on rayon's pool, whose threads spin: two of our own threads with one each are faster.
+const THREADS_VARIABLE: &str = "RAYON_NUM_THREADS";
+/// Keeps freed memory in the process: page faults cost up to a second a step otherwise.
+const PURGE_VARIABLE: &str = "MIMALLOC_PURGE_DELAY";
+
+/// Trains the director.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat dataset -o shots --scenes 400
+  cinesplat train -o model --shots shots --steps 12000
+  cinesplat train -o model --shots shots --steps 12000 --resume
+  cinesplat train --examine model")]
+pub(super) struct Args {
+    /// Folder for the model (three files) and its checkpoint
+    #[arg(short, long, value_name = "DIR", required_unless_present = "examine")]
+    output: Option<PathBuf>,
+    /// Folder of realized shots (`cinesplat dataset`); without it only the words are learned
+    #[arg(long, value_name = "DIR")]
+    shots: Option<PathBuf>,
+    /// Share of realized shots among the lessons
+    #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().shots_frac)]
+    shots_frac: f64,
+    /// Model to start from instead of random weights
+    #[arg(long, value_name = "MODEL")]
+    from: Option<PathBuf>,
+    /// Optimizer steps
+    #[arg(long, value_name = "N", default_value_t = TrainSettings::default().steps)]
+    steps: u64,
+    /// Lessons a step
+    #[arg(long, value_name = "N", default_value_t = TrainSettings::default().batch)]
+    batch: usize,
+    /// Highest learning rate
+    #[arg(long, value_name = "RATE", default_value_t = TrainSettings::default().peak_rate)]
+    rate: f32,
+    /// Steps over which the rate rises to it
+    #[arg(long, value_name = "N", default_value_t = TrainSettings::default().warm_up)]
+    warm_up: u64,
+    /// Tokens of the vocabulary
+    #[arg(long, value_name = "N", default_value_t = TrainSettings::default().vocabulary)]
+    vocabulary: usize,
+    /// Name of the model, as shots carry it
+    #[arg(long, value_name = "NAME", default_value_t = TrainSettings::default().name)]
+    name: String,
+    /// Seed of weights, lessons and dropout
+    #[arg(long, value_name = "N", default_value_t = TrainSettings::default().seed)]
+    seed: u64,
+    /// Threads that share a batch
+    #[arg(long, value_name = "N", default_value_t = TrainSettings::default().threads)]
+    threads: usize,
+    /// Steps between checkpoints
+    #[arg(long, value_name = "N", default_value_t = TrainSettings::default().checkpoint_every)]
+    checkpoint_every: u64,
+    /// Goes on from the checkpoint in the output folder
+    #[arg(long)]
+    resume: bool,
+    /// Examines a model instead, and prints every prompt that it did not understand; `built-in` for the shipped one
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["output", "shots", "from", "resume"])]
+    examine: Option<PathBuf>,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        if let Some(model) = &self.examine {
+            return examine_model(model);
+        }
+        if std::env::var_os(THREADS_VARIABLE).is_none_or(|threads| threads != "1") {
+            return restart();
+        }
+        let interrupt = Interrupt::listen()?;
+        let settings = self.settings();
+        let mut lines = Lines::new(settings.steps);
+        let summary = train(&settings, &mut |progress| {
+            lines.show(progress);
+            if interrupt.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })?;
+        console::note(&format!(
+            "{} parameters, {} tokens, {} realized shots, weights {}",
+            summary.num_parameters, summary.vocabulary, summary.num_shots, summary.sha256
+        ));
+        Ok(())
+    }
+
+    fn settings(self) -> TrainSettings {
+        TrainSettings {
+            seed: self.seed,
+            steps: self.steps,
+            batch: self.batch,
+            peak_rate: self.rate,
+            warm_up: self.warm_up,
+            shots_frac: self.shots_frac.clamp(0.0, 1.0),
+            vocabulary: self.vocabulary,
+            name: self.name,
+            shots: self.shots,
+            out: self.output.unwrap_or_default(),
+            from: self.from,
+            threads: self.threads,
+            checkpoint_every: self.checkpoint_every,
+            resume: self.resume,
+            ..TrainSettings::default()
+        }
+    }
+}
+
+/// Starts this program again with the environment that training needs, and ends as that one ends.
+fn restart() -> Result<(), Failure> {
+    let failed = |error: std::io::Error| Failure::io("the program itself", &error);
+    let program = std::env::current_exe().map_err(failed)?;
+    let mut command = Command::new(program);
+    command.args(std::env::args_os().skip(1)).env(THREADS_VARIABLE, "1").env(PURGE_VARIABLE, "-1");
+    let status = command.status().map_err(failed)?;
+    match status.code() {
+        Some(0) => Ok(()),
+        Some(code) => std::process::exit(code),
+        None => Err(Failure::fault("training was ended by a signal")),
+    }
+}
+
+/// Lines of a training with the time left.
+struct Lines {
+    start: Instant,
+    first: Option<u64>,
+    total: u64,
+}
+
+impl Lines {
+    fn new(total: u64) -> Self {
+        Self { start: Instant::now(), first: None, total }
+    }
+
+    fn show(&mut self, progress: &Progress) {
+        match progress {
+            Progress::Steps { done, choice_loss, pose_loss, rate, .. } => {
+                let first = *self.first.get_or_insert(done.saturating_sub(10));
+                let step_secs = self.start.elapsed().as_secs_f64() / (done - first).max(1) as f64;
+                let left_mins = step_secs * self.total.saturating_sub(*done) as f64 / 60.0;
+                console::note(&format!(
+                    "step {done}/{}: choices {choice_loss:.4}, poses {pose_loss:.4}, rate {rate:.2e}, {step_secs:.2} s a step, {left_mins:.0} min left",
+                    self.total
+                ));
+            }
+            Progress::Checkpoint { done, held_out_loss: [choices, poses], held_out, exam } => {
+                console::note(&format!("checkpoint {done}: held-out loss: choices {choices:.4}, poses {poses:.4}"));
+                console::note(&marks_line("  reserved wordings", held_out));
+                console::note(&marks_line("  people's sentences", exam));
+            }
+        }
+    }
+}
+
+fn marks_line(title: &str, marks: &Marks) -> String {
+    let share = |[right, all]: [usize; 2]| 100.0 * right as f64 / all.max(1) as f64;
+    let mut line = format!(
+        "{title}: {:.1} % of {} prompts, {:.1} % of {} steps;",
+        share(marks.programs),
+        marks.programs[1],
+        share(marks.steps),
+        marks.steps[1]
+    );
+    for (name, tally) in &marks.fields {
+        // Writing to a string cannot fail.
+        let _ = write!(line, " {name} {:.0}", share(*tally));
+    }
+    line
+}
+
+fn examine_model(model: &std::path::Path) -> Result<(), Failure> {
+    let director = if model.as_os_str() == "built-in" { Director::embedded()? } else { Director::load(model)? };
+    let papers = [
+        ("people's sentences", Paper::Exam),
+        ("reserved wordings", Paper::HeldOut { count: 500 }),
+        ("wordings as in training", Paper::Seen { count: 300 }),
+    ];
+    for (title, paper) in papers {
+        let marks = examine(&director, paper)?;
+        console::data(&format!("{}\n", marks_line(title, &marks)))?;
+        for miss in &marks.misses {
+            let (meant, understood) = (program_to_notation(&miss.meant), program_to_notation(&miss.understood));
+            let fields = miss.fields.join(", ");
+            console::data(&format!("  {}\n    meant      {meant}\n    understood {understood}\n    wrong: {fields}\n", miss.prompt))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,26 @@
+use clap::error::ErrorKind;
+
+use super::console;
+use super::failure::Failure;
+
+/// Answers arguments that are no command: prints help and versions where they are asked for, else says what is wrong.
+pub(super) fn answer(refused: &clap::Error) -> Result<(), Failure> {
+    match refused.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => console::data(&refused.render().to_string()),
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            console::note(&refused.render().to_string());
+            Err(Failure::usage("no command was given, expected one of the above", "cinesplat COMMAND --help"))
+        }
+        _ => Err(wrong(&refused.render().to_string())),
+    }
+}
+
+/// clap's paragraphs as our two lines: the first says what is wrong, tips and usage become the help.
+fn wrong(text: &str) -> Failure {
+    let joined = |part: &str| part.lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    let mut parts = text.split("\n\n").map(joined).filter(|part| !part.is_empty());
+    let message = parts.next().unwrap_or_default();
+    let kept = |part: &String| !part.starts_with("For more information");
+    let help: Vec<String> = parts.filter(kept).map(|part| part.trim_start_matches("tip: ").to_owned()).collect();
+    Failure::usage(message.trim_start_matches("error: "), help.join("; ") + "; --help says more")
+}

@@ -1,0 +1,224 @@
+//! Clauses: which one comes next, what it is bound to, what it means, and the words that join it on.
+
+use rand::RngExt;
+
+use super::sense::{is_idle, is_sensible, open_with};
+use super::{Binding, Composer, Place, Voice, bound, pick_family};
+use crate::director::language::grammar::{Family, Form, Wording};
+use crate::director::language::inflection::Tense;
+use crate::director::language::notation::step_from_tokens;
+use crate::director::language::wording::{Atom, Drawn};
+use crate::operator::{Framing, Step};
+use crate::trajectory::Move;
+
+/// A clause that fits.
+struct Clause {
+    drawn: Drawn,
+    form: Form,
+    steps: Vec<Step>,
+    binding: Binding,
+}
+
+impl Composer<'_> {
+    /// Adds clause `place`; `start` is a framing that was said right before it.
+    pub(super) fn add_clause(&mut self, place: Place, start: Option<&Framing>) -> Option<()> {
+        let joint = self.joint(place);
+        let (forms, tense) = self.forms_after(&joint, place);
+        let clause = self.draw_clause(&forms, place, start)?;
+        self.add_joint(&joint, place, clause.form);
+        self.add_atoms(&clause.drawn.atoms, tense, Some(self.num_clauses), &clause.binding)?;
+        self.held_out |= clause.drawn.held_out;
+        let steps = clause.steps;
+        if let Some(last) = steps.last() {
+            self.look(last);
+        }
+        for step in steps {
+            self.moved |= step.movement != Move::Static;
+            self.clause_of_step.push(self.num_clauses);
+            self.program.steps.push(step);
+        }
+        self.num_clauses += 1;
+        Some(())
+    }
+
+    /// The words between this clause and what stands before it; a last word ending in `+g` or `+n` asks for a form.
+    fn joint(&mut self, place: Place) -> Drawn {
+        let name = if place.inverted {
+            "lead.after"
+        } else if place.is_first() {
+            match self.voice {
+                Voice::Imperative => "lead.imp",
+                Voice::Request => "lead.request",
+                Voice::Third => "lead.third",
+                Voice::Gerund => "silence",
+                Voice::Noun => "lead.n",
+            }
+        } else if self.voice == Voice::Noun {
+            "join.n"
+        } else if place.nth + 1 == place.count && place.nth > 0 && self.rng.random_bool(0.35) {
+            "join.last"
+        } else {
+            "join"
+        };
+        self.drawer.list(name, self.rng)
+    }
+
+    fn forms_after(&mut self, joint: &Drawn, place: Place) -> (Vec<Form>, Tense) {
+        let marked = |mark: &str| matches!(joint.atoms.last(), Some(Atom::Word(word)) if word.ends_with(mark));
+        if place.inverted || marked("+g") {
+            return (vec![Form::Verb], Tense::Gerund);
+        }
+        if marked("+n") {
+            return (vec![Form::Noun], Tense::Base);
+        }
+        match self.voice {
+            Voice::Noun => (vec![Form::Noun], Tense::Base),
+            Voice::Third => (vec![Form::Verb], Tense::Third),
+            Voice::Gerund => (vec![Form::Verb], Tense::Gerund),
+            Voice::Imperative if place.nth == 0 && joint.atoms.is_empty() && self.rng.random_bool(0.1) => {
+                (vec![Form::Statement], Tense::Base)
+            }
+            Voice::Imperative | Voice::Request => (vec![Form::Verb], Tense::Base),
+        }
+    }
+
+    fn add_joint(&mut self, joint: &Drawn, place: Place, form: Form) {
+        let clause = self.num_clauses;
+        if place.nth == 1 && self.inverted {
+            self.page.add(",", None, false);
+            return;
+        }
+        for atom in &joint.atoms {
+            let Atom::Word(word) = atom else { continue };
+            let word = word.trim_end_matches("+g").trim_end_matches("+n");
+            self.page.add(word, Some(clause), false);
+        }
+        if joint.atoms.last().is_some_and(|atom| matches!(atom, Atom::Word(word) if word.ends_with("+n"))) {
+            self.page.add("a", Some(clause), false);
+        }
+        let ends_sentence = joint.atoms.iter().any(|atom| matches!(atom, Atom::Word(word) if word == "."));
+        if self.voice == Voice::Third
+            && !place.is_first()
+            && ends_sentence
+            && form == Form::Verb
+            && self.rng.random_bool(0.8)
+        {
+            self.page.add("the camera", Some(clause), false);
+        }
+        self.held_out |= joint.held_out;
+    }
+
+    /// Draws until a clause fits: its tokens agree, its objects exist, it makes sense after what came before.
+    fn draw_clause(&mut self, forms: &[Form], place: Place, start: Option<&Framing>) -> Option<Clause> {
+        for _ in 0..40 {
+            let grammar = self.drawer.grammar;
+            let (focused, moved, num_objects) = (self.focus.len() == 1, self.moved, self.objects.len());
+            let able = |family: &&Family| {
+                (!place.is_first() || !family.needs_before)
+                    && (focused || !family.needs_focus)
+                    && (moved || !family.needs_move)
+                    && (place.nth > 0 || !family.steps.iter().flatten().any(|t| t == "cut"))
+                    && family.letters().iter().all(|letter| (*letter as usize) < 'A' as usize + num_objects)
+            };
+            let Some(family) = pick_family(grammar.families.iter().filter(able), self.rng) else { continue };
+            let Some((form, wording)) = self.pick_clause(family, forms) else { continue };
+            let drawn = self.drawer.wording(wording, self.rng);
+            // `the camera pans the camera`.
+            let doubled = |atom: &Atom| matches!(atom, Atom::Word(word) if word == "camera");
+            if self.voice == Voice::Third && drawn.atoms.iter().take(4).any(doubled) {
+                continue;
+            }
+            let binding = self.bind();
+            if let Some(steps) = self.steps_of(family, &drawn, &binding, start) {
+                return Some(Clause { drawn, form, steps, binding });
+            }
+        }
+        None
+    }
+
+    pub(super) fn pick_clause<'f>(&mut self, family: &'f Family, forms: &[Form]) -> Option<(Form, &'f Wording)> {
+        let fitting = family.clauses.iter().filter(|(form, _)| forms.contains(form));
+        let wording = self.drawer.pick(fitting.clone().map(|(_, wording)| wording), self.rng)?;
+        let form = fitting.clone().find(|(_, other)| std::ptr::eq(other, wording)).map(|(form, _)| *form)?;
+        Some((form, wording))
+    }
+
+    /// Different objects for A, B, C; A is rather the thing looked at.
+    pub(super) fn bind(&mut self) -> Binding {
+        let mut ids: Vec<u32> = self.objects.iter().map(|object| object.id).collect();
+        let mut binding = [None; 3];
+        if self.focus.len() == 1 && self.rng.random_bool(0.55) {
+            binding[0] = self.focus.first().copied();
+        }
+        ids.retain(|id| {
+            Some(*id) != binding[0]
+                && (binding[0].is_some() || self.focus.len() != 1 || !self.focus.contains(id) || self.objects.len() < 3)
+        });
+        for place in &mut binding {
+            if place.is_none() && !ids.is_empty() {
+                let at = self.rng.random_range(0..ids.len());
+                *place = Some(ids.swap_remove(at));
+            }
+        }
+        binding
+    }
+
+    pub(super) fn step(&self, tokens: impl Iterator<Item = String>, binding: &Binding) -> Option<Step> {
+        let tokens: Vec<String> = tokens.collect();
+        let resolve = |name: &str| match name {
+            "F" => Some(self.focus.clone()),
+            _ => bound(binding, name.chars().next()?).map(|id| vec![id]),
+        };
+        let tokens: Vec<&str> = tokens.iter().map(String::as_str).collect();
+        step_from_tokens(&tokens, &resolve).ok()
+    }
+
+    fn steps_of(
+        &self,
+        family: &Family,
+        drawn: &Drawn,
+        binding: &Binding,
+        start: Option<&Framing>,
+    ) -> Option<Vec<Step>> {
+        let last = family.steps.len().checked_sub(1)?;
+        let mut steps = Vec::new();
+        for (index, tokens) in family.steps.iter().enumerate() {
+            let more: &[String] = if index == last { &drawn.meaning } else { &[] };
+            let step = self.step(tokens.iter().chain(more).cloned(), binding)?;
+            steps.push(step);
+        }
+        if let Some(start) = start {
+            open_with(steps.first_mut()?, start)?;
+        }
+        let repeats =
+            self.program.steps.last().is_some_and(|before| steps.first().is_some_and(|now| is_idle(before, now)));
+        (!repeats && steps.iter().all(is_sensible)).then_some(steps)
+    }
+
+    /// What the camera looks at after a step.
+    fn look(&mut self, step: &Step) {
+        let via = step.via.as_ref().map(|via| via.objects.clone()).filter(|ids| ids.len() == 1);
+        let turns_away =
+            matches!(step.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan);
+        let stays = matches!(
+            step.movement,
+            Move::Static | Move::RollCw | Move::RollCcw | Move::ZoomIn | Move::ZoomOut | Move::PushIn
+        );
+        if !step.end.subjects.is_empty() {
+            self.focus.clone_from(&step.end.subjects);
+        } else if let Some(ids) = via {
+            self.focus = ids;
+        } else if !turns_away && step.start.subjects.len() == 1 {
+            self.focus.clone_from(&step.start.subjects);
+        } else if !stays || step.end.size.is_some() {
+            self.focus.clear();
+        }
+        self.focus.dedup();
+    }
+
+    pub(super) fn push_step(&mut self, step: Step) {
+        self.clause_of_step.push(self.num_clauses);
+        self.num_clauses += 1;
+        self.program.steps.push(step);
+    }
+}

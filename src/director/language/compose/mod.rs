@@ -1,0 +1,204 @@
+//! A whole prompt, composed clause by clause, with the program it means.
+//!
+//! What makes the meaning sure: every wording brings its tokens; contradictions ("slowly .. fast") are drawn again; a
+//! pronoun stands only for the one thing the clause before looked at; a framing before a move is where that move starts.
+
+mod clauses;
+mod framings;
+mod sense;
+mod writing;
+
+use std::cmp::Ordering;
+
+use rand::RngExt;
+use rand::seq::IndexedRandom;
+use rand_pcg::Pcg64;
+
+use self::sense::settle_durations;
+use super::grammar::{Family, Grammar};
+use super::names::NamedObject;
+use super::phrasebook::{Sample, Split};
+use super::surface::{Hand, Page};
+use super::wording::Drawer;
+use crate::operator::Program;
+use crate::trajectory::Move;
+
+/// How the writer of a prompt puts sentences.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Voice {
+    Imperative,
+    Request,
+    Third,
+    Gerund,
+    Noun,
+}
+
+const VOICES: [(Voice, u32); 5] =
+    [(Voice::Imperative, 58), (Voice::Request, 10), (Voice::Third, 14), (Voice::Gerund, 4), (Voice::Noun, 14)];
+const HANDS: [(Hand, u32); 5] =
+    [(Hand::Neat, 66), (Hand::Lower, 18), (Hand::Bare, 4), (Hand::Upper, 2), (Hand::Slip, 10)];
+const LENGTHS: [(usize, u32); 5] = [(1, 40), (2, 32), (3, 19), (4, 6), (5, 3)];
+
+fn weighted<T: Copy>(choices: &[(T, u32)], rng: &mut Pcg64) -> Option<T> {
+    let total: u32 = choices.iter().map(|(_, weight)| weight).sum();
+    let mut at = rng.random_range(0..total.max(1));
+    choices
+        .iter()
+        .find(|(_, weight)| {
+            let here = at < *weight;
+            at = at.saturating_sub(*weight);
+            here
+        })
+        .map(|(choice, _)| *choice)
+}
+
+/// Where a clause stands in its prompt.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    nth: usize,
+    count: usize,
+    /// A framing was said before all clauses.
+    opened: bool,
+    /// It is the first of an inverted pair: `after pushing in`.
+    inverted: bool,
+}
+
+impl Place {
+    fn is_first(self) -> bool {
+        self.nth == 0 && !self.opened
+    }
+}
+
+/// Objects behind the letters A, B, C of one clause.
+type Binding = [Option<u32>; 3];
+
+fn bound(binding: &Binding, letter: char) -> Option<u32> {
+    binding.get((letter as usize).checked_sub('A' as usize)?).copied().flatten()
+}
+
+pub(crate) struct Composer<'a> {
+    drawer: Drawer<'a>,
+    objects: &'a [NamedObject],
+    rng: &'a mut Pcg64,
+    voice: Voice,
+    /// Share of mentions by number.
+    numbered: f64,
+    page: Page,
+    program: Program,
+    /// Clause of every step.
+    clause_of_step: Vec<usize>,
+    num_clauses: usize,
+    focus: Vec<u32>,
+    moved: bool,
+    /// The prompt begins with `after`: `after pushing in on the vase, orbit it`.
+    inverted: bool,
+    held_out: bool,
+    /// Object ids in order of first mention, as the linker has to find them.
+    mentioned: Vec<u32>,
+    num_mentions: usize,
+    last_mentioned: Option<u32>,
+}
+
+/// A finished prompt with what the linker has to find in it.
+pub(crate) struct Composed {
+    pub(crate) sample: Sample,
+    /// Object ids in order of first mention.
+    pub(crate) mentioned: Vec<u32>,
+    /// How often objects are named, pronouns aside.
+    pub(crate) num_mentions: usize,
+    pub(crate) held_out: bool,
+}
+
+impl<'a> Composer<'a> {
+    pub(crate) fn new(grammar: &'a Grammar, split: Split, objects: &'a [NamedObject], rng: &'a mut Pcg64) -> Self {
+        let voice = weighted(&VOICES, rng).unwrap_or(Voice::Imperative);
+        let numbered = [1.0, 0.0, 0.0, 0.5].choose(rng).copied().unwrap_or(0.0);
+        Self {
+            drawer: Drawer { grammar, split },
+            objects,
+            rng,
+            voice,
+            numbered,
+            page: Page::default(),
+            program: Program::default(),
+            clause_of_step: Vec::new(),
+            num_clauses: 0,
+            focus: Vec::new(),
+            moved: false,
+            inverted: false,
+            held_out: false,
+            mentioned: Vec::new(),
+            num_mentions: 0,
+            last_mentioned: None,
+        }
+    }
+
+    /// One prompt; `None` when the draw came to nothing and another one is due.
+    pub(crate) fn compose(mut self) -> Option<Composed> {
+        if self.rng.random_bool(0.07) {
+            self.add_list("total.pre")?;
+        }
+        match self.rng.random_range(0..100) {
+            0..5 => self.add_framing_alone()?,
+            5..9 => self.add_two_framings()?,
+            _ => self.add_clauses()?,
+        }
+        // `then pause. 8 seconds.` would be the pause's.
+        let pauses = self.program.steps.last().is_some_and(|step| step.movement == Move::Static);
+        if self.program.duration_secs.is_none() && !pauses && self.rng.random_bool(0.1) {
+            self.add_list("total.post")?;
+        }
+        if self.rng.random_bool(0.08) {
+            self.add_list("fluff")?;
+        }
+        if self.rng.random_bool(0.3) {
+            self.add_list("tail.please")?;
+        }
+        self.finish()
+    }
+
+    fn add_clauses(&mut self) -> Option<()> {
+        let count = weighted(&LENGTHS, self.rng)?;
+        let opening =
+            if self.voice != Voice::Third && self.rng.random_bool(0.2) { Some(self.add_opening()?) } else { None };
+        let opened = opening.is_some();
+        self.inverted = !opened && count > 1 && self.voice == Voice::Imperative && self.rng.random_bool(0.07);
+        for nth in 0..count {
+            let place = Place { nth, count, opened, inverted: self.inverted && nth == 0 };
+            self.add_clause(place, opening.as_ref().filter(|_| nth == 0))?;
+        }
+        if self.rng.random_bool(0.14) {
+            self.add_closing()?;
+        }
+        Some(())
+    }
+
+    fn finish(mut self) -> Option<Composed> {
+        if self.program.steps.is_empty() {
+            return None;
+        }
+        settle_durations(&mut self.program)?;
+        self.page.tidy();
+        let hand = weighted(&HANDS, self.rng).unwrap_or(Hand::Neat);
+        self.page.write(hand, self.rng);
+        let (prompt, spans) = self.page.finish(self.num_clauses);
+        for (step, clause) in self.program.steps.iter_mut().zip(&self.clause_of_step) {
+            step.words = spans.get(*clause).copied().flatten();
+        }
+        let sample = Sample { prompt, program: self.program };
+        let Self { mentioned, num_mentions, held_out, .. } = self;
+        Some(Composed { sample, mentioned, num_mentions, held_out })
+    }
+}
+
+fn pick_family<'f>(families: impl Iterator<Item = &'f Family> + Clone, rng: &mut Pcg64) -> Option<&'f Family> {
+    let total: f64 = families.clone().map(|family| family.weight).sum();
+    if total.partial_cmp(&0.0) != Some(Ordering::Greater) {
+        return None;
+    }
+    let mut at = rng.random_range(0.0..total);
+    families.into_iter().find(|family| {
+        at -= family.weight;
+        at < 0.0
+    })
+}

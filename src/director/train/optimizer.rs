@@ -1,0 +1,94 @@
+//! AdamW with clipping, whose state can be saved (candle's own keeps its moments to itself).
+//!
+//! Decoupled weight decay: Loshchilov and Hutter 2019, algorithm 2. Decay acts on matrices, not on gains and biases.
+
+use std::collections::BTreeMap;
+
+use candle_core::{Device, Result, Tensor, Var};
+
+/// How the optimizer steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct AdamSettings {
+    /// Decay of the mean of gradients.
+    pub(super) beta1: f32,
+    /// Decay of the mean of squared gradients.
+    pub(super) beta2: f32,
+    /// Added to the root of the latter.
+    pub(super) epsilon: f32,
+    /// Share of a weight that a step of rate 1 takes off.
+    pub(super) weight_decay: f32,
+    /// Longest gradient (over all parameters together).
+    pub(super) max_norm: f32,
+}
+
+impl Default for AdamSettings {
+    fn default() -> Self {
+        Self { beta1: 0.9, beta2: 0.98, epsilon: 1e-8, weight_decay: 0.01, max_norm: 1.0 }
+    }
+}
+
+/// Running means of one parameter's gradient and of its square.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Moments {
+    pub(super) mean: Vec<f32>,
+    pub(super) square: Vec<f32>,
+}
+
+/// The optimizer's state.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct AdamW {
+    /// Steps made.
+    pub(super) steps: u64,
+    /// By name of the parameter.
+    pub(super) moments: BTreeMap<String, Moments>,
+}
+
+impl AdamW {
+    /// One step against `gradients` (in the order of `vars`), which are scaled down first where they are too long
+    /// together. Returns their length before.
+    pub(super) fn step(
+        &mut self,
+        vars: &BTreeMap<String, Var>,
+        gradients: &[Vec<f32>],
+        rate: f32,
+        settings: &AdamSettings,
+    ) -> Result<f32> {
+        self.steps += 1;
+        let squares: f64 = gradients.iter().flatten().map(|g| f64::from(*g) * f64::from(*g)).sum();
+        let norm = squares.sqrt() as f32;
+        // Written so that NaN leaves the weights alone.
+        if !norm.is_finite() {
+            return Ok(norm);
+        }
+        let scale = if norm > settings.max_norm { settings.max_norm / norm } else { 1.0 };
+        let power = i32::try_from(self.steps).unwrap_or(i32::MAX);
+        let unbias = [1.0 - settings.beta1.powi(power), 1.0 - settings.beta2.powi(power)];
+        for ((name, var), gradient) in vars.iter().zip(gradients) {
+            let moments = self.moments.entry(name.clone()).or_default();
+            moments.mean.resize(gradient.len(), 0.0);
+            moments.square.resize(gradient.len(), 0.0);
+            let decay = if var.rank() >= 2 { rate * settings.weight_decay } else { 0.0 };
+            let mut values = var.flatten_all()?.to_vec1::<f32>()?;
+            for (idx, value) in values.iter_mut().enumerate() {
+                let g = gradient[idx] * scale;
+                let mean = settings.beta1 * moments.mean[idx] + (1.0 - settings.beta1) * g;
+                let square = settings.beta2 * moments.square[idx] + (1.0 - settings.beta2) * g * g;
+                moments.mean[idx] = mean;
+                moments.square[idx] = square;
+                *value -= decay * *value;
+                *value -= rate * (mean / unbias[0]) / ((square / unbias[1]).sqrt() + settings.epsilon);
+            }
+            var.set(&Tensor::from_vec(values, var.shape(), &Device::Cpu)?)?;
+        }
+        Ok(norm)
+    }
+}
+
+/// Learning rate of a step: straight up over `warm_up` steps, then down along half a cosine to 2 % at `total`.
+pub(super) fn rate(step: u64, warm_up: u64, total: u64, peak: f32) -> f32 {
+    if step < warm_up {
+        return peak * (step + 1) as f32 / warm_up as f32;
+    }
+    let progress = ((step - warm_up) as f32 / total.saturating_sub(warm_up).max(1) as f32).min(1.0);
+    peak * (0.02 + 0.98 * 0.5 * (1.0 + (progress * std::f32::consts::PI).cos()))
+}

@@ -1,0 +1,165 @@
+//! Text to tokens: byte-pair encoding with the identifiers of objects and quantities as special tokens.
+//!
+//! Enters: the text that linking leaves, lower case, mentions as `<obj-S>` and `<qty-Q>`. Leaves: token ids with their
+//! byte ranges. The special tokens have fixed ids, so that weights and vocabulary cannot disagree about them.
+
+use tokenizers::models::bpe::{BPE, BpeTrainerBuilder};
+use tokenizers::normalizers::Lowercase;
+use tokenizers::pre_tokenizers::whitespace::Whitespace;
+use tokenizers::{AddedToken, Tokenizer, TokenizerBuilder};
+
+use super::DirectorError;
+
+/// Identifiers `<obj-0>`.. that a prompt's objects are mapped onto.
+pub(crate) const NUM_OBJECT_SLOTS: usize = super::language::MAX_SLOTS;
+/// Identifiers `<qty-0>`.. that a prompt's quantities are mapped onto.
+pub(crate) const NUM_QUANTITY_SLOTS: usize = super::language::MAX_QUANTITIES;
+/// Most tokens of a prompt.
+pub(crate) const MAX_TOKENS: usize = 256;
+/// Most bytes of a text that is given to the tokenizer at all.
+pub(crate) const MAX_TEXT_BYTES: usize = 8 * 1024;
+
+/// Fills up short texts of a batch.
+pub(crate) const PAD: u32 = 0;
+/// A piece that the vocabulary lacks.
+pub(crate) const UNKNOWN: u32 = 1;
+/// Begins every text.
+pub(crate) const BEGIN: u32 = 2;
+const FIRST_OBJECT: u32 = 3;
+const FIRST_QUANTITY: u32 = FIRST_OBJECT + NUM_OBJECT_SLOTS as u32;
+/// The first id that is no special token.
+pub(crate) const FIRST_PIECE: u32 = FIRST_QUANTITY + NUM_QUANTITY_SLOTS as u32;
+
+/// One token of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Token {
+    /// Row of the embedding table.
+    pub(crate) id: u32,
+    /// Byte range of the text.
+    pub(crate) bytes: [usize; 2],
+}
+
+impl Token {
+    /// The object slot that this token stands for.
+    pub(crate) fn object_slot(self) -> Option<usize> {
+        (FIRST_OBJECT..FIRST_QUANTITY).contains(&self.id).then(|| (self.id - FIRST_OBJECT) as usize)
+    }
+
+    /// The quantity slot that this token stands for.
+    pub(crate) fn quantity_slot(self) -> Option<usize> {
+        (FIRST_QUANTITY..FIRST_PIECE).contains(&self.id).then(|| (self.id - FIRST_QUANTITY) as usize)
+    }
+}
+
+/// Token id of an object slot.
+pub(crate) fn object_token(slot: usize) -> u32 {
+    FIRST_OBJECT + slot.min(NUM_OBJECT_SLOTS - 1) as u32
+}
+
+/// A trained tokenizer.
+#[derive(Debug, Clone)]
+pub struct Vocabulary {
+    tokenizer: Tokenizer,
+}
+
+impl Vocabulary {
+    /// Learns up to `size` tokens from lines of text.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when training fails.
+    pub fn train(lines: &[String], size: usize) -> Result<Self, DirectorError> {
+        let specials = special_tokens().into_iter().map(|text| AddedToken::from(text, true)).collect::<Vec<_>>();
+        let mut trainer = BpeTrainerBuilder::new()
+            .show_progress(false)
+            .vocab_size(size)
+            .min_frequency(2)
+            .continuing_subword_prefix("##".into())
+            .special_tokens(specials)
+            .build();
+        let model = BPE::builder().unk_token("<unk>".into()).continuing_subword_prefix("##".into()).build();
+        let mut tokenizer = TokenizerBuilder::new()
+            .with_model(model.map_err(|error| bad(&error))?)
+            .with_normalizer(Some(Lowercase))
+            .with_pre_tokenizer(Some(Whitespace {}))
+            .with_post_processor(None::<tokenizers::PostProcessorWrapper>)
+            .with_decoder(None::<tokenizers::DecoderWrapper>)
+            .build()
+            .map_err(|error| bad(&error))?;
+        tokenizer.train(&mut trainer, lines.iter()).map_err(|error| bad(&error))?;
+        // Through JSON once, so that a fresh tokenizer is the very one that loading it later gives.
+        Self::from_json(tokenizer.to_string(false).map_err(|error| bad(&error))?.as_bytes())
+    }
+
+    /// A tokenizer from its JSON.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when it is not one, or its special tokens are not where they belong.
+    pub fn from_json(json: &[u8]) -> Result<Self, DirectorError> {
+        let tokenizer = Tokenizer::from_bytes(json).map_err(|error| bad(&error))?;
+        for (id, text) in special_tokens().into_iter().enumerate() {
+            let found = tokenizer.token_to_id(&text);
+            if found != Some(id as u32) {
+                return Err(DirectorError::BadModel {
+                    part: format!("tokenizer: {text}"),
+                    found: found.map_or("none".into(), |id| format!("id {id}")),
+                    expected: format!("id {id}"),
+                });
+            }
+        }
+        Ok(Self { tokenizer })
+    }
+
+    /// The JSON of the tokenizer.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when it cannot be written.
+    pub fn to_json(&self) -> Result<String, DirectorError> {
+        self.tokenizer.to_string(false).map_err(|error| bad(&error))
+    }
+
+    /// Number of tokens.
+    pub fn size(&self) -> usize {
+        self.tokenizer.get_vocab_size(true)
+    }
+
+    /// Tokens of a text, without the one that begins it.
+    ///
+    /// # Errors
+    /// [`DirectorError::PromptTooLong`] beyond [`MAX_TEXT_BYTES`] or [`MAX_TOKENS`]; [`DirectorError::EmptyPrompt`]
+    /// without any token.
+    pub(crate) fn encode(&self, text: &str) -> Result<Vec<Token>, DirectorError> {
+        // Before the tokenizer sees it: byte-pair encoding of one endless word takes quadratic time.
+        if text.len() > MAX_TEXT_BYTES {
+            return Err(DirectorError::PromptTooLong { found: text.len() / 4, limit: MAX_TOKENS });
+        }
+        let encoding = self.tokenizer.encode(text, false).map_err(|error| bad(&error))?;
+        let ids = encoding.get_ids().iter().zip(encoding.get_offsets());
+        let tokens: Vec<Token> = ids.map(|(id, (start, end))| Token { id: *id, bytes: [*start, *end] }).collect();
+        if tokens.is_empty() {
+            return Err(DirectorError::EmptyPrompt);
+        }
+        if tokens.len() + 1 > MAX_TOKENS {
+            return Err(DirectorError::PromptTooLong { found: tokens.len() + 1, limit: MAX_TOKENS });
+        }
+        match tokens.iter().find(|token| token.id as usize >= self.size()) {
+            Some(token) => Err(DirectorError::IdBeyondVocabulary { found: token.id, limit: self.size() }),
+            None => Ok(tokens),
+        }
+    }
+}
+
+/// The special tokens in order of their ids.
+fn special_tokens() -> Vec<String> {
+    let mut tokens: Vec<String> = ["<pad>", "<unk>", "<bos>"].map(String::from).to_vec();
+    tokens.extend((0..NUM_OBJECT_SLOTS).map(|slot| format!("<obj-{slot}>")));
+    tokens.extend((0..NUM_QUANTITY_SLOTS).map(|slot| format!("<qty-{slot}>")));
+    tokens
+}
+
+fn bad(error: &dyn std::fmt::Display) -> DirectorError {
+    DirectorError::BadModel {
+        part: "tokenizer".into(),
+        found: error.to_string(),
+        expected: "a byte-pair tokenizer of this program".into(),
+    }
+}

@@ -1,0 +1,245 @@
+//! Bringing the estimate onto the reference before errors are taken.
+//!
+//! Reference for `se3`, `sim3` and `scale`: S. Umeyama, "Least-squares estimation of transformation parameters between two
+//! point patterns", PAMI 1991. It uses positions alone, which leave the turn about a straight line, or any turn about a
+//! standing camera, open: there the cameras' own rotations decide, and the result says so.
+
+use glam::{DMat3, DVec3};
+
+use super::singular::{Singular, nearest_rotation, singular};
+use super::{EvaluationError, Trajectory};
+use crate::geometry::LevelFrame;
+
+/// Singular values of the covariance below this share of the largest count as none: lateral extents below 0.001 of the
+/// length. A looser bound takes real bends for straight lines, a tighter one lets noise choose the turn about the line.
+const RANK_TOLERANCE: f64 = 1e-6;
+/// Extents below this share of the distance from the origin are rounding.
+const STILL_TOLERANCE: f64 = 1e-9;
+
+/// What is aligned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Align {
+    /// Nothing.
+    #[default]
+    None,
+    /// The first pose, exactly.
+    Origin,
+    /// Heading about up and position.
+    Yaw,
+    /// Rotation and position.
+    Se3,
+    /// Rotation, position and scale.
+    Sim3,
+    /// Scale alone.
+    Scale,
+}
+
+impl Align {
+    /// Every mode.
+    pub const ALL: &'static [Self] = &[Self::None, Self::Origin, Self::Yaw, Self::Se3, Self::Sim3, Self::Scale];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Origin => "origin",
+            Self::Yaw => "yaw",
+            Self::Se3 => "se3",
+            Self::Sim3 => "sim3",
+            Self::Scale => "scale",
+        }
+    }
+
+    /// The mode with this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|mode| mode.name() == name)
+    }
+}
+
+/// `p -> rotation * (scale * p) + translation`, and what should be known about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alignment {
+    /// The mode asked for.
+    pub mode: Align,
+    /// Factor on positions, applied first.
+    pub scale: f64,
+    /// Rotation of the world, a proper one up to the rounding of the files.
+    pub rotation: DMat3,
+    /// Translation, applied last.
+    pub translation: DVec3,
+    /// Where positions alone did not determine it: what decided instead.
+    pub note: Option<String>,
+}
+
+impl Alignment {
+    const fn identity(mode: Align) -> Self {
+        Self { mode, scale: 1.0, rotation: DMat3::IDENTITY, translation: DVec3::ZERO, note: None }
+    }
+
+    /// The path, aligned.
+    pub fn apply(&self, path: &Trajectory) -> Trajectory {
+        let mut out = path.clone();
+        let unmoved = self.rotation == DMat3::IDENTITY && self.translation == DVec3::ZERO;
+        for position in &mut out.positions {
+            *position *= self.scale;
+            *position = if unmoved { *position } else { self.rotation * *position + self.translation };
+        }
+        if !unmoved {
+            out.rotations.iter_mut().for_each(|rotation| *rotation = self.rotation * *rotation);
+        }
+        out
+    }
+}
+
+/// The alignment of `estimate` to `reference`, poses matched one to one, from the first `num_poses` of them (all: `None`).
+///
+/// Defined for every non-empty input: see the module's text for straight and standing paths. Yaw turns about the
+/// reference's up, or about the mean of its cameras' ups where the file does not say.
+///
+/// # Errors
+/// [`EvaluationError::Empty`] without poses, [`EvaluationError::BadSetting`] for `num_poses` of 0.
+pub fn align(
+    reference: &Trajectory,
+    estimate: &Trajectory,
+    mode: Align,
+    num_poses: Option<usize>,
+) -> Result<Alignment, EvaluationError> {
+    let count = num_poses.unwrap_or(usize::MAX).min(reference.len()).min(estimate.len());
+    if num_poses == Some(0) {
+        let found = "0".into();
+        return Err(EvaluationError::BadSetting { setting: "--align-poses", found, expected: "at least 1" });
+    }
+    if count == 0 {
+        return Err(EvaluationError::Empty { which: "alignment" });
+    }
+    let first: Vec<usize> = (0..count).collect();
+    let (reference, estimate) = (reference.select(&first), estimate.select(&first));
+    Ok(match mode {
+        Align::None => Alignment::identity(mode),
+        Align::Origin => origin(&reference, &estimate),
+        Align::Yaw => yaw(&reference, &estimate),
+        Align::Se3 | Align::Sim3 | Align::Scale => umeyama(&reference, &estimate, mode),
+    })
+}
+
+fn origin(reference: &Trajectory, estimate: &Trajectory) -> Alignment {
+    let rotation = reference.rotations[0] * estimate.rotations[0].transpose();
+    let translation = reference.positions[0] - rotation * estimate.positions[0];
+    Alignment { rotation, translation, ..Alignment::identity(Align::Origin) }
+}
+
+/// Means of both paths and the covariance of the estimate with the reference.
+struct Moments {
+    mean_reference: DVec3,
+    mean_estimate: DVec3,
+    covariance: DMat3,
+    variance_estimate: f64,
+    variance_reference: f64,
+}
+
+fn moments(reference: &Trajectory, estimate: &Trajectory) -> Moments {
+    let count = reference.len() as f64;
+    let mean = |points: &[DVec3]| points.iter().sum::<DVec3>() / count;
+    let (mean_reference, mean_estimate) = (mean(&reference.positions), mean(&estimate.positions));
+    let variance =
+        |points: &[DVec3], mean: DVec3| points.iter().map(|p| (*p - mean).length_squared()).sum::<f64>() / count;
+    let mut covariance = DMat3::ZERO;
+    for (y, x) in reference.positions.iter().zip(&estimate.positions) {
+        let (y, x) = (*y - mean_reference, *x - mean_estimate);
+        covariance += DMat3::from_cols(y * x.x, y * x.y, y * x.z);
+    }
+    Moments {
+        mean_reference,
+        mean_estimate,
+        covariance: covariance * (1.0 / count),
+        variance_estimate: variance(&estimate.positions, mean_estimate),
+        variance_reference: variance(&reference.positions, mean_reference),
+    }
+}
+
+impl Moments {
+    /// Whether either path stands still but for rounding.
+    fn stands(&self) -> bool {
+        let still = |variance: f64, mean: DVec3| variance.sqrt() <= STILL_TOLERANCE * mean.length() || variance == 0.0;
+        still(self.variance_estimate, self.mean_estimate) || still(self.variance_reference, self.mean_reference)
+    }
+}
+
+fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignment {
+    let m = moments(reference, estimate);
+    let Singular { u, values, v } = singular(m.covariance);
+    let handed = if u.determinant() * v.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let (rotation, note) = if m.stands() {
+        (mean_turn(reference, estimate), Some("a path stands still: rotation is that of the cameras, scale stays 1"))
+    } else if values.y <= RANK_TOLERANCE * values.x {
+        let note = "positions lie on a straight line: the turn about it is that of the cameras";
+        (turn_about_line(reference, estimate, u.x_axis, v.x_axis), Some(note))
+    } else {
+        (u * DMat3::from_diagonal(DVec3::new(1.0, 1.0, handed)) * v.transpose(), None)
+    };
+    let with_scale = matches!(mode, Align::Sim3 | Align::Scale) && !m.stands();
+    let trace = values.x + values.y + handed * values.z;
+    let scale = if with_scale { trace / m.variance_estimate } else { 1.0 };
+    if mode == Align::Scale {
+        // The turn plays no part here.
+        let note = m.stands().then(|| "a path stands still: scale stays 1".to_owned());
+        return Alignment { scale, note, ..Alignment::identity(mode) };
+    }
+    let translation = m.mean_reference - rotation * (m.mean_estimate * scale);
+    Alignment { mode, scale, rotation, translation, note: note.map(str::to_owned) }
+}
+
+/// The rotation that brings the estimate's camera rotations nearest to the reference's, in the mean.
+fn mean_turn(reference: &Trajectory, estimate: &Trajectory) -> DMat3 {
+    nearest_rotation(turn_sum(reference, estimate))
+}
+
+fn turn_sum(reference: &Trajectory, estimate: &Trajectory) -> DMat3 {
+    let pairs = reference.rotations.iter().zip(&estimate.rotations);
+    pairs.fold(DMat3::ZERO, |sum, (a, b)| sum + *a * b.transpose())
+}
+
+/// The rotation that takes the line `from` to the line `to` and, about it, brings the cameras' rotations nearest.
+///
+/// With R1 any rotation of one line to the other and N = R1 * (sum of turns)^T, the best angle about the line maximizes
+/// cos(a) (tr N - u N u) + sin(a) tr(N [u]), an equation in one unknown.
+fn turn_about_line(reference: &Trajectory, estimate: &Trajectory, to: DVec3, from: DVec3) -> DMat3 {
+    let first = DMat3::from_quat(glam::DQuat::from_rotation_arc(from.normalize(), to.normalize()));
+    about_axis(to.normalize(), first * turn_sum(reference, estimate).transpose()) * first
+}
+
+/// The rotation about the unit `axis` that maximizes tr(R * n).
+fn about_axis(axis: DVec3, n: DMat3) -> DMat3 {
+    let trace = |m: DMat3| m.x_axis.x + m.y_axis.y + m.z_axis.z;
+    let skew = DMat3::from_cols(
+        DVec3::new(0.0, axis.z, -axis.y),
+        DVec3::new(-axis.z, 0.0, axis.x),
+        DVec3::new(axis.y, -axis.x, 0.0),
+    );
+    let (cosine, sine) = (trace(n) - axis.dot(n * axis), trace(skew * n));
+    DMat3::from_axis_angle(axis, sine.atan2(cosine))
+}
+
+fn yaw(reference: &Trajectory, estimate: &Trajectory) -> Alignment {
+    let m = moments(reference, estimate);
+    let up = reference.up_or_mean();
+    let level = LevelFrame::new(up).map_or(DMat3::ZERO, |level| {
+        let outer = |a: DVec3| DMat3::from_cols(a * a.x, a * a.y, a * a.z);
+        outer(level.north) + outer(level.east)
+    });
+    // Only the level part of the covariance tells a heading.
+    let flat = level * m.covariance * level;
+    let extent = flat.x_axis.length() + flat.y_axis.length() + flat.z_axis.length();
+    let open = m.stands() || extent <= RANK_TOLERANCE * (m.variance_estimate * m.variance_reference).sqrt();
+    let rotation = about_axis(up, if open { turn_sum(reference, estimate).transpose() } else { flat.transpose() });
+    let mut notes = Vec::new();
+    if reference.up.is_none() {
+        notes.push(format!("up is not known: {up} is the mean of the reference cameras' own"));
+    }
+    if open {
+        notes.push("positions tell no heading: it is that of the cameras".to_owned());
+    }
+    let note = (!notes.is_empty()).then(|| notes.join("; "));
+    let translation = m.mean_reference - rotation * m.mean_estimate;
+    Alignment { rotation, translation, note, ..Alignment::identity(Align::Yaw) }
+}

@@ -1,0 +1,74 @@
+//! Many comparisons in one table.
+
+use std::fmt::Write as _;
+
+use super::{Evaluation, EvaluationError};
+use crate::export::json_write::{Json, object};
+
+/// One comparison of a batch.
+#[derive(Debug, Clone)]
+pub struct BatchRow {
+    /// Name of the pair, usually the file's.
+    pub name: String,
+    /// What came of it.
+    pub outcome: Result<Evaluation, EvaluationError>,
+}
+
+const COLUMNS: &str =
+    "name,pairs,matched,dropped_reference,dropped_estimate,scale,rmse,mean,median,std,min,max,sse,error\n";
+
+/// A CSV table, one line a comparison; failed ones have only a name and the reason.
+pub fn summary_csv(rows: &[BatchRow]) -> String {
+    let mut out = COLUMNS.to_owned();
+    for row in rows {
+        let name = quoted(&row.name);
+        match &row.outcome {
+            Ok(result) => {
+                let counts = [
+                    result.errors.len(),
+                    result.matches.reference.len(),
+                    result.matches.dropped_reference,
+                    result.matches.dropped_estimate,
+                ];
+                let counts = counts.map(|count| count.to_string()).join(",");
+                let numbers = result.statistics.named().map(|(_, value)| value.to_string()).join(",");
+                let _ = writeln!(out, "{name},{counts},{},{numbers},", result.alignment.scale);
+            }
+            Err(error) => {
+                let _ = writeln!(out, "{name},,,,,,,,,,,,,{}", quoted(&error.to_string()));
+            }
+        }
+    }
+    out
+}
+
+/// The same as JSON text: a list of objects, and under `over_all` the mean, median and worst of the root mean squares.
+pub fn summary_json(rows: &[BatchRow]) -> String {
+    let row = |row: &BatchRow| match &row.outcome {
+        Ok(result) => {
+            let mut fields =
+                vec![("name".to_owned(), row.name.as_str().into()), ("pairs".to_owned(), result.errors.len().into())];
+            fields.extend(result.statistics.named().map(|(name, value)| (name.to_owned(), value.into())));
+            Json::Object(fields)
+        }
+        Err(error) => object([("name", row.name.as_str().into()), ("error", error.to_string().as_str().into())]),
+    };
+    let mut all: Vec<f64> = rows.iter().filter_map(|row| Some(row.outcome.as_ref().ok()?.statistics.rmse)).collect();
+    all.sort_by(f64::total_cmp);
+    let middle =
+        all.get(all.len() / 2).zip(all.get(all.len().saturating_sub(1) / 2)).map(|(a, b)| f64::midpoint(*a, *b));
+    let mean = (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64);
+    let over_all = object([
+        ("compared", all.len().into()),
+        ("failed", (rows.len() - all.len()).into()),
+        ("mean_rmse", mean.into()),
+        ("median_rmse", middle.into()),
+        ("worst_rmse", all.last().copied().into()),
+    ]);
+    object([("pairs", Json::list(rows.iter().map(row))), ("over_all", over_all)]).pretty()
+}
+
+/// A CSV cell, in quotes where it needs them.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}

@@ -1,0 +1,185 @@
+//! Absolute and relative pose error of one path against another.
+
+use super::relation::Rigid;
+use super::{
+    Align, Alignment, EvaluationError, FocalError, Matches, Matching, PairSettings, Relation, Statistics, Trajectory,
+    align, associate, focal_error, pairs,
+};
+
+/// Which error is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Metric {
+    /// Of each pose: E = estimate^-1 * reference.
+    #[default]
+    Ape,
+    /// Of the motion over a distance: E = (reference motion)^-1 * estimate motion.
+    Rpe {
+        /// Which poses are compared.
+        pairs: PairSettings,
+        /// Whether the distance is measured along the reference; else along the aligned estimate.
+        pairs_from_reference: bool,
+    },
+}
+
+/// How two paths are compared. Nothing is aligned by default.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvalSettings {
+    /// Absolute or relative.
+    pub metric: Metric,
+    /// What of the error pose is measured.
+    pub relation: Relation,
+    /// What is aligned first.
+    pub align: Align,
+    /// Number of poses from the start that the alignment sees; `None` is all.
+    pub align_poses: Option<usize>,
+    /// Largest time between the two poses of a match.
+    pub max_diff_secs: f64,
+    /// Added to the estimate's times before matching.
+    pub estimate_offset_secs: f64,
+    /// How poses are matched.
+    pub matching: Matching,
+    /// Diameter of the scene, for errors relative to it; `None` takes that of the reference path.
+    pub scene_diameter: Option<f64>,
+}
+
+impl Default for EvalSettings {
+    fn default() -> Self {
+        Self {
+            metric: Metric::Ape,
+            relation: Relation::Trans,
+            align: Align::None,
+            align_poses: None,
+            max_diff_secs: 0.01,
+            estimate_offset_secs: 0.0,
+            matching: Matching::Nearest,
+            scene_diameter: None,
+        }
+    }
+}
+
+/// The outcome of a comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluation {
+    /// How it was made.
+    pub settings: EvalSettings,
+    /// Statistics of the errors.
+    pub statistics: Statistics,
+    /// The errors, in order of time.
+    pub errors: Vec<f64>,
+    /// Time of each error on the reference's clock (of the later pose of a pair); frame numbers without times.
+    pub at_secs: Vec<f64>,
+    /// The alignment that was applied.
+    pub alignment: Alignment,
+    /// Matched poses; the estimate is aligned.
+    pub matches: Matches,
+    /// Error of the lens; `None` where a file holds no fields of view.
+    pub focal: Option<FocalError>,
+    /// Mean error over the diameter of the scene or the reference path, for errors in scene units; `None` else.
+    pub relative_to_diameter: Option<f64>,
+    /// What should be known about the result, for a person to read.
+    pub notes: Vec<String>,
+}
+
+/// Compares `estimate` with `reference`.
+///
+/// # Errors
+/// [`EvaluationError`] where no poses match, no pairs exist or a setting is out of range; never for the shape of a path.
+pub fn evaluate(
+    reference: &Trajectory,
+    estimate: &Trajectory,
+    settings: &EvalSettings,
+) -> Result<Evaluation, EvaluationError> {
+    check(settings)?;
+    let mut shifted = estimate.clone();
+    if let Some(times) = &mut shifted.times_secs {
+        for time in times {
+            *time += settings.estimate_offset_secs;
+        }
+    }
+    let mut matches = associate(reference, &shifted, settings.max_diff_secs, settings.matching)?;
+    let alignment = align(&matches.reference, &matches.estimate, settings.align, settings.align_poses)?;
+    matches.estimate = alignment.apply(&matches.estimate);
+    let mut notes = matches.notes.clone();
+    notes.extend(alignment.note.clone());
+    let (errors, ends) = match &settings.metric {
+        Metric::Ape => (absolute_errors(&matches, settings.relation), (0..matches.reference.len()).collect()),
+        Metric::Rpe { pairs: choice, pairs_from_reference } => {
+            let path = if *pairs_from_reference { &matches.reference } else { &matches.estimate };
+            relative_errors(&matches, &pairs(path, choice)?, settings.relation, &mut notes)
+        }
+    };
+    let times = matches.reference.times_or_indices();
+    let diameter = settings.scene_diameter.unwrap_or_else(|| matches.reference.diameter());
+    let statistics = Statistics::of(&errors)?;
+    let in_units = settings.relation.unit() == "scene units" && diameter > 0.0;
+    Ok(Evaluation {
+        statistics,
+        at_secs: ends.iter().filter_map(|idx: &usize| times.get(*idx).copied()).collect(),
+        errors,
+        alignment,
+        focal: focal_error(&matches.reference, &matches.estimate),
+        relative_to_diameter: in_units.then(|| statistics.mean / diameter),
+        matches,
+        notes,
+        settings: settings.clone(),
+    })
+}
+
+fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {
+    let bad = |setting, found: f64, expected| {
+        Err(EvaluationError::BadSetting { setting, found: found.to_string(), expected })
+    };
+    if !(settings.max_diff_secs >= 0.0) {
+        return bad("--max-diff", settings.max_diff_secs, "0 or more seconds");
+    }
+    if !settings.estimate_offset_secs.is_finite() {
+        return bad("--time-offset", settings.estimate_offset_secs, "a finite number of seconds");
+    }
+    if settings.scene_diameter.is_some_and(|diameter| !(diameter > 0.0)) {
+        return bad("scene diameter", settings.scene_diameter.unwrap_or(0.0), "above 0");
+    }
+    if settings.relation == Relation::PointDistanceRatio && settings.metric == Metric::Ape {
+        let (setting, found) = ("--relation", settings.relation.name().to_owned());
+        return Err(EvaluationError::BadSetting { setting, found, expected: "another one, or --rpe with it" });
+    }
+    Ok(())
+}
+
+fn rigid(path: &Trajectory, idx: usize) -> Rigid {
+    Rigid { rotation: path.rotations[idx], translation: path.positions[idx] }
+}
+
+fn absolute_errors(matches: &Matches, relation: Relation) -> Vec<f64> {
+    let (reference, estimate) = (&matches.reference, &matches.estimate);
+    let error = |idx: usize| match relation {
+        Relation::Trans | Relation::PointDistance => reference.positions[idx].distance(estimate.positions[idx]),
+        _ => rigid(estimate, idx).to(rigid(reference, idx)).error(relation),
+    };
+    (0..reference.len()).map(error).collect()
+}
+
+/// Errors of pairs and the index of the later pose of each.
+fn relative_errors(
+    matches: &Matches,
+    pairs: &[(usize, usize)],
+    relation: Relation,
+    notes: &mut Vec<String>,
+) -> (Vec<f64>, Vec<usize>) {
+    let (reference, estimate) = (&matches.reference, &matches.estimate);
+    let moved = |path: &Trajectory, a: usize, b: usize| path.positions[a].distance(path.positions[b]);
+    let motion = |path: &Trajectory, a: usize, b: usize| rigid(path, a).to(rigid(path, b));
+    let error = |(a, b): (usize, usize)| match relation {
+        Relation::PointDistance => Some((moved(reference, a, b) - moved(estimate, a, b)).abs()),
+        Relation::PointDistanceRatio => {
+            let wanted = moved(reference, a, b);
+            (wanted != 0.0).then(|| 100.0 * (wanted - moved(estimate, a, b)).abs() / wanted)
+        }
+        _ => Some(motion(reference, a, b).to(motion(estimate, a, b)).error(relation)),
+    };
+    let kept: Vec<(f64, usize)> = pairs.iter().filter_map(|pair| Some((error(*pair)?, pair.1))).collect();
+    let standing = pairs.len() - kept.len();
+    if standing > 0 {
+        notes.push(format!("{standing} pairs where the reference stands still have no ratio and are left out"));
+    }
+    kept.into_iter().unzip()
+}

@@ -1,0 +1,103 @@
+//! What of an error pose is measured.
+
+use glam::{DMat3, DVec3};
+
+use super::singular::rotation_angle;
+
+/// The part of the error pose E = (R, t) that becomes a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Relation {
+    /// Frobenius norm of E - I, 4 x 4: mixes radians and scene units.
+    Full,
+    /// Length of t, scene units.
+    #[default]
+    Trans,
+    /// Frobenius norm of R - I, 3 x 3; about sqrt(2) times the angle.
+    Rot,
+    /// Angle of R in degrees.
+    AngleDeg,
+    /// Angle of R in rad.
+    AngleRad,
+    /// Difference of the distances travelled between two poses, scene units; between single poses the same as `Trans`.
+    PointDistance,
+    /// The same over the reference's distance, in percent; relative errors only.
+    PointDistanceRatio,
+}
+
+impl Relation {
+    /// Every relation.
+    pub const ALL: &'static [Self] = &[
+        Self::Full,
+        Self::Trans,
+        Self::Rot,
+        Self::AngleDeg,
+        Self::AngleRad,
+        Self::PointDistance,
+        Self::PointDistanceRatio,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::Trans => "trans",
+            Self::Rot => "rot",
+            Self::AngleDeg => "angle_deg",
+            Self::AngleRad => "angle_rad",
+            Self::PointDistance => "point_distance",
+            Self::PointDistanceRatio => "point_distance_ratio",
+        }
+    }
+
+    /// The relation with this name; evo's `trans_part`, `rot_part` and `point_distance_error_ratio` too.
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "trans_part" => Some(Self::Trans),
+            "rot_part" => Some(Self::Rot),
+            "point_distance_error_ratio" => Some(Self::PointDistanceRatio),
+            _ => Self::ALL.iter().copied().find(|relation| relation.name() == name),
+        }
+    }
+
+    /// Unit of the errors; empty for norms of matrices.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Full | Self::Rot => "",
+            Self::Trans | Self::PointDistance => "scene units",
+            Self::AngleDeg => "degrees",
+            Self::AngleRad => "rad",
+            Self::PointDistanceRatio => "%",
+        }
+    }
+}
+
+/// A rigid transform with the matrix kept as it came: the inverse transposes, and does not re-orthonormalize.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rigid {
+    pub(super) rotation: DMat3,
+    pub(super) translation: DVec3,
+}
+
+impl Rigid {
+    /// `self^-1 * other`.
+    pub(super) fn to(self, other: Self) -> Self {
+        let back = self.rotation.transpose();
+        let translation = back * other.translation - back * self.translation;
+        Self { rotation: back * other.rotation, translation }
+    }
+
+    /// The number that a relation makes of an error pose.
+    pub(super) fn error(self, relation: Relation) -> f64 {
+        let off = || {
+            let d = self.rotation - DMat3::IDENTITY;
+            d.x_axis.length_squared() + d.y_axis.length_squared() + d.z_axis.length_squared()
+        };
+        match relation {
+            Relation::Full => (off() + self.translation.length_squared()).sqrt(),
+            Relation::Rot => off().sqrt(),
+            Relation::AngleDeg => rotation_angle(self.rotation).to_degrees(),
+            Relation::AngleRad => rotation_angle(self.rotation),
+            Relation::Trans | Relation::PointDistance | Relation::PointDistanceRatio => self.translation.length(),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! A comparison as the JSON object that `eval --json` prints.
+
+use super::{Evaluation, Metric};
+use crate::export::json_write::{Json, object};
+
+impl Evaluation {
+    /// The text of one JSON object. At its top level: `rmse mean median std min max sse` in the relation's unit, `pairs`
+    /// (number of errors), `relation`, `align`, and `scale`, `rotation` (3 x 3, rows) and `translation` of the alignment.
+    pub fn to_json(&self) -> String {
+        let settings = &self.settings;
+        let mut fields: Vec<(String, Json)> = Vec::new();
+        let mut put = |name: &str, value: Json| fields.push((name.to_owned(), value));
+        for (name, value) in self.statistics.named() {
+            put(name, value.into());
+        }
+        put("pairs", self.errors.len().into());
+        put("relation", settings.relation.name().into());
+        put("unit", settings.relation.unit().into());
+        put("align", settings.align.name().into());
+        put("scale", self.alignment.scale.into());
+        let rotation = self.alignment.rotation.transpose();
+        put("rotation", Json::list([rotation.x_axis, rotation.y_axis, rotation.z_axis]));
+        put("translation", self.alignment.translation.into());
+        put("metric", self.metric_json());
+        put("matched", self.matches.reference.len().into());
+        put("dropped_reference", self.matches.dropped_reference.into());
+        put("dropped_estimate", self.matches.dropped_estimate.into());
+        put("largest_time_diff_secs", self.matches.largest_diff_secs.into());
+        put("mean_over_diameter", self.relative_to_diameter.into());
+        if let Some(focal) = &self.focal {
+            let numbers = [
+                ("log_ratio_rmse", focal.log_ratio_rmse.into()),
+                ("log_ratio_mean", focal.log_ratio_mean.into()),
+                ("log_ratio_max", focal.log_ratio_max.into()),
+            ];
+            put("focal_error", object(numbers));
+        }
+        put("notes", Json::list(self.notes.iter().map(String::as_str)));
+        put("at_secs", Json::list(self.at_secs.iter().copied()));
+        put("errors", Json::list(self.errors.iter().copied()));
+        Json::Object(fields).pretty()
+    }
+
+    fn metric_json(&self) -> Json {
+        match &self.settings.metric {
+            Metric::Ape => object([("name", "ape".into())]),
+            Metric::Rpe { pairs, pairs_from_reference } => {
+                let (delta, unit) = pairs.delta.named();
+                object([
+                    ("name", "rpe".into()),
+                    ("delta", delta.into()),
+                    ("unit", unit.into()),
+                    ("all_pairs", pairs.all_pairs.into()),
+                    ("pairs_from", if *pairs_from_reference { "reference" } else { "estimate" }.into()),
+                ])
+            }
+        }
+    }
+}

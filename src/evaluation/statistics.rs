@@ -1,0 +1,63 @@
+//! The statistics of a list of errors that trajectory papers print.
+
+use super::EvaluationError;
+
+/// Statistics of errors, in the errors' own unit; the standard deviation is that of the whole (over n).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Statistics {
+    /// Root of the mean square.
+    pub rmse: f64,
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// Middle value, the mean of the two middle ones for an even count.
+    pub median: f64,
+    /// Standard deviation.
+    pub std: f64,
+    /// Smallest.
+    pub min: f64,
+    /// Largest.
+    pub max: f64,
+    /// Sum of squares.
+    pub sse: f64,
+}
+
+impl Statistics {
+    /// Statistics of at least one error.
+    ///
+    /// # Errors
+    /// [`EvaluationError::Empty`] for none.
+    pub fn of(errors: &[f64]) -> Result<Self, EvaluationError> {
+        if errors.is_empty() {
+            return Err(EvaluationError::Empty { which: "comparison" });
+        }
+        let count = errors.len() as f64;
+        let mean = errors.iter().sum::<f64>() / count;
+        let sse = errors.iter().map(|error| error * error).sum::<f64>();
+        let variance = errors.iter().map(|error| (error - mean).powi(2)).sum::<f64>() / count;
+        let mut sorted = errors.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let (low, high) = (sorted[(sorted.len() - 1) / 2], sorted[sorted.len() / 2]);
+        Ok(Self {
+            rmse: (sse / count).sqrt(),
+            mean,
+            median: f64::midpoint(low, high),
+            std: variance.sqrt(),
+            min: sorted[0],
+            max: sorted[sorted.len() - 1],
+            sse,
+        })
+    }
+
+    /// Names and values, in the order they are printed.
+    pub fn named(&self) -> [(&'static str, f64); 7] {
+        [
+            ("rmse", self.rmse),
+            ("mean", self.mean),
+            ("median", self.median),
+            ("std", self.std),
+            ("min", self.min),
+            ("max", self.max),
+            ("sse", self.sse),
+        ]
+    }
+}

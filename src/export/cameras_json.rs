@@ -1,0 +1,79 @@
+//! `cameras.json`: the still cameras of `still`, each with its own image size and focal lengths.
+
+use super::ExportError;
+use super::json_read::{self, Node};
+use crate::geometry::{Camera, Intrinsics, Pose};
+
+/// What a `cameras.json` says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StillCameras {
+    /// Path of the scene as written, relative to the file.
+    pub scene: Option<String>,
+    /// Splat filter by name: `auto`, `classic` or `mip`.
+    pub filter: Option<String>,
+    /// Distance of the near plane, scene units.
+    pub near: Option<f64>,
+    /// The cameras in file order, at least one.
+    pub cameras: Vec<NamedCamera>,
+}
+
+/// A camera and the name that its image gets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCamera {
+    /// File name stem; no path separators.
+    pub name: String,
+    /// Pose and image.
+    pub camera: Camera,
+}
+
+/// The cameras in a `cameras.json`. Keys it does not know are ignored.
+///
+/// # Errors
+/// [`ExportError::NotJson`], [`ExportError::NoPoses`]; [`ExportError::BadField`] names the camera and the field.
+pub fn read(text: &str) -> Result<StillCameras, ExportError> {
+    let value = json_read::parse(text)?;
+    let root = Node::root(&value);
+    let string = |name| root.optional(name).map(|node| node.text().map(str::to_owned)).transpose();
+    let cameras = root.field("cameras", "a list of cameras")?.items()?;
+    let cameras = cameras.iter().map(read_camera).collect::<Result<Vec<_>, _>>()?;
+    if cameras.is_empty() {
+        return Err(ExportError::NoPoses);
+    }
+    Ok(StillCameras { scene: string("scene")?, filter: read_filter(&root)?, near: read_near(&root)?, cameras })
+}
+
+fn read_filter(root: &Node) -> Result<Option<String>, ExportError> {
+    let Some(node) = root.optional("filter") else { return Ok(None) };
+    match node.text()? {
+        name @ ("auto" | "classic" | "mip") => Ok(Some(name.to_owned())),
+        _ => Err(node.error("auto, classic or mip")),
+    }
+}
+
+fn read_near(root: &Node) -> Result<Option<f64>, ExportError> {
+    let Some(node) = root.optional("near") else { return Ok(None) };
+    let near = node.number()?;
+    if near > 0.0 { Ok(Some(near)) } else { Err(node.error("a distance above 0")) }
+}
+
+fn read_camera(node: &Node) -> Result<NamedCamera, ExportError> {
+    let name_node = node.field("name", "the name of its image")?;
+    let name = name_node.text()?;
+    if name.is_empty() || name.starts_with('.') || name.contains(['/', '\\', '\0']) {
+        return Err(name_node.error("a file name without folders"));
+    }
+    let pixels = |field| node.field(field, "a number of pixels")?.pixels();
+    let length = |field| node.field(field, "pixels")?.number();
+    let intrinsics = Intrinsics {
+        width: pixels("width")?,
+        height: pixels("height")?,
+        fx_px: length("fx")?,
+        fy_px: length("fy")?,
+        cx_px: length("cx")?,
+        cy_px: length("cy")?,
+    };
+    let intrinsics = intrinsics.validated().map_err(|_| node.error("width, height, fx and fy above 0"))?;
+    let matrix = node.field("world_from_camera", "a 4 x 4 matrix, row-major")?;
+    let pose = Pose::from_matrix(matrix.matrix()?).map_err(|error| matrix.error(format!("a rigid pose ({error})")))?;
+    Ok(NamedCamera { name: name.to_owned(), camera: Camera { pose, intrinsics } })
+}

@@ -1,0 +1,39 @@
+//! What the formats of one pose a line share.
+
+use super::ExportError;
+use super::json_read::quoted;
+
+/// Lines with data, each with its number from 1; comments (`#`) and empty lines are left out.
+pub(super) fn data_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+    lines.map(|(idx, line)| (idx + 1, line.trim())).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+}
+
+/// An error about a line.
+pub(super) fn bad_line(line: usize, found: &str, expected: impl Into<String>) -> ExportError {
+    ExportError::BadLine { line, found: format!("\"{}\"", quoted(found)), expected: expected.into() }
+}
+
+/// The finite number that a column holds.
+pub(super) fn number(line: usize, column: &str) -> Result<f64, ExportError> {
+    let value = column.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    value.ok_or_else(|| bad_line(line, column, "a finite number"))
+}
+
+/// Exactly `N` numbers separated by white space.
+pub(super) fn numbers<const N: usize>(line: usize, text: &str) -> Result<[f64; N], ExportError> {
+    let columns: Vec<&str> = text.split_whitespace().collect();
+    if columns.len() != N {
+        return Err(bad_line(line, text, format!("{N} columns, not {}", columns.len())));
+    }
+    let mut values = [0.0; N];
+    for (value, column) in values.iter_mut().zip(columns) {
+        *value = number(line, column)?;
+    }
+    Ok(values)
+}
+
+/// Numbers joined by a separator, each with the digits that read back to the same value.
+pub(super) fn joined(values: impl IntoIterator<Item = f64>, separator: &str) -> String {
+    values.into_iter().map(|value| format!("{value}")).collect::<Vec<_>>().join(separator)
+}

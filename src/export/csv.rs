@@ -1,0 +1,75 @@
+//! A table for spreadsheets: one frame a line, columns by name in the first line. Pose columns are `world_from_camera`
+//! with OpenCV camera axes; `yaw_deg`, `pitch_deg`, `roll_deg` are for reading only (as `euler_deg` of `shot.json`) and
+//! empty where the world's up is not known.
+
+use std::fmt::Write as _;
+
+use glam::{DQuat, DVec3};
+
+use super::ExportError;
+use super::columns::{bad_line, joined, number};
+use super::shot_json::level_angles;
+use super::track::{PoseFrame, PoseTrack};
+use super::tum::unit_pose;
+use crate::geometry::LevelFrame;
+use crate::trajectory::Easing;
+
+const COLUMNS: &str = "time_secs,x,y,z,qx,qy,qz,qw,yaw_deg,pitch_deg,roll_deg,fov_y_deg,focus_distance,easing,cut\n";
+
+pub(super) fn write(track: &PoseTrack) -> String {
+    let level = track.up.and_then(|up| LevelFrame::new(up).ok());
+    let angles = level.map(|level| level_angles(&level, track.frames.iter().map(|frame| frame.pose.rotation)));
+    let mut out = COLUMNS.to_owned();
+    for (idx, frame) in track.frames.iter().enumerate() {
+        let pose = frame.pose.position.to_array().into_iter().chain(frame.pose.rotation.to_array());
+        let euler = angles.as_ref().and_then(|angles| angles.get(idx)).map_or_else(
+            || ",,".to_owned(),
+            |a| joined([a.yaw_rad, a.pitch_rad, a.roll_rad].map(f64::to_degrees), ","),
+        );
+        let fov = frame.fov_y_rad.map(|rad| rad.to_degrees().to_string()).unwrap_or_default();
+        let focus = frame.focus_distance.map(|d| d.to_string()).unwrap_or_default();
+        let (time_secs, pose, easing) = (frame.time_secs, joined(pose, ","), frame.easing.name());
+        let _ = writeln!(out, "{time_secs},{pose},{euler},{fov},{focus},{easing},{}", u8::from(frame.cut));
+    }
+    out
+}
+
+pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
+    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(idx, line)| (idx + 1, line.trim()));
+    let Some((first, header)) = lines.next() else { return Err(ExportError::NoPoses) };
+    let names: Vec<&str> = header.split(',').map(str::trim).collect();
+    let column = |name: &str| names.iter().position(|found| *found == name);
+    let required = ["time_secs", "x", "y", "z", "qx", "qy", "qz", "qw"];
+    let mut idx_of = [0; 8];
+    for (idx, name) in idx_of.iter_mut().zip(required) {
+        *idx = column(name).ok_or_else(|| bad_line(first, header, format!("a column {name}")))?;
+    }
+    let optional = ["fov_y_deg", "focus_distance", "easing", "cut"].map(column);
+    let data = lines.filter(|(_, line)| !line.is_empty());
+    let frames = data.map(|(line, text)| read_row(line, text, &idx_of, optional)).collect::<Result<Vec<_>, _>>()?;
+    Ok(PoseTrack { timed: true, ..PoseTrack::untimed(frames) })
+}
+
+fn read_row(
+    line: usize,
+    text: &str,
+    idx_of: &[usize; 8],
+    [fov, focus, easing, cut]: [Option<usize>; 4],
+) -> Result<PoseFrame, ExportError> {
+    let cells: Vec<&str> = text.split(',').map(str::trim).collect();
+    let cell = |idx: Option<usize>| idx.and_then(|idx| cells.get(idx).copied()).filter(|cell| !cell.is_empty());
+    let mut v = [0.0; 8];
+    for (value, idx) in v.iter_mut().zip(idx_of) {
+        *value =
+            number(line, cell(Some(*idx)).ok_or_else(|| bad_line(line, text, "as many cells as the first line"))?)?;
+    }
+    let pose = unit_pose(DVec3::new(v[1], v[2], v[3]), DQuat::from_xyzw(v[4], v[5], v[6], v[7]));
+    let easing = cell(easing).map(|name| Easing::from_name(name).ok_or_else(|| bad_line(line, name, "an easing")));
+    Ok(PoseFrame {
+        fov_y_rad: cell(fov).map(|cell| number(line, cell)).transpose()?.map(f64::to_radians),
+        focus_distance: cell(focus).map(|cell| number(line, cell)).transpose()?,
+        easing: easing.transpose()?.unwrap_or(Easing::Linear),
+        cut: cell(cut).is_some_and(|cell| cell == "1" || cell == "true"),
+        ..PoseFrame::new(v[0], pose.ok_or_else(|| bad_line(line, text, "a unit quaternion"))?)
+    })
+}

@@ -1,0 +1,266 @@
+use glam::{DMat4, DQuat, DVec3};
+
+use super::super::ExportError;
+use super::super::json_read::{self, Node};
+use super::super::opengl::{from_opengl_rotation, y_up_from_world};
+use super::super::track::{DEFAULT_SIZE_PX, PoseFrame, PoseTrack};
+use super::accessor::{item, size, values};
+use super::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER, base64};
+use crate::geometry::{Pose, rotation};
+
+/// Deepest chain of nodes above a camera.
+const MAX_DEPTH: usize = 64;
+
+/// The track of the first camera in a `.gltf` or `.glb`; `resolve` gives the bytes of a file beside it.
+pub(in crate::export) fn read(
+    bytes: &[u8],
+    resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>,
+) -> Result<PoseTrack, ExportError> {
+    let (text, binary) = if bytes.starts_with(GLB_MAGIC) { chunks(bytes)? } else { (bytes, None) };
+    let text = std::str::from_utf8(text).map_err(|error| ExportError::NotJson { reason: error.to_string() })?;
+    let value = json_read::parse(text)?;
+    let root = Node::root(&value);
+    let buffers = buffers(&root, binary, resolve)?;
+    let nodes = root.field("nodes", "a list of nodes")?.items()?;
+    let camera_node = nodes.iter().position(|node| node.optional("camera").is_some()).ok_or(ExportError::NoPoses)?;
+    let camera_idx = size(&nodes[camera_node], "camera", None)?;
+    let camera = item(&root, "cameras", camera_idx)?;
+    let lens = camera.field("perspective", "a perspective camera")?;
+    let channels = channels(&root, &buffers, camera_node, camera_idx)?;
+    let (above, up) = world_above(&nodes, camera_node)?;
+    let still = Still { node: Placement::read(&nodes[camera_node])?, fov_y_rad: lens.field("yfov", "rad")?.number()? };
+    let frames = frames(&channels, &still, &above);
+    let aspect = lens.optional("aspectRatio").map(|aspect| aspect.number()).transpose()?.filter(|aspect| *aspect > 0.0);
+    let size_px =
+        aspect.map(|aspect| ((f64::from(DEFAULT_SIZE_PX.1) * aspect).round().max(1.0) as u32, DEFAULT_SIZE_PX.1));
+    Ok(PoseTrack { size_px, fps: even_rate(&frames), up: Some(up), timed: true, ..PoseTrack::untimed(frames) })
+}
+
+/// JSON and binary chunk of a `.glb`.
+fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ExportError> {
+    let (mut offset, mut json, mut binary) = (12, None, None);
+    while let Some(head) = bytes.get(offset..offset + 8) {
+        let len = head.first_chunk().map_or(0, |len| u32::from_le_bytes(*len)) as usize;
+        let chunk = bytes.get(offset + 8..).and_then(|rest| rest.get(..len)).ok_or_else(|| ExportError::BadBytes {
+            offset,
+            found: format!("a chunk of {len} bytes"),
+            expected: "one that ends inside the file".into(),
+        })?;
+        match &head[4..] {
+            kind if kind == JSON_CHUNK => json = json.or(Some(chunk)),
+            kind if kind == BINARY_CHUNK => binary = binary.or(Some(chunk)),
+            _ => {}
+        }
+        offset += 8 + len;
+    }
+    let missing = || ExportError::BadBytes { offset: 12, found: "no JSON chunk".into(), expected: "one".into() };
+    Ok((json.ok_or_else(missing)?, binary))
+}
+
+fn buffers(
+    root: &Node,
+    binary: Option<&[u8]>,
+    resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>,
+) -> Result<Vec<Vec<u8>>, ExportError> {
+    let Some(list) = root.optional("buffers") else { return Ok(Vec::new()) };
+    let load = |node: &Node| match node.optional("uri") {
+        None => Ok(binary.unwrap_or_default().to_vec()),
+        Some(uri) => {
+            let text = uri.text()?;
+            match text.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) {
+                Some((_, data)) => base64::decode(data).ok_or_else(|| uri.error("base64 data")),
+                None => resolve(text),
+            }
+        }
+    };
+    list.items()?.iter().map(load).collect()
+}
+
+/// Translation, rotation and scale of a node.
+#[derive(Debug, Clone, Copy)]
+struct Placement {
+    position: DVec3,
+    rotation: DQuat,
+    scale: f64,
+}
+
+impl Placement {
+    fn read(node: &Node) -> Result<Self, ExportError> {
+        if let Some(matrix) = node.optional("matrix") {
+            let (scale, rotation, position) =
+                DMat4::from_cols_array(&matrix.numbers()?).to_scale_rotation_translation();
+            return Ok(Self { position, rotation, scale: scale.x });
+        }
+        let position = node.optional("translation").map_or(Ok(DVec3::ZERO), |v| v.vector())?;
+        let rotation = node.optional("rotation").map_or(Ok(DQuat::IDENTITY), |v| v.numbers().map(DQuat::from_array))?;
+        let scale = node.optional("scale").map_or(Ok(DVec3::ONE), |v| v.vector())?;
+        if !(rotation.length() > 1e-6) {
+            return Err(node.error("a rotation that is not 0"));
+        }
+        Ok(Self { position, rotation: rotation.normalize(), scale: scale.x })
+    }
+
+    fn then(&self, child: &Self) -> Self {
+        Self {
+            position: self.position + self.rotation * (child.position * self.scale),
+            rotation: self.rotation * child.rotation,
+            scale: self.scale * child.scale,
+        }
+    }
+}
+
+/// What stands above the camera's node, and which way is up there. Animations of nodes above are not followed.
+fn world_above(nodes: &[Node], camera_node: usize) -> Result<(Placement, DVec3), ExportError> {
+    let mut above = Placement { position: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: 1.0 };
+    let mut child = camera_node;
+    let mut scene_up = None;
+    for _ in 0..MAX_DEPTH {
+        let is_parent = |node: &Node| {
+            node.optional("children")
+                .and_then(|list| list.number_list().ok())
+                .is_some_and(|ids| ids.contains(&(child as f64)))
+        };
+        let Some(parent) = nodes.iter().position(is_parent) else { break };
+        above = Placement::read(&nodes[parent])?.then(&above);
+        let extras = nodes[parent].optional("extras").and_then(|extras| extras.optional("cinesplat_world_up"));
+        scene_up = scene_up.or(extras.map(|up| up.vector()).transpose()?.and_then(DVec3::try_normalize));
+        child = parent;
+    }
+    if let Some(up) = scene_up {
+        let back = Placement { rotation: y_up_from_world(Some(up)).conjugate(), position: DVec3::ZERO, scale: 1.0 };
+        above = back.then(&above);
+    }
+    Ok((above, scene_up.unwrap_or(DVec3::Y)))
+}
+
+/// A channel's keys; `step` holds each to the next.
+struct Channel {
+    times: Vec<f64>,
+    values: Vec<Vec<f64>>,
+    step: bool,
+}
+
+#[derive(Default)]
+struct Channels {
+    translation: Option<Channel>,
+    rotation: Option<Channel>,
+    fov: Option<Channel>,
+}
+
+/// The first animation of each property of the camera.
+fn channels(root: &Node, buffers: &[Vec<u8>], node: usize, camera: usize) -> Result<Channels, ExportError> {
+    let mut found = Channels::default();
+    let Some(animations) = root.optional("animations") else { return Ok(found) };
+    let pointer = format!("/cameras/{camera}/perspective/yfov");
+    for animation in animations.items()? {
+        let samplers = animation.field("samplers", "a list")?.items()?;
+        for channel in animation.field("channels", "a list")?.items()? {
+            let target = channel.field("target", "what it animates")?;
+            let is_node = target.optional("node").and_then(|idx| idx.whole(u64::MAX).ok()) == Some(node as u64);
+            let extension = target.optional("extensions").and_then(|extensions| extensions.optional(POINTER));
+            let pointed = extension.and_then(|extension| extension.optional("pointer"));
+            let slot = match target.field("path", "what it animates")?.text()? {
+                "translation" if is_node => &mut found.translation,
+                "rotation" if is_node => &mut found.rotation,
+                "pointer" if pointed.is_some_and(|text| text.text().is_ok_and(|text| text == pointer)) => {
+                    &mut found.fov
+                }
+                _ => continue,
+            };
+            if slot.is_none() {
+                let idx = size(&channel, "sampler", None)?;
+                let sampler = samplers.get(idx).ok_or_else(|| channel.error("a sampler that exists"))?;
+                *slot = Some(read_sampler(root, buffers, sampler)?);
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn read_sampler(root: &Node, buffers: &[Vec<u8>], sampler: &Node) -> Result<Channel, ExportError> {
+    let times: Vec<f64> = values(root, buffers, size(sampler, "input", None)?)?.into_iter().flatten().collect();
+    let mut values = values(root, buffers, size(sampler, "output", None)?)?;
+    let interpolation = sampler.optional("interpolation").map_or(Ok("LINEAR"), |name| name.text())?;
+    if interpolation == "CUBICSPLINE" && values.len() == 3 * times.len() {
+        // In-tangent, value, out-tangent: the value stands at the key.
+        values = values.into_iter().skip(1).step_by(3).collect();
+    }
+    if values.len() != times.len() {
+        return Err(sampler.error("as many values as times"));
+    }
+    Ok(Channel { times, values, step: interpolation == "STEP" })
+}
+
+impl Channel {
+    /// The value at a time: one of its keys or between two.
+    fn at(&self, time: f64, between: impl Fn(&[f64], &[f64], f64) -> Vec<f64>) -> Option<Vec<f64>> {
+        let after = self.times.partition_point(|key| *key <= time);
+        let (before, next) = (after.saturating_sub(1), after.min(self.times.len().checked_sub(1)?));
+        let span = self.times[next] - self.times[before];
+        if self.step || span <= 0.0 || time <= self.times[before] {
+            return self.values.get(before).cloned();
+        }
+        Some(between(&self.values[before], &self.values[next], (time - self.times[before]) / span))
+    }
+}
+
+fn blend(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + (b - a) * t).collect()
+}
+
+fn turn(values: &[f64]) -> DQuat {
+    values
+        .try_into()
+        .ok()
+        .map(DQuat::from_array)
+        .filter(|q| q.length() > 1e-6)
+        .map_or(DQuat::IDENTITY, DQuat::normalize)
+}
+
+/// The camera where no channel moves it.
+struct Still {
+    node: Placement,
+    fov_y_rad: f64,
+}
+
+/// A frame for every key time of any channel; one frame without animation.
+fn frames(channels: &Channels, still: &Still, above: &Placement) -> Vec<PoseFrame> {
+    let all = [&channels.translation, &channels.rotation, &channels.fov];
+    let mut times: Vec<f64> = all.into_iter().flatten().flat_map(|channel| channel.times.iter().copied()).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    if times.is_empty() {
+        times.push(0.0);
+    }
+    let frame = |time: f64| {
+        let vector = |values: Vec<f64>| values.try_into().ok().map(DVec3::from_array);
+        let position = channels.translation.as_ref().and_then(|c| c.at(time, blend)).and_then(vector);
+        let slerp = |a: &[f64], b: &[f64], t: f64| rotation::slerp(turn(a), turn(b), t).to_array().to_vec();
+        let rotation = channels.rotation.as_ref().and_then(|c| c.at(time, slerp)).map(|values| turn(&values));
+        let fov = channels.fov.as_ref().and_then(|c| c.at(time, blend)).and_then(|values| values.first().copied());
+        let node = Placement {
+            position: position.unwrap_or(still.node.position),
+            rotation: rotation.unwrap_or(still.node.rotation),
+            scale: still.node.scale,
+        };
+        let placed = above.then(&node);
+        let pose: Pose = from_opengl_rotation(placed.position, placed.rotation);
+        PoseFrame { fov_y_rad: Some(fov.unwrap_or(still.fov_y_rad)), ..PoseFrame::new(time, pose) }
+    };
+    let mut frames: Vec<PoseFrame> = Vec::with_capacity(times.len());
+    for time in times {
+        // A key just before this one was only there to hold the pose up to a cut.
+        let cut = frames.pop_if(|held| time - held.time_secs < CUT_SECS).is_some();
+        frames.push(PoseFrame { cut, ..frame(time) });
+    }
+    frames
+}
+
+/// The frame rate of evenly spaced frames, brought from f32 times to a round number.
+fn even_rate(frames: &[PoseFrame]) -> Option<f64> {
+    let (first, last) = frames.first().zip(frames.last())?;
+    let span = last.time_secs - first.time_secs;
+    let fps = (frames.len() as f64 - 1.0) / span;
+    let rounded = (fps * 1000.0).round() / 1000.0;
+    (span > 0.0 && rounded > 0.0).then_some(rounded)
+}

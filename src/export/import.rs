@@ -1,0 +1,155 @@
+//! Files of any format into tracks and shots.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{
+    ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, redwood_log,
+    shot_json, supersplat, transforms, tum, usd,
+};
+use crate::trajectory::Shot;
+
+/// Largest file that is read, bytes: camera paths are small, a scene given by mistake is not.
+const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// Files that a folder may stand for, in the order they are looked for.
+const IN_FOLDER: [&str; 11] = [
+    "images.bin",
+    "images.txt",
+    "sparse/0/images.bin",
+    "sparse/0/images.txt",
+    "sparse/images.bin",
+    "sparse/images.txt",
+    "transforms.json",
+    "camera_path.json",
+    "trajectory.log",
+    "mav0/state_groundtruth_estimate0/data.csv",
+    "data.csv",
+];
+
+/// A camera path read from a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Imported {
+    /// The format it was in.
+    pub format: Format,
+    /// The poses on the file's own clock.
+    pub track: PoseTrack,
+    /// The shot, where the file was a `shot.json`.
+    pub shot: Option<Shot>,
+}
+
+impl Imported {
+    /// The shot of the file: its own, or one with a key a pose; and a line for everything that had to be assumed.
+    ///
+    /// # Errors
+    /// [`ExportError::BadShot`] where the poses make no shot (times that do not increase, for one).
+    pub fn into_shot(self) -> Result<(Shot, Vec<String>), ExportError> {
+        match self.shot {
+            Some(shot) => Ok((shot, Vec::new())),
+            None => self.track.to_shot(),
+        }
+    }
+}
+
+/// The camera path in a file, or in a folder that holds a COLMAP, EuRoC or nerfstudio capture.
+///
+/// The format is found from the content unless it is given.
+///
+/// # Errors
+/// [`ExportError::Io`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is none
+/// of the formats, and what each format's reader finds wrong.
+pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError> {
+    let path = &file_of(path)?;
+    let bytes = read_bytes(path)?;
+    let by_name = || Format::from_path(path).filter(|format| *format == Format::Colmap);
+    let format = format.or_else(by_name).or_else(|| Format::detect(&bytes)).ok_or_else(unknown_content)?;
+    let mut shot = None;
+    let track = match format {
+        Format::Gltf => gltf::read(&bytes, &|name| read_beside(path, name)),
+        Format::Usd => usd::read(&bytes),
+        Format::Colmap => read_colmap(path, &bytes),
+        Format::Supersplat if bytes.starts_with(b"PK") => supersplat::read(&supersplat::document_in_project(&bytes)?),
+        _ => {
+            let text = text_of(&bytes)?;
+            match format {
+                Format::Tum => tum::read(text),
+                Format::Kitti => kitti::read(text),
+                Format::Euroc => euroc::read(text),
+                Format::Nerfstudio => nerfstudio::read(text),
+                Format::Transforms => transforms::read(text),
+                Format::Supersplat => supersplat::read(text),
+                Format::Lichtfeld => lichtfeld::read(text),
+                Format::Blender => blender::read(text),
+                Format::Csv => csv::read(text),
+                Format::Log => redwood_log::read(text),
+                _ => {
+                    let found = shot_json::read(text)?;
+                    let track = PoseTrack::keyframes(&found);
+                    shot = Some(found);
+                    Ok(track)
+                }
+            }
+        }
+    }?;
+    if track.frames.is_empty() {
+        return Err(ExportError::NoPoses);
+    }
+    Ok(Imported { format, track, shot })
+}
+
+fn unknown_content() -> ExportError {
+    let names: Vec<&str> = Format::ALL.iter().map(|format| format.name()).collect();
+    ExportError::WrongFormat { found: "content of no format that is known".into(), expected: names.join(", ") }
+}
+
+fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
+    std::str::from_utf8(bytes).map_err(|error| ExportError::BadBytes {
+        offset: error.valid_up_to(),
+        found: "bytes that are not UTF-8".into(),
+        expected: "text".into(),
+    })
+}
+
+/// The file itself, or the first of a capture's files in a folder.
+fn file_of(path: &Path) -> Result<PathBuf, ExportError> {
+    if !path.is_dir() {
+        return Ok(path.to_owned());
+    }
+    let found = IN_FOLDER.iter().map(|name| path.join(name)).find(|file| file.is_file());
+    found.ok_or_else(|| ExportError::WrongFormat {
+        found: "a folder without a camera path".into(),
+        expected: format!("one of {}", IN_FOLDER.join(", ")),
+    })
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, ExportError> {
+    let io = |source| ExportError::Io { doing: "reading", source, path: path.to_owned() };
+    let found = fs::metadata(path).map_err(io)?.len();
+    if found > MAX_FILE_BYTES {
+        return Err(ExportError::TooLarge { found, expected: MAX_FILE_BYTES, path: path.to_owned() });
+    }
+    fs::read(path).map_err(io)
+}
+
+/// A file that another one names: only in the same folder, so that a file cannot reach elsewhere.
+fn read_beside(path: &Path, name: &str) -> Result<Vec<u8>, ExportError> {
+    if name.is_empty() || name.contains(['/', '\\']) || name.starts_with('.') {
+        let found = super::json_read::quoted(name);
+        return Err(ExportError::WrongFormat { found, expected: "the name of a file in the same folder".into() });
+    }
+    read_bytes(&path.with_file_name(name))
+}
+
+/// A model by its `images` (or `cameras`) file; fields of view stay unknown where there is no `cameras` file.
+fn read_colmap(path: &Path, bytes: &[u8]) -> Result<PoseTrack, ExportError> {
+    let binary = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bin"));
+    let extension = if binary { "bin" } else { "txt" };
+    let named_cameras = path.file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case("cameras"));
+    let images = if named_cameras { read_beside(path, &format!("images.{extension}"))? } else { bytes.to_vec() };
+    let cameras_path = path.with_file_name(format!("cameras.{extension}"));
+    let cameras = if cameras_path.is_file() { Some(read_bytes(&cameras_path)?) } else { None };
+    if binary {
+        return colmap::read_binary(&images, cameras.as_deref());
+    }
+    colmap::read_text(text_of(&images)?, cameras.as_deref().map(text_of).transpose()?)
+}

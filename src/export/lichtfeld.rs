@@ -1,0 +1,71 @@
+//! LichtFeld Studio timelines, version 4: seconds, position, quaternion w x y z with OpenGL camera axes, focal length in
+//! mm on a frame 24 mm high, and one of four easings. Its own spline joins the keys; it keeps numbers as f32.
+
+use super::ExportError;
+use super::json_read::{self, Node};
+use super::json_write::{Json, object};
+use super::opengl::{from_opengl_rotation, opengl_rotation};
+use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack, fov_y_or_default};
+use crate::trajectory::Easing;
+
+const VERSION: u32 = 4;
+/// Height of the frame that focal lengths refer to, mm.
+const FRAME_HEIGHT_MM: f64 = 24.0;
+/// Focal lengths that the program keeps, mm; others are clamped by it.
+pub(super) const FOCAL_RANGE_MM: (f64, f64) = (10.0, 200.0);
+/// Easings by their number in the file.
+const EASINGS: [Easing; 4] = [Easing::Linear, Easing::EaseIn, Easing::EaseOut, Easing::Smooth];
+
+pub(super) fn focal_mm(fov_y_rad: f64) -> f64 {
+    FRAME_HEIGHT_MM / 2.0 / (fov_y_rad / 2.0).tan()
+}
+
+pub(super) fn write(track: &PoseTrack) -> String {
+    let keyframes = track.since_start().map(|(secs, frame)| {
+        let [x, y, z, w] = opengl_rotation(&frame.pose).to_array();
+        let easing = EASINGS.iter().position(|easing| *easing == frame.easing).unwrap_or(0);
+        object([
+            ("time", secs.into()),
+            ("position", frame.pose.position.into()),
+            ("rotation", Json::list([w, x, y, z])),
+            ("focal_length_mm", focal_mm(fov_y_or_default(frame)).into()),
+            ("easing", easing.into()),
+        ])
+    });
+    let keyframes = Json::list(keyframes);
+    let duration = track.duration_secs();
+    object([("version", VERSION.into()), ("clip_duration", duration.into()), ("keyframes", keyframes)]).pretty()
+}
+
+pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
+    let value = json_read::parse(text)?;
+    let root = Node::root(&value);
+    let version = root.optional("version").map_or(Ok(1), |version| version.whole(u64::from(u32::MAX)))?;
+    if !(1..=u64::from(VERSION)).contains(&version) {
+        return Err(ExportError::WrongVersion { format: "lichtfeld", found: version.to_string(), expected: "1 to 4" });
+    }
+    let nodes = root.field("keyframes", "a list of keyframes")?.items()?;
+    let mut frames = nodes.iter().map(read_key).collect::<Result<Vec<_>, _>>()?;
+    frames.sort_by(|a, b| a.time_secs.total_cmp(&b.time_secs));
+    Ok(PoseTrack { fps: Some(DEFAULT_FPS), timed: true, ..PoseTrack::untimed(frames) })
+}
+
+fn read_key(node: &Node) -> Result<PoseFrame, ExportError> {
+    let rotation_node = node.field("rotation", "4 numbers w x y z")?;
+    let [w, x, y, z] = rotation_node.numbers()?;
+    let rotation = glam::DQuat::from_xyzw(x, y, z, w);
+    if !(rotation.length() > 1e-6) {
+        return Err(rotation_node.error("a quaternion that is not 0"));
+    }
+    let focal = node.optional("focal_length_mm").map(|focal| {
+        let mm = focal.number()?;
+        if mm > 0.0 { Ok(mm) } else { Err(focal.error("mm above 0")) }
+    });
+    let easing = node.optional("easing").map_or(Ok(0), |easing| easing.whole(3))?;
+    let position = node.field("position", "3 numbers")?.vector()?;
+    Ok(PoseFrame {
+        fov_y_rad: focal.transpose()?.map(|mm| 2.0 * (FRAME_HEIGHT_MM / 2.0 / mm).atan()),
+        easing: EASINGS.get(easing as usize).copied().unwrap_or(Easing::Linear),
+        ..PoseFrame::new(node.field("time", "seconds")?.number()?, from_opengl_rotation(position, rotation))
+    })
+}

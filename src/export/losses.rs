@@ -1,0 +1,70 @@
+//! What a format cannot hold of a track, in words.
+
+use glam::DVec3;
+
+use super::format::Format;
+use super::track::{PoseFrame, PoseTrack};
+use super::{lichtfeld, opengl};
+use crate::geometry::LevelFrame;
+use crate::trajectory::Easing;
+
+/// Most keys of a camera animation that SuperSplat's authoring limits allow.
+const SUPERSPLAT_MAX_KEYS: usize = 1000;
+/// Roll below which a camera counts as level, rad.
+const LEVEL_RAD: f64 = 1e-3;
+
+/// A line for everything in `track` that a file of `format` does not hold.
+pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
+    let holds = format.holds();
+    let mut lines = Vec::new();
+    let mut lost = |is_lost: bool, what: String| {
+        if is_lost {
+            lines.push(format!("{} {what}", format.name()));
+        }
+    };
+    let any = |test: fn(&PoseFrame) -> bool| track.frames.iter().any(test);
+    let start = track.frames.first().map_or(0.0, |first| first.time_secs);
+    lost(track.timed && !holds.times, "holds no times: only the order of the frames is kept".into());
+    lost(holds.times && !holds.clock && start != 0.0, format!("counts times from 0: {start} s is subtracted"));
+    lost(!holds.fov && any(|f| f.fov_y_rad.is_some()), format!("holds no field of view: {} is lost", fov_range(track)));
+    lost(!holds.size && track.size_px.is_some(), "holds no image size".into());
+    lost(!holds.focus && any(|f| f.focus_distance.is_some()), "holds no focus distance".into());
+    lost(!holds.easing && any(|f| f.easing != Easing::Linear), "holds no easing".into());
+    lost(!holds.cuts && any(|f| f.cut), "holds no cuts: a reader may sweep across them".into());
+    let roll = if holds.roll { 0.0 } else { largest_roll_rad(track, DVec3::NEG_Y) };
+    lost(
+        roll > LEVEL_RAD,
+        format!("holds no roll: up to {:.1} degrees against its up (-y) are lost", roll.to_degrees()),
+    );
+    lines.extend(out_of_range(format, track));
+    lines
+}
+
+/// Values that the other program holds but does not take.
+fn out_of_range(format: Format, track: &PoseTrack) -> Option<String> {
+    match format {
+        Format::Lichtfeld => {
+            let (low, high) = lichtfeld::FOCAL_RANGE_MM;
+            let focal = |frame: &PoseFrame| frame.fov_y_rad.map(lichtfeld::focal_mm);
+            let outside = track.frames.iter().filter_map(focal).any(|mm| !(low..=high).contains(&mm));
+            outside.then(|| format!("lichtfeld takes focal lengths of {low} to {high} mm and clamps the others"))
+        }
+        Format::Supersplat if track.frames.len() > SUPERSPLAT_MAX_KEYS => {
+            Some(format!("supersplat's editor takes at most {SUPERSPLAT_MAX_KEYS} keys: lower --fps"))
+        }
+        Format::Gltf | Format::Usd => opengl::unknown_up(format.name(), track.up),
+        Format::Blender if track.up.is_none() => Some("blender takes +z as up: the scene's up is not known".into()),
+        _ => None,
+    }
+}
+
+fn fov_range(track: &PoseTrack) -> String {
+    let degrees = track.frames.iter().filter_map(|frame| frame.fov_y_rad).map(f64::to_degrees);
+    let (low, high) = degrees.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
+    if high - low < 1e-6 { format!("{low:.3} degrees") } else { format!("{low:.3} to {high:.3} degrees") }
+}
+
+fn largest_roll_rad(track: &PoseTrack, up: DVec3) -> f64 {
+    let Ok(level) = LevelFrame::new(up) else { return 0.0 };
+    track.frames.iter().map(|frame| level.roll_rad(&frame.pose).abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,111 @@
+//! nerfstudio's `camera_path.json`, which `ns-render camera-path` films and nerfview and others share.
+//!
+//! Matrices are `world_from_camera` with OpenGL camera axes, 16 numbers row by row; fields of view vertical, in degrees.
+//! `ns-render` takes frames from `camera_path` at `len / seconds` a second and ignores `keyframes` and `fps`; the viewer
+//! loads `keyframes` alone. Positions are in the scene file's own world: a scene trained by nerfstudio and exported by it
+//! has the same one.
+
+use glam::DMat4;
+
+use super::ExportError;
+use super::json_read::{self, Node, matrix_from_rows};
+use super::json_write::{Json, matrix_flat, object};
+use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
+use crate::geometry::frames::{from_opengl, to_opengl};
+
+pub(super) fn write(track: &PoseTrack) -> String {
+    let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
+    let aspect = track.aspect();
+    let keys = if track.keys.is_empty() { &track.frames } else { &track.keys };
+    let default_fov_deg = keys.first().map_or(0.0, |key| fov_y_or_default(key).to_degrees());
+    let seconds = track.duration_secs();
+    let num_frames = track.frames.len() as f64;
+    let camera = |frame: &PoseFrame, matrix_name| {
+        object([
+            (matrix_name, matrix_flat(to_opengl(&frame.pose))),
+            ("fov", fov_y_or_default(frame).to_degrees().into()),
+            ("aspect", aspect.into()),
+        ])
+    };
+    let keyframes = keys.iter().enumerate().map(|(idx, key)| {
+        // The time that the viewer takes to get here from the key before.
+        let before = idx.checked_sub(1).and_then(|idx| keys.get(idx));
+        let transition_secs = before.map_or(0.0, |before| key.time_secs - before.time_secs);
+        let Json::Object(mut fields) = camera(key, "matrix") else { return Json::NULL() };
+        fields.push(("override_transition_enabled".into(), true.into()));
+        fields.push(("override_transition_sec".into(), transition_secs.into()));
+        Json::Object(fields)
+    });
+    object([
+        ("default_fov", default_fov_deg.into()),
+        ("default_transition_sec", (seconds / (keys.len() as f64 - 1.0).max(1.0)).into()),
+        ("camera_type", "perspective".into()),
+        ("render_height", height.into()),
+        ("render_width", width.into()),
+        // A path without length still needs a rate: frames over seconds.
+        ("fps", if seconds > 0.0 { num_frames / seconds } else { track.fps.unwrap_or(DEFAULT_FPS) }.into()),
+        ("seconds", if seconds > 0.0 { seconds } else { num_frames / track.fps.unwrap_or(DEFAULT_FPS) }.into()),
+        ("is_cycle", false.into()),
+        ("smoothness_value", 0.0.into()),
+        ("keyframes", Json::list(keyframes)),
+        ("camera_path", Json::list(track.frames.iter().map(|frame| camera(frame, "camera_to_world")))),
+        ("crop", Json::NULL()),
+    ])
+    .pretty()
+}
+
+pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
+    let value = json_read::parse(text)?;
+    let root = Node::root(&value);
+    let pixels = |name: &str| root.optional(name).map(|node| node.pixels()).transpose();
+    let size_px = pixels("render_width")?.zip(pixels("render_height")?);
+    let path = root.optional("camera_path").map(|node| node.items()).transpose()?.unwrap_or_default();
+    let keys = root.optional("keyframes").map(|node| node.items()).transpose()?.unwrap_or_default();
+    let keys = read_keys(&keys, &root)?;
+    let seconds = root.optional("seconds").map(|node| node.number()).transpose()?.filter(|secs| *secs > 0.0);
+    let fps = root.optional("fps").map(|node| node.number()).transpose()?.filter(|fps| *fps > 0.0);
+    let fps = seconds.map(|secs| path.len() as f64 / secs).or(fps);
+    let mut frames = Vec::with_capacity(path.len());
+    for (idx, node) in path.iter().enumerate() {
+        frames.push(read_camera(node, "camera_to_world", idx as f64 / fps.unwrap_or(DEFAULT_FPS))?);
+    }
+    // A path that only repeats its keys was written as keys: their transitions tell the times.
+    if frames.is_empty() || (frames.len() == keys.len() && frames.iter().zip(&keys).all(|(a, b)| a.pose == b.pose)) {
+        return Ok(PoseTrack { size_px, fps, timed: true, ..PoseTrack::untimed(keys) });
+    }
+    Ok(PoseTrack { size_px, fps: fps.or(Some(DEFAULT_FPS)), timed: fps.is_some(), keys, ..PoseTrack::untimed(frames) })
+}
+
+/// Keyframes, their times summed up from the transitions.
+fn read_keys(nodes: &[Node], root: &Node) -> Result<Vec<PoseFrame>, ExportError> {
+    let default_secs = root.optional("default_transition_sec").map_or(Ok(0.5), |node| node.number())?;
+    let mut time_secs = 0.0;
+    let mut keys = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        let own = node.optional("override_transition_enabled").is_some_and(|on| on.flag().unwrap_or(false));
+        let own_secs =
+            node.optional("override_transition_sec").filter(|_| own).map(|secs| secs.number()).transpose()?;
+        time_secs += if keys.is_empty() { 0.0 } else { own_secs.unwrap_or(default_secs) };
+        keys.push(read_camera(node, "matrix", time_secs)?);
+    }
+    Ok(keys)
+}
+
+fn read_camera(node: &Node, matrix_name: &str, time_secs: f64) -> Result<PoseFrame, ExportError> {
+    let matrix_node = node.field(matrix_name, "16 numbers, row by row")?;
+    let matrix = match matrix_node.text() {
+        Ok(text) => matrix_in_text(text).ok_or_else(|| matrix_node.error("16 numbers"))?,
+        Err(_) => matrix_node.matrix()?,
+    };
+    let pose = from_opengl(matrix).map_err(|error| matrix_node.error(format!("a rigid pose ({error})")))?;
+    let fov_deg = node.optional("fov").map(|fov| fov.number()).transpose()?;
+    Ok(PoseFrame { fov_y_rad: fov_deg.map(f64::to_radians), ..PoseFrame::new(time_secs, pose) })
+}
+
+/// The Blender add-on writes keyframe matrices as a string that holds a list, column by column.
+fn matrix_in_text(text: &str) -> Option<DMat4> {
+    let numbers = text.trim().trim_start_matches('[').trim_end_matches(']').split(',');
+    let columns: Vec<f64> = numbers.map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
+    let columns: [f64; 16] = columns.try_into().ok()?;
+    matrix_from_rows(&DMat4::from_cols_array(&columns).transpose().to_cols_array())
+}

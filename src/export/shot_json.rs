@@ -1,0 +1,261 @@
+//! `shot.json`, version 1: the project's own file, made to be edited by hand.
+//!
+//! Enters: JSON text or a [`Shot`]. Leaves: a validated [`Shot`] or JSON text. Positions and rotations are
+//! `world_from_camera` in the scene's world; angles in degrees under keys that say so. Readers ignore keys they do not
+//! know and refuse another `format` or `version`.
+
+use glam::DQuat;
+
+use super::ExportError;
+use super::json_read::{self, Node};
+use super::json_write::{Json, object};
+use crate::geometry::{LevelAngles, LevelFrame, Pose};
+use crate::trajectory::{Easing, Move, ShotAngle, ShotSize};
+use crate::trajectory::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
+
+/// Value of the `format` key.
+pub(super) const FORMAT: &str = "cinesplat.shot";
+const VERSION: u32 = 1;
+
+/// The shot in a `shot.json`.
+///
+/// Required: `format`, `version`, `width`, `height`, `fps`, `duration_secs`, `keyframes`, and of a keyframe `time_secs`,
+/// `position`, `rotation_xyzw`, `fov_y_deg`. `euler_deg` is not looked at: the quaternion decides.
+///
+/// # Errors
+/// [`ExportError::NotJson`], [`ExportError::WrongFormat`], [`ExportError::WrongVersion`]; [`ExportError::BadField`] and
+/// [`ExportError::BadShot`] name the keyframe and the field.
+pub fn read(text: &str) -> Result<Shot, ExportError> {
+    let value = json_read::parse(text)?;
+    let root = Node::root(&value);
+    check_header(&root)?;
+    let shot = Shot {
+        scene: root.optional("scene").map_or_else(|| Ok(SceneRef::default()), |node| read_scene(&node))?,
+        prompt: text_or_empty(&root, "prompt")?,
+        seed: root.optional("seed").map_or(Ok(0), |node| node.whole(u64::MAX))?,
+        model: root.optional("model").map(|node| read_model(&node)).transpose()?,
+        width: root.field("width", "a number of pixels")?.pixels()?,
+        height: root.field("height", "a number of pixels")?.pixels()?,
+        fps: root.field("fps", "frames a second")?.number()?,
+        duration_secs: root.field("duration_secs", "seconds")?.number()?,
+        keyframes: list_of(&root.field("keyframes", "a list of keyframes")?, read_keyframe)?,
+        effects: root.optional("effects").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_effect))?,
+        report: root.optional("report").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_report_line))?,
+    };
+    let mut shot = shot.validated()?;
+    for key in &mut shot.keyframes {
+        // A quaternion typed by hand with a few digits is off unit length; one that we wrote keeps its bits.
+        if (key.pose.rotation.length() - 1.0).abs() > 1e-12 {
+            key.pose.rotation = key.pose.rotation.normalize();
+        }
+    }
+    Ok(shot)
+}
+
+fn check_header(root: &Node) -> Result<(), ExportError> {
+    let format = root.field("format", "\"cinesplat.shot\"")?.text()?;
+    if format != FORMAT {
+        let expected = format!("\"{FORMAT}\"");
+        return Err(ExportError::WrongFormat { found: format!("format \"{}\"", json_read::quoted(format)), expected });
+    }
+    let version = root.field("version", "1")?.number()?;
+    if !version.total_cmp(&f64::from(VERSION)).is_eq() {
+        return Err(ExportError::WrongVersion { format: FORMAT, found: version.to_string(), expected: "1" });
+    }
+    Ok(())
+}
+
+fn list_of<'a, T>(
+    node: &Node<'a>,
+    read_item: impl Fn(&Node<'a>) -> Result<T, ExportError>,
+) -> Result<Vec<T>, ExportError> {
+    node.items()?.iter().map(read_item).collect()
+}
+
+fn text_or_empty(node: &Node, name: &str) -> Result<String, ExportError> {
+    node.optional(name).map_or(Ok(String::new()), |text| text.text().map(str::to_owned))
+}
+
+fn read_scene(node: &Node) -> Result<SceneRef, ExportError> {
+    let up = node.optional("up").map(|up| {
+        let unit = up.vector()?.try_normalize();
+        unit.ok_or_else(|| up.error("three numbers, not all 0"))
+    });
+    Ok(SceneRef { path: text_or_empty(node, "path")?, sha256: text_or_empty(node, "sha256")?, up: up.transpose()? })
+}
+
+fn read_model(node: &Node) -> Result<ModelRef, ExportError> {
+    Ok(ModelRef { name: text_or_empty(node, "name")?, sha256: text_or_empty(node, "sha256")? })
+}
+
+fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
+    let rotation = DQuat::from_array(node.field("rotation_xyzw", "4 finite numbers")?.numbers()?);
+    let position = node.field("position", "3 finite numbers")?.vector()?;
+    Ok(Keyframe {
+        time_secs: node.field("time_secs", "seconds")?.number()?,
+        pose: Pose { position, rotation },
+        fov_y_rad: node.field("fov_y_deg", "degrees")?.number()?.to_radians(),
+        focus_distance: node.optional("focus_distance").map(|d| d.number()).transpose()?,
+        easing: named(node, "easing", Easing::ALL, Easing::name)?.unwrap_or(Easing::Smooth),
+        cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
+        intent: node.optional("intent").map(|intent| read_intent(&intent)).transpose()?,
+    })
+}
+
+/// The choice that a field names, `None` when the field is absent.
+fn named<T: Copy>(
+    node: &Node,
+    field: &str,
+    choices: &[T],
+    name: impl Fn(T) -> &'static str,
+) -> Result<Option<T>, ExportError> {
+    let Some(node) = node.optional(field) else { return Ok(None) };
+    let text = node.text()?;
+    let found = choices.iter().copied().find(|choice| name(*choice) == text);
+    let names = || choices.iter().map(|choice| name(*choice)).collect::<Vec<_>>().join(", ");
+    found.map(Some).ok_or_else(|| node.error(format!("one of {}", names())))
+}
+
+fn read_intent(node: &Node) -> Result<Intent, ExportError> {
+    let subjects = node.optional("subjects").map_or_else(|| Ok(Vec::new()), |list| list_of(&list, Node::pixels))?;
+    let words = node.optional("words").map(|words| -> Result<[usize; 2], ExportError> {
+        let range = list_of(&words, |end| end.whole(u64::from(u32::MAX)))?;
+        match range[..] {
+            [from, to] if from <= to => Ok([from as usize, to as usize]),
+            _ => Err(words.error("[first, end] byte offsets into the prompt")),
+        }
+    });
+    Ok(Intent {
+        subjects,
+        size: named(node, "size", ShotSize::ALL, ShotSize::name)?,
+        movement: named(node, "move", Move::ALL, Move::name)?,
+        angle: named(node, "angle", ShotAngle::ALL, ShotAngle::name)?,
+        words: words.transpose()?,
+        pivot: node.optional("pivot").map(|pivot| pivot.vector()).transpose()?,
+    })
+}
+
+fn read_effect(node: &Node) -> Result<EffectRequest, ExportError> {
+    let is_setting = |name: &str| name != "kind" && name != "because";
+    let numbers = node.fields().into_iter().filter(|(name, _)| is_setting(name));
+    let settings = numbers.filter_map(|(name, value)| value.number().ok().map(|v| (name.to_owned(), v))).collect();
+    let kind = node.field("kind", "the name of an effect")?.text()?.to_owned();
+    Ok(EffectRequest { kind, because: text_or_empty(node, "because")?, settings })
+}
+
+fn read_report_line(node: &Node) -> Result<ReportLine, ExportError> {
+    Ok(ReportLine {
+        clause: text_or_empty(node, "clause")?,
+        wanted: text_or_empty(node, "wanted")?,
+        // Written as null where nothing could be measured.
+        got: node.optional("got").map_or(Ok(f64::NAN), |got| got.number())?,
+        met: node.optional("met").map_or(Ok(false), |met| met.flag())?,
+        note: text_or_empty(node, "note")?,
+    })
+}
+
+/// The text of a `shot.json`; ends with a line feed.
+///
+/// Numbers read back to the same bits, angles to within rounding of degrees. `euler_deg` is written where the scene's up
+/// is known; its yaw lies in -180..180.
+pub fn write(shot: &Shot) -> String {
+    let eulers = euler_angles(shot);
+    let keyframes = shot.keyframes.iter().zip(eulers).map(|(key, euler)| keyframe_json(key, euler));
+    let mut fields = vec![
+        ("format", FORMAT.into()),
+        ("version", VERSION.into()),
+        ("scene", scene_json(&shot.scene)),
+        ("prompt", shot.prompt.as_str().into()),
+        ("seed", shot.seed.into()),
+    ];
+    if let Some(model) = &shot.model {
+        fields
+            .push(("model", object([("name", model.name.as_str().into()), ("sha256", model.sha256.as_str().into())])));
+    }
+    fields.extend([
+        ("width", shot.width.into()),
+        ("height", shot.height.into()),
+        ("fps", shot.fps.into()),
+        ("duration_secs", shot.duration_secs.into()),
+        ("keyframes", Json::list(keyframes)),
+        ("effects", Json::list(shot.effects.iter().map(effect_json))),
+        ("report", Json::list(shot.report.iter().map(report_json))),
+    ]);
+    Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()).pretty()
+}
+
+/// Yaw (0 at the first key), pitch and roll of every key; `None` for all without an up.
+fn euler_angles(shot: &Shot) -> Vec<Option<LevelAngles>> {
+    let level = shot.scene.up.and_then(|up| LevelFrame::new(up).ok());
+    let Some(level) = level else { return vec![None; shot.keyframes.len()] };
+    level_angles(&level, shot.keyframes.iter().map(|key| key.pose.rotation)).into_iter().map(Some).collect()
+}
+
+/// Angles of rotations in a level frame, yaw counted from the first of them and brought to -pi..pi.
+pub(crate) fn level_angles(level: &LevelFrame, rotations: impl Iterator<Item = DQuat>) -> Vec<LevelAngles> {
+    let mut angles: Vec<LevelAngles> = rotations.map(|rotation| level.angles(rotation)).collect();
+    let start = angles.first().map_or(0.0, |first| first.yaw_rad);
+    for angle in &mut angles {
+        let (sin, cos) = (angle.yaw_rad - start).sin_cos();
+        angle.yaw_rad = sin.atan2(cos);
+    }
+    angles
+}
+
+fn scene_json(scene: &SceneRef) -> Json {
+    let up = scene.up.map(Json::from);
+    object([("path", scene.path.as_str().into()), ("sha256", scene.sha256.as_str().into()), ("up", up.into())])
+}
+
+fn keyframe_json(key: &Keyframe, euler: Option<LevelAngles>) -> Json {
+    let mut fields = vec![
+        ("time_secs", key.time_secs.into()),
+        ("position", key.pose.position.into()),
+        ("rotation_xyzw", key.pose.rotation.into()),
+    ];
+    if let Some(angles) = euler {
+        let degrees = |rad: f64| Json::from((rad.to_degrees() * 1e4).round() / 1e4 + 0.0);
+        let euler = [("yaw", angles.yaw_rad), ("pitch", angles.pitch_rad), ("roll", angles.roll_rad)];
+        fields.push(("euler_deg", object(euler.map(|(name, rad)| (name, degrees(rad))))));
+    }
+    fields.extend([
+        ("fov_y_deg", key.fov_y_rad.to_degrees().into()),
+        ("focus_distance", key.focus_distance.into()),
+        ("easing", key.easing.name().into()),
+        ("cut", key.cut.into()),
+    ]);
+    if let Some(intent) = &key.intent {
+        fields.push(("intent", intent_json(intent)));
+    }
+    Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+}
+
+fn intent_json(intent: &Intent) -> Json {
+    let mut fields = vec![("subjects".to_owned(), Json::list(intent.subjects.iter().copied()))];
+    let names = [
+        ("size", intent.size.map(ShotSize::name)),
+        ("move", intent.movement.map(Move::name)),
+        ("angle", intent.angle.map(ShotAngle::name)),
+    ];
+    fields.extend(names.into_iter().filter_map(|(field, name)| Some((field.to_owned(), name?.into()))));
+    fields.extend(intent.words.map(|words| ("words".to_owned(), Json::list(words))));
+    fields.extend(intent.pivot.map(|pivot| ("pivot".to_owned(), pivot.into())));
+    Json::Object(fields)
+}
+
+fn effect_json(effect: &EffectRequest) -> Json {
+    let mut fields = vec![("kind".to_owned(), effect.kind.as_str().into())];
+    fields.extend(effect.settings.iter().map(|(name, value)| (name.clone(), (*value).into())));
+    fields.push(("because".to_owned(), effect.because.as_str().into()));
+    Json::Object(fields)
+}
+
+fn report_json(line: &ReportLine) -> Json {
+    object([
+        ("clause", line.clause.as_str().into()),
+        ("wanted", line.wanted.as_str().into()),
+        ("got", line.got.into()),
+        ("met", line.met.into()),
+        ("note", line.note.as_str().into()),
+    ])
+}

@@ -1,0 +1,203 @@
+//! SuperSplat viewer settings, version 2, and the camera poses inside a SuperSplat project (`.ssproj`).
+//!
+//! Their world is the PLY's turned by half a turn about z, +y up; poses are position, target and a field of view along
+//! the larger side of the image, in degrees: there is no roll. Times in the file count frames.
+
+use std::io::Read as _;
+
+use glam::DVec3;
+
+use super::ExportError;
+use super::json_read::{self, Node};
+use super::json_write::{Json, object};
+use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
+use crate::geometry::Pose;
+use crate::trajectory::Easing;
+
+/// Cap on the size of the document inside a project.
+const MAX_DOCUMENT_BYTES: u64 = 64 << 20;
+
+/// Their world from the scene file's, and back: half a turn about z.
+fn turned(point: DVec3) -> DVec3 {
+    DVec3::new(-point.x, -point.y, point.z)
+}
+
+/// The field of view along the larger image side from the vertical one, rad.
+fn larger_fov(fov_y_rad: f64, aspect: f64) -> f64 {
+    2.0 * ((fov_y_rad / 2.0).tan() * aspect.max(1.0)).atan()
+}
+
+fn vertical_fov(larger_fov_rad: f64, aspect: f64) -> f64 {
+    2.0 * ((larger_fov_rad / 2.0).tan() / aspect.max(1.0)).atan()
+}
+
+pub(super) fn write(track: &PoseTrack) -> String {
+    let fps = track.fps.unwrap_or(DEFAULT_FPS);
+    let aspect = track.aspect();
+    let reach = reach(track);
+    let target = |frame: &PoseFrame| frame.pose.position + frame.pose.forward() * frame.focus_distance.unwrap_or(reach);
+    let flat = |point: fn(&PoseFrame) -> DVec3| track.frames.iter().flat_map(move |f| turned(point(f)).to_array());
+    let targets = track.frames.iter().flat_map(|frame| turned(target(frame)).to_array());
+    let fov_deg = |frame: &PoseFrame| larger_fov(fov_y_or_default(frame), aspect).to_degrees();
+    let keyframes = object([
+        ("times", Json::list(track.since_start().map(|(secs, _)| secs * fps))),
+        (
+            "values",
+            object([
+                ("position", Json::list(flat(|frame| frame.pose.position))),
+                ("target", Json::list(targets)),
+                ("fov", Json::list(track.frames.iter().map(fov_deg))),
+            ]),
+        ),
+    ]);
+    let animation = object([
+        ("name", "cinesplat".into()),
+        ("duration", track.duration_secs().into()),
+        ("frameRate", fps.into()),
+        ("loopMode", "none".into()),
+        ("interpolation", "spline".into()),
+        ("smoothness", 1.0.into()),
+        ("keyframes", keyframes),
+    ]);
+    let initial = track.frames.first().map(|frame| {
+        let pose = object([
+            ("position", turned(frame.pose.position).into()),
+            ("target", turned(target(frame)).into()),
+            ("fov", fov_deg(frame).into()),
+        ]);
+        object([("initial", pose)])
+    });
+    object([
+        ("version", 2_u32.into()),
+        ("tonemapping", "none".into()),
+        ("highPrecisionRendering", false.into()),
+        ("background", object([("color", Json::list([0.0, 0.0, 0.0]))])),
+        ("postEffectSettings", effects_off()),
+        ("animTracks", Json::list([animation])),
+        ("cameras", Json::list(initial)),
+        ("annotations", Json::List(Vec::new())),
+        ("startMode", "animTrack".into()),
+    ])
+    .pretty()
+}
+
+/// Every post effect that the schema asks for, switched off.
+fn effects_off() -> Json {
+    let off = |numbers: &[(&str, f64)]| {
+        let mut fields = vec![("enabled".to_owned(), false.into())];
+        fields.extend(numbers.iter().map(|(name, value)| ((*name).to_owned(), (*value).into())));
+        Json::Object(fields)
+    };
+    let Json::Object(mut grading) = off(&[("brightness", 1.0), ("contrast", 1.0), ("saturation", 1.0)]) else {
+        return Json::NULL();
+    };
+    grading.push(("tint".to_owned(), Json::list([1.0, 1.0, 1.0])));
+    object([
+        ("sharpness", off(&[("amount", 0.0)])),
+        ("bloom", off(&[("intensity", 0.0), ("blurLevel", 2.0)])),
+        ("grading", Json::Object(grading)),
+        ("vignette", off(&[("intensity", 0.0), ("inner", 0.0), ("outer", 0.0), ("curvature", 1.0)])),
+        ("fringing", off(&[("intensity", 0.0)])),
+    ])
+}
+
+/// How far ahead targets lie where there is no focus distance: the extent of the path, or 1 for a path without.
+fn reach(track: &PoseTrack) -> f64 {
+    let positions = track.frames.iter().map(|frame| frame.pose.position);
+    let (low, high) =
+        positions.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+    let extent = (high - low).length();
+    if extent > 1e-6 && extent.is_finite() { extent } else { 1.0 }
+}
+
+/// The track of viewer settings, or of a project's document.
+pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
+    let value = json_read::parse(text)?;
+    let root = Node::root(&value);
+    if root.optional("poseSets").is_some() {
+        return read_document(&root);
+    }
+    let version = root.field("version", "2")?.number()?;
+    if !version.total_cmp(&2.0).is_eq() {
+        return Err(ExportError::WrongVersion { format: "supersplat", found: version.to_string(), expected: "2" });
+    }
+    let tracks = root.field("animTracks", "a list of camera animations")?.items()?;
+    let animation = tracks.first().ok_or(ExportError::NoPoses)?;
+    let fps = frame_rate(animation.optional("frameRate"))?;
+    let keyframes = animation.field("keyframes", "times and values")?;
+    let values = keyframes.field("values", "position, target and fov")?;
+    let times = keyframes.field("times", "a list of frames")?.number_list()?;
+    let list = |name: &str, width: usize| {
+        let node = values.field(name, "a list of numbers")?;
+        let list = node.number_list()?;
+        if list.len() == times.len() * width { Ok(list) } else { Err(node.error(format!("{width} numbers a key"))) }
+    };
+    let (positions, targets, fovs) = (list("position", 3)?, list("target", 3)?, list("fov", 1)?);
+    let mut frames = Vec::with_capacity(times.len());
+    let points = positions.chunks_exact(3).zip(targets.chunks_exact(3));
+    for (((time, fov_deg), (p, t)), idx) in times.iter().zip(&fovs).zip(points).zip(0..) {
+        let (position, target) = (DVec3::new(p[0], p[1], p[2]), DVec3::new(t[0], t[1], t[2]));
+        let place = || format!("animTracks[0].keyframes, key {idx}");
+        frames.push(frame(time / fps, position, target, *fov_deg).ok_or_else(|| no_direction(place()))?);
+    }
+    Ok(finished(frames, fps))
+}
+
+/// The poses of a project's document.
+fn read_document(root: &Node) -> Result<PoseTrack, ExportError> {
+    let sets = root.field("poseSets", "a list of pose sets")?.items()?;
+    let poses = sets.first().ok_or(ExportError::NoPoses)?.field("poses", "a list of poses")?.items()?;
+    let timeline = root.optional("timeline");
+    let fps = frame_rate(timeline.and_then(|timeline| timeline.optional("frameRate")))?;
+    let default_fov = root.optional("camera").and_then(|camera| camera.optional("fov"));
+    let default_fov_deg = default_fov.map_or(Ok(60.0), |fov| fov.number())?;
+    let mut frames = Vec::with_capacity(poses.len());
+    for pose in &poses {
+        let time_secs = pose.field("frame", "a frame number")?.number()? / fps;
+        let (position, target) =
+            (pose.field("position", "3 numbers")?.vector()?, pose.field("target", "3 numbers")?.vector()?);
+        let fov_deg = pose.optional("fov").map_or(Ok(default_fov_deg), |fov| fov.number())?;
+        frames
+            .push(frame(time_secs, position, target, fov_deg).ok_or_else(|| pose.error("position and target apart"))?);
+    }
+    frames.sort_by(|a, b| a.time_secs.total_cmp(&b.time_secs));
+    Ok(finished(frames, fps))
+}
+
+fn frame_rate(node: Option<Node>) -> Result<f64, ExportError> {
+    let Some(node) = node else { return Ok(DEFAULT_FPS) };
+    let fps = node.number()?;
+    if fps > 0.0 { Ok(fps) } else { Err(node.error("frames a second above 0")) }
+}
+
+fn no_direction(place: String) -> ExportError {
+    ExportError::BadField { place, found: "position = target".into(), expected: "the two apart".into() }
+}
+
+/// A frame from their world; the image is taken to have the default size, since the file holds none.
+fn frame(time_secs: f64, position: DVec3, target: DVec3, fov_deg: f64) -> Option<PoseFrame> {
+    let pose = Pose::look_at(turned(position), turned(target), DVec3::NEG_Y, None).ok()?;
+    let aspect = f64::from(DEFAULT_SIZE_PX.0) / f64::from(DEFAULT_SIZE_PX.1);
+    let fov_y_rad = Some(vertical_fov(fov_deg.to_radians(), aspect));
+    Some(PoseFrame { fov_y_rad, easing: Easing::Linear, ..PoseFrame::new(time_secs, pose) })
+}
+
+fn finished(frames: Vec<PoseFrame>, fps: f64) -> PoseTrack {
+    PoseTrack { fps: Some(fps), up: Some(DVec3::NEG_Y), timed: true, ..PoseTrack::untimed(frames) }
+}
+
+/// The document inside a project file.
+pub(super) fn document_in_project(bytes: &[u8]) -> Result<String, ExportError> {
+    let unreadable = |reason: String| ExportError::NotReadable { format: "supersplat", reason };
+    let mut archive =
+        zip::ZipArchive::new(std::io::Cursor::new(bytes)).map_err(|error| unreadable(error.to_string()))?;
+    let document = archive.by_name("document.json");
+    let document = document.map_err(|_| unreadable("the project holds no document.json".into()))?;
+    let mut text = String::new();
+    let read = document.take(MAX_DOCUMENT_BYTES + 1).read_to_string(&mut text);
+    read.map_err(|error| unreadable(error.to_string()))?;
+    if text.len() as u64 > MAX_DOCUMENT_BYTES {
+        return Err(unreadable(format!("document.json has over {MAX_DOCUMENT_BYTES} bytes")));
+    }
+    Ok(text)
+}

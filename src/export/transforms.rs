@@ -1,0 +1,98 @@
+//! `transforms.json` of NeRF, instant-ngp and nerfstudio: images with poses and intrinsics.
+//!
+//! `transform_matrix` is `world_from_camera` with OpenGL camera axes; `fl_x fl_y cx cy w h` in pixels stand at the top or
+//! in each frame, or `camera_angle_x` (rad) gives the focal length. There are no times: `time_secs` of a frame and `fps`
+//! are additions of this program that other readers ignore.
+
+use glam::DMat3;
+
+use super::ExportError;
+use super::json_read::{self, Node};
+use super::json_write::{Json, matrix_rows, object};
+use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
+use crate::geometry::frames::{from_opengl, to_opengl};
+
+pub(super) fn write(track: &PoseTrack) -> String {
+    let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
+    let frames = track.frames.iter().enumerate().map(|(idx, frame)| {
+        let focal_px = f64::from(height) / 2.0 / (fov_y_or_default(frame) / 2.0).tan();
+        object([
+            ("file_path", format!("images/{idx:05}.png").as_str().into()),
+            ("fl_x", focal_px.into()),
+            ("fl_y", focal_px.into()),
+            ("cx", (f64::from(width) / 2.0).into()),
+            ("cy", (f64::from(height) / 2.0).into()),
+            ("w", width.into()),
+            ("h", height.into()),
+            ("time_secs", frame.time_secs.into()),
+            ("transform_matrix", matrix_rows(to_opengl(&frame.pose))),
+        ])
+    });
+    let fps = track.fps.unwrap_or(DEFAULT_FPS);
+    object([("camera_model", "OPENCV".into()), ("fps", fps.into()), ("frames", Json::list(frames))]).pretty()
+}
+
+pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
+    let value = json_read::parse(text)?;
+    let root = Node::root(&value);
+    let nodes = root.field("frames", "a list of frames")?.items()?;
+    let fps = root.optional("fps").map(|node| node.number()).transpose()?.filter(|fps| *fps > 0.0);
+    let mut frames = Vec::with_capacity(nodes.len());
+    let mut timed = !nodes.is_empty();
+    let mut size_px = None;
+    for (idx, node) in nodes.iter().enumerate() {
+        let time_secs = node.optional("time_secs").map(|time| time.number()).transpose()?;
+        timed &= time_secs.is_some();
+        let matrix_node = node.field("transform_matrix", "a 4 x 4 matrix, row-major")?;
+        let matrix = matrix_node.matrix()?;
+        let pose = from_opengl(matrix).map_err(|error| matrix_node.error(format!("a rigid pose ({error})")))?;
+        let lens = Lens::read(node, &root)?;
+        size_px = size_px.or(lens.size_px());
+        let opencv_axes = DMat3::from_mat4(matrix) * DMat3::from_diagonal(glam::DVec3::new(1.0, -1.0, -1.0));
+        frames.push(PoseFrame {
+            fov_y_rad: lens.fov_y_rad(),
+            matrix: Some(opencv_axes),
+            ..PoseFrame::new(time_secs.unwrap_or(idx as f64 / fps.unwrap_or(DEFAULT_FPS)), pose)
+        });
+    }
+    let fps = fps.or(Some(DEFAULT_FPS));
+    Ok(PoseTrack { size_px, fps, timed, ..PoseTrack::untimed(frames) })
+}
+
+/// What a frame says about its image, by itself or for all frames at the top.
+struct Lens {
+    width: Option<f64>,
+    height: Option<f64>,
+    fl_x: Option<f64>,
+    fl_y: Option<f64>,
+    angle_x: Option<f64>,
+    angle_y: Option<f64>,
+}
+
+impl Lens {
+    fn read(frame: &Node, root: &Node) -> Result<Self, ExportError> {
+        let get = |name: &str| -> Result<Option<f64>, ExportError> {
+            let node = frame.optional(name).or_else(|| root.optional(name));
+            Ok(node.map(|node| node.number()).transpose()?.filter(|v| *v > 0.0))
+        };
+        Ok(Self {
+            width: get("w")?,
+            height: get("h")?,
+            fl_x: get("fl_x")?,
+            fl_y: get("fl_y")?,
+            angle_x: get("camera_angle_x")?,
+            angle_y: get("camera_angle_y")?,
+        })
+    }
+
+    fn size_px(&self) -> Option<(u32, u32)> {
+        self.width.zip(self.height).map(|(width, height)| (width as u32, height as u32))
+    }
+
+    fn fov_y_rad(&self) -> Option<f64> {
+        let from_x = || self.width.zip(self.angle_x).map(|(width, angle)| width / 2.0 / (angle / 2.0).tan());
+        let focal_px = self.fl_y.or(self.fl_x).or_else(from_x);
+        let from_focal = self.height.zip(focal_px).map(|(height, focal)| 2.0 * (height / 2.0 / focal).atan());
+        from_focal.or(self.angle_y)
+    }
+}

@@ -1,0 +1,177 @@
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
+
+use super::super::ExportError;
+use super::super::opengl::{from_opengl_rotation, y_up_from_world};
+use super::super::track::{PoseFrame, PoseTrack};
+use super::HOLD_CODES;
+use super::parse::{Prim, Value, parse};
+use crate::geometry::rotation;
+
+/// USD's defaults where a camera says nothing, tenths of a unit.
+const DEFAULT_FOCAL: f64 = 50.0;
+const DEFAULT_FILM_HEIGHT: f64 = 15.2908;
+const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
+
+pub(in crate::export) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
+    let not_readable = |reason: &str| ExportError::NotReadable { format: "usd", reason: reason.to_owned() };
+    if !bytes.starts_with(b"#usda") {
+        return Err(not_readable("only the text form .usda is read: convert with usdcat"));
+    }
+    let text = std::str::from_utf8(bytes).map_err(|_| not_readable("the text is not UTF-8"))?;
+    let layer = parse(text)?;
+    let mut above = Vec::new();
+    let camera = find_camera(&layer, &mut above).ok_or(ExportError::NoPoses)?;
+    let meta = |name: &str| layer.meta(name).and_then(Value::number).filter(|v| *v > 0.0);
+    let fps = meta("timeCodesPerSecond").or(meta("framesPerSecond")).unwrap_or(DEFAULT_CODES_PER_SECOND);
+    let up = layer.meta("customLayerData").and_then(|data| data.get("cinesplat_world_up")?.numbers()?.try_into().ok());
+    let up = up.map(DVec3::from_array).and_then(DVec3::try_normalize);
+    let stage_up = if layer.meta("upAxis") == Some(&Value::Text("Z".into())) { DVec3::Z } else { DVec3::Y };
+    let world_from_stage = y_up_from_world(up).conjugate();
+    let frames = code_list(camera).into_iter().map(|code| {
+        let placed =
+            above.iter().chain([&camera]).try_fold(DAffine3::IDENTITY, |world, prim| Some(world * local(prim, code)?));
+        let placed = placed.ok_or_else(|| not_readable("a transform operation that is not known"))?;
+        frame(camera, code, fps, DAffine3::from_quat(world_from_stage) * placed)
+    });
+    let frames = drop_holds(frames.collect::<Result<Vec<_>, _>>()?, fps);
+    Ok(PoseTrack {
+        size_px: resolution(&layer),
+        fps: Some(fps),
+        up: up.or(Some(stage_up)),
+        timed: true,
+        ..PoseTrack::untimed(frames)
+    })
+}
+
+/// The first camera, depth first; `above` then holds the prims it stands under.
+fn find_camera<'a>(prim: &'a Prim, above: &mut Vec<&'a Prim>) -> Option<&'a Prim> {
+    for child in &prim.children {
+        if child.kind == "Camera" {
+            return Some(child);
+        }
+        above.push(child);
+        if let Some(camera) = find_camera(child, above) {
+            return Some(camera);
+        }
+        above.pop();
+    }
+    None
+}
+
+/// Every time code at which something of the camera has a sample; 0 without any.
+fn code_list(camera: &Prim) -> Vec<f64> {
+    let samples = camera.attributes.iter().filter(|(name, _)| name.ends_with(".timeSamples"));
+    let keys = samples.flat_map(|(_, value)| if let Value::Map(entries) = value { entries.as_slice() } else { &[] });
+    let mut codes: Vec<f64> =
+        keys.filter_map(|(key, _)| key.parse().ok()).filter(|code: &f64| code.is_finite()).collect();
+    codes.sort_by(f64::total_cmp);
+    codes.dedup();
+    if codes.is_empty() { vec![0.0] } else { codes }
+}
+
+/// An attribute's numbers at a time code: between samples in a straight line, quaternions along the shorter arc.
+fn numbers_at(prim: &Prim, name: &str, code: f64) -> Option<Vec<f64>> {
+    let Some(Value::Map(entries)) = prim.attribute(&format!("{name}.timeSamples")) else {
+        return prim.attribute(name)?.numbers();
+    };
+    let samples: Option<Vec<(f64, Vec<f64>)>> =
+        entries.iter().map(|(key, value)| Some((key.parse().ok()?, value.numbers()?))).collect();
+    let samples = samples?;
+    let after = samples.partition_point(|(key, _)| *key <= code);
+    let Some(before) = after.checked_sub(1) else { return samples.first().map(|(_, v)| v.clone()) };
+    let (from, a) = &samples[before];
+    let Some((to, b)) = samples.get(after).filter(|_| *from < code) else { return Some(a.clone()) };
+    let t = (code - from) / (to - from);
+    if name.contains(":orient") && a.len() == 4 && b.len() == 4 {
+        return Some(wxyz(rotation::slerp(quaternion(a)?, quaternion(b)?, t)));
+    }
+    Some(a.iter().zip(b).map(|(a, b)| a + (b - a) * t).collect())
+}
+
+fn quaternion(wxyz: &[f64]) -> Option<DQuat> {
+    let [w, x, y, z] = wxyz.try_into().ok()?;
+    Some(DQuat::from_xyzw(x, y, z, w)).filter(|q| q.length() > 1e-6).map(DQuat::normalize)
+}
+
+fn wxyz(rotation: DQuat) -> Vec<f64> {
+    vec![rotation.w, rotation.x, rotation.y, rotation.z]
+}
+
+/// A prim's transform into its parent at a time code; `None` for an operation that is not known.
+fn local(prim: &Prim, code: f64) -> Option<DAffine3> {
+    let Some(Value::List(order)) = prim.attribute("xformOpOrder") else { return Some(DAffine3::IDENTITY) };
+    order.iter().try_fold(DAffine3::IDENTITY, |placed, op| {
+        let Value::Text(name) = op else { return None };
+        Some(placed * operation(name, &numbers_at(prim, name, code)?)?)
+    })
+}
+
+fn operation(name: &str, v: &[f64]) -> Option<DAffine3> {
+    let kind = name.strip_prefix("xformOp:")?.split(':').next()?;
+    let vector = || v.try_into().ok().map(DVec3::from_array);
+    let about = |axis: char, degrees: f64| match axis {
+        'X' => DQuat::from_rotation_x(degrees.to_radians()),
+        'Y' => DQuat::from_rotation_y(degrees.to_radians()),
+        _ => DQuat::from_rotation_z(degrees.to_radians()),
+    };
+    match kind {
+        "translate" => Some(DAffine3::from_translation(vector()?)),
+        "scale" => Some(DAffine3::from_scale(vector()?)),
+        "orient" => Some(DAffine3::from_quat(quaternion(v)?)),
+        // Rows of the text are the columns here: USD multiplies row vectors from the left.
+        "transform" => v.try_into().ok().map(|m: [f64; 16]| DAffine3::from_mat4(DMat4::from_cols_array(&m))),
+        "rotateX" | "rotateY" | "rotateZ" => Some(DAffine3::from_quat(about(kind.chars().last()?, *v.first()?))),
+        _ if kind.len() == 9 && kind.starts_with("rotate") && v.len() == 3 => {
+            // rotateXYZ turns about x first: the last factor in a product of column vectors.
+            let turn = kind[6..].chars().fold(DQuat::IDENTITY, |turn, axis| {
+                let idx = "XYZ".find(axis).unwrap_or(2);
+                about(axis, v[idx]) * turn
+            });
+            Some(DAffine3::from_quat(turn))
+        }
+        _ => None,
+    }
+}
+
+fn frame(camera: &Prim, code: f64, fps: f64, placed: DAffine3) -> Result<PoseFrame, ExportError> {
+    // Scale above the camera changes where it stands, not how it sees.
+    let axes = placed.matrix3;
+    let unit = DMat3::from_cols(
+        axes.x_axis.normalize_or_zero(),
+        axes.y_axis.normalize_or_zero(),
+        axes.z_axis.normalize_or_zero(),
+    );
+    let turn = rotation::from_matrix(unit).map_err(|error| ExportError::BadField {
+        place: format!("the camera at time code {code}"),
+        found: error.to_string(),
+        expected: "a rigid pose".into(),
+    })?;
+    let number = |name: &str| numbers_at(camera, name, code).and_then(|v| v.first().copied()).filter(|v| *v > 0.0);
+    let focal = number("focalLength").unwrap_or(DEFAULT_FOCAL);
+    let film_height = number("verticalAperture").unwrap_or(DEFAULT_FILM_HEIGHT);
+    let pose = from_opengl_rotation(placed.translation, turn);
+    let fov_y_rad = Some(2.0 * (film_height / 2.0 / focal).atan());
+    Ok(PoseFrame { fov_y_rad, focus_distance: number("focusDistance"), ..PoseFrame::new(code / fps, pose) })
+}
+
+/// Frames without those that only hold a pose up to a cut, which is marked instead.
+fn drop_holds(frames: Vec<PoseFrame>, fps: f64) -> Vec<PoseFrame> {
+    let mut kept: Vec<PoseFrame> = Vec::with_capacity(frames.len());
+    for frame in frames {
+        let cut = kept.pop_if(|held| (frame.time_secs - held.time_secs) * fps < 2.0 * HOLD_CODES).is_some();
+        kept.push(PoseFrame { cut, ..frame });
+    }
+    kept
+}
+
+/// Image size of the first render settings.
+fn resolution(layer: &Prim) -> Option<(u32, u32)> {
+    fn settings(prim: &Prim) -> Option<&Prim> {
+        prim.children
+            .iter()
+            .find_map(|child| if child.kind == "RenderSettings" { Some(child) } else { settings(child) })
+    }
+    let [width, height] = settings(layer)?.attribute("resolution")?.numbers()?.try_into().ok()?;
+    let in_range = |v: f64| (1.0..=65536.0).contains(&v);
+    (in_range(width) && in_range(height)).then_some((width as u32, height as u32))
+}

@@ -1,0 +1,138 @@
+//! Boxes from Gaussians and Gaussians from boxes.
+//!
+//! Enters: labels or boxes. Leaves: the other of the two. Boxes stand upright: their y axis is the world's up.
+
+use std::collections::BTreeMap;
+
+use glam::{DMat3, DQuat, DVec2, DVec3};
+
+use super::{Object, ObjectSet};
+use crate::geometry::LevelFrame;
+use crate::scene::Gaussians;
+
+/// Opacity from which a Gaussian counts as solid.
+const SOLID_OPACITY: f32 = 0.5;
+
+/// Share of an object's solid Gaussians cut off at either end of each axis: floaters must not stretch a box.
+const TRIM_FRAC: f64 = 0.005;
+
+/// Steps of the search for the tightest yaw over 90 degrees: half a degree each.
+const NUM_YAWS: usize = 180;
+
+/// A level yaw is kept unless another makes the box's footprint smaller by more than this share, so that boxes of
+/// round things and noise do not turn at random.
+const YAW_GAIN: f64 = 0.04;
+
+/// An upright box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct UprightBox {
+    pub(crate) center: DVec3,
+    pub(crate) half_extents: DVec3,
+    pub(crate) rotation: DQuat,
+}
+
+/// Positions in file order of the Gaussians with an id.
+pub(crate) fn members(labels: &[u16], id: u32) -> Vec<usize> {
+    (0..labels.len()).filter(|&i| u32::from(labels[i]) == id).collect()
+}
+
+/// The upright box of some Gaussians: 0.5 % trimmed off each end of each axis (of the solid ones where there are
+/// any), the yaw with the smallest footprint. `None` without Gaussians.
+pub(crate) fn fit(gaussians: &Gaussians, members: &[usize], up: DVec3) -> Option<UprightBox> {
+    let solid: Vec<usize> = members.iter().copied().filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY).collect();
+    let chosen = if solid.len() * 10 >= members.len() { &solid } else { members };
+    let points: Vec<DVec3> = chosen.iter().map(|&i| gaussians.mean_world(i)).collect();
+    fit_points(&points, up)
+}
+
+/// As [`fit`], of points.
+pub(crate) fn fit_points(points: &[DVec3], up: DVec3) -> Option<UprightBox> {
+    let anchor = *points.first()?;
+    let axes = upright_axes(up);
+    let local: Vec<DVec3> = points.iter().map(|&p| axes.transpose() * (p - anchor)).collect();
+    let flat: Vec<DVec2> = local.iter().map(|p| DVec2::new(p.x, p.z)).collect();
+    let (yaw_rad, low, high) = tightest_yaw(&flat);
+    let (bottom, top) = trimmed(local.iter().map(|p| p.y).collect());
+    let turned = axes * DMat3::from_rotation_y(-yaw_rad);
+    let middle = (low + high) / 2.0;
+    let center = anchor + turned * DVec3::new(middle.x, f64::midpoint(bottom, top), middle.y);
+    let half_extents = DVec3::new(high.x - low.x, top - bottom, high.y - low.y) / 2.0;
+    Some(UprightBox { center, half_extents, rotation: DQuat::from_mat3(&turned).normalize() })
+}
+
+/// Right-handed axes whose y is up and whose x and z follow the world's axes as nearly as they can.
+pub(crate) fn upright_axes(up: DVec3) -> DMat3 {
+    let up = up.try_normalize().unwrap_or(DVec3::Y);
+    if up.dot(DVec3::Y).abs() > 0.5 {
+        return DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, up));
+    }
+    let level = LevelFrame::new(up).map_or(DVec3::X, |frame| frame.east);
+    DMat3::from_cols(level, up, level.cross(up))
+}
+
+/// The yaw (rad, 0..pi/2) at which the trimmed footprint is smallest, with its corners in the turned frame.
+fn tightest_yaw(flat: &[DVec2]) -> (f64, DVec2, DVec2) {
+    // A few thousand points tell the yaw; all of them give the extent.
+    let stride = flat.len().div_ceil(4096);
+    let sample: Vec<DVec2> = flat.iter().copied().step_by(stride.max(1)).collect();
+    let yaw_of = |step: usize| step as f64 * std::f64::consts::FRAC_PI_2 / NUM_YAWS as f64;
+    let area = |step: usize| {
+        let (low, high) = footprint(&sample, yaw_of(step));
+        (high - low).element_product()
+    };
+    let level = area(0);
+    let best = (0..NUM_YAWS).map(|step| (step, area(step))).min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, level));
+    let yaw_rad = if best.1 < level * (1.0 - YAW_GAIN) { yaw_of(best.0) } else { 0.0 };
+    let (low, high) = footprint(flat, yaw_rad);
+    (yaw_rad, low, high)
+}
+
+/// Trimmed extent of points after a turn by `-yaw_rad`.
+fn footprint(flat: &[DVec2], yaw_rad: f64) -> (DVec2, DVec2) {
+    let turn = DVec2::from_angle(-yaw_rad);
+    let turned: Vec<DVec2> = flat.iter().map(|p| turn.rotate(*p)).collect();
+    let x = trimmed(turned.iter().map(|p| p.x).collect());
+    let z = trimmed(turned.iter().map(|p| p.y).collect());
+    (DVec2::new(x.0, z.0), DVec2::new(x.1, z.1))
+}
+
+/// Smallest and largest value after trimming; 0 of none.
+fn trimmed(mut values: Vec<f64>) -> (f64, f64) {
+    let Some(last) = values.len().checked_sub(1) else { return (0.0, 0.0) };
+    let cut = (values.len() as f64 * TRIM_FRAC) as usize;
+    let low = *values.select_nth_unstable_by(cut, f64::total_cmp).1;
+    let high = *values.select_nth_unstable_by(last - cut, f64::total_cmp).1;
+    (low, high)
+}
+
+/// One id a Gaussian: that of the smallest box which holds the mean of a solid Gaussian, else 0.
+pub(crate) fn labels_from_boxes(gaussians: &Gaussians, objects: &[Object]) -> Vec<u16> {
+    let mut by_volume: Vec<&Object> = objects.iter().collect();
+    by_volume.sort_by(|a, b| a.half_extents.element_product().total_cmp(&b.half_extents.element_product()));
+    let label = |i: usize| {
+        let mean = gaussians.mean_world(i);
+        let holder = by_volume.iter().find(|object| object.contains(mean, 0.0));
+        holder.filter(|_| gaussians.opacities[i] >= SOLID_OPACITY).map_or(0, |object| object.id as u16)
+    };
+    (0..gaussians.len()).map(label).collect()
+}
+
+/// Sets every object's `num_gaussians` from the labels.
+pub(crate) fn count_members(set: &mut ObjectSet) {
+    let mut counts = vec![0_usize; usize::from(u16::MAX) + 1];
+    for &label in &set.labels {
+        counts[usize::from(label)] += 1;
+    }
+    for object in &mut set.objects {
+        object.num_gaussians = counts.get(object.id as usize).copied().unwrap_or(0);
+    }
+}
+
+/// Positions in file order of the Gaussians of every id above 0.
+pub(crate) fn members_by_id(labels: &[u16]) -> BTreeMap<u32, Vec<usize>> {
+    let mut members: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (i, &label) in labels.iter().enumerate().filter(|(_, label)| **label > 0) {
+        members.entry(u32::from(label)).or_default().push(i);
+    }
+    members
+}

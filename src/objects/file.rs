@@ -1,0 +1,339 @@
+//! objects.json, version 1, and its label array.
+//!
+//! Enters: a file by hand or by another tool, where an object needs only an `id` and a box or labels. Leaves: an
+//! [`ObjectSet`] in which every object has a box and, where the scene shows them, its Gaussians. Unknown keys are ignored.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use glam::{DQuat, DVec3};
+use serde_json::{Map, Value, json};
+
+use super::{Object, ObjectSet, ObjectsError, boxes, npy};
+use crate::scene::Scene;
+
+/// Value of the key `format`.
+const FORMAT: &str = "cinesplat.objects";
+
+/// The one version there is.
+const VERSION: u64 = 1;
+
+/// What an objects file says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObjectsFile {
+    /// The objects, every one with a box.
+    pub set: ObjectSet,
+    /// World up, unit, where the file gives it: it goes before the scene's own estimate.
+    pub up: Option<DVec3>,
+}
+
+/// Reads an objects file for a scene.
+///
+/// Labels decide membership where the file names some, else the ids that the scene file carries, else the boxes: then
+/// the solid Gaussians (opacity >= 0.5) whose mean lies in a turned box belong to it, to the smallest where boxes
+/// overlap. An object without a box gets one from its Gaussians; one with a box keeps it.
+///
+/// # Errors
+/// Any [`ObjectsError`] except `Picture`; each names the file, the entry and the field.
+pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
+    let io = |source| ObjectsError::Io { path: path.to_owned(), action: "reading", source };
+    let bytes = std::fs::read(path).map_err(io)?;
+    let root: Value = serde_json::from_slice(&bytes)
+        .map_err(|error| ObjectsError::NotJson { path: path.to_owned(), reason: error.to_string() })?;
+    let top = Entry { path, name: "file".to_owned(), fields: object_of(path, "file", &root)? };
+    check_kind(&top)?;
+    let up = top.vector("up")?.map(|up| top.unit("up", up)).transpose()?;
+    let entries = entries(&top)?;
+    check_ids(path, &entries)?;
+    let labels = match top.text("labels")? {
+        Some(name) => read_labels(&beside(path, name), scene)?,
+        None => scene.gaussians.ids.clone(),
+    };
+    let set = complete(&top, entries, labels, (scene, up.unwrap_or(scene.up)))?;
+    Ok(ObjectsFile { set, up })
+}
+
+/// Reads a label array of a scene: one id a Gaussian in file order, 0 = no object. Ids of Gaussians that were dropped on
+/// reading the scene are dropped too.
+///
+/// # Errors
+/// [`ObjectsError::Io`] or [`ObjectsError::BadLabels`] for another type or shape, or a count that is not the file's.
+pub fn read_labels(path: &Path, scene: &Scene) -> Result<Vec<u16>, ObjectsError> {
+    let io = |source| ObjectsError::Io { path: path.to_owned(), action: "reading", source };
+    let expected = format!("one u8, u16 or u32 id (at most 65535) for each of {} Gaussians", scene.num_in_file());
+    let bad = |found: String| ObjectsError::BadLabels { path: path.to_owned(), found, expected: expected.clone() };
+    let ids = npy::decode_ids(&std::fs::read(path).map_err(io)?).map_err(bad)?;
+    scene.kept(&ids).ok_or_else(|| bad(format!("{} ids", ids.len())))
+}
+
+/// The ids with a 0 for every Gaussian of the file that was dropped on reading.
+fn in_file_order(labels: &[u16], scene: &Scene) -> Vec<u16> {
+    let mut kept = labels.iter().copied();
+    let id = |file_idx: usize| {
+        let is_dropped = scene.dropped.binary_search(&(file_idx as u32)).is_ok();
+        if is_dropped { 0 } else { kept.next().unwrap_or(0) }
+    };
+    (0..scene.num_in_file()).map(id).collect()
+}
+
+/// Writes an objects file, and its labels beside it as `NAME.labels.npy` where there are some.
+///
+/// Each file is written under a temporary name first and renamed, so that a reader never sees half of one.
+///
+/// # Errors
+/// [`ObjectsError::Io`].
+pub fn write(path: &Path, set: &ObjectSet, scene: &Scene) -> Result<(), ObjectsError> {
+    let mut root = json!({
+        "format": FORMAT,
+        "version": VERSION,
+        "scene": { "path": from_file(path, &scene.path), "sha256": scene.sha256 },
+        "up": scene.up.to_array(),
+        "objects": set.objects.iter().map(entry_json).collect::<Vec<_>>(),
+    });
+    if !set.labels.is_empty() {
+        let labels = path.with_extension("labels.npy");
+        replace_file(&labels, &npy::encode_ids(&in_file_order(&set.labels, scene)))?;
+        root["labels"] = json!(labels.file_name().map(|name| name.to_string_lossy()));
+    }
+    let mut text = format!("{root:#}");
+    text.push('\n');
+    replace_file(path, text.as_bytes())
+}
+
+fn entry_json(object: &Object) -> Value {
+    json!({
+        "id": object.id,
+        "label": object.label,
+        "center": object.center.to_array(),
+        "half_extents": object.half_extents.to_array(),
+        "rotation_xyzw": object.rotation.to_array(),
+        "num_gaussians": object.num_gaussians,
+        "points": object.points.iter().map(DVec3::to_array).collect::<Vec<_>>(),
+        "shape_radius": object.shape_radius,
+        "mask_iou": object.mask_iou,
+    })
+}
+
+fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), ObjectsError> {
+    let io = |source| ObjectsError::Io { path: path.to_owned(), action: "writing", source };
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let part = path.with_file_name(name);
+    std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path)).map_err(io)
+}
+
+/// A path named inside the file at `base`.
+fn beside(base: &Path, name: &str) -> PathBuf {
+    base.parent().map_or_else(|| PathBuf::from(name), |folder| folder.join(name))
+}
+
+/// `target` as it is named inside the file at `base`: relative to its folder, absolute where that is impossible.
+fn from_file(base: &Path, target: &Path) -> String {
+    let folder = base.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (Ok(folder), Ok(target)) = (folder.canonicalize(), target.canonicalize()) else {
+        return target.to_string_lossy().into_owned();
+    };
+    let shared = folder.components().zip(target.components()).take_while(|(a, b)| a == b).count();
+    let climb = folder.components().skip(shared).map(|_| "..".into());
+    let descend = target.components().skip(shared).map(|part| part.as_os_str().to_owned());
+    climb.chain(descend).collect::<PathBuf>().to_string_lossy().into_owned()
+}
+
+/// One JSON object of the file and where it stands.
+struct Entry<'a> {
+    path: &'a Path,
+    name: String,
+    fields: &'a Map<String, Value>,
+}
+
+impl<'a> Entry<'a> {
+    fn bad(&self, field: &'static str, found: impl Into<String>, expected: &'static str) -> ObjectsError {
+        ObjectsError::BadField {
+            path: self.path.to_owned(),
+            entry: self.name.clone(),
+            field,
+            found: shortened(found.into()),
+            expected,
+        }
+    }
+
+    /// A field that is there and not null.
+    fn get(&self, field: &str) -> Option<&'a Value> {
+        self.fields.get(field).filter(|value| !value.is_null())
+    }
+
+    fn text(&self, field: &'static str) -> Result<Option<&'a str>, ObjectsError> {
+        let text = |value: &'a Value| value.as_str().ok_or_else(|| self.bad(field, value.to_string(), "a text"));
+        self.get(field).map(text).transpose()
+    }
+
+    fn numbers<const N: usize>(
+        &self,
+        field: &'static str,
+        expected: &'static str,
+    ) -> Result<Option<[f64; N]>, ObjectsError> {
+        let Some(value) = self.get(field) else { return Ok(None) };
+        let numbers = numbers_of(value).ok_or_else(|| self.bad(field, value.to_string(), expected))?;
+        Ok(Some(numbers))
+    }
+
+    fn vector(&self, field: &'static str) -> Result<Option<DVec3>, ObjectsError> {
+        Ok(self.numbers(field, "three finite numbers")?.map(DVec3::from_array))
+    }
+
+    fn unit(&self, field: &'static str, vector: DVec3) -> Result<DVec3, ObjectsError> {
+        vector.try_normalize().ok_or_else(|| self.bad(field, format!("{vector}"), "a direction with a length"))
+    }
+
+    fn amount(&self, field: &'static str) -> Result<f64, ObjectsError> {
+        let Some(value) = self.get(field) else { return Ok(0.0) };
+        let number = value.as_f64().filter(|number| *number >= 0.0 && number.is_finite());
+        number.ok_or_else(|| self.bad(field, value.to_string(), "a number of at least 0"))
+    }
+
+    fn id(&self) -> Result<u32, ObjectsError> {
+        let found = self.get("id").map_or_else(|| "missing".to_owned(), Value::to_string);
+        let id = self.get("id").and_then(Value::as_u64).and_then(|id| u16::try_from(id).ok()).filter(|id| *id > 0);
+        id.map(u32::from).ok_or_else(|| self.bad("id", found, "a whole number 1..65535"))
+    }
+
+    fn rotation(&self) -> Result<DQuat, ObjectsError> {
+        let expected = "four finite numbers x, y, z, w, not all 0";
+        let Some(xyzw) = self.numbers("rotation_xyzw", expected)? else { return Ok(DQuat::IDENTITY) };
+        let rotation = DQuat::from_array(xyzw);
+        if rotation.length() > 1e-6 {
+            return Ok(rotation.normalize());
+        }
+        Err(self.bad("rotation_xyzw", format!("{xyzw:?}"), expected))
+    }
+
+    /// Center and half extents; both or neither have to be there.
+    fn extent(&self) -> Result<Option<(DVec3, DVec3)>, ObjectsError> {
+        match (self.vector("center")?, self.vector("half_extents")?) {
+            (Some(_), Some(half)) if half.min_element() < 0.0 => {
+                Err(self.bad("half_extents", format!("{half}"), "three numbers of at least 0"))
+            }
+            (Some(center), Some(half)) => Ok(Some((center, half))),
+            (None, None) => Ok(None),
+            (Some(_), None) => Err(self.bad("half_extents", "missing", "three numbers beside `center`")),
+            (None, Some(_)) => Err(self.bad("center", "missing", "three numbers beside `half_extents`")),
+        }
+    }
+
+    fn points(&self) -> Result<Vec<DVec3>, ObjectsError> {
+        let expected = "a list of points of three finite numbers";
+        let Some(value) = self.get("points") else { return Ok(Vec::new()) };
+        let list = value.as_array().ok_or_else(|| self.bad("points", value.to_string(), expected))?;
+        let point = |value: &Value| numbers_of(value).map(DVec3::from_array);
+        list.iter().map(|p| point(p).ok_or_else(|| self.bad("points", p.to_string(), expected))).collect()
+    }
+}
+
+/// An object as the file has it: the box may be missing.
+struct Draft {
+    object: Object,
+    has_box: bool,
+}
+
+fn numbers_of<const N: usize>(value: &Value) -> Option<[f64; N]> {
+    let list: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
+    <[f64; N]>::try_from(list?).ok().filter(|numbers| numbers.iter().all(|n| n.is_finite()))
+}
+
+/// Long values are cut so that an error stays one line.
+fn shortened(text: String) -> String {
+    if text.chars().count() <= 60 { text } else { text.chars().take(57).chain("...".chars()).collect() }
+}
+
+fn object_of<'a>(path: &Path, entry: &str, value: &'a Value) -> Result<&'a Map<String, Value>, ObjectsError> {
+    value.as_object().ok_or_else(|| ObjectsError::BadField {
+        path: path.to_owned(),
+        entry: entry.to_owned(),
+        field: "{}",
+        found: shortened(value.to_string()),
+        expected: "an object in braces",
+    })
+}
+
+fn check_kind(top: &Entry) -> Result<(), ObjectsError> {
+    let wrong = |key, expected| {
+        let found = top.get(key).map_or_else(|| "missing".to_owned(), |value| shortened(value.to_string()));
+        Err(ObjectsError::WrongKind { path: top.path.to_owned(), key, found, expected })
+    };
+    if top.get("format").is_some_and(|format| format != FORMAT) {
+        return wrong("format", "\"cinesplat.objects\"");
+    }
+    if top.get("version").is_some_and(|version| version.as_u64() != Some(VERSION)) {
+        return wrong("version", "1");
+    }
+    Ok(())
+}
+
+fn entries(top: &Entry) -> Result<Vec<Draft>, ObjectsError> {
+    let found = top.get("objects").map_or_else(|| "missing".to_owned(), Value::to_string);
+    let list = top.get("objects").and_then(Value::as_array);
+    let list = list.ok_or_else(|| top.bad("objects", found, "a list of objects"))?;
+    list.iter().enumerate().map(|(i, value)| draft(top.path, i + 1, value)).collect()
+}
+
+fn draft(path: &Path, position: usize, value: &Value) -> Result<Draft, ObjectsError> {
+    let name = format!("object {position}");
+    let mut entry = Entry { path, fields: object_of(path, &name, value)?, name };
+    let id = entry.id()?;
+    entry.name = format!("object {position} (id {id})");
+    let extent = entry.extent()?;
+    let (center, half_extents) = extent.unwrap_or_default();
+    let object = Object {
+        id,
+        label: entry.text("label")?.unwrap_or_default().to_owned(),
+        center,
+        half_extents,
+        rotation: entry.rotation()?,
+        num_gaussians: 0,
+        points: entry.points()?,
+        shape_radius: entry.amount("shape_radius")?,
+        mask_iou: entry.amount("mask_iou")?,
+    };
+    Ok(Draft { object, has_box: extent.is_some() })
+}
+
+fn check_ids(path: &Path, drafts: &[Draft]) -> Result<(), ObjectsError> {
+    let mut seen = BTreeMap::new();
+    for (second, draft) in drafts.iter().enumerate() {
+        let id = draft.object.id;
+        if let Some(first) = seen.insert(id, second) {
+            return Err(ObjectsError::DuplicateId { path: path.to_owned(), id, first: first + 1, second: second + 1 });
+        }
+    }
+    Ok(())
+}
+
+/// Gives every object its Gaussians and a box; the objects leave in order of id.
+fn complete(
+    top: &Entry,
+    drafts: Vec<Draft>,
+    labels: Vec<u16>,
+    world: (&Scene, DVec3),
+) -> Result<ObjectSet, ObjectsError> {
+    let (scene, up) = world;
+    let has_labels = !labels.is_empty();
+    let mut objects = Vec::with_capacity(drafts.len());
+    for (i, Draft { mut object, has_box }) in drafts.into_iter().enumerate() {
+        if !has_box {
+            let members = boxes::members(&labels, object.id);
+            let Some(fitted) = boxes::fit(&scene.gaussians, &members, up) else {
+                let entry = Entry { name: format!("object {} (id {})", i + 1, object.id), ..*top };
+                let expected = "a center and half extents, or Gaussians with this id in the labels";
+                return Err(entry.bad("center", "missing", expected));
+            };
+            (object.center, object.half_extents, object.rotation) =
+                (fitted.center, fitted.half_extents, fitted.rotation);
+        }
+        objects.push(object);
+    }
+    objects.sort_by_key(|object| object.id);
+    let labels = if has_labels { labels } else { boxes::labels_from_boxes(&scene.gaussians, &objects) };
+    let mut set = ObjectSet { objects, labels };
+    boxes::count_members(&mut set);
+    Ok(set)
+}

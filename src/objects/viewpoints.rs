@@ -1,0 +1,182 @@
+//! Where to stand to see an object, or as many of them as can be.
+//!
+//! Enters: a scene with labels. Leaves: cameras, chosen by a coarse picture of ids that is drawn from sparse points with a depth
+//! buffer: good enough to compare viewpoints, far cheaper than rendering each.
+
+use glam::DVec3;
+
+use super::{Object, ObjectSet};
+use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
+use crate::scene::Scene;
+
+/// Opacity from which a Gaussian hides what is behind it.
+const SOLID_OPACITY: f32 = 0.3;
+
+/// Most Gaussians drawn into a coarse picture.
+const MAX_POINTS: usize = 40_000;
+
+/// Height of the coarse pictures.
+const COARSE_HEIGHT_PX: u32 = 60;
+
+/// Largest splat in a coarse picture, half its side.
+const MAX_SPLAT_PX: i64 = 5;
+
+/// Distance to the nearest matter, as a share of the scene's size, below which a viewpoint counts as blocked.
+const CLEARANCE_FRAC: f64 = 0.04;
+
+/// A coarse picture: which object is seen in each pixel, and how far off.
+pub(crate) struct IdPicture {
+    pub(crate) width: usize,
+    pub(crate) ids: Vec<u16>,
+    pub(crate) depths: Vec<f32>,
+}
+
+/// The solid points of a scene, few enough to be drawn often.
+pub(crate) struct Surveyor<'a> {
+    set: &'a ObjectSet,
+    frame: LevelFrame,
+    center: DVec3,
+    size: f64,
+    near: f64,
+    /// Mean, radius (scene units) and id.
+    points: Vec<(DVec3, f64, u16)>,
+}
+
+impl<'a> Surveyor<'a> {
+    /// `None` for a scene without extent or up.
+    pub(crate) fn new(scene: &Scene, set: &'a ObjectSet) -> Option<Self> {
+        let bounds = scene.bounds();
+        let gaussians = &scene.gaussians;
+        let solid: Vec<usize> = (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY).collect();
+        let stride = solid.len().div_ceil(MAX_POINTS).max(1);
+        // Fewer points have to cover more each.
+        let growth = (stride as f64).sqrt();
+        let point = |&i: &usize| {
+            let id = set.labels.get(i).copied().unwrap_or(0);
+            (gaussians.mean_world(i), f64::from(gaussians.scales[i].max_element()) * growth, id)
+        };
+        let points = solid.iter().step_by(stride).map(point).collect();
+        let frame = LevelFrame::new(scene.up).ok()?;
+        let known = bounds.size() > 0.0;
+        known.then(|| Self {
+            set,
+            frame,
+            center: bounds.center(),
+            size: bounds.size(),
+            near: bounds.default_near(),
+            points,
+        })
+    }
+
+    /// Draws ids and depths as a camera sees them.
+    pub(crate) fn survey(&self, camera: &Camera) -> IdPicture {
+        let intrinsics = camera.intrinsics.scaled(f64::from(COARSE_HEIGHT_PX) / f64::from(camera.intrinsics.height));
+        let camera = Camera { intrinsics, ..*camera };
+        let (width, height) = (intrinsics.width as usize, intrinsics.height as usize);
+        let mut picture =
+            IdPicture { width, ids: vec![0; width * height], depths: vec![f32::INFINITY; width * height] };
+        for &(mean, radius, id) in &self.points {
+            if let Some((px, depth)) = camera.project(mean).filter(|(_, depth)| *depth > self.near) {
+                let reach = ((radius * intrinsics.fy_px / depth) as i64).min(MAX_SPLAT_PX);
+                picture.splat((px.x.floor() as i64, px.y.floor() as i64), reach, depth as f32, id);
+            }
+        }
+        picture
+    }
+
+    /// The camera that sees the most: objects, each by how large it is, little void, nothing close in front.
+    pub(crate) fn overview(&self, intrinsics: Intrinsics) -> Camera {
+        let target = self.middle_of_objects();
+        let mut best = (f64::NEG_INFINITY, self.camera_at(self.center, target, intrinsics));
+        for height_frac in [0.05, 0.15, 0.3] {
+            for radius_frac in [0.25, 0.4, 0.6, 0.9] {
+                for step in 0..16 {
+                    let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 16.0);
+                    let eye = self.center + (away * radius_frac + self.frame.up * height_frac) * self.size;
+                    let camera = self.camera_at(eye, target, intrinsics);
+                    let score = self.overview_score(&camera);
+                    if score > best.0 {
+                        best = (score, camera);
+                    }
+                }
+            }
+        }
+        best.1
+    }
+
+    /// A camera that shows one object best, and how much of it can be seen, 0..=1.
+    pub(crate) fn closeup(&self, object: &Object, intrinsics: Intrinsics) -> (Camera, f64) {
+        let narrow = intrinsics.fov_y_rad() * intrinsics.aspect().min(1.0);
+        let distance = object.radius().max(0.01 * self.size) * 1.15 / (narrow / 2.0).sin();
+        let mut best = (-1.0, self.camera_at(object.center + self.frame.north * distance, object.center, intrinsics));
+        for elevation_rad in [0.35_f64, 0.1, 0.8] {
+            for step in 0..12 {
+                let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 12.0);
+                let away = away * elevation_rad.cos() + self.frame.up * elevation_rad.sin();
+                let camera = self.camera_at(object.center + away * distance, object.center, intrinsics);
+                let seen = self.seen_frac(object, &camera);
+                if seen > best.0 + 1e-9 {
+                    best = (seen, camera);
+                }
+            }
+        }
+        (best.1, best.0.max(0.0))
+    }
+
+    fn camera_at(&self, eye: DVec3, target: DVec3, intrinsics: Intrinsics) -> Camera {
+        let forward = (target - eye).try_normalize().unwrap_or(self.frame.north);
+        Camera { pose: Pose::facing(eye, forward, self.frame.up, Some(self.frame.east)), intrinsics }
+    }
+
+    fn middle_of_objects(&self) -> DVec3 {
+        let sum: DVec3 = self.set.objects.iter().map(|object| object.center).sum();
+        let count = self.set.objects.len();
+        if count > 0 { (sum / count as f64 + self.center) / 2.0 } else { self.center }
+    }
+
+    fn overview_score(&self, camera: &Camera) -> f64 {
+        let clearance = CLEARANCE_FRAC * self.size;
+        let eye = camera.pose.position;
+        if self.points.iter().any(|(mean, ..)| mean.distance_squared(eye) < clearance * clearance) {
+            return f64::NEG_INFINITY;
+        }
+        let picture = self.survey(camera);
+        let mut counts = vec![0_u32; usize::from(u16::MAX) + 1];
+        for &id in &picture.ids {
+            counts[usize::from(id)] += 1;
+        }
+        let seen: f64 =
+            self.set.objects.iter().map(|object| (f64::from(counts[object.id as usize]) / 40.0).min(1.0)).sum();
+        let share = |what: &dyn Fn(f32) -> bool| {
+            picture.depths.iter().filter(|depth| what(**depth)).count() as f64 / picture.depths.len() as f64
+        };
+        let void = share(&|depth| depth.is_infinite());
+        let close = share(&|depth| f64::from(depth) < 0.12 * self.size);
+        seen - (void + close) * (1.0 + 0.5 * self.set.objects.len() as f64)
+    }
+
+    /// Share of an object's pixels, drawn alone, that are its own with the scene around it.
+    fn seen_frac(&self, object: &Object, camera: &Camera) -> f64 {
+        let picture = self.survey(camera);
+        let own = picture.ids.iter().filter(|id| u32::from(**id) == object.id).count();
+        let alone =
+            Surveyor { points: self.points.iter().copied().filter(|p| u32::from(p.2) == object.id).collect(), ..*self };
+        let all = alone.survey(camera).ids.iter().filter(|id| **id > 0).count();
+        own as f64 / all.max(1) as f64
+    }
+}
+
+impl IdPicture {
+    fn splat(&mut self, at: (i64, i64), reach: i64, depth: f32, id: u16) {
+        let height = (self.ids.len() / self.width) as i64;
+        let range = |middle: i64, limit: i64| (middle - reach).max(0)..(middle + reach + 1).min(limit);
+        for y in range(at.1, height) {
+            for x in range(at.0, self.width as i64) {
+                let pixel = (y * self.width as i64 + x) as usize;
+                if depth < self.depths[pixel] {
+                    (self.depths[pixel], self.ids[pixel]) = (depth, id);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Virtual cameras about an object.
+
+use glam::DVec3;
+
+use super::Object;
+use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
+
+/// Vertical field of view of the virtual cameras: narrow, so that a silhouette is nearly the object's outline.
+const FOV_Y_RAD: f64 = 0.5;
+
+/// Room left about the object's box on every side, as a factor on the distance.
+const MARGIN: f64 = 1.1;
+
+/// Square cameras on a ring about an object: `num_azimuths` at each elevation (rad above its middle), aimed at its
+/// middle, at one distance from which the whole box is seen. Azimuth 0 is the heading of the box, so that the views
+/// turn with the object.
+pub(crate) fn ring(
+    object: &Object,
+    up: DVec3,
+    num_azimuths: usize,
+    elevations_rad: &[f64],
+    size_px: u32,
+) -> Vec<Camera> {
+    let Ok(frame) = LevelFrame::new(up) else { return Vec::new() };
+    let frame = frame.with_heading(object.rotation * DVec3::X);
+    let distance = object.radius().max(f64::MIN_POSITIVE) * MARGIN / (FOV_Y_RAD / 2.0).sin();
+    let intrinsics = Intrinsics::from_fov_y(size_px, size_px, FOV_Y_RAD);
+    let mut cameras = Vec::with_capacity(num_azimuths * elevations_rad.len());
+    for &elevation_rad in elevations_rad {
+        for step in 0..num_azimuths {
+            let azimuth_rad = step as f64 * std::f64::consts::TAU / num_azimuths as f64;
+            let away = frame.direction(azimuth_rad) * elevation_rad.cos() + frame.up * elevation_rad.sin();
+            let pose = Pose::facing(object.center + away * distance, -away, frame.up, Some(frame.east));
+            cameras.push(Camera { pose, intrinsics });
+        }
+    }
+    cameras
+}
+
+/// Scene units a pixel at an object's middle, seen from a ring's camera.
+pub(crate) fn unit_per_px(camera: &Camera, object: &Object) -> f64 {
+    (object.center - camera.pose.position).length() / camera.intrinsics.fy_px
+}

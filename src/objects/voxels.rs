@@ -1,0 +1,262 @@
+//! A scene as occupied cells of a grid, each with its color and the direction of its surface.
+//!
+//! Enters: Gaussians. Leaves: cells in a frame whose y axis is up. A Gaussian fills every cell within one of its
+//! standard deviations, so that the large ones of plain surfaces leave no holes.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use glam::{DMat3, DVec3, IVec3, Mat3, Quat, Vec3};
+use rayon::prelude::*;
+
+use super::color;
+use crate::scene::Gaussians;
+
+/// Opacity below which a Gaussian fills nothing.
+const FAINT_OPACITY: f32 = 0.1;
+
+/// Opacity that has to come together in a cell: one clearly visible Gaussian or a few faint ones.
+const OCCUPIED_MASS: f32 = 0.5;
+
+/// Standard deviations out to which a Gaussian fills cells.
+const REACH_SIGMA: f32 = 1.0;
+
+/// Most samples of a Gaussian along one of its axes.
+const MAX_STEPS: i32 = 4;
+
+/// Positions of cells by key.
+type CellIndex = HashMap<[i32; 3], u32, BuildHasherDefault<CellHasher>>;
+
+/// A hash of three small whole numbers: they are mixed by odd constants, far quicker than the default's keyed hash.
+/// Keys come from a grid of our own size, so that nobody gains from collisions.
+#[derive(Default)]
+struct CellHasher(u64);
+
+impl Hasher for CellHasher {
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 29
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(4) {
+            let value = chunk.iter().rev().fold(0_u32, |value, &byte| value << 8 | u32::from(byte));
+            self.write_u32(value);
+        }
+    }
+
+    fn write_u32(&mut self, value: u32) {
+        self.0 = (self.0.rotate_left(21) ^ u64::from(value)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    }
+
+    fn write_i32(&mut self, value: i32) {
+        self.write_u32(value as u32);
+    }
+
+    fn write_usize(&mut self, _: usize) {
+        // The length of an array of three: always the same.
+    }
+}
+
+/// One occupied cell.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Voxel {
+    /// Cell coordinates; y is up.
+    pub(crate) key: [i32; 3],
+    /// Mean position of what fills it, local frame.
+    pub(crate) position: Vec3,
+    /// Mean color, CIE Lab.
+    pub(crate) color_lab: Vec3,
+    /// Unit direction across the surface, sign open; zero where there is no surface.
+    pub(crate) normal: Vec3,
+}
+
+/// The occupied cells of a scene.
+pub(crate) struct VoxelGrid {
+    /// Edge of a cell, scene units.
+    pub(crate) cell: f32,
+    /// The cells, sorted by key.
+    pub(crate) voxels: Vec<Voxel>,
+    index: CellIndex,
+    center: DVec3,
+    local_from_world: DMat3,
+}
+
+/// What has fallen into a cell so far.
+#[derive(Clone, Copy)]
+struct Moments {
+    mass: f32,
+    /// Sum of positions from the middle of the cell: near it, so that squares keep their precision.
+    offset: Vec3,
+    square: Mat3,
+    color_lab: Vec3,
+}
+
+impl VoxelGrid {
+    /// Cells with edge `cell` about `center`; the columns of `axes` are the local axes in the world.
+    pub(crate) fn new(gaussians: &Gaussians, cell: f64, center: DVec3, axes: DMat3) -> Self {
+        let empty = Self {
+            cell: cell as f32,
+            voxels: Vec::new(),
+            index: CellIndex::default(),
+            center,
+            local_from_world: axes.transpose(),
+        };
+        let (mut index, mut cells) = empty.accumulated(gaussians);
+        cells.retain(|(_, moments)| moments.mass >= OCCUPIED_MASS);
+        cells.sort_unstable_by_key(|(key, _)| *key);
+        index.clear();
+        index.extend(cells.iter().enumerate().map(|(i, (key, _))| (*key, i as u32)));
+        let voxels = cells.par_iter().map(|(key, moments)| Voxel {
+            key: *key,
+            position: empty.middle(*key) + moments.offset / moments.mass,
+            color_lab: moments.color_lab / moments.mass,
+            normal: surface_normal(*key, empty.cell, &cells, &index),
+        });
+        let voxels = voxels.collect();
+        Self { voxels, index, ..empty }
+    }
+
+    /// A world position in the local frame.
+    pub(crate) fn to_local(&self, point: DVec3) -> Vec3 {
+        (self.local_from_world * (point - self.center)).as_vec3()
+    }
+
+    /// The cell that a local position falls into.
+    pub(crate) fn key_at(&self, local: Vec3) -> [i32; 3] {
+        (local / self.cell).floor().as_ivec3().to_array()
+    }
+
+    fn middle(&self, key: [i32; 3]) -> Vec3 {
+        (IVec3::from_array(key).as_vec3() + 0.5) * self.cell
+    }
+
+    /// Position in `voxels` of an occupied cell.
+    pub(crate) fn find(&self, key: [i32; 3]) -> Option<usize> {
+        self.index.get(&key).map(|&i| i as usize)
+    }
+
+    /// Occupied cells no farther than `reach` cells along any axis, the cell itself left out.
+    pub(crate) fn neighbors(&self, voxel: usize, reach: i32) -> impl Iterator<Item = usize> + '_ {
+        self.around(self.voxels[voxel].key, reach).filter(move |&other| other != voxel)
+    }
+
+    /// Occupied cells no farther than `reach` cells from a cell along any axis.
+    pub(crate) fn around(&self, key: [i32; 3], reach: i32) -> impl Iterator<Item = usize> + '_ {
+        let [x, y, z] = key;
+        offsets(reach).filter_map(move |[a, b, c]| self.find([x + a, y + b, z + c]))
+    }
+
+    /// What falls into each cell, in order of Gaussians: sums do not depend on threads.
+    fn accumulated(&self, gaussians: &Gaussians) -> (CellIndex, Vec<([i32; 3], Moments)>) {
+        let turn = Quat::from_mat3(&self.local_from_world.as_mat3());
+        let mut index = CellIndex::default();
+        let mut cells: Vec<([i32; 3], Moments)> = Vec::new();
+        let mut filled = Vec::new();
+        for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= FAINT_OPACITY) {
+            let mass = gaussians.opacities[i];
+            let color_lab = color::lab(gaussians.base_color(i)) * mass;
+            self.fill(gaussians, i, turn, &mut filled);
+            for &(key, position) in &filled {
+                let p = position - self.middle(key);
+                let sample = Moments { mass, offset: p * mass, square: outer(p, p) * mass, color_lab };
+                let cell = *index.entry(key).or_insert(cells.len() as u32) as usize;
+                match cells.get_mut(cell) {
+                    Some((_, moments)) => moments.add(&sample),
+                    None => cells.push((key, sample)),
+                }
+            }
+        }
+        (index, cells)
+    }
+
+    /// The cells that one Gaussian fills, each once, with a position in it.
+    fn fill(&self, gaussians: &Gaussians, i: usize, turn: Quat, filled: &mut Vec<([i32; 3], Vec3)>) {
+        let mean = self.to_local(gaussians.mean_world(i));
+        let axes =
+            Mat3::from_quat(turn * gaussians.rotations[i]) * Mat3::from_diagonal(gaussians.scales[i] * REACH_SIGMA);
+        // An axis shorter than a cell adds nothing: sampling it would make every surface two cells thick.
+        let reach = gaussians.scales[i] * REACH_SIGMA / self.cell;
+        let steps = (reach * 2.0).floor().min(Vec3::splat(MAX_STEPS as f32)).as_ivec3();
+        filled.clear();
+        for x in -steps.x..=steps.x {
+            for y in -steps.y..=steps.y {
+                for z in -steps.z..=steps.z {
+                    let part = Vec3::new(x as f32, y as f32, z as f32) / steps.as_vec3().max(Vec3::ONE);
+                    if part.length_squared() <= 1.0 {
+                        let position = mean + axes * part;
+                        filled.push((self.key_at(position), position));
+                    }
+                }
+            }
+        }
+        filled.sort_unstable_by_key(|(key, _)| *key);
+        filled.dedup_by_key(|(key, _)| *key);
+    }
+}
+
+impl Moments {
+    /// Nothing. (glam's default matrix is the identity.)
+    const EMPTY: Self = Self { mass: 0.0, offset: Vec3::ZERO, square: Mat3::ZERO, color_lab: Vec3::ZERO };
+
+    fn add(&mut self, other: &Self) {
+        self.mass += other.mass;
+        self.offset += other.offset;
+        self.square += other.square;
+        self.color_lab += other.color_lab;
+    }
+
+    /// The same about the middle of another cell, from which this one's lies at `step`.
+    fn shifted(&self, step: Vec3) -> Self {
+        let square = self.square + outer(self.offset, step) + outer(step, self.offset) + outer(step, step) * self.mass;
+        Self { offset: self.offset + step * self.mass, square, ..*self }
+    }
+}
+
+/// `a` times the transpose of `b`.
+fn outer(a: Vec3, b: Vec3) -> Mat3 {
+    Mat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// All steps of at most `reach` cells along each axis.
+fn offsets(reach: i32) -> impl Iterator<Item = [i32; 3]> {
+    let range = move || -reach..=reach;
+    range().flat_map(move |x| range().flat_map(move |y| range().map(move |z| [x, y, z])))
+}
+
+/// The direction of least spread of a cell and the cells around it; zero where they spread in no plane.
+fn surface_normal(key: [i32; 3], cell: f32, cells: &[([i32; 3], Moments)], index: &CellIndex) -> Vec3 {
+    let mut sum = Moments::EMPTY;
+    for [a, b, c] in offsets(1) {
+        if let Some(&i) = index.get(&[key[0] + a, key[1] + b, key[2] + c]) {
+            sum.add(&cells[i as usize].1.shifted(Vec3::new(a as f32, b as f32, c as f32) * cell));
+        }
+    }
+    let mean = sum.offset / sum.mass;
+    let covariance = sum.square * (1.0 / sum.mass) - outer(mean, mean);
+    let (values, axes) = symmetric_eigen(covariance);
+    if values[0] < FLAT_RATIO * values[1] { axes.x_axis } else { Vec3::ZERO }
+}
+
+/// Least over middle spread (variances) below which cells lie on a surface.
+const FLAT_RATIO: f32 = 0.35;
+
+/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix by Jacobi rotations.
+pub(crate) fn symmetric_eigen(matrix: Mat3) -> ([f32; 3], Mat3) {
+    let (mut a, mut v) = (matrix, Mat3::IDENTITY);
+    for (p, q) in [(0, 1), (0, 2), (1, 2)].into_iter().cycle().take(18) {
+        let off = a.col(q)[p];
+        if off.abs() <= f32::MIN_POSITIVE {
+            continue;
+        }
+        let angle = 0.5 * (2.0 * off).atan2(a.col(q)[q] - a.col(p)[p]);
+        let (sin, cos) = angle.sin_cos();
+        let mut turn = Mat3::IDENTITY;
+        (turn.col_mut(p)[p], turn.col_mut(q)[q]) = (cos, cos);
+        (turn.col_mut(q)[p], turn.col_mut(p)[q]) = (sin, -sin);
+        a = turn.transpose() * a * turn;
+        v *= turn;
+    }
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| a.col(i)[i].total_cmp(&a.col(j)[j]));
+    (order.map(|i| a.col(i)[i]), Mat3::from_cols(v.col(order[0]), v.col(order[1]), v.col(order[2])))
+}

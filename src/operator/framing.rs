@@ -1,0 +1,178 @@
+//! A subject in the frame: how large it stands, where it is, how much of it shows; and the view that frames it.
+
+use glam::{DVec2, DVec3};
+
+use super::world::{Subject, World};
+use super::{Framing, Part};
+use crate::geometry::Pose;
+use crate::trajectory::CameraState;
+
+/// Width over height of the frame that shots are planned for, when nothing else is asked.
+pub const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
+
+/// Something to frame: a point to aim at and the corners that have to fit.
+#[derive(Debug, Clone)]
+pub(super) struct Target {
+    /// Object ids; empty for the scene as a whole.
+    pub(super) ids: Vec<u32>,
+    /// Point that the view axis meets, world.
+    pub(super) aim: DVec3,
+    /// Center of the first subject, world.
+    pub(super) center: DVec3,
+    /// Box corners of all that has to fit.
+    pub(super) corners: Vec<DVec3>,
+    /// Radius of a sphere about `aim` that holds the corners.
+    pub(super) radius: f64,
+}
+
+impl Target {
+    /// What a framing shows, or `None` where it names nothing.
+    pub(super) fn of(world: &World, framing: &Framing) -> Option<Self> {
+        let subjects: Vec<&Subject> = framing.subjects.iter().filter_map(|&id| world.subject(id)).collect();
+        let first = *subjects.first()?;
+        let joint = framing.whole && subjects.len() > 1;
+        let corners: Vec<DVec3> = if joint {
+            subjects.iter().flat_map(|s| s.corners.iter().copied()).collect()
+        } else {
+            first.corners.clone()
+        };
+        let aim = if joint { middle(&corners) } else { part_point(world, first, framing.part) };
+        let radius = corners.iter().map(|c| c.distance(aim)).fold(0.0, f64::max);
+        Some(Self { ids: framing.subjects.clone(), aim, center: first.center, corners, radius })
+    }
+
+    /// The scene as a whole.
+    pub(super) fn scene(world: &World) -> Self {
+        let bounds = &world.bounds;
+        let pick = |bit: bool, low: f64, high: f64| if bit { high } else { low };
+        let corner = |i: usize| {
+            DVec3::new(
+                pick(i & 1 > 0, bounds.core_min.x, bounds.core_max.x),
+                pick(i & 2 > 0, bounds.core_min.y, bounds.core_max.y),
+                pick(i & 4 > 0, bounds.core_min.z, bounds.core_max.z),
+            )
+        };
+        let center = bounds.center();
+        Self { ids: Vec::new(), aim: center, center, corners: (0..8).map(corner).collect(), radius: bounds.size() / 2.0 }
+    }
+}
+
+fn middle(points: &[DVec3]) -> DVec3 {
+    let low = points.iter().copied().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
+    let high = points.iter().copied().reduce(DVec3::max).unwrap_or(DVec3::ZERO);
+    (low + high) / 2.0
+}
+
+/// Aim for a part of a subject: 60 % of the way from its middle to that end. Left and right stay the middle here, as
+/// they depend on where the camera is.
+fn part_point(world: &World, subject: &Subject, part: Part) -> DVec3 {
+    let heights = || subject.corners.iter().map(|&c| world.frame.height(c - subject.center));
+    let rise = match part {
+        Part::Top => heights().fold(0.0, f64::max),
+        Part::Bottom => heights().fold(0.0, f64::min),
+        Part::Middle | Part::Left | Part::Right => 0.0,
+    };
+    subject.center + world.frame.up * rise * 0.6
+}
+
+/// Position in the frame as fractions of its width and height from the middle (right and up positive) and depth along
+/// the view axis; `None` at or behind the camera.
+pub(super) fn frame_position(state: &CameraState, point: DVec3) -> Option<(DVec2, f64)> {
+    let p = state.pose.to_camera(point);
+    let tan = (state.fov_y_rad / 2.0).tan();
+    (p.z > 1e-9).then(|| (DVec2::new(p.x / (2.0 * p.z * tan * DEFAULT_ASPECT), -p.y / (2.0 * p.z * tan)), p.z))
+}
+
+/// Distance of a point from the frame's middle: the larger of |x| over width and |y| over height; infinite behind.
+pub(super) fn off_center(state: &CameraState, point: DVec3) -> f64 {
+    frame_position(state, point).map_or(f64::INFINITY, |(at, _)| at.abs().max_element())
+}
+
+/// Projected extent of points over the frame's: `(width, height)`; infinite where one is behind the camera.
+pub(super) fn extent_frac(state: &CameraState, points: &[DVec3]) -> DVec2 {
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for &point in points {
+        let Some((at, _)) = frame_position(state, point) else { return DVec2::INFINITY };
+        low = low.min(at);
+        high = high.max(at);
+    }
+    high - low
+}
+
+/// Share of points inside the frame, shrunk by `margin` of its size on every side.
+pub(super) fn in_frame_frac(state: &CameraState, points: &[DVec3], margin: f64) -> f64 {
+    let inside = |p: &&DVec3| off_center(state, **p) <= 0.5 - margin;
+    points.iter().filter(inside).count() as f64 / points.len().max(1) as f64
+}
+
+/// Share of a subject's points in the frame that light reaches the camera from; 0 where none is in the frame.
+pub(super) fn unoccluded_frac(state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
+    let stride = (subject.points.len() / num_points).max(1);
+    let (mut framed, mut seen) = (0, 0);
+    for &point in subject.points.iter().step_by(stride) {
+        if off_center(state, point) <= 0.5 {
+            framed += 1;
+            seen += usize::from(subject.transmittance(state.pose.position, point) >= 0.5);
+        }
+    }
+    f64::from(u32::try_from(seen).unwrap_or(0)) / f64::from(u32::try_from(framed).unwrap_or(1).max(1))
+}
+
+/// Where a view stands with respect to its aim.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bearing {
+    /// Azimuth of the camera as seen from the aim.
+    pub(super) azimuth_rad: f64,
+    /// Elevation of the camera as seen from the aim.
+    pub(super) elevation_rad: f64,
+}
+
+/// A level camera at a bearing and distance from a target, aimed at it.
+pub(super) fn view_at(world: &World, aim: DVec3, bearing: Bearing, distance: f64, fov_y_rad: f64) -> CameraState {
+    let (sin, cos) = bearing.elevation_rad.sin_cos();
+    let away = world.frame.direction(bearing.azimuth_rad) * cos + world.frame.up * sin;
+    let pose = Pose::facing(aim + away * distance, -away, world.frame.up, None);
+    CameraState { pose, fov_y_rad, focus_distance: None }
+}
+
+/// How a wanted size is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Fill {
+    /// Projected height over the frame's height: what shot sizes are defined by.
+    Height(f64),
+    /// The larger of projected width over the frame's width and height over its height: fits wide things too.
+    Fit(f64),
+}
+
+impl Fill {
+    fn reached(self, state: &CameraState, corners: &[DVec3]) -> bool {
+        let extent = extent_frac(state, corners);
+        match self {
+            Self::Height(wanted) => extent.y >= wanted,
+            Self::Fit(wanted) => extent.max_element() >= wanted,
+        }
+    }
+}
+
+/// The distance at which a target fills the frame as wanted, seen from a bearing; projection shrinks with distance, so
+/// bisection finds it (40 halvings: exact to 1e-9 of the range).
+pub(super) fn distance_for(world: &World, target: &Target, bearing: Bearing, fill: Fill, fov_y_rad: f64) -> f64 {
+    let reached = |d: f64| fill.reached(&view_at(world, target.aim, bearing, d, fov_y_rad), &target.corners);
+    let (mut near, mut far) = (0.2 * target.radius, 200.0 * target.radius.max(1e-9));
+    for _ in 0..40 {
+        let middle = (near * far).sqrt();
+        if reached(middle) {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    (near * far).sqrt()
+}
+
+/// Bearing of a camera position as seen from a point.
+pub(super) fn bearing_of(world: &World, aim: DVec3, position: DVec3) -> Bearing {
+    let away = position - aim;
+    let level = world.frame.horizontal(away).length();
+    Bearing { azimuth_rad: world.frame.azimuth(away), elevation_rad: world.frame.height(away).atan2(level) }
+}

@@ -1,0 +1,161 @@
+//! The operator: makes a program exact, safe and smooth.
+//!
+//! Enters: a scene prepared as [`World`], a [`Program`] of steps, and poses that the director suggests. Leaves: keyframes
+//! whose path does what each step says by the definitions of the contract ("Moves, exactly"), and a report of what was
+//! wanted and got. Within what the steps leave open (from where a subject is seen, how far a push goes) a bounded,
+//! seeded search looks for a film that keeps its subjects in the frame and unhidden, stays clear of matter and in the
+//! space that the capture shows from its good side. Never does IO.
+
+mod draft;
+mod framing;
+mod grid;
+mod judge;
+mod moves;
+mod program;
+mod report;
+mod search;
+mod support;
+mod view;
+mod world;
+
+pub use framing::DEFAULT_ASPECT;
+pub use program::{Amount, Framing, Part, Pass, Program, Speed, Step, Via};
+pub use world::{DEFAULT_CAMERA_RADIUS_FRAC, Subject, World};
+
+use crate::trajectory::{CameraState, Keyframe, ReportLine, retime};
+use draft::{StepLabels, keyframes};
+
+/// How long the operator may look for a better film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Effort {
+    /// Not at all: the first choice that each move makes, from the director's suggestion.
+    Off,
+    /// Some 500 tries for one step.
+    Fast,
+    /// Some 1,300 tries for one step, and 1,800 for each after it.
+    #[default]
+    Full,
+}
+
+/// A camera that the director has in mind for the start of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Suggestion {
+    /// Pose and lens.
+    pub state: CameraState,
+}
+
+/// How to solve.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SolveSettings {
+    /// Time against how well the open choices are made.
+    pub effort: Effort,
+    /// Seed of the search.
+    pub seed: u64,
+}
+
+/// A solved shot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// Keys in order of time, the first at 0.
+    pub keyframes: Vec<Keyframe>,
+    /// Length of the film.
+    pub duration_secs: f64,
+    /// What was wanted and got.
+    pub report: Vec<ReportLine>,
+    /// Index of the key at which each step of the program begins, and of the film's last key.
+    pub step_keys: Vec<usize>,
+    /// What the search minimized: below 3 everything asked for was found.
+    pub cost: f64,
+}
+
+/// Shortest film and shortest part that a total duration squeezes things into.
+const LEAST_PART_SECS: f64 = 0.3;
+
+/// Keyframes that do what a program says.
+///
+/// `prompt` is the sentence, for the report; `suggestions` has one camera a step (or fewer). An empty program gives a
+/// held view of the scene.
+pub fn realize(
+    world: &World,
+    program: &Program,
+    prompt: &str,
+    suggestions: &[Suggestion],
+    settings: &SolveSettings,
+) -> Solution {
+    let held;
+    let program = if program.steps.is_empty() {
+        held = Program { steps: vec![Step::of(crate::trajectory::Move::Static)], ..program.clone() };
+        &held
+    } else {
+        program
+    };
+    let task = search::Task { world, program, suggestions };
+    let film = search::best_film(&task, settings.seed, settings.effort);
+    let cost = film.cost();
+    let mut parts: Vec<draft::Part> = film.parts.into_iter().flatten().collect();
+    fit_duration(&mut parts, program.duration_secs);
+    let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
+    let mut keys = keyframes(&parts, &labels);
+    retime(&mut keys, Some(world.frame));
+    let duration_secs = parts.iter().map(|part| part.secs).sum();
+    let report = report::report(world, program, prompt, &parts);
+    let step_keys = step_keys(&parts, program.steps.len());
+    Solution { keyframes: keys, duration_secs, report, step_keys, cost }
+}
+
+/// Scales the parts whose length is free so that the whole lasts as long as the words say.
+fn fit_duration(parts: &mut [draft::Part], wanted_secs: Option<f64>) {
+    let Some(wanted) = wanted_secs.filter(|&secs| secs > 0.0) else { return };
+    let sum = |parts: &[draft::Part], bound: bool| -> f64 {
+        parts.iter().filter(|part| part.secs_bind == bound).map(|part| part.secs).sum()
+    };
+    let (bound, free) = (sum(parts, true), sum(parts, false));
+    let factor = (wanted - bound) / free;
+    let all = free <= 0.0 || factor * free < LEAST_PART_SECS;
+    let factor = if all { wanted / (bound + free) } else { factor };
+    for part in parts.iter_mut().filter(|part| all || !part.secs_bind) {
+        part.secs *= factor;
+    }
+}
+
+/// What the keys of a step say about themselves: its framings, with what went before where they are empty.
+fn labels(program: &Program, index: usize) -> StepLabels {
+    let step = &program.steps[index];
+    let earlier = || {
+        let named = |s: &Step| [&s.end, &s.start].into_iter().find(|f| !f.subjects.is_empty()).map(|f| f.subjects.clone());
+        program.steps[..index].iter().rev().find_map(named).unwrap_or_default()
+    };
+    let filled = |framing: &Framing, other: &Framing| match (framing.subjects.is_empty(), other.subjects.is_empty()) {
+        (false, _) => framing.subjects.clone(),
+        (true, false) => other.subjects.clone(),
+        (true, true) => earlier(),
+    };
+    StepLabels {
+        start_subjects: filled(&step.start, &step.end),
+        end_subjects: filled(&step.end, &step.start),
+        start_size: step.start.size,
+        end_size: step.end.size,
+        start_angle: step.start.angle,
+        end_angle: step.end.angle,
+        words: step.words,
+    }
+}
+
+/// Key at which each step begins (its join included), and the last key.
+fn step_keys(parts: &[draft::Part], num_steps: usize) -> Vec<usize> {
+    let mut out = vec![0; num_steps + 1];
+    let mut key = 0;
+    let mut seen = None;
+    for (p, part) in parts.iter().enumerate() {
+        if part.cut && p > 0 {
+            key += 1;
+        }
+        if seen != Some(part.step) {
+            out[part.step] = key;
+            seen = Some(part.step);
+        }
+        key += part.states.len() - 1;
+    }
+    out[num_steps] = key;
+    out
+}

@@ -1,0 +1,74 @@
+//! What was asked for and what came of it, clause by clause.
+
+use super::Program;
+use super::draft::Part;
+use super::judge::{outcome, safety, sampled, wording};
+use super::world::World;
+use crate::trajectory::ReportLine;
+
+/// Samples of a part that the report is measured on.
+const NUM_SAMPLES: usize = 49;
+
+/// The report of a film: every goal of every step, clearance and support of the whole, and what could not be done.
+pub(super) fn report(world: &World, program: &Program, prompt: &str, parts: &[Part]) -> Vec<ReportLine> {
+    let mut lines: Vec<ReportLine> = Vec::new();
+    let (mut least, mut supported) = (f64::INFINITY, 1.0_f64);
+    for part in parts {
+        let states = sampled(world, part, NUM_SAMPLES);
+        let (clear, share) = safety(world, &states);
+        (least, supported) = (least.min(clear), supported.min(share));
+        let words = program.steps.get(part.step).and_then(|step| step.words);
+        for goal in &part.goals {
+            let found = outcome(world, goal, &states, usize::MAX);
+            let met = found.violation <= 0.0;
+            let note = if met { String::new() } else { gave_way(words.is_some()) };
+            lines.push(ReportLine {
+                clause: clause(prompt, words, part),
+                wanted: wording(world, goal),
+                got: found.got,
+                met,
+                note,
+            });
+        }
+    }
+    lines.push(safety_line(world, least));
+    if supported < 1.0 {
+        lines.push(ReportLine {
+            clause: "camera stays where the capture shows the scene's good side".to_owned(),
+            wanted: "share of the way 1.00".to_owned(),
+            got: supported,
+            met: false,
+            note: "part of the way looks at backs of surfaces or lies outside the captured space".to_owned(),
+        });
+    }
+    let unmet = |(words, why): &(String, String)| ReportLine {
+        clause: words.clone(),
+        wanted: "as the words say".to_owned(),
+        got: 0.0,
+        met: false,
+        note: why.clone(),
+    };
+    lines.extend(program.unmet.iter().map(unmet));
+    lines
+}
+
+fn clause(prompt: &str, words: Option<[usize; 2]>, part: &Part) -> String {
+    let text = words.and_then(|[from, to]| prompt.get(from..to)).map(str::trim).unwrap_or_default();
+    if text.is_empty() { part.movement.name().to_owned() } else { text.to_owned() }
+}
+
+fn gave_way(has_words: bool) -> String {
+    let why = "no camera was found that keeps this together with the rest: this gave way";
+    if has_words { why.to_owned() } else { format!("{why} (nothing in the words asks for it)") }
+}
+
+fn safety_line(world: &World, least: f64) -> ReportLine {
+    let met = least >= world.camera_radius;
+    ReportLine {
+        clause: "clear of matter".to_owned(),
+        wanted: format!("distance to solid matter at least {:.4} scene units", world.camera_radius),
+        got: least.min(world.bounds.size()),
+        met,
+        note: if met { String::new() } else { "the way comes too near to something: clearance gave way".to_owned() },
+    }
+}

@@ -1,0 +1,161 @@
+//! A scene as the operator sees it: subjects to frame, matter to avoid and to look past, space to stand in.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::grid::{Grid, OpacityGrid, SOLID_OPACITY, distances};
+use super::support::Support;
+use crate::geometry::{GeometryError, LevelFrame};
+use crate::objects::{Object, ObjectSet};
+use crate::scene::{Bounds, Gaussians};
+
+/// Least distance from the lens to solid matter, over the scene size, unless asked for otherwise.
+pub const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;
+/// Points that stand for a subject when it is framed and looked for.
+const SUBJECT_POINTS: usize = 48;
+
+/// A scene prepared for planning shots.
+pub struct World {
+    /// The world's up with a reference heading.
+    pub frame: LevelFrame,
+    /// Extents of the scene.
+    pub bounds: Bounds,
+    /// Least distance from the lens to solid matter, scene units.
+    pub camera_radius: f64,
+    subjects: BTreeMap<u32, Subject>,
+    matter: OpacityGrid,
+    clearance: Vec<f32>,
+    support: Support,
+}
+
+/// Something a shot can be about.
+pub struct Subject {
+    /// Object id; 0 for the scene as a whole.
+    pub id: u32,
+    /// Name for reports.
+    pub label: String,
+    /// Box center, world.
+    pub center: DVec3,
+    /// Box corners, world.
+    pub corners: Vec<DVec3>,
+    /// Half the box's diagonal.
+    pub radius: f64,
+    /// Points on it, world.
+    pub points: Vec<DVec3>,
+    /// Everything but this subject, for looking at it.
+    others: OpacityGrid,
+}
+
+impl World {
+    /// Prepares a scene and those of its objects that `ids` names; `up` is the world's up.
+    ///
+    /// # Errors
+    /// [`GeometryError::NoUpDirection`] when `up` has no length.
+    pub fn new(gaussians: &Gaussians, up: DVec3, objects: &ObjectSet, ids: &[u32]) -> Result<Self, GeometryError> {
+        let frame = LevelFrame::new(up)?;
+        let bounds = Bounds::of(gaussians);
+        let matter = OpacityGrid::of(Grid::around(&bounds, frame.up), gaussians, |_| true);
+        let occupied: Vec<bool> = matter.opacity.iter().map(|&a| a >= SOLID_OPACITY).collect();
+        let clearance = distances(&matter.grid, &occupied);
+        let support = Support::of(&matter, &clearance, &bounds, &frame, &objects.objects);
+        let subjects = objects
+            .objects
+            .iter()
+            .filter(|object| ids.contains(&object.id))
+            .map(|object| (object.id, Subject::of(gaussians, object, &objects.labels, &matter.grid)))
+            .collect();
+        let camera_radius = DEFAULT_CAMERA_RADIUS_FRAC * bounds.size();
+        Ok(Self { frame, bounds, camera_radius, subjects, matter, clearance, support })
+    }
+
+    /// A subject by object id.
+    pub fn subject(&self, id: u32) -> Option<&Subject> {
+        self.subjects.get(&id)
+    }
+
+    /// Lower bound of the distance from a point to solid matter, scene units; large far from the scene.
+    pub fn clearance(&self, point: DVec3) -> f64 {
+        match self.matter.grid.index_at(point) {
+            // The point and the matter may lie anywhere in their cells.
+            Some(cell) => f64::from(self.clearance[cell]) - self.matter.grid.cell,
+            None => 0.2 * self.bounds.size(),
+        }
+    }
+
+    /// Least clearance along the straight way from `a` to `b`.
+    pub fn clearance_between(&self, a: DVec3, b: DVec3) -> f64 {
+        let length = a.distance(b);
+        let (mut at, mut least) = (0.0, self.clearance(b));
+        while at < length {
+            let here = self.clearance(a.lerp(b, at / length));
+            least = least.min(here);
+            // Clearance changes by no more than the way; steps of a cell at least.
+            at += (here - self.camera_radius).max(0.7 * self.matter.grid.cell);
+        }
+        least
+    }
+
+    /// Whether the capture shows its good side from a point.
+    pub fn supports(&self, point: DVec3) -> bool {
+        self.support.holds(&self.matter, point)
+    }
+
+    /// How far a point lies outside the box of the middle 96 % of the solid Gaussians, over the scene size; 0 inside.
+    pub fn outside_frac(&self, point: DVec3) -> f64 {
+        let inside = point.clamp(self.bounds.core_min, self.bounds.core_max);
+        inside.distance(point) / self.bounds.size()
+    }
+
+    /// Whether what is seen from a point is seen from the side that the capture shows.
+    pub fn is_good_side(&self, point: DVec3) -> bool {
+        self.support.is_good_side(&self.matter, point)
+    }
+
+    /// Share of the good places to stand that see a point: 0 behind walls, high in the middle of a room.
+    pub fn seen_frac(&self, point: DVec3) -> f64 {
+        self.support.seen_frac(&self.matter, point)
+    }
+
+    /// Free places with a good view of the scene, the best first.
+    pub fn hubs(&self) -> &[DVec3] {
+        &self.support.hubs
+    }
+
+    /// Whether the scene surrounds the camera (a room) rather than being looked at from outside (a thing).
+    pub fn is_indoor(&self) -> bool {
+        self.support.indoor
+    }
+
+    /// Distance to what a ray meets, if it meets anything.
+    pub fn hit_distance(&self, eye: DVec3, direction: DVec3) -> Option<f64> {
+        self.matter.hit_distance(eye, direction, 1.6 * self.bounds.size())
+    }
+}
+
+impl Subject {
+    fn of(gaussians: &Gaussians, object: &Object, labels: &[u16], grid: &Grid) -> Self {
+        let labelled = labels.iter().any(|&label| u32::from(label) == object.id);
+        let belongs = |i: usize| {
+            if labelled { u32::from(labels[i]) == object.id } else { object.contains(gaussians.mean_world(i), 0.0) }
+        };
+        let own: Vec<bool> = (0..gaussians.len()).map(belongs).collect();
+        let solid: Vec<usize> =
+            (0..gaussians.len()).filter(|&i| own[i] && gaussians.opacities[i] >= SOLID_OPACITY).collect();
+        let corners = object.corners().to_vec();
+        let stride = (solid.len() / SUBJECT_POINTS).max(1);
+        let points = if solid.len() >= 20 {
+            solid.iter().step_by(stride).map(|&i| gaussians.mean_world(i)).collect()
+        } else {
+            corners.clone()
+        };
+        let others = OpacityGrid::of(grid.clone(), gaussians, |i| !own[i]);
+        let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
+        Self { id: object.id, label, center: object.center, corners, radius: object.radius(), points, others }
+    }
+
+    /// Share of light that reaches `eye` from a point of the subject, past everything but the subject.
+    pub fn transmittance(&self, eye: DVec3, point: DVec3) -> f64 {
+        self.others.transmittance(eye, point)
+    }
+}

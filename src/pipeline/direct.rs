@@ -1,0 +1,175 @@
+use super::{PipelineError, StageTimes};
+use crate::director::language::{self, Linked, NamedObject};
+use crate::director::{Direction, Director, Stage};
+use crate::lens::{self, Call, Decision, EffectChoice};
+use crate::objects::{self, CloudSettings, ObjectSet};
+use crate::operator::{self, Effort, SolveSettings, Step, Suggestion, World};
+use crate::scene::Scene;
+use crate::trajectory::{CameraState, ReportLine, SceneRef, Shot};
+
+/// What a shot is to be like beyond its words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DirectSettings {
+    /// Frame width in pixels.
+    pub width: u32,
+    /// Frame height in pixels.
+    pub height: u32,
+    /// Frames a second.
+    pub rate_fps: f64,
+    /// Length of the film; `None` = as the words say, or as the moves need.
+    pub duration_secs: Option<f64>,
+    /// Seed of the search for cameras.
+    pub seed: u64,
+    /// How long the search may take.
+    pub effort: Effort,
+    /// Effects of the lens.
+    pub effects: EffectChoice,
+}
+
+impl Default for DirectSettings {
+    fn default() -> Self {
+        Self {
+            width: 1280,
+            height: 720,
+            rate_fps: 30.0,
+            duration_secs: None,
+            seed: 0,
+            effort: Effort::default(),
+            effects: EffectChoice::default(),
+        }
+    }
+}
+
+/// A shot, and how its prompt was understood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Directed {
+    /// The shot.
+    pub shot: Shot,
+    /// Every step of the prompt's program.
+    pub steps: Vec<StepReading>,
+    /// What becomes of each effect.
+    pub effects: Vec<Decision>,
+    /// What was guessed or taken with doubt, one sentence each.
+    pub warnings: Vec<String>,
+    /// How long each stage took.
+    pub times: StageTimes,
+}
+
+/// How one stretch of the prompt was understood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepReading {
+    /// The words, as they stand in the prompt; empty where the step has none of its own.
+    pub words: String,
+    /// What they were understood as.
+    pub step: Step,
+    /// How sure the network is of all of it, 0..=1.
+    pub probability: f64,
+    /// The choice that it is least sure of, and its probability.
+    pub weakest: (&'static str, f64),
+}
+
+/// Makes the sparse clouds of all objects that lack one, which the director needs.
+///
+/// # Errors
+/// [`PipelineError::Objects`].
+pub fn prepare_objects(scene: &Scene, set: &mut ObjectSet) -> Result<(), PipelineError> {
+    Ok(objects::fill_clouds(scene, set, &CloudSettings::default())?)
+}
+
+/// A sentence about a scene as a shot: words to a program, program to keyframes.
+///
+/// The same scene, objects, prompt and settings give the same shot. Objects without a cloud get one.
+///
+/// # Errors
+/// [`PipelineError::Language`] for words that name what the scene lacks; else the failing stage's error.
+pub fn direct(
+    scene: &Scene,
+    objects: &ObjectSet,
+    prompt: &str,
+    director: &Director,
+    settings: &DirectSettings,
+) -> Result<Directed, PipelineError> {
+    let mut times = StageTimes::default();
+    let linked = times.measure("direct", || language::link(prompt, &names(objects)))?;
+    let objects = times.measure("objects", || with_clouds(scene, objects))?;
+    let bounds = scene.bounds();
+    let stage = Stage { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
+    let mut direction = times.measure("direct", || director.direct(&linked, &stage))?;
+    if settings.duration_secs.is_some() {
+        direction.program.duration_secs = settings.duration_secs;
+    }
+    let solution = times.measure("solve", || {
+        let world = World::new(&scene.gaussians, scene.up, &objects, &linked.slots)?;
+        let solve = SolveSettings { effort: settings.effort, seed: settings.seed };
+        Ok::<_, PipelineError>(operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve))
+    })?;
+    let effects = lens::decide(&settings.effects, &calls(&linked)?);
+    let mut report = solution.report;
+    report.extend(effects.iter().filter_map(Decision::report_line));
+    report.extend(linked.unknown.iter().map(unknown_name));
+    let shot = Shot {
+        scene: SceneRef {
+            path: scene.path.to_string_lossy().into_owned(),
+            sha256: scene.sha256.clone(),
+            up: Some(scene.up),
+        },
+        prompt: prompt.to_owned(),
+        seed: settings.seed,
+        model: Some(director.model_ref()),
+        width: settings.width,
+        height: settings.height,
+        fps: settings.rate_fps,
+        duration_secs: solution.duration_secs,
+        keyframes: solution.keyframes,
+        effects: effects.iter().filter_map(Decision::request).collect(),
+        report,
+    };
+    let steps = readings(prompt, &direction);
+    Ok(Directed { shot: shot.validated()?, steps, effects, warnings: linked.warnings, times })
+}
+
+fn names(objects: &ObjectSet) -> Vec<NamedObject> {
+    objects.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect()
+}
+
+fn with_clouds(scene: &Scene, objects: &ObjectSet) -> Result<ObjectSet, PipelineError> {
+    let mut objects = objects.clone();
+    prepare_objects(scene, &mut objects)?;
+    Ok(objects)
+}
+
+/// The camera that the network has in mind for the start of each step.
+fn suggestions(direction: &Direction) -> Vec<Suggestion> {
+    let starts = direction.step_cameras.iter().map_while(|&[start, _]| direction.cameras.get(start));
+    let state = |pose, fov_y_rad| CameraState { pose, fov_y_rad, focus_distance: None };
+    starts.map(|camera| Suggestion { state: state(camera.pose, camera.fov_y_rad) }).collect()
+}
+
+fn calls(linked: &Linked) -> Result<Vec<Call>, PipelineError> {
+    let called = language::effects_called_for(linked)?;
+    Ok(called.into_iter().map(|call| Call { kind: call.kind, because: call.because }).collect())
+}
+
+fn unknown_name(unknown: &language::UnknownName) -> ReportLine {
+    let nearest = unknown.nearest.join(", ");
+    ReportLine {
+        clause: unknown.name.clone(),
+        wanted: "an object of the scene".to_owned(),
+        got: 0.0,
+        met: false,
+        note: format!("no object has this name; nearest: {nearest}"),
+    }
+}
+
+fn readings(prompt: &str, direction: &Direction) -> Vec<StepReading> {
+    let words = |step: &Step| step.words.and_then(|[start, end]| prompt.get(start..end)).unwrap_or_default().to_owned();
+    let paired = direction.program.steps.iter().zip(&direction.certainty);
+    paired
+        .map(|(step, sure)| StepReading {
+            words: words(step),
+            step: step.clone(),
+            probability: sure.probability,
+            weakest: sure.weakest,
+        })
+        .collect()
+}

@@ -1,0 +1,205 @@
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::{FrameRange, PipelineError};
+use crate::geometry::{Camera, Intrinsics};
+use crate::render::{Frame, RenderSettings, Renderer};
+use crate::scene::Scene;
+use crate::trajectory::{CameraPath, Shot};
+use crate::video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
+
+/// Frames that may wait for the encoder: enough to ride out its slow ones, little memory.
+const QUEUE_FRAMES: usize = 4;
+
+/// How a shot becomes a film.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmSettings {
+    /// How pictures are rendered.
+    pub render: RenderSettings,
+    /// How frames are written; size, rate and frame numbers come from the shot.
+    pub video: VideoSettings,
+    /// Which frames.
+    pub frames: FrameRange,
+    /// Where a contact sheet of the film goes.
+    pub sheet: Option<PathBuf>,
+}
+
+/// How far a film is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// Frames rendered.
+    pub done: usize,
+    /// Frames to render.
+    pub total: usize,
+}
+
+/// Whether to go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// The next frame.
+    Continue,
+    /// No further frame; what is there is written out.
+    Stop,
+}
+
+/// What came of a film.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmReport {
+    /// The film, or the folder of its pictures.
+    pub path: PathBuf,
+    /// Frames written.
+    pub num_frames: usize,
+    /// Frames asked for.
+    pub num_wanted: usize,
+    /// Time spent rendering.
+    pub render_time: Duration,
+    /// Time spent converting, encoding and writing, most of it while frames were rendered.
+    pub encode_time: Duration,
+    /// Wall time of both together.
+    pub total_time: Duration,
+}
+
+impl FilmReport {
+    /// Whether it ended before its last frame.
+    pub fn is_partial(&self) -> bool {
+        self.num_frames < self.num_wanted
+    }
+}
+
+/// Films a shot: renders frame after frame, each at its own time, while another thread encodes.
+///
+/// `watch` hears of every frame and may stop the film: what is there is then kept, a film file under the name
+/// `NAME.partial.EXT`.
+///
+/// # Errors
+/// [`PipelineError`]: keyframes without a path, frames the film does not have, a picture that cannot be rendered, a
+/// file that cannot be written. Nothing half-done is left under the output's name.
+pub fn film(
+    scene: &Scene,
+    shot: &Shot,
+    output: &Path,
+    settings: &FilmSettings,
+    watch: &mut dyn FnMut(Progress) -> Flow,
+) -> Result<FilmReport, PipelineError> {
+    let start = Instant::now();
+    let path = CameraPath::new(shot)?;
+    let frames = settings.frames.of_film(shot.num_frames())?;
+    let num_wanted = frames.len();
+    let video = VideoSettings {
+        width: shot.width,
+        height: shot.height,
+        rate_fps: shot.fps,
+        first_frame: frames.start,
+        num_frames: num_wanted,
+        ..settings.video.clone()
+    };
+    let writer = VideoWriter::create(output, &video)?;
+    let sheet = settings.sheet.as_ref().map(|_| ContactSheet::new(shot.width, shot.height, num_wanted));
+    let (sender, receiver) = sync_channel(QUEUE_FRAMES);
+    let encoder = Encoder { writer, sheet, busy: Duration::ZERO };
+    let renderer = Renderer::new(&scene.gaussians);
+    let mut render_time = Duration::ZERO;
+
+    let (rendered, encoded) = thread::scope(|scope| {
+        let encoding = scope.spawn(move || encoder.run(&receiver));
+        let camera_at = |frame_idx| camera_at(&path, shot, frame_idx);
+        let mut tell = |done| watch(Progress { done, total: num_wanted });
+        let rendered = frames.enumerate().try_for_each(|(done, frame_idx)| {
+            let start = Instant::now();
+            let picture = renderer.render(&camera_at(frame_idx), &settings.render);
+            render_time += start.elapsed();
+            send(picture?, &sender, done, &mut tell)
+        });
+        drop(sender);
+        (rendered, encoding.join())
+    });
+    let encoder = match encoded {
+        Ok(encoder) => encoder?,
+        Err(panic) => std::panic::resume_unwind(panic),
+    };
+    match rendered {
+        Ok(()) | Err(Break::Stopped) => {}
+        Err(Break::Failed(error)) => return Err(error),
+    }
+    encoder.finish(output, settings.sheet.as_deref(), num_wanted).map(|(path, num_frames, encode_time)| FilmReport {
+        path,
+        num_frames,
+        num_wanted,
+        render_time,
+        encode_time,
+        total_time: start.elapsed(),
+    })
+}
+
+/// Why no further frame is rendered.
+enum Break {
+    /// The caller wants no more.
+    Stopped,
+    /// A stage failed.
+    Failed(PipelineError),
+}
+
+impl<E: Into<PipelineError>> From<E> for Break {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+/// Passes a picture on and asks whether to go on.
+fn send(
+    picture: Frame,
+    sender: &SyncSender<Vec<u8>>,
+    num_before: usize,
+    tell: &mut dyn FnMut(usize) -> Flow,
+) -> Result<(), Break> {
+    // The encoder hangs up when it fails; its own error says why.
+    sender.send(picture.to_rgb8()).map_err(|_| Break::Stopped)?;
+    match tell(num_before + 1) {
+        Flow::Continue => Ok(()),
+        Flow::Stop => Err(Break::Stopped),
+    }
+}
+
+fn camera_at(path: &CameraPath, shot: &Shot, frame_idx: usize) -> Camera {
+    let state = path.sample(shot.frame_time_secs(frame_idx));
+    Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(shot.width, shot.height, state.fov_y_rad) }
+}
+
+/// The half of the work that runs beside the renderer.
+struct Encoder {
+    writer: VideoWriter,
+    sheet: Option<ContactSheet>,
+    busy: Duration,
+}
+
+impl Encoder {
+    fn run(mut self, frames: &Receiver<Vec<u8>>) -> Result<Self, VideoError> {
+        for (frame_idx, rgb8) in frames.iter().enumerate() {
+            let start = Instant::now();
+            if let Some(sheet) = &mut self.sheet {
+                sheet.offer(frame_idx, &rgb8);
+            }
+            self.writer.write_frame(&rgb8)?;
+            self.busy += start.elapsed();
+        }
+        Ok(self)
+    }
+
+    /// Ends film and sheet: the file, the number of its frames, the time spent.
+    fn finish(
+        self,
+        output: &Path,
+        sheet_path: Option<&Path>,
+        num_wanted: usize,
+    ) -> Result<(PathBuf, usize, Duration), PipelineError> {
+        let start = Instant::now();
+        let num_frames = self.writer.num_written();
+        if let (Some(sheet), Some(path)) = (&self.sheet, sheet_path) {
+            sheet.write(path)?;
+        }
+        let path = if num_frames < num_wanted { self.writer.finish_partial(output)? } else { self.writer.finish()? };
+        Ok((path, num_frames, self.busy + start.elapsed()))
+    }
+}

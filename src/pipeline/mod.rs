@@ -1,0 +1,20 @@
+//! The stages in a row, as a library: a scene and a sentence to a shot, a shot to a film.
+//!
+//! Enters: paths, prompts, settings. Leaves: shots, films, stills and how long each stage took. Progress goes to a
+//! callback, nothing is printed. The one invariant: a file that bears its name is whole.
+
+mod direct;
+mod error;
+mod film;
+mod frames;
+mod source;
+mod stage_times;
+mod stills;
+
+pub use direct::{Directed, DirectSettings, StepReading, direct, prepare_objects};
+pub use error::PipelineError;
+pub use film::{FilmReport, FilmSettings, Flow, Progress, film};
+pub use frames::FrameRange;
+pub use source::{Source, open_scene};
+pub use stage_times::StageTimes;
+pub use stills::{Still, still};

@@ -1,0 +1,87 @@
+use std::path::Path;
+
+use super::PipelineError;
+use crate::objects::{Object, ObjectSet};
+use crate::scene::synth::{self, SynthKind, SynthScene, SynthSettings};
+use crate::scene::{self, LoadOptions, Scene, UpSource};
+
+/// A scene, with its objects where they are known without a search.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The scene.
+    pub scene: Scene,
+    /// Exact objects of a generated scene; `None` for one from a file.
+    pub objects: Option<ObjectSet>,
+}
+
+/// Opens a scene by name: a file, the folder of an unbundled SOG, or `synth:room:SEED` and `synth:tabletop:SEED` for one
+/// that is generated.
+///
+/// # Errors
+/// [`PipelineError::Scene`] when the file cannot be read, [`PipelineError::UnknownSynth`] for a generated scene of
+/// another name.
+pub fn open_scene(name: &Path, options: &LoadOptions) -> Result<Source, PipelineError> {
+    match name.to_str().and_then(|name| name.strip_prefix("synth:")) {
+        Some(spec) => {
+            let settings = synth_settings(spec).ok_or_else(|| unknown(name))?;
+            Ok(generated(name, &settings, options))
+        }
+        None => Ok(Source { scene: scene::load(name, options)?, objects: None }),
+    }
+}
+
+fn unknown(name: &Path) -> PipelineError {
+    PipelineError::UnknownSynth { found: name.display().to_string() }
+}
+
+/// `room:7`, `tabletop:3`, and with a detail after it `room:7:0.5`.
+fn synth_settings(spec: &str) -> Option<SynthSettings> {
+    let mut parts = spec.split(':');
+    let kind = match parts.next()? {
+        "room" => SynthKind::Room,
+        "tabletop" => SynthKind::Tabletop,
+        _ => return None,
+    };
+    let seed = parts.next()?.parse().ok()?;
+    let detail = parts.next().map_or(Some(1.0), |text| text.parse().ok())?;
+    let is_whole = parts.next().is_none() && (0.01..=4.0).contains(&detail);
+    is_whole.then_some(SynthSettings { seed, kind, detail })
+}
+
+fn generated(name: &Path, settings: &SynthSettings, options: &LoadOptions) -> Source {
+    let SynthScene { gaussians, objects, labels, up, .. } = synth::generate(settings);
+    let (up, up_source) = match options.up.and_then(glam::DVec3::try_normalize) {
+        Some(given) => (given, UpSource::Flag),
+        None => (up, UpSource::File("generated with y up".to_owned())),
+    };
+    let mut counts = vec![0_usize; objects.len() + 1];
+    for &label in &labels {
+        if let Some(count) = counts.get_mut(usize::from(label)) {
+            *count += 1;
+        }
+    }
+    let object = |made: synth::SynthObject| Object {
+        num_gaussians: counts.get(made.id as usize).copied().unwrap_or(0),
+        id: made.id,
+        label: made.label,
+        center: made.center,
+        half_extents: made.half_extents,
+        rotation: made.rotation,
+        points: Vec::new(),
+        shape_radius: 0.0,
+        mask_iou: 0.0,
+    };
+    let objects = ObjectSet { objects: objects.into_iter().map(object).collect(), labels };
+    let scene = Scene {
+        path: name.to_owned(),
+        sha256: String::new(),
+        format: "generated".to_owned(),
+        gaussians,
+        dropped: Vec::new(),
+        filter: None,
+        up,
+        up_source,
+        notes: Vec::new(),
+    };
+    Source { scene, objects: Some(objects) }
+}

@@ -1,0 +1,82 @@
+use thiserror::Error;
+
+use crate::geometry::GeometryError;
+
+/// Why a picture could not be rendered.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RenderError {
+    /// The camera's image or pose is not usable.
+    #[error("camera: {0}")]
+    Camera(#[from] GeometryError),
+    /// A setting outside its range.
+    #[error("{name} is {found}, expected {expected}")]
+    Setting {
+        /// Which setting.
+        name: &'static str,
+        /// Its value.
+        found: f64,
+        /// The values allowed.
+        expected: &'static str,
+    },
+    /// A per-Gaussian or per-pixel input of the wrong length.
+    #[error("{what}: {found} values, expected {expected}")]
+    Length {
+        /// Which input.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length wanted.
+        expected: usize,
+    },
+    /// The work lists of this picture would not fit into the memory allowed.
+    #[error("{num_pairs} splat-tile pairs need {found_bytes} bytes, the cap is {limit_bytes}")]
+    Memory {
+        /// Overlaps between splats and tiles.
+        num_pairs: u64,
+        /// Bytes needed.
+        found_bytes: u64,
+        /// Bytes allowed.
+        limit_bytes: u64,
+    },
+    /// The picture would take more work than allowed.
+    #[error("{found} splat-tile pairs, the cap is {limit}")]
+    Cost {
+        /// Overlaps between splats and tiles.
+        found: u64,
+        /// Overlaps allowed.
+        limit: u64,
+    },
+}
+
+impl RenderError {
+    /// Stable code for messages.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Camera(_) => "RENDER-CAMERA",
+            Self::Setting { .. } => "RENDER-SETTING",
+            Self::Length { .. } => "RENDER-LENGTH",
+            Self::Memory { .. } => "RENDER-MEMORY",
+            Self::Cost { .. } => "RENDER-COST",
+        }
+    }
+
+    /// What to do about it, one line.
+    pub fn help(&self) -> String {
+        match self {
+            Self::Camera(_) => "give the camera a size, focal lengths above 0 and a finite pose".into(),
+            Self::Setting { name, expected, .. } => format!("set {name} to {expected}"),
+            Self::Length { what, expected, .. } => format!("give {what} {expected} values, in order"),
+            Self::Memory { .. } => "allow more memory, render smaller, or take the camera out of the Gaussians".into(),
+            Self::Cost { .. } => "allow more work, render smaller, or take the camera out of the Gaussians".into(),
+        }
+    }
+
+    /// Exit code of the process for this error.
+    pub fn exit_code(&self) -> i32 {
+        match self {
+            Self::Setting { .. } => 2,
+            Self::Camera(_) | Self::Length { .. } => 65,
+            Self::Memory { .. } | Self::Cost { .. } => 71,
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Gaussians in groups of neighbors, so that what cannot be seen is ruled out a group at a time and what can be seen
+//! is read from memory in order.
+
+use glam::{Quat, Vec3};
+use rayon::prelude::*;
+
+use crate::scene::Gaussians;
+
+/// Gaussians in a group. Smaller groups rule out more and cost more tests; 64 and 1024 were both slower on the kitchen.
+pub(super) const GROUP_LEN: usize = 256;
+
+/// Packs in a group.
+pub(super) const PACKS_IN_GROUP: usize = GROUP_LEN / LANES;
+
+/// Neighbors in space and a sphere about their means.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Group {
+    /// Center of the sphere, scene offset.
+    pub(super) center: Vec3,
+    /// Radius of the sphere.
+    pub(super) radius: f32,
+    /// Largest standard deviation among its members.
+    pub(super) max_scale: f32,
+}
+
+/// Gaussians projected together: the width of the widest registers.
+pub(super) const LANES: usize = 16;
+
+/// One number for each Gaussian projected together.
+pub(super) type Lane = [f32; LANES];
+
+/// The attributes of up to 16 neighbors, one array an attribute.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+pub(super) struct Pack {
+    pub(super) mean: [Lane; 3],
+    pub(super) scale: [Lane; 3],
+    pub(super) rotation: [Lane; 4],
+    pub(super) opacity: Lane,
+    pub(super) sh_dc: [Lane; 3],
+    pub(super) gaussian_idx: [u32; LANES],
+    /// How many there are; the lanes behind have opacity 0.
+    pub(super) len: usize,
+}
+
+/// All usable Gaussians of a scene, ordered along a space-filling curve and cut into groups.
+#[derive(Debug)]
+pub(super) struct Groups {
+    /// Attributes, group after group, [`PACKS_IN_GROUP`] each; all groups but the last are full.
+    pub(super) packs: Vec<Pack>,
+    /// The groups.
+    pub(super) groups: Vec<Group>,
+}
+
+impl Groups {
+    /// Groups the Gaussians. Those with numbers that are not finite, a rotation of length zero or no opacity are left out.
+    pub(super) fn new(gaussians: &Gaussians) -> Self {
+        let usable = |idx: &u32| is_usable(gaussians, *idx as usize);
+        let kept: Vec<u32> = (0..gaussians.len() as u32).into_par_iter().filter(usable).collect();
+        let (low, span) = extent(gaussians, &kept);
+        let code = |idx: u32| morton((gaussians.means[idx as usize] - low) / span);
+        let mut keyed: Vec<(u64, u32)> = kept.into_par_iter().map(|idx| (code(idx), idx)).collect();
+        keyed.par_sort_unstable();
+        let gaussian_from_slot: Vec<u32> = keyed.into_par_iter().map(|(_, idx)| idx).collect();
+        let groups = gaussian_from_slot.par_chunks(GROUP_LEN).map(|members| group(gaussians, members)).collect();
+        let packs = gaussian_from_slot.par_chunks(LANES).map(|members| Pack::of(gaussians, members)).collect();
+        Self { packs, groups }
+    }
+
+    /// Indices of all Gaussians that can be drawn, in the order of the file.
+    pub(super) fn usable(&self) -> Vec<u32> {
+        let members = self.packs.iter().flat_map(|pack| &pack.gaussian_idx[..pack.len]);
+        let mut usable: Vec<u32> = members.copied().collect();
+        usable.sort_unstable();
+        usable
+    }
+}
+
+impl Pack {
+    fn of(gaussians: &Gaussians, members: &[u32]) -> Self {
+        let mut pack = Self {
+            mean: [[0.0; LANES]; 3],
+            scale: [[0.0; LANES]; 3],
+            rotation: [[1.0; LANES]; 4],
+            opacity: [0.0; LANES],
+            sh_dc: [[0.0; LANES]; 3],
+            gaussian_idx: [0; LANES],
+            len: members.len(),
+        };
+        for (lane, &gaussian_idx) in members.iter().enumerate() {
+            let idx = gaussian_idx as usize;
+            for axis in 0..3 {
+                pack.mean[axis][lane] = gaussians.means[idx][axis];
+                pack.scale[axis][lane] = gaussians.scales[idx][axis];
+                pack.sh_dc[axis][lane] = gaussians.sh_dc[idx][axis];
+            }
+            for (part, value) in gaussians.rotations[idx].to_array().into_iter().enumerate() {
+                pack.rotation[part][lane] = value;
+            }
+            pack.opacity[lane] = gaussians.opacities[idx];
+            pack.gaussian_idx[lane] = gaussian_idx;
+        }
+        pack
+    }
+}
+
+/// Whether a Gaussian can be drawn; NaN fails every comparison.
+fn is_usable(gaussians: &Gaussians, idx: usize) -> bool {
+    let scale = gaussians.scales[idx];
+    let rotation: Quat = gaussians.rotations[idx];
+    gaussians.opacities[idx] > 0.0
+        && gaussians.opacities[idx].is_finite()
+        && gaussians.means[idx].is_finite()
+        && scale.is_finite()
+        && scale.min_element() >= 0.0
+        && rotation.is_finite()
+        && rotation.as_dquat().length_squared() > 1e-12
+        && gaussians.sh_dc[idx].is_finite()
+        && gaussians.sh_rest_of(idx).iter().all(|coefficient| coefficient.is_finite())
+}
+
+/// Lowest corner and side lengths of the box of the middle 98 % of the means along each axis, estimated on a sample.
+fn extent(gaussians: &Gaussians, kept: &[u32]) -> (Vec3, Vec3) {
+    let step = (kept.len() / 4096).max(1);
+    let sample = || kept.iter().step_by(step).map(|&idx| gaussians.means[idx as usize]);
+    let axis = |axis: usize| {
+        let mut values: Vec<f32> = sample().map(|mean| mean[axis]).collect();
+        values.sort_unstable_by(f32::total_cmp);
+        let at = |frac: f64| values.get((frac * values.len() as f64) as usize).copied().unwrap_or_default();
+        (at(0.01), at(0.99))
+    };
+    let (x, y, z) = (axis(0), axis(1), axis(2));
+    let low = Vec3::new(x.0, y.0, z.0);
+    (low, (Vec3::new(x.1, y.1, z.1) - low).max(Vec3::splat(f32::MIN_POSITIVE)))
+}
+
+/// Position along the z-order curve of a point in the unit cube, 20 bits an axis; points outside are moved to its side.
+fn morton(position: Vec3) -> u64 {
+    let spread = |value: f32| {
+        let mut bits = (value.clamp(0.0, 1.0) * 1_048_575.0) as u64;
+        bits = (bits | bits << 32) & 0x1f_0000_0000_ffff;
+        bits = (bits | bits << 16) & 0x1f_0000_ff00_00ff;
+        bits = (bits | bits << 8) & 0x100f_00f0_0f00_f00f;
+        bits = (bits | bits << 4) & 0x10c3_0c30_c30c_30c3;
+        (bits | bits << 2) & 0x1249_2492_4924_9249
+    };
+    spread(position.x) | spread(position.y) << 1 | spread(position.z) << 2
+}
+
+fn group(gaussians: &Gaussians, members: &[u32]) -> Group {
+    let means = || members.iter().map(|&idx| gaussians.means[idx as usize]);
+    let low = means().fold(Vec3::INFINITY, Vec3::min);
+    let high = means().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let center = low * 0.5 + high * 0.5;
+    let max_scale = members.iter().map(|&idx| gaussians.scales[idx as usize].max_element()).fold(0.0, f32::max);
+    Group { center, radius: (high * 0.5 - low * 0.5).length() * 1.0001, max_scale }
+}

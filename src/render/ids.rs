@@ -1,0 +1,98 @@
+use super::blend::TILE_LEN;
+use super::kernel::Record;
+use super::payload::{Payload, Sink, TileArea};
+
+/// The object seen in each pixel: `[row * width + column]`, 0 = none.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct IdMap {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// The label whose Gaussians together have the largest weight in the pixel; of equal ones the lowest.
+    pub ids: Vec<u16>,
+}
+
+/// The payload of an [`IdMap`].
+pub(super) struct IdPayload<'a> {
+    /// A label for each Gaussian.
+    pub(super) labels: &'a [u16],
+}
+
+/// Sums of one tile: a plane for each label that occurs in it.
+pub(super) struct IdSink<'a> {
+    labels: &'a [u16],
+    /// Plane of each record.
+    plane_from_record: Vec<usize>,
+    /// Label of each plane.
+    label_from_plane: Vec<u16>,
+    /// Weights, plane after plane.
+    weights: Vec<f32>,
+}
+
+impl<'a> Payload for IdPayload<'a> {
+    type Sink = IdSink<'a>;
+    type Part = Vec<(usize, u16)>;
+
+    fn sink(&self, _: TileArea) -> IdSink<'a> {
+        IdSink { labels: self.labels, plane_from_record: Vec::new(), label_from_plane: Vec::new(), weights: Vec::new() }
+    }
+
+    fn part(&self, sink: IdSink<'a>, area: TileArea) -> Vec<(usize, u16)> {
+        let inside = (0..TILE_LEN).filter_map(|pixel| Some((area.picture_idx(pixel)?, pixel)));
+        inside.map(|(idx, pixel)| (idx, sink.strongest(pixel))).collect()
+    }
+}
+
+impl IdSink<'_> {
+    /// The label with the largest weight in a pixel.
+    fn strongest(&self, pixel: usize) -> u16 {
+        let mut best = (0.0, 0);
+        for (plane, &label) in self.label_from_plane.iter().enumerate() {
+            let weight = self.weights[plane * TILE_LEN + pixel];
+            if weight > best.0 || (weight > 0.0 && weight >= best.0 && label < best.1) {
+                best = (weight, label);
+            }
+        }
+        best.1
+    }
+
+    /// The plane of a label, made where there is none yet.
+    fn plane_of(&mut self, label: u16) -> usize {
+        self.label_from_plane.iter().position(|&known| known == label).unwrap_or_else(|| {
+            self.label_from_plane.push(label);
+            self.weights.resize(self.label_from_plane.len() * TILE_LEN, 0.0);
+            self.label_from_plane.len() - 1
+        })
+    }
+}
+
+impl Sink for IdSink<'_> {
+    const IS_ACTIVE: bool = true;
+
+    fn begin(&mut self, records: &[Record]) {
+        self.plane_from_record.clear();
+        for record in records {
+            let plane = self.plane_of(self.labels[record.gaussian_idx as usize]);
+            self.plane_from_record.push(plane);
+        }
+    }
+
+    fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
+        let start = self.plane_from_record[position] * TILE_LEN + first_pixel;
+        for (sum, weight) in self.weights[start..].iter_mut().zip(weights) {
+            *sum += weight;
+        }
+    }
+}
+
+impl IdMap {
+    /// Puts the tiles together.
+    pub(super) fn assemble(width: u32, height: u32, parts: Vec<Vec<(usize, u16)>>) -> Self {
+        let mut map = Self { width, height, ids: vec![0; width as usize * height as usize] };
+        for (idx, id) in parts.into_iter().flatten() {
+            map.ids[idx] = id;
+        }
+        map
+    }
+}

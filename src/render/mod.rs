@@ -1,0 +1,53 @@
+//! Gaussians and a camera to a picture, on the CPU: project, sort, bin, blend, one file a stage under that name.
+//!
+//! Enters: [`crate::scene::Gaussians`], a [`crate::geometry::Camera`] and [`RenderSettings`]. Leaves: a [`Frame`], or
+//! depth, object ids and weights from the same blending loop. What a picture must look like is fixed in [`spec`];
+//! `reference` computes that in `f64` without shortcuts, every other quality in `f32` through [`project`] (splats, 16
+//! Gaussians at a time), [`sort`] (depth order), [`bin`] (64 px tiles) and [`blend`] (8 x 4 px blocks, their pixels in
+//! SIMD registers). The one invariant: a picture is the same to the bit whatever the number of threads.
+//!
+//! Reference: Kerbl et al., 3D Gaussian Splatting for Real-Time Radiance Field Rendering, 2023.
+
+#![allow(
+    clippy::inline_always,
+    reason = "what runs on an instruction set found at run time must be inlined into the function that enables it"
+)]
+
+pub mod bench;
+mod bin;
+mod blend;
+mod depth;
+mod error;
+mod fast;
+mod frame;
+mod groups;
+mod harmonics;
+mod ids;
+mod kernel;
+mod lift;
+mod payload;
+mod project;
+mod reference;
+mod renderer;
+mod settings;
+mod sort;
+mod spans;
+pub mod spec;
+mod splat;
+mod splats;
+mod stats;
+mod upsample;
+mod view;
+mod weights;
+
+pub use depth::DepthMap;
+pub use error::RenderError;
+pub use frame::Frame;
+pub use ids::IdMap;
+pub use lift::Lifted;
+pub use renderer::Renderer;
+pub use settings::{Accuracy, Limits, Quality, RenderSettings};
+pub use stats::{RenderStats, StageTimes, WorkCounts};
+pub use weights::Weight;
+
+use view::View;

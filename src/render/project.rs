@@ -1,0 +1,263 @@
+//! Gaussians to splats, 16 at a time.
+//!
+//! Enters: the Gaussians of one group and a view. Leaves: splats that reach the picture. Depth and center are computed
+//! in `f64` and rounded once, so that the depth order is that of the spec image; shapes in `f32` through V = J W R S
+//! and the Cauchy-Binet determinant (see [`super::reference::project`]), which keeps needles exact.
+
+use glam::{DVec3, Vec3};
+use pulp::{Simd, WithSimd};
+
+use super::groups::{Group, LANES, Lane, Pack};
+use super::splat::{EXPONENT_DIVISOR, Splat, whitening_unit};
+use super::{View, harmonics, reference};
+use crate::scene::Gaussians;
+
+/// A circle of three standard deviations has at most the undilated radius plus this, in pixels: 3 sqrt(0.62) for
+/// dilation and the least spread, rounding up, half a pixel for the center, and slack.
+const MARGIN_PX: f64 = 6.0;
+
+/// The splats of 16 Gaussians, one array an attribute. `is_seen` is 1 for those that are drawn, 0 for those that are
+/// not, NaN where `f32` did not suffice.
+#[derive(Default)]
+struct Outputs {
+    is_seen: Lane,
+    depth: Lane,
+    mean_px: [Lane; 2],
+    whiten: [Lane; 3],
+    level: Lane,
+    reach: Lane,
+    half_px: [Lane; 2],
+    lean_px: Lane,
+}
+
+/// The members of one group on their way to being splats, compiled for every instruction set.
+struct GroupMembers<'a> {
+    projection: &'a Projection,
+    gaussians: &'a Gaussians,
+    packs: &'a [Pack],
+    splats: &'a mut Vec<Splat>,
+}
+
+impl WithSimd for GroupMembers<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.projection.project_packs(self.gaussians, self.packs, self.splats);
+    }
+}
+
+/// A view in `f32` where that is enough.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Projection {
+    view: View,
+    /// Rows of the rotation from world to camera.
+    rows: [Vec3; 3],
+    focal_px: [f32; 2],
+    slope: [(f32, f32); 2],
+    /// Where the picture ends for [`super::spec::reaches`], in pixels.
+    end_px: [f32; 2],
+    dilation_px2: f32,
+    /// 1 where opacity makes up for the dilation, else 0.
+    compensation: f32,
+    cut_level: f32,
+    unit: f32,
+}
+
+impl Projection {
+    /// The projection of a view.
+    pub(super) fn new(view: &View) -> Self {
+        let rows = view.camera_from_world.transpose();
+        let narrow = |(low, high): (f64, f64)| (low as f32, high as f32);
+        Self {
+            view: *view,
+            rows: [rows.x_axis.as_vec3(), rows.y_axis.as_vec3(), rows.z_axis.as_vec3()],
+            focal_px: view.focal_px.map(|focal| focal as f32),
+            slope: [narrow(view.slope_x), narrow(view.slope_y)],
+            end_px: [view.width, view.height].map(|size| size.next_multiple_of(16) as f32),
+            dilation_px2: view.dilation_px2 as f32,
+            compensation: f32::from(u8::from(view.is_compensated)),
+            cut_level: (view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32,
+            unit: whitening_unit() as f32,
+        }
+    }
+
+    /// Whether any member of a group may reach the picture. Its circles of three standard deviations are bounded by
+    /// `max_scale` times the largest stretch of the projection, which makes every test a plane in camera space.
+    pub(super) fn may_see(&self, group: &Group) -> bool {
+        let view = &self.view;
+        let center = view.camera_from_world * (group.center.as_dvec3() - view.center);
+        let radius = f64::from(group.radius) * 1.001;
+        if center.z + radius <= view.near {
+            return false;
+        }
+        let stretch = |focal: f64, bounds: (f64, f64)| focal * focal * (1.0 + bounds.0.abs().max(bounds.1).powi(2));
+        let [fx, fy] = view.focal_px;
+        let reach = 3.0 * f64::from(group.max_scale) * (stretch(fx, view.slope_x) + stretch(fy, view.slope_y)).sqrt();
+        let is_outside = |focal: f64, center_px: f64, size: u32, along: f64| {
+            let before = (focal, center_px + MARGIN_PX);
+            let after = (-focal, f64::from(size.next_multiple_of(16)) - center_px + MARGIN_PX);
+            [before, after].into_iter().any(|(a, b)| a * along + b * center.z + a.hypot(b) * radius + reach < 0.0)
+        };
+        !is_outside(fx, view.principal_px[0], view.width, center.x)
+            && !is_outside(fy, view.principal_px[1], view.height, center.y)
+    }
+
+    /// Appends the splats of a group's members.
+    pub(super) fn project_group(&self, gaussians: &Gaussians, packs: &[Pack], splats: &mut Vec<Splat>) {
+        pulp::Arch::new().dispatch(GroupMembers { projection: self, gaussians, packs, splats });
+    }
+
+    #[inline(always)]
+    fn project_packs(&self, gaussians: &Gaussians, packs: &[Pack], splats: &mut Vec<Splat>) {
+        let mut outputs = Outputs::default();
+        for pack in packs {
+            self.centers(pack, &mut outputs);
+            self.shapes(pack, &mut outputs);
+            for lane in 0..pack.len.min(LANES) {
+                if outputs.is_seen[lane] != 0.0 {
+                    splats.extend(self.finished(gaussians, pack, &outputs, lane));
+                }
+            }
+        }
+    }
+
+    /// Depth and center in pixels; `is_seen` says whether the Gaussian is in front.
+    #[inline(always)]
+    fn centers(&self, inputs: &Pack, outputs: &mut Outputs) {
+        let m = self.view.camera_from_world;
+        let DVec3 { x: cx, y: cy, z: cz } = self.view.center;
+        let ([fx, fy], [px, py], near) = (self.view.focal_px, self.view.principal_px, self.view.near);
+        for lane in 0..LANES {
+            let x = f64::from(inputs.mean[0][lane]) - cx;
+            let y = f64::from(inputs.mean[1][lane]) - cy;
+            let z = f64::from(inputs.mean[2][lane]) - cz;
+            let depth = m.x_axis.z * x + m.y_axis.z * y + m.z_axis.z * z;
+            let inverse = 1.0 / depth;
+            let right = (m.x_axis.x * x + m.y_axis.x * y + m.z_axis.x * z) * inverse;
+            let down = (m.x_axis.y * x + m.y_axis.y * y + m.z_axis.y * z) * inverse;
+            outputs.depth[lane] = depth as f32;
+            outputs.mean_px[0][lane] = (fx * right + px) as f32;
+            outputs.mean_px[1][lane] = (fy * down + py) as f32;
+            // Kept for `shapes`, which turns them into slopes.
+            outputs.half_px[0][lane] = right as f32;
+            outputs.half_px[1][lane] = down as f32;
+            outputs.is_seen[lane] = if depth > near { 1.0 } else { 0.0 };
+        }
+    }
+
+    /// Shape and opacity; clears `is_seen` where the splat is too faint or beside the picture.
+    #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, and the loop would not vectorize")]
+    #[inline(always)]
+    fn shapes(&self, inputs: &Pack, out: &mut Outputs) {
+        let [r0, r1, r2] = self.rows;
+        for lane in 0..LANES {
+            let inverse_depth = 1.0 / out.depth[lane];
+            let slope_x = out.half_px[0][lane].max(self.slope[0].0).min(self.slope[0].1);
+            let slope_y = out.half_px[1][lane].max(self.slope[1].0).min(self.slope[1].1);
+            let (stretch_x, stretch_y) = (self.focal_px[0] * inverse_depth, self.focal_px[1] * inverse_depth);
+            let axis_x = [r0.x - slope_x * r2.x, r0.y - slope_x * r2.y, r0.z - slope_x * r2.z].map(|v| v * stretch_x);
+            let axis_y = [r1.x - slope_y * r2.x, r1.y - slope_y * r2.y, r1.z - slope_y * r2.z].map(|v| v * stretch_y);
+
+            let [qx, qy, qz, qw] = [0, 1, 2, 3].map(|part| inputs.rotation[part][lane]);
+            let scale = 2.0 / (qx * qx + qy * qy + qz * qz + qw * qw);
+            let columns = [
+                [1.0 - scale * (qy * qy + qz * qz), scale * (qx * qy + qw * qz), scale * (qx * qz - qw * qy)],
+                [scale * (qx * qy - qw * qz), 1.0 - scale * (qx * qx + qz * qz), scale * (qy * qz + qw * qx)],
+                [scale * (qx * qz + qw * qy), scale * (qy * qz - qw * qx), 1.0 - scale * (qx * qx + qy * qy)],
+            ];
+            let s = [inputs.scale[0][lane], inputs.scale[1][lane], inputs.scale[2][lane]];
+            let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            let v1 = [dot(axis_x, columns[0]) * s[0], dot(axis_x, columns[1]) * s[1], dot(axis_x, columns[2]) * s[2]];
+            let v2 = [dot(axis_y, columns[0]) * s[0], dot(axis_y, columns[1]) * s[1], dot(axis_y, columns[2]) * s[2]];
+            let cross = [v1[1] * v2[2] - v1[2] * v2[1], v1[2] * v2[0] - v1[0] * v2[2], v1[0] * v2[1] - v1[1] * v2[0]];
+            let (raw_x, raw_y, raw, dilation) = (dot(v1, v1), dot(v2, v2), dot(cross, cross), self.dilation_px2);
+            let (a, b, c) = (raw_x + dilation, dot(v1, v2), raw_y + dilation);
+            let det = raw + dilation * (raw_x + raw_y) + dilation * dilation;
+
+            let kept_frac = (raw / det).sqrt() * self.compensation + (1.0 - self.compensation);
+            let level = log2(inputs.opacity[lane] * kept_frac).min(0.0) * (1.0 / EXPONENT_DIVISOR as f32);
+            let reach = level - self.cut_level;
+            let sigmas = reach.max(0.0).sqrt() / self.unit;
+            let (sd_x, sd_y) = (a.sqrt(), c.sqrt());
+            let half_difference = (a - c) * 0.5;
+            let spread = (half_difference * half_difference + b * b).max(0.1).sqrt();
+            let radius_px = (3.0 * ((a + c) * 0.5 + spread).sqrt()).ceil();
+            let ux = self.unit * sd_y / det.sqrt();
+
+            out.whiten[0][lane] = ux;
+            out.whiten[1][lane] = -b / c * ux;
+            out.whiten[2][lane] = self.unit / sd_y;
+            out.level[lane] = level;
+            out.reach[lane] = reach;
+            out.half_px[0][lane] = sigmas * sd_x;
+            out.half_px[1][lane] = sigmas * sd_y;
+            out.lean_px[lane] = sigmas * sd_x * b / a;
+
+            let (x, y) = (out.mean_px[0][lane] - 0.5, out.mean_px[1][lane] - 0.5);
+            let is_near = (x + radius_px >= 1.0)
+                & (y + radius_px >= 1.0)
+                & (x - radius_px < self.end_px[0])
+                & (y - radius_px < self.end_px[1])
+                & (reach >= 0.0);
+            // Zero times anything finite is zero; what is not finite becomes NaN and is looked at in `f64`.
+            let trouble = (det + ux + x + y + radius_px) * 0.0;
+            let front = out.is_seen[lane];
+            out.is_seen[lane] = if front > 0.0 { if is_near { 1.0 + trouble } else { trouble } } else { 0.0 };
+        }
+    }
+
+    /// The finished splat of one lane with its color; in `f64` where `f32` did not suffice.
+    fn finished(&self, gaussians: &Gaussians, pack: &Pack, out: &Outputs, lane: usize) -> Option<Splat> {
+        let gaussian_idx = pack.gaussian_idx[lane];
+        let splat = if out.is_seen[lane] > 0.5 {
+            Splat {
+                mean_px: [out.mean_px[0][lane], out.mean_px[1][lane]],
+                whiten: [out.whiten[0][lane], out.whiten[1][lane], out.whiten[2][lane]],
+                level: out.level[lane],
+                reach: out.reach[lane],
+                half_px: [out.half_px[0][lane], out.half_px[1][lane]],
+                lean_px: out.lean_px[lane],
+                depth: out.depth[lane],
+                color: [0.0; 3],
+                gaussian_idx,
+            }
+        } else {
+            Splat::from_exact(&reference::project(gaussians, gaussian_idx as usize, &self.view)?, &self.view)
+        };
+        let sh_dc = Vec3::from(pack.sh_dc.map(|channel| channel[lane]));
+        let color = if gaussians.sh_degree == 0 {
+            harmonics::base_color(sh_dc)
+        } else {
+            let mean = DVec3::from(pack.mean.map(|axis| f64::from(axis[lane])));
+            harmonics::color_f32(mean - self.view.center, sh_dc, gaussians.sh_rest_of(gaussian_idx as usize))
+        };
+        Some(splat.with_source(gaussian_idx, color))
+    }
+}
+
+/// Binary logarithm of a positive normal number, absolute error below 1e-7; written so that it vectorizes.
+///
+/// x = 2^e m with m in sqrt(1/2)..sqrt(2); log2(m) by a polynomial in m - 1 fitted at Chebyshev nodes.
+#[inline(always)]
+fn log2(x: f32) -> f32 {
+    const SQRT_HALF_BITS: u32 = 0x3f35_04f3;
+    const POLYNOMIAL: [f32; 8] = [
+        std::f32::consts::LOG2_E,
+        -0.721_352_76,
+        0.480_924_04,
+        -0.360_242,
+        0.287_075_6,
+        -0.248_821_8,
+        0.234_209_85,
+        -0.146_203_53,
+    ];
+    let shifted = x.to_bits().wrapping_sub(SQRT_HALF_BITS);
+    let exponent = (shifted as i32) >> 23;
+    let t = f32::from_bits((shifted & 0x007f_ffff).wrapping_add(SQRT_HALF_BITS)) - 1.0;
+    let mut sum = POLYNOMIAL[7];
+    for coefficient in POLYNOMIAL[..7].iter().rev() {
+        sum = sum * t + coefficient;
+    }
+    exponent as f32 + t * sum
+}

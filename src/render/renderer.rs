@@ -1,0 +1,173 @@
+use std::time::Instant;
+
+use glam::Vec3;
+
+use super::depth::{DepthMap, DepthPayload};
+use super::fast::{self, Buffers, Pool};
+use super::groups::Groups;
+use super::ids::{IdMap, IdPayload};
+use super::lift::{LiftPayload, Lifted};
+use super::payload::{ColorOnly, Payload};
+use super::upsample::upsample;
+use super::weights::{Weight, WeightPayload};
+use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, View, reference};
+use crate::geometry::Camera;
+use crate::scene::Gaussians;
+
+/// Renders pictures of one scene. Work lists are kept from picture to picture; several threads may share it.
+///
+/// Pictures are made on the threads of the current rayon pool; they are the same to the bit for any number of them.
+#[derive(Debug)]
+pub struct Renderer<'scene> {
+    gaussians: &'scene Gaussians,
+    groups: Groups,
+    buffers: Pool<Buffers>,
+    small_frames: Pool<Frame>,
+}
+
+impl<'scene> Renderer<'scene> {
+    /// A renderer of these Gaussians. Those with numbers that are not finite, rotations of length zero or no opacity
+    /// are never drawn.
+    pub fn new(gaussians: &'scene Gaussians) -> Self {
+        Self { gaussians, groups: Groups::new(gaussians), buffers: Pool::default(), small_frames: Pool::default() }
+    }
+
+    /// The picture that a camera takes.
+    ///
+    /// # Errors
+    /// [`RenderError`] for a camera or settings that cannot be, or when the work would exceed the limits.
+    pub fn render(&self, camera: &Camera, settings: &RenderSettings) -> Result<Frame, RenderError> {
+        let mut frame = Frame::default();
+        self.render_into(camera, settings, &mut frame)?;
+        Ok(frame)
+    }
+
+    /// As [`Renderer::render`], into a frame whose memory is used again.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`]; the frame then holds nothing of use.
+    pub fn render_into(
+        &self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        let view = View::new(camera, self.gaussians.origin, settings)?;
+        frame.resize(view.width, view.height);
+        let resolution_frac = settings.effective_accuracy().resolution_frac;
+        if settings.quality == Quality::Reference {
+            return self.render_reference(&view, settings, frame);
+        }
+        if resolution_frac < 1.0 {
+            let camera = Camera { pose: camera.pose, intrinsics: camera.intrinsics.scaled(resolution_frac) };
+            let view = View::new(&camera, self.gaussians.origin, settings)?;
+            return self.small_frames.with(|small| {
+                small.resize(view.width, view.height);
+                self.render_payload(&view, settings, small, &ColorOnly)?;
+                upsample(small, frame);
+                frame.stats = small.stats;
+                Ok(())
+            });
+        }
+        self.render_payload(&view, settings, frame, &ColorOnly).map(drop)
+    }
+
+    /// Depth of what a camera sees, from the weights of the picture at full resolution.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn depth(&self, camera: &Camera, settings: &RenderSettings) -> Result<DepthMap, RenderError> {
+        let (frame, parts) = self.render_parts(camera, settings, &DepthPayload)?;
+        Ok(DepthMap::assemble(frame.width, frame.height, parts))
+    }
+
+    /// The object seen in each pixel: of the labels (one a Gaussian, 0 = none) that with the largest summed weight.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`]; [`RenderError::Length`] unless there is one label a Gaussian.
+    pub fn object_ids(&self, camera: &Camera, settings: &RenderSettings, labels: &[u16]) -> Result<IdMap, RenderError> {
+        check_len("labels", labels.len(), self.gaussians.len())?;
+        let (frame, parts) = self.render_parts(camera, settings, &IdPayload { labels })?;
+        Ok(IdMap::assemble(frame.width, frame.height, parts))
+    }
+
+    /// Carries values of pixels (`num_channels` each, row-major) back to the Gaussians seen in them and adds to
+    /// `lifted`, which collects over pictures.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`]; [`RenderError::Length`] where `values` or `lifted` have another size.
+    pub fn lift(
+        &self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        values: &[f32],
+        lifted: &mut Lifted,
+    ) -> Result<(), RenderError> {
+        let num_channels = lifted.num_channels;
+        let num_pixels = camera.intrinsics.width as usize * camera.intrinsics.height as usize;
+        check_len("pixel values", values.len(), num_pixels * num_channels)?;
+        check_len("lifted weights", lifted.weights.len(), self.gaussians.len())?;
+        let (_, parts) = self.render_parts(camera, settings, &LiftPayload { values, num_channels })?;
+        lifted.add(parts);
+        Ok(())
+    }
+
+    /// Every splat's weight in every pixel it enters: in each pixel nearest first, pixels in no useful order. There are
+    /// many: some fifty a pixel in a room.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn weights(&self, camera: &Camera, settings: &RenderSettings) -> Result<Vec<Weight>, RenderError> {
+        let (_, parts) = self.render_parts(camera, settings, &WeightPayload)?;
+        Ok(parts.into_iter().flatten().collect())
+    }
+
+    /// A picture at full resolution in `f32` with the parts of a payload.
+    fn render_parts<P: Payload>(
+        &self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        payload: &P,
+    ) -> Result<(Frame, Vec<P::Part>), RenderError> {
+        let view = View::new(camera, self.gaussians.origin, settings)?;
+        let mut frame = Frame::default();
+        frame.resize(view.width, view.height);
+        let parts = self.render_payload(&view, settings, &mut frame, payload)?;
+        Ok((frame, parts))
+    }
+
+    fn render_payload<P: Payload>(
+        &self,
+        view: &View,
+        settings: &RenderSettings,
+        frame: &mut Frame,
+        payload: &P,
+    ) -> Result<Vec<P::Part>, RenderError> {
+        let scene = (self.gaussians, &self.groups);
+        self.buffers.with(|buffers| fast::render(scene, view, settings, buffers, (frame, payload)))
+    }
+
+    fn render_reference(&self, view: &View, settings: &RenderSettings, frame: &mut Frame) -> Result<(), RenderError> {
+        let start = Instant::now();
+        let scene = (self.gaussians, self.groups.usable());
+        let output = (frame.rgb.as_mut_slice(), frame.transmittance.as_mut_slice());
+        let counts = reference::render(scene, view, &settings.limits, output)?;
+        frame.stats = RenderStats { counts, ..RenderStats::default() };
+        frame.stats.times.blend = start.elapsed();
+        add_background(frame, settings.background);
+        Ok(())
+    }
+}
+
+fn check_len(what: &'static str, found: usize, expected: usize) -> Result<(), RenderError> {
+    if found == expected { Ok(()) } else { Err(RenderError::Length { what, found, expected }) }
+}
+
+/// Lets the background shine through.
+fn add_background(frame: &mut Frame, background: Vec3) {
+    if background != Vec3::ZERO {
+        for (rgb, rest) in frame.rgb.chunks_exact_mut(3).zip(&frame.transmittance) {
+            rgb.iter_mut().zip(background.to_array()).for_each(|(value, behind)| *value += behind * rest);
+        }
+    }
+}

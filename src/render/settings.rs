@@ -1,0 +1,154 @@
+use glam::Vec3;
+
+use super::{RenderError, spec};
+use crate::scene::SplatFilter;
+
+/// How much accuracy is traded for time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quality {
+    /// Half resolution, coarse cutoffs: for previews.
+    Draft,
+    /// Full resolution, blending stops a little early.
+    Standard,
+    /// The constants of the spec image in `f32`.
+    Final,
+    /// The spec image itself, in `f64`.
+    Reference,
+}
+
+impl Quality {
+    /// All of them, fastest first.
+    pub const ALL: [Self; 4] = [Self::Draft, Self::Standard, Self::Final, Self::Reference];
+
+    /// The name in commands and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Draft => "draft",
+            Self::Standard => "standard",
+            Self::Final => "final",
+            Self::Reference => "reference",
+        }
+    }
+
+    /// The quality of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|quality| quality.name() == name)
+    }
+
+    /// What this preset sets.
+    pub fn accuracy(self) -> Accuracy {
+        match self {
+            Self::Draft => Accuracy { alpha_cut: 1.0 / 128.0, transmittance_stop: 1e-2, resolution_frac: 0.5 },
+            Self::Standard => Accuracy { transmittance_stop: 1e-3, ..Accuracy::SPEC },
+            Self::Final | Self::Reference => Accuracy::SPEC,
+        }
+    }
+}
+
+/// The knobs that cost decibels, each against the spec image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Below this opacity a splat leaves a pixel alone, 0..1.
+    pub alpha_cut: f64,
+    /// Blending stops before the transmittance of a pixel would fall below this, 0..1.
+    pub transmittance_stop: f64,
+    /// Side length of the picture rendered over that of the picture returned, above 0 and up to 1.
+    pub resolution_frac: f64,
+}
+
+impl Accuracy {
+    /// The constants of the spec image.
+    pub const SPEC: Self =
+        Self { alpha_cut: spec::ALPHA_CUT, transmittance_stop: spec::TRANSMITTANCE_STOP, resolution_frac: 1.0 };
+}
+
+/// Bounds on what one picture may take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes of work lists and buffers beyond the scene and the picture.
+    pub max_memory_bytes: u64,
+    /// Overlaps between splats and tiles.
+    pub max_pairs: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { max_memory_bytes: 4 << 30, max_pairs: 1 << 30 }
+    }
+}
+
+/// Everything that decides a picture besides scene and camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RenderSettings {
+    /// Preset; also decides between `f32` and `f64`.
+    pub quality: Quality,
+    /// Dilation and its compensation.
+    pub filter: SplatFilter,
+    /// Gaussians whose mean is not farther than this along the view axis are left out, scene units.
+    pub near: f64,
+    /// What shows through, as-trained color.
+    pub background: Vec3,
+    /// Knobs in place of the preset's.
+    pub accuracy: Option<Accuracy>,
+    /// Caps on memory and work.
+    pub limits: Limits,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self {
+            quality: Quality::Standard,
+            filter: SplatFilter::Classic,
+            near: 0.2,
+            background: Vec3::ZERO,
+            accuracy: None,
+            limits: Limits::default(),
+        }
+    }
+}
+
+impl RenderSettings {
+    /// The knobs in force.
+    pub fn effective_accuracy(&self) -> Accuracy {
+        self.accuracy.unwrap_or_else(|| self.quality.accuracy())
+    }
+
+    /// Pixels squared added to both diagonal entries of a splat's covariance.
+    pub fn dilation_px2(&self) -> f64 {
+        match self.filter {
+            SplatFilter::Classic | SplatFilter::Mip => 0.3,
+            SplatFilter::MipSmall => 0.1,
+        }
+    }
+
+    /// Whether the opacity makes up for the dilation.
+    pub fn is_compensated(&self) -> bool {
+        self.filter != SplatFilter::Classic
+    }
+
+    /// Checks every range; NaN fails.
+    pub(super) fn check(&self) -> Result<(), RenderError> {
+        let accuracy = self.effective_accuracy();
+        let ranges = [
+            ("near", self.near, self.near >= 0.0 && self.near.is_finite(), "a finite distance, 0 or more"),
+            ("alpha_cut", accuracy.alpha_cut, accuracy.alpha_cut >= 1e-6 && accuracy.alpha_cut < 0.9, "1e-6..0.9"),
+            (
+                "transmittance_stop",
+                accuracy.transmittance_stop,
+                accuracy.transmittance_stop > 0.0 && accuracy.transmittance_stop < 1.0,
+                "above 0 and below 1",
+            ),
+            (
+                "resolution_frac",
+                accuracy.resolution_frac,
+                accuracy.resolution_frac > 0.0 && accuracy.resolution_frac <= 1.0,
+                "above 0 and up to 1",
+            ),
+            ("background", f64::from(self.background.length()), self.background.is_finite(), "three finite numbers"),
+        ];
+        match ranges.into_iter().find(|(_, _, good, _)| !good) {
+            Some((name, found, _, expected)) => Err(RenderError::Setting { name, found, expected }),
+            None => Ok(()),
+        }
+    }
+}

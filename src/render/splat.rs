@@ -1,0 +1,80 @@
+use glam::Vec3;
+
+use super::{View, reference::ExactSplat};
+
+/// The exponent that a splat stores is this many times smaller than the binary logarithm of the opacity, so that it
+/// lies in -1..=0 wherever the opacity counts; see [`super::exponential`].
+pub(super) const EXPONENT_DIVISOR: f64 = 8.0;
+
+/// Standard deviations to the units of [`Splat::whiten`]: an offset of w standard deviations costs (w k)^2 of exponent.
+pub(super) fn whitening_unit() -> f64 {
+    (0.5 * std::f64::consts::LOG2_E / EXPONENT_DIVISOR).sqrt()
+}
+
+/// A Gaussian on the image plane, ready to be blended.
+///
+/// With d = pixel - mean the opacity is 2^(8 (level - u^2 - v^2)), u = `ux` d.x + `uy` d.y, v = `vy` d.y: a Cholesky
+/// factor of the inverse covariance, so that the exponent is never above `level`, however thin the splat.
+///
+/// A cache line each: tiles fetch splats in an order that is random in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(align(64))]
+pub(super) struct Splat {
+    /// Center in pixels.
+    pub(super) mean_px: [f32; 2],
+    /// Whitening factors ux, uy, vy.
+    pub(super) whiten: [f32; 3],
+    /// Exponent at the center.
+    pub(super) level: f32,
+    /// Exponent at the center above that of the alpha cut: the splat counts where u^2 + v^2 is not above it.
+    pub(super) reach: f32,
+    /// Half the width and height of the region where it counts, pixels.
+    pub(super) half_px: [f32; 2],
+    /// How far below the center its rightmost point lies, pixels.
+    pub(super) lean_px: f32,
+    /// Red, green, blue.
+    pub(super) color: [f32; 3],
+    /// Depth along the view axis.
+    pub(super) depth: f32,
+    /// The Gaussian it shows.
+    pub(super) gaussian_idx: u32,
+}
+
+impl Splat {
+    /// The splat of an exact projection, for those that leave the range of `f32` on the way.
+    pub(super) fn from_exact(exact: &ExactSplat, view: &View) -> Self {
+        let unit = whitening_unit();
+        let level = exact.opacity.log2() / EXPONENT_DIVISOR;
+        let reach = level - view.alpha_cut.log2() / EXPONENT_DIVISOR;
+        let half = exact.half_extents_px(view.alpha_cut);
+        let ux = unit * (exact.variance_y / exact.determinant).sqrt();
+        let whiten = [ux, -exact.covariance / exact.variance_y * ux, unit / exact.variance_y.sqrt()];
+        Self {
+            mean_px: exact.mean_px.as_vec2().to_array(),
+            whiten: whiten.map(|factor| factor as f32),
+            level: level as f32,
+            reach: reach as f32,
+            half_px: half.as_vec2().to_array(),
+            lean_px: (exact.covariance / exact.variance_x * half.x) as f32,
+            color: [0.0; 3],
+            depth: exact.depth as f32,
+            gaussian_idx: 0,
+        }
+    }
+
+    /// The same with its color and the Gaussian it shows.
+    pub(super) fn with_source(self, gaussian_idx: u32, color: Vec3) -> Self {
+        Self { color: color.to_array(), gaussian_idx, ..self }
+    }
+
+    /// First and last tile that the splat may touch along each axis, x then y, or `None` beside the picture.
+    pub(super) fn tile_rect(&self, tile_px: f32, view: &View) -> Option<[u16; 4]> {
+        let [x, y] = self.mean_px;
+        let [half_x, half_y] = self.half_px;
+        let (width, height) = (view.width as f32, view.height as f32);
+        let is_inside = x + half_x > 0.0 && x - half_x < width && y + half_y > 0.0 && y - half_y < height;
+        let first = |low: f32| (low.max(0.0) / tile_px) as u16;
+        let last = |high: f32, size: f32| (high.min(size - 1.0).max(0.0) / tile_px) as u16;
+        is_inside.then(|| [first(x - half_x), last(x + half_x, width), first(y - half_y), last(y + half_y, height)])
+    }
+}

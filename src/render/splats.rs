@@ -1,0 +1,109 @@
+use rayon::prelude::*;
+
+use super::View;
+use super::bin::TILE_PX;
+use super::groups::{GROUP_LEN, Groups, PACKS_IN_GROUP};
+use super::project::Projection;
+use super::sort::DepthKey;
+use super::splat::Splat;
+use crate::scene::Gaussians;
+
+/// Groups whose splats are kept together.
+const GROUPS_IN_BATCH: usize = 16;
+/// Room for a batch in the numbering of places.
+const BATCH_LEN: usize = GROUPS_IN_BATCH * GROUP_LEN;
+
+/// Where a splat goes.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    /// Tiles that it touches: first and last column, first and last row.
+    rect: [u16; 4],
+    /// The Gaussian that it shows.
+    gaussian_idx: u32,
+}
+
+/// The splats of one batch of groups.
+#[derive(Debug, Default)]
+struct Batch {
+    splats: Vec<Splat>,
+    /// What sorting and binning need of each splat, apart from the rest because they go through it in no order.
+    touches: Vec<Touch>,
+    num_projected: u64,
+}
+
+/// The splats of a picture, in no order that matters; a splat's place is a number that finds it.
+#[derive(Debug, Default)]
+pub(super) struct Splats {
+    batches: Vec<Batch>,
+}
+
+impl Touch {
+    fn of(splat: &Splat, view: &View) -> Self {
+        // First column behind the last: touches nothing.
+        let rect = splat.tile_rect(TILE_PX as f32, view).unwrap_or([1, 0, 1, 0]);
+        Self { rect, gaussian_idx: splat.gaussian_idx }
+    }
+}
+
+impl Splats {
+    /// Projects all groups that may be seen; returns the number of Gaussians projected.
+    pub(super) fn fill(&mut self, gaussians: &Gaussians, groups: &Groups, view: &View) -> u64 {
+        let projection = Projection::new(view);
+        self.batches.resize_with(groups.groups.len().div_ceil(GROUPS_IN_BATCH), Batch::default);
+        let packs = groups.packs.par_chunks(GROUPS_IN_BATCH * PACKS_IN_GROUP);
+        let parts = groups.groups.par_chunks(GROUPS_IN_BATCH).zip(packs);
+        self.batches.par_iter_mut().zip(parts).for_each(|(batch, (groups, packs))| {
+            batch.splats.clear();
+            batch.num_projected = 0;
+            for (group, packs) in groups.iter().zip(packs.chunks(PACKS_IN_GROUP)) {
+                if projection.may_see(group) {
+                    projection.project_group(gaussians, packs, &mut batch.splats);
+                    batch.num_projected += packs.iter().map(|pack| pack.len as u64).sum::<u64>();
+                }
+            }
+            batch.touches.clear();
+            batch.touches.extend(batch.splats.iter().map(|splat| Touch::of(splat, view)));
+        });
+        self.batches.iter().map(|batch| batch.num_projected).sum()
+    }
+
+    /// Number of splats.
+    pub(super) fn len(&self) -> usize {
+        self.batches.iter().map(|batch| batch.splats.len()).sum()
+    }
+
+    /// The splat at a place.
+    #[inline(always)]
+    pub(super) fn get(&self, place: u32) -> &Splat {
+        let place = place as usize;
+        &self.batches[place / BATCH_LEN].splats[place % BATCH_LEN]
+    }
+
+    /// The tiles that the splat at a place touches.
+    #[inline(always)]
+    pub(super) fn rect(&self, place: u32) -> [u16; 4] {
+        let place = place as usize;
+        self.batches[place / BATCH_LEN].touches[place % BATCH_LEN].rect
+    }
+
+    /// The Gaussian that the splat at a place shows.
+    #[inline(always)]
+    pub(super) fn gaussian_idx(&self, place: u32) -> u32 {
+        let place = place as usize;
+        self.batches[place / BATCH_LEN].touches[place % BATCH_LEN].gaussian_idx
+    }
+
+    /// Writes the depth and place of every splat over `keys`.
+    pub(super) fn write_keys(&self, keys: &mut Vec<DepthKey>) {
+        keys.clear();
+        keys.reserve(self.len());
+        for (batch_idx, batch) in self.batches.iter().enumerate() {
+            let first = (batch_idx * BATCH_LEN) as u32;
+            keys.extend(
+                (first..)
+                    .zip(&batch.splats)
+                    .map(|(place, splat)| DepthKey { depth_bits: splat.depth.to_bits(), place }),
+            );
+        }
+    }
+}

@@ -1,0 +1,68 @@
+use glam::{DMat3, DVec3};
+
+use super::{RenderError, RenderSettings, spec};
+use crate::geometry::Camera;
+
+/// A camera and the settings as the projection needs them, all `f64`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View {
+    /// Rotation from the world's axes to the camera's.
+    pub(super) camera_from_world: DMat3,
+    /// Camera center minus the scene's origin.
+    pub(super) center: DVec3,
+    /// Image width in pixels.
+    pub(super) width: u32,
+    /// Image height in pixels.
+    pub(super) height: u32,
+    /// Focal lengths in pixels, x and y.
+    pub(super) focal_px: [f64; 2],
+    /// Principal point in pixels.
+    pub(super) principal_px: [f64; 2],
+    /// Bounds of x / z at which the projection is linearized.
+    pub(super) slope_x: (f64, f64),
+    /// Bounds of y / z at which the projection is linearized.
+    pub(super) slope_y: (f64, f64),
+    /// Near plane.
+    pub(super) near: f64,
+    /// Added to the diagonal of a splat's covariance.
+    pub(super) dilation_px2: f64,
+    /// Whether opacity makes up for the dilation.
+    pub(super) is_compensated: bool,
+    /// Least opacity that counts.
+    pub(super) alpha_cut: f64,
+    /// Least transmittance that blending may leave.
+    pub(super) transmittance_stop: f64,
+}
+
+impl View {
+    /// The view of a camera on a scene with its origin at `origin`.
+    ///
+    /// # Errors
+    /// [`RenderError::Camera`] for intrinsics or a pose that cannot be, [`RenderError::Setting`] for settings out of range.
+    pub(super) fn new(camera: &Camera, origin: DVec3, settings: &RenderSettings) -> Result<Self, RenderError> {
+        settings.check()?;
+        let image = camera.intrinsics.validated()?;
+        let camera_from_world = DMat3::from_quat(camera.pose.rotation.conjugate());
+        let center = camera.pose.position - origin;
+        if !(center.is_finite() && camera_from_world.is_finite()) {
+            return Err(RenderError::Setting { name: "camera pose", found: f64::NAN, expected: "finite numbers" });
+        }
+        let accuracy = settings.effective_accuracy();
+        let (width_px, height_px) = (f64::from(image.width), f64::from(image.height));
+        Ok(Self {
+            camera_from_world,
+            center,
+            width: image.width,
+            height: image.height,
+            focal_px: [image.fx_px, image.fy_px],
+            principal_px: [image.cx_px, image.cy_px],
+            slope_x: spec::slope_bounds(width_px, image.fx_px, image.cx_px),
+            slope_y: spec::slope_bounds(height_px, image.fy_px, image.cy_px),
+            near: settings.near,
+            dilation_px2: settings.dilation_px2(),
+            is_compensated: settings.is_compensated(),
+            alpha_cut: accuracy.alpha_cut,
+            transmittance_stop: accuracy.transmittance_stop,
+        })
+    }
+}

@@ -1,0 +1,115 @@
+//! Which format a file has, by its content.
+
+use super::SceneError;
+use super::load::Source;
+
+/// Name of the multi-level SOG in errors.
+pub(super) const STREAMED_SOG: &str = "a streamed SOG (lod-meta.json with levels of detail)";
+
+/// Formats that have a reader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SceneFormat {
+    /// PLY of INRIA's kind or compressed.
+    Ply,
+    /// Headerless records of 32 bytes.
+    Splat,
+    /// SPZ of any version and wrapping.
+    Spz,
+    /// SOG in a zip.
+    SogBundle,
+    /// The `meta.json` of a SOG in a folder.
+    SogMeta,
+}
+
+/// The format of a file.
+///
+/// # Errors
+/// [`SceneError::NotReadYet`] for formats that are known, [`SceneError::UnknownFormat`] for all else,
+/// [`SceneError::SplatSize`] for a `.splat` that is not whole records.
+pub(super) fn format_of(source: &Source) -> Result<SceneFormat, SceneError> {
+    let bytes = source.bytes;
+    let not_yet = |format| Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
+    let is_named_splat = source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("splat"));
+    match bytes {
+        [b'p', b'l', b'y', b'\n' | b'\r' | b' ', ..] => Ok(SceneFormat::Ply),
+        [b'N', b'G', b'S', b'P', ..] | [0x1f, 0x8b, ..] => Ok(SceneFormat::Spz),
+        [b'P', b'K', 3 | 5, 4 | 6, ..] => Ok(SceneFormat::SogBundle),
+        [b'g', b'l', b'T', b'F', ..] => not_yet("glTF (.glb)"),
+        _ if is_pcd(bytes) => not_yet("a PCD point cloud"),
+        _ if is_ksplat(bytes) => not_yet(".ksplat"),
+        _ if starts_json(bytes) => json_format(source),
+        _ if !bytes.is_empty() && bytes.len().is_multiple_of(32) && (is_named_splat || plausible_splat(bytes)) => {
+            Ok(SceneFormat::Splat)
+        }
+        _ if is_named_splat => {
+            Err(SceneError::SplatSize { path: source.path.to_path_buf(), found: bytes.len() as u64 })
+        }
+        _ => Err(unknown(source)),
+    }
+}
+
+/// The error for content of no known kind, with the first bytes.
+fn unknown(source: &Source) -> SceneError {
+    let first: Vec<String> = source.bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+    let found = if first.is_empty() { "an empty file".to_owned() } else { format!("begins with {}", first.join(" ")) };
+    SceneError::UnknownFormat { path: source.path.to_path_buf(), found }
+}
+
+fn is_pcd(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"# .PCD") || bytes.starts_with(b"VERSION .7") || bytes.starts_with(b"VERSION 0.7")
+}
+
+/// `.ksplat` has no magic: version 0.1 and up, a compression level of 0 to 2, and room for the section headers it claims.
+fn is_ksplat(bytes: &[u8]) -> bool {
+    let Some(header) = bytes.first_chunk::<24>() else { return false };
+    let word = |at: usize| u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
+    let (max_sections, sections) = (u64::from(word(4)), u64::from(word(8)));
+    let level = u16::from_le_bytes([header[20], header[21]]);
+    let version = header[0] == 0 && (1..10).contains(&header[1]) && header[2] == 0 && header[3] == 0;
+    version
+        && level <= 2
+        && sections <= max_sections
+        && max_sections > 0
+        && bytes.len() as u64 >= 4096 + 1024 * max_sections
+}
+
+fn starts_json(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    text.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{')
+}
+
+fn json_format(source: &Source) -> Result<SceneFormat, SceneError> {
+    let bytes = source.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(source.bytes);
+    // Binary data may begin like JSON; a .splat does so once in 2^8 files.
+    let Ok(value) = serde_json::from_slice::<serde_json::Value>(bytes) else {
+        let splat = bytes.len().is_multiple_of(32) && plausible_splat(bytes);
+        return if splat { Ok(SceneFormat::Splat) } else { Err(unknown(source)) };
+    };
+    let has = |key: &str| value.get(key).is_some();
+    let not_yet = |format| Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
+    if has("lodLevels") || has("tree") && has("filenames") {
+        not_yet(STREAMED_SOG)
+    } else if has("means") {
+        Ok(SceneFormat::SogMeta)
+    } else if has("asset") {
+        not_yet("glTF (.gltf)")
+    } else {
+        Err(SceneError::UnknownFormat { path: source.path.to_path_buf(), found: "JSON without `means`".to_owned() })
+    }
+}
+
+/// Whether the first records of a headerless file read as Gaussians: finite positions, scales above 0 and below the
+/// size of anything.
+fn plausible_splat(bytes: &[u8]) -> bool {
+    let records = bytes.chunks_exact(32).take(64);
+    let total = records.len();
+    let good = records.filter(|record| {
+        let value = |idx: usize| {
+            f32::from_le_bytes([record[4 * idx], record[4 * idx + 1], record[4 * idx + 2], record[4 * idx + 3]])
+        };
+        let position = (0..3).all(|idx| value(idx) == 0.0 || (1e-9..1e7).contains(&value(idx).abs()));
+        let something = record.iter().any(|byte| *byte != 0);
+        something && position && (3..6).all(|idx| value(idx) == 0.0 || (1e-12..1e5).contains(&value(idx)))
+    });
+    good.count() * 10 >= total * 9
+}

@@ -1,0 +1,114 @@
+use std::io::{Cursor, Read};
+use std::path::PathBuf;
+
+use image::{ImageReader, Limits};
+use zip::ZipArchive;
+
+use crate::scene::SceneError;
+use crate::scene::load::{Source, read_file};
+
+/// Longest `meta.json` in a bundle.
+const MAX_META_BYTES: u64 = 4 << 20;
+
+/// Side that a picture may have whatever the count: a palette of 65536 entries is 960 x 1024, an image row may be padded.
+const FREE_AREA: u64 = 1 << 20;
+
+/// Where the pictures of a SOG are.
+pub(super) enum Files<'a> {
+    /// Entries of a zip.
+    Zip(Box<ZipArchive<Cursor<&'a [u8]>>>),
+    /// Files of a folder.
+    Folder(PathBuf),
+}
+
+/// A decoded picture.
+pub(super) struct Picture {
+    /// Width in texels.
+    pub(super) width: usize,
+    /// Height in texels.
+    pub(super) height: usize,
+    /// Texels row by row.
+    pub(super) rgba: Vec<[u8; 4]>,
+}
+
+impl<'a> Files<'a> {
+    /// The entries of a bundle.
+    ///
+    /// # Errors
+    /// [`SceneError::SogPicture`] naming the bundle's own directory.
+    pub(super) fn in_zip(source: &Source<'a>) -> Result<Self, SceneError> {
+        let archive = ZipArchive::new(Cursor::new(source.bytes));
+        archive
+            .map(|archive| Self::Zip(Box::new(archive)))
+            .map_err(|fault| picture_fault(source, "zip directory", fault.to_string()))
+    }
+
+    /// The bytes of `meta.json`, which may lie in a folder inside the bundle.
+    ///
+    /// # Errors
+    /// [`SceneError::SogPicture`] when there is none, or when it is damaged.
+    pub(super) fn meta(&mut self, source: &Source) -> Result<Vec<u8>, SceneError> {
+        self.bytes(source, "meta.json", MAX_META_BYTES)
+    }
+
+    /// Decodes a picture that must hold `least` texels.
+    ///
+    /// # Errors
+    /// [`SceneError::SogPicture`] when it is missing, damaged, too small, or larger than anything it could hold.
+    pub(super) fn picture(&mut self, source: &Source, name: &str, least: usize) -> Result<Picture, SceneError> {
+        let fault = |reason: String| picture_fault(source, name, reason);
+        let bytes = self.bytes(source, name, source.options.max_file_bytes)?;
+        let open =
+            || ImageReader::new(Cursor::new(&bytes)).with_guessed_format().map_err(|error| fault(error.to_string()));
+        let (width, height) = open()?.into_dimensions().map_err(|error| fault(error.to_string()))?;
+        let area = u64::from(width) * u64::from(height);
+        let most = 2 * least as u64 + FREE_AREA;
+        if area < least as u64 || area > most {
+            return Err(fault(format!("{width} x {height} texels, expected {least} to {most}")));
+        }
+        let mut reader = open()?;
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(64 * most);
+        reader.limits(limits);
+        let decoded = reader.decode().map_err(|error| fault(error.to_string()))?;
+        let rgba = decoded.into_rgba8().into_raw();
+        Ok(Picture { width: width as usize, height: height as usize, rgba: rgba.as_chunks::<4>().0.to_vec() })
+    }
+
+    /// The bytes of one file, at most `cap`.
+    fn bytes(&mut self, source: &Source, name: &str, cap: u64) -> Result<Vec<u8>, SceneError> {
+        match self {
+            Self::Folder(folder) => read_file(&folder.join(name), cap),
+            Self::Zip(archive) => zip_bytes(source, archive, name, cap),
+        }
+    }
+}
+
+fn zip_bytes(
+    source: &Source,
+    archive: &mut ZipArchive<Cursor<&[u8]>>,
+    name: &str,
+    cap: u64,
+) -> Result<Vec<u8>, SceneError> {
+    let fault = |reason: String| picture_fault(source, name, reason);
+    // Some programs zip the folder instead of what is in it.
+    let nested =
+        || archive.file_names().flatten().find(|entry| entry.rsplit('/').next() == Some(name)).map(String::from);
+    let found = if archive.index_for_name(name).is_some() { Some(name.to_owned()) } else { nested() };
+    let Some(found) = found else {
+        return Err(fault("not in the bundle, expected it there".to_owned()));
+    };
+    let entry = archive.by_name(&found).map_err(|error| fault(error.to_string()))?;
+    // What is stored is compressed pictures: an entry that unpacks to many times the bundle is not one of them.
+    let cap = cap.min(32 * source.bytes.len() as u64 + (1 << 20));
+    let mut bytes = Vec::new();
+    entry.take(cap + 1).read_to_end(&mut bytes).map_err(|error| fault(error.to_string()))?;
+    if bytes.len() as u64 > cap {
+        return Err(SceneError::TooManyBytes { path: source.path.to_path_buf(), found: bytes.len() as u64, cap });
+    }
+    Ok(bytes)
+}
+
+fn picture_fault(source: &Source, file: &str, reason: String) -> SceneError {
+    SceneError::SogPicture { path: source.path.to_path_buf(), file: file.to_owned(), reason }
+}

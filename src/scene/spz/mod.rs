@@ -1,0 +1,48 @@
+//! SPZ versions 1 to 4. Reference: nianticlabs/spz README.md and `load-spz.cc`.
+//!
+//! Enters: bytes, plain, gzipped (versions 1-3) or as Zstandard streams (version 4). Leaves: Gaussians, in the numbers
+//! that the file holds: no axis is flipped.
+
+mod attributes;
+mod container;
+mod extensions;
+
+use super::load::{Decoded, Source};
+use super::up::UpPrior;
+use super::{SceneError, SplatFilter};
+use container::Container;
+
+/// Header flag: trained with antialiasing.
+const ANTIALIASED: u8 = 0x01;
+/// Header flag: extension records are there.
+const HAS_EXTENSIONS: u8 = 0x02;
+/// Header flag of another program: a tree of levels of detail, with opacities that mean something else.
+const LOD_TREE: u8 = 0x80;
+
+/// Gaussians of an SPZ.
+///
+/// # Errors
+/// [`SceneError`] of the `SPZ-*` kinds, [`SceneError::NotReadYet`] for level-of-detail trees, and the caps.
+pub(super) fn read(source: &Source) -> Result<Decoded, SceneError> {
+    let container = Container::open(source)?;
+    let header = container.header;
+    let mut collected = attributes::decode(source, &container)?;
+    collected.notes.extend(container.notes.iter().cloned());
+    if header.sh_degree > 3 {
+        collected.notes.push("spherical harmonics of degree 4 are cut to degree 3".to_owned());
+    }
+    let unknown = header.flags & !(ANTIALIASED | HAS_EXTENSIONS);
+    if unknown != 0 {
+        collected.notes.push(format!("header flags {unknown:#04x} are not known and not heeded"));
+    }
+    let found = extensions::read(&container.extensions);
+    collected.notes.extend(found.notes);
+    Ok(Decoded {
+        format: format!("spz v{}", header.version),
+        collected,
+        // A flag that is not set says nothing: writers that know no antialiasing leave it so.
+        filter: (header.flags & ANTIALIASED != 0).then_some(SplatFilter::Mip),
+        up: found.up,
+        up_prior: UpPrior::Spz,
+    })
+}

@@ -1,0 +1,17 @@
+//! The catalog: one function an object, each throwing its own proportions.
+
+pub(super) mod beds;
+pub(super) mod decor;
+pub(super) mod devices;
+pub(super) mod hearth;
+pub(super) mod instruments;
+pub(super) mod kitchen;
+pub(super) mod lamps;
+pub(super) mod openings;
+pub(super) mod plants;
+pub(super) mod seats;
+pub(super) mod storage;
+pub(super) mod tables;
+pub(super) mod tableware;
+pub(super) mod textiles;
+pub(super) mod walls;

@@ -1,0 +1,61 @@
+use glam::{DMat3, DVec3};
+
+use crate::scene::{Bounds, Gaussians};
+
+/// Most points looked at; more of them change the answer by less than the answer is good to.
+const MAX_POINTS: usize = 40_000;
+
+/// Opacity from which a Gaussian is taken for matter.
+const SOLID_OPACITY: f32 = 0.5;
+
+/// Thinnest over middle standard deviation below which a Gaussian is a piece of surface with a normal.
+const FLAT: f32 = 0.4;
+
+/// A piece of matter.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Patch {
+    /// Mean relative to the middle of the scene.
+    pub(super) position: DVec3,
+    /// Unit normal of a flat one, of either sign; zero for a round one.
+    pub(super) normal: DVec3,
+}
+
+/// The solid core of a scene as a bounded number of patches.
+pub(super) struct Sample {
+    /// Patches in file order.
+    pub(super) patches: Vec<Patch>,
+    /// Scene size, above 0.
+    pub(super) size: f64,
+}
+
+impl Sample {
+    /// Every n-th solid Gaussian of the scene's core; every n-th of all where hardly any is solid. `None` for scenes
+    /// without extent.
+    pub(super) fn of(gaussians: &Gaussians) -> Option<Self> {
+        let bounds = Bounds::of(gaussians);
+        let (size, middle) = (bounds.size(), bounds.center());
+        if !(size > 0.0 && size.is_finite()) {
+            return None;
+        }
+        let margin = DVec3::splat(0.05 * size);
+        let (low, high) = (bounds.core_min - margin, bounds.core_max + margin);
+        let is_core = |idx: &usize| {
+            let p = gaussians.mean_world(*idx);
+            p.cmpge(low).all() && p.cmple(high).all()
+        };
+        let core: Vec<usize> = (0..gaussians.len()).filter(is_core).collect();
+        let solid: Vec<usize> = core.iter().copied().filter(|&idx| gaussians.opacities[idx] >= SOLID_OPACITY).collect();
+        let chosen = if solid.len() < core.len() / 20 { core } else { solid };
+        let stride = chosen.len().div_ceil(MAX_POINTS).max(1);
+        Some(Self { patches: chosen.iter().step_by(stride).map(|&idx| patch(gaussians, idx, middle)).collect(), size })
+    }
+}
+
+fn patch(gaussians: &Gaussians, idx: usize, middle: DVec3) -> Patch {
+    let scale = gaussians.scales[idx];
+    let mut sorted = scale.to_array();
+    sorted.sort_unstable_by(f32::total_cmp);
+    let axes = DMat3::from_quat(gaussians.rotations[idx].as_dquat());
+    let normal = if sorted[0] < FLAT * sorted[1] { axes.col(scale.min_position()) } else { DVec3::ZERO };
+    Patch { position: gaussians.mean_world(idx) - middle, normal }
+}

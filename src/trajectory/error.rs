@@ -1,0 +1,41 @@
+use thiserror::Error;
+
+/// What makes keyframes unusable. Indices count from 0 as in the file.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TrajectoryError {
+    /// No keyframes at all.
+    #[error("a shot needs at least one keyframe, found none")]
+    NoKeyframes,
+    /// Times that do not increase.
+    #[error("keyframe {index} is at {found} s, expected later than {previous} s")]
+    TimesNotIncreasing {
+        /// The later keyframe.
+        index: usize,
+        /// Its time.
+        found: f64,
+        /// The time of the key before.
+        previous: f64,
+    },
+    /// A number that is not finite or out of range.
+    #[error("keyframe {index}: {field} is {found}, expected {expected}")]
+    BadValue {
+        /// The keyframe.
+        index: usize,
+        /// Name of the JSON field.
+        field: &'static str,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// A value of the shot itself out of range.
+    #[error("{field} is {found}, expected {expected}")]
+    BadShotValue {
+        /// Name of the JSON field.
+        field: &'static str,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        expected: &'static str,
+    },
+}

@@ -1,0 +1,23 @@
+//! A shot as data, and the smooth path through its keyframes.
+//!
+//! Enters: keyframes from the director, the operator or a file. Leaves: the camera at any time. The one invariant: at a
+//! key's time the camera is at that key. Never does IO; files are written by `export`.
+
+mod curve;
+mod easing;
+mod error;
+mod leg;
+mod path;
+mod profile;
+mod shot;
+mod timing;
+mod track;
+mod vocabulary;
+
+pub use easing::Easing;
+pub use error::TrajectoryError;
+pub use path::{CameraPath, CameraState};
+pub use shot::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
+pub(crate) use timing::retime;
+pub use timing::retimed;
+pub use vocabulary::{Move, ShotAngle, ShotSize};

@@ -1,0 +1,94 @@
+//! R'G'B' to the Y'CbCr that HD players expect: ITU-R BT.709-6, 8 bits, limited range, 4:2:0.
+//!
+//! Equations of BT.709-6 section 3: Y' = 0.2126 R' + 0.7152 G' + 0.0722 B', Cb = (B' - Y') / 1.8556,
+//! Cr = (R' - Y') / 1.5748; 8-bit codes Y = 16 + 219 Y', C = 128 + 224 C. The colors of a scene are display-referred
+//! (trained against photos as they are), so no transfer curve is applied.
+//!
+//! Chroma samples lie where MPEG-2, H.264 and VP9 have them by default: in line with the left one of two columns,
+//! halfway between two rows. Hence a 1 2 1 filter across and a mean down.
+
+/// Fraction bits of the fixed-point weights. With 16 the result is the rounded exact one, or next to it.
+const FRACTION_BITS: u32 = 16;
+
+/// Planes of one 4:2:0 picture, rows packed: `y` width x height, `cb` and `cr` a quarter of that each.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Planes420 {
+    /// Luma columns, even.
+    pub width: usize,
+    /// Luma rows, even.
+    pub height: usize,
+    /// Luma, 16..=235.
+    pub y: Vec<u8>,
+    /// Blue difference, 16..=240, 128 = none.
+    pub cb: Vec<u8>,
+    /// Red difference, 16..=240, 128 = none.
+    pub cr: Vec<u8>,
+}
+
+/// Weights of one output plane on r, g, b in fixed point, for sums of `1 << scale_bits` pixels.
+struct Weights {
+    rgb: [i32; 3],
+    offset: i32,
+    shift: u32,
+}
+
+impl Weights {
+    /// `rgb` sum to the code's span for white; `base` is the code of zero.
+    fn new(rgb: [f64; 3], span: f64, base: i32, scale_bits: u32) -> Self {
+        let shift = FRACTION_BITS + scale_bits;
+        let fixed = |weight: f64| (weight * span / 255.0 * f64::from(1 << FRACTION_BITS)).round() as i32;
+        let mut rgb = rgb.map(fixed);
+        // Rounding must not tint gray: the largest weight takes up what the sum is off by.
+        let wanted = if base == 16 { fixed(1.0) } else { 0 };
+        let largest = (0..3).max_by_key(|&i| rgb[i].abs()).unwrap_or(1);
+        rgb[largest] += wanted - rgb.iter().sum::<i32>();
+        Self { rgb, offset: (base << shift) + (1 << (shift - 1)), shift }
+    }
+
+    fn code(&self, rgb_sum: [i32; 3]) -> u8 {
+        let dot = self.rgb[0] * rgb_sum[0] + self.rgb[1] * rgb_sum[1] + self.rgb[2] * rgb_sum[2];
+        ((dot + self.offset) >> self.shift) as u8
+    }
+}
+
+/// Converts a picture of `width` x `height` pixels (row-major, r g b, 8 bits, full range) to 4:2:0. Odd sizes grow by
+/// one: the last column or row is repeated.
+///
+/// `rgb8` has to hold `width * height * 3` bytes, both sizes above 0.
+pub fn planes_from_rgb8(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
+    let (even_width, even_height) = (width.next_multiple_of(2), height.next_multiple_of(2));
+    let row = |y: usize| &rgb8[y.min(height - 1) * width * 3..][..width * 3];
+    let mut y = Vec::with_capacity(even_width * even_height);
+    let mut cb = Vec::with_capacity(even_width * even_height / 4);
+    let mut cr = Vec::with_capacity(even_width * even_height / 4);
+    for pair in 0..even_height / 2 {
+        let (upper, lower) = (row(2 * pair), row(2 * pair + 1));
+        push_luma(&mut y, upper, even_width);
+        push_luma(&mut y, lower, even_width);
+        push_chroma(&mut cb, &mut cr, upper, lower);
+    }
+    Planes420 { width: even_width, height: even_height, y, cb, cr }
+}
+
+fn push_luma(codes: &mut Vec<u8>, row: &[u8], even_width: usize) {
+    let luma = Weights::new([0.2126, 0.7152, 0.0722], 219.0, 16, 0);
+    let start = codes.len();
+    codes.extend(row.chunks_exact(3).map(|p| luma.code([i32::from(p[0]), i32::from(p[1]), i32::from(p[2])])));
+    if let Some(&last) = codes.last() {
+        codes.resize(start + even_width, last);
+    }
+}
+
+/// One row of chroma from two rows of pixels: weights 1 2 1 across on each, 8 pixels in all.
+fn push_chroma(cb: &mut Vec<u8>, cr: &mut Vec<u8>, upper: &[u8], lower: &[u8]) {
+    let blue = Weights::new([-0.2126 / 1.8556, -0.7152 / 1.8556, 0.5], 224.0, 128, 3);
+    let red = Weights::new([0.5, -0.7152 / 1.5748, -0.0722 / 1.5748], 224.0, 128, 3);
+    let width = upper.len() / 3;
+    let column = |x: usize, channel: usize| i32::from(upper[3 * x + channel]) + i32::from(lower[3 * x + channel]);
+    for center in (0..width).step_by(2) {
+        let (left, right) = (center.saturating_sub(1), (center + 1).min(width - 1));
+        let sum = [0, 1, 2].map(|c| column(left, c) + 2 * column(center, c) + column(right, c));
+        cb.push(blue.code(sum));
+        cr.push(red.code(sum));
+    }
+}

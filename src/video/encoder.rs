@@ -1,0 +1,176 @@
+use std::path::{Path, PathBuf};
+
+use ffmpeg_next::format::context::{Output, StreamIo};
+use ffmpeg_next::{Dictionary, Packet, Rational, codec, color, encoder, format, frame};
+
+use super::bt709::{self, Planes420};
+use super::part_file::{FirstError, PartFile, WatchedFile};
+use super::{VideoError, VideoFormat, VideoSettings, rate, read_back};
+
+/// Encoder threads. x264 writes the number into the file, so a fixed one keeps bytes the same on every machine.
+const NUM_THREADS: &str = "4";
+/// Room in front of an MP4 for its index: a fixed part, and 8 bytes of sizes and times plus 16 of chunk tables for a
+/// frame, with a margin.
+const INDEX_BYTES: (usize, usize) = (8192, 48);
+
+/// One video stream on its way into a container file.
+pub(super) struct FilmEncoder {
+    encoder: encoder::Video,
+    muxer: Output,
+    first_error: FirstError,
+    part: PartFile,
+    settings: VideoSettings,
+    tick: Rational,
+    stream_tick: Rational,
+    num_sent: usize,
+    path: PathBuf,
+}
+
+impl FilmEncoder {
+    /// Opens encoder, then file, then container, in this order: a missing encoder leaves no file behind.
+    pub(super) fn create(path: &Path, format: &VideoFormat, settings: &VideoSettings) -> Result<Self, VideoError> {
+        let missing = |name: &str| VideoError::Missing { missing: name.to_owned(), path: path.to_owned() };
+        let (container, codec_name) = format.ffmpeg_names().ok_or(missing("container of that name"))?;
+        // Errors come back as values; FFmpeg's own lines on stderr would break a progress bar.
+        ffmpeg_next::log::set_level(ffmpeg_next::log::Level::Quiet);
+        let codec = encoder::find_by_name(codec_name).ok_or_else(|| missing(codec_name))?;
+        let rate = rate::as_fraction(settings.rate_fps);
+        let encoder = open_encoder(codec, settings, rate).map_err(|e| failed("opening the encoder", e, path))?;
+
+        let (part, file) = PartFile::create(path)?;
+        let first_error = FirstError::default();
+        let watched = WatchedFile { file, first_error: first_error.clone() };
+        let io = StreamIo::from_write_seek(watched).map_err(|e| failed("opening the file", e, path))?;
+        let mut muxer = format::output_to_stream(io, None, Some(container)).map_err(|_| missing(container))?;
+        let stream_tick = write_header(&mut muxer, &encoder, rate, header_options(format, settings))
+            .map_err(|e| failed("starting the file", e, path))?;
+        let (tick, settings, path) = (rate.invert(), settings.clone(), path.to_owned());
+        Ok(Self { encoder, muxer, first_error, part, settings, tick, stream_tick, num_sent: 0, path })
+    }
+
+    pub(super) fn write_frame(&mut self, rgb8: &[u8]) -> Result<(), VideoError> {
+        let (width, height) = (self.settings.width as usize, self.settings.height as usize);
+        let mut picture = picture_of(&bt709::planes_from_rgb8(rgb8, width, height));
+        picture.set_pts(Some(self.num_sent as i64));
+        self.encoder.send_frame(&picture).map_err(|e| self.fault("encoding", e))?;
+        self.num_sent += 1;
+        self.drain()
+    }
+
+    /// Ends the file, reads it back, and gives it its name (`target` in place of the one it was created for).
+    pub(super) fn finish(mut self, target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
+        self.encoder.send_eof().map_err(|e| self.fault("encoding", e))?;
+        self.drain()?;
+        self.muxer.write_trailer().map_err(|e| self.fault("ending the file", e))?;
+        // Dropping the muxer flushes and closes the file.
+        drop(self.muxer);
+        if let Some(source) = self.first_error.lock().ok().and_then(|mut first| first.take()) {
+            return Err(VideoError::Io { action: "writing", path: self.path, source });
+        }
+        read_back::check(self.part.path(), &self.path, self.num_sent, self.tick)?;
+        self.part.keep_as(target)
+    }
+
+    /// Moves what the encoder has ready into the file.
+    fn drain(&mut self) -> Result<(), VideoError> {
+        let mut packet = Packet::empty();
+        while self.encoder.receive_packet(&mut packet).is_ok() {
+            packet.set_stream(0);
+            // Without a duration the last frame of the file has none.
+            packet.set_duration(1);
+            packet.rescale_ts(self.tick, self.stream_tick);
+            packet.write_interleaved(&mut self.muxer).map_err(|e| self.fault("writing", e))?;
+        }
+        Ok(())
+    }
+
+    /// The system's own error where the file had one, else FFmpeg's.
+    fn fault(&self, action: &'static str, error: ffmpeg_next::Error) -> VideoError {
+        match self.first_error.lock().ok().and_then(|mut first| first.take()) {
+            Some(source) => VideoError::Io { action, path: self.path.clone(), source },
+            None => failed(action, error, &self.path),
+        }
+    }
+}
+
+fn failed(action: &'static str, error: ffmpeg_next::Error, path: &Path) -> VideoError {
+    VideoError::Ffmpeg { action, message: error.to_string(), path: path.to_owned() }
+}
+
+fn open_encoder(
+    codec: ffmpeg_next::Codec,
+    settings: &VideoSettings,
+    rate: Rational,
+) -> Result<encoder::Video, ffmpeg_next::Error> {
+    let mut video = codec::Context::new_with_codec(codec).encoder().video()?;
+    video.set_width(settings.width.next_multiple_of(2));
+    video.set_height(settings.height.next_multiple_of(2));
+    video.set_format(format::Pixel::YUV420P);
+    video.set_aspect_ratio(Rational::new(1, 1));
+    video.set_time_base(rate.invert());
+    video.set_frame_rate(Some(rate));
+    video.set_colorspace(color::Space::BT709);
+    video.set_color_range(color::Range::MPEG);
+    video.set_color_primaries(color::Primaries::BT709);
+    video.set_color_transfer_characteristic(color::TransferCharacteristic::BT709);
+    // Parameter sets go into the container's header, where every one of the four expects them.
+    video.set_flags(codec::Flags::GLOBAL_HEADER);
+    video.open_with(encoder_options(codec.name(), settings))
+}
+
+fn encoder_options(codec_name: &str, settings: &VideoSettings) -> Dictionary<'static> {
+    let mut options = Dictionary::new();
+    options.set("threads", NUM_THREADS);
+    options.set("chroma_sample_location", "left");
+    options.set("crf", &settings.crf.to_string());
+    if codec_name == "libx264" {
+        options.set("preset", settings.preset.name());
+        // Without it x264 (r3095 with AVX-512) gives other bytes on every run, from the lookahead that weighs blocks.
+        options.set("x264-params", "cpu-independent=1");
+    } else {
+        // VP9 reads crf as a quality only where the bit rate is 0.
+        for (key, value) in [("b", "0"), ("row-mt", "1"), ("deadline", "good"), ("cpu-used", "3"), ("g", "240")] {
+            options.set(key, value);
+        }
+    }
+    options
+}
+
+/// Adds the stream and writes the header; the tick of the stream, which the container may choose.
+fn write_header(
+    muxer: &mut Output,
+    encoder: &encoder::Video,
+    rate: Rational,
+    options: Dictionary,
+) -> Result<Rational, ffmpeg_next::Error> {
+    let mut stream = muxer.add_stream_with(encoder)?;
+    stream.set_time_base(rate.invert());
+    stream.set_rate(rate);
+    stream.set_avg_frame_rate(rate);
+    muxer.write_header_with(options)?;
+    Ok(muxer.stream(0).ok_or(ffmpeg_next::Error::StreamNotFound)?.time_base())
+}
+
+fn header_options(format: &VideoFormat, settings: &VideoSettings) -> Dictionary<'static> {
+    let mut options = Dictionary::new();
+    // No random identifiers, no dates, no versions: the same frames give the same bytes.
+    options.set("fflags", "+bitexact");
+    if matches!(format, VideoFormat::Mp4 | VideoFormat::Mov) && settings.num_frames > 0 {
+        let (fixed, each) = INDEX_BYTES;
+        options.set("moov_size", &(fixed + each * settings.num_frames).to_string());
+    }
+    options
+}
+
+/// The planes as FFmpeg's picture, whose rows are padded.
+fn picture_of(planes: &Planes420) -> frame::Video {
+    let mut picture = frame::Video::new(format::Pixel::YUV420P, planes.width as u32, planes.height as u32);
+    for (plane, codes) in [&planes.y, &planes.cb, &planes.cr].into_iter().enumerate() {
+        let width = if plane == 0 { planes.width } else { planes.width / 2 };
+        let stride = picture.stride(plane);
+        for (to, from) in picture.data_mut(plane).chunks_mut(stride).zip(codes.chunks_exact(width)) {
+            to[..width].copy_from_slice(from);
+        }
+    }
+    picture
+}

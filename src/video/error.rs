@@ -1,0 +1,162 @@
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why frames do not become a file. `Display` is `FILE: what was found, what was expected`.
+#[derive(Debug, Error)]
+pub enum VideoError {
+    /// The name of the output ends in nothing that says what to write.
+    #[error("{}: the name ends in {found:?}, expected .mp4 .mkv .webm .mov, or a pattern such as frames/%05d.png", path.display())]
+    UnknownFormat {
+        /// The ending found, without its dot.
+        found: String,
+        /// The output.
+        path: PathBuf,
+    },
+    /// A frame pattern that does not give every frame its own name.
+    #[error("{}: {reason}", path.display())]
+    BadPattern {
+        /// What is wrong with it.
+        reason: &'static str,
+        /// The output.
+        path: PathBuf,
+    },
+    /// A size, rate or quality that no encoder takes.
+    #[error("{what} is {found}, expected {expected}")]
+    BadSetting {
+        /// Name of the setting.
+        what: &'static str,
+        /// What was asked for.
+        found: String,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// This build of FFmpeg lacks what the output needs.
+    #[error("{}: FFmpeg on this machine has no {missing}, needed for this file", path.display())]
+    Missing {
+        /// Encoder or container, by FFmpeg's name.
+        missing: String,
+        /// The output.
+        path: PathBuf,
+    },
+    /// The output is already there.
+    #[error("{}: the file is already there, expected a new name", path.display())]
+    Exists {
+        /// What is there.
+        path: PathBuf,
+    },
+    /// The output cannot be created.
+    #[error("{}: cannot create the file: {source}", path.display())]
+    Create {
+        /// The output.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Writing, renaming or reading back failed.
+    #[error("{}: {action} failed: {source}", path.display())]
+    Io {
+        /// What was being done.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// FFmpeg refused a step that it should take.
+    #[error("{}: {action} failed: {message}", path.display())]
+    Ffmpeg {
+        /// What was being done.
+        action: &'static str,
+        /// FFmpeg's own words.
+        message: String,
+        /// The output.
+        path: PathBuf,
+    },
+    /// A frame of the wrong number of bytes.
+    #[error("a frame has {found} bytes, expected {expected}")]
+    FrameSize {
+        /// Bytes given.
+        found: usize,
+        /// Width x height x 3.
+        expected: usize,
+    },
+    /// The finished file does not hold what was written.
+    #[error("{}: read back {found}, expected {expected}", path.display())]
+    ReadBack {
+        /// What the file holds.
+        found: String,
+        /// What was written.
+        expected: String,
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl VideoError {
+    /// Short name of the case, for messages and searches.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnknownFormat { .. } => "VIDEO-FORMAT",
+            Self::BadPattern { .. } => "VIDEO-PATTERN",
+            Self::BadSetting { .. } => "VIDEO-SETTING",
+            Self::Missing { .. } => "VIDEO-ENCODER",
+            Self::Exists { .. } => "OUTPUT-EXISTS",
+            Self::Create { .. } => "OUTPUT-CREATE",
+            Self::Io { .. } => "VIDEO-IO",
+            Self::Ffmpeg { .. } => "VIDEO-FFMPEG",
+            Self::FrameSize { .. } => "VIDEO-FRAME",
+            Self::ReadBack { .. } => "VIDEO-READBACK",
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            Self::UnknownFormat { .. } => "name the output film.mp4, or frames/%05d.png for one picture a frame",
+            Self::BadPattern { .. } => "write one %05d in the file name, such as frames/%05d.png; %% is a percent sign",
+            Self::BadSetting { .. } => "give a value in that range",
+            Self::Missing { .. } => "install FFmpeg with x264 and VP9 (Debian's has both), or write frames/%05d.png",
+            Self::Exists { .. } => "choose another name, or pass --overwrite",
+            Self::Create { .. } => "create the folder, or choose one that you may write to",
+            Self::Io { .. } => "check free space and permissions of the folder",
+            Self::Ffmpeg { .. } => "try another size or container, or write frames/%05d.png",
+            Self::FrameSize { .. } => "this is a fault of the caller: one frame is width x height x 3 bytes",
+            Self::ReadBack { .. } => "the disk or FFmpeg lost frames: render again, or write frames/%05d.png",
+        }
+        .to_owned()
+    }
+
+    /// Exit code of the program for this case, as in `sysexits.h`.
+    pub fn exit_code(&self) -> i32 {
+        match self {
+            Self::UnknownFormat { .. } | Self::BadPattern { .. } | Self::BadSetting { .. } => 2,
+            Self::Missing { .. } => 69,
+            Self::Exists { .. } => 73,
+            Self::Create { source, .. } | Self::Io { source, .. }
+                if source.kind() == io::ErrorKind::PermissionDenied =>
+            {
+                77
+            }
+            Self::Create { .. } => 73,
+            Self::Io { .. } | Self::ReadBack { .. } => 74,
+            Self::Ffmpeg { .. } | Self::FrameSize { .. } => 70,
+        }
+    }
+
+    /// The file that it is about, if it is about one.
+    pub fn path(&self) -> Option<&std::path::Path> {
+        match self {
+            Self::UnknownFormat { path, .. }
+            | Self::BadPattern { path, .. }
+            | Self::Missing { path, .. }
+            | Self::Exists { path }
+            | Self::Create { path, .. }
+            | Self::Io { path, .. }
+            | Self::Ffmpeg { path, .. }
+            | Self::ReadBack { path, .. } => Some(path),
+            Self::BadSetting { .. } | Self::FrameSize { .. } => None,
+        }
+    }
+}

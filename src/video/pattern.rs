@@ -1,0 +1,61 @@
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use super::VideoError;
+
+/// Names of numbered pictures: a path whose file name holds one `%d` or `%05d` as in `printf`, and `%%` for a percent
+/// sign. Only the file name is a pattern; folders are taken as they are.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FramePattern {
+    folder: PathBuf,
+    before: String,
+    after: String,
+    min_digits: usize,
+}
+
+impl FramePattern {
+    /// Reads a pattern.
+    ///
+    /// # Errors
+    /// [`VideoError::BadPattern`] without exactly one number, or with a file name that is not UTF-8.
+    pub fn parse(path: &Path) -> Result<Self, VideoError> {
+        let bad = |reason| VideoError::BadPattern { reason, path: path.to_owned() };
+        let name = path.file_name().ok_or(bad("no file name"))?;
+        let name = name.to_str().ok_or(bad("the file name is not UTF-8, a frame pattern has to be"))?;
+        let mut texts = vec![String::new()];
+        let mut min_digits = 1;
+        let mut rest = name.chars();
+        while let Some(c) = rest.next() {
+            if c != '%' {
+                texts.last_mut().ok_or(bad("no file name"))?.push(c);
+                continue;
+            }
+            let digits: String = rest.clone().take_while(char::is_ascii_digit).collect();
+            match rest.nth(digits.len()) {
+                Some('%') if digits.is_empty() => texts.last_mut().ok_or(bad("no file name"))?.push('%'),
+                Some('d') if digits.is_empty() || digits.starts_with('0') => {
+                    min_digits = digits.parse().unwrap_or(1);
+                    texts.push(String::new());
+                }
+                _ => return Err(bad("only %d, %05d and %% are known in a frame pattern")),
+            }
+        }
+        let [before, after] = <[String; 2]>::try_from(texts).map_err(|_| bad("not exactly one frame number"))?;
+        if min_digits > 20 {
+            return Err(bad("more than 20 digits in a frame number"));
+        }
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        Ok(Self { folder, before, after, min_digits })
+    }
+
+    /// The file of one frame.
+    pub fn path(&self, frame_idx: usize) -> PathBuf {
+        let digits = self.min_digits;
+        self.folder.join(OsString::from(format!("{}{frame_idx:0digits$}{}", self.before, self.after)))
+    }
+
+    /// The folder that all frames lie in; empty for the working folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}

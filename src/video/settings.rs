@@ -1,0 +1,145 @@
+use std::path::Path;
+
+use super::{FramePattern, VideoError};
+
+/// How frames become a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VideoSettings {
+    /// Frame width in pixels.
+    pub width: u32,
+    /// Frame height in pixels.
+    pub height: u32,
+    /// Frames a second, 0.01..=1000.
+    pub rate_fps: f64,
+    /// Constant rate factor: 0 (best) to 51 for H.264, to 63 for VP9. About 18 the loss is hard to see. H.264 at 720p
+    /// grows by half its bytes for every 4 less.
+    pub crf: u8,
+    /// Effort of the H.264 encoder, by x264's names; slower is smaller at the same quality.
+    pub preset: Preset,
+    /// Number of the first frame: names the pictures of a sequence; films always start at time zero.
+    pub first_frame: usize,
+    /// Frames to expect, 0 = unknown. With it, an MP4 reserves room for its index at its front, so that it plays while
+    /// it still loads.
+    pub num_frames: usize,
+    /// Whether a file that is already there may be replaced.
+    pub overwrite: bool,
+}
+
+impl Default for VideoSettings {
+    fn default() -> Self {
+        Self {
+            width: 1280,
+            height: 720,
+            rate_fps: 30.0,
+            crf: 18,
+            preset: Preset::Medium,
+            first_frame: 0,
+            num_frames: 0,
+            overwrite: false,
+        }
+    }
+}
+
+impl VideoSettings {
+    /// Bytes of one frame: r, g, b.
+    pub fn frame_bytes(&self) -> usize {
+        self.width as usize * self.height as usize * 3
+    }
+
+    /// The settings, once an encoder can take them.
+    ///
+    /// # Errors
+    /// [`VideoError::BadSetting`] naming the first one that is out of range for `format`.
+    pub fn validated(self, format: &VideoFormat) -> Result<Self, VideoError> {
+        let bad = |what, found: String, expected| Err(VideoError::BadSetting { what, found, expected });
+        if !(1..=16384).contains(&self.width) || !(1..=16384).contains(&self.height) {
+            return bad("frame size", format!("{}x{}", self.width, self.height), "1 to 16384 pixels each way");
+        }
+        if !(self.rate_fps >= 0.01 && self.rate_fps <= 1000.0) {
+            return bad("frame rate", self.rate_fps.to_string(), "0.01 to 1000 frames a second");
+        }
+        match format {
+            VideoFormat::WebM if self.crf > 63 => bad("crf", self.crf.to_string(), "0 to 63 for VP9"),
+            VideoFormat::Mp4 | VideoFormat::Mkv | VideoFormat::Mov if self.crf > 51 => {
+                bad("crf", self.crf.to_string(), "0 to 51 for H.264")
+            }
+            _ => Ok(self),
+        }
+    }
+}
+
+/// Effort of the H.264 encoder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Preset {
+    /// Fastest that still looks right.
+    Ultrafast,
+    /// Little effort.
+    Veryfast,
+    /// Some effort.
+    Fast,
+    /// x264's own default.
+    #[default]
+    Medium,
+    /// More effort.
+    Slow,
+    /// Much effort.
+    Veryslow,
+}
+
+impl Preset {
+    /// x264's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ultrafast => "ultrafast",
+            Self::Veryfast => "veryfast",
+            Self::Fast => "fast",
+            Self::Medium => "medium",
+            Self::Slow => "slow",
+            Self::Veryslow => "veryslow",
+        }
+    }
+}
+
+/// What the name of an output asks for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum VideoFormat {
+    /// H.264 in MP4.
+    Mp4,
+    /// H.264 in Matroska.
+    Mkv,
+    /// H.264 in QuickTime.
+    Mov,
+    /// VP9 in WebM.
+    WebM,
+    /// One PNG a frame.
+    Sequence(FramePattern),
+}
+
+impl VideoFormat {
+    /// The format for an output path: by its ending; with a `%` in the file name and `.png`, a sequence.
+    ///
+    /// # Errors
+    /// [`VideoError::UnknownFormat`] for another ending, [`VideoError::BadPattern`] for a pattern without one number.
+    pub fn from_path(path: &Path) -> Result<Self, VideoError> {
+        let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+        match ending.as_str() {
+            "mp4" | "m4v" => Ok(Self::Mp4),
+            "mkv" => Ok(Self::Mkv),
+            "mov" => Ok(Self::Mov),
+            "webm" => Ok(Self::WebM),
+            "png" => FramePattern::parse(path).map(Self::Sequence),
+            _ => Err(VideoError::UnknownFormat { found: ending, path: path.to_owned() }),
+        }
+    }
+
+    /// FFmpeg's names of container and encoder; `None` for a sequence.
+    pub(super) fn ffmpeg_names(&self) -> Option<(&'static str, &'static str)> {
+        match self {
+            Self::Mp4 => Some(("mp4", "libx264")),
+            Self::Mkv => Some(("matroska", "libx264")),
+            Self::Mov => Some(("mov", "libx264")),
+            Self::WebM => Some(("webm", "libvpx-vp9")),
+            Self::Sequence(_) => None,
+        }
+    }
+}

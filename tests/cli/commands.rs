@@ -1,0 +1,98 @@
+use std::fs;
+
+use super::{SMALL_SCENE, answer, data, run, write_shot};
+
+#[test]
+fn help_shows_every_command_and_examples() {
+    let folder = tempfile::tempdir().unwrap();
+    insta::assert_snapshot!(answer(folder.path(), &["--help"]), @"");
+    insta::assert_snapshot!(answer(folder.path(), &["import", "--help"]), @"");
+}
+
+#[test]
+fn info_says_what_a_scene_is_to_people_and_programs() {
+    let folder = tempfile::tempdir().unwrap();
+    let info: serde_json::Value = serde_json::from_str(&data(folder.path(), &["info", SMALL_SCENE, "--json"])).unwrap();
+    assert_eq!(info["up"], serde_json::json!([0.0, 1.0, 0.0]));
+    assert_eq!(info["filter"], "classic");
+    assert!(info["num_gaussians"].as_u64().unwrap() > 1000);
+    let text = data(folder.path(), &["info", SMALL_SCENE]);
+    assert!(text.contains(&format!("gaussians  {}", info["num_gaussians"])), "{text}");
+    let turned: serde_json::Value =
+        serde_json::from_str(&data(folder.path(), &["info", SMALL_SCENE, "--json", "--up", "0,0,-2"])).unwrap();
+    assert_eq!((&turned["up"][2], &turned["up_source"]), (&(-1.0).into(), &"--up".into()));
+}
+
+#[test]
+fn objects_are_listed_written_and_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = data(folder.path(), &["objects", SMALL_SCENE, "--json", "-o", "objects.json"]);
+    let again = data(folder.path(), &["objects", SMALL_SCENE, "--json", "--objects", "objects.json"]);
+    let (first, again): (serde_json::Value, serde_json::Value) =
+        (serde_json::from_str(&first).unwrap(), serde_json::from_str(&again).unwrap());
+    assert!(first.as_array().unwrap().len() > 2);
+    let names = |list: &serde_json::Value| -> Vec<(u64, String)> {
+        let entries = list.as_array().unwrap().iter();
+        entries.map(|o| (o["id"].as_u64().unwrap(), o["label"].as_str().unwrap().to_owned())).collect()
+    };
+    assert_eq!(names(&first), names(&again));
+    assert!(folder.path().join("objects.labels.npy").exists());
+}
+
+#[test]
+fn a_path_survives_the_way_out_and_back() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    data(folder.path(), &["export", "shot.json", "--to", "nerfstudio", "--fps", "10", "-o", "path.json"]);
+    let path: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("path.json")).unwrap()).unwrap();
+    assert_eq!(path["camera_path"].as_array().unwrap().len(), 10);
+    data(folder.path(), &["export", "shot.json", "-o", "film.tum"]);
+    data(folder.path(), &["import", "film.tum", "-o", "back.json"]);
+    let eval = data(folder.path(), &["eval", "shot.json", "back.json", "--json", "--plot", "plot.svg"]);
+    let eval: serde_json::Value = serde_json::from_str(&eval).unwrap();
+    assert_eq!(eval["pairs"], 8);
+    assert!(eval["max"].as_f64().unwrap() < 1e-6, "{eval}");
+    assert!(fs::read_to_string(folder.path().join("plot.svg")).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn stills_are_named_after_their_cameras() {
+    let folder = tempfile::tempdir().unwrap();
+    let camera = |name: &str| {
+        format!(
+            r#"{{"name":"{name}","width":48,"height":27,"fx":40,"fy":40,"cx":24,"cy":13.5,
+                "world_from_camera":[[1,0,0,0],[0,-1,0,1.2],[0,0,-1,1.5],[0,0,0,1]]}}"#
+        )
+    };
+    let cameras = format!(r#"{{"cameras":[{},{}]}}"#, camera("left"), camera("right"));
+    fs::write(folder.path().join("cameras.json"), cameras).unwrap();
+    let still = ["still", SMALL_SCENE, "--cameras", "cameras.json", "-o", "out", "--npy"];
+    data(folder.path(), &still);
+    let mut names: Vec<_> = fs::read_dir(folder.path().join("out")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["left.T.npy", "left.npy", "left.png", "right.T.npy", "right.npy", "right.png"]);
+    let npy = fs::read(folder.path().join("out/left.npy")).unwrap();
+    let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (27, 48, 3), }";
+    assert!(npy.starts_with(b"\x93NUMPY\x01\x00") && npy[10..].starts_with(header.as_bytes()));
+    assert_eq!((npy.len() - 27 * 48 * 3 * 4) % 64, 0);
+    let values = npy[npy.len() - 27 * 48 * 3 * 4..].chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap()));
+    let png = image::open(folder.path().join("out/left.png")).unwrap().into_rgb8().into_raw();
+    for (value, level) in values.zip(png) {
+        assert_eq!((value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8, level);
+    }
+    assert_eq!(run(folder.path(), &still).status.code(), Some(73), "a second run overwrites nothing");
+}
+
+#[test]
+fn bench_prints_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = data(folder.path(), &["bench", SMALL_SCENE, "--height", "36", "--runs", "1"]);
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines[0], "camera,width,height,quality,ms_least,ms_median,ms_most,psnr_db");
+    assert_eq!(lines.len(), 1 + 4 * 3);
+    let finals = lines.iter().filter(|line| line.contains(",final,"));
+    for line in finals {
+        let db: f64 = line.rsplit(',').next().unwrap().parse().unwrap();
+        assert!(db > 60.0, "{line}");
+    }
+}

@@ -1,0 +1,114 @@
+use std::fs;
+use std::process::{Command, Stdio};
+
+use super::{SMALL_SCENE, answer, data, run, write_shot};
+
+#[test]
+fn a_shot_becomes_a_film_with_its_sheet() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let output =
+        run(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "film.mp4", "--sheet", "sheet.png"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    assert!(output.stdout.is_empty(), "a film is no data for stdout");
+    for stage in ["load", "render", "encode", "8 frames", "reproduce with: cinesplat render"] {
+        assert!(said.contains(stage), "{stage}: {said}");
+    }
+    assert!(fs::metadata(folder.path().join("film.mp4")).unwrap().len() > 500);
+    assert!(folder.path().join("sheet.png").exists());
+    let names = fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(names, 3, "nothing is left but shot, film and sheet");
+}
+
+#[test]
+fn a_part_of_the_frames_is_the_same_as_in_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let render = |pattern: &str, frames: &str| {
+        data(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", pattern, "--frames", frames]);
+    };
+    render("all/%02d.png", "..");
+    render("part/%02d.png", "3..5");
+    let read = |path: &str| fs::read(folder.path().join(path)).unwrap();
+    assert_eq!(fs::read_dir(folder.path().join("all")).unwrap().count(), 8);
+    assert_eq!(fs::read_dir(folder.path().join("part")).unwrap().count(), 2);
+    for frame in ["03", "04"] {
+        assert!(read(&format!("all/{frame}.png")) == read(&format!("part/{frame}.png")), "frame {frame}");
+    }
+    assert!(read("all/00.png") != read("all/07.png"), "the camera moves");
+}
+
+#[test]
+fn films_are_the_same_bytes_whatever_the_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let film = |name: &str, threads: &str| {
+        data(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", name, "--threads", threads]);
+        fs::read(folder.path().join(name)).unwrap()
+    };
+    assert!(film("one.mp4", "1") == film("three.mp4", "3"));
+}
+
+#[test]
+fn a_sentence_becomes_a_shot_that_renders_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let objects = data(folder.path(), &["objects", SMALL_SCENE, "--json"]);
+    let objects: serde_json::Value = serde_json::from_str(&objects).unwrap();
+    let prompt = format!("push in on <obj-{}> with film grain", objects[0]["id"]);
+    let plan =
+        ["plan", SMALL_SCENE, "-p", &prompt, "-o", "shot.json", "--effort", "fast", "--size", "64x36", "--explain"];
+    let output = run(folder.path(), &plan);
+    let (explained, said) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert!(output.status.success(), "{said}");
+    assert!(explained.contains("push-in") && explained.contains("film-grain is called for"), "{explained}");
+    assert!(said.contains("effect: film-grain is called for by 'film grain' but not built: absent"), "{said}");
+    let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
+    let shot: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(shot["scene"]["path"], SMALL_SCENE);
+    assert!(
+        shot["report"].as_array().unwrap().iter().any(|line| line["met"] == false),
+        "the missing grain is admitted"
+    );
+    let again = ["plan", SMALL_SCENE, "-p", &prompt, "--json", "--effort", "fast", "--size", "64x36"];
+    assert_eq!(data(folder.path(), &again), text, "the same sentence gives the same shot");
+    let said =
+        answer(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4", "--frames", "0..2"]);
+    assert!(said.contains("effect: film-grain is called for"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_what_is_there_under_another_name() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
+    fs::write(folder.path().join("shot.json"), text.replace(r#""fps":8"#, r#""fps":1000"#)).unwrap();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
+    program.args([
+        "render",
+        SMALL_SCENE,
+        "--shot",
+        "shot.json",
+        "-o",
+        "film.mkv",
+        "--size",
+        "640x360",
+        "--duration",
+        "100",
+    ]);
+    let mut film = program.current_dir(folder.path()).stderr(Stdio::piped()).spawn().unwrap();
+    // The part file shows that filming has begun.
+    let has_begun =
+        || fs::read_dir(folder.path()).unwrap().any(|e| e.unwrap().file_name().to_string_lossy().ends_with(".part"));
+    while !has_begun() {
+        assert!(film.try_wait().unwrap().is_none(), "the film ended before it was interrupted");
+        std::thread::yield_now();
+    }
+    assert!(Command::new("kill").args(["-INT", &film.id().to_string()]).status().unwrap().success());
+    let output = film.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(75), "{said}");
+    assert!(said.contains("error[STOPPED]: film.partial.mkv: stopped after"), "{said}");
+    assert!(folder.path().join("film.partial.mkv").exists() && !folder.path().join("film.mkv").exists());
+}

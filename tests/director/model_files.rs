@@ -1,0 +1,84 @@
+//! The three files of a model: what is wrong with them is said, whatever it is.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use cinesplat::director::{Director, TrainSettings, train};
+
+/// A model trained for one step, and its folder.
+fn model() -> tempfile::TempDir {
+    let out = tempfile::tempdir().unwrap();
+    let settings = TrainSettings {
+        steps: 1,
+        batch: 2,
+        corpus: 60,
+        vocabulary: 260,
+        exam_prompts: 0,
+        out: out.path().to_owned(),
+        ..TrainSettings::default()
+    };
+    train(&settings, &mut |_| ControlFlow::Continue(())).unwrap();
+    out
+}
+
+fn edit(folder: &Path, file: &str, change: impl Fn(&mut Vec<u8>)) -> (String, String, i32) {
+    let path = folder.join(file);
+    let kept = std::fs::read(&path).unwrap();
+    let mut bytes = kept.clone();
+    change(&mut bytes);
+    std::fs::write(&path, &bytes).unwrap();
+    let error = Director::load(folder).expect_err("a damaged model was loaded");
+    std::fs::write(&path, kept).unwrap();
+    (error.code().to_owned(), error.to_string(), error.exit_code())
+}
+
+fn replace(bytes: &mut Vec<u8>, from: &str, to: &str) {
+    *bytes = String::from_utf8(bytes.clone()).unwrap().replace(from, to).into_bytes();
+}
+
+#[test]
+fn what_was_written_loads_and_damage_is_named() {
+    let model = model();
+    let folder = model.path();
+    assert_eq!(Director::load(folder).unwrap().model_ref(), Director::load(&folder.join("director.json")).unwrap().model_ref());
+    let manifest = |from: &'static str, to: &'static str| edit(folder, "director.json", |bytes| replace(bytes, from, to));
+    let (code, said, exit_code) = manifest("\"version\": 1", "\"version\": 2");
+    assert_eq!((code.as_str(), exit_code), ("MODEL-BAD", 65));
+    assert!(said.contains("version 2") && said.contains("version 1"), "{said}");
+    assert!(manifest("cinesplat.director", "other").1.contains("format"));
+    assert!(manifest("push-in", "push-on").1.contains("choices"));
+    assert!(manifest("\"heads\": 4", "\"heads\": 5").1.contains("sizes"));
+    // The description and the numbers disagree.
+    assert!(manifest("\"hidden\": 512", "\"hidden\": 256").1.contains("shape"));
+    assert!(manifest("\"text_layers\": 3", "\"text_layers\": 2").1.contains("unknown tensors"));
+    assert!(manifest("\"text_layers\": 3", "\"text_layers\": 4").1.contains("missing"));
+    // One bit of the numbers, the end of the file, all of it.
+    assert!(edit(folder, "director.safetensors", |bytes| *bytes.last_mut().unwrap() ^= 1).1.contains("SHA-256"));
+    assert!(edit(folder, "director.safetensors", |bytes| bytes.truncate(1000)).1.contains("SHA-256"));
+    assert!(edit(folder, "director.tokenizer.json", |bytes| bytes.push(b' ')).1.contains("SHA-256"));
+}
+
+#[test]
+fn numbers_that_are_none_are_refused_even_with_a_fitting_hash() {
+    use sha2::{Digest, Sha256};
+    let model = model();
+    let path = model.path().join("director.safetensors");
+    let mut bytes = std::fs::read(&path).unwrap();
+    let hex = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>();
+    let before = hex(&bytes);
+    // The last number becomes infinite: 0x7c00 in half precision, little-endian.
+    let end = bytes.len();
+    bytes[end - 2..].copy_from_slice(&[0x00, 0x7c]);
+    std::fs::write(&path, &bytes).unwrap();
+    let manifest = model.path().join("director.json");
+    let text = std::fs::read_to_string(&manifest).unwrap().replace(&before, &hex(&bytes));
+    std::fs::write(&manifest, text).unwrap();
+    let error = Director::load(model.path()).unwrap_err();
+    assert!(error.to_string().contains("inf") && error.to_string().contains("finite"), "{error}");
+}
+
+#[test]
+fn a_model_that_is_not_there_is_no_input() {
+    let error = Director::load(Path::new("/nowhere/director.json")).unwrap_err();
+    assert_eq!((error.code(), error.exit_code()), ("MODEL-READ", 66));
+}

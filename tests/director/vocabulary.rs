@@ -1,0 +1,27 @@
+//! The tokenizer.
+
+use cinesplat::director::Vocabulary;
+
+fn trained() -> Vocabulary {
+    let lines = ["push in on <obj-0> slowly", "pan left from <obj-0> to <obj-1>", "orbit <obj-1> in <qty-0>"];
+    let lines: Vec<String> = lines.iter().cycle().take(60).map(|line| (*line).to_owned()).collect();
+    Vocabulary::train(&lines, 300).unwrap()
+}
+
+#[test]
+fn training_is_repeatable_and_survives_json() {
+    let json = trained().to_json().unwrap();
+    assert_eq!(json, trained().to_json().unwrap());
+    let read = Vocabulary::from_json(json.as_bytes()).unwrap();
+    assert_eq!(read.size(), trained().size());
+    assert_eq!(read.to_json().unwrap(), json);
+}
+
+#[test]
+fn a_tokenizer_without_our_special_tokens_is_refused() {
+    let json = trained().to_json().unwrap().replace("<obj-7>", "<abc-7>");
+    let error = Vocabulary::from_json(json.as_bytes()).unwrap_err();
+    assert_eq!((error.code(), error.exit_code()), ("MODEL-BAD", 65));
+    assert!(error.to_string().contains("<obj-7>"), "{error}");
+    assert_eq!(Vocabulary::from_json(b"{}").unwrap_err().code(), "MODEL-BAD");
+}

@@ -1,0 +1,14 @@
+//! Tests of `src/evaluation`, one file a concept.
+#![allow(clippy::float_cmp, reason = "counts, times and exact cases are compared bit by bit")]
+
+mod associate;
+mod batch;
+mod degenerate;
+mod evo_pairs;
+mod evo_parity;
+mod named_moves;
+mod paths;
+mod plot;
+mod smoothness;
+mod table;
+mod taggers;

@@ -1,0 +1,107 @@
+use cinesplat::evaluation::{MotionTag, Tagger, Trajectory};
+use cinesplat::geometry::Pose;
+use glam::{DQuat, DVec3};
+
+use super::paths::{at_30_fps, through, track_of};
+
+fn words(tagger: Tagger, path: &Trajectory) -> Vec<String> {
+    tagger.segments(path).into_iter().map(|segment| segment.tag.words()).collect()
+}
+
+#[test]
+fn gendops_example_has_the_tags_of_its_caption() {
+    let Some(track) = track_of("data/gendop/case1_transforms_cleaning.json") else { return };
+    let path = Trajectory::from(&track);
+    // "The camera moves right while yawing left, then shifts right and forward, and finally remains static."
+    assert_eq!(words(Tagger::Gendop, &path), ["right, yaw left", "right and forward", "static"]);
+    assert_eq!(Tagger::Gendop.tags(&path).len(), 119);
+}
+
+#[test]
+fn every_direction_has_its_word() {
+    let moving = |direction: DVec3| through((0..80).map(move |k| direction * f64::from(k)), DQuat::IDENTITY);
+    let cases = [
+        (DVec3::X, "right"),
+        (DVec3::NEG_X, "left"),
+        (DVec3::NEG_Y, "up"),
+        (DVec3::Y, "down"),
+        (DVec3::Z, "forward"),
+        (DVec3::NEG_Z, "back"),
+        (DVec3::new(1.0, 0.0, 0.8), "right and forward"),
+        // The slower axis is dropped below 0.6 of the faster one.
+        (DVec3::new(1.0, 0.0, 0.5), "right"),
+        (DVec3::ZERO, "static"),
+    ];
+    for (direction, word) in cases {
+        for tagger in [Tagger::Et, Tagger::Gendop] {
+            assert_eq!(words(tagger, &moving(direction * 0.01)), [word], "{tagger:?} {direction}");
+        }
+    }
+}
+
+#[test]
+fn every_turn_has_its_word() {
+    let turning = |axis: DVec3| {
+        let poses: Vec<Pose> =
+            (0..40).map(|k| Pose::new(DVec3::ONE, DQuat::from_scaled_axis(axis * 0.01 * f64::from(k)))).collect();
+        at_30_fps(&poses)
+    };
+    // OpenCV axes: about x the view goes up, about y (down) it goes right, about z the right side dips.
+    let cases = [
+        (DVec3::X, "pitch up"),
+        (DVec3::NEG_X, "pitch down"),
+        (DVec3::Y, "yaw right"),
+        (DVec3::NEG_Y, "yaw left"),
+        (DVec3::Z, "roll right"),
+        (DVec3::NEG_Z, "roll left"),
+    ];
+    for (axis, word) in cases {
+        assert_eq!(words(Tagger::Gendop, &turning(axis)), [word]);
+        assert_eq!(words(Tagger::Et, &turning(axis)), ["static"]);
+    }
+}
+
+#[test]
+fn short_chunks_go_to_their_neighbors() {
+    // 30 motions right, 9 up, 30 forward: the filter of 15 leaves the nine, which are then shared, the odd one to the first.
+    let steps = (0..69).map(|k| {
+        if k < 30 {
+            DVec3::X
+        } else if k < 39 {
+            DVec3::NEG_Y
+        } else {
+            DVec3::Z
+        }
+    });
+    let mut at = DVec3::ZERO;
+    let points: Vec<DVec3> = std::iter::once(at)
+        .chain(steps.map(|step| {
+            at += step;
+            at
+        }))
+        .collect();
+    let segments = Tagger::Gendop.segments(&through(points.into_iter(), DQuat::IDENTITY));
+    let ends: Vec<(usize, usize)> = segments.iter().map(|segment| (segment.start, segment.end)).collect();
+    assert_eq!(ends, [(0, 35), (35, 69)]);
+    assert_eq!(segments[0].tag, MotionTag { right: 1, ..MotionTag::default() });
+}
+
+#[test]
+fn at_most_four_segments_are_left() {
+    let mut at = DVec3::ZERO;
+    let directions = [DVec3::X, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::X, DVec3::Z];
+    let steps = directions.into_iter().flat_map(|direction| vec![direction; 20]);
+    let points: Vec<DVec3> = std::iter::once(at)
+        .chain(steps.map(|step| {
+            at += step;
+            at
+        }))
+        .collect();
+    assert!(Tagger::Gendop.segments(&through(points.into_iter(), DQuat::IDENTITY)).len() <= 4);
+}
+
+#[test]
+fn nothing_to_tag_gives_no_segments() {
+    assert!(Tagger::Gendop.segments(&Trajectory::default()).is_empty());
+    assert!(Tagger::Et.segments(&through(std::iter::once(DVec3::ONE), DQuat::IDENTITY)).is_empty());
+}

@@ -1,0 +1,86 @@
+use cinesplat::export::{Content, Format, read};
+use cinesplat::geometry::Pose;
+use glam::{DMat4, DQuat, DVec3};
+use serde_json::Value;
+
+use super::sample_shot::{file, there_and_back, with_cut};
+
+fn gltf() -> Value {
+    let (_, warnings, folder) = there_and_back(&with_cut(), Format::Gltf, "a.gltf", Content::Sampled);
+    assert!(warnings.iter().all(|line| !line.contains("cuts") && !line.contains("field of view")), "{warnings:?}");
+    serde_json::from_str(&std::fs::read_to_string(folder.path().join("a.gltf")).unwrap()).unwrap()
+}
+
+#[test]
+fn a_zoom_is_animated_through_the_pointer_extension() {
+    let file = gltf();
+    let target = &file["animations"][0]["channels"][2]["target"];
+    assert_eq!(file["extensionsUsed"][0], "KHR_animation_pointer");
+    assert_eq!(target["path"], "pointer");
+    assert_eq!(target["extensions"]["KHR_animation_pointer"]["pointer"], "/cameras/0/perspective/yfov");
+    assert!(target.get("node").is_none());
+}
+
+#[test]
+fn a_cut_adds_one_key_that_holds() {
+    // 72 frames and one key before the cut.
+    assert_eq!(gltf()["accessors"][0]["count"], 73);
+}
+
+#[test]
+fn the_node_above_takes_the_scenes_up_to_plus_y() {
+    let node = &gltf()["nodes"][0];
+    let turn: Vec<f64> = node["rotation"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
+    let up = DQuat::from_array(turn.try_into().unwrap()) * DVec3::NEG_Y;
+    assert!((up - DVec3::Y).length() < 1e-12);
+}
+
+#[test]
+fn reads_a_camera_that_hangs_under_a_moved_node() {
+    // No animation: one frame. The parent is half a turn about y and at x = 10; the camera looks along its -z.
+    let text = br#"{"asset": {"version": "2.0"}, "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+      "nodes": [{"camera": 0, "translation": [1, 0, 0]}, {"children": [0], "translation": [10, 0, 0], "rotation": [0, 1, 0, 0]}],
+      "scenes": [{"nodes": [1]}]}"#;
+    let (path, _folder) = file("a.gltf", text);
+    let track = read(&path, None).unwrap().track;
+    let pose: Pose = track.frames[0].pose;
+    assert!((pose.position - DVec3::new(9.0, 0.0, 0.0)).length() < 1e-12);
+    assert!((pose.forward() - DVec3::Z).length() < 1e-12 && (pose.up() - DVec3::Y).length() < 1e-12);
+    assert_eq!((track.frames.len(), track.frames[0].fov_y_rad, track.up), (1, Some(0.8), Some(DVec3::Y)));
+}
+
+#[test]
+fn reads_usd_of_other_writers() {
+    // Matrices in rows, rotations by axis, a parent, metadata, comments and a variant set.
+    let text = br#"#usda 1.0
+( """a comment"""
+  upAxis = "Z"
+  timeCodesPerSecond = 10
+)
+def Xform "rig" ( kind = "component" prepend variantSets = "v" ) {
+  double3 xformOp:translate = (0, 0, 5)
+  float3 xformOp:rotateXYZ = (90, 0, 0)
+  uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+  variantSet "v" = { "one" { def Sphere "s" { } } }
+  def Camera "cam" {   # looks along -z of the rig
+    float focalLength = 50
+    float verticalAperture = 50 ( doc = "film" )
+    matrix4d xformOp:transform.timeSamples = {
+      0: ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 2, 3, 1) ),
+      20: ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (4, 2, 3, 1) ),
+    }
+    uniform token[] xformOpOrder = ["xformOp:transform"]
+    rel material:binding = </nothing>
+  }
+}
+"#;
+    let (path, _folder) = file("a.usda", text);
+    let track = read(&path, None).unwrap().track;
+    let pose = track.frames[1].pose;
+    // By hand: a quarter turn about x takes (4, 2, 3) to (4, -3, 2), looking along -z becomes +y.
+    assert!((pose.position - DVec3::new(4.0, -3.0, 7.0)).length() < 1e-12, "{}", pose.position);
+    assert!((pose.forward() - DVec3::Y).length() < 1e-12 && (pose.up() - DVec3::Z).length() < 1e-12);
+    assert_eq!((track.frames[1].time_secs, track.fps, track.up), (2.0, Some(10.0), Some(DVec3::Z)));
+    assert!((track.frames[0].fov_y_rad.unwrap() - 2.0 * 0.5_f64.atan()).abs() < 1e-12);
+    assert_eq!(pose.world_from_camera().w_axis, DMat4::from_translation(pose.position).w_axis);
+}

@@ -1,0 +1,79 @@
+//! Files that are cut off, lie about counts or nest too deeply end in one error, without allocating what they claim.
+
+use cinesplat::export::{Content, Format, read};
+
+use super::sample_shot::{file, there_and_back, with_cut};
+
+/// Every format, cut off at many places: an error or a shorter path, never a panic.
+#[test]
+fn truncated_files_never_panic() {
+    let names = [
+        "a.txt",
+        "b.txt",
+        "c.csv",
+        "d.json",
+        "e.json",
+        "images.txt",
+        "images.bin",
+        "f.json",
+        "g.glb",
+        "h.usda",
+        "i.py",
+    ];
+    let formats = [
+        Format::Tum,
+        Format::Kitti,
+        Format::Euroc,
+        Format::Nerfstudio,
+        Format::Transforms,
+        Format::Colmap,
+        Format::Colmap,
+        Format::Lichtfeld,
+        Format::Gltf,
+        Format::Usd,
+        Format::Blender,
+    ];
+    for (name, format) in names.into_iter().zip(formats) {
+        let (_, _, folder) = there_and_back(&with_cut(), format, name, Content::Keyframes);
+        let path = folder.path().join(name);
+        let bytes = std::fs::read(&path).unwrap();
+        for part in 0..40 {
+            std::fs::write(&path, &bytes[..bytes.len() * part / 40]).unwrap();
+            if let Err(error) = read(&path, Some(format)) {
+                assert_eq!(error.exit_code(), 65, "{name}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn counts_that_lie_are_refused() {
+    let (path, _folder) = file("images.bin", &u64::MAX.to_le_bytes());
+    insta::assert_snapshot!(read(&path, None).unwrap_err(), @"byte 8: found the end of the file, expected an image id");
+    let gltf = br#"{"asset": {"version": "2.0"}, "cameras": [{"perspective": {"yfov": 1}}], "nodes": [{"camera": 0}],
+      "animations": [{"samplers": [{"input": 0, "output": 0}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 4000000000}],
+      "bufferViews": [{"buffer": 0, "byteLength": 4}], "buffers": [{"uri": "data:;base64,AAAAAA=="}]}"#;
+    let (path, _folder) = file("a.gltf", gltf);
+    assert!(read(&path, None).unwrap_err().to_string().contains("expected values inside the buffer"));
+}
+
+#[test]
+fn deep_nesting_and_far_files_are_refused() {
+    let (path, _folder) =
+        file("a.usda", format!("#usda 1.0\ndef X \"a\" {{ float a = {} }}", "(".repeat(100_000)).as_bytes());
+    assert!(read(&path, None).unwrap_err().to_string().contains("expected less nesting"));
+    let (path, _folder) = file("a.usda", format!("#usda 1.0\n{}", "def X \"a\" { ".repeat(100_000)).as_bytes());
+    assert!(read(&path, None).unwrap_err().to_string().contains("expected less nesting"));
+    let gltf = br#"{"asset": {}, "cameras": [], "nodes": [], "buffers": [{"uri": "../../etc/passwd"}]}"#;
+    let (path, _folder) = file("a.gltf", gltf);
+    assert!(read(&path, None).unwrap_err().to_string().contains("expected the name of a file in the same folder"));
+}
+
+#[test]
+fn missing_files_and_foreign_content_have_their_own_exit_codes() {
+    let code = |name: &str| read(name.as_ref(), None).map_err(|error| (error.exit_code(), error.code())).unwrap_err();
+    assert_eq!(code("/nowhere/at/all.json"), (66, "EXCHANGE-IO"));
+    let (path, _folder) = file("a.ply", b"ply\nformat ascii 1.0\n");
+    assert_eq!(code(path.to_str().unwrap()), (65, "EXCHANGE-FORMAT"));
+}

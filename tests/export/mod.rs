@@ -1,0 +1,16 @@
+//! Tests of `src/export`, one file a format or concept.
+#![allow(clippy::float_cmp, reason = "numbers written and read back keep their bits")]
+
+mod cameras_json;
+mod captures;
+mod csv_euroc;
+mod detection;
+mod gltf_usd;
+mod hostile;
+mod nerfstudio;
+mod round_trips;
+mod sample_shot;
+mod shot_json;
+mod supersplat;
+mod tum_kitti;
+mod warnings;

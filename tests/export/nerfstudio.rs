@@ -1,0 +1,69 @@
+use cinesplat::export::{Content, ExportSettings, Format, read, write};
+use cinesplat::geometry::Pose;
+use glam::{DMat4, DVec3};
+use serde_json::Value;
+
+use super::sample_shot::{file, key, shot, with_cut};
+
+fn exported(settings: ExportSettings) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.json");
+    write(&path, Format::Nerfstudio, &with_cut(), &settings).unwrap();
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+#[test]
+fn holds_every_key_that_ns_render_and_the_viewer_read() {
+    let path = exported(ExportSettings::default());
+    for name in
+        ["camera_type", "render_width", "render_height", "fps", "seconds", "default_fov", "default_transition_sec"]
+    {
+        assert!(!path[name].is_null(), "{name}");
+    }
+    assert_eq!(path["camera_type"], "perspective");
+    assert_eq!((path["camera_path"].as_array().unwrap().len(), path["keyframes"].as_array().unwrap().len()), (72, 4));
+    // ns-render's rate is the number of frames over the seconds.
+    assert_eq!(path["seconds"].as_f64().unwrap(), 3.0);
+    let key = &path["keyframes"][1];
+    assert_eq!(key["override_transition_sec"], 1.0);
+    assert!((key["fov"].as_f64().unwrap() - 40.0).abs() < 1e-12);
+    assert!((key["aspect"].as_f64().unwrap() - 16.0 / 9.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_rate_can_be_chosen() {
+    let path = exported(ExportSettings { fps: Some(10.0), ..ExportSettings::default() });
+    assert_eq!((path["camera_path"].as_array().unwrap().len(), path["fps"].as_f64().unwrap()), (30, 10.0));
+}
+
+#[test]
+fn cameras_look_along_minus_z_with_y_up() {
+    // Standing at (1, 2, 3), looking along world +x with world +y up.
+    let looking = Pose::look_at(DVec3::new(1.0, 2.0, 3.0), DVec3::new(9.0, 2.0, 3.0), DVec3::Y, None).unwrap();
+    let shot = shot(vec![key(0.0, looking.position, looking.rotation, 50.0)], DVec3::Y);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.json");
+    write(&path, Format::Nerfstudio, &shot, &ExportSettings { content: Content::Keyframes, fps: None }).unwrap();
+    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let rows: Vec<f64> =
+        file["camera_path"][0]["camera_to_world"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
+    let matrix = DMat4::from_cols_array(&rows.try_into().unwrap()).transpose();
+    let direction = |v: DVec3| matrix.transform_vector3(v);
+    assert!((direction(DVec3::NEG_Z) - DVec3::X).length() < 1e-12, "forward");
+    assert!((direction(DVec3::Y) - DVec3::Y).length() < 1e-12, "up");
+    assert_eq!(matrix.w_axis.truncate(), DVec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
+fn reads_files_of_other_writers() {
+    // nerfview leaves out camera_type and crop; the Blender add-on writes key matrices as strings, column by column.
+    let text = br#"{"render_width": 640.0, "render_height": 360, "fps": 30, "seconds": 0.5, "camera_path": [
+        {"camera_to_world": [1,0,0,4, 0,-1,0,5, 0,0,-1,6, 0,0,0,1], "fov": 60.0, "aspect": 1.7}],
+      "keyframes": [{"matrix": "[1.0,0,0,0, 0,-1,0,0, 0,0,-1,0, 4,5,7,1]", "fov": 60.0, "properties": "[]"}]}"#;
+    let (path, _folder) = file("a.json", text);
+    let track = read(&path, None).unwrap().track;
+    assert_eq!((track.size_px, track.fps), (Some((640, 360)), Some(2.0)));
+    assert_eq!(track.frames[0].pose, Pose { position: DVec3::new(4.0, 5.0, 6.0), ..Pose::IDENTITY });
+    assert_eq!(track.keys[0].pose, Pose { position: DVec3::new(4.0, 5.0, 7.0), ..Pose::IDENTITY });
+    assert_eq!(track.frames[0].fov_y_rad, Some(60_f64.to_radians()));
+}

@@ -1,0 +1,138 @@
+//! What is written comes back: over random shots, to the precision that each format holds.
+
+use cinesplat::export::{Content, Format, PoseTrack};
+use cinesplat::geometry::rotation;
+use cinesplat::trajectory::Shot;
+use glam::{DQuat, DVec3};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+use super::sample_shot::{key, shot, there_and_back, with_cut};
+
+/// A format, the name to write to, and what of a camera it keeps.
+struct Row {
+    format: Format,
+    name: &'static str,
+    /// Largest error of a position of size 1, and of an angle in rad.
+    tolerance: f64,
+    keeps_fov: bool,
+    keeps_times: bool,
+    keeps_size: bool,
+}
+
+const fn row(format: Format, name: &'static str, tolerance: f64) -> Row {
+    Row { format, name, tolerance, keeps_fov: true, keeps_times: true, keeps_size: true }
+}
+
+const ROWS: [Row; 15] = [
+    Row { keeps_fov: false, keeps_size: false, ..row(Format::Tum, "a.txt", 1e-14) },
+    Row { keeps_fov: false, keeps_times: false, keeps_size: false, ..row(Format::Kitti, "b.txt", 1e-14) },
+    Row { keeps_fov: false, keeps_size: false, ..row(Format::Euroc, "c.csv", 1e-14) },
+    row(Format::Nerfstudio, "d.json", 1e-14),
+    row(Format::Transforms, "e.json", 1e-14),
+    Row { keeps_times: false, ..row(Format::Colmap, "sparse", 1e-14) },
+    Row { keeps_times: false, ..row(Format::Colmap, "images.bin", 1e-14) },
+    Row { keeps_size: false, ..row(Format::Lichtfeld, "f.json", 1e-14) },
+    Row { keeps_size: false, ..row(Format::Gltf, "g.gltf", 1e-6) },
+    Row { keeps_size: false, ..row(Format::Gltf, "g.glb", 1e-6) },
+    row(Format::Usd, "h.usda", 1e-14),
+    row(Format::Blender, "i.py", 1e-14),
+    Row { keeps_size: false, ..row(Format::Csv, "j.csv", 1e-14) },
+    Row { keeps_fov: false, keeps_times: false, keeps_size: false, ..row(Format::Log, "k.log", 1e-14) },
+    row(Format::Shot, "l.json", 1e-14),
+];
+
+fn rotations() -> impl Strategy<Value = DQuat> {
+    let part = || -1.0..1.0_f64;
+    (part(), part(), part(), part())
+        .prop_map(|(x, y, z, w)| DQuat::from_xyzw(x, y, z, w))
+        .prop_filter("a direction", |q| q.length() > 0.1)
+        .prop_map(DQuat::normalize)
+}
+
+fn shots() -> impl Strategy<Value = Shot> {
+    let position = || (-5.0..5.0_f64, -5.0..5.0_f64, -5.0..5.0_f64).prop_map(|(x, y, z)| DVec3::new(x, y, z));
+    let keys = prop::collection::vec((0.2..1.0_f64, position(), rotations(), 15.0..90.0_f64), 1..5);
+    (keys, rotations()).prop_map(|(keys, up)| {
+        let mut time_secs = -0.2;
+        let keyframes = keys.into_iter().map(|(step, position, turn, fov_deg)| {
+            time_secs = if time_secs < 0.0 { 0.0 } else { time_secs + step };
+            key(time_secs, position, turn, fov_deg)
+        });
+        shot(keyframes.collect(), up * DVec3::Y)
+    })
+}
+
+fn check(shot: &Shot, row: &Row, content: Content) {
+    let wanted = match content {
+        Content::Sampled => PoseTrack::sampled(shot, None).unwrap(),
+        Content::Keyframes => PoseTrack::keyframes(shot),
+    };
+    let (imported, _, _folder) = there_and_back(shot, row.format, row.name, content);
+    let (name, got) = (row.name, imported.track);
+    assert_eq!((imported.format, got.timed), (row.format, row.keeps_times), "{name}");
+    assert_eq!(got.frames.len(), wanted.frames.len(), "{name}");
+    assert_eq!(got.size_px == wanted.size_px, row.keeps_size || got.size_px == Some((1280, 720)), "{name}");
+    for (a, b) in wanted.frames.iter().zip(&got.frames) {
+        let moved = (a.pose.position - b.pose.position).length();
+        let turned = rotation::angle_between(a.pose.rotation, b.pose.rotation);
+        assert!(
+            moved < 20.0 * row.tolerance && turned < 10.0 * row.tolerance,
+            "{name}: moved {moved}, turned {turned}"
+        );
+        let zoomed = b.fov_y_rad.map(|fov| (fov - a.fov_y_rad.unwrap()).abs());
+        assert_eq!(zoomed.is_some_and(|zoomed| zoomed < 10.0 * row.tolerance), row.keeps_fov, "{name}: {zoomed:?}");
+        let late = (a.time_secs - b.time_secs).abs();
+        // Key times of nerfstudio are sums of transitions, those of EuRoC whole nanoseconds.
+        assert!(!row.keeps_times || late < 1e-9_f64.max(row.tolerance), "{name}: {late} s late");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, rng_seed: RngSeed::Fixed(7), ..ProptestConfig::default() })]
+
+    #[test]
+    fn frames_of_random_shots(shot in shots()) {
+        for row in &ROWS {
+            check(&shot, row, Content::Sampled);
+        }
+    }
+
+    #[test]
+    fn keyframes_of_random_shots(shot in shots()) {
+        for row in &ROWS {
+            check(&shot, row, Content::Keyframes);
+        }
+    }
+}
+
+#[test]
+fn cuts_stay_cuts_where_the_format_holds_them() {
+    let cuts = |track: &PoseTrack| track.frames.iter().map(|frame| frame.cut).collect::<Vec<_>>();
+    let wanted = PoseTrack::sampled(&with_cut(), None).unwrap();
+    assert_eq!(cuts(&wanted).iter().position(|cut| *cut), Some(48));
+    for name in ["a.gltf", "a.glb", "a.usda", "a.py", "a.csv", "a.shot.json"] {
+        let format = Format::from_path(name.as_ref()).unwrap();
+        let (imported, _, _folder) = there_and_back(&with_cut(), format, name, Content::Sampled);
+        assert_eq!(cuts(&imported.track), cuts(&wanted), "{name}");
+    }
+}
+
+#[test]
+fn focus_distances_stay_where_the_format_holds_them() {
+    for name in ["a.usda", "a.py", "a.csv", "a.shot.json"] {
+        let format = Format::from_path(name.as_ref()).unwrap();
+        let (imported, _, _folder) = there_and_back(&with_cut(), format, name, Content::Keyframes);
+        let focus: Vec<_> = imported.track.frames.iter().map(|frame| frame.focus_distance).collect();
+        assert_eq!(focus, [Some(2.0), Some(3.0), Some(4.0), Some(5.0)], "{name}");
+    }
+}
+
+#[test]
+fn a_shot_exported_with_its_keyframes_is_the_same_shot() {
+    let shot = with_cut();
+    let (imported, warnings, _folder) = there_and_back(&shot, Format::Shot, "a.shot.json", Content::Keyframes);
+    let (back, assumed) = imported.into_shot().unwrap();
+    assert_eq!((back.keyframes.len(), back.scene.up), (4, Some(DVec3::NEG_Y)));
+    assert!(warnings.is_empty() && assumed.is_empty());
+}

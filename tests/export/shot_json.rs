@@ -1,0 +1,106 @@
+use cinesplat::export::shot_json::{read, write};
+use cinesplat::geometry::{LevelFrame, Pose};
+use cinesplat::trajectory::{Move, Shot, ShotAngle, ShotSize};
+use glam::{DQuat, DVec3};
+
+/// The example of the format's description with numbers filled in.
+const EXAMPLE: &str = r#"{ "format":"cinesplat.shot", "version":1,
+  "scene":{"path":"room.spz","sha256":"ab","up":[0,1,0]}, "prompt":"close-up of the cup", "seed":7, "model":{"name":"m","sha256":"cd"},
+  "width":1280, "height":720, "fps":30, "duration_secs":8.0, "added_later": {"x": [1, 2]},
+  "keyframes":[{ "time_secs":0.0, "position":[1,2,3], "rotation_xyzw":[1,0,0,0],
+                 "euler_deg":{"yaw":99,"pitch":99,"roll":99},
+                 "fov_y_deg":50.0, "focus_distance":null, "easing":"smooth", "cut":false,
+                 "intent":{"subjects":[3],"size":"close-up","move":"orbit-right","angle":"eye-level","words":[0,8],"pivot":[0,1,2]} },
+               { "time_secs":2.5, "position":[1,2,4], "rotation_xyzw":[0.707,0,0,0.707], "fov_y_deg":40 }],
+  "effects":[{"kind":"depth-of-field", "f_stop":2.8, "because":"asked for"}],
+  "report":[{"clause":"close-up of <obj-3>","wanted":"height 1.0-1.6 of frame","got":1.21,"met":true,"note":""}] }"#;
+
+#[test]
+fn reads_every_documented_key() {
+    let shot = read(EXAMPLE).unwrap();
+    let intent = shot.keyframes[0].intent.clone().unwrap();
+    assert_eq!((shot.width, shot.height, shot.fps, shot.duration_secs, shot.seed), (1280, 720, 30.0, 8.0, 7));
+    assert_eq!(shot.scene.up, Some(DVec3::Y));
+    assert_eq!(shot.keyframes[0].pose.rotation, DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0));
+    assert_eq!((intent.subjects, intent.words, intent.pivot), (vec![3], Some([0, 8]), Some(DVec3::new(0.0, 1.0, 2.0))));
+    assert_eq!(intent.movement, Some(Move::OrbitRight));
+    assert_eq!((intent.size, intent.angle), (Some(ShotSize::CloseUp), Some(ShotAngle::EyeLevel)));
+    assert_eq!(shot.effects[0].settings, vec![("f_stop".to_owned(), 2.8)]);
+    assert!(shot.report[0].met);
+}
+
+#[test]
+fn a_quaternion_typed_by_hand_becomes_a_unit_one() {
+    let shot = read(EXAMPLE).unwrap();
+    assert!((shot.keyframes[1].pose.rotation.length() - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn what_is_written_reads_back_the_same() {
+    let shot = read(EXAMPLE).unwrap();
+    assert_same(&shot, &read(&write(&shot)).unwrap());
+    assert_eq!(write(&shot), write(&read(&write(&shot)).unwrap()));
+}
+
+/// Equal but for degrees, which lose the last bit.
+fn assert_same(a: &Shot, b: &Shot) {
+    let without_fov = |shot: &Shot| {
+        let mut shot = shot.clone();
+        shot.keyframes.iter_mut().for_each(|key| key.fov_y_rad = 1.0);
+        shot
+    };
+    assert_eq!(without_fov(a), without_fov(b));
+    for (a, b) in a.keyframes.iter().zip(&b.keyframes) {
+        assert!((a.fov_y_rad - b.fov_y_rad).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn euler_angles_start_at_yaw_0_and_turn_right_positive() {
+    let mut shot = read(EXAMPLE).unwrap();
+    let level = LevelFrame::new(DVec3::Y).unwrap();
+    let facing = |azimuth: f64| Pose::facing(DVec3::ZERO, level.direction(azimuth), DVec3::Y, None);
+    shot.keyframes[0].pose = facing(2.0);
+    shot.keyframes[1].pose = facing(2.5);
+    let text = write(&shot);
+    assert!(text.contains(r#""euler_deg": {"yaw": 0.0, "pitch": 0.0, "roll": 0.0}"#), "{text}");
+    assert!(text.contains(r#""euler_deg": {"yaw": 28.6479, "pitch": 0.0, "roll": 0.0}"#), "{text}");
+}
+
+#[test]
+fn a_first_key_that_looks_straight_down_has_yaw_0() {
+    let mut shot = read(EXAMPLE).unwrap();
+    let hint = Some(DVec3::new(0.3, 0.0, 0.8));
+    shot.keyframes[0].pose = Pose::facing(DVec3::ZERO, DVec3::NEG_Y, DVec3::Y, hint);
+    assert!(write(&shot).contains(r#""euler_deg": {"yaw": 0.0, "pitch": -90.0, "roll": 0.0}"#));
+}
+
+#[test]
+fn refuses_with_the_place_and_the_reason() {
+    let refused = |from: &str, to: &str| read(&EXAMPLE.replacen(from, to, 1)).unwrap_err().to_string();
+    insta::assert_snapshot!(refused("cinesplat.shot", "other"), @r#"found format "other", expected "cinesplat.shot""#);
+    insta::assert_snapshot!(refused("\"version\":1", "\"version\":2"), @"cinesplat.shot version 2, expected 1");
+    insta::assert_snapshot!(refused("\"version\":1,", ""), @"version: found nothing, expected 1");
+    insta::assert_snapshot!(refused("[1,2,4]", "[1,2]"), @"keyframes[1].position: found [1,2], expected 3 finite numbers");
+    insta::assert_snapshot!(refused("[1,2,4]", "\"here\""), @r#"keyframes[1].position: found "here", expected 3 finite numbers"#);
+    insta::assert_snapshot!(refused("\"fov_y_deg\":40", "\"fov_y_deg\":400"), @"keyframe 1: fov_y_deg is 400, expected 0.1..175");
+    insta::assert_snapshot!(refused("\"time_secs\":2.5", "\"time_secs\":0"), @"keyframe 1 is at 0 s, expected later than 0 s");
+    insta::assert_snapshot!(refused("[0.707,0,0,0.707]", "[0,0,0,0]"), @"keyframe 1: rotation_xyzw is [0, 0, 0, 0], expected a unit quaternion");
+    insta::assert_snapshot!(refused("\"orbit-right\"", "\"fly\""), @r#"keyframes[0].intent.move: found "fly", expected one of static, pan-left, pan-right, tilt-up, tilt-down, roll-cw, roll-ccw, push-in, pull-out, truck-left, truck-right, pedestal-up, pedestal-down, crane-up, crane-down, orbit-left, orbit-right, arc-left, arc-right, zoom-in, zoom-out, dolly-zoom-in, dolly-zoom-out, follow, fly-through, reveal, whip-pan, rack-focus, handheld"#);
+    insta::assert_snapshot!(refused("\"words\":[0,8]", "\"words\":[8,0]"), @"keyframes[0].intent.words: found [8,0], expected [first, end] byte offsets into the prompt");
+    insta::assert_snapshot!(refused("\"seed\":7", "\"seed\":-7"), @"seed: found -7, expected a whole number 0..18446744073709551615");
+}
+
+#[test]
+fn hostile_text_is_refused_cleanly() {
+    let refused = |text: &str| {
+        let error = read(text).unwrap_err();
+        (error.code(), error.exit_code())
+    };
+    assert_eq!(refused(&EXAMPLE.replace("[1,2,4]", "[1,1e400,4]")), ("EXCHANGE-JSON", 65));
+    assert_eq!(refused(&"[".repeat(100_000)), ("EXCHANGE-JSON", 65));
+    assert_eq!(refused(&EXAMPLE[..EXAMPLE.len() / 2]), ("EXCHANGE-JSON", 65));
+    assert_eq!(refused(&EXAMPLE.replace("[1,2,4]", "[1,NaN,4]")), ("EXCHANGE-JSON", 65));
+    assert_eq!(refused("[]"), ("EXCHANGE-FIELD", 65));
+    assert_eq!(refused(""), ("EXCHANGE-JSON", 65));
+}

@@ -1,0 +1,85 @@
+use std::io::Write as _;
+
+use cinesplat::export::{Content, Format, read};
+use cinesplat::geometry::Pose;
+use glam::DVec3;
+use serde_json::Value;
+
+use super::sample_shot::{file, key, shot, there_and_back};
+
+/// Two level keys in a world with y down.
+fn level_shot() -> cinesplat::trajectory::Shot {
+    let at = |z: f64| Pose::look_at(DVec3::new(1.0, -2.0, z), DVec3::new(1.0, -1.0, 5.0), DVec3::NEG_Y, None).unwrap();
+    let keys = [0.0, 1.0].map(|secs| key(secs, at(secs).position, at(secs).rotation, 40.0));
+    shot(keys.to_vec(), DVec3::NEG_Y)
+}
+
+#[test]
+fn the_world_is_turned_and_the_lens_measured_along_the_larger_side() {
+    let (imported, warnings, folder) =
+        there_and_back(&level_shot(), Format::Supersplat, "settings.json", Content::Keyframes);
+    assert!(!warnings.iter().any(|line| line.contains("roll")), "{warnings:?}");
+    let text = std::fs::read_to_string(folder.path().join("settings.json")).unwrap();
+    let settings: Value = serde_json::from_str(&text).unwrap();
+    let track = &settings["animTracks"][0];
+    // (x, y, z) of a PLY stands at (-x, -y, z) in the viewer; times count frames.
+    assert_eq!(track["keyframes"]["values"]["position"].to_string(), "[-1.0,2.0,0.0,-1.0,2.0,1.0]");
+    assert_eq!(track["keyframes"]["times"].to_string(), "[0.0,24.0]");
+    // By hand: 40 degrees upright on 16:9 are 2 atan(tan(20) * 16 / 9) = 65.8104 across.
+    let fov = track["keyframes"]["values"]["fov"][0].as_f64().unwrap();
+    assert!((fov - 65.8104).abs() < 1e-3, "{fov}");
+    for (a, b) in level_shot().keyframes.iter().zip(&imported.track.frames) {
+        assert!((a.pose.position - b.pose.position).length() < 1e-12);
+        assert!((a.pose.forward() - b.pose.forward()).length() < 1e-12);
+        assert!((a.fov_y_rad - b.fov_y_rad.unwrap()).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn has_every_field_that_the_viewer_asserts() {
+    let (_, _, folder) = there_and_back(&level_shot(), Format::Supersplat, "settings.json", Content::Sampled);
+    let settings: Value =
+        serde_json::from_str(&std::fs::read_to_string(folder.path().join("settings.json")).unwrap()).unwrap();
+    assert_eq!(settings["version"], 2);
+    let effects = &settings["postEffectSettings"];
+    let fields = [
+        ("sharpness", vec!["amount"]),
+        ("bloom", vec!["intensity", "blurLevel"]),
+        ("grading", vec!["brightness", "contrast", "saturation"]),
+        ("vignette", vec!["intensity", "inner", "outer", "curvature"]),
+        ("fringing", vec!["intensity"]),
+    ];
+    for (effect, numbers) in fields {
+        assert!(effects[effect]["enabled"] == false && numbers.iter().all(|name| effects[effect][*name].is_number()));
+    }
+    assert_eq!(effects["grading"]["tint"].as_array().unwrap().len(), 3);
+    assert!(settings["highPrecisionRendering"].is_boolean() && settings["annotations"].is_array());
+    assert_eq!(settings["cameras"][0]["initial"]["target"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn roll_is_lost_with_a_warning_that_says_how_much() {
+    let mut rolled = level_shot();
+    let turn = glam::DQuat::from_rotation_z(10_f64.to_radians());
+    rolled.keyframes[1].pose.rotation *= turn;
+    let (_, warnings, _folder) = there_and_back(&rolled, Format::Supersplat, "settings.json", Content::Keyframes);
+    assert!(warnings.iter().any(|line| line.contains("no roll: up to 10.0 degrees")), "{warnings:?}");
+}
+
+#[test]
+fn reads_the_poses_inside_a_project() {
+    let document = br#"{"version": 0, "camera": {"fov": 70}, "timeline": {"frames": 90, "frameRate": 30},
+      "poseSets": [{"name": "set0", "poses": [
+        {"name": "b", "frame": 60, "position": [0, 1, 3], "target": [0, 1, 0]},
+        {"name": "a", "frame": 0, "position": [0, 1, 2], "target": [0, 1, 0], "fov": 60}]}]}"#;
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    archive.start_file("document.json", zip::write::SimpleFileOptions::default()).unwrap();
+    archive.write_all(document).unwrap();
+    let (path, _folder) = file("a.ssproj", &archive.finish().unwrap().into_inner());
+    let imported = read(&path, None).unwrap();
+    let frames = &imported.track.frames;
+    assert_eq!((imported.format, frames.len(), frames[1].time_secs), (Format::Supersplat, 2, 2.0));
+    assert_eq!(frames[0].pose.position, DVec3::new(0.0, -1.0, 2.0));
+    assert!((frames[0].pose.forward() - DVec3::NEG_Z).length() < 1e-12);
+    assert!((frames[0].pose.up() - DVec3::NEG_Y).length() < 1e-12);
+}

@@ -1,0 +1,36 @@
+//! What a format cannot hold is said, and nothing that it holds.
+
+use cinesplat::export::{Content, Format};
+
+use super::sample_shot::{there_and_back, with_cut};
+
+#[test]
+fn every_loss_has_a_line() {
+    let lines = |format: Format, name: &str| there_and_back(&with_cut(), format, name, Content::Keyframes).1.join("\n");
+    let curve = "joins the keys by a curve of its own: export without --keyframes for the film's path";
+    assert!(lines(Format::Gltf, "a.glb").ends_with(curve));
+    insta::assert_snapshot!(lines(Format::Tum, "a.tum"), @r"
+    tum holds no field of view: 35.000 to 50.000 degrees is lost
+    tum holds no image size
+    tum holds no focus distance
+    tum holds no cuts: a reader may sweep across them
+    tum joins the keys by a curve of its own: export without --keyframes for the film's path
+    ");
+    insta::assert_snapshot!(lines(Format::Kitti, "a.kitti"), @r"
+    kitti holds no times: only the order of the frames is kept
+    kitti holds no field of view: 35.000 to 50.000 degrees is lost
+    kitti holds no image size
+    kitti holds no focus distance
+    kitti holds no cuts: a reader may sweep across them
+    kitti joins the keys by a curve of its own: export without --keyframes for the film's path
+    ");
+    insta::assert_snapshot!(lines(Format::Usd, "a.usda"), @"usd joins the keys by a curve of its own: export without --keyframes for the film's path");
+}
+
+#[test]
+fn a_lens_that_lichtfeld_would_clamp_is_named() {
+    let mut wide = with_cut();
+    wide.keyframes[0].fov_y_rad = 2.2;
+    let (_, warnings, _folder) = there_and_back(&wide, Format::Lichtfeld, "a.json", Content::Sampled);
+    assert!(warnings.iter().any(|line| line.contains("10 to 200 mm")), "{warnings:?}");
+}

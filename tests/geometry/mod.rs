@@ -1,0 +1,4 @@
+//! Poses, rotations and level frames.
+
+mod level;
+mod rotation;

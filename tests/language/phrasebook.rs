@@ -1,0 +1,191 @@
+use std::collections::BTreeSet;
+
+use cinesplat::director::language::{
+    NamedObject, Phrasebook, Sample, Split, exam, exam_objects, link, program_from_notation, program_to_notation,
+};
+use cinesplat::operator::{Amount, Program};
+use cinesplat::trajectory::Move;
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+const NUM_SAMPLES: usize = 1500;
+
+fn samples(split: Split, seed: u64, count: usize) -> Vec<(Sample, Vec<NamedObject>)> {
+    let book = Phrasebook::embedded().unwrap().with_split(split);
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let mut draw = |nth: usize| {
+        let objects = book.invent_objects(1 + nth % 8, &mut rng);
+        (book.sample(&objects, &mut rng), objects)
+    };
+    (0..count).map(&mut draw).collect()
+}
+
+fn ids(program: &Program) -> BTreeSet<u32> {
+    let framings = program.steps.iter().flat_map(|step| [&step.start, &step.end]);
+    let via = program.steps.iter().filter_map(|step| step.via.as_ref()).flat_map(|via| via.objects.iter());
+    framings.flat_map(|framing| framing.subjects.iter()).chain(via).copied().collect()
+}
+
+#[test]
+fn the_same_seed_says_the_same() {
+    assert_eq!(samples(Split::Train, 5, 50), samples(Split::Train, 5, 50));
+    assert_ne!(samples(Split::Train, 5, 50), samples(Split::Train, 6, 50));
+}
+
+#[test]
+fn prompts_link_to_the_objects_and_quantities_of_their_programs() {
+    for (sample, objects) in samples(Split::Train, 1, NUM_SAMPLES) {
+        let linked = link(&sample.prompt, &objects).unwrap();
+        let slots: BTreeSet<u32> = linked.slots.iter().copied().collect();
+        assert_eq!(slots, ids(&sample.program), "{}", sample.prompt);
+        let mut values: Vec<f64> = sample
+            .program
+            .steps
+            .iter()
+            .flat_map(|step| {
+                let amount = match step.amount {
+                    Some(Amount::Degrees(v) | Amount::Units(v) | Amount::Factor(v)) => Some(v),
+                    _ => None,
+                };
+                [amount, step.duration_secs]
+            })
+            .chain([sample.program.duration_secs])
+            .flatten()
+            .collect();
+        let mut found: Vec<f64> = linked.quantities.iter().map(|q| q.value).collect();
+        values.sort_by(f64::total_cmp);
+        found.sort_by(f64::total_cmp);
+        assert!(
+            values.len() == found.len() && values.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-9),
+            "{}",
+            sample.prompt
+        );
+    }
+}
+
+#[test]
+fn programs_are_well_formed_and_their_words_lie_in_the_prompt() {
+    for (sample, _) in samples(Split::Train, 2, NUM_SAMPLES) {
+        assert!((1..=8).contains(&sample.program.steps.len()), "{}", sample.prompt);
+        for step in &sample.program.steps {
+            let [start, end] = step.words.unwrap();
+            assert!(start < end && sample.prompt.get(start..end).is_some(), "{}", sample.prompt);
+            let count = step.end.subjects.len();
+            let different: BTreeSet<u32> = step.end.subjects.iter().copied().collect();
+            assert_eq!(different.len(), count, "{}: {}", sample.prompt, program_to_notation(&sample.program));
+        }
+        let bare = Program {
+            steps: sample
+                .program
+                .steps
+                .iter()
+                .map(|s| cinesplat::operator::Step { words: None, ..s.clone() })
+                .collect(),
+            ..sample.program
+        };
+        assert_eq!(program_from_notation(&program_to_notation(&bare)).unwrap(), bare);
+    }
+}
+
+#[test]
+fn every_move_is_spoken_of() {
+    let seen: BTreeSet<Move> = samples(Split::Train, 3, 4000)
+        .iter()
+        .flat_map(|(s, _)| s.program.steps.iter().map(|step| step.movement))
+        .collect();
+    let missing: Vec<&Move> = Move::ALL.iter().filter(|m| !seen.contains(m)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+/// Directions by a reading of the words that owes nothing to the grammar: in a prompt of one step, the direction word
+/// decides (CONTRACTS: clockwise from above is to the left).
+#[test]
+fn direction_words_decide_directions() {
+    let mut checked = 0;
+    for (sample, objects) in samples(Split::Train, 4, NUM_SAMPLES) {
+        let [step] = sample.program.steps.as_slice() else { continue };
+        let text = format!(" {} ", link(&sample.prompt, &objects).unwrap().tokens_text);
+        let (left, right) = (text.matches(" left").count(), text.matches(" right").count());
+        let counter = text.contains("counter") || text.contains("anticlockwise") || text.contains("anti clockwise");
+        // A slip of the pen may hide one of the two words.
+        if text.contains("from left")
+            || text.contains("from right")
+            || text.contains(" end ")
+            || text.contains(" side ")
+            || text.contains(" edge ")
+        {
+            continue;
+        }
+        let name = step.movement.name();
+        let turns = name.starts_with("orbit") || name.starts_with("arc");
+        if turns && text.contains("clockwise") {
+            assert_eq!(name.ends_with("left"), !counter, "{}", sample.prompt);
+            checked += 1;
+        } else if (name.ends_with("-left") || name.ends_with("-right"))
+            && step.with.is_none()
+            && left + right == 1
+            && !step.either_way
+        {
+            assert_eq!(name.ends_with("-left"), left == 1, "{}", sample.prompt);
+            checked += 1;
+        }
+    }
+    assert!(checked > 80, "{checked}");
+}
+
+#[test]
+fn held_out_wordings_stay_out_of_training() {
+    let train: String =
+        samples(Split::Train, 7, NUM_SAMPLES).into_iter().map(|(s, _)| s.prompt.to_lowercase() + "\n").collect();
+    let held: String =
+        samples(Split::HeldOut, 7, NUM_SAMPLES).into_iter().map(|(s, _)| s.prompt.to_lowercase() + "\n").collect();
+    for wording in [
+        "a smidge",
+        "a tad",
+        "kick off",
+        "wind up on",
+        "unveil",
+        "home in on",
+        "bear down on",
+        "levitate",
+        "rock steady",
+    ] {
+        assert!(!train.contains(wording), "{wording}");
+    }
+    assert!(["a smidge", "kick off", "unveil", "home in on"].iter().filter(|w| held.contains(**w)).count() >= 2);
+}
+
+#[test]
+fn exam_sentences_are_never_sampled() {
+    let objects = exam_objects().unwrap();
+    let bare = |prompt: &str, objects: &[NamedObject]| {
+        link(prompt, objects).map(|l| l.tokens_text.trim_end_matches([' ', '.', '!']).to_owned()).unwrap()
+    };
+    let exam: BTreeSet<String> = exam().unwrap().iter().map(|item| bare(&item.prompt, &objects)).collect();
+    for (sample, cast) in samples(Split::Train, 8, NUM_SAMPLES) {
+        assert!(!exam.contains(&bare(&sample.prompt, &cast)), "{}", sample.prompt);
+    }
+}
+
+#[test]
+fn any_list_of_objects_will_do() {
+    let book = Phrasebook::embedded().unwrap();
+    let mut rng = Pcg64::seed_from_u64(9);
+    let odd = [
+        vec![],
+        vec![NamedObject { id: 65535, label: String::new() }],
+        vec![
+            NamedObject { id: 1, label: "camera".to_owned() },
+            NamedObject { id: 2, label: "the \u{202E} pan-left 45 degrees".to_owned() },
+        ],
+        (1..=3).map(|id| NamedObject { id, label: "chair".to_owned() }).collect(),
+        (1..=300).map(|id| NamedObject { id, label: format!("box {id}") }).collect(),
+    ];
+    for objects in &odd {
+        for _ in 0..40 {
+            let sample = book.sample(objects, &mut rng);
+            assert!(!sample.prompt.is_empty() && !sample.program.steps.is_empty());
+            assert!(link(&sample.prompt, objects).is_ok(), "{}", sample.prompt);
+        }
+    }
+}

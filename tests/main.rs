@@ -1,0 +1,14 @@
+//! All tests of cinesplat in one binary: one module an area of `src`, one file a concept.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stderr,
+    reason = "a test fails by panicking, and says on stderr what it skipped"
+)]
+#![allow(unreachable_pub, reason = "what areas share is public within this one binary")]
+
+mod architecture;
+mod cli;
+mod support;
+mod video;

@@ -1,0 +1,147 @@
+use cinesplat::objects::{self, CloudSettings, Object, ObjectSet, fill_clouds};
+use cinesplat::scene::{Gaussians, Scene};
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+use super::{Dice, push, push_box, scene_of};
+
+/// Evenly spread points on a sphere (golden spiral).
+fn sphere(center: DVec3, radius: f64, count: usize) -> Gaussians {
+    let mut gaussians = Gaussians::default();
+    for i in 0..count {
+        let height = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
+        let angle = i as f64 * 2.399_963_23;
+        let level = (1.0 - height * height).sqrt();
+        let out = DVec3::new(level * angle.cos(), height, level * angle.sin());
+        push(&mut gaussians, center + out * radius, 0.04 * radius as f32, Vec3::splat(0.6));
+    }
+    gaussians
+}
+
+fn quick() -> CloudSettings {
+    CloudSettings {
+        num_azimuths: 6,
+        elevations_rad: vec![0.0, 0.6],
+        mask_size_px: 64,
+        max_points: 64,
+        ..CloudSettings::default()
+    }
+}
+
+fn with_clouds(scene: &Scene, settings: &CloudSettings) -> ObjectSet {
+    let mut set = objects::from_labels(scene, vec![1; scene.gaussians.len()]);
+    fill_clouds(scene, &mut set, settings).unwrap();
+    set
+}
+
+fn sorted(points: &[DVec3]) -> Vec<[i64; 3]> {
+    let mut keys: Vec<[i64; 3]> = points.iter().map(|p| (*p * 1e5).round().to_array().map(|v| v as i64)).collect();
+    keys.sort_unstable();
+    keys
+}
+
+#[test]
+fn the_cloud_of_a_sphere_is_its_silhouettes() {
+    let scene = scene_of(sphere(DVec3::new(3.0, 1.0, -2.0), 0.5, 3000));
+    let set = with_clouds(&scene, &CloudSettings::default());
+    let object = &set.objects[0];
+    assert_eq!(object.points.len(), 256);
+    // The mask reaches past the means by the Gaussians' own extent, which points alone do not cover.
+    assert!(object.mask_iou > 0.8, "{}", object.mask_iou);
+    assert!(object.shape_radius > 0.0);
+    for point in &object.points {
+        assert!((point.distance(object.center) - 0.5).abs() < 0.03, "{point} is not on the surface");
+    }
+}
+
+#[test]
+fn a_hole_is_seen_only_by_a_small_enough_radius() {
+    // A ring of beads in the upright plane: its hull would fill the hole.
+    let mut gaussians = Gaussians::default();
+    for i in 0..2400 {
+        let (around, across) = (f64::from(i) * 0.261_799, f64::from(i) * 2.399_963);
+        let tube = DVec3::new(across.cos() * around.cos(), across.cos() * around.sin(), across.sin()) * 0.2;
+        let beat = f64::from(i / 24) * 0.002_6;
+        let middle = DVec3::new((around + beat).cos(), (around + beat).sin(), 0.0);
+        push(&mut gaussians, middle + tube, 0.04, Vec3::splat(0.6));
+    }
+    let scene = scene_of(gaussians);
+    let set = with_clouds(&scene, &CloudSettings::default());
+    let object = &set.objects[0];
+    assert!(object.shape_radius < 0.8, "radius {} fills a hole of radius 0.8", object.shape_radius);
+    assert!(object.mask_iou > 0.6, "{}", object.mask_iou);
+}
+
+#[test]
+fn order_and_repetition_of_gaussians_do_not_matter() {
+    let mut gaussians = Gaussians::default();
+    push_box(&mut gaussians, DVec3::ZERO, DVec3::new(0.5, 0.3, 0.2), 0.05, Vec3::splat(0.4));
+    let mut order: Vec<usize> = (0..gaussians.len()).chain(0..40).collect();
+    Dice::new(4).shuffle(&mut order);
+    let mut shuffled = Gaussians::default();
+    for &i in &order {
+        push(&mut shuffled, gaussians.mean_world(i), gaussians.scales[i].x, Vec3::splat(0.4));
+    }
+    let (one, two) = (scene_of(gaussians), scene_of(shuffled));
+    let mut set = objects::from_labels(&one, vec![1; one.gaussians.len()]);
+    let mut again = ObjectSet { objects: set.objects.clone(), labels: vec![1; two.gaussians.len()] };
+    fill_clouds(&one, &mut set, &quick()).unwrap();
+    fill_clouds(&two, &mut again, &quick()).unwrap();
+    assert_eq!(sorted(&set.objects[0].points), sorted(&again.objects[0].points));
+}
+
+#[test]
+fn the_cloud_turns_with_the_world() {
+    let base = sphere(DVec3::ZERO, 0.4, 900);
+    let turn = DQuat::from_euler(glam::EulerRot::YXZ, 0.7, -0.4, 1.1);
+    let shift = DVec3::new(5.0, -2.0, 1.0);
+    let mut moved = Gaussians::default();
+    for i in 0..base.len() {
+        push(&mut moved, turn * base.mean_world(i) + shift, base.scales[i].x, Vec3::splat(0.6));
+        moved.rotations[i] = Quat::from_xyzw(turn.x as f32, turn.y as f32, turn.z as f32, turn.w as f32);
+    }
+    let (one, mut two) = (scene_of(base), scene_of(moved));
+    two.up = turn * DVec3::Y;
+    let mut set = objects::from_labels(&one, vec![1; 900]);
+    let object = &set.objects[0];
+    let twin = Object { center: turn * object.center + shift, rotation: turn * object.rotation, ..object.clone() };
+    let mut turned = ObjectSet { objects: vec![twin], labels: vec![1; 900] };
+    // Every point of the border: which few of many equal ones are kept hangs on rounding.
+    let all = CloudSettings { max_points: 10_000, thinning_px: 0.0, ..quick() };
+    fill_clouds(&one, &mut set, &all).unwrap();
+    fill_clouds(&two, &mut turned, &all).unwrap();
+    let (a, b) = (&set.objects[0], &turned.objects[0]);
+    assert!((a.mask_iou - b.mask_iou).abs() < 0.01, "{} {}", a.mask_iou, b.mask_iou);
+    // Means are rounded to f32 in both worlds: the clouds agree as sets up to a few points.
+    let near = |p: &DVec3| b.points.iter().any(|q| q.distance(turn * *p + shift) < 1e-4);
+    let share = a.points.iter().filter(|p| near(p)).count() as f64 / a.points.len() as f64;
+    assert!(share > 0.9, "{share}");
+}
+
+#[test]
+fn hardly_any_gaussians_still_give_a_cloud() {
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    for means in [vec![at(1.0, 1.0)], vec![at(0.0, 0.0), at(1.0, 0.0)], vec![at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)]]
+    {
+        let mut gaussians = Gaussians::default();
+        for &mean in &means {
+            push(&mut gaussians, mean, 0.1, Vec3::ONE);
+        }
+        let scene = scene_of(gaussians);
+        let set = with_clouds(&scene, &quick());
+        assert_eq!(sorted(&set.objects[0].points), sorted(&means));
+        assert!(set.objects[0].shape_radius.is_finite() && set.objects[0].mask_iou.is_finite());
+    }
+}
+
+#[test]
+fn an_object_of_no_gaussians_gets_the_corners_of_its_box() {
+    let scene = scene_of(sphere(DVec3::ZERO, 1.0, 10));
+    let mut set = objects::from_labels(&scene, vec![1; 10]);
+    set.labels = vec![0; 10];
+    fill_clouds(&scene, &mut set, &quick()).unwrap();
+    assert_eq!(set.objects[0].points, set.objects[0].corners());
+    let kept = set.objects[0].clone();
+    set.labels = vec![1; 10];
+    fill_clouds(&scene, &mut set, &quick()).unwrap();
+    assert_eq!(set.objects[0], kept, "a cloud that is there stays");
+}

@@ -1,0 +1,230 @@
+//! Oracles: NumPy's own bytes, and a person's idea of what an error has to say.
+
+use std::path::Path;
+
+use cinesplat::objects::{self, ObjectSet, ObjectsError};
+use cinesplat::scene::{Gaussians, Scene};
+use glam::{DQuat, DVec3, Vec3};
+use tempfile::TempDir;
+
+use super::{push, push_box, scene_of};
+
+/// `numpy.save` of four values: the header with its padding, then the data.
+fn numpy_bytes(descr: &str, data: &[u8]) -> Vec<u8> {
+    numpy_bytes_of(4, descr, data)
+}
+
+fn numpy_bytes_of(count: usize, descr: &str, data: &[u8]) -> Vec<u8> {
+    let mut header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({count},), }}");
+    header.extend(std::iter::repeat_n(' ', 117 - header.len()));
+    header.push('\n');
+    [b"\x93NUMPY\x01\x00\x76\x00", header.as_bytes(), data].concat()
+}
+
+/// Four Gaussians on the x axis at 0, 1, 2, 3.
+fn four() -> Scene {
+    let mut gaussians = Gaussians::default();
+    for x in 0..4 {
+        push(&mut gaussians, DVec3::new(f64::from(x), 0.0, 0.0), 0.1, Vec3::splat(0.5));
+    }
+    scene_of(gaussians)
+}
+
+fn read_text(text: &str, scene: &Scene) -> Result<objects::ObjectsFile, ObjectsError> {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("objects.json");
+    std::fs::write(&path, text).unwrap();
+    objects::read(&path, scene)
+}
+
+/// The message without the folder.
+fn message(text: &str, scene: &Scene) -> String {
+    let error = read_text(text, scene).unwrap_err();
+    assert_eq!(error.exit_code(), 65);
+    let said = error.to_string();
+    let (start, file) = said.rsplit_once("file ").unwrap();
+    format!("{} {start}file {}", error.code(), Path::new(file).file_name().unwrap().to_string_lossy())
+}
+
+#[test]
+fn an_id_and_a_box_are_enough() {
+    let text =
+        r#"{"objects":[{"id":3,"center":[1.5,0,0],"half_extents":[0.6,1,1],"instance":7,"color":"red"}],"mood":1}"#;
+    let file = read_text(text, &four()).unwrap();
+    assert_eq!(file.up, None);
+    assert_eq!(file.set.labels, [0, 3, 3, 0], "solid Gaussians in the box are members");
+    let object = &file.set.objects[0];
+    assert_eq!((object.id, object.label.as_str(), object.num_gaussians), (3, "", 2));
+    assert_eq!(object.rotation, DQuat::IDENTITY);
+}
+
+#[test]
+fn a_turned_box_holds_what_lies_in_it() {
+    // A quarter turn about y: the long x side now runs along z.
+    let text = r#"{"objects":[{"id":1,"center":[1,0,0],"half_extents":[9,1,0.5],"rotation_xyzw":[0,0.70710678,0,0.70710678]}]}"#;
+    assert_eq!(read_text(text, &four()).unwrap().set.labels, [0, 1, 0, 0]);
+}
+
+#[test]
+fn the_smaller_of_two_boxes_owns_what_is_in_both() {
+    let text = r#"{"objects":[{"id":1,"center":[1.5,0,0],"half_extents":[5,1,1]},{"id":2,"center":[1,0,0],"half_extents":[0.1,1,1]}]}"#;
+    assert_eq!(read_text(text, &four()).unwrap().set.labels, [1, 2, 1, 1]);
+}
+
+#[test]
+fn faint_gaussians_belong_to_no_box() {
+    let mut scene = four();
+    scene.gaussians.opacities[2] = 0.3;
+    let text = r#"{"objects":[{"id":1,"center":[1.5,0,0],"half_extents":[5,1,1]}]}"#;
+    assert_eq!(read_text(text, &scene).unwrap().set.labels, [1, 1, 0, 1]);
+}
+
+#[test]
+fn labels_of_every_width_are_read_and_give_boxes() {
+    let columns: [(&str, Vec<u8>); 3] = [
+        ("|u1", vec![0, 1, 2, 2]),
+        ("<u2", vec![0, 0, 1, 0, 2, 0, 2, 0]),
+        ("<u4", vec![0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0]),
+    ];
+    for (descr, data) in columns {
+        let folder = TempDir::new().unwrap();
+        std::fs::write(folder.path().join("l.npy"), numpy_bytes(descr, &data)).unwrap();
+        let path = folder.path().join("o.json");
+        std::fs::write(&path, r#"{"version":1,"up":[0,2,0],"labels":"l.npy","objects":[{"id":2,"label":"pair"}]}"#)
+            .unwrap();
+        let file = objects::read(&path, &four()).unwrap();
+        assert_eq!(file.up, Some(DVec3::Y));
+        assert_eq!(file.set.labels, [0, 1, 2, 2], "{descr}");
+        let object = &file.set.objects[0];
+        assert_eq!((object.num_gaussians, object.center, object.half_extents.x), (2, DVec3::new(2.5, 0.0, 0.0), 0.5));
+    }
+}
+
+#[test]
+fn ids_of_the_scene_file_serve_as_labels() {
+    let mut scene = four();
+    scene.gaussians.ids = vec![5, 5, 0, 0];
+    let file = read_text(r#"{"objects":[{"id":5}]}"#, &scene).unwrap();
+    assert_eq!((file.set.labels.as_slice(), file.set.objects[0].center.x), ([5, 5, 0, 0].as_slice(), 0.5));
+}
+
+#[test]
+fn labels_count_the_gaussians_that_were_dropped_on_reading() {
+    let mut scene = four();
+    for column in [&mut scene.gaussians.means, &mut scene.gaussians.scales, &mut scene.gaussians.sh_dc] {
+        column.remove(1);
+    }
+    scene.gaussians.opacities.remove(1);
+    scene.gaussians.rotations.remove(1);
+    scene.dropped = vec![1];
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("l.npy");
+    std::fs::write(&path, numpy_bytes("|u1", &[7, 9, 8, 6])).unwrap();
+    assert_eq!(objects::read_labels(&path, &scene).unwrap(), [7, 8, 6]);
+    let set = ObjectSet { objects: Vec::new(), labels: vec![7, 8, 6] };
+    let json = folder.path().join("o.json");
+    objects::write(&json, &set, &scene).unwrap();
+    assert_eq!(
+        std::fs::read(folder.path().join("o.labels.npy")).unwrap(),
+        numpy_bytes("<u2", &[7, 0, 0, 0, 8, 0, 6, 0])
+    );
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    let mut gaussians = Gaussians::default();
+    push_box(&mut gaussians, DVec3::ZERO, DVec3::ONE, 0.5, Vec3::new(0.8, 0.1, 0.1));
+    push_box(&mut gaussians, DVec3::new(5.0, 0.0, 0.0), DVec3::new(0.2, 1.0, 0.3), 0.1, Vec3::splat(0.9));
+    let count = gaussians.len();
+    let scene = scene_of(gaussians);
+    let labels = (0..count).map(|i| 1 + u16::from(scene.gaussians.means[i].x > 3.0)).collect();
+    let mut set = objects::from_labels(&scene, labels);
+    set.objects[0].points = vec![DVec3::new(0.1, 1.0 / 3.0, -1e-9)];
+    set.objects[0].shape_radius = 0.125;
+    set.objects[0].mask_iou = 0.75;
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("set.objects.json");
+    objects::write(&path, &set, &scene).unwrap();
+    let again = objects::read(&path, &scene).unwrap();
+    assert_eq!(again.up, Some(DVec3::Y));
+    assert_eq!(again.set.labels, set.labels);
+    for (read, written) in again.set.objects.iter().zip(&set.objects) {
+        assert!(read.rotation.dot(written.rotation).abs() > 1.0 - 1e-15);
+        let comparable = objects::Object { rotation: written.rotation, ..read.clone() };
+        assert_eq!(&comparable, written);
+    }
+    assert!(folder.path().read_dir().unwrap().all(|entry| entry.unwrap().path().extension().unwrap() != "part"));
+}
+
+#[test]
+fn errors_name_file_entry_and_field() {
+    let scene = four();
+    let cases = [
+        "{\"objects\":[",
+        r#"{"format":"cinesplat.shot","objects":[]}"#,
+        r#"{"version":2,"objects":[]}"#,
+        r#"{"version":1}"#,
+        r#"{"objects":[{"id":0,"center":[0,0,0],"half_extents":[1,1,1]}]}"#,
+        r#"{"objects":[{"id":65536}]}"#,
+        r#"{"objects":[{"id":4}]}"#,
+        r#"{"objects":[{"id":4,"center":[0,0],"half_extents":[1,1,1]}]}"#,
+        r#"{"objects":[{"id":4,"center":[0,0,0]}]}"#,
+        r#"{"objects":[{"id":4,"center":[0,0,0],"half_extents":[1,-1,1]}]}"#,
+        r#"{"objects":[{"id":4,"center":[0,0,0],"half_extents":[1,1,1],"rotation_xyzw":[0,0,0,0]}]}"#,
+        r#"{"objects":[{"id":4,"center":[0,0,0],"half_extents":[1,1,1],"label":5}]}"#,
+        r#"{"objects":[{"id":1,"center":[0,0,0],"half_extents":[1,1,1]},{"id":1,"center":[0,0,0],"half_extents":[1,1,1]}]}"#,
+        r#"{"up":[0,0,0],"objects":[]}"#,
+    ];
+    let said: Vec<String> = cases.iter().map(|text| message(text, &scene)).collect();
+    insta::assert_snapshot!(said.join("\n"), @r#"
+    OBJ-JSON not JSON: EOF while parsing a list at line 1 column 12, expected an objects file, file objects.json
+    OBJ-VERSION found format "cinesplat.shot", expected "cinesplat.objects", file objects.json
+    OBJ-VERSION found version 2, expected 1, file objects.json
+    OBJ-FIELD file: field `objects` is missing, expected a list of objects, file objects.json
+    OBJ-FIELD object 1: field `id` is 0, expected a whole number 1..65535, file objects.json
+    OBJ-FIELD object 1: field `id` is 65536, expected a whole number 1..65535, file objects.json
+    OBJ-FIELD object 1 (id 4): field `center` is missing, expected a center and half extents, or Gaussians with this id in the labels, file objects.json
+    OBJ-FIELD object 1 (id 4): field `center` is [0,0], expected three finite numbers, file objects.json
+    OBJ-FIELD object 1 (id 4): field `half_extents` is missing, expected three numbers beside `center`, file objects.json
+    OBJ-FIELD object 1 (id 4): field `half_extents` is [1, -1, 1], expected three numbers of at least 0, file objects.json
+    OBJ-FIELD object 1 (id 4): field `rotation_xyzw` is [0.0, 0.0, 0.0, 0.0], expected four finite numbers x, y, z, w, not all 0, file objects.json
+    OBJ-FIELD object 1 (id 4): field `label` is 5, expected a text, file objects.json
+    OBJ-DUPLICATE object 1 and object 2 both have id 1, expected one object an id, file objects.json
+    OBJ-FIELD file: field `up` is [0, 0, 0], expected a direction with a length, file objects.json
+    "#);
+}
+
+#[test]
+fn label_files_that_do_not_fit_say_why() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("l.npy");
+    let said = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        let error = objects::read_labels(&path, &four()).unwrap_err();
+        assert_eq!(error.code(), "OBJ-LABELS");
+        error.to_string().split(", expected").next().unwrap().to_owned()
+    };
+    let said = [
+        said(b"PK"),
+        said(&numpy_bytes("<f4", &[0; 16])),
+        said(&numpy_bytes("<u2", &[0; 6])),
+        said(&numpy_bytes("<u4", &[0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0])),
+        said(&numpy_bytes_of(3, "|u1", &[0; 3])),
+        said(&numpy_bytes("<u2", &[0; 8])[..40]),
+    ];
+    insta::assert_snapshot!(said.join("\n"), @r"
+    labels: found no .npy signature
+    labels: found values of type `<f4`
+    labels: found 4 values of 2 bytes announced and 6 bytes of data
+    labels: found id 65536 at index 0
+    labels: found 3 ids
+    labels: found a cut-off .npy header
+    ");
+}
+
+#[test]
+fn a_missing_file_is_no_input() {
+    let error = objects::read(Path::new("/nowhere/objects.json"), &four()).unwrap_err();
+    assert_eq!((error.code(), error.exit_code()), ("OBJ-IO", 66));
+    assert!(!error.help().is_empty());
+}

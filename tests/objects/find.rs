@@ -1,0 +1,128 @@
+//! Oracles: rooms whose objects are known, and the labels of the composite that was put together for this purpose.
+
+use std::collections::BTreeMap;
+
+use cinesplat::objects::{self, FindSettings, ObjectSet, find};
+use cinesplat::scene::{Gaussians, LoadOptions, load};
+use glam::{DVec3, Vec3};
+
+use super::{push, push_box, scene_of};
+use crate::support;
+
+/// A floor, two walls, two boxes on the floor and a ball on a table; one truth label a Gaussian, 0 for the room.
+fn room() -> (Gaussians, Vec<u16>) {
+    let mut gaussians = Gaussians::default();
+    let (pale, step) = (Vec3::new(0.8, 0.78, 0.74), 0.04);
+    push_box(&mut gaussians, DVec3::new(0.0, 0.0, 0.0), DVec3::new(2.5, 0.0, 2.0), step, pale);
+    push_box(&mut gaussians, DVec3::new(0.0, 1.2, -2.0), DVec3::new(2.5, 1.2, 0.0), step, pale);
+    push_box(&mut gaussians, DVec3::new(-2.5, 1.2, 0.0), DVec3::new(0.0, 1.2, 2.0), step, pale);
+    let mut labels = vec![0; gaussians.len()];
+    push_box(&mut gaussians, DVec3::new(1.6, 0.4, -0.8), DVec3::splat(0.35), step, Vec3::new(0.7, 0.1, 0.1));
+    labels.resize(gaussians.len(), 1);
+    push_box(&mut gaussians, DVec3::new(-1.5, 0.6, 0.9), DVec3::new(0.2, 0.55, 0.25), step, Vec3::new(0.1, 0.2, 0.7));
+    labels.resize(gaussians.len(), 2);
+    push_box(&mut gaussians, DVec3::new(0.0, 0.75, 0.0), DVec3::new(0.6, 0.03, 0.5), step, Vec3::new(0.4, 0.25, 0.13));
+    for (x, z) in [(-0.5, -0.4), (-0.5, 0.4), (0.5, -0.4), (0.5, 0.4)] {
+        push_box(
+            &mut gaussians,
+            DVec3::new(x, 0.38, z),
+            DVec3::new(0.04, 0.34, 0.04),
+            step,
+            Vec3::new(0.4, 0.25, 0.13),
+        );
+    }
+    labels.resize(gaussians.len(), 3);
+    for i in 0..900 {
+        let height = 1.0 - (2.0 * f64::from(i) + 1.0) / 900.0;
+        let (level, angle) = ((1.0 - height * height).sqrt(), f64::from(i) * 2.399_963);
+        let out = DVec3::new(level * angle.cos(), height, level * angle.sin()) * 0.18;
+        push(&mut gaussians, DVec3::new(0.1, 0.98, 0.05) + out, 0.012, Vec3::new(0.1, 0.55, 0.15));
+    }
+    labels.resize(gaussians.len(), 4);
+    (gaussians, labels)
+}
+
+/// Best intersection over union of any found object with a true one, with the found id.
+fn best_match(set: &ObjectSet, truth: &[u16], id: u16) -> (f64, u16) {
+    let mut shared: BTreeMap<u16, f64> = BTreeMap::new();
+    let count = |labels: &[u16], id: u16| labels.iter().filter(|&&label| label == id).count() as f64;
+    for (&found, _) in set.labels.iter().zip(truth).filter(|(found, label)| **found > 0 && **label == id) {
+        *shared.entry(found).or_default() += 1.0;
+    }
+    let whole = count(truth, id);
+    let score = |(&found, &both): (&u16, &f64)| (both / (whole + count(&set.labels, found) - both), found);
+    shared.iter().map(score).fold((0.0, 0), |best, next| if next.0 > best.0 { next } else { best })
+}
+
+#[test]
+fn the_objects_of_a_small_room_are_found() {
+    let (gaussians, truth) = room();
+    let set = find(&scene_of(gaussians), &FindSettings { resolution: 120.0, ..FindSettings::default() });
+    let matches: Vec<(f64, u16)> = (1..=4).map(|id| best_match(&set, &truth, id)).collect();
+    for (id, (overlap, _)) in (1..).zip(&matches) {
+        // A box's bottom face lies in the floor and goes with it.
+        assert!(*overlap > 0.75, "object {id}: {overlap} of {:?}", set.objects);
+    }
+    let mut ids: Vec<u16> = matches.iter().map(|found| found.1).collect();
+    ids.dedup();
+    assert_eq!(ids.len(), 4, "what stands on the table is not part of it");
+    let room_kept = truth.iter().zip(&set.labels).filter(|(label, found)| **label == 0 && **found > 0).count();
+    let room_size = truth.iter().filter(|label| **label == 0).count();
+    assert!(room_kept * 20 < room_size, "floor and walls are background: {room_kept} of {room_size} are not");
+    assert!(set.objects[usize::from(matches[0].1) - 1].label.contains("red"), "{:?}", set.objects);
+}
+
+#[test]
+fn the_same_scene_gives_the_same_objects_whatever_the_up() {
+    let (gaussians, truth) = room();
+    let scene = scene_of(gaussians);
+    let settings = FindSettings { resolution: 120.0, ..FindSettings::default() };
+    assert_eq!(find(&scene, &settings), find(&scene, &settings));
+    let mut turned = scene.clone();
+    let turn = glam::DQuat::from_rotation_x(2.0);
+    for i in 0..turned.gaussians.len() {
+        turned.gaussians.means[i] = (turn * scene.gaussians.mean_world(i)).as_vec3();
+    }
+    turned.up = turn * DVec3::Y;
+    let set = find(&turned, &settings);
+    for id in 1..=4 {
+        let (overlap, _) = best_match(&set, &truth, id);
+        assert!(overlap > 0.7, "object {id}: {overlap}");
+    }
+}
+
+#[test]
+fn ids_count_from_one_and_boxes_hold_their_gaussians() {
+    let (gaussians, _) = room();
+    let scene = scene_of(gaussians);
+    let set = find(&scene, &FindSettings { resolution: 120.0, ..FindSettings::default() });
+    for (i, object) in set.objects.iter().enumerate() {
+        assert_eq!(object.id as usize, i + 1);
+        let members: Vec<usize> = (0..set.labels.len()).filter(|&g| u32::from(set.labels[g]) == object.id).collect();
+        assert_eq!(members.len(), object.num_gaussians);
+        let inside = members.iter().filter(|&&g| object.contains(scene.gaussians.mean_world(g), 1e-6)).count();
+        assert!(inside * 10 >= members.len() * 9, "object {}: {inside} of {}", object.id, members.len());
+    }
+}
+
+#[test]
+fn scenes_of_nothing_hold_nothing() {
+    let mut one = Gaussians::default();
+    assert_eq!(find(&scene_of(one.clone()), &FindSettings::default()), ObjectSet::default());
+    push(&mut one, DVec3::ONE, 0.1, Vec3::ONE);
+    assert!(find(&scene_of(one), &FindSettings::default()).objects.is_empty());
+}
+
+#[test]
+fn guitar_palm_and_skull_are_found_in_the_kitchen() {
+    let Some(path) = support::shared("data/composites/kitchen_plus_dev.spz") else { return };
+    let Some(labels) = support::shared("data/composites/kitchen_plus_dev_labels.npy") else { return };
+    let scene = load(&path, &LoadOptions { up: Some(DVec3::Y), ..LoadOptions::default() }).unwrap();
+    let truth = objects::read_labels(&labels, &scene).unwrap();
+    let set = find(&scene, &FindSettings::default());
+    for (id, name, least) in [(1, "guitar", 0.9), (2, "palm", 0.75), (3, "skull", 0.9)] {
+        let (overlap, _) = best_match(&set, &truth, id);
+        assert!(overlap >= least, "{name}: {overlap}");
+    }
+    assert!(set.objects.len() <= 60);
+}

@@ -1,0 +1,61 @@
+use cinesplat::objects::{self, ObjectSet, SheetSettings, sheet};
+use cinesplat::scene::{Gaussians, Scene};
+use glam::{DVec3, Vec3};
+
+use super::{push_box, scene_of};
+
+fn two_boxes() -> (Scene, ObjectSet) {
+    let mut gaussians = Gaussians::default();
+    push_box(&mut gaussians, DVec3::ZERO, DVec3::splat(0.5), 0.1, Vec3::new(0.7, 0.1, 0.1));
+    let first = gaussians.len();
+    push_box(&mut gaussians, DVec3::new(2.0, 0.0, 0.5), DVec3::splat(0.4), 0.1, Vec3::new(0.1, 0.2, 0.7));
+    let labels = (0..gaussians.len()).map(|i| 3 + u16::from(i >= first)).collect();
+    let scene = scene_of(gaussians);
+    let set = objects::from_labels(&scene, labels);
+    (scene, set)
+}
+
+#[test]
+fn every_object_has_a_tile_with_its_color() {
+    let (scene, set) = two_boxes();
+    let settings = SheetSettings { num_columns: 2, tile_width_px: 120, ..SheetSettings::default() };
+    let image = sheet(&scene, &set, &settings).unwrap();
+    let (width, overview) = (2 * 126 + 6, (2 * 126 + 6) * 9 / 16);
+    assert_eq!((image.width(), image.height()), (width, overview + 6 + 90 + 44 + 6));
+    // The middle of a tile's picture shows its object: red in the left one, blue in the right one.
+    let middle = |column: u32| image.get_pixel(6 + column * 126 + 60, overview + 6 + 45).0;
+    let (left, right) = (middle(0), middle(1));
+    assert!(left[0] > 80 && left[0] > 2 * left[2], "{left:?}");
+    assert!(right[2] > 80 && right[2] > 2 * right[0], "{right:?}");
+}
+
+#[test]
+fn the_id_is_written_in_the_corner_of_its_tile() {
+    let (scene, set) = two_boxes();
+    let settings = SheetSettings { num_columns: 2, tile_width_px: 120, ..SheetSettings::default() };
+    let image = sheet(&scene, &set, &settings).unwrap();
+    let top = 258 * 9 / 16 + 6 + 8;
+    // The font's "4" (its 8 x 8 bits, drawn three times as large) in dark ink on a bright plate.
+    let four = ["   ###  ", "  ####  ", " ## ##  ", "##  ##  ", "####### ", "    ##  ", "   #### "];
+    for (row, bits) in (0_u32..).zip(four) {
+        for (column, bit) in (0_u32..).zip(bits.chars()) {
+            let pixel = image.get_pixel(6 + 126 + 8 + column * 3 + 1, top + row * 3 + 1).0;
+            let dark = pixel.iter().all(|v| *v < 40);
+            assert_eq!(dark, bit == '#', "row {row}, column {column}: {pixel:?}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_without_objects_has_an_overview() {
+    let (scene, mut set) = two_boxes();
+    set.objects.clear();
+    let image = sheet(&scene, &set, &SheetSettings { tile_width_px: 64, ..SheetSettings::default() }).unwrap();
+    assert_eq!(image.width(), 5 * 70 + 6);
+}
+
+#[test]
+fn a_scene_without_extent_is_an_error() {
+    let error = sheet(&scene_of(Gaussians::default()), &ObjectSet::default(), &SheetSettings::default()).unwrap_err();
+    assert_eq!((error.code(), error.exit_code()), ("OBJ-PICTURE", 70));
+}

@@ -1,0 +1,100 @@
+//! Programs made into exact shots, in a small room built for the purpose.
+
+mod moves;
+mod places;
+
+use cinesplat::objects::{Object, ObjectSet};
+use cinesplat::operator::{Effort, Program, Solution, SolveSettings, Step, World, realize};
+use cinesplat::scene::Gaussians;
+use cinesplat::trajectory::{CameraPath, CameraState, SceneRef, Shot};
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+/// Half extents of the room about the vertical axis, and its height.
+pub const ROOM: DVec3 = DVec3::new(3.0, 2.6, 3.0);
+
+/// A room of floor and four walls with two boxes in it: 1 near one corner, 2 across from it. Up is +y, floor y = 0.
+pub fn room() -> (Gaussians, ObjectSet) {
+    let mut gaussians = Gaussians::default();
+    wall(&mut gaussians, DVec3::new(-3.0, 0.0, -3.0), DVec3::X * 6.0, DVec3::Z * 6.0);
+    for (corner, along) in [
+        (DVec3::new(-3.0, 0.0, -3.0), DVec3::X),
+        (DVec3::new(-3.0, 0.0, 3.0), DVec3::X),
+        (DVec3::new(-3.0, 0.0, -3.0), DVec3::Z),
+        (DVec3::new(3.0, 0.0, -3.0), DVec3::Z),
+    ] {
+        wall(&mut gaussians, corner, along * 6.0, DVec3::Y * ROOM.y);
+    }
+    let boxes = [(1, DVec3::new(1.2, 0.6, 0.9), DVec3::new(0.3, 0.6, 0.3)), (2, DVec3::new(-1.2, 0.5, 0.8), DVec3::new(0.4, 0.5, 0.3))];
+    let objects = boxes.map(|(id, center, half)| {
+        let first = gaussians.len();
+        for axis in 0..3 {
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            for side in [-1.0, 1.0] {
+                let mut corner = center - half;
+                corner[axis] = center[axis] + side * half[axis];
+                let (mut du, mut dv) = (DVec3::ZERO, DVec3::ZERO);
+                du[u] = 2.0 * half[u];
+                dv[v] = 2.0 * half[v];
+                wall(&mut gaussians, corner, du, dv);
+            }
+        }
+        Object {
+            id,
+            label: format!("box {id}"),
+            center,
+            half_extents: half,
+            rotation: DQuat::IDENTITY,
+            num_gaussians: gaussians.len() - first,
+            points: Vec::new(),
+            shape_radius: 0.0,
+            mask_iou: 0.0,
+        }
+    });
+    (gaussians, ObjectSet { objects: objects.to_vec(), labels: Vec::new() })
+}
+
+/// A parallelogram of round, opaque Gaussians 6 cm apart.
+fn wall(gaussians: &mut Gaussians, corner: DVec3, u: DVec3, v: DVec3) {
+    let count = |side: DVec3| (side.length() / 0.06).ceil() as usize;
+    for i in 0..=count(u) {
+        for j in 0..=count(v) {
+            let at = corner + u * (i as f64 / count(u) as f64) + v * (j as f64 / count(v) as f64);
+            gaussians.means.push(at.as_vec3());
+            gaussians.scales.push(Vec3::splat(0.03));
+            gaussians.rotations.push(Quat::IDENTITY);
+            gaussians.opacities.push(0.95);
+            gaussians.sh_dc.push(Vec3::ZERO);
+        }
+    }
+}
+
+/// The room prepared for planning.
+pub fn world() -> World {
+    let (gaussians, objects) = room();
+    World::new(&gaussians, DVec3::Y, &objects, &[1, 2]).unwrap()
+}
+
+/// A program solved quickly with one seed.
+pub fn solved(world: &World, steps: Vec<Step>) -> Solution {
+    let program = Program { steps, ..Program::default() };
+    realize(world, &program, "", &[], &SolveSettings { effort: Effort::Fast, seed: 7 })
+}
+
+/// The film of a solution at ten frames a second.
+pub fn film(solution: &Solution) -> Vec<CameraState> {
+    let shot = Shot {
+        scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
+        prompt: String::new(),
+        seed: 0,
+        model: None,
+        width: 640,
+        height: 360,
+        fps: 10.0,
+        duration_secs: solution.duration_secs,
+        keyframes: solution.keyframes.clone(),
+        effects: Vec::new(),
+        report: Vec::new(),
+    };
+    let path = CameraPath::new(&shot).unwrap();
+    (0..=shot.num_frames()).map(|k| path.sample(shot.frame_time_secs(k))).collect()
+}

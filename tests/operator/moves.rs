@@ -1,0 +1,116 @@
+//! Each move does what the contract's "Moves, exactly" says, measured on the film.
+
+use cinesplat::geometry::{LevelFrame, rotation};
+use cinesplat::operator::{Amount, Framing, Program, SolveSettings, Step, realize};
+use cinesplat::trajectory::{CameraState, Move, ShotSize};
+use glam::DVec3;
+
+use super::{film, solved, world};
+
+const CENTER: DVec3 = DVec3::new(1.2, 0.6, 0.9);
+
+fn about(id: u32) -> Framing {
+    Framing { subjects: vec![id], ..Framing::default() }
+}
+
+fn filmed(step: Step) -> Vec<CameraState> {
+    film(&solved(&world(), vec![step]))
+}
+
+fn turn(a: &CameraState, b: &CameraState) -> f64 {
+    rotation::angle_between(a.pose.rotation, b.pose.rotation).to_degrees()
+}
+
+#[test]
+fn push_in_is_straight_without_a_turn_and_leaves_the_lens_alone() {
+    let frames = filmed(Step { end: about(1), ..Step::of(Move::PushIn) });
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    assert!(last.pose.position.distance(CENTER) < 0.77 * first.pose.position.distance(CENTER));
+    for state in &frames {
+        assert!(turn(first, state) < 1e-6 && (state.fov_y_rad - first.fov_y_rad).abs() < 1e-12);
+        assert!((state.pose.position - first.pose.position).cross(first.pose.forward()).length() < 1e-9);
+    }
+}
+
+#[test]
+fn a_pan_turns_right_in_place_from_one_to_the_other() {
+    let frames = filmed(Step { start: about(2), end: about(1), either_way: true, ..Step::of(Move::PanRight) });
+    let last = &frames[frames.len() - 1];
+    assert!(last.pose.forward().angle_between(CENTER - last.pose.position) < 1e-6, "ends on the box");
+    assert!(frames.iter().all(|s| s.pose.position.distance(last.pose.position) < 1e-12));
+    let frame = LevelFrame::new(DVec3::Y).unwrap();
+    assert!(frames.iter().all(|s| frame.roll_rad(&s.pose).abs() < 1e-9), "level on the way");
+}
+
+#[test]
+fn orbits_sweep_the_stated_angle_at_one_radius() {
+    for (movement, sign) in [(Move::OrbitRight, 1.0), (Move::OrbitLeft, -1.0)] {
+        let amount = Some(Amount::Degrees(75.0));
+        let frames = filmed(Step { start: about(1), amount, ..Step::of(movement) });
+        // Counter-clockwise from above (looking down -y): the angle from +z toward +x grows.
+        let angle = |s: &CameraState| (s.pose.position - CENTER).x.atan2((s.pose.position - CENTER).z);
+        let swept: f64 = frames
+            .windows(2)
+            .map(|p| (angle(&p[1]) - angle(&p[0]) + 3.0 * std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI)
+            .sum();
+        assert!((swept.to_degrees() - sign * 75.0).abs() < 0.5, "{}: {}", movement.name(), swept.to_degrees());
+        let radius = |s: &CameraState| (s.pose.position - CENTER).with_y(0.0).length();
+        assert!(frames.iter().all(|s| (radius(s) / radius(&frames[0]) - 1.0).abs() < 1e-3));
+    }
+}
+
+#[test]
+fn a_dolly_zoom_holds_its_subject() {
+    let frames = filmed(Step { start: about(1), ..Step::of(Move::DollyZoomIn) });
+    let size = |s: &CameraState| 1.0 / (s.pose.position.distance(CENTER) * (s.fov_y_rad / 2.0).tan());
+    assert!(frames.iter().all(|s| (size(s) / size(&frames[0]) - 1.0).abs() < 0.01));
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    assert!(last.fov_y_rad > first.fov_y_rad, "in: the lens widens");
+    assert!(last.pose.position.distance(CENTER) < 0.8 * first.pose.position.distance(CENTER));
+}
+
+#[test]
+fn trucks_and_pedestals_do_not_turn() {
+    for movement in [Move::TruckLeft, Move::TruckRight, Move::PedestalUp, Move::PedestalDown] {
+        let frames = filmed(Step { start: about(1), ..Step::of(movement) });
+        let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+        let axis = match movement {
+            Move::TruckLeft => -first.pose.right(),
+            Move::TruckRight => first.pose.right(),
+            Move::PedestalUp => DVec3::Y,
+            _ => DVec3::NEG_Y,
+        };
+        let way = last.pose.position - first.pose.position;
+        assert!(way.dot(axis) > 0.99 * way.length() && way.length() > 0.2, "{}: {way}", movement.name());
+        assert!(frames.iter().all(|s| turn(first, s) < 1e-6));
+    }
+}
+
+#[test]
+fn a_medium_shot_is_of_medium_height() {
+    let framing = Framing { size: Some(ShotSize::Medium), ..about(1) };
+    let solution = solved(&world(), vec![Step { start: framing, ..Step::of(Move::Static) }]);
+    let line = solution.report.iter().find(|line| line.wanted.contains("frame's height")).unwrap();
+    assert!(line.met && (0.6..=0.8).contains(&line.got), "{line:?}");
+}
+
+#[test]
+fn stated_times_hold() {
+    let world = world();
+    let hold = Step { start: about(1), duration_secs: Some(2.0), ..Step::of(Move::Static) };
+    let push = Step { end: about(1), ..Step::of(Move::PushIn) };
+    let program = Program { steps: vec![hold, push], duration_secs: Some(7.0), ..Program::default() };
+    let solution = realize(&world, &program, "", &[], &SolveSettings { seed: 1, ..SolveSettings::default() });
+    assert!((solution.duration_secs - 7.0).abs() < 1e-9);
+    assert!((solution.keyframes[1].time_secs - 2.0).abs() < 1e-6, "the hold lasts two seconds");
+}
+
+#[test]
+fn what_cannot_be_is_reported_and_still_filmed() {
+    let world = world();
+    // An extreme close-up of both boxes, wholly in the frame, contradicts itself.
+    let start = Framing { subjects: vec![1, 2], whole: true, size: Some(ShotSize::ExtremeCloseUp), ..Framing::default() };
+    let solution = solved(&world, vec![Step { start, ..Step::of(Move::Static) }]);
+    assert!(solution.report.iter().any(|line| !line.met && !line.note.is_empty()));
+    assert!(film(&solution).iter().all(|s| s.pose.position.is_finite()));
+}

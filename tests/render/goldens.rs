@@ -1,0 +1,85 @@
+//! The golden pictures of `../shared/data/golden`: an independent `f64` renderer without tiles made them.
+
+use cinesplat::geometry::{Camera, Intrinsics, Pose};
+use cinesplat::render::{Quality, RenderSettings, Renderer};
+use cinesplat::scene::{self, Gaussians, LoadOptions};
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+use super::pictures::{golden_set, npy, psnr_db};
+use crate::support;
+
+/// Least PSNR in dB over the cameras of a golden set, color and transmittance.
+fn worst_psnr_db(set: &str, quality: Quality) -> Option<(f64, f64)> {
+    let folder = support::shared("data/golden")?;
+    let golden = golden_set(&folder.join(format!("{set}.cameras.json")));
+    let scene = scene::load(&folder.join("..").join(&golden.scene), &LoadOptions::default()).unwrap();
+    let renderer = Renderer::new(&scene.gaussians);
+    let settings = RenderSettings { quality, filter: golden.filter, near: golden.near, ..RenderSettings::default() };
+    let mut worst = (f64::INFINITY, f64::INFINITY);
+    for (name, camera) in &golden.cameras {
+        let frame = renderer.render(camera, &settings).unwrap();
+        let color = psnr_db(&frame.rgb, &npy(&folder.join(format!("{name}.npy"))));
+        let transmittance = psnr_db(&frame.transmittance, &npy(&folder.join(format!("{name}.T.npy"))));
+        worst = (worst.0.min(color), worst.1.min(transmittance));
+    }
+    Some(worst)
+}
+
+fn assert_reaches(set: &str, quality: Quality, least_db: f64) {
+    let Some((color, transmittance)) = worst_psnr_db(set, quality) else { return };
+    assert!(color >= least_db, "{set} {}: color {color:.2} dB, wanted {least_db}", quality.name());
+    assert!(transmittance >= least_db, "{set} {}: transmittance {transmittance:.2} dB", quality.name());
+}
+
+/// The sets with their own scenes; the kitchen is there with both filters.
+const SETS: [&str; 5] = ["kitchen", "kitchen_mip", "guitar", "leica", "edge"];
+
+#[test]
+fn reference_is_the_spec_image() {
+    SETS.iter().for_each(|set| assert_reaches(set, Quality::Reference, 100.0));
+}
+
+#[test]
+fn final_is_within_60_db_of_it() {
+    SETS.iter().for_each(|set| assert_reaches(set, Quality::Final, 60.0));
+}
+
+#[test]
+fn standard_is_within_50_db_of_it() {
+    SETS.iter().for_each(|set| assert_reaches(set, Quality::Standard, 50.0));
+}
+
+#[test]
+fn four_splats_are_as_the_cuda_rasterizer_drew_them() {
+    let Some(path) = support::shared("data/render_reference_gsplat/tiny_case.safetensors") else { return };
+    let bytes = std::fs::read(path).unwrap();
+    let tensors = safetensors::SafeTensors::deserialize(&bytes).unwrap();
+    let floats = |name: &str| -> Vec<f32> {
+        let data = tensors.tensor(name).unwrap().data().to_vec();
+        data.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
+    };
+    let triples = |name: &str| -> Vec<Vec3> { floats(name).chunks_exact(3).map(Vec3::from_slice).collect() };
+    let coefficients = triples("coeffs");
+    let scene = Gaussians {
+        means: triples("means"),
+        scales: triples("scales").into_iter().map(Vec3::exp).collect(),
+        rotations: floats("quats")
+            .chunks_exact(4)
+            .map(|q| Quat::from_xyzw(q[1], q[2], q[3], q[0]).normalize())
+            .collect(),
+        opacities: floats("opacities").into_iter().map(|logit| 1.0 / (1.0 + (-logit).exp())).collect(),
+        sh_dc: coefficients.iter().copied().step_by(16).collect(),
+        sh_degree: 3,
+        sh_rest: coefficients.chunks_exact(16).flat_map(|bands| &bands[1..]).copied().collect(),
+        ..Gaussians::default()
+    };
+    let pose = Pose::new(DVec3::new(0.123, 0.456, -8.0), DQuat::IDENTITY);
+    let intrinsics = Intrinsics { width: 123, height: 82, fx_px: 61.5, fy_px: 61.5, cx_px: 61.5, cy_px: 41.0 };
+    let expected: Vec<f32> = floats("out_img").chunks_exact(4).flat_map(|rgba| &rgba[..3]).copied().collect();
+    for quality in [Quality::Reference, Quality::Final] {
+        let settings = RenderSettings { quality, near: 0.01, ..RenderSettings::default() };
+        let frame = Renderer::new(&scene).render(&Camera { pose, intrinsics }, &settings).unwrap();
+        let db = psnr_db(&frame.rgb, &expected);
+        assert!(db >= 60.0, "{}: {db:.1} dB", quality.name());
+    }
+}

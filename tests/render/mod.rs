@@ -1,0 +1,10 @@
+//! Tests of the renderer: golden pictures, hard cases, equal results however the work is cut.
+
+mod bench;
+mod goldens;
+mod hard_cases;
+mod oracle;
+mod payloads;
+mod pictures;
+mod repeatable;
+mod scenes;

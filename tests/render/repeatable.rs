@@ -1,0 +1,79 @@
+//! Equal results however the work is cut: threads, order of the file, reused memory.
+
+use cinesplat::render::{Frame, Quality, RenderSettings, Renderer};
+use cinesplat::scene::Gaussians;
+use glam::DVec3;
+
+use super::pictures::max_difference;
+use super::scenes::{camera, crowd, moved, reordered};
+
+fn on_threads(num_threads: usize, scene: &Gaussians, settings: &RenderSettings) -> Frame {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
+    pool.install(|| Renderer::new(scene).render(&camera(333, 201), settings).unwrap())
+}
+
+#[test]
+fn one_two_three_and_seven_threads_agree_to_the_bit() {
+    let scene = crowd(20_000, 5);
+    for quality in Quality::ALL {
+        let settings = RenderSettings { quality, ..RenderSettings::default() };
+        let one = on_threads(1, &scene, &settings);
+        for num_threads in [2, 3, 7] {
+            let many = on_threads(num_threads, &scene, &settings);
+            assert!(one.rgb == many.rgb && one.transmittance == many.transmittance, "{} {num_threads}", quality.name());
+        }
+    }
+}
+
+#[test]
+fn shuffling_a_file_without_equal_depths_changes_nothing() {
+    let scene = crowd(3_000, 6);
+    let order: Vec<usize> = (0..scene.len()).map(|position| position * 1_009 % scene.len()).collect();
+    let shuffled = reordered(&scene, &order);
+    let settings = RenderSettings::default();
+    let (a, b) = (on_threads(2, &scene, &settings), on_threads(2, &shuffled, &settings));
+    assert_eq!(a.rgb, b.rgb);
+}
+
+#[test]
+fn equal_depths_blend_in_the_order_of_the_file() {
+    let mut scene = crowd(2, 7);
+    scene.means[1] = scene.means[0];
+    scene.scales = vec![glam::Vec3::splat(0.5); 2];
+    scene.opacities = vec![0.9; 2];
+    scene.sh_rest.fill(glam::Vec3::ZERO);
+    scene.sh_dc = vec![glam::Vec3::X, glam::Vec3::Y];
+    let settings = RenderSettings::default();
+    let first_red = on_threads(2, &scene, &settings);
+    let first_green = on_threads(2, &reordered(&scene, &[1, 0]), &settings);
+    let total = |frame: &Frame, channel: usize| frame.rgb.iter().skip(channel).step_by(3).sum::<f32>();
+    assert!(total(&first_red, 0) > total(&first_red, 1));
+    assert!(total(&first_green, 1) > total(&first_green, 0));
+}
+
+#[test]
+fn a_used_renderer_and_frame_give_the_picture_of_new_ones() {
+    let scene = crowd(5_000, 8);
+    let renderer = Renderer::new(&scene);
+    let (near, far) = (camera(320, 180), moved(&camera(97, 211), DVec3::new(0.3, 0.0, -2.0)));
+    for quality in Quality::ALL {
+        let settings = RenderSettings { quality, ..RenderSettings::default() };
+        let mut frame = Frame::default();
+        renderer.render_into(&near, &settings, &mut frame).unwrap();
+        renderer.render_into(&far, &settings, &mut frame).unwrap();
+        let fresh = Renderer::new(&scene).render(&far, &settings).unwrap();
+        assert!(frame.rgb == fresh.rgb && frame.transmittance == fresh.transmittance, "{}", quality.name());
+        assert_eq!((frame.width, frame.height), (97, 211));
+    }
+}
+
+#[test]
+fn far_off_coordinates_give_the_picture_of_near_ones() {
+    let scene = crowd(3_000, 9);
+    let offset = DVec3::new(5e5, 5e6, 100.0);
+    let far = Gaussians { origin: offset, ..scene.clone() };
+    let settings = RenderSettings { quality: Quality::Final, ..RenderSettings::default() };
+    let here = Renderer::new(&scene).render(&camera(320, 180), &settings).unwrap();
+    let there = Renderer::new(&far).render(&moved(&camera(320, 180), offset), &settings).unwrap();
+    assert!(max_difference(&here.rgb, &there.rgb) < 1e-5);
+}

@@ -1,0 +1,119 @@
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use cinesplat::scene::{LoadOptions, SplatFilter, load};
+use glam::Vec3;
+use image::{ImageFormat, RgbaImage};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use super::{code, read};
+
+/// Two Gaussians of degree 1 as the files of a version 2 SOG, their pictures 2 x 1.
+pub fn files() -> Vec<(String, Vec<u8>)> {
+    let book: Vec<f64> = (0..256).map(|i| f64::from(i) / 64.0 - 3.0).collect();
+    let meta = serde_json::json!({
+        "version": 2, "count": 2, "antialias": true,
+        "means": {"mins": [-1.0, 0.0, -2.0], "maxs": [1.0, 2.0, 2.0], "files": ["l.webp", "u.webp"]},
+        "scales": {"codebook": book, "files": ["s.webp"]}, "quats": {"files": ["q.webp"]},
+        "sh0": {"codebook": book, "files": ["c.webp"]},
+        "shN": {"count": 64, "bands": 1, "codebook": book, "files": ["n.webp", "i.webp"]},
+    });
+    let palette: Vec<u8> = (0..192_u8).flat_map(|i| [i, 0, 192, 255]).collect();
+    let pictures = [
+        ("l.webp", webp(2, 1, &[255, 255, 0, 255, 0, 0, 0, 255])),
+        ("u.webp", webp(2, 1, &[255, 255, 0, 255, 0, 0, 0, 255])),
+        ("s.webp", webp(2, 1, &[192, 128, 0, 255, 192, 192, 192, 255])),
+        ("q.webp", webp(2, 1, &[128, 128, 255, 252, 128, 128, 128, 255])),
+        ("c.webp", webp(2, 1, &[192, 255, 0, 51, 192, 192, 192, 255])),
+        ("n.webp", webp(192, 1, &palette)),
+        ("i.webp", webp(2, 1, &[2, 0, 0, 255, 63, 0, 0, 255])),
+    ];
+    let named = pictures.into_iter().map(|(name, bytes)| (name.to_owned(), bytes));
+    std::iter::once(("meta.json".to_owned(), meta.to_string().into_bytes())).chain(named).collect()
+}
+
+fn webp(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
+    let mut out = Cursor::new(Vec::new());
+    RgbaImage::from_raw(width, height, rgba.to_vec()).unwrap().write_to(&mut out, ImageFormat::WebP).unwrap();
+    out.into_inner()
+}
+
+/// The files in a zip.
+pub fn bundle(files: &[(String, Vec<u8>)]) -> Vec<u8> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, bytes) in files {
+        zip.start_file(name.as_str(), SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored))
+            .unwrap();
+        zip.write_all(bytes).unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
+fn write_folder(folder: &Path, files: &[(String, Vec<u8>)]) {
+    for (name, bytes) in files {
+        std::fs::write(folder.join(name), bytes).unwrap();
+    }
+}
+
+#[test]
+fn bundle_decodes_to_its_values() {
+    let scene = read("a.sog", &bundle(&files())).unwrap();
+    let g = &scene.gaussians;
+    assert_eq!((scene.format.as_str(), scene.filter, g.sh_degree), ("sog v2 (bundled)", Some(SplatFilter::Mip), 1));
+    let e = std::f32::consts::E;
+    assert!(g.means[0].abs_diff_eq(Vec3::new(e - 1.0, e * e - 1.0, 1.0 - e * e), 1e-5), "{}", g.means[0]);
+    assert!(g.means[1].abs_diff_eq(Vec3::new(1.0 - e, 0.0, 1.0 - e * e), 1e-5), "{}", g.means[1]);
+    assert!(g.scales[0].abs_diff_eq(Vec3::new(1.0, (-1.0_f32).exp(), (-3.0_f32).exp()), 1e-6), "{}", g.scales[0]);
+    assert!((g.rotations[0] * Vec3::X).abs_diff_eq(Vec3::Y, 1e-2), "{}", g.rotations[0]);
+    assert_eq!((g.opacities[0], g.sh_dc[0]), (0.2, Vec3::new(0.0, 0.984_375, -3.0)));
+    assert_eq!(g.sh_rest_of(0)[1], Vec3::new(7.0 / 64.0 - 3.0, -3.0, 0.0));
+    assert_eq!(g.sh_rest_of(1)[2], Vec3::new(191.0 / 64.0 - 3.0, -3.0, 0.0));
+}
+
+#[test]
+fn folder_and_meta_json_load_as_the_bundle_does() {
+    let folder = tempfile::tempdir().unwrap();
+    write_folder(folder.path(), &files());
+    let bundled = read("a.sog", &bundle(&files())).unwrap();
+    for path in [folder.path().to_path_buf(), folder.path().join("meta.json")] {
+        let scene = load(&path, &LoadOptions::default()).unwrap();
+        assert_eq!((scene.gaussians, scene.format.as_str()), (bundled.gaussians.clone(), "sog v2 (unbundled)"));
+        assert_eq!(scene.path, path);
+    }
+}
+
+#[test]
+fn metas_that_lie_are_refused() {
+    let with = |from: &str, to: &str| {
+        let mut all = files();
+        let text = String::from_utf8(all[0].1.clone()).unwrap();
+        assert!(text.contains(from), "{from}");
+        all[0].1 = text.replace(from, to).into_bytes();
+        code("a.sog", &bundle(&all))
+    };
+    assert_eq!(with("\"version\":2", "\"version\":3"), "SOG-META");
+    assert_eq!(with("\"s.webp\"", "\"../s.webp\""), "SOG-META");
+    assert_eq!(with("\"s.webp\"", "\"/etc/passwd\""), "SOG-META");
+    assert_eq!(with("\"s.webp\"", "\"t.webp\""), "SOG-PICTURE");
+    assert_eq!(with("\"count\":2", "\"count\":3"), "SOG-PICTURE");
+    assert_eq!(with("\"count\":2", "\"count\":-2"), "SOG-META");
+    assert_eq!(with("\"count\":2", "\"count\":4294967295"), "SCENE-COUNT-CAP");
+    assert_eq!(with("\"bands\":1", "\"bands\":3"), "SOG-PICTURE");
+    assert_eq!(with("\"bands\":1", "\"bands\":9"), "SOG-META");
+    assert_eq!(code("a.sog", &bundle(&files()[1..])), "SOG-PICTURE");
+}
+
+#[test]
+fn a_streamed_sog_is_not_read_yet() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("lod-meta.json"), r#"{"lodLevels":1,"filenames":["0_0/meta.json"],"tree":{}}"#)
+        .unwrap();
+    for path in [folder.path().to_path_buf(), folder.path().join("lod-meta.json")] {
+        let error = load(&path, &LoadOptions::default()).unwrap_err();
+        assert_eq!((error.code(), error.exit_code()), ("SCENE-UNSUPPORTED", 65));
+    }
+    assert_eq!(code("a.glb", b"glTF\x02\0\0\0"), "SCENE-UNSUPPORTED");
+    assert_eq!(code("a.gltf", br#"{"asset":{"version":"2.0"}}"#), "SCENE-UNSUPPORTED");
+    assert_eq!(code("a.pcd", b"# .PCD v0.7\nVERSION 0.7\n"), "SCENE-UNSUPPORTED");
+}
