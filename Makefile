@@ -7,8 +7,8 @@ BIN := target/release/cinesplat
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 # What ffmpeg-next needs to build, besides libclang (see deps).
 PACKAGES := build-essential pkg-config libavcodec-dev libavformat-dev libavutil-dev
-DEMO_SCENE := synth:room:7
-DEMO_PROMPT := slowly push in on the sofa, then orbit it to the right
+DEMO_SCENE := synth:demo
+DEMO_PROMPT := slowly push in on the bed, then orbit it to the right
 
 .DEFAULT_GOAL := help
 .PHONY: help deps build demo test train bench clean
@@ -50,13 +50,13 @@ test: deps
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps
 	cargo test --release --locked
 
-# Long ones, never part of the gate.
+# Long ones, never part of the gate. Training takes hours; models/README.md says what the shipped weights were made with.
 train: build
-	$(BIN) dataset --help
-	$(BIN) train --help
+	$(BIN) dataset -o target/train/shots
+	$(BIN) train -o target/train/model --shots target/train/shots
 
 bench: build
-	$(BIN) bench
+	$(BIN) bench $(DEMO_SCENE)
 
 clean:
 	cargo clean

@@ -1,4 +1,53 @@
 //! Camera-trajectory generation for video: a Gaussian-splat scene and a sentence become a camera move, filmed.
+//!
+//! # Bird's eye
+//!
+//! ```text
+//! scene file ── scene ──► objects ──► director ──► operator ──► trajectory ──► render ──► video
+//!               (load)    (clouds)    (words to    (exact,      (path)         (frames)   (film)
+//! sentence ───────────────────────────► program)    safe keys)
+//! ```
+//!
+//! [`scene`] reads Gaussians and finds up. [`objects`] finds or reads what can be named and makes each a sparse cloud by
+//! multi-view alpha shapes. [`director`] turns words and clouds into a program of steps and suggested cameras with a
+//! small network. [`operator`] makes the program exact: keyframes that do what each move means, clear of matter, with a
+//! report of what was wanted and got. [`trajectory`] is the path through keyframes. [`render`] draws it, [`video`]
+//! writes it. [`pipeline`] strings these together for a program that uses the library; [`cli`] is the command line.
+//!
+//! # Entry points
+//!
+//! [`scene::load`], [`pipeline::direct`] (sentence to shot), [`pipeline::film`] (shot to video),
+//! [`export::write`] and [`export::read`] (shots and other tools' paths), [`evaluation::evaluate`] (trajectory error).
+//!
+//! # Map
+//!
+//! Data goes one way, from scene and words to video. A folder imports only from rows below its own; two on one row do
+//! not know each other. `tests/architecture.rs` holds this table.
+//!
+//! | row | folders |
+//! |---|---|
+//! | command line | [`cli`] |
+//! | composition | [`pipeline`] |
+//! | words | [`director`]: the only one with candle and tokenizers |
+//! | exactness | [`operator`] |
+//! | measures | [`evaluation`] |
+//! | effects | [`lens`] |
+//! | things | [`objects`] |
+//! | pictures | [`render`], [`video`] (the only one with ffmpeg) |
+//! | files | [`scene`], [`export`] |
+//! | paths | [`trajectory`] |
+//! | frames | [`geometry`] |
+//!
+//! # Invariants
+//!
+//! - The scene file's world is never changed. Cameras are OpenCV (x right, y down, z forward), poses are
+//!   `world_from_camera` in `f64`. Axes are flipped only in [`geometry::frames`] and [`export`].
+//! - Nothing below [`cli`] prints, reads the environment or exits. [`geometry`], [`trajectory`], [`operator`] and
+//!   [`evaluation`] never do IO.
+//! - Core types are not `Serialize`: a file format is a file in [`export`] or [`objects`].
+//! - The same inputs, seed and version give the same bytes on any number of threads: no parallel float sums, no
+//!   iteration over hash maps, every random number from a seed.
+//! - A shot is checked once, at the border ([`trajectory::Shot::validated`]).
 
 pub mod cli;
 pub mod director;

@@ -10,5 +10,18 @@
 
 mod architecture;
 mod cli;
+mod director;
+mod evaluation;
+mod export;
+mod geometry;
+mod language;
+mod lens;
+mod objects;
+mod operator;
+mod pipeline;
+mod render;
+mod scene;
 mod support;
+mod synth;
+mod trajectory;
 mod video;

@@ -41,11 +41,12 @@ impl Args {
             cameras_json::read(&text).map_err(|error| Failure::from(error).in_file(path))
         });
         let file = cameras_file.transpose()?;
+        self.picture.bound_threads()?;
         let scene = self.scene.open()?.scene;
         print_up(&scene);
         let stated = file.as_ref().map(|file| (file.filter.as_deref(), file.near));
         let (filter, near) = stated.unwrap_or((None, None));
-        let settings = self.picture.settings(&scene, Quality::Final, filter, near)?;
+        let settings = self.picture.settings(&scene, Quality::Final, filter, near);
         let cameras = match file {
             Some(file) => file.cameras,
             None => middle_views(&scene, self.height)?,

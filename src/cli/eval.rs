@@ -11,6 +11,7 @@ use crate::export::{self, Format, PoseTrack};
 
 /// Compares two trajectories: absolute and relative pose error.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command")]
 #[command(after_help = "\
 Examples:
   cinesplat eval groundtruth.txt estimate.txt --align se3
@@ -81,7 +82,9 @@ impl Args {
         if self.json {
             return console::data(&evaluation.to_json());
         }
-        evaluation.notes.iter().for_each(|line| console::note(&format!("note: {line}")));
+        for line in &evaluation.notes {
+            console::note(&format!("note: {line}"));
+        }
         console::data(&text(&evaluation))
     }
 

@@ -1,6 +1,6 @@
 use std::fmt::Write as _;
 
-use crate::lens::Effect;
+use crate::lens::{Decision, Effect};
 use crate::objects::ObjectSet;
 use crate::operator::{Amount, Framing, Part, Pass, Speed, Step};
 use crate::pipeline::Directed;
@@ -26,7 +26,7 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     text.push_str("\neffects\n");
     for effect in Effect::ALL {
         let decided = directed.effects.iter().find(|decision| decision.call.kind == effect.name());
-        let sentence = decided.map_or_else(|| format!("{}: not called for", effect.name()), |d| d.sentence());
+        let sentence = decided.map_or_else(|| format!("{}: not called for", effect.name()), Decision::sentence);
         let _ = writeln!(text, "  {sentence}");
     }
     for decision in directed.effects.iter().filter(|decision| Effect::from_name(&decision.call.kind).is_none()) {

@@ -52,7 +52,9 @@ impl Args {
         let settings = ExportSettings { content, fps: self.fps };
         let lost = export::write(&self.output, format, &shot, &settings);
         let lost = lost.map_err(|error| Failure::from(error).in_file(&self.shot))?;
-        lost.iter().for_each(|line| console::note(&format!("warning: {line}")));
+        for line in &lost {
+            console::note(&format!("warning: {line}"));
+        }
         console::note(&format!("{}: {}", self.output.display(), format.name()));
         Ok(())
     }

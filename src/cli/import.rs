@@ -33,7 +33,9 @@ impl Args {
         let imported = export::read(&self.file, self.from).map_err(in_file)?;
         let format = imported.format.name();
         let (shot, assumed) = imported.into_shot().map_err(in_file)?;
-        assumed.iter().for_each(|line| console::note(&format!("warning: {line}")));
+        for line in &assumed {
+            console::note(&format!("warning: {line}"));
+        }
         outputs::write(&self.output, shot_json::write(&shot).as_bytes())?;
         let (keys, secs) = (shot.keyframes.len(), shot.duration_secs);
         console::note(&format!("{}: {keys} keys, {secs:.2} s, from {format}", self.output.display()));

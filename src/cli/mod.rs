@@ -48,9 +48,10 @@ Examples:
   cinesplat info room.spz
   cinesplat objects room.spz -o objects.json --sheet objects.png
   cinesplat render room.spz -p \"push in on the lamp, then orbit it\" --objects objects.json -o lamp.mp4
-  cinesplat render synth:room:1 -p \"slowly orbit the sofa\" -o sofa.mp4
+  cinesplat render synth:demo -p \"slowly push in on the window\" -o window.mp4
 
-SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or synth:room:SEED.
+SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or synth:room:SEED,
+synth:tabletop:SEED and synth:demo, which are generated.
 Exit codes: 0 done, 2 usage, 65 bad data, 66 no such input, 69 codec missing, 70 our fault, 71 over a cap,
 73 cannot create the output, 74 I/O, 75 stopped early, 77 permission, 130 interrupted twice.";
 
@@ -118,7 +119,7 @@ fn catch_faults(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failur
     let place = Arc::new(Mutex::new(String::new()));
     let seen = Arc::clone(&place);
     panic::set_hook(Box::new(move |panic| {
-        if let Ok(mut first) = seen.lock().map(|guard| guard).map_err(drop)
+        if let Ok(mut first) = seen.lock()
             && first.is_empty()
         {
             *first = panic.to_string().replace('\n', " ");

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::scene_args::SceneArgs;
-use super::shot_args::ShotArgs;
+use super::shot_args::{ShotArgs, deciding};
 use super::{console, explain, outputs, reproduce};
 use crate::export::shot_json;
 
@@ -11,7 +11,7 @@ use crate::export::shot_json;
 #[command(after_help = "\
 Examples:
   cinesplat plan room.spz -p \"push in on <obj-3>\" --objects objects.json -o shot.json
-  cinesplat plan synth:room:1 -p \"orbit the sofa, then crane up\" -o shot.json --explain
+  cinesplat plan synth:demo -p \"push in on the window, then crane up\" -o shot.json --explain
 shot.json may be edited by hand: move keys in time, add or remove some, then render --shot shot.json.")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -55,7 +55,7 @@ impl Args {
         if self.json {
             console::data(&shot_json::write(&directed.shot))?;
         }
-        reproduce::print(&self.shot.deciding(&directed.shot));
+        reproduce::print(&deciding(&directed.shot));
         Ok(())
     }
 }

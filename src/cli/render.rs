@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::progress::FrameProgress;
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
-use super::shot_args::ShotArgs;
+use super::shot_args::{ShotArgs, deciding};
 use super::{console, outputs, reproduce};
 use crate::export::shot_json;
 use crate::pipeline::{self, FilmReport, FilmSettings, Flow, FrameRange, StageTimes};
@@ -68,11 +68,14 @@ impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let start = Instant::now();
         self.check_outputs()?;
+        self.picture.bound_threads()?;
         let mut times = StageTimes::default();
         let (scene, shot) = self.open(&mut times)?;
         // Once more, now that size and number of frames are known.
         let format = video::check_output(&self.output, &self.video(&shot)?)?;
-        video::size_note(&format, shot.width, shot.height).iter().for_each(|note| console::note(note));
+        if let Some(note) = video::size_note(&format, shot.width, shot.height) {
+            console::note(&note);
+        }
         if let Some(path) = &self.save_shot {
             let mut saved = shot.clone();
             saved.scene.path = outputs::relative_to(path, &scene.path);
@@ -82,7 +85,7 @@ impl Args {
         times.add("render", report.render_time);
         times.add("encode", report.encode_time);
         print_times(&times, &report, start.elapsed());
-        reproduce::print(&self.shot.deciding(&shot));
+        reproduce::print(&deciding(&shot));
         finish(&report)
     }
 
@@ -130,7 +133,7 @@ impl Args {
 
     fn film(&self, scene: &Scene, shot: &Shot) -> Result<FilmReport, Failure> {
         let settings = FilmSettings {
-            render: self.picture.settings(scene, Quality::Standard, None, None)?,
+            render: self.picture.settings(scene, Quality::Standard, None, None),
             video: self.video(shot)?,
             frames: self.frames,
             sheet: self.sheet.clone(),

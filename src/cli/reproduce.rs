@@ -4,11 +4,11 @@ use super::console;
 
 /// Prints the command that gives the same result: this one's arguments, and the defaults that decide the result too.
 pub(super) fn print(deciding: &[(&str, String)]) {
-    console::note(&format!("reproduce with: {}", command(std::env::args_os().skip(1).collect(), deciding)));
+    console::note(&format!("reproduce with: {}", command(std::env::args_os().skip(1), deciding)));
 }
 
-fn command(arguments: Vec<OsString>, deciding: &[(&str, String)]) -> String {
-    let given: Vec<String> = arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect();
+fn command(arguments: impl Iterator<Item = OsString>, deciding: &[(&str, String)]) -> String {
+    let given: Vec<String> = arguments.map(|argument| argument.to_string_lossy().into_owned()).collect();
     let is_given = |flag: &str| given.iter().any(|word| word == flag || word.starts_with(&format!("{flag}=")));
     let missing = deciding.iter().filter(|(flag, _)| !is_given(flag));
     let added = missing.flat_map(|(flag, value)| [(*flag).to_owned(), value.clone()]);
@@ -32,7 +32,7 @@ mod tests {
 
     #[test]
     fn words_with_spaces_and_quotes_survive_a_shell() {
-        let arguments = ["plan", "my room.spz", "-p", "the cat's bed", "--seed=4"].map(OsString::from).to_vec();
+        let arguments = ["plan", "my room.spz", "-p", "the cat's bed", "--seed=4"].map(OsString::from).into_iter();
         let deciding = [("--seed", "0".to_owned()), ("--fps", "30".to_owned())];
         assert_eq!(
             command(arguments, &deciding),

@@ -13,7 +13,7 @@ use crate::scene::{LoadOptions, Scene, SplatFilter, UpSource};
 /// Which scene, and what the caller knows better than its file.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SceneArgs {
-    /// Scene file (.ply .spz .sog .splat), folder of an unbundled SOG, synth:room:SEED or synth:tabletop:SEED
+    /// Scene file (.ply .spz .sog .splat), folder of an unbundled SOG, or synth:room:SEED, synth:tabletop:SEED, synth:demo
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
     /// World up, instead of what the file says or what is estimated, such as 0,-1,0
@@ -33,7 +33,9 @@ impl SceneArgs {
         let (max_file_bytes, max_gaussians) = (self.max_file_bytes, self.max_gaussians);
         let options = LoadOptions { up: self.up, max_file_bytes, max_gaussians };
         let source = pipeline::open_scene(&self.scene, &options)?;
-        source.scene.notes.iter().for_each(|note| console::note(&format!("scene: {note}")));
+        for note in &source.scene.notes {
+            console::note(&format!("scene: {note}"));
+        }
         Ok(source)
     }
 
@@ -93,6 +95,13 @@ pub(super) struct PictureArgs {
 }
 
 impl PictureArgs {
+    /// Bounds the threads of everything that follows; has to come before any work.
+    pub(super) fn bound_threads(&self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+        pool.map_err(|error| Failure::fault(&error.to_string()))
+    }
+
     /// Settings for a scene; `filter` and `near` are what a cameras file says, which a flag goes before.
     pub(super) fn settings(
         &self,
@@ -100,11 +109,7 @@ impl PictureArgs {
         default: Quality,
         filter: Option<&str>,
         near: Option<f64>,
-    ) -> Result<RenderSettings, Failure> {
-        if let Some(threads) = self.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-            pool.map_err(|error| Failure::fault(&error.to_string()))?;
-        }
+    ) -> RenderSettings {
         let stated = scene.filter.unwrap_or(SplatFilter::Classic);
         let filter = match self.filter.as_deref().or(filter) {
             Some("classic") => SplatFilter::Classic,
@@ -113,7 +118,7 @@ impl PictureArgs {
             _ => stated,
         };
         let near = self.near.or(near).unwrap_or_else(|| scene.bounds().default_near());
-        Ok(RenderSettings { quality: self.quality.unwrap_or(default), filter, near, ..RenderSettings::default() })
+        RenderSettings { quality: self.quality.unwrap_or(default), filter, near, ..RenderSettings::default() }
     }
 }
 

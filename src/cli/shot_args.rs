@@ -107,20 +107,22 @@ impl ShotArgs {
             _ => Effort::Full,
         }
     }
+}
 
-    /// Flags and defaults that decide the result, for the command that reproduces it.
-    pub(super) fn deciding(&self, shot: &Shot) -> Vec<(&'static str, String)> {
-        vec![
-            ("--size", format!("{}x{}", shot.width, shot.height)),
-            ("--fps", shot.fps.to_string()),
-            ("--seed", shot.seed.to_string()),
-        ]
-    }
+/// Flags and defaults that decide the result, for the command that reproduces it.
+pub(super) fn deciding(shot: &Shot) -> [(&'static str, String); 3] {
+    [
+        ("--size", format!("{}x{}", shot.width, shot.height)),
+        ("--fps", shot.fps.to_string()),
+        ("--seed", shot.seed.to_string()),
+    ]
 }
 
 /// Guesses, effects, and every line of the report that was not met.
 fn print_gaps(directed: &Directed) {
-    directed.warnings.iter().for_each(|warning| console::note(&format!("warning: {warning}")));
+    for warning in &directed.warnings {
+        console::note(&format!("warning: {warning}"));
+    }
     print_effects(&directed.effects);
     let is_effect = |clause: &str| directed.effects.iter().any(|decision| decision.call.because == clause);
     for line in directed.shot.report.iter().filter(|line| !line.met && !is_effect(&line.clause)) {
@@ -129,7 +131,9 @@ fn print_gaps(directed: &Directed) {
 }
 
 fn print_effects(decisions: &[Decision]) {
-    decisions.iter().for_each(|decision| console::note(&format!("effect: {}", decision.sentence())));
+    for decision in decisions {
+        console::note(&format!("effect: {}", decision.sentence()));
+    }
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

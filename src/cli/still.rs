@@ -17,7 +17,7 @@ use crate::video;
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Cameras, each with a name, image size, focal lengths and world_from_camera
+    /// Cameras, each with a name, image size, focal lengths and `world_from_camera`
     #[arg(long, value_name = "CAMERAS.JSON")]
     cameras: PathBuf,
     /// Folder for NAME.png, one a camera
@@ -38,9 +38,10 @@ impl Args {
         let text = outputs::read_text(&self.cameras)?;
         let cameras = cameras_json::read(&text).map_err(|error| Failure::from(error).in_file(&self.cameras))?;
         self.check_outputs(&cameras)?;
+        self.picture.bound_threads()?;
         let scene = self.scene.open()?.scene;
         print_up(&scene);
-        let settings = self.picture.settings(&scene, Quality::Final, cameras.filter.as_deref(), cameras.near)?;
+        let settings = self.picture.settings(&scene, Quality::Final, cameras.filter.as_deref(), cameras.near);
         pipeline::still(&scene, &cameras.cameras, &settings, &mut |still| self.write(&still))
     }
 
@@ -55,8 +56,8 @@ impl Args {
             ));
         }
         fs::create_dir_all(&self.output).map_err(|error| Failure::io(&place.to_string(), &error))?;
-        let names = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name));
-        names.map(|path| outputs::check_new(&path, self.overwrite)).collect()
+        let mut names = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name));
+        names.try_for_each(|path| outputs::check_new(&path, self.overwrite))
     }
 
     fn files(&self, name: &str) -> Vec<PathBuf> {

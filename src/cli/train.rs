@@ -189,7 +189,10 @@ fn examine_model(model: &std::path::Path) -> Result<(), Failure> {
         for miss in &marks.misses {
             let (meant, understood) = (program_to_notation(&miss.meant), program_to_notation(&miss.understood));
             let fields = miss.fields.join(", ");
-            console::data(&format!("  {}\n    meant      {meant}\n    understood {understood}\n    wrong: {fields}\n", miss.prompt))?;
+            console::data(&format!(
+                "  {}\n    meant      {meant}\n    understood {understood}\n    wrong: {fields}\n",
+                miss.prompt
+            ))?;
         }
     }
     Ok(())

@@ -21,6 +21,7 @@ fn wrong(text: &str) -> Failure {
     let mut parts = text.split("\n\n").map(joined).filter(|part| !part.is_empty());
     let message = parts.next().unwrap_or_default();
     let kept = |part: &String| !part.starts_with("For more information");
-    let help: Vec<String> = parts.filter(kept).map(|part| part.trim_start_matches("tip: ").to_owned()).collect();
-    Failure::usage(message.trim_start_matches("error: "), help.join("; ") + "; --help says more")
+    let mut help: Vec<String> = parts.filter(kept).map(|part| part.trim_start_matches("tip: ").to_owned()).collect();
+    help.push("--help says more".to_owned());
+    Failure::usage(message.trim_start_matches("error: "), help.join("; "))
 }

@@ -156,7 +156,8 @@ impl KeyCode {
 
     /// Place of the object that the key is about: first on departure, else first on arrival.
     pub(crate) fn main_object(&self) -> Option<usize> {
-        let place = |pointer: usize| self.objects[pointer].filter(|place| *place > 0).map(|place| usize::from(place) - 1);
+        let place =
+            |pointer: usize| self.objects[pointer].filter(|place| *place > 0).map(|place| usize::from(place) - 1);
         place(PLACES).or_else(|| place(0))
     }
 }

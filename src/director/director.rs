@@ -100,6 +100,11 @@ impl Director {
         ModelRef { name: self.model.manifest.name.clone(), sha256: self.model.manifest.weights_sha256.clone() }
     }
 
+    /// Ids of the objects that the network looks at for a prompt: those that it names, then the nearest of the others.
+    pub fn looks_at(linked: &Linked, objects: &[Object]) -> Vec<u32> {
+        linked.slots.iter().copied().chain(others(objects, &linked.slots)).collect()
+    }
+
     /// What the words ask for, and where the cameras could stand. The same input gives the same output.
     ///
     /// # Errors
@@ -142,7 +147,8 @@ fn cameras(poses: &[PoseCode], frame: &SceneFrame) -> Result<Vec<SuggestedCamera
     let mut time_secs = 0.0;
     let mut out = Vec::with_capacity(poses.len());
     for code in poses {
-        let pose = frame.world_pose(glam::Vec3::from(code.position).as_dvec3(), code.rotation_6d.map(f64::from), fallback);
+        let pose =
+            frame.world_pose(glam::Vec3::from(code.position).as_dvec3(), code.rotation_6d.map(f64::from), fallback);
         if !pose.position.is_finite() {
             return Err(DirectorError::NotFinite { field: "position", found: code.position[0] });
         }

@@ -30,7 +30,7 @@ pub enum DirectorError {
         expected: &'static str,
     },
     /// A file of the model cannot be read.
-    #[error("cannot read the model: {source}: {}", path.display())]
+    #[error("{}: cannot read the model: {source}", path.display())]
     Read {
         /// The file.
         path: PathBuf,

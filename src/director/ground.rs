@@ -164,7 +164,10 @@ pub(crate) fn object_input(object: &Object, slot: usize, frame: &SceneFrame) -> 
         slot_token: object_token(slot),
         center: frame.point(object.center),
         half_extents,
-        points: points.iter().map(|point| ((*point - centroid) * scale).clamp_length_max(4.0).as_vec3().to_array()).collect(),
+        points: points
+            .iter()
+            .map(|point| ((*point - centroid) * scale).clamp_length_max(4.0).as_vec3().to_array())
+            .collect(),
     }
 }
 

@@ -14,6 +14,7 @@ mod frame;
 mod ground;
 pub mod keys;
 pub mod language;
+mod merges;
 mod model;
 mod train;
 mod vocabulary;

@@ -3,12 +3,12 @@
 //! Enters: the text that linking leaves, lower case, mentions as `<obj-S>` and `<qty-Q>`. Leaves: token ids with their
 //! byte ranges. The special tokens have fixed ids, so that weights and vocabulary cannot disagree about them.
 
-use tokenizers::models::bpe::{BPE, BpeTrainerBuilder};
-use tokenizers::normalizers::Lowercase;
-use tokenizers::pre_tokenizers::whitespace::Whitespace;
-use tokenizers::{AddedToken, Tokenizer, TokenizerBuilder};
+use std::collections::BTreeMap;
 
-use super::DirectorError;
+use serde_json::{Value, json};
+use tokenizers::Tokenizer;
+
+use super::{DirectorError, merges};
 
 /// Identifiers `<obj-0>`.. that a prompt's objects are mapped onto.
 pub(crate) const NUM_OBJECT_SLOTS: usize = super::language::MAX_SLOTS;
@@ -63,31 +63,35 @@ pub struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// Learns up to `size` tokens from lines of text.
+    /// Learns up to `size` tokens from linked texts (words parted by spaces). The same texts give the same vocabulary.
     ///
     /// # Errors
-    /// [`DirectorError::BadModel`] when training fails.
+    /// [`DirectorError::BadModel`] when no tokenizer can be made of them.
     pub fn train(lines: &[String], size: usize) -> Result<Self, DirectorError> {
-        let specials = special_tokens().into_iter().map(|text| AddedToken::from(text, true)).collect::<Vec<_>>();
-        let mut trainer = BpeTrainerBuilder::new()
-            .show_progress(false)
-            .vocab_size(size)
-            .min_frequency(2)
-            .continuing_subword_prefix("##".into())
-            .special_tokens(specials)
-            .build();
-        let model = BPE::builder().unk_token("<unk>".into()).continuing_subword_prefix("##".into()).build();
-        let mut tokenizer = TokenizerBuilder::new()
-            .with_model(model.map_err(|error| bad(&error))?)
-            .with_normalizer(Some(Lowercase))
-            .with_pre_tokenizer(Some(Whitespace {}))
-            .with_post_processor(None::<tokenizers::PostProcessorWrapper>)
-            .with_decoder(None::<tokenizers::DecoderWrapper>)
-            .build()
-            .map_err(|error| bad(&error))?;
-        tokenizer.train(&mut trainer, lines.iter()).map_err(|error| bad(&error))?;
-        // Through JSON once, so that a fresh tokenizer is the very one that loading it later gives.
-        Self::from_json(tokenizer.to_string(false).map_err(|error| bad(&error))?.as_bytes())
+        let mut words: BTreeMap<String, u64> = BTreeMap::new();
+        for word in lines.iter().flat_map(|line| line.split_whitespace()).filter(|word| !word.starts_with('<')) {
+            *words.entry(word.to_lowercase()).or_default() += 1;
+        }
+        let specials = special_tokens();
+        let learned = merges::learn(&words, size.saturating_sub(specials.len()));
+        let ids = specials.iter().chain(&learned.pieces).zip(0_u32..);
+        let vocab: serde_json::Map<String, Value> = ids.map(|(piece, id)| (piece.clone(), id.into())).collect();
+        let joined: Vec<Value> = learned.merges.iter().map(|(left, right)| json!([left, right])).collect();
+        let added: Vec<Value> = specials.iter().zip(0_u32..).map(|(text, id)| added_token(text, id)).collect();
+        let description = json!({
+            "version": "1.0",
+            "added_tokens": added,
+            "normalizer": {"type": "Lowercase"},
+            "pre_tokenizer": {"type": "Whitespace"},
+            "model": {
+                "type": "BPE",
+                "unk_token": "<unk>",
+                "continuing_subword_prefix": merges::CONTINUES,
+                "vocab": vocab,
+                "merges": joined,
+            },
+        });
+        Self::from_json(description.to_string().as_bytes())
     }
 
     /// A tokenizer from its JSON.
@@ -146,6 +150,15 @@ impl Vocabulary {
             None => Ok(tokens),
         }
     }
+}
+
+/// A special token as the tokenizer's JSON describes it.
+fn added_token(text: &str, id: u32) -> Value {
+    let off = false;
+    json!({
+        "id": id, "content": text, "special": true,
+        "single_word": off, "lstrip": off, "rstrip": off, "normalized": off,
+    })
 }
 
 /// The special tokens in order of their ids.

@@ -9,7 +9,7 @@ use crate::trajectory::TrajectoryError;
 #[derive(Debug, Error)]
 pub enum ExportError {
     /// The file cannot be opened, read or written.
-    #[error("{doing} failed: {source}: {path}")]
+    #[error("{path}: {doing} failed: {source}")]
     Io {
         /// "reading", "writing" and the like.
         doing: &'static str,
@@ -19,7 +19,7 @@ pub enum ExportError {
         path: PathBuf,
     },
     /// A file over the cap on what is read into memory.
-    #[error("the file has {found} bytes, expected at most {expected}: {path}")]
+    #[error("{path}: the file has {found} bytes, expected at most {expected}")]
     TooLarge {
         /// Its size.
         found: u64,

@@ -43,7 +43,14 @@ impl Intrinsics {
         let size = |pixels: u32| ((f64::from(pixels) * factor).round() as u32).max(1);
         let (width, height) = (size(self.width), size(self.height));
         let (x, y) = (f64::from(width) / f64::from(self.width), f64::from(height) / f64::from(self.height));
-        Self { width, height, fx_px: self.fx_px * x, fy_px: self.fy_px * y, cx_px: self.cx_px * x, cy_px: self.cy_px * y }
+        Self {
+            width,
+            height,
+            fx_px: self.fx_px * x,
+            fy_px: self.fy_px * y,
+            cx_px: self.cx_px * x,
+            cy_px: self.cy_px * y,
+        }
     }
 
     /// Checks that an image of this kind can exist.

@@ -76,7 +76,11 @@ impl LevelFrame {
         let (right, down, forward) = (rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z);
         let pitch_rad = forward.dot(self.up).clamp(-1.0, 1.0).asin();
         if self.horizontal(forward).length() < 1e-7 {
-            return LevelAngles { yaw_rad: self.azimuth(right) - std::f64::consts::FRAC_PI_2, pitch_rad, roll_rad: 0.0 };
+            return LevelAngles {
+                yaw_rad: self.azimuth(right) - std::f64::consts::FRAC_PI_2,
+                pitch_rad,
+                roll_rad: 0.0,
+            };
         }
         let yaw_rad = self.azimuth(forward);
         let roll_rad = (-right.dot(self.up)).atan2(-down.dot(self.up));

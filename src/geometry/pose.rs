@@ -27,9 +27,10 @@ impl Pose {
     /// # Errors
     /// [`GeometryError::NoViewDirection`] when eye and target coincide or are not finite.
     pub fn look_at(eye: DVec3, target: DVec3, up: DVec3, right_hint: Option<DVec3>) -> Result<Self, GeometryError> {
-        let forward = (target - eye).try_normalize().filter(|f| f.is_finite() && eye.is_finite()).ok_or(
-            GeometryError::NoViewDirection { eye: eye.to_array(), target: target.to_array() },
-        )?;
+        let forward = (target - eye)
+            .try_normalize()
+            .filter(|f| f.is_finite() && eye.is_finite())
+            .ok_or(GeometryError::NoViewDirection { eye: eye.to_array(), target: target.to_array() })?;
         Ok(Self::facing(eye, forward, up, right_hint))
     }
 
@@ -79,7 +80,10 @@ impl Pose {
     /// `self * then`: first `then`, then `self`.
     #[must_use]
     pub fn compose(&self, then: &Self) -> Self {
-        Self { position: self.position + self.rotation * then.position, rotation: (self.rotation * then.rotation).normalize() }
+        Self {
+            position: self.position + self.rotation * then.position,
+            rotation: (self.rotation * then.rotation).normalize(),
+        }
     }
 
     /// A world point in camera coordinates.

@@ -79,8 +79,6 @@ pub fn from_6d(rotation_6d: [f64; 6], fallback: DQuat) -> DQuat {
     let x = DVec3::new(a, b, c).try_normalize().unwrap_or(spare.x_axis);
     let second = DVec3::new(d, e, f).try_normalize().unwrap_or(spare.y_axis);
     let off_axis = |v: DVec3| Some(v - x * v.dot(x)).filter(|r| r.length() > 1e-4).and_then(DVec3::try_normalize);
-    let y = off_axis(second)
-        .or_else(|| off_axis(spare.y_axis))
-        .unwrap_or_else(|| x.any_orthonormal_vector());
+    let y = off_axis(second).or_else(|| off_axis(spare.y_axis)).unwrap_or_else(|| x.any_orthonormal_vector());
     DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))).normalize()
 }

@@ -3,11 +3,11 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// What can go wrong with an objects file, its labels, or the pictures of objects. Every variant ends in the file.
+/// What can go wrong with an objects file, its labels, or the pictures of objects. `Display` begins with the file.
 #[derive(Debug, Error)]
 pub enum ObjectsError {
     /// A file cannot be read or written.
-    #[error("{action} failed: {source}, file {}", path.display())]
+    #[error("{}: {action} failed: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
@@ -17,7 +17,7 @@ pub enum ObjectsError {
         source: std::io::Error,
     },
     /// The file is not JSON at all.
-    #[error("not JSON: {reason}, expected an objects file, file {}", path.display())]
+    #[error("{}: not JSON: {reason}, expected an objects file", path.display())]
     NotJson {
         /// The file.
         path: PathBuf,
@@ -25,7 +25,7 @@ pub enum ObjectsError {
         reason: String,
     },
     /// The JSON is of another kind, or of a version that this program does not know.
-    #[error("found {key} {found}, expected {expected}, file {}", path.display())]
+    #[error("{}: found {key} {found}, expected {expected}", path.display())]
     WrongKind {
         /// The file.
         path: PathBuf,
@@ -37,7 +37,7 @@ pub enum ObjectsError {
         expected: &'static str,
     },
     /// A field of one entry is missing or has a value that it cannot have.
-    #[error("{entry}: field `{field}` is {found}, expected {expected}, file {}", path.display())]
+    #[error("{}: {entry}: field `{field}` is {found}, expected {expected}", path.display())]
     BadField {
         /// The file.
         path: PathBuf,
@@ -51,7 +51,7 @@ pub enum ObjectsError {
         expected: &'static str,
     },
     /// Two entries have the same id.
-    #[error("object {first} and object {second} both have id {id}, expected one object an id, file {}", path.display())]
+    #[error("{}: object {first} and object {second} both have id {id}, expected one object an id", path.display())]
     DuplicateId {
         /// The file.
         path: PathBuf,
@@ -63,7 +63,7 @@ pub enum ObjectsError {
         second: usize,
     },
     /// The label file is no array of one integer a Gaussian.
-    #[error("labels: found {found}, expected {expected}, file {}", path.display())]
+    #[error("{}: labels: found {found}, expected {expected}", path.display())]
     BadLabels {
         /// The label file.
         path: PathBuf,

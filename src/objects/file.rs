@@ -1,7 +1,8 @@
 //! objects.json, version 1, and its label array.
 //!
 //! Enters: a file by hand or by another tool, where an object needs only an `id` and a box or labels. Leaves: an
-//! [`ObjectSet`] in which every object has a box and, where the scene shows them, its Gaussians. Unknown keys are ignored.
+//! [`ObjectSet`] in which every object has a box and, where the scene shows them, its Gaussians. Unknown keys are
+//! ignored.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

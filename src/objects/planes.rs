@@ -202,7 +202,8 @@ fn share_behind(grid: &VoxelGrid, plane: &ScenePlane) -> f32 {
     behind as f32 / heights().count().max(1) as f32
 }
 
-/// A level plane below or above the scene's middle is floor or ceiling when next to nothing lies beyond it and it spans a seventh of the scene's plan.
+/// A level plane below or above the scene's middle is floor or ceiling when next to nothing lies beyond it and it spans
+/// a seventh of the scene's plan.
 fn level_kind(grid: &VoxelGrid, plane: &ScenePlane, footprint: f32) -> PlaneKind {
     let wide = plane.voxels.len() as f32 > footprint / 7.0;
     let is_low = plane.offset < 0.0;

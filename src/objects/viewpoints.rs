@@ -1,7 +1,7 @@
 //! Where to stand to see an object, or as many of them as can be.
 //!
-//! Enters: a scene with labels. Leaves: cameras, chosen by a coarse picture of ids that is drawn from sparse points with a depth
-//! buffer: good enough to compare viewpoints, far cheaper than rendering each.
+//! Enters: a scene with labels. Leaves: cameras, chosen by a coarse picture of ids that is drawn from sparse points with
+//! a depth buffer: good enough to compare viewpoints, far cheaper than rendering each.
 
 use glam::DVec3;
 

@@ -53,7 +53,13 @@ impl Target {
             )
         };
         let center = bounds.center();
-        Self { ids: Vec::new(), aim: center, center, corners: (0..8).map(corner).collect(), radius: bounds.size() / 2.0 }
+        Self {
+            ids: Vec::new(),
+            aim: center,
+            center,
+            corners: (0..8).map(corner).collect(),
+            radius: bounds.size() / 2.0,
+        }
     }
 }
 

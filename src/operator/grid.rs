@@ -55,22 +55,15 @@ impl Grid {
     pub(super) fn index_at(&self, point: DVec3) -> Option<usize> {
         self.index_of(((point - self.low) / self.cell).floor().as_ivec3())
     }
-
-    /// Middle of a cell, world.
-    pub(super) fn center(&self, index: usize) -> DVec3 {
-        let (y, z) = (self.dims.y as usize, self.dims.z as usize);
-        let at = UVec3::new((index / (y * z)) as u32, (index / z % y) as u32, (index % z) as u32);
-        self.low + (at.as_dvec3() + 0.5) * self.cell
-    }
 }
 
-/// Opacity a cell: the highest of the Gaussians that reach it.
+/// How much light each cell lets through: by the highest opacity of the Gaussians that reach it.
 #[derive(Debug, Clone)]
 pub(super) struct OpacityGrid {
     /// Where the cells are.
     pub(super) grid: Grid,
-    /// One opacity a cell, 0..=1.
-    pub(super) opacity: Vec<f32>,
+    /// Logarithm of the light that passes one cell edge of way, one a cell; 0 where there is nothing.
+    log_pass: Vec<f32>,
 }
 
 impl OpacityGrid {
@@ -85,7 +78,14 @@ impl OpacityGrid {
                 }
             });
         }
-        Self { grid, opacity }
+        let log_pass = opacity.into_iter().map(log_pass).collect();
+        Self { grid, log_pass }
+    }
+
+    /// Which cells hold something solid.
+    pub(super) fn occupied(&self) -> Vec<bool> {
+        let solid = log_pass(SOLID_OPACITY);
+        self.log_pass.iter().map(|&log| log <= solid).collect()
     }
 
     /// Share of light that gets from `target` to `eye`, except for what the last two cells before the target hold back.
@@ -102,7 +102,7 @@ impl OpacityGrid {
         let mut log_light = 0.0_f64;
         let mut at = step / 2.0;
         while at < reach && log_light > -6.0 {
-            log_light += self.log_pass(eye + direction * at) * 0.5;
+            log_light += self.log_pass_at(eye + direction * at) * 0.5;
             at += step;
         }
         log_light.exp()
@@ -120,7 +120,7 @@ impl OpacityGrid {
         let (mut log_light, mut at) = (0.0_f64, 0.0);
         while at < reach {
             at += step;
-            log_light += self.log_pass(eye + direction * at) * 0.7;
+            log_light += self.log_pass_at(eye + direction * at) * 0.7;
             if log_light < -0.7 {
                 return Some(at);
             }
@@ -128,10 +128,14 @@ impl OpacityGrid {
         None
     }
 
-    fn log_pass(&self, point: DVec3) -> f64 {
-        let alpha = self.grid.index_at(point).map_or(0.0, |cell| self.opacity[cell]);
-        if alpha > 0.0 { f64::from(1.0 - alpha.min(0.99)).ln() } else { 0.0 }
+    fn log_pass_at(&self, point: DVec3) -> f64 {
+        self.grid.index_at(point).map_or(0.0, |cell| f64::from(self.log_pass[cell]))
     }
+}
+
+/// Logarithm of the light that passes a cell of an opacity.
+fn log_pass(opacity: f32) -> f32 {
+    if opacity > 0.0 { (1.0 - opacity.min(0.99)).ln() } else { 0.0 }
 }
 
 /// Calls `visit` with points that cover a Gaussian at cell resolution: its mean, and for a solid one that is larger than

@@ -10,6 +10,8 @@ use crate::trajectory::{CameraPath, CameraState};
 
 /// Points of a subject that are looked for while searching; the report looks for all.
 const SEARCH_POINTS: usize = 14;
+/// What must show beyond the goal while searching.
+const SEARCH_MARGIN: f64 = 0.12;
 
 /// How a goal came out.
 #[derive(Debug, Clone)]
@@ -71,6 +73,10 @@ fn clearance_cost(world: &World, states: &[CameraState]) -> f64 {
 /// Standing where the capture shows backs, or (mildly) far outside of what it covers.
 fn support_cost(world: &World, states: &[CameraState]) -> f64 {
     let position = |state: &CameraState| state.pose.position;
+    let sunk = states.iter().map(|s| world.sunk_frac(position(s))).fold(0.0, f64::max);
+    if sunk > 0.0 && world.is_indoor() {
+        return 5.0 + 20.0 * sunk.min(0.4);
+    }
     let unsupported = states.iter().filter(|s| !world.supports(position(s))).count() as f64 / states.len() as f64;
     if unsupported > 0.0 {
         return 5.0 + 8.0 * unsupported;
@@ -78,14 +84,17 @@ fn support_cost(world: &World, states: &[CameraState]) -> f64 {
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
     let wrong = ends.iter().filter(|s| !world.is_good_side(position(s))).count();
     let outside = states.iter().map(|s| world.outside_frac(position(s))).fold(0.0, f64::max);
-    3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { 0.0 }
+    3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
 }
 
 /// Least clearance over a part, scene units, and the share of its samples that stand in supported space.
 pub(super) fn safety(world: &World, states: &[CameraState]) -> (f64, f64) {
     let pairs = states.windows(2).map(|p| world.clearance_between(p[0].pose.position, p[1].pose.position));
     let least = pairs.fold(world.clearance(states[0].pose.position), f64::min);
-    let good = |s: &&CameraState| world.supports(s.pose.position) && world.is_good_side(s.pose.position);
+    let good = |s: &&CameraState| {
+        let p = s.pose.position;
+        world.supports(p) && world.is_good_side(p) && (world.sunk_frac(p) <= 0.0 || !world.is_indoor())
+    };
     let supported = states.iter().filter(good).count();
     (least, supported as f64 / states.len() as f64)
 }
@@ -169,13 +178,18 @@ fn worst_of(outcomes: impl Iterator<Item = Outcome>, when: When) -> Outcome {
     found.unwrap_or(Outcome { got: f64::NAN, violation: 1.0 })
 }
 
-/// Mean share of the subject seen, with a floor under the worst frame: a post may pass before it, a wall may not stay.
+/// Share of the subject seen, over frames: most of them must reach `least`; a post may pass before it, a wall may not
+/// stay. The value is the mean over frames.
 fn seen_share(world: &World, id: u32, least: f64, states: &[CameraState], num_points: usize) -> Outcome {
+    const MOST_FRAMES: f64 = 0.85;
     let Some(subject) = world.subject(id) else { return Outcome { got: 0.0, violation: 1.0 } };
     let shares: Vec<f64> = states.iter().map(|s| unoccluded_frac(s, subject, num_points)).collect();
+    // While searching fewer points are looked for, so a little more of them must show.
+    let least = if num_points <= SEARCH_POINTS { least + SEARCH_MARGIN } else { least };
     let enough = shares.iter().filter(|&&share| share >= least).count() as f64 / shares.len() as f64;
-    let mean = shares.iter().sum::<f64>() / shares.len() as f64;
-    if enough >= 0.85 { Outcome { got: mean, violation: 0.0 } } else { banded(mean.min(enough), (least, 1.0), 0.5) }
+    let got = shares.iter().sum::<f64>() / shares.len() as f64;
+    let off = ((MOST_FRAMES - enough) / MOST_FRAMES).max((least - got) / 0.5).max(0.0);
+    Outcome { got, violation: if enough >= MOST_FRAMES { 0.0 } else { off.max(0.02) } }
 }
 
 fn height(state: &CameraState, target: &Target) -> f64 {
@@ -226,7 +240,9 @@ pub(super) fn wording(world: &World, goal: &Goal) -> String {
     let what = match &goal.kind {
         GoalKind::Centered(target, most) => format!("{} within {most:.2} of the frame's middle", names(&target.ids)),
         GoalKind::Unoccluded(id, least) => format!("{} seen past everything else, share at least {least:.2}", name(id)),
-        GoalKind::Height(target, (low, high)) => format!("{} {low:.2} to {high:.2} of the frame's height", names(&target.ids)),
+        GoalKind::Height(target, (low, high)) => {
+            format!("{} {low:.2} to {high:.2} of the frame's height", names(&target.ids))
+        }
         GoalKind::InFrame(ids, least) => format!("{} in the frame, share at least {least:.2}", names(ids)),
         GoalKind::NotWhole(ids, most) => format!("{} in the frame, share at most {most:.2}", names(ids)),
         GoalKind::Pitch((low, high)) => format!("pitch {low:.0} to {high:.0} degrees"),
@@ -234,7 +250,9 @@ pub(super) fn wording(world: &World, goal: &Goal) -> String {
         GoalKind::PitchChange((low, high)) => format!("turn upward {low:.0} to {high:.0} degrees"),
         GoalKind::DistanceRatio(_, band) => format!("distance, end over start, {}", range(*band)),
         GoalKind::LensRatio(band) => format!("tangent of half the field of view, end over start, {}", range(*band)),
-        GoalKind::Travel(axis, _, least) => format!("way to the {} over the distance at least {least:.2}", axis_name(*axis)),
+        GoalKind::Travel(axis, _, least) => {
+            format!("way to the {} over the distance at least {least:.2}", axis_name(*axis))
+        }
     };
     let when = match goal.when {
         When::Start => " at the start",

@@ -122,7 +122,8 @@ fn fit_duration(parts: &mut [draft::Part], wanted_secs: Option<f64>) {
 fn labels(program: &Program, index: usize) -> StepLabels {
     let step = &program.steps[index];
     let earlier = || {
-        let named = |s: &Step| [&s.end, &s.start].into_iter().find(|f| !f.subjects.is_empty()).map(|f| f.subjects.clone());
+        let named =
+            |s: &Step| [&s.end, &s.start].into_iter().find(|f| !f.subjects.is_empty()).map(|f| f.subjects.clone());
         program.steps[..index].iter().rev().find_map(named).unwrap_or_default()
     };
     let filled = |framing: &Framing, other: &Framing| match (framing.subjects.is_empty(), other.subjects.is_empty()) {

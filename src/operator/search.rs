@@ -83,8 +83,7 @@ impl Task<'_> {
     fn extended(&self, film: &Film, index: usize, genes: Genes) -> Film {
         let before = if self.program.steps[index].cut { None } else { film.last() };
         let suggestion = self.suggestions.get(index);
-        let scenario =
-            Scenario::new(self.world, (self.program, index), (before, film.origin()), suggestion, &genes);
+        let scenario = Scenario::new(self.world, (self.program, index), (before, film.origin()), suggestion, &genes);
         let parts = build(&scenario);
         let guess = suggestion.filter(|_| before.is_none()).map(|s| s.state);
         let own: f64 = parts.iter().map(|part| cost(self.world, part, guess.as_ref())).sum();

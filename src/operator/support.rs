@@ -97,10 +97,13 @@ fn hubs(
         .filter(|&p| free(p))
         .map(|p| {
             let (hit_frac, spread) = openness(matter, p, size);
-            let grounded = grounded_frac(matter, p, frame.up, size, 64);
-            (hit_frac * hit_frac * spread * (0.1 + grounded), hit_frac, p)
+            (hit_frac * hit_frac * spread, hit_frac, p)
         })
         .collect();
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+    // Ground is dear to look for: only for the most open third.
+    scored.truncate(scored.len().div_ceil(3));
+    scored.par_iter_mut().for_each(|(score, _, p)| *score *= 0.1 + grounded_frac(matter, *p, frame.up, size, 48));
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
     match scored.first() {
         Some(&(best, hit_frac, first)) if hit_frac >= INDOOR_HIT_FRAC => {
@@ -115,7 +118,7 @@ fn hubs(
 /// Points to try as hubs: a lattice over the core box and a way around it, where a camera may have stood that saw only
 /// one side of a room.
 fn lattice(bounds: &Bounds, frame: &LevelFrame) -> Vec<DVec3> {
-    const N: usize = 14;
+    const N: usize = 12;
     let upright = frame.up.abs();
     let margin = (DVec3::ONE - upright) * 0.25 * bounds.size();
     let (low, extent) = (bounds.core_min - margin, bounds.core_max - bounds.core_min + margin * 2.0);
@@ -132,7 +135,7 @@ fn lattice(bounds: &Bounds, frame: &LevelFrame) -> Vec<DVec3> {
 /// Share of directions that meet matter, and how far what they meet spreads in space over the scene size: the geometric
 /// mean of its standard deviations. Behind a wall all that is met is the wall, which is flat.
 fn openness(matter: &OpacityGrid, point: DVec3, size: f64) -> (f64, f64) {
-    let rays = sphere_directions(128);
+    let rays = sphere_directions(96);
     let hits: Vec<DVec3> =
         rays.iter().filter_map(|&ray| matter.hit_distance(point, ray, size).map(|distance| ray * distance)).collect();
     let count = hits.len().max(1) as f64;

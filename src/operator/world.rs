@@ -56,8 +56,7 @@ impl World {
         let frame = LevelFrame::new(up)?;
         let bounds = Bounds::of(gaussians);
         let matter = OpacityGrid::of(Grid::around(&bounds, frame.up), gaussians, |_| true);
-        let occupied: Vec<bool> = matter.opacity.iter().map(|&a| a >= SOLID_OPACITY).collect();
-        let clearance = distances(&matter.grid, &occupied);
+        let clearance = distances(&matter.grid, &matter.occupied());
         let support = Support::of(&matter, &clearance, &bounds, &frame, &objects.objects);
         let subjects = objects
             .objects
@@ -99,6 +98,16 @@ impl World {
     /// Whether the capture shows its good side from a point.
     pub fn supports(&self, point: DVec3) -> bool {
         self.support.holds(&self.matter, point)
+    }
+
+    /// Height along up of the lowest matter, but for the lowest 2 %: the floor of a room, the foot of a thing.
+    pub fn floor_height(&self) -> f64 {
+        self.frame.height(self.bounds.core_min).min(self.frame.height(self.bounds.core_max))
+    }
+
+    /// How far a point is below the height of a camera lying on the floor, over the scene size; 0 above.
+    pub fn sunk_frac(&self, point: DVec3) -> f64 {
+        (self.floor_height() + self.camera_radius - self.frame.height(point)).max(0.0) / self.bounds.size()
     }
 
     /// How far a point lies outside the box of the middle 96 % of the solid Gaussians, over the scene size; 0 inside.

@@ -78,7 +78,8 @@ pub fn prepare_objects(scene: &Scene, set: &mut ObjectSet) -> Result<(), Pipelin
 
 /// A sentence about a scene as a shot: words to a program, program to keyframes.
 ///
-/// The same scene, objects, prompt and settings give the same shot. Objects without a cloud get one.
+/// The same scene, objects, prompt and settings give the same shot. Objects that the director looks at get a cloud
+/// where they have none.
 ///
 /// # Errors
 /// [`PipelineError::Language`] for words that name what the scene lacks; else the failing stage's error.
@@ -91,7 +92,7 @@ pub fn direct(
 ) -> Result<Directed, PipelineError> {
     let mut times = StageTimes::default();
     let linked = times.measure("direct", || language::link(prompt, &names(objects)))?;
-    let objects = times.measure("objects", || with_clouds(scene, objects))?;
+    let objects = times.measure("objects", || with_clouds(scene, objects, &linked))?;
     let bounds = scene.bounds();
     let stage = Stage { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
     let mut direction = times.measure("direct", || director.direct(&linked, &stage))?;
@@ -132,10 +133,16 @@ fn names(objects: &ObjectSet) -> Vec<NamedObject> {
     objects.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect()
 }
 
-fn with_clouds(scene: &Scene, objects: &ObjectSet) -> Result<ObjectSet, PipelineError> {
-    let mut objects = objects.clone();
-    prepare_objects(scene, &mut objects)?;
-    Ok(objects)
+/// The objects, those that the network looks at with their clouds.
+fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<ObjectSet, PipelineError> {
+    let seen = Director::looks_at(linked, &objects.objects);
+    let (seen, mut rest): (Vec<_>, Vec<_>) =
+        objects.objects.iter().cloned().partition(|object| seen.contains(&object.id));
+    let mut set = ObjectSet { objects: seen, labels: objects.labels.clone() };
+    prepare_objects(scene, &mut set)?;
+    set.objects.append(&mut rest);
+    set.objects.sort_by_key(|object| object.id);
+    Ok(set)
 }
 
 /// The camera that the network has in mind for the start of each step.

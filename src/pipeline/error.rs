@@ -41,7 +41,7 @@ pub enum PipelineError {
     #[error(transparent)]
     Video(#[from] VideoError),
     /// A name of a generated scene that says nothing.
-    #[error("{found}: no generated scene, expected synth:room:SEED or synth:tabletop:SEED")]
+    #[error("{found}: no generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED")]
     UnknownSynth {
         /// The name.
         found: String,
@@ -94,7 +94,7 @@ impl PipelineError {
         ask_stage!(self, stage => stage.help(),
             Self::Trajectory(_) => "correct that value in the shot's keyframes".to_owned(),
             Self::Geometry(_) => "check the pose or direction that was given".to_owned(),
-            Self::UnknownSynth { .. } => "for example synth:room:1, or a file with ./ before its name".to_owned(),
+            Self::UnknownSynth { .. } => "for example synth:room:7, or a file with ./ before its name".to_owned(),
             Self::NoSuchFrames { .. } => "give --frames A..B with B one after the last frame".to_owned(),
             Self::EncoderStopped => "this is a fault of cinesplat: please report the command".to_owned(),
         )

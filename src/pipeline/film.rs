@@ -110,7 +110,7 @@ pub fn film(
             let start = Instant::now();
             let picture = renderer.render(&camera_at(frame_idx), &settings.render);
             render_time += start.elapsed();
-            send(picture?, &sender, done, &mut tell)
+            send(&picture?, &sender, done, &mut tell)
         });
         drop(sender);
         (rendered, encoding.join())
@@ -149,7 +149,7 @@ impl<E: Into<PipelineError>> From<E> for Break {
 
 /// Passes a picture on and asks whether to go on.
 fn send(
-    picture: Frame,
+    picture: &Frame,
     sender: &SyncSender<Vec<u8>>,
     num_before: usize,
     tell: &mut dyn FnMut(usize) -> Flow,

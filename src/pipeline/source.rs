@@ -14,8 +14,8 @@ pub struct Source {
     pub objects: Option<ObjectSet>,
 }
 
-/// Opens a scene by name: a file, the folder of an unbundled SOG, or `synth:room:SEED` and `synth:tabletop:SEED` for one
-/// that is generated.
+/// Opens a scene by name: a file, the folder of an unbundled SOG, or `synth:room:SEED`, `synth:tabletop:SEED` and
+/// `synth:demo` for one that is generated.
 ///
 /// # Errors
 /// [`PipelineError::Scene`] when the file cannot be read, [`PipelineError::UnknownSynth`] for a generated scene of
@@ -34,8 +34,11 @@ fn unknown(name: &Path) -> PipelineError {
     PipelineError::UnknownSynth { found: name.display().to_string() }
 }
 
-/// `room:7`, `tabletop:3`, and with a detail after it `room:7:0.5`.
+/// `demo`, `room:7`, `tabletop:3`, and with a detail after it `room:7:0.5`.
 fn synth_settings(spec: &str) -> Option<SynthSettings> {
+    if spec == "demo" {
+        return Some(SynthSettings::demo());
+    }
     let mut parts = spec.split(':');
     let kind = match parts.next()? {
         "room" => SynthKind::Room,

@@ -102,9 +102,9 @@ fn blend_tiles<P: Payload>(
             let area = TileArea { origin_px, width, height: view.height as usize };
             let mut sink = payload.sink(area);
             let tile = Tile { origin_px, places, splats, view, workspace: &mut *workspace, sink: &mut sink };
-            pulp::Arch::new().dispatch(tile);
+            view.instructions.dispatch(tile);
             let background = settings.background.to_array();
-            pulp::Arch::new().dispatch(Finished { workspace, band: &bands[row], column, width, background });
+            view.instructions.dispatch(Finished { workspace, band: &bands[row], column, width, background });
             (workspace.num_block_blends(), payload.part(sink, area))
         })
     };

@@ -2,8 +2,8 @@
 //!
 //! Enters: [`crate::scene::Gaussians`], a [`crate::geometry::Camera`] and [`RenderSettings`]. Leaves: a [`Frame`], or
 //! depth, object ids and weights from the same blending loop. What a picture must look like is fixed in [`spec`];
-//! `reference` computes that in `f64` without shortcuts, every other quality in `f32` through [`project`] (splats, 16
-//! Gaussians at a time), [`sort`] (depth order), [`bin`] (64 px tiles) and [`blend`] (8 x 4 px blocks, their pixels in
+//! `reference` computes that in `f64` without shortcuts, every other quality in `f32` through `project` (splats, 16
+//! Gaussians at a time), `sort` (depth order), `bin` (64 px tiles) and `blend` (8 x 4 px blocks, their pixels in
 //! SIMD registers). The one invariant: a picture is the same to the bit whatever the number of threads.
 //!
 //! Reference: Kerbl et al., 3D Gaussian Splatting for Real-Time Radiance Field Rendering, 2023.
@@ -23,6 +23,7 @@ mod frame;
 mod groups;
 mod harmonics;
 mod ids;
+mod instructions;
 mod kernel;
 mod lift;
 mod payload;
@@ -44,6 +45,7 @@ pub use depth::DepthMap;
 pub use error::RenderError;
 pub use frame::Frame;
 pub use ids::IdMap;
+pub use instructions::Instructions;
 pub use lift::Lifted;
 pub use renderer::Renderer;
 pub use settings::{Accuracy, Limits, Quality, RenderSettings};

@@ -105,7 +105,7 @@ impl Projection {
 
     /// Appends the splats of a group's members.
     pub(super) fn project_group(&self, gaussians: &Gaussians, packs: &[Pack], splats: &mut Vec<Splat>) {
-        pulp::Arch::new().dispatch(GroupMembers { projection: self, gaussians, packs, splats });
+        self.view.instructions.dispatch(GroupMembers { projection: self, gaussians, packs, splats });
     }
 
     #[inline(always)]

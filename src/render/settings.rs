@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{RenderError, spec};
+use super::{Instructions, RenderError, spec};
 use crate::scene::SplatFilter;
 
 /// How much accuracy is traded for time.
@@ -92,6 +92,8 @@ pub struct RenderSettings {
     pub accuracy: Option<Accuracy>,
     /// Caps on memory and work.
     pub limits: Limits,
+    /// The widest instructions that may be used; changes no picture.
+    pub instructions: Instructions,
 }
 
 impl Default for RenderSettings {
@@ -103,6 +105,7 @@ impl Default for RenderSettings {
             background: Vec3::ZERO,
             accuracy: None,
             limits: Limits::default(),
+            instructions: Instructions::default(),
         }
     }
 }

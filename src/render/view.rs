@@ -1,6 +1,6 @@
 use glam::{DMat3, DVec3};
 
-use super::{RenderError, RenderSettings, spec};
+use super::{Instructions, RenderError, RenderSettings, spec};
 use crate::geometry::Camera;
 
 /// A camera and the settings as the projection needs them, all `f64`.
@@ -32,6 +32,8 @@ pub(super) struct View {
     pub(super) alpha_cut: f64,
     /// Least transmittance that blending may leave.
     pub(super) transmittance_stop: f64,
+    /// The widest instructions that may be used.
+    pub(super) instructions: Instructions,
 }
 
 impl View {
@@ -63,6 +65,7 @@ impl View {
             is_compensated: settings.is_compensated(),
             alpha_cut: accuracy.alpha_cut,
             transmittance_stop: accuracy.transmittance_stop,
+            instructions: settings.instructions,
         })
     }
 }

@@ -117,11 +117,7 @@ impl CameraPath {
 }
 
 /// Legs of a list of keys, and for every pair of neighbors which part of which leg it is.
-pub(super) fn stretches(
-    keys: &[Keyframe],
-    frame: Option<LevelFrame>,
-    num_chords: usize,
-) -> (Vec<Leg>, Vec<Stretch>) {
+pub(super) fn stretches(keys: &[Keyframe], frame: Option<LevelFrame>, num_chords: usize) -> (Vec<Leg>, Vec<Stretch>) {
     let reach = keys.iter().map(|key| key.pose.position.distance(keys[0].pose.position)).fold(0.0, f64::max);
     let kind = |i: usize| (!keys[i + 1].cut).then(|| Kind::between(&keys[i], &keys[i + 1], frame.is_some(), reach));
     let num_segments = keys.len() - 1;

@@ -1,4 +1,4 @@
-//! R'G'B' to the Y'CbCr that HD players expect: ITU-R BT.709-6, 8 bits, limited range, 4:2:0.
+//! R'G'B' to the `Y'CbCr` that HD players expect: ITU-R BT.709-6, 8 bits, limited range, 4:2:0.
 //!
 //! Equations of BT.709-6 section 3: Y' = 0.2126 R' + 0.7152 G' + 0.0722 B', Cb = (B' - Y') / 1.8556,
 //! Cr = (R' - Y') / 1.5748; 8-bit codes Y = 16 + 219 Y', C = 128 + 224 C. The colors of a scene are display-referred

@@ -133,13 +133,12 @@ impl VideoError {
         match self {
             Self::UnknownFormat { .. } | Self::BadPattern { .. } | Self::BadSetting { .. } => 2,
             Self::Missing { .. } => 69,
-            Self::Exists { .. } => 73,
             Self::Create { source, .. } | Self::Io { source, .. }
                 if source.kind() == io::ErrorKind::PermissionDenied =>
             {
                 77
             }
-            Self::Create { .. } => 73,
+            Self::Exists { .. } | Self::Create { .. } => 73,
             Self::Io { .. } | Self::ReadBack { .. } => 74,
             Self::Ffmpeg { .. } | Self::FrameSize { .. } => 70,
         }

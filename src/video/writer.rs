@@ -1,3 +1,4 @@
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::encoder::FilmEncoder;
@@ -87,10 +88,10 @@ impl VideoWriter {
 pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat, VideoError> {
     let format = VideoFormat::from_path(path)?;
     settings.clone().validated(&format)?;
-    if let Some((_, codec_name)) = format.ffmpeg_names() {
-        if ffmpeg_next::encoder::find_by_name(codec_name).is_none() {
-            return Err(VideoError::Missing { missing: codec_name.to_owned(), path: path.to_owned() });
-        }
+    if let Some((_, codec_name)) = format.ffmpeg_names()
+        && ffmpeg_next::encoder::find_by_name(codec_name).is_none()
+    {
+        return Err(VideoError::Missing { missing: codec_name.to_owned(), path: path.to_owned() });
     }
     if !settings.overwrite {
         let frames = settings.first_frame..settings.first_frame + settings.num_frames.max(1);
@@ -109,15 +110,17 @@ pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat
 /// A film's folder has to be there; a sequence's may still be created.
 fn check_folder(path: &Path, format: &VideoFormat) -> Result<(), VideoError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let refuse = |kind: std::io::ErrorKind| Err(VideoError::Create { path: path.to_owned(), source: kind.into() });
+    let refuse = |kind: ErrorKind, reason: &str| {
+        Err(VideoError::Create { path: path.to_owned(), source: std::io::Error::new(kind, reason) })
+    };
     if path.is_dir() {
-        return refuse(std::io::ErrorKind::IsADirectory);
+        return refuse(ErrorKind::IsADirectory, "it is a folder");
     }
     match (folder.is_dir(), format) {
         (true, _) => Ok(()),
         (false, VideoFormat::Sequence(_)) if !folder.exists() => Ok(()),
-        (false, _) if folder.exists() => refuse(std::io::ErrorKind::NotADirectory),
-        (false, _) => refuse(std::io::ErrorKind::NotFound),
+        (false, _) if folder.exists() => refuse(ErrorKind::NotADirectory, "its folder is a file"),
+        (false, _) => refuse(ErrorKind::NotFound, "its folder does not exist"),
     }
 }
 

@@ -5,33 +5,73 @@ use super::{SMALL_SCENE, answer, write_shot};
 #[test]
 fn a_scene_that_is_not_there() {
     let folder = tempfile::tempdir().unwrap();
-    insta::assert_snapshot!(answer(folder.path(), &["info", "no/room.spz"]), @"");
+    insta::assert_snapshot!(answer(folder.path(), &["info", "no/room.spz"]), @r"
+    exit 66
+    error[SCENE-NOT-FOUND]: no/room.spz: no such file or folder
+    help: check the path; an unbundled SOG is named by its folder or its meta.json
+    ");
 }
 
 #[test]
 fn a_scene_that_is_no_scene() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("room.ply"), "not a ply\n").unwrap();
-    insta::assert_snapshot!(answer(folder.path(), &["info", "room.ply"]), @"");
+    insta::assert_snapshot!(answer(folder.path(), &["info", "room.ply"]), @r"
+    exit 65
+    error[SCENE-FORMAT]: room.ply: begins with 6e 6f 74 20 61 20 70 6c, expected .ply, .splat, .spz or .sog
+    help: export the scene again as one of these; the content decides, not the extension
+    ");
     fs::write(folder.path().join("cut.ply"), "ply\nformat binary_little_endian 1.0\nelement vertex 9\n").unwrap();
-    insta::assert_snapshot!(answer(folder.path(), &["info", "cut.ply"]), @"");
+    insta::assert_snapshot!(answer(folder.path(), &["info", "cut.ply"]), @r"
+    exit 65
+    error[PLY-HEADER]: cut.ply: header line 3: the file ends at byte 53 without end_header
+    help: a scene needs x y z, scale_*, rot_*, opacity and f_dc_* (or red green blue); a plain point cloud has no Gaussians
+    ");
 }
 
 #[test]
 fn a_generated_scene_of_another_name() {
     let folder = tempfile::tempdir().unwrap();
-    insta::assert_snapshot!(answer(folder.path(), &["info", "synth:castle:1"]), @"");
+    insta::assert_snapshot!(answer(folder.path(), &["info", "synth:castle:1"]), @r"
+    exit 66
+    error[SCENE-SYNTH]: synth:castle:1: no generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED
+    help: for example synth:room:7, or a file with ./ before its name
+    ");
 }
 
 #[test]
 fn arguments_that_are_no_command() {
     let folder = tempfile::tempdir().unwrap();
-    insta::assert_snapshot!(answer(folder.path(), &["inof"]), @"");
-    insta::assert_snapshot!(answer(folder.path(), &["info"]), @"");
-    insta::assert_snapshot!(answer(folder.path(), &["info", "a.ply", "--jsno"]), @"");
-    insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "--shot", "s.json", "-o", "a.mp4"]), @"");
-    insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "-o", "a.mp4", "--size", "0x9"]), @"");
-    insta::assert_snapshot!(answer(folder.path(), &["plan", "a.ply", "-p", "x", "-o", "s.json", "--effects", "blur"]), @"");
+    insta::assert_snapshot!(answer(folder.path(), &["inof"]), @r"
+    exit 2
+    error[USAGE]: unrecognized subcommand 'inof'
+    help: a similar subcommand exists: 'info'; Usage: cinesplat <COMMAND>; --help says more
+    ");
+    insta::assert_snapshot!(answer(folder.path(), &["info"]), @r"
+    exit 2
+    error[USAGE]: the following required arguments were not provided: <SCENE>
+    help: Usage: cinesplat info <SCENE>; --help says more
+    ");
+    insta::assert_snapshot!(answer(folder.path(), &["info", "a.ply", "--jsno"]), @r"
+    exit 2
+    error[USAGE]: unexpected argument '--jsno' found
+    help: a similar argument exists: '--json'; Usage: cinesplat info --json <SCENE>; --help says more
+    ");
+    insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "--shot", "s.json", "-o", "a.mp4"]), @r"
+    exit 2
+    error[USAGE]: the argument '--prompt <PROMPT>' cannot be used with '--shot <SHOT.JSON>'
+    help: Usage: cinesplat render --output <OUT> <--prompt <PROMPT>|--shot <SHOT.JSON>> <SCENE>; --help says more
+    ");
+    insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "-o", "a.mp4", "--size", "0x9"]), @r"
+    exit 2
+    error[USAGE]: invalid value '0x9' for '--size <WxH>': expected WIDTHxHEIGHT in pixels such as 1280x720, each 1 to 16384
+    help: --help says more
+    ");
+    insta::assert_snapshot!(answer(folder.path(), &["plan", "a.ply", "-p", "x", "-o", "s.json", "--effects", "blur"]), @r#"
+    exit 2
+    error[USAGE]: invalid value 'blur' for '--effects <LIST>': no effect is named "blur", expected auto, off, or a list of: depth-of-field rack-focus motion-blur handheld rolling-shutter lens-distortion fisheye panorama anamorphic tilt-shift fog film-grain vignette lens-flare bloom chromatic-aberration
+    help: --help says more
+    "#);
 }
 
 #[test]
@@ -40,22 +80,68 @@ fn outputs_are_checked_before_the_scene_is_read() {
     let refused = |arguments: &[&str]| answer(folder.path(), arguments);
     fs::write(folder.path().join("film.mp4"), "mine").unwrap();
     // The scene does not exist: none of these gets as far as to notice.
-    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.mp4"]), @"");
-    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "no/film.mp4"]), @"");
-    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.gif"]), @"");
-    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "frames/f.png"]), @"");
-    insta::assert_snapshot!(refused(&["plan", "no.ply", "-p", "x", "-o", "film.mp4"]), @"");
-    insta::assert_snapshot!(refused(&["import", "no.tum", "-o", "."]), @"");
+    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.mp4"]), @r"
+    exit 73
+    error[OUTPUT-EXISTS]: film.mp4: the file is already there, expected a new name
+    help: choose another name, or pass --overwrite
+    ");
+    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "no/film.mp4"]), @r"
+    exit 73
+    error[OUTPUT-CREATE]: no/film.mp4: cannot create the file: its folder does not exist
+    help: create the folder, or choose one that you may write to
+    ");
+    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.gif"]), @r#"
+    exit 2
+    error[VIDEO-FORMAT]: film.gif: the name ends in "gif", expected .mp4 .mkv .webm .mov, or a pattern such as frames/%05d.png
+    help: name the output film.mp4, or frames/%05d.png for one picture a frame
+    "#);
+    insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "frames/f.png"]), @r"
+    exit 2
+    error[VIDEO-PATTERN]: frames/f.png: not exactly one frame number
+    help: write one %05d in the file name, such as frames/%05d.png; %% is a percent sign
+    ");
+    insta::assert_snapshot!(refused(&["plan", "no.ply", "-p", "x", "-o", "film.mp4"]), @r"
+    exit 73
+    error[OUTPUT-EXISTS]: film.mp4: already there, expected a new name
+    help: choose another name, or pass --overwrite
+    ");
+    insta::assert_snapshot!(refused(&["import", "no.tum", "-o", "."]), @r"
+    exit 73
+    error[OUTPUT-CREATE]: .: is a folder, expected a file name
+    help: name a file in it
+    ");
     assert_eq!(fs::read(folder.path().join("film.mp4")).unwrap(), b"mine");
 }
 
 #[test]
 fn a_prompt_that_names_an_unknown_object() {
     let folder = tempfile::tempdir().unwrap();
-    let plan = |prompt: &str| answer(folder.path(), &["plan", SMALL_SCENE, "-p", prompt, "-o", "shot.json"]);
-    insta::assert_snapshot!(plan("push in on <obj-99>"), @"");
-    insta::assert_snapshot!(plan("orbit the elephant"), @"");
-    insta::assert_snapshot!(plan("  "), @"");
+    let object =
+        |id: u8, label: &str| format!(r#"{{"id":{id},"label":"{label}","center":[0,{id},0],"half_extents":[1,1,1]}}"#);
+    let objects = [object(1, "table lamp"), object(2, "sofa"), object(3, "green vase")].join(",");
+    let text = format!(r#"{{"format":"cinesplat.objects","version":1,"objects":[{objects}]}}"#);
+    fs::write(folder.path().join("o.json"), text).unwrap();
+    let plan = |prompt: &str| {
+        answer(folder.path(), &["plan", SMALL_SCENE, "-p", prompt, "--objects", "o.json", "-o", "shot.json"])
+    };
+    insta::assert_snapshot!(plan("push in on <obj-99>"), @r#"
+    exit 65
+    up: 0.000 1.000 0.000 (the scene file: generated with y up)
+    error[OBJ-UNKNOWN]: the prompt names "<obj-99>", which is no object of this scene, expected one of its objects
+    help: nearest names: <obj-3> green vase, <obj-2> sofa, <obj-1> table lamp
+    "#);
+    insta::assert_snapshot!(plan("orbit the elephant"), @r#"
+    exit 65
+    up: 0.000 1.000 0.000 (the scene file: generated with y up)
+    error[OBJ-UNKNOWN]: the prompt names "elephant", which is no object of this scene, expected one of its objects
+    help: nearest names: <obj-8> table lamp, <obj-15> white plate, <obj-11> wine glass
+    "#);
+    insta::assert_snapshot!(plan("  "), @r#"
+    exit 65
+    up: 0.000 1.000 0.000 (the scene file: generated with y up)
+    error[PROMPT-EMPTY]: prompt without words, expected a sentence such as "push in on <obj-3>"
+    help: say what the camera does, for example -p "orbit <obj-3> to the left"
+    "#);
     assert!(!folder.path().join("shot.json").exists());
 }
 
@@ -66,10 +152,22 @@ fn a_shot_that_is_no_shot() {
         fs::write(folder.path().join("shot.json"), text).unwrap();
         answer(folder.path(), &["export", "shot.json", "--to", "tum", "-o", "out.tum"])
     };
-    insta::assert_snapshot!(render("{"), @"");
-    insta::assert_snapshot!(render(r#"{"format":"cinesplat.shot","version":7}"#), @"");
+    insta::assert_snapshot!(render("{"), @r"
+    exit 65
+    error[EXCHANGE-JSON]: shot.json: not JSON: EOF while parsing an object at line 1 column 1
+    help: check the file with a JSON validator; it may be cut off
+    ");
+    insta::assert_snapshot!(render(r#"{"format":"cinesplat.shot","version":7}"#), @r"
+    exit 65
+    error[EXCHANGE-VERSION]: shot.json: cinesplat.shot version 7, expected 1
+    help: write the file with a version listed above
+    ");
     let text = r#"{"format":"cinesplat.shot","version":1,"keyframes":[]}"#;
-    insta::assert_snapshot!(render(text), @"");
+    insta::assert_snapshot!(render(text), @r"
+    exit 65
+    error[EXCHANGE-FIELD]: shot.json: width: found nothing, expected a number of pixels
+    help: set width to a number of pixels
+    ");
     assert!(!folder.path().join("out.tum").exists());
 }
 
@@ -78,5 +176,10 @@ fn frames_that_the_film_does_not_have() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());
     let render = ["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4", "--frames", "4..9"];
-    insta::assert_snapshot!(answer(folder.path(), &render), @"");
+    insta::assert_snapshot!(answer(folder.path(), &render), @r"
+    exit 2
+    up: 0.000 1.000 0.000 (the shot)
+    error[SHOT-FRAMES]: frames 4..9 were asked for, the film has 8, expected a part of 0..8
+    help: give --frames A..B with B one after the last frame
+    ");
 }

@@ -53,8 +53,14 @@ fn whatever_the_words_the_direction_can_be_carried_out() {
     let director = Director::embedded().unwrap();
     let objects = cast();
     let endless = "push in on the sofa then pan left to the lamp and ".repeat(12);
-    let prompts =
-        ["blorf the wug <obj-13> zzz", "\u{202e}الكاميرا <obj-10>", "🎥🎥 sofa", "a", "cut cut cut <obj-11>", endless.trim()];
+    let prompts = [
+        "blorf the wug <obj-13> zzz",
+        "\u{202e}الكاميرا <obj-10>",
+        "🎥🎥 sofa",
+        "a",
+        "cut cut cut <obj-11>",
+        endless.trim(),
+    ];
     for prompt in prompts {
         let direction = directed(&director, prompt, &objects);
         let steps = &direction.program.steps;
@@ -66,7 +72,12 @@ fn whatever_the_words_the_direction_can_be_carried_out() {
         }
         let named: Vec<u32> = linked(prompt, &objects).slots;
         for step in steps {
-            let ids = step.start.subjects.iter().chain(&step.end.subjects).chain(step.via.iter().flat_map(|via| &via.objects));
+            let ids = step
+                .start
+                .subjects
+                .iter()
+                .chain(&step.end.subjects)
+                .chain(step.via.iter().flat_map(|via| &via.objects));
             assert!(named.is_empty() || ids.clone().all(|id| named.contains(id)), "{prompt}: {steps:?}");
             assert!(step.words.is_none_or(|[start, end]| prompt.get(start..end).is_some()), "{prompt}");
         }
@@ -79,7 +90,8 @@ fn a_prompt_beyond_the_network_is_refused() {
     let objects = cast();
     let stage = Stage { objects: &objects, up: DVec3::Y, center: DVec3::ZERO, size: 7.0 };
     let director = Director::embedded().unwrap();
-    let refused = |linked: &Linked| director.direct(linked, &stage).map_err(|error| error.code().to_owned()).unwrap_err();
+    let refused =
+        |linked: &Linked| director.direct(linked, &stage).map_err(|error| error.code().to_owned()).unwrap_err();
     assert_eq!(refused(&linked(&"pan left ".repeat(300), &objects)), "PROMPT-TOO-LONG");
     let endless = Linked { tokens_text: "x".repeat(1 << 20), ..Linked::default() };
     let start = Instant::now();

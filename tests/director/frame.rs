@@ -38,7 +38,8 @@ fn turning_the_whole_world_changes_nothing() {
     let point = DVec3::new(-1.0, 2.0, 0.7);
     assert!((here.point(point) - there.point(turn * point + shift)).length() < 1e-9);
     let half = DVec3::new(0.3, 0.2, 0.9);
-    let apart = here.half_extents(half, DQuat::from_rotation_y(0.3)) - there.half_extents(half, turn * DQuat::from_rotation_y(0.3));
+    let apart = here.half_extents(half, DQuat::from_rotation_y(0.3))
+        - there.half_extents(half, turn * DQuat::from_rotation_y(0.3));
     assert!(apart.length() < 1e-9);
 }
 

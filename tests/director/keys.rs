@@ -46,7 +46,8 @@ fn every_program_of_the_phrasebook_survives_the_way_through_keys() {
 
 #[test]
 fn a_program_in_notation_with_a_cut_and_a_return_survives() {
-    let program = program_from_notation("push-in end=1:close-up slow ; pan-left start=2 end=3 cut ; orbit-right end=3 return");
+    let program =
+        program_from_notation("push-in end=1:close-up slow / pan-left start=2 end=3 cut / orbit-right end=3 returns");
     let program = program.unwrap();
     assert_eq!(steps_of(&keys_of(&program)), program.steps);
 }
@@ -57,7 +58,8 @@ fn keys_that_no_program_makes_still_mean_something() {
     let keys = keys_of(&program);
     // A segment that nothing follows, a cut with nothing before it, keys behind the stop.
     assert_eq!(steps_of(&keys[..1]), program.steps);
-    let cut_first = [vec![cinesplat::director::keys::Key { next: Next::Cut, ..Default::default() }], keys.clone()].concat();
+    let cut_first =
+        [vec![cinesplat::director::keys::Key { next: Next::Cut, ..Default::default() }], keys.clone()].concat();
     assert_eq!(steps_of(&cut_first), program.steps);
     assert_eq!(steps_of(&[keys.clone(), keys].concat()), program.steps);
     assert!(steps_of(&[]).is_empty());

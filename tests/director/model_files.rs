@@ -40,8 +40,12 @@ fn replace(bytes: &mut Vec<u8>, from: &str, to: &str) {
 fn what_was_written_loads_and_damage_is_named() {
     let model = model();
     let folder = model.path();
-    assert_eq!(Director::load(folder).unwrap().model_ref(), Director::load(&folder.join("director.json")).unwrap().model_ref());
-    let manifest = |from: &'static str, to: &'static str| edit(folder, "director.json", |bytes| replace(bytes, from, to));
+    assert_eq!(
+        Director::load(folder).unwrap().model_ref(),
+        Director::load(&folder.join("director.json")).unwrap().model_ref()
+    );
+    let manifest =
+        |from: &'static str, to: &'static str| edit(folder, "director.json", |bytes| replace(bytes, from, to));
     let (code, said, exit_code) = manifest("\"version\": 1", "\"version\": 2");
     assert_eq!((code.as_str(), exit_code), ("MODEL-BAD", 65));
     assert!(said.contains("version 2") && said.contains("version 1"), "{said}");

@@ -13,7 +13,13 @@ fn every_parameter_has_the_gradient_that_finite_differences_give() {
     for check in &audit.checks {
         assert!(check.backward > 1e-7, "{} has no gradient", check.name);
         let off = (check.backward - check.numeric).abs();
-        assert!(off < 0.02 * check.backward + 2e-3, "{}: {} by backpropagation, {} by differences", check.name, check.backward, check.numeric);
+        assert!(
+            off < 0.02 * check.backward + 2e-3,
+            "{}: {} by backpropagation, {} by differences",
+            check.name,
+            check.backward,
+            check.numeric
+        );
     }
 }
 

@@ -11,10 +11,10 @@ fn trained() -> Vocabulary {
 #[test]
 fn training_is_repeatable_and_survives_json() {
     let json = trained().to_json().unwrap();
-    assert_eq!(json, trained().to_json().unwrap());
+    assert!(json == trained().to_json().unwrap(), "the same corpus gave another vocabulary");
     let read = Vocabulary::from_json(json.as_bytes()).unwrap();
     assert_eq!(read.size(), trained().size());
-    assert_eq!(read.to_json().unwrap(), json);
+    assert!(read.to_json().unwrap() == json, "the vocabulary changed on the way through JSON");
 }
 
 #[test]
@@ -24,4 +24,12 @@ fn a_tokenizer_without_our_special_tokens_is_refused() {
     assert_eq!((error.code(), error.exit_code()), ("MODEL-BAD", 65));
     assert!(error.to_string().contains("<obj-7>"), "{error}");
     assert_eq!(Vocabulary::from_json(b"{}").unwrap_err().code(), "MODEL-BAD");
+}
+
+#[test]
+fn frequent_words_become_pieces() {
+    let json = trained().to_json().unwrap();
+    for piece in ["orbit", "push", "slowly", "pan", "left", "##q"] {
+        assert!(json.contains(&format!("\"{piece}\":")), "{piece} is no piece");
+    }
 }

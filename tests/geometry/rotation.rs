@@ -3,7 +3,8 @@
 use cinesplat::geometry::{Pose, frames, rotation};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
-const ANGLES: [f64; 9] = [0.0, 1e-12, 1e-8, 3e-4, 0.5, 3.0, 3.141_592_6, std::f64::consts::PI - 1e-12, std::f64::consts::PI];
+const ANGLES: [f64; 9] =
+    [0.0, 1e-12, 1e-8, 3e-4, 0.5, 3.0, 3.141_592_6, std::f64::consts::PI - 1e-12, std::f64::consts::PI];
 
 fn axes() -> [DVec3; 3] {
     [DVec3::X, DVec3::new(1.0, -2.0, 3.0).normalize(), DVec3::new(-0.3, 0.0, 0.95).normalize()]
@@ -37,7 +38,9 @@ fn slerp_goes_the_short_way_whatever_the_signs() {
         assert!(rotation::angle_between(one, other) < 1e-14);
     }
     assert!(rotation::angle_between(rotation::slerp(a, b, 1.0), b) < 1e-14);
-    assert!((rotation::angle_between(a, rotation::slerp(a, b, 0.25)) / rotation::angle_between(a, b) - 0.25).abs() < 1e-12);
+    assert!(
+        (rotation::angle_between(a, rotation::slerp(a, b, 0.25)) / rotation::angle_between(a, b) - 0.25).abs() < 1e-12
+    );
 }
 
 #[test]

@@ -40,7 +40,8 @@ fn what_is_called_for_and_absent_is_said() {
 #[test]
 fn the_report_admits_every_gap_but_not_a_persons_choice() {
     let calls = [call("depth-of-field", "bokeh"), call("rain", "raining")];
-    let lines = |choice| decide(&choice, &calls).iter().filter_map(|d| d.report_line()).map(|l| l.met).collect::<Vec<_>>();
+    let lines =
+        |choice| decide(&choice, &calls).iter().filter_map(|d| d.report_line()).map(|l| l.met).collect::<Vec<_>>();
     assert_eq!(lines(EffectChoice::Auto), [false, false]);
     assert_eq!(lines(EffectChoice::Off), [false]);
     let requests = |choice| decide(&choice, &calls).iter().filter_map(|d| d.request()).count();

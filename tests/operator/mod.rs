@@ -24,7 +24,10 @@ pub fn room() -> (Gaussians, ObjectSet) {
     ] {
         wall(&mut gaussians, corner, along * 6.0, DVec3::Y * ROOM.y);
     }
-    let boxes = [(1, DVec3::new(1.2, 0.6, 0.9), DVec3::new(0.3, 0.6, 0.3)), (2, DVec3::new(-1.2, 0.5, 0.8), DVec3::new(0.4, 0.5, 0.3))];
+    let boxes = [
+        (1, DVec3::new(1.2, 0.6, 0.9), DVec3::new(0.3, 0.6, 0.3)),
+        (2, DVec3::new(-1.2, 0.5, 0.8), DVec3::new(0.4, 0.5, 0.3)),
+    ];
     let objects = boxes.map(|(id, center, half)| {
         let first = gaussians.len();
         for axis in 0..3 {

@@ -51,7 +51,10 @@ fn orbits_sweep_the_stated_angle_at_one_radius() {
         let angle = |s: &CameraState| (s.pose.position - CENTER).x.atan2((s.pose.position - CENTER).z);
         let swept: f64 = frames
             .windows(2)
-            .map(|p| (angle(&p[1]) - angle(&p[0]) + 3.0 * std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI)
+            .map(|p| {
+                (angle(&p[1]) - angle(&p[0]) + 3.0 * std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
+                    - std::f64::consts::PI
+            })
             .sum();
         assert!((swept.to_degrees() - sign * 75.0).abs() < 0.5, "{}: {}", movement.name(), swept.to_degrees());
         let radius = |s: &CameraState| (s.pose.position - CENTER).with_y(0.0).length();
@@ -109,7 +112,8 @@ fn stated_times_hold() {
 fn what_cannot_be_is_reported_and_still_filmed() {
     let world = world();
     // An extreme close-up of both boxes, wholly in the frame, contradicts itself.
-    let start = Framing { subjects: vec![1, 2], whole: true, size: Some(ShotSize::ExtremeCloseUp), ..Framing::default() };
+    let start =
+        Framing { subjects: vec![1, 2], whole: true, size: Some(ShotSize::ExtremeCloseUp), ..Framing::default() };
     let solution = solved(&world, vec![Step { start, ..Step::of(Move::Static) }]);
     assert!(solution.report.iter().any(|line| !line.met && !line.note.is_empty()));
     assert!(film(&solution).iter().all(|s| s.pose.position.is_finite()));

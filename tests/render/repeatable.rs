@@ -1,6 +1,6 @@
 //! Equal results however the work is cut: threads, order of the file, reused memory.
 
-use cinesplat::render::{Frame, Quality, RenderSettings, Renderer};
+use cinesplat::render::{Frame, Instructions, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use glam::DVec3;
 
@@ -21,6 +21,19 @@ fn one_two_three_and_seven_threads_agree_to_the_bit() {
         for num_threads in [2, 3, 7] {
             let many = on_threads(num_threads, &scene, &settings);
             assert!(one.rgb == many.rgb && one.transmittance == many.transmittance, "{} {num_threads}", quality.name());
+        }
+    }
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_picture_to_the_bit() {
+    let scene = crowd(1_500, 10);
+    for quality in [Quality::Draft, Quality::Standard, Quality::Final] {
+        let settings = |instructions| RenderSettings { quality, instructions, ..RenderSettings::default() };
+        let scalar = on_threads(2, &scene, &settings(Instructions::Scalar));
+        for wider in [Instructions::Avx2, Instructions::Widest] {
+            let wide = on_threads(2, &scene, &settings(wider));
+            assert!(scalar.rgb == wide.rgb && scalar.transmittance == wide.transmittance, "{quality:?} {wider:?}");
         }
     }
 }

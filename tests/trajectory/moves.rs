@@ -66,7 +66,8 @@ fn a_dolly_zoom_keeps_its_subject_the_same_size() {
 
 #[test]
 fn a_cut_jumps_and_nothing_else_does() {
-    let mut keys = vec![key(0.0, DVec3::ZERO), key(1.0, DVec3::X), key(2.0, DVec3::X * 50.0), key(3.0, DVec3::X * 51.0)];
+    let mut keys =
+        vec![key(0.0, DVec3::ZERO), key(1.0, DVec3::X), key(2.0, DVec3::X * 50.0), key(3.0, DVec3::X * 51.0)];
     keys[2].cut = true;
     let path = CameraPath::new(&shot(keys)).unwrap();
     assert_eq!(path.sample(1.999).pose.position, DVec3::X, "the key before the cut is held");

@@ -28,7 +28,7 @@ pub enum DatasetError {
     #[error(transparent)]
     Objects(#[from] Box<ObjectsError>),
     /// A line of a shard is not what it should be.
-    #[error("line {line}: found {found}, expected {expected}: {}", path.display())]
+    #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
     BadLine {
         /// The shard.
         path: PathBuf,
@@ -40,7 +40,7 @@ pub enum DatasetError {
         expected: &'static str,
     },
     /// A shard cannot be read.
-    #[error("cannot read: {source}: {}", path.display())]
+    #[error("{}: cannot read: {source}", path.display())]
     Read {
         /// The file or folder.
         path: PathBuf,
@@ -48,7 +48,7 @@ pub enum DatasetError {
         source: std::io::Error,
     },
     /// A shard cannot be written.
-    #[error("cannot write: {source}: {}", path.display())]
+    #[error("{}: cannot write: {source}", path.display())]
     Write {
         /// The file.
         path: PathBuf,

@@ -5,8 +5,8 @@
 //! phrasebook's notation. What the network sees is made from it anew for every lesson.
 
 mod error;
-mod record;
 mod realized;
+mod record;
 mod write;
 
 pub use error::DatasetError;

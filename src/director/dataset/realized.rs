@@ -61,7 +61,8 @@ impl RealizedShot {
     pub(crate) fn view(&self, linked: &Linked, rng: &mut Pcg64) -> Result<View, DatasetError> {
         let set = &*self.set;
         let find = |id: u32| set.objects.iter().find(|object| object.id == id);
-        let anywhere = DVec3::new(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
+        let anywhere =
+            DVec3::new(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
         let first = linked.slots.first().and_then(|id| find(*id)).map(|object| object.center);
         let toward = first.unwrap_or(set.center + anywhere * set.size);
         let frame = SceneFrame::new(set.up, set.center, set.size, Some(toward)).map_err(Box::new)?;
@@ -69,7 +70,9 @@ impl RealizedShot {
         others.shuffle(rng);
         others.truncate(rng.random_range(0..=MAX_OTHERS));
         let ids = linked.slots.iter().chain(&others);
-        let objects = ids.enumerate().map(|(place, id)| find(*id).map_or_else(ObjectInput::default, |o| object_input(o, place, &frame)));
+        let objects = ids
+            .enumerate()
+            .map(|(place, id)| find(*id).map_or_else(ObjectInput::default, |o| object_input(o, place, &frame)));
         Ok(View { objects: objects.collect(), others, poses: self.poses(&frame) })
     }
 
@@ -113,7 +116,12 @@ fn read_shard(path: &Path, shots: &mut Vec<RealizedShot>) -> Result<(), DatasetE
     let file = std::fs::File::open(path).map_err(failed)?;
     for (line_idx, line) in BufReader::new(file).lines().enumerate() {
         let line = line.map_err(failed)?;
-        let bad = |found: String, expected| DatasetError::BadLine { path: path.to_owned(), line: line_idx + 1, found, expected };
+        let bad = |found: String, expected| DatasetError::BadLine {
+            path: path.to_owned(),
+            line: line_idx + 1,
+            found,
+            expected,
+        };
         if line_idx == 0 {
             let header: Header = serde_json::from_str(&line).map_err(|error| bad(error.to_string(), "a header"))?;
             if header.format != FORMAT || header.version != VERSION {

@@ -252,9 +252,8 @@ impl KeyBatch {
                 }
             })
         };
-        let tensor = |values: Vec<f32>, width: usize| {
-            Tensor::from_vec(values, (keys.len(), num_keys, width), &Device::Cpu)
-        };
+        let tensor =
+            |values: Vec<f32>, width: usize| Tensor::from_vec(values, (keys.len(), num_keys, width), &Device::Cpu);
         let num_tokens = batch.num_tokens;
         let words = rows(all(), num_tokens, |key, row| {
             if let Some([first, last]) = key.span {

@@ -151,7 +151,13 @@ impl AttentionLayer {
     }
 
     /// `x + attention(norm(x))`, over itself without a memory.
-    pub(super) fn apply(&self, x: &Tensor, memory: Option<&Tensor>, sight: &Sight, dropout: &Dropout) -> Result<Tensor> {
+    pub(super) fn apply(
+        &self,
+        x: &Tensor,
+        memory: Option<&Tensor>,
+        sight: &Sight,
+        dropout: &Dropout,
+    ) -> Result<Tensor> {
         let normed = self.norm.apply(x)?;
         let key_value = self.key_value.apply(memory.unwrap_or(&normed))?; // [batch, keys, 2 width]
         let attention = Attention { heads: self.heads, exists: sight.exists.clone(), causal: sight.causal };

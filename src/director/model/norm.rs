@@ -72,8 +72,7 @@ impl CustomOp2 for RmsNorm {
         _out: &Tensor,
         grad: &Tensor,
     ) -> Result<(Option<Tensor>, Option<Tensor>)> {
-        let (grad_input, grad_gain) =
-            read(input, |x| read(gain, |gain| read(grad, |g| Ok(backward(x, gain, g)))))?;
+        let (grad_input, grad_gain) = read(input, |x| read(gain, |gain| read(grad, |g| Ok(backward(x, gain, g)))))?;
         Ok((
             Some(Tensor::from_vec(grad_input, input.shape(), input.device())?),
             Some(Tensor::from_vec(grad_gain, gain.shape(), gain.device())?),

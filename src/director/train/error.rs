@@ -38,7 +38,7 @@ pub enum TrainError {
         step: u64,
     },
     /// A checkpoint that does not fit.
-    #[error("found {found}, expected a checkpoint of this training: {}", path.display())]
+    #[error("{}: found {found}, expected a checkpoint of this training", path.display())]
     BadCheckpoint {
         /// The file.
         path: PathBuf,
@@ -46,7 +46,7 @@ pub enum TrainError {
         found: String,
     },
     /// A file cannot be read.
-    #[error("cannot read: {source}: {}", path.display())]
+    #[error("{}: cannot read: {source}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -54,7 +54,7 @@ pub enum TrainError {
         source: std::io::Error,
     },
     /// A file cannot be written.
-    #[error("cannot write: {source}: {}", path.display())]
+    #[error("{}: cannot write: {source}", path.display())]
     Write {
         /// The file.
         path: PathBuf,
@@ -94,7 +94,9 @@ impl TrainError {
             Self::NoLesson { .. } => "this is a fault of the phrasebook: report it with the seed".into(),
             Self::Diverged { .. } => "go on from the last checkpoint with a smaller --rate".into(),
             Self::Stopped { .. } => "the same command with --resume goes on from there".into(),
-            Self::BadCheckpoint { .. } => "train into another folder, or give the settings that it was made with".into(),
+            Self::BadCheckpoint { .. } => {
+                "train into another folder, or give the settings that it was made with".into()
+            }
             Self::Read { .. } => "check the path".into(),
             Self::Write { .. } => "check the folder and the space on its disk".into(),
         }

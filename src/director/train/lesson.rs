@@ -8,6 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 use super::TrainError;
+use crate::director::codes::Grounding;
 use crate::director::codes::{self, KeyCode};
 use crate::director::dataset::RealizedShot;
 use crate::director::ground::{Ground, ground, prompt};
@@ -15,7 +16,6 @@ use crate::director::keys::{MAX_KEYS, keys_of};
 use crate::director::language::{Linked, NamedObject, Phrasebook, Sample, link};
 use crate::director::model::{ObjectInput, PoseCode, Prompt};
 use crate::director::vocabulary::{NUM_OBJECT_SLOTS, Vocabulary, object_token};
-use crate::director::codes::Grounding;
 use glam::DVec3;
 
 /// One prompt and what should come of it.
@@ -90,12 +90,8 @@ impl School<'_> {
         let linked = link(&prompt, &objects)?;
         let others = other_ids(&objects, &linked, rng);
         let Some((tokens, ground, keys, film)) = self.encode(&linked, &program, &others, rng)? else { return Ok(None) };
-        let mut lesson = Lesson {
-            prompt: prompt_of(tokens, &ground, linked.slots.len(), rng),
-            keys,
-            film,
-            ..Lesson::default()
-        };
+        let mut lesson =
+            Lesson { prompt: prompt_of(tokens, &ground, linked.slots.len(), rng), keys, film, ..Lesson::default() };
         self.rename_slots(&mut lesson.prompt, rng);
         Ok(Some(lesson))
     }
@@ -124,7 +120,8 @@ impl School<'_> {
         program: &crate::operator::Program,
         others: &[u32],
         rng: &mut Pcg64,
-    ) -> Result<Option<(Vec<crate::director::model::TokenInput>, Ground, Vec<KeyCode>, Option<usize>)>, TrainError> {
+    ) -> Result<Option<(Vec<crate::director::model::TokenInput>, Ground, Vec<KeyCode>, Option<usize>)>, TrainError>
+    {
         let keys = keys_of(program);
         if keys.len() > MAX_KEYS {
             return Ok(None);
@@ -147,7 +144,11 @@ impl School<'_> {
         }
         let words = linked.tokens_text.split(' ').map(|word| {
             let plain = word.chars().all(char::is_alphabetic);
-            if plain && rng.random_bool(self.damage.words_frac) { self.damaged_word(word, rng) } else { word.to_owned() }
+            if plain && rng.random_bool(self.damage.words_frac) {
+                self.damaged_word(word, rng)
+            } else {
+                word.to_owned()
+            }
         });
         Linked { tokens_text: words.collect::<Vec<_>>().join(" "), ..linked.clone() }
     }
@@ -208,7 +209,12 @@ fn other_ids(objects: &[NamedObject], linked: &Linked, rng: &mut Pcg64) -> Vec<u
 }
 
 /// Tokens with made-up objects: boxes strewn over the frame, each with a few points of a box or a ball.
-fn prompt_of(tokens: Vec<crate::director::model::TokenInput>, ground: &Ground, num_named: usize, rng: &mut Pcg64) -> Prompt {
+fn prompt_of(
+    tokens: Vec<crate::director::model::TokenInput>,
+    ground: &Ground,
+    num_named: usize,
+    rng: &mut Pcg64,
+) -> Prompt {
     let objects = (0..ground.ids.len()).map(|place| invented(place, rng)).collect();
     prompt(tokens, objects, ground, num_named)
 }

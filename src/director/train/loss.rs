@@ -132,8 +132,7 @@ pub(super) fn choice_loss(scores: &Scores, lessons: &[&Lesson], num_keys: usize)
     let classes: Vec<Option<usize>> = keys()
         .flat_map(|key| (0..NUM_FIELDS).map(move |idx| key.and_then(|key| key.classes[idx]).map(usize::from)))
         .collect();
-    let segments =
-        Field::ALL.iter().map(|field| (field.offset()..field.offset() + field.num_classes(), 1.0)).collect();
+    let segments = Field::ALL.iter().map(|field| (field.offset()..field.offset() + field.num_classes(), 1.0)).collect();
     let rows = scores.classes.reshape(((), Field::total_classes()))?.contiguous()?; // [batch * keys, classes]
     let classes = rows.apply_op1(CrossEntropy { segments, targets: classes })?;
     let objects = keys()
@@ -142,9 +141,8 @@ pub(super) fn choice_loss(scores: &Scores, lessons: &[&Lesson], num_keys: usize)
     let quantities = keys()
         .flat_map(|key| (0..QUANTITY_POINTERS).map(move |idx| key.and_then(|key| key.quantities[idx]).map(usize::from)))
         .collect();
-    let words = keys()
-        .flat_map(|key| (0..2).map(move |end| key.and_then(|key| key.span).map(|span| span[end])))
-        .collect();
+    let words =
+        keys().flat_map(|key| (0..2).map(move |end| key.and_then(|key| key.span).map(|span| span[end]))).collect();
     let film = lessons.iter().map(|lesson| lesson.film).collect();
     let sum = (classes + whole_rows(&scores.objects, 1.0, objects)?)?;
     let sum = (sum + whole_rows(&scores.quantities, 1.0, quantities)?)?;

@@ -103,9 +103,16 @@ pub fn train(settings: &TrainSettings, report: &mut Report<'_>) -> Result<TrainS
     let network = Network::new(&mut parameters, &config)?;
     let vars = trainable(&mut parameters, settings.from.as_deref())?;
     let shots_frac = if learned.is_empty() { 0.0 } else { settings.shots_frac };
-    let school =
-        School { phrasebook, vocabulary: &vocabulary, words: &words, shots: &learned, shots_frac, damage: Damage::default() };
-    let mut training = Training { settings, config, network, vars, optimizer: AdamW::default(), school, held_out: &held_out };
+    let school = School {
+        phrasebook,
+        vocabulary: &vocabulary,
+        words: &words,
+        shots: &learned,
+        shots_frac,
+        damage: Damage::default(),
+    };
+    let mut training =
+        Training { settings, config, network, vars, optimizer: AdamW::default(), school, held_out: &held_out };
     training.resume()?;
     training.run(report)?;
     training.summary()

@@ -110,7 +110,8 @@ impl Trainee<'_> {
         if lessons.iter().all(|lesson| lesson.poses.is_empty()) {
             return Ok((choices, None));
         }
-        let previous: Vec<f32> = lessons.iter().flat_map(|lesson| previous_poses(&lesson.seen_poses, num_keys)).collect();
+        let previous: Vec<f32> =
+            lessons.iter().flat_map(|lesson| previous_poses(&lesson.seen_poses, num_keys)).collect();
         let previous = Tensor::from_vec(previous, (lessons.len(), num_keys, POSE_WIDTH + 1), &Device::Cpu)?;
         let out = self.network.poses(&key_batch, &states, &previous, &memory, dropout)?;
         Ok((choices, Some(pose_loss(&out, lessons, num_keys)?)))

@@ -45,7 +45,7 @@ pub(super) fn orbit(scenario: &Scenario) -> Vec<Part> {
     if let Some(angle) = scenario.step.start.angle.or(scenario.step.end.angle).filter(|_| scenario.before.is_none()) {
         part = part.keeping(When::All, GoalKind::Pitch(pitch_band_deg(angle)));
     }
-    parts.push(scenario.seen(part, &target, When::All));
+    parts.push(super::seen(part, &target, When::All));
     parts
 }
 
@@ -85,7 +85,10 @@ pub(super) fn crane(scenario: &Scenario) -> Vec<Part> {
         scenario.opened_on(&target, (0.35, 0.62))
     };
     let last = raised(scenario, &first, &target, upward);
-    let middle = CameraState { pose: crate::geometry::Pose { position: first.pose.position.lerp(last.pose.position, 0.5), ..first.pose }, ..first };
+    let middle = CameraState {
+        pose: crate::geometry::Pose { position: first.pose.position.lerp(last.pose.position, 0.5), ..first.pose },
+        ..first
+    };
     let states = vec![first, aimed(scenario.world, &middle, target.aim), last];
     let mut part = scenario.part(states, 4.5).about(target.aim);
     let end_angle = scenario.step.end.angle;
@@ -99,7 +102,7 @@ pub(super) fn crane(scenario: &Scenario) -> Vec<Part> {
         part = part.keeping(When::Start, GoalKind::Pitch(pitch_band_deg(angle)));
     }
     part = scenario.ending(scenario.beginning(part)).keeping(When::All, GoalKind::Centered(target.clone(), 0.14));
-    parts.push(scenario.seen(part, &target, When::All));
+    parts.push(super::seen(part, &target, When::All));
     parts
 }
 

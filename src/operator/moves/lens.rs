@@ -29,7 +29,7 @@ pub(super) fn zoom(scenario: &Scenario) -> Vec<Part> {
         part = part.keeping(When::All, GoalKind::LensRatio(wanted));
     }
     part = part.keeping(When::All, GoalKind::Centered(target.clone(), 0.2));
-    parts.push(scenario.seen(scenario.ending(part), &target, When::All));
+    parts.push(super::seen(scenario.ending(part), &target, When::All));
     parts
 }
 
@@ -62,8 +62,20 @@ fn zoom_ratio(scenario: &Scenario, target: &Target, first: &CameraState, inward:
     match scenario.step.amount {
         // A factor is on the focal length, the reciprocal of the tangent.
         Some(Amount::Factor(factor)) if factor > 0.0 => (1.0 / factor).clamp(0.05, 20.0),
-        Some(Amount::Slight) => if inward { 0.8 } else { 1.25 },
-        Some(Amount::Large) => if inward { 0.3 } else { 3.0 },
+        Some(Amount::Slight) => {
+            if inward {
+                0.8
+            } else {
+                1.25
+            }
+        }
+        Some(Amount::Large) => {
+            if inward {
+                0.3
+            } else {
+                3.0
+            }
+        }
         _ => by_size.or_else(whole).unwrap_or(open),
     }
 }
@@ -91,7 +103,7 @@ pub(super) fn dolly_zoom(scenario: &Scenario) -> Vec<Part> {
     part = part.keeping(When::All, GoalKind::DistanceRatio(target.aim, wanted));
     // Where the words leave the direction open the keys say which way it went.
     part.movement = if inward { Move::DollyZoomIn } else { Move::DollyZoomOut };
-    parts.push(scenario.seen(part, &target, When::All));
+    parts.push(super::seen(part, &target, When::All));
     parts
 }
 
@@ -106,6 +118,6 @@ pub(super) fn rack_focus(scenario: &Scenario) -> Vec<Part> {
     let focused = |target: &Target| CameraState { focus_distance: Some(depth(target)), ..view };
     let part = scenario.part(vec![focused(&from), focused(&to)], 2.5);
     let part = part.keeping(When::All, GoalKind::InFrame(to.ids.iter().take(1).copied().collect(), 0.8));
-    parts.push(scenario.seen(part, &to, When::All));
+    parts.push(super::seen(part, &to, When::All));
     parts
 }

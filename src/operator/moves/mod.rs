@@ -20,7 +20,7 @@ use crate::geometry::rotation;
 use crate::trajectory::{CameraState, Easing, Move};
 
 /// Share of a subject's framed points that has to be seen; the film's report calls less than this hidden.
-const SEEN_FRAC: f64 = 0.72;
+const SEEN_FRAC: f64 = 0.6;
 /// Turn rate of joins and of pans at normal speed, degrees a second: a frame width takes 3 to 4 seconds.
 const TURN_DEG_PER_SEC: f64 = 17.0;
 
@@ -131,15 +131,6 @@ impl<'a> Scenario<'a> {
         if self.step.either_way && self.genes[5] < 0.5 { -named } else { named }
     }
 
-    /// What must show of a subject during the step.
-    fn seen(&self, part: Part, target: &Target, when: When) -> Part {
-        let mut part = part;
-        for &id in target.ids.iter().take(if target.ids.len() > 1 { 2 } else { 1 }) {
-            part = part.keeping(when, GoalKind::Unoccluded(id, SEEN_FRAC));
-        }
-        part
-    }
-
     /// Adds what the step's end framing asks for: size, angle, wholly in frame.
     fn ending(&self, mut part: Part) -> Part {
         let framing = &self.step.end;
@@ -163,6 +154,14 @@ impl<'a> Scenario<'a> {
         }
         part
     }
+}
+
+/// The part with its target's first two subjects to be seen.
+fn seen(mut part: Part, target: &Target, when: When) -> Part {
+    for &id in target.ids.iter().take(2) {
+        part = part.keeping(when, GoalKind::Unoccluded(id, SEEN_FRAC));
+    }
+    part
 }
 
 /// Vertical field of view of a normal first view, degrees: 35 to 60 mm on full frame, where rooms and things look natural.
@@ -239,7 +238,8 @@ fn wishes(world: &World, program: &Program, index: usize) -> Vec<f64> {
         }
     }
     let hub = world.hubs().first().copied();
-    let target = Target::of(world, &program.steps[index].start).or_else(|| Target::of(world, &program.steps[index].end));
+    let target =
+        Target::of(world, &program.steps[index].start).or_else(|| Target::of(world, &program.steps[index].end));
     if let (Some(hub), Some(target)) = (hub, target)
         && world.is_indoor()
     {

@@ -21,9 +21,9 @@ pub(super) fn follow(scenario: &Scenario) -> Vec<Part> {
     let mut part = glide(scenario, &first, &last);
     part = scenario.ending(scenario.beginning(part)).keeping(When::End, GoalKind::Centered(end.clone(), 0.15));
     if scenario.before.is_none() {
-        part = scenario.seen(part, &start, When::Start);
+        part = super::seen(part, &start, When::Start);
     }
-    vec![scenario.seen(part, &end, When::End)]
+    vec![super::seen(part, &end, When::End)]
 }
 
 /// A view of the end of a step, through the lens of its start so that the way alone changes the picture.
@@ -79,12 +79,12 @@ fn halfway(scenario: &Scenario, first: &CameraState, last: &CameraState, offset:
     let turn = (b.yaw_rad - a.yaw_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
     let middle = crate::geometry::LevelAngles {
         yaw_rad: a.yaw_rad + turn / 2.0,
-        pitch_rad: (a.pitch_rad + b.pitch_rad) / 2.0,
-        roll_rad: (a.roll_rad + b.roll_rad) / 2.0,
+        pitch_rad: a.pitch_rad.midpoint(b.pitch_rad),
+        roll_rad: a.roll_rad.midpoint(b.roll_rad),
     };
     let position = first.pose.position.lerp(last.pose.position, 0.5) + offset;
     let pose = crate::geometry::Pose { position, rotation: frame.rotation(middle) };
-    CameraState { pose, fov_y_rad: (first.fov_y_rad + last.fov_y_rad) / 2.0, focus_distance: None }
+    CameraState { pose, fov_y_rad: first.fov_y_rad.midpoint(last.fov_y_rad), focus_distance: None }
 }
 
 /// Back to the pose and lens of the shot's first frame.
@@ -129,7 +129,7 @@ pub(super) fn passing(scenario: &Scenario) -> Vec<Part> {
         }
         part = part.keeping(When::All, GoalKind::DistanceRatio(goal.aim, (0.0, 0.57)));
         part = part.keeping(When::End, GoalKind::Centered(goal.clone(), 0.2));
-        part = scenario.seen(scenario.ending(part), &goal, When::End);
+        part = super::seen(scenario.ending(part), &goal, When::End);
     }
     parts.push(part);
     parts
@@ -197,7 +197,7 @@ pub(super) fn reveal(scenario: &Scenario) -> Vec<Part> {
     if scenario.before.is_none() {
         part = part.keeping(When::Start, GoalKind::NotWhole(target.ids.iter().take(1).copied().collect(), 0.25));
     }
-    vec![scenario.seen(part, &target, When::End)]
+    vec![super::seen(part, &target, When::End)]
 }
 
 /// The way that takes a camera to where its target is out of the frame, against the direction of the reveal.

@@ -15,13 +15,14 @@ const SECS_PER_DOUBLING: f64 = 3.4;
 /// Along the line to the subject, toward it or away.
 pub(super) fn dolly(scenario: &Scenario) -> Vec<Part> {
     let inward = (scenario.step.movement == Move::PushIn) != (scenario.step.either_way && scenario.genes[5] < 0.5);
-    let target = if inward { scenario.main() } else { scenario.start.clone().unwrap_or_else(|| fallback(scenario)) };
+    let target = if inward { scenario.main() } else { scenario.start.clone().unwrap_or_else(|| left_behind(scenario)) };
     let fill = if inward { (0.2, 0.45) } else { (0.55, 0.95) };
-    let (mut parts, first) = if scenario.before.is_none() && scenario.step.start.size.is_none() && !scenario.step.start.whole {
-        (Vec::new(), open_first(scenario, &target, inward, fill))
-    } else {
-        scenario.opened_on(&target, fill)
-    };
+    let (mut parts, first) =
+        if scenario.before.is_none() && scenario.step.start.size.is_none() && !scenario.step.start.whole {
+            (Vec::new(), open_first(scenario, &target, inward, fill))
+        } else {
+            scenario.opened_on(&target, fill)
+        };
     let distance = first.pose.position.distance(target.aim);
     let ratio = distance_ratio(scenario, &target, &first, inward);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
@@ -36,18 +37,24 @@ pub(super) fn dolly(scenario: &Scenario) -> Vec<Part> {
         part = part.keeping(When::End, GoalKind::InFrame(scenario.step.end.subjects.clone(), 0.97));
     }
     if !inward && scenario.step.end.whole && scenario.before.is_none() {
-        part = part.keeping(When::Start, GoalKind::NotWhole(scenario.step.end.subjects.clone(), 0.6));
+        let left = target.ids.first();
+        let ids = &scenario.step.end.subjects;
+        let others: Vec<u32> = ids.iter().filter(|&id| Some(id) != left).copied().collect();
+        part = part.keeping(When::Start, GoalKind::NotWhole(if others.is_empty() { ids.clone() } else { others }, 0.6));
     }
     if !inward {
         part = part.keeping(When::End, GoalKind::InFrame(target.ids.iter().take(1).copied().collect(), 0.95));
     }
-    parts.push(scenario.seen(part, &target, When::All));
+    parts.push(super::seen(part, &target, When::All));
     parts
 }
 
-/// What a pull-out without a start of its own pulls away from: what was in view, else what it ends on.
-fn fallback(scenario: &Scenario) -> Target {
-    scenario.subject.clone().unwrap_or_else(|| scenario.main())
+/// What a pull-out without a start of its own pulls away from: what was in view, else the first of what it ends on.
+fn left_behind(scenario: &Scenario) -> Target {
+    let first =
+        Framing { subjects: scenario.step.end.subjects.iter().take(1).copied().collect(), ..Framing::default() };
+    let first = || Target::of(scenario.world, &first);
+    scenario.subject.clone().or_else(first).unwrap_or_else(|| scenario.main())
 }
 
 /// First view of a dolly whose start size is open: for a push that ends at a size, far enough out to push in.
@@ -140,14 +147,19 @@ pub(super) fn pedestal(scenario: &Scenario) -> Vec<Part> {
     let sign = scenario.sign(if scenario.step.movement == Move::PedestalDown { -1.0 } else { 1.0 });
     let up = scenario.world.frame.up;
     let axis = if sign > 0.0 { Axis::Up } else { Axis::Down };
-    slide(scenario, axis, |_| up * sign, |_, target, state| {
-        // The rise that brings the target to the middle row: the view axis passes it at this height.
-        let away = target.aim - state.pose.position;
-        let forward = state.pose.forward();
-        let level = forward - up * forward.dot(up);
-        let reach = away.dot(level) / level.length_squared().max(1e-9);
-        (reach > 0.0).then(|| (away - forward * reach).dot(up) * sign)
-    })
+    slide(
+        scenario,
+        axis,
+        |_| up * sign,
+        |_, target, state| {
+            // The rise that brings the target to the middle row: the view axis passes it at this height.
+            let away = target.aim - state.pose.position;
+            let forward = state.pose.forward();
+            let level = forward - up * forward.dot(up);
+            let reach = away.dot(level) / level.length_squared().max(1e-9);
+            (reach > 0.0).then(|| (away - forward * reach).dot(up) * sign)
+        },
+    )
 }
 
 fn frame_depth(state: &CameraState, point: DVec3) -> Option<f64> {
@@ -163,7 +175,8 @@ fn slide(
     way_to: impl Fn(&Scenario, &Target, &CameraState) -> Option<f64>,
 ) -> Vec<Part> {
     let passed = scenario.step.via.as_ref().filter(|via| via.how == Pass::Past);
-    let passed = passed.and_then(|via| Target::of(scenario.world, &Framing { subjects: via.objects.clone(), ..Framing::default() }));
+    let passed = passed
+        .and_then(|via| Target::of(scenario.world, &Framing { subjects: via.objects.clone(), ..Framing::default() }));
     let same = matches!((&scenario.start, &scenario.end), (Some(a), Some(b)) if a.ids.first() == b.ids.first());
     let travels = scenario.end.is_some() && !same && (scenario.start.is_some() || scenario.before.is_some());
     let target = if travels { scenario.opening() } else { passed.clone().unwrap_or_else(|| scenario.main()) };
@@ -193,14 +206,15 @@ fn slide(
         part = part.keeping(When::Start, GoalKind::Centered(target.clone(), 0.22));
         if let Some(end) = &scenario.end {
             part = part.keeping(When::End, GoalKind::Centered(end.clone(), 0.2));
-            part = scenario.seen(part, end, When::End);
+            part = super::seen(part, end, When::End);
         }
-        part = scenario.seen(part, &target, When::Start);
+        part = super::seen(part, &target, When::Start);
     } else if scenario.before.is_none() {
         let ids: Vec<u32> = target.ids.iter().take(1).copied().collect();
         let (when, share) = if same { (When::All, 0.35) } else { (When::All, 0.3) };
-        part = part.keeping(when, GoalKind::InFrame(ids.clone(), share)).keeping(When::Any, GoalKind::InFrame(ids, 0.8));
-        part = scenario.seen(part, &target, When::All);
+        part =
+            part.keeping(when, GoalKind::InFrame(ids.clone(), share)).keeping(When::Any, GoalKind::InFrame(ids, 0.8));
+        part = super::seen(part, &target, When::All);
     }
     parts.push(scenario.ending(scenario.beginning(part)));
     parts

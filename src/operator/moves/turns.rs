@@ -17,23 +17,21 @@ const OPEN_TURN_DEG: (f64, f64) = (24.0, 42.0);
 pub(super) fn hold(scenario: &Scenario) -> Vec<Part> {
     let target = scenario.main();
     let named = scenario.start.is_some() || scenario.end.is_some();
-    let (mut parts, state) = match (&scenario.before, named) {
-        (Some(before), false) => (Vec::new(), *before),
-        _ => {
+    let (mut parts, state) = match &scenario.before {
+        Some(before) if named => scenario.turned_to(before, target.aim),
+        Some(before) => (Vec::new(), *before),
+        None => {
             let mut framing = scenario.step.start.clone();
             framing.size = framing.size.or(scenario.step.end.size);
             framing.angle = framing.angle.or(scenario.step.end.angle);
             framing.whole |= scenario.step.end.whole;
-            match &scenario.before {
-                Some(before) => scenario.turned_to(before, target.aim),
-                None => (Vec::new(), scenario.view(&target, &framing, (0.45, 0.75), super::NORMAL_LENS_DEG)),
-            }
+            (Vec::new(), scenario.view(&target, &framing, (0.45, 0.75), super::NORMAL_LENS_DEG))
         }
     };
     let natural = if scenario.index == 0 && scenario.before.is_none() { 4.0 } else { 1.5 };
     let mut part = scenario.part(vec![state, state], natural);
     if scenario.before.is_none() {
-        part = scenario.seen(scenario.ending(scenario.beginning(part)), &target, When::All);
+        part = super::seen(scenario.ending(scenario.beginning(part)), &target, When::All);
         part = pitch_goal(scenario, part);
     }
     parts.push(part);
@@ -80,20 +78,32 @@ pub(super) fn pan(scenario: &Scenario) -> Vec<Part> {
     let direction = if whip { scenario.step.with.unwrap_or(Move::WhipPan) } else { scenario.step.movement };
     let named = if direction == Move::PanLeft { -1.0 } else { 1.0 };
     let sign = scenario.sign(named);
-    turn(scenario, sign, whip, |state, angle_rad| turned(scenario, state, angle_rad * sign, 0.0), |sign| {
-        let yaw = band(sign, 13.0, 178.0);
-        (GoalKind::YawChange(yaw), GoalKind::PitchChange((-10.0, 10.0)))
-    })
+    turn(
+        scenario,
+        sign,
+        whip,
+        |state, angle_rad| turned(scenario, state, angle_rad * sign, 0.0),
+        |sign| {
+            let yaw = band(sign, 13.0, 178.0);
+            (GoalKind::YawChange(yaw), GoalKind::PitchChange((-10.0, 10.0)))
+        },
+    )
 }
 
 /// Turns up or down, from one subject to another or by an angle.
 pub(super) fn tilt(scenario: &Scenario) -> Vec<Part> {
     let named = if scenario.step.movement == Move::TiltDown { -1.0 } else { 1.0 };
     let sign = scenario.sign(named);
-    turn(scenario, sign, false, |state, angle_rad| turned(scenario, state, 0.0, angle_rad * sign), |sign| {
-        let pitch = band(sign, 10.0, 120.0);
-        (GoalKind::PitchChange(pitch), GoalKind::YawChange((-9.0, 9.0)))
-    })
+    turn(
+        scenario,
+        sign,
+        false,
+        |state, angle_rad| turned(scenario, state, 0.0, angle_rad * sign),
+        |sign| {
+            let pitch = band(sign, 10.0, 120.0);
+            (GoalKind::PitchChange(pitch), GoalKind::YawChange((-9.0, 9.0)))
+        },
+    )
 }
 
 /// Low and high of a signed quantity whose size is between two numbers.
@@ -153,10 +163,10 @@ fn turn(
     }
     part = scenario.ending(scenario.beginning(part));
     if let Some(start) = &scenario.start {
-        part = scenario.seen(part, start, When::Start);
+        part = super::seen(part, start, When::Start);
     }
     if let Some(end) = &scenario.end {
-        part = scenario.seen(part, end, When::End);
+        part = super::seen(part, end, When::End);
     }
     parts.push(part);
     parts
@@ -205,6 +215,6 @@ pub(super) fn roll(scenario: &Scenario) -> Vec<Part> {
         CameraState { pose, ..first }
     };
     let part = scenario.part((0..=count).map(rolled).collect(), (degrees / 12.0).clamp(2.0, 12.0));
-    parts.push(scenario.seen(part, &scenario.main(), When::Start));
+    parts.push(super::seen(part, &scenario.main(), When::Start));
     parts
 }

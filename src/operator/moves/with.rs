@@ -33,10 +33,9 @@ pub(super) fn add_second_move(scenario: &Scenario, parts: &mut [Part]) {
         }
     }
     let broken = |goal: &Goal| match goal.kind {
-        GoalKind::Travel(..) => true,
         GoalKind::DistanceRatio(..) | GoalKind::LensRatio(_) => !is_turn(second),
         GoalKind::Centered(..) => !keeps_aim,
-        GoalKind::YawChange(_) | GoalKind::PitchChange(_) | GoalKind::Pitch(_) => true,
+        GoalKind::Travel(..) | GoalKind::YawChange(_) | GoalKind::PitchChange(_) | GoalKind::Pitch(_) => true,
         _ => false,
     };
     part.goals.retain(|goal| !broken(goal));
@@ -51,7 +50,8 @@ fn subdivided(scenario: &Scenario, part: &Part) -> Vec<CameraState> {
     let (a, b) = (part.states[0], part.states[1]);
     let frame = &scenario.world.frame;
     let (from, to) = (frame.angles(a.pose.rotation), frame.angles(b.pose.rotation));
-    let turn = (to.yaw_rad - from.yaw_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+    let turn =
+        (to.yaw_rad - from.yaw_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
     let between = |i: usize| {
         let t = i as f64 / (NUM_KEYS - 1) as f64;
         let angles = LevelAngles {
@@ -105,7 +105,12 @@ fn added(scenario: &Scenario, second: Move, state: &CameraState, aim: DVec3, sha
         Move::OrbitRight | Move::ArcRight => around(-1.0),
         Move::ZoomIn => lens(0.6),
         Move::ZoomOut => lens(1.6),
-        Move::Static | Move::Follow | Move::FlyThrough | Move::Reveal => *state,
-        Move::WhipPan | Move::RackFocus | Move::Handheld => *state,
+        Move::Static
+        | Move::Follow
+        | Move::FlyThrough
+        | Move::Reveal
+        | Move::WhipPan
+        | Move::RackFocus
+        | Move::Handheld => *state,
     }
 }

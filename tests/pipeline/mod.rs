@@ -1,0 +1,106 @@
+//! The stages in a row, used as a library.
+
+use std::path::Path;
+
+use cinesplat::pipeline::{FilmSettings, Flow, FrameRange, PipelineError, Progress, film, open_scene};
+use cinesplat::render::{Quality, RenderSettings};
+use cinesplat::scene::{LoadOptions, Scene};
+use cinesplat::trajectory::Shot;
+use cinesplat::video::VideoSettings;
+
+const SHOT: &str = r#"{"format":"cinesplat.shot","version":1,"width":48,"height":28,"fps":10,"duration_secs":1,"keyframes":[
+    {"time_secs":0,"position":[0,1.2,1.5],"rotation_xyzw":[1,0,0,0],"fov_y_deg":50,"easing":"smooth"},
+    {"time_secs":1,"position":[0.3,1.2,1.5],"rotation_xyzw":[1,0,0,0],"fov_y_deg":50,"easing":"smooth"}]}"#;
+
+fn scene() -> Scene {
+    open_scene(Path::new("synth:tabletop:1:0.02"), &LoadOptions::default()).unwrap().scene
+}
+
+fn shot() -> Shot {
+    cinesplat::export::shot_json::read(SHOT).unwrap()
+}
+
+fn settings() -> FilmSettings {
+    FilmSettings {
+        render: RenderSettings { quality: Quality::Draft, near: 0.05, ..RenderSettings::default() },
+        video: VideoSettings::default(),
+        frames: FrameRange::default(),
+        sheet: None,
+    }
+}
+
+#[test]
+fn ranges_read_as_they_are_written() {
+    let of_ten = |text: &str| text.parse::<FrameRange>().unwrap().of_film(10).ok();
+    assert_eq!(of_ten("2..5"), Some(2..5));
+    assert_eq!(of_ten(".."), Some(0..10));
+    assert_eq!(of_ten("..4"), Some(0..4));
+    assert_eq!(of_ten("4.."), Some(4..10));
+    assert_eq!([of_ten("5..5"), of_ten("7..3"), of_ten("0..11"), of_ten("10..")], [None, None, None, None]);
+    for wrong in ["", "5", "a..b", "-1..3", "1...3", "1..=3"] {
+        assert!(wrong.parse::<FrameRange>().is_err(), "{wrong:?}");
+    }
+}
+
+#[test]
+fn generated_scenes_come_by_name() {
+    let open = |name: &str| open_scene(Path::new(name), &LoadOptions::default());
+    let source = open("synth:tabletop:1:0.02").unwrap();
+    let objects = source.objects.unwrap();
+    assert_eq!(objects.labels.len(), source.scene.gaussians.len());
+    for object in &objects.objects {
+        let members = objects.labels.iter().filter(|&&label| u32::from(label) == object.id).count();
+        assert_eq!(object.num_gaussians, members, "{}", object.label);
+    }
+    for wrong in ["synth:", "synth:room", "synth:room:x", "synth:room:1:9", "synth:room:1:1:1", "synth:cave:1"] {
+        assert!(matches!(open(wrong), Err(PipelineError::UnknownSynth { .. })), "{wrong}");
+    }
+}
+
+#[test]
+fn progress_comes_once_a_frame_and_counts_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut seen = Vec::new();
+    let mut watch = |progress: Progress| {
+        seen.push((progress.done, progress.total));
+        Flow::Continue
+    };
+    let path = folder.path().join("film.mkv");
+    let report = film(&scene(), &shot(), &path, &settings(), &mut watch).unwrap();
+    assert_eq!(seen, (1..=10).map(|done| (done, 10)).collect::<Vec<_>>());
+    assert_eq!((report.num_frames, report.is_partial(), report.path), (10, false, path));
+}
+
+#[test]
+fn a_film_that_is_stopped_keeps_its_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut watch = |progress: Progress| if progress.done == 4 { Flow::Stop } else { Flow::Continue };
+    let path = folder.path().join("film.mkv");
+    let report = film(&scene(), &shot(), &path, &settings(), &mut watch).unwrap();
+    assert_eq!((report.num_frames, report.num_wanted, report.is_partial()), (4, 10, true));
+    assert_eq!(report.path, folder.path().join("film.partial.mkv"));
+    assert!(!path.exists());
+}
+
+#[test]
+fn a_film_that_cannot_be_rendered_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let broken = FilmSettings { render: RenderSettings { near: f64::NAN, ..settings().render }, ..settings() };
+    let made = film(&scene(), &shot(), &folder.path().join("film.mp4"), &broken, &mut |_| Flow::Continue);
+    assert!(matches!(made, Err(PipelineError::Render(_))), "{made:?}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn an_encoder_that_fails_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut appears = |progress: Progress| {
+        if progress.done == 1 {
+            std::fs::write(folder.path().join("frames/05.png"), "mine").unwrap();
+        }
+        Flow::Continue
+    };
+    let made = film(&scene(), &shot(), &folder.path().join("frames/%02d.png"), &settings(), &mut appears);
+    assert!(matches!(&made, Err(PipelineError::Video(error)) if error.code() == "OUTPUT-EXISTS"), "{made:?}");
+    assert_eq!(std::fs::read(folder.path().join("frames/05.png")).unwrap(), b"mine");
+}
