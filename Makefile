@@ -8,7 +8,7 @@ SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 # What ffmpeg-next needs to build, besides libclang (see deps).
 PACKAGES := build-essential pkg-config libavcodec-dev libavformat-dev libavutil-dev
 DEMO_SCENE := synth:demo
-DEMO_PROMPT := slowly push in on the bed, then orbit it to the right
+DEMO_PROMPT := slowly push in on the sofa, then orbit it to the right
 
 .DEFAULT_GOAL := help
 .PHONY: help deps build demo test train bench clean
@@ -47,7 +47,7 @@ demo: build
 test: deps
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps --document-private-items
 	cargo test --release --locked
 
 # Long ones, never part of the gate. Training takes hours; models/README.md says what the shipped weights were made with.

@@ -136,7 +136,7 @@ fn folders_named(tokens: &[(usize, String)], depth: usize) -> Vec<(usize, String
                 "{" => nesting += 1,
                 "}" => nesting -= 1,
                 name if nesting == 1 && matches!(word(at - 1), "{" | ",") => {
-                    named.push((tokens[at].0, name.to_owned()))
+                    named.push((tokens[at].0, name.to_owned()));
                 }
                 _ => {}
             }

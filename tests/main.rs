@@ -6,6 +6,7 @@
     clippy::print_stderr,
     reason = "a test fails by panicking, and says on stderr what it skipped"
 )]
+#![allow(clippy::float_cmp, reason = "what is exact by design is compared exactly")]
 #![allow(unreachable_pub, reason = "what areas share is public within this one binary")]
 
 mod architecture;

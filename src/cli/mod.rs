@@ -48,7 +48,7 @@ Examples:
   cinesplat info room.spz
   cinesplat objects room.spz -o objects.json --sheet objects.png
   cinesplat render room.spz -p \"push in on the lamp, then orbit it\" --objects objects.json -o lamp.mp4
-  cinesplat render synth:demo -p \"slowly push in on the window\" -o window.mp4
+  cinesplat render synth:demo -p \"slowly push in on the sofa\" -o sofa.mp4
 
 SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or synth:room:SEED,
 synth:tabletop:SEED and synth:demo, which are generated.

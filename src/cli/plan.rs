@@ -11,7 +11,7 @@ use crate::export::shot_json;
 #[command(after_help = "\
 Examples:
   cinesplat plan room.spz -p \"push in on <obj-3>\" --objects objects.json -o shot.json
-  cinesplat plan synth:demo -p \"push in on the window, then crane up\" -o shot.json --explain
+  cinesplat plan synth:demo -p \"push in on the sofa, then crane up\" -o shot.json --explain
 shot.json may be edited by hand: move keys in time, add or remove some, then render --shot shot.json.")]
 pub(super) struct Args {
     #[command(flatten)]

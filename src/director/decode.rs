@@ -220,12 +220,12 @@ fn poses(
     let states = network.states(Some(&key_batch), memory, &off)?.narrow(1, 0, keys.len())?.contiguous()?; // [1, keys, width]
     let anchors = anchor_places(keys);
     let mut poses: Vec<PoseCode> = Vec::with_capacity(keys.len());
-    for key_idx in 0..keys.len() {
+    for (key_idx, place) in anchors.iter().enumerate() {
         let previous = previous_poses(&poses, keys.len());
         let previous = Tensor::from_vec(previous, (1, keys.len(), POSE_WIDTH + 1), &candle_core::Device::Cpu)?;
         let out = network.poses(&key_batch, &states, &previous, memory, &off)?;
         let out = out.narrow(1, key_idx, 1)?.flatten_all()?.to_vec1::<f32>()?;
-        let anchor = anchors[key_idx].and_then(|place| prompt.objects.get(place)).map(|object| object.center.as_vec3());
+        let anchor = place.and_then(|place| prompt.objects.get(place)).map(|object| object.center.as_vec3());
         poses.push(pose_code(&out, anchor.unwrap_or_default().to_array()));
     }
     Ok(poses)

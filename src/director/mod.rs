@@ -8,7 +8,7 @@
 mod codes;
 mod dataset;
 mod decode;
-mod director;
+mod directing;
 mod error;
 mod frame;
 mod ground;
@@ -21,7 +21,7 @@ mod vocabulary;
 mod weights;
 
 pub use dataset::{DatasetError, DatasetSettings, DatasetSummary, write_dataset};
-pub use director::{Direction, Director, Stage, StepCertainty, SuggestedCamera};
+pub use directing::{Direction, Director, Stage, StepCertainty, SuggestedCamera};
 pub use error::DirectorError;
 pub use frame::SceneFrame;
 pub use model::ModelConfig;

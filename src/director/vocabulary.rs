@@ -21,8 +21,7 @@ pub(crate) const MAX_TEXT_BYTES: usize = 8 * 1024;
 
 /// Fills up short texts of a batch.
 pub(crate) const PAD: u32 = 0;
-/// A piece that the vocabulary lacks.
-pub(crate) const UNKNOWN: u32 = 1;
+// Id 1 is the piece that the vocabulary lacks.
 /// Begins every text.
 pub(crate) const BEGIN: u32 = 2;
 const FIRST_OBJECT: u32 = 3;

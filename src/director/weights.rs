@@ -181,6 +181,7 @@ fn read_tensor(name: &str, view: &TensorView<'_>) -> Result<Tensor, DirectorErro
     Ok(Tensor::from_vec(values, view.shape(), &Device::Cpu)?)
 }
 
+#[allow(clippy::needless_pass_by_value, reason = "callers make the texts where they call")]
 fn bad(part: &dyn std::fmt::Display, found: impl ToString, expected: impl ToString) -> DirectorError {
     DirectorError::BadModel { part: part.to_string(), found: found.to_string(), expected: expected.to_string() }
 }
@@ -200,7 +201,7 @@ pub(crate) fn pack(
         .collect();
     let views = halves
         .iter()
-        .map(|(name, (shape, bytes))| Ok((*name, TensorView::new(Dtype::F16, shape.to_vec(), bytes)?)))
+        .map(|(name, (shape, bytes))| Ok((*name, TensorView::new(Dtype::F16, (*shape).clone(), bytes)?)))
         .collect::<Result<Vec<_>, safetensors::SafeTensorError>>();
     let weights = views
         .and_then(|views| safetensors::serialize(views, None))

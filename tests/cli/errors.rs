@@ -134,7 +134,7 @@ fn a_prompt_that_names_an_unknown_object() {
     exit 65
     up: 0.000 1.000 0.000 (the scene file: generated with y up)
     error[OBJ-UNKNOWN]: the prompt names "elephant", which is no object of this scene, expected one of its objects
-    help: nearest names: <obj-8> table lamp, <obj-15> white plate, <obj-11> wine glass
+    help: nearest names: <obj-1> table lamp, <obj-3> green vase, <obj-2> sofa
     "#);
     insta::assert_snapshot!(plan("  "), @r#"
     exit 65

@@ -3,8 +3,7 @@
 use cinesplat::geometry::{Pose, frames, rotation};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
-const ANGLES: [f64; 9] =
-    [0.0, 1e-12, 1e-8, 3e-4, 0.5, 3.0, 3.141_592_6, std::f64::consts::PI - 1e-12, std::f64::consts::PI];
+const ANGLES: [f64; 9] = [0.0, 1e-12, 1e-8, 3e-4, 0.5, 3.0, 3.1, std::f64::consts::PI - 1e-12, std::f64::consts::PI];
 
 fn axes() -> [DVec3; 3] {
     [DVec3::X, DVec3::new(1.0, -2.0, 3.0).normalize(), DVec3::new(-0.3, 0.0, 0.95).normalize()]

@@ -1,6 +1,6 @@
 //! Which effects are called for, and what is said about each.
 
-use cinesplat::lens::{Call, Effect, EffectChoice, Outcome, decide};
+use cinesplat::lens::{Call, Decision, Effect, EffectChoice, Outcome, decide};
 
 fn call(kind: &str, because: &str) -> Call {
     Call { kind: kind.to_owned(), because: because.to_owned() }
@@ -21,7 +21,7 @@ fn choices_read_as_they_are_written() {
 #[test]
 fn what_is_called_for_and_absent_is_said() {
     let calls = [call("depth-of-field", "shallow focus"), call("music", "soundtrack")];
-    let sentences = |choice| decide(&choice, &calls).iter().map(|d| d.sentence()).collect::<Vec<_>>().join("\n");
+    let sentences = |choice| decide(&choice, &calls).iter().map(Decision::sentence).collect::<Vec<_>>().join("\n");
     insta::assert_snapshot!(sentences(EffectChoice::Auto), @r"
     depth-of-field is called for by 'shallow focus' but not built: absent
     music is called for by 'soundtrack' but no camera does that: absent
@@ -41,10 +41,10 @@ fn what_is_called_for_and_absent_is_said() {
 fn the_report_admits_every_gap_but_not_a_persons_choice() {
     let calls = [call("depth-of-field", "bokeh"), call("rain", "raining")];
     let lines =
-        |choice| decide(&choice, &calls).iter().filter_map(|d| d.report_line()).map(|l| l.met).collect::<Vec<_>>();
+        |choice| decide(&choice, &calls).iter().filter_map(Decision::report_line).map(|l| l.met).collect::<Vec<_>>();
     assert_eq!(lines(EffectChoice::Auto), [false, false]);
     assert_eq!(lines(EffectChoice::Off), [false]);
-    let requests = |choice| decide(&choice, &calls).iter().filter_map(|d| d.request()).count();
+    let requests = |choice| decide(&choice, &calls).iter().filter_map(Decision::request).count();
     assert_eq!((requests(EffectChoice::Auto), requests(EffectChoice::Off)), (1, 0));
     assert_eq!(decide(&EffectChoice::Off, &calls)[1].outcome, Outcome::NotOfTheLens);
 }

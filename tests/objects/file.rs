@@ -42,8 +42,8 @@ fn message(text: &str, scene: &Scene) -> String {
     let error = read_text(text, scene).unwrap_err();
     assert_eq!(error.exit_code(), 65);
     let said = error.to_string();
-    let (start, file) = said.rsplit_once("file ").unwrap();
-    format!("{} {start}file {}", error.code(), Path::new(file).file_name().unwrap().to_string_lossy())
+    let (file, found) = said.split_once(": ").unwrap();
+    format!("{} {}: {found}", error.code(), Path::new(file).file_name().unwrap().to_string_lossy())
 }
 
 #[test]
@@ -177,20 +177,20 @@ fn errors_name_file_entry_and_field() {
     ];
     let said: Vec<String> = cases.iter().map(|text| message(text, &scene)).collect();
     insta::assert_snapshot!(said.join("\n"), @r#"
-    OBJ-JSON not JSON: EOF while parsing a list at line 1 column 12, expected an objects file, file objects.json
-    OBJ-VERSION found format "cinesplat.shot", expected "cinesplat.objects", file objects.json
-    OBJ-VERSION found version 2, expected 1, file objects.json
-    OBJ-FIELD file: field `objects` is missing, expected a list of objects, file objects.json
-    OBJ-FIELD object 1: field `id` is 0, expected a whole number 1..65535, file objects.json
-    OBJ-FIELD object 1: field `id` is 65536, expected a whole number 1..65535, file objects.json
-    OBJ-FIELD object 1 (id 4): field `center` is missing, expected a center and half extents, or Gaussians with this id in the labels, file objects.json
-    OBJ-FIELD object 1 (id 4): field `center` is [0,0], expected three finite numbers, file objects.json
-    OBJ-FIELD object 1 (id 4): field `half_extents` is missing, expected three numbers beside `center`, file objects.json
-    OBJ-FIELD object 1 (id 4): field `half_extents` is [1, -1, 1], expected three numbers of at least 0, file objects.json
-    OBJ-FIELD object 1 (id 4): field `rotation_xyzw` is [0.0, 0.0, 0.0, 0.0], expected four finite numbers x, y, z, w, not all 0, file objects.json
-    OBJ-FIELD object 1 (id 4): field `label` is 5, expected a text, file objects.json
-    OBJ-DUPLICATE object 1 and object 2 both have id 1, expected one object an id, file objects.json
-    OBJ-FIELD file: field `up` is [0, 0, 0], expected a direction with a length, file objects.json
+    OBJ-JSON objects.json: not JSON: EOF while parsing a list at line 1 column 12, expected an objects file
+    OBJ-VERSION objects.json: found format "cinesplat.shot", expected "cinesplat.objects"
+    OBJ-VERSION objects.json: found version 2, expected 1
+    OBJ-FIELD objects.json: file: field `objects` is missing, expected a list of objects
+    OBJ-FIELD objects.json: object 1: field `id` is 0, expected a whole number 1..65535
+    OBJ-FIELD objects.json: object 1: field `id` is 65536, expected a whole number 1..65535
+    OBJ-FIELD objects.json: object 1 (id 4): field `center` is missing, expected a center and half extents, or Gaussians with this id in the labels
+    OBJ-FIELD objects.json: object 1 (id 4): field `center` is [0,0], expected three finite numbers
+    OBJ-FIELD objects.json: object 1 (id 4): field `half_extents` is missing, expected three numbers beside `center`
+    OBJ-FIELD objects.json: object 1 (id 4): field `half_extents` is [1, -1, 1], expected three numbers of at least 0
+    OBJ-FIELD objects.json: object 1 (id 4): field `rotation_xyzw` is [0.0, 0.0, 0.0, 0.0], expected four finite numbers x, y, z, w, not all 0
+    OBJ-FIELD objects.json: object 1 (id 4): field `label` is 5, expected a text
+    OBJ-DUPLICATE objects.json: object 1 and object 2 both have id 1, expected one object an id
+    OBJ-FIELD objects.json: file: field `up` is [0, 0, 0], expected a direction with a length
     "#);
 }
 
@@ -202,7 +202,8 @@ fn label_files_that_do_not_fit_say_why() {
         std::fs::write(&path, bytes).unwrap();
         let error = objects::read_labels(&path, &four()).unwrap_err();
         assert_eq!(error.code(), "OBJ-LABELS");
-        error.to_string().split(", expected").next().unwrap().to_owned()
+        let said = error.to_string();
+        said.split_once(": ").unwrap().1.split(", expected").next().unwrap().to_owned()
     };
     let said = [
         said(b"PK"),

@@ -6,7 +6,7 @@ fn a_sheet_shows_first_and_last_frame_and_ten_between() {
     let path = folder.path().join("sheet.png");
     let mut sheet = ContactSheet::new(640, 360, 111);
     for frame_idx in 0..111 {
-        sheet.offer(frame_idx, &[frame_idx as u8 * 2; 640 * 360 * 3]);
+        sheet.offer(frame_idx, &vec![frame_idx as u8 * 2; 640 * 360 * 3]);
     }
     sheet.write(&path).unwrap();
     let picture = image::open(&path).unwrap().into_rgb8();

@@ -75,7 +75,7 @@ fn psnr_db(planes: &[Vec<u8>; 3], rgb8: &[u8], (width, height): (usize, usize)) 
                 // Samples lie on even columns: odd ones take the mean of both sides.
                 let row = &planes[plane][y / 2 * (stride / 2)..][..stride / 2];
                 let (left, right) = (row[x / 2], row[(x.div_ceil(2)).min(stride / 2 - 1)]);
-                (f64::from(left) + f64::from(right)) / 2.0 / 224.0 - 128.0 / 224.0
+                (f64::midpoint(left.into(), right.into()) - 128.0) / 224.0
             };
             let luma = (f64::from(planes[0][y * stride + x]) - 16.0) / 219.0;
             let (blue, red) = (luma + 1.8556 * chroma(1), luma + 1.5748 * chroma(2));

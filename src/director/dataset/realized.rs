@@ -11,7 +11,7 @@ use rand_pcg::Pcg64;
 
 use super::DatasetError;
 use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, VERSION};
-use crate::director::director::log_fov;
+use crate::director::directing::log_fov;
 use crate::director::frame::SceneFrame;
 use crate::director::ground::{MAX_OTHERS, object_input};
 use crate::director::language::{Linked, NamedObject, link, program_from_notation};

@@ -56,7 +56,6 @@ pub(crate) struct PromptBatch {
     pub(super) size: usize,
     pub(super) num_tokens: usize,
     pub(super) num_objects: usize,
-    pub(super) num_quantities: usize,
     /// `[batch * tokens]`
     pub(super) ids: Tensor,
     /// `[batch * tokens]`
@@ -102,7 +101,6 @@ impl PromptBatch {
             size,
             num_tokens,
             num_objects,
-            num_quantities,
             ids: Tensor::from_vec(ids, size * num_tokens, cpu)?,
             kinds: Tensor::from_vec(kinds, size * num_tokens, cpu)?,
             values: Tensor::from_vec(values, (size, num_tokens, 1), cpu)?,
@@ -223,7 +221,6 @@ impl PoseCode {
 /// Keys that were emitted (or, in training, should be), as the decoder reads them back.
 #[derive(Debug, Clone)]
 pub(crate) struct KeyBatch {
-    pub(super) num_keys: usize,
     /// One-hot classes of all fields: `[batch, keys, classes]`
     pub(super) classes: Tensor,
     /// Weights on the objects of arrival, departure and way, the first the most: 3 x `[batch, keys, objects]`
@@ -268,7 +265,6 @@ impl KeyBatch {
             }
         });
         Ok(Self {
-            num_keys,
             classes: tensor(rows(all(), Field::total_classes(), one_hot), Field::total_classes())?,
             objects: [
                 tensor(role(0), batch.num_objects)?,

@@ -32,6 +32,7 @@ pub(crate) struct Lesson {
 }
 
 /// How lessons are damaged.
+#[allow(clippy::struct_field_names, reason = "shares carry their unit")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Damage {
     /// Share of the lessons whose words are damaged at all.
@@ -83,7 +84,7 @@ impl School<'_> {
         if rng.random_bool(self.shots_frac)
             && let Some(shot) = self.shots.choose(rng)
         {
-            return self.from_shot(shot, rng);
+            return self.of_shot(shot, rng);
         }
         let objects = self.phrasebook.invent_objects(rng.random_range(3..=12), rng);
         let Sample { prompt, program } = self.phrasebook.sample(&objects, rng);
@@ -96,7 +97,7 @@ impl School<'_> {
         Ok(Some(lesson))
     }
 
-    fn from_shot(&self, shot: &RealizedShot, rng: &mut Pcg64) -> Result<Option<Lesson>, TrainError> {
+    fn of_shot(&self, shot: &RealizedShot, rng: &mut Pcg64) -> Result<Option<Lesson>, TrainError> {
         let linked = shot.linked()?;
         let view = shot.view(&linked, rng)?;
         let Some((tokens, ground, keys, film)) = self.encode(&linked, &shot.program, &view.others, rng)? else {

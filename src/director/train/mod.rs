@@ -26,12 +26,12 @@ use candle_core::Var;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
+use super::Director;
 use super::dataset::{RealizedShot, read_shards};
 use super::language::{Phrasebook, link};
 use super::model::{Dropout, ModelConfig, Network, Parameters};
 use super::vocabulary::Vocabulary;
 use super::weights::{MANIFEST_FILE, Model, ModelFiles, TOKENIZER_FILE, WEIGHTS_FILE, pack};
-use super::{Director, DirectorError};
 use lesson::{Damage, Lesson, School};
 use optimizer::{AdamSettings, AdamW, rate};
 use shards::{BatchSettings, Trainee};
