@@ -47,7 +47,7 @@ demo: build
 test: deps
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps --document-private-items
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps
 	cargo test --release --locked
 
 # Long ones, never part of the gate. Training takes hours; models/README.md says what the shipped weights were made with.

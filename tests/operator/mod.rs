@@ -83,7 +83,7 @@ pub fn solved(world: &World, steps: Vec<Step>) -> Solution {
     realize(world, &program, "", &[], &SolveSettings { effort: Effort::Fast, seed: 7 })
 }
 
-/// The film of a solution at ten frames a second.
+/// The film of a solution at ten frames a second, and its very end.
 pub fn film(solution: &Solution) -> Vec<CameraState> {
     let shot = Shot {
         scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
@@ -99,5 +99,6 @@ pub fn film(solution: &Solution) -> Vec<CameraState> {
         report: Vec::new(),
     };
     let path = CameraPath::new(&shot).unwrap();
-    (0..=shot.num_frames()).map(|k| path.sample(shot.frame_time_secs(k))).collect()
+    let frames = (0..shot.num_frames()).map(|k| path.sample(shot.frame_time_secs(k)));
+    frames.chain([path.sample(solution.duration_secs)]).collect()
 }

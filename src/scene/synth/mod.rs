@@ -3,10 +3,10 @@
 //! Enters: a seed. Leaves: [`SynthScene`], the same bytes for the same settings on any machine and any number of threads.
 //! World: y up, m, floor at y = 0, the main group at -z, a walkable strip in the middle.
 //!
-//! The way through: a recipe ([`rooms`]) throws a room and places objects of the catalog ([`models`]); every object is a
-//! list of parts ([`shape`]) with a material ([`paint`]); parts are covered with flat Gaussians ([`surfel`]); light from
-//! windows, sun and lamps is baked by casting rays at simple stand-ins of the parts ([`bake`], [`ray`]), exposed and
-//! written as spherical harmonics ([`tone`]).
+//! The way through: a recipe (`rooms`) throws a room and places objects of the catalog (`models`); every object is a
+//! list of parts (`shape`) with a material (`paint`); parts are covered with flat Gaussians (`surfel`); light from
+//! windows, sun and lamps is baked by casting rays at simple stand-ins of the parts (`bake`, `ray`), exposed and
+//! written as spherical harmonics (`tone`).
 
 mod bake;
 mod color;
