@@ -68,7 +68,7 @@ fn open_first(scenario: &Scenario, target: &Target, inward: bool, fill: (f64, f6
     let end_framing = Framing { size: Some(size), angle, ..framing };
     let end = scenario.view(target, &end_framing, fill, NORMAL_LENS_DEG);
     let distance = end.pose.position.distance(target.aim);
-    let back = lerp((1.15, 2.6), scenario.genes[6]);
+    let back = lerp((1.4, 2.8), scenario.genes[6]);
     moved(&end, -end.pose.forward() * distance * back)
 }
 
