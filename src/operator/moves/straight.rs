@@ -96,7 +96,12 @@ fn size_ratio(scenario: &Scenario, target: &Target, first: &CameraState, size: S
     let world = scenario.world;
     let subject = scenario.end.as_ref().unwrap_or(target);
     let wide = matches!(size, ShotSize::Long | ShotSize::ExtremeLong);
-    let gene = if wide && !inward { 0.55 + 0.45 * scenario.genes[6] } else { scenario.genes[6] };
+    let gene = match (wide && !inward, inward && scenario.before.is_none()) {
+        (true, _) => 0.55 + 0.45 * scenario.genes[6],
+        // The very size that the open start was backed up from.
+        (false, true) => scenario.genes[2],
+        (false, false) => scenario.genes[6],
+    };
     let fill = match size_fill(size, gene) {
         Fill::Height(height) if scenario.step.end.subjects.is_empty() && wide => Fill::Height(height.min(0.4)),
         fill => fill,
