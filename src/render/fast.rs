@@ -1,18 +1,20 @@
 //! The `f32` path from Gaussians to a picture: the four stages one after the other.
 
+use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::bin::{Bins, TILE_PX, TileGrid};
 use super::blend::{Tile, Workspace};
+use super::canvas::{Canvas, Finished};
 use super::groups::Groups;
+use super::kernel::{Arithmetic, Exact, Quick};
 use super::payload::{Payload, TileArea};
 use super::sort::{self, DepthKey};
 use super::splats::Splats;
-use super::{Frame, RenderError, RenderSettings, RenderStats, StageTimes, View, WorkCounts};
+use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View, WorkCounts};
 use crate::scene::Gaussians;
 
 /// Work lists of one picture, kept for the next.
@@ -46,7 +48,7 @@ impl<T: Default> Pool<T> {
     }
 }
 
-/// Renders into a frame of the view's size.
+/// Renders onto a canvas of the view's size.
 ///
 /// # Errors
 /// [`RenderError::Cost`] and [`RenderError::Memory`] where the picture exceeds the limits.
@@ -55,19 +57,23 @@ pub(super) fn render<P: Payload>(
     view: &View,
     settings: &RenderSettings,
     buffers: &mut Buffers,
-    (frame, payload): (&mut Frame, &P),
-) -> Result<Vec<P::Part>, RenderError> {
+    (canvas, payload): (Canvas<'_>, &P),
+) -> Result<(RenderStats, Vec<P::Part>), RenderError> {
     let Buffers { splats, keys, spare_keys, bins, workspaces } = buffers;
     let start = Instant::now();
     let num_projected = splats.fill(gaussians, groups, view);
     let projected = Instant::now();
     splats.write_keys(keys);
-    sort::sort(keys, spare_keys, |place| splats.gaussian_idx(place));
+    sort::sort(keys, spare_keys);
     let sorted = Instant::now();
     let num_pairs = bins.fill(keys, splats, view, &settings.limits)?;
     let binned = Instant::now();
-    let (num_block_blends, parts) = blend_tiles((splats, bins), view, settings, workspaces, (frame, payload));
-    frame.stats = RenderStats {
+    let tiles = (&*splats, &*bins);
+    let (num_block_blends, parts) = match settings.effective_accuracy().precision {
+        Precision::Exact => blend_tiles::<Exact, P>(tiles, view, settings, workspaces, (canvas, payload)),
+        Precision::Quick => blend_tiles::<Quick, P>(tiles, view, settings, workspaces, (canvas, payload)),
+    };
+    let stats = RenderStats {
         times: StageTimes {
             project: projected - start,
             sort: sorted - projected,
@@ -76,24 +82,20 @@ pub(super) fn render<P: Payload>(
         },
         counts: WorkCounts { num_projected, num_splats: keys.len() as u64, num_pairs, num_block_blends },
     };
-    Ok(parts)
+    Ok((stats, parts))
 }
 
-/// Rows of the picture that a row of tiles writes to: color and transmittance.
-type Band<'a> = Mutex<(&'a mut [f32], &'a mut [f32])>;
-
 /// Blends all tiles; returns the number of overlaps between splats and blocks, and what the payload leaves of each tile.
-fn blend_tiles<P: Payload>(
+fn blend_tiles<A: Arithmetic + Send, P: Payload>(
     (splats, bins): (&Splats, &Bins),
     view: &View,
     settings: &RenderSettings,
     workspaces: &Pool<Workspace>,
-    (frame, payload): (&mut Frame, &P),
+    (canvas, payload): (Canvas<'_>, &P),
 ) -> (u64, Vec<P::Part>) {
     let width = view.width as usize;
     let grid = TileGrid::of(view);
-    let rows = frame.rgb.chunks_mut(width * 3 * TILE_PX).zip(frame.transmittance.chunks_mut(width * TILE_PX));
-    let bands: Vec<Band<'_>> = rows.map(Mutex::new).collect();
+    let bands = canvas.into_bands(width);
     let blend = |tile_idx: usize| {
         workspaces.with(|workspace| {
             let (column, row) = (tile_idx % grid.across, tile_idx / grid.across);
@@ -101,38 +103,16 @@ fn blend_tiles<P: Payload>(
             let places = bins.of_tile(tile_idx);
             let area = TileArea { origin_px, width, height: view.height as usize };
             let mut sink = payload.sink(area);
-            let tile = Tile { origin_px, places, splats, view, workspace: &mut *workspace, sink: &mut sink };
+            let (workspace, arithmetic) = (&mut *workspace, PhantomData::<A>);
+            let tile =
+                Tile { origin_px, places, splats, view, workspace: &mut *workspace, sink: &mut sink, arithmetic };
             view.instructions.dispatch(tile);
             let background = settings.background.to_array();
-            view.instructions.dispatch(Finished { workspace, band: &bands[row], column, width, background });
+            let pixels = workspace.pixels();
+            view.instructions.dispatch(Finished { pixels, band: &bands[row], column, width, background });
             (workspace.num_block_blends(), payload.part(sink, area))
         })
     };
     let (blends, parts): (Vec<u64>, Vec<P::Part>) = (0..grid.len()).into_par_iter().with_max_len(1).map(blend).unzip();
     (blends.into_iter().sum(), parts)
-}
-
-/// A finished tile on its way into the picture, compiled for every instruction set.
-struct Finished<'a, 'frame> {
-    workspace: &'a Workspace,
-    band: &'a Band<'frame>,
-    column: usize,
-    width: usize,
-    background: [f32; 3],
-}
-
-impl WithSimd for Finished<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { workspace, band, column, width, background } = self;
-        let mut band = band.lock().unwrap_or_else(PoisonError::into_inner);
-        let (left, right) = (column * TILE_PX, ((column + 1) * TILE_PX).min(width));
-        let (rgb, transmittance) = &mut *band;
-        let rows = rgb.chunks_mut(width * 3).zip(transmittance.chunks_mut(width)).enumerate();
-        for (row, (rgb, transmittance)) in rows {
-            workspace.write_row(row, background, &mut rgb[left * 3..right * 3], &mut transmittance[left..right]);
-        }
-    }
 }

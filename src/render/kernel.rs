@@ -1,16 +1,14 @@
 //! The innermost loop: one block of pixels, many splats. Color and transmittance stay in registers.
 //!
 //! Opacity is 2^(8 e) with e = level - u^2 - v^2. Wherever it counts e lies in -1..=0 (a cut below 1/256 goes a little
-//! beyond), so 2^e is a polynomial of degree 4 and three squarings: seven operations, no rounding to integers, relative
-//! error below 2.5e-5 (degree 3 would leave 6e-4, degree 5 reach 1e-6 for one operation more).
+//! beyond), so 2^e is a polynomial and three squarings, without rounding to integers. How many terms the polynomial has
+//! and who decides when blending stops, each pixel or the whole block, is the [`Arithmetic`].
 
 use pulp::Simd;
 
 use super::payload::Sink;
+use super::pixels::{HALF_LEN, HALF_WIDTH, TilePixels, half_block_centers, load};
 use super::spec;
-
-/// 2^x on -1..=0, least relative error (Remez), lowest power first.
-const EXP2: [f32; 5] = [0.999_997_4, 0.693_030_2, 0.239_341_08, 0.053_074_066, 0.006_767_084];
 
 /// A splat relative to a tile's corner: u = `ux` x + `uy` y + `u0`, v = `vy` y + `v0` at pixel (x, y) of the tile.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,16 +24,11 @@ pub(super) struct Record {
     pub(super) gaussian_idx: u32,
 }
 
-/// Splats that a tile looks at together; a power of two, so that an index is in range once masked. On the kitchen 512
-/// and 1024 were 3 and 10 % slower: their lists do not stay in the cache.
+/// Splats that a tile looks at together: as many as a byte can number.
 pub(super) const RECORDS_LEN: usize = 256;
 
 /// Splats blended between two looks at the transmittance; 8 and 24 took as long.
 const LOOK_LEN: usize = 16;
-
-/// Where no pixel that still takes splats has less transmittance than this many times the least allowed, the next
-/// [`LOOK_LEN`] splats are blended without testing for it, and again with the test if one fell below after all.
-const HEADROOM: f32 = 16.0;
 
 /// The two cutoffs as the kernel needs them.
 #[derive(Debug, Clone, Copy)]
@@ -46,168 +39,229 @@ pub(super) struct Cutoffs {
     pub(super) transmittance: f32,
 }
 
-/// Pixels blended together: red, green, blue and transmittance, which is negative where blending has stopped.
+/// Pixels blended together.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pixels<S: Simd> {
     pub(super) red: S::f32s,
     pub(super) green: S::f32s,
     pub(super) blue: S::f32s,
+    /// Of all splats so far; below the least allowed where a pixel takes no more.
     pub(super) transmittance: S::f32s,
-    /// Where they are in the tile's planes.
+    /// Of the splats that the pixel took; kept only where each pixel stops on its own.
+    pub(super) rest: S::f32s,
+    /// The first one's number in the tile.
     pub(super) first: usize,
 }
 
 /// Constants of the kernel in registers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Constants<S: Simd> {
-    exp2: [S::f32s; 5],
     zero: S::f32s,
-    one: S::f32s,
-    sign: S::u32s,
     alpha_max: S::f32s,
     cut: S::f32s,
-    stop: S::f32s,
-    least: f32,
+    pub(super) stop: S::f32s,
 }
 
 impl<S: Simd> Constants<S> {
     #[inline(always)]
     pub(super) fn new(simd: S, cutoffs: Cutoffs) -> Self {
-        let [c0, c1, c2, c3, c4] = EXP2;
-        let (c0, c1, c2) = (simd.splat_f32s(c0), simd.splat_f32s(c1), simd.splat_f32s(c2));
         Self {
-            exp2: [c0, c1, c2, simd.splat_f32s(c3), simd.splat_f32s(c4)],
             zero: simd.splat_f32s(0.0),
-            one: simd.splat_f32s(1.0),
-            sign: simd.splat_u32s(1 << 31),
             alpha_max: simd.splat_f32s(spec::ALPHA_MAX as f32),
             cut: simd.splat_f32s(cutoffs.level),
             stop: simd.splat_f32s(cutoffs.transmittance),
-            least: cutoffs.transmittance,
         }
     }
 }
 
-/// Blends splats into two groups of pixels side by side, at (`x`[0], `y`) and (`x`[1], `y`) of the tile. Two at once
-/// share what depends on y alone.
+/// How opacities are computed and added. A trait and no closure: code in closures is not compiled for the instruction set.
+pub(super) trait Arithmetic {
+    /// Whether each pixel stops on its own, as in the spec image.
+    const STOPS_EACH_PIXEL: bool;
+
+    /// 2^x on -1..=0.
+    fn exp2<S: Simd, const N: usize>(simd: S, x: [S::f32s; N]) -> [S::f32s; N];
+}
+
+/// As the spec image: each pixel stops before its transmittance would fall below the least allowed; relative error of
+/// opacities below 2.5e-5.
+pub(super) struct Exact;
+
+/// A block stops once all its pixels are below the least transmittance, which takes three operations a splat less than
+/// asking each pixel; until then its pixels are nearer to the spec image than if they had stopped. Relative error of
+/// opacities below 6.0e-4.
+pub(super) struct Quick;
+
+impl Arithmetic for Exact {
+    const STOPS_EACH_PIXEL: bool = true;
+
+    #[inline(always)]
+    fn exp2<S: Simd, const N: usize>(simd: S, x: [S::f32s; N]) -> [S::f32s; N] {
+        polynomial(simd, [0.999_997_4, 0.693_030_2, 0.239_341_08, 0.053_074_066, 0.006_767_084], x)
+    }
+}
+
+impl Arithmetic for Quick {
+    const STOPS_EACH_PIXEL: bool = false;
+
+    #[inline(always)]
+    fn exp2<S: Simd, const N: usize>(simd: S, x: [S::f32s; N]) -> [S::f32s; N] {
+        polynomial(simd, [0.998_275_2, 0.666_007_6, 0.168_594_72], x)
+    }
+}
+
+/// A polynomial of least relative error for 2^x (Remez), lowest power first.
+#[inline(always)]
+fn polynomial<S: Simd, const T: usize, const N: usize>(simd: S, terms: [f32; T], x: [S::f32s; N]) -> [S::f32s; N] {
+    let mut sum = [simd.splat_f32s(terms[T - 1]); N];
+    for term in terms[..T - 1].iter().rev() {
+        for lane in 0..N {
+            sum[lane] = simd.mul_add_f32s(sum[lane], x[lane], simd.splat_f32s(*term));
+        }
+    }
+    sum
+}
+
+/// A block of pixels of a tile on its way through a list of splats.
 pub(super) struct Blender<'a, S: Simd, K> {
     pub(super) simd: S,
     pub(super) records: &'a [Record; RECORDS_LEN],
-    pub(super) x: [S::f32s; 2],
-    pub(super) y: S::f32s,
     pub(super) constants: &'a Constants<S>,
+    pub(super) pixels: &'a mut TilePixels,
     pub(super) sink: &'a mut K,
 }
 
 impl<S: Simd, K: Sink> Blender<'_, S, K> {
-    /// Blends the listed splats; true when no pixel takes any more.
+    /// Blends the listed splats into a block; true when no pixel of it takes any more.
+    ///
+    /// Where registers hold less than half a block, the list is gone through a few splats at a time, so that the block
+    /// stops after the same splat whatever their width.
     #[inline(always)]
-    pub(super) fn blend(&mut self, list: &[u16], pixels: &mut [Pixels<S>; 2]) -> bool {
-        let (simd, constants) = (self.simd, *self.constants);
-        let mut least = self.least_open(pixels, pixels);
+    pub(super) fn blend<A: Arithmetic>(&mut self, block: usize, list: &[u8]) -> bool {
+        let (xs, ys) = half_block_centers(block);
+        if S::F32_LANES == HALF_LEN {
+            let mut run = self.run::<A>(block, 0, (&xs, &ys));
+            let is_done = list.chunks(LOOK_LEN).any(|some| !self.add_all::<A>(some, &mut run));
+            self.keep::<A>(&run);
+            return is_done;
+        }
         for some in list.chunks(LOOK_LEN) {
-            // A sink must not see a weight twice.
-            if !K::IS_ACTIVE && least >= HEADROOM * constants.least {
-                let before = *pixels;
-                for half in pixels.iter_mut() {
-                    half.transmittance = simd.max_f32s(half.transmittance, constants.zero);
-                }
-                self.add_all::<Freely>(some, pixels);
-                least = self.least_open(&before, pixels);
-                if least >= constants.least {
-                    for (half, before) in pixels.iter_mut().zip(&before) {
-                        let is_open = simd.greater_than_f32s(before.transmittance, constants.zero);
-                        half.transmittance = simd.select_f32s(is_open, half.transmittance, before.transmittance);
-                    }
-                    continue;
-                }
-                *pixels = before;
+            let mut is_open = false;
+            for first_lane in (0..HALF_LEN).step_by(S::F32_LANES) {
+                let mut run = self.run::<A>(block, first_lane, (&xs, &ys));
+                is_open |= self.add_all::<A>(some, &mut run);
+                self.keep::<A>(&run);
             }
-            self.add_all::<Carefully>(some, pixels);
-            let open = simd.max_f32s(pixels[0].transmittance, pixels[1].transmittance);
-            if simd.reduce_max_f32s(open) <= 0.0 {
+            if !is_open {
                 return true;
             }
-            least = self.least_open(pixels, pixels);
         }
         false
     }
 
-    /// Least transmittance over the pixels that were still open `before`; 1 where none was.
+    /// Pixels of both halves of a block.
     #[inline(always)]
-    fn least_open(&self, before: &[Pixels<S>; 2], now: &[Pixels<S>; 2]) -> f32 {
-        let (simd, zero, one) = (self.simd, self.constants.zero, self.constants.one);
-        let left_is_open = simd.greater_than_f32s(before[0].transmittance, zero);
-        let right_is_open = simd.greater_than_f32s(before[1].transmittance, zero);
-        let left = simd.select_f32s(left_is_open, now[0].transmittance, one);
-        let right = simd.select_f32s(right_is_open, now[1].transmittance, one);
-        simd.reduce_min_f32s(simd.min_f32s(left, right))
+    fn run<A: Arithmetic>(&self, block: usize, first_lane: usize, (xs, ys): Centers<'_>) -> Run<S> {
+        let simd = self.simd;
+        let pixels = [0, 1].map(|half| {
+            let pixels = self.pixels.load(simd, 2 * block + half, first_lane);
+            if !A::STOPS_EACH_PIXEL {
+                return pixels;
+            }
+            // A negative number is the rest of a pixel that takes no more.
+            let transmittance = simd.max_f32s(pixels.transmittance, self.constants.zero);
+            Pixels { rest: simd.abs_f32s(pixels.transmittance), transmittance, ..pixels }
+        });
+        let (x, y) = (load(simd, xs, first_lane), load(simd, ys, first_lane));
+        Run { x: [x, simd.add_f32s(x, simd.splat_f32s(HALF_WIDTH as f32))], y, pixels }
     }
 
-    /// Adds the listed splats, nearest first.
+    /// Writes pixels back.
+    #[inline(always)]
+    fn keep<A: Arithmetic>(&mut self, run: &Run<S>) {
+        let simd = self.simd;
+        for pixels in &run.pixels {
+            let mut pixels = *pixels;
+            if A::STOPS_EACH_PIXEL {
+                let is_open = simd.greater_than_or_equal_f32s(pixels.transmittance, self.constants.stop);
+                let stopped = simd.neg_f32s(pixels.rest);
+                pixels.transmittance = simd.select_f32s(is_open, pixels.transmittance, stopped);
+            }
+            self.pixels.store(simd, &pixels);
+        }
+    }
+
+    /// Adds the listed splats, nearest first; whether a pixel takes more.
     ///
     /// Opacities are computed for two splats and both halves side by side: each is a chain of twenty operations that
-    /// wait for one another, and the processor looks ahead only so far.
+    /// wait for one another, and the processor looks ahead only so far. Sixteen registers are too few for that.
     #[inline(always)]
-    fn add_all<A: Addition>(&mut self, list: &[u16], pixels: &mut [Pixels<S>; 2]) {
-        let (pairs, last) = list.as_chunks::<2>();
+    fn add_all<A: Arithmetic>(&mut self, list: &[u8], run: &mut Run<S>) -> bool {
+        let simd = self.simd;
+        let (pairs, last) = if S::REGISTER_COUNT < 32 { (&[][..], list) } else { list.as_chunks::<2>() };
         for &[first, second] in pairs {
             let (first, second) = (usize::from(first) % RECORDS_LEN, usize::from(second) % RECORDS_LEN);
-            let [a, b] = self.exponents(first);
-            let [c, d] = self.exponents(second);
-            let [a, b, c, d] = self.alphas([a, b, c, d]);
-            A::add(self, first, a, &mut pixels[0]);
-            A::add(self, first, b, &mut pixels[1]);
-            A::add(self, second, c, &mut pixels[0]);
-            A::add(self, second, d, &mut pixels[1]);
+            let [a, b] = self.exponents(first, run);
+            let [c, d] = self.exponents(second, run);
+            let [a, b, c, d] = self.alphas::<A, 4>([a, b, c, d]);
+            self.add::<A>(first, a, &mut run.pixels[0]);
+            self.add::<A>(first, b, &mut run.pixels[1]);
+            self.add::<A>(second, c, &mut run.pixels[0]);
+            self.add::<A>(second, d, &mut run.pixels[1]);
         }
         for &position in last {
             let position = usize::from(position) % RECORDS_LEN;
-            let [a, b] = self.alphas(self.exponents(position));
-            A::add(self, position, a, &mut pixels[0]);
-            A::add(self, position, b, &mut pixels[1]);
+            let [a, b] = self.alphas::<A, 2>(self.exponents(position, run));
+            self.add::<A>(position, a, &mut run.pixels[0]);
+            self.add::<A>(position, b, &mut run.pixels[1]);
         }
+        let most = simd.max_f32s(run.pixels[0].transmittance, run.pixels[1].transmittance);
+        any::<S>(simd.greater_than_or_equal_f32s(most, self.constants.stop))
     }
 
     /// Exponents of a splat in both halves.
     #[inline(always)]
-    fn exponents(&self, position: usize) -> [S::f32s; 2] {
+    fn exponents(&self, position: usize, Run { x, y, .. }: &Run<S>) -> [S::f32s; 2] {
         let (simd, record) = (self.simd, &self.records[position]);
         let ux = simd.splat_f32s(record.ux);
-        let along = simd.mul_add_f32s(simd.splat_f32s(record.uy), self.y, simd.splat_f32s(record.u0));
-        let v = simd.mul_add_f32s(simd.splat_f32s(record.vy), self.y, simd.splat_f32s(record.v0));
+        let along = simd.mul_add_f32s(simd.splat_f32s(record.uy), *y, simd.splat_f32s(record.u0));
+        let v = simd.mul_add_f32s(simd.splat_f32s(record.vy), *y, simd.splat_f32s(record.v0));
         let level = simd.negate_mul_add_f32s(v, v, simd.splat_f32s(record.level));
-        let (left, right) = (simd.mul_add_f32s(ux, self.x[0], along), simd.mul_add_f32s(ux, self.x[1], along));
+        let (left, right) = (simd.mul_add_f32s(ux, x[0], along), simd.mul_add_f32s(ux, x[1], along));
         [simd.negate_mul_add_f32s(left, left, level), simd.negate_mul_add_f32s(right, right, level)]
     }
 
     /// Opacities of exponents, 0 where they are below the cut.
     #[inline(always)]
-    fn alphas<const N: usize>(&self, e: [S::f32s; N]) -> [S::f32s; N] {
+    fn alphas<A: Arithmetic, const N: usize>(&self, e: [S::f32s; N]) -> [S::f32s; N] {
         let (simd, constants) = (self.simd, self.constants);
-        let [c0, c1, c2, c3, c4] = constants.exp2;
-        let mut power = [c4; N];
-        for coefficient in [c3, c2, c1, c0] {
-            for lane in 0..N {
-                power[lane] = simd.mul_add_f32s(power[lane], e[lane], coefficient);
-            }
-        }
+        let mut power = A::exp2(simd, e);
         for _ in 0..3 {
             for power in &mut power {
                 *power = simd.mul_f32s(*power, *power);
             }
         }
         for lane in 0..N {
-            let alpha = simd.min_f32s(power[lane], constants.alpha_max);
+            let alpha = if A::STOPS_EACH_PIXEL { simd.min_f32s(power[lane], constants.alpha_max) } else { power[lane] };
             let counts = simd.greater_than_or_equal_f32s(e[lane], constants.cut);
             power[lane] = simd.select_f32s(counts, alpha, constants.zero);
         }
         power
     }
 
+    /// Adds one splat to pixels.
     #[inline(always)]
-    fn add_weight(&mut self, position: usize, weight: S::f32s, pixels: &mut Pixels<S>) {
-        let (simd, [red, green, blue]) = (self.simd, self.records[position].color);
+    fn add<A: Arithmetic>(&mut self, position: usize, alpha: S::f32s, pixels: &mut Pixels<S>) {
+        let (simd, before) = (self.simd, pixels.transmittance);
+        let mut weight = simd.mul_f32s(alpha, before);
+        pixels.transmittance = simd.negate_mul_add_f32s(alpha, before, before);
+        if A::STOPS_EACH_PIXEL {
+            // Once below, the transmittance stays below: what has stopped does not go on.
+            let goes_on = simd.greater_than_or_equal_f32s(pixels.transmittance, self.constants.stop);
+            weight = simd.select_f32s(goes_on, weight, self.constants.zero);
+            pixels.rest = simd.select_f32s(goes_on, pixels.transmittance, pixels.rest);
+        }
+        let [red, green, blue] = self.records[position].color;
         pixels.red = simd.mul_add_f32s(weight, simd.splat_f32s(red), pixels.red);
         pixels.green = simd.mul_add_f32s(weight, simd.splat_f32s(green), pixels.green);
         pixels.blue = simd.mul_add_f32s(weight, simd.splat_f32s(blue), pixels.blue);
@@ -217,37 +271,18 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
     }
 }
 
-/// How a splat is added to pixels. A trait and no closure: code in closures is not compiled for the instruction set.
-trait Addition {
-    fn add<S: Simd, K: Sink>(blender: &mut Blender<'_, S, K>, position: usize, alpha: S::f32s, pixels: &mut Pixels<S>);
+/// Columns and rows of the pixels of the left half of a block.
+type Centers<'a> = (&'a [f32; HALF_LEN], &'a [f32; HALF_LEN]);
+
+/// Registers of pixels of the left and right half of a block, which share what depends on y alone.
+struct Run<S: Simd> {
+    x: [S::f32s; 2],
+    y: S::f32s,
+    pixels: [Pixels<S>; 2],
 }
 
-/// To pixels that take splats or have transmittance 0.
-struct Freely;
-
-impl Addition for Freely {
-    #[inline(always)]
-    fn add<S: Simd, K: Sink>(blender: &mut Blender<'_, S, K>, position: usize, alpha: S::f32s, pixels: &mut Pixels<S>) {
-        let weight = blender.simd.mul_f32s(alpha, pixels.transmittance);
-        let rest = blender.simd.negate_mul_add_f32s(alpha, pixels.transmittance, pixels.transmittance);
-        pixels.transmittance = rest;
-        blender.add_weight(position, weight, pixels);
-    }
-}
-
-/// Unless it would take the transmittance below what is allowed: there blending stops.
-struct Carefully;
-
-impl Addition for Carefully {
-    #[inline(always)]
-    fn add<S: Simd, K: Sink>(blender: &mut Blender<'_, S, K>, position: usize, alpha: S::f32s, pixels: &mut Pixels<S>) {
-        let (simd, constants, before) = (blender.simd, blender.constants, pixels.transmittance);
-        // Where blending has stopped the transmittance is negative, and so is the rest: it stays stopped.
-        let rest = simd.negate_mul_add_f32s(alpha, before, before);
-        let goes_on = simd.greater_than_or_equal_f32s(rest, constants.stop);
-        let weight = simd.select_f32s(goes_on, simd.mul_f32s(alpha, before), constants.zero);
-        let stopped = simd.or_u32s(simd.transmute_u32s_f32s(before), constants.sign);
-        pixels.transmittance = simd.select_f32s(goes_on, rest, simd.transmute_f32s_u32s(stopped));
-        blender.add_weight(position, weight, pixels);
-    }
+/// Whether a mask has a lane set.
+#[inline(always)]
+fn any<S: Simd>(mask: S::m32s) -> bool {
+    bytemuck::bytes_of(&mask).iter().fold(0, |all, byte| all | byte) != 0
 }

@@ -16,6 +16,7 @@
 pub mod bench;
 mod bin;
 mod blend;
+mod canvas;
 mod depth;
 mod error;
 mod fast;
@@ -27,6 +28,7 @@ mod instructions;
 mod kernel;
 mod lift;
 mod payload;
+mod pixels;
 mod project;
 mod reference;
 mod renderer;
@@ -43,12 +45,12 @@ mod weights;
 
 pub use depth::DepthMap;
 pub use error::RenderError;
-pub use frame::Frame;
+pub use frame::{Frame, Rgb8Frame};
 pub use ids::IdMap;
 pub use instructions::Instructions;
 pub use lift::Lifted;
 pub use renderer::Renderer;
-pub use settings::{Accuracy, Limits, Quality, RenderSettings};
+pub use settings::{Accuracy, Limits, Precision, Quality, RenderSettings};
 pub use stats::{RenderStats, StageTimes, WorkCounts};
 pub use weights::Weight;
 

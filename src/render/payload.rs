@@ -12,7 +12,7 @@ pub(super) trait Sink {
     fn begin(&mut self, records: &[Record]);
 
     /// The weights of the splat at a position in the pixels from `first_pixel` of the tile on; see
-    /// [`super::blend::position_in_tile`]. Nearest splats come first in every pixel.
+    /// [`super::pixels::position_in_tile`]. Nearest splats come first in every pixel.
     fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]);
 }
 
@@ -30,7 +30,7 @@ pub(super) struct TileArea {
 impl TileArea {
     /// Index in the picture of a pixel of the tile, row-major; `None` beyond the border.
     pub(super) fn picture_idx(&self, pixel: usize) -> Option<usize> {
-        let [column, row] = super::blend::position_in_tile(pixel);
+        let [column, row] = super::pixels::position_in_tile(pixel);
         let (x, y) = (self.origin_px[0] + column, self.origin_px[1] + row);
         (x < self.width && y < self.height).then_some(y * self.width + x)
     }

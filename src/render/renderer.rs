@@ -2,6 +2,7 @@ use std::time::Instant;
 
 use glam::Vec3;
 
+use super::canvas::Canvas;
 use super::depth::{DepthMap, DepthPayload};
 use super::fast::{self, Buffers, Pool};
 use super::groups::Groups;
@@ -10,7 +11,7 @@ use super::lift::{LiftPayload, Lifted};
 use super::payload::{ColorOnly, Payload};
 use super::upsample::upsample;
 use super::weights::{Weight, WeightPayload};
-use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, View, reference};
+use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Rgb8Frame, View, reference};
 use crate::geometry::Camera;
 use crate::scene::Gaussians;
 
@@ -54,22 +55,57 @@ impl<'scene> Renderer<'scene> {
     ) -> Result<(), RenderError> {
         let view = View::new(camera, self.gaussians.origin, settings)?;
         frame.resize(view.width, view.height);
-        let resolution_frac = settings.effective_accuracy().resolution_frac;
         if settings.quality == Quality::Reference {
             return self.render_reference(&view, settings, frame);
         }
-        if resolution_frac < 1.0 {
-            let camera = Camera { pose: camera.pose, intrinsics: camera.intrinsics.scaled(resolution_frac) };
-            let view = View::new(&camera, self.gaussians.origin, settings)?;
-            return self.small_frames.with(|small| {
-                small.resize(view.width, view.height);
-                self.render_payload(&view, settings, small, &ColorOnly)?;
+        if settings.effective_accuracy().resolution_frac < 1.0 {
+            return self.render_small(camera, settings, |small| {
                 upsample(small, frame);
                 frame.stats = small.stats;
-                Ok(())
             });
         }
-        self.render_payload(&view, settings, frame, &ColorOnly).map(drop)
+        frame.stats = self.render_payload(&view, settings, Canvas::from(&mut *frame), &ColorOnly)?.0;
+        Ok(())
+    }
+
+    /// As [`Renderer::render_into`], in eight bits: the levels are those of [`Frame::to_rgb8`], and the numbers that they
+    /// are made of are never written to memory.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`]; the frame then holds nothing of use.
+    pub fn render_rgb8_into(
+        &self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        frame: &mut Rgb8Frame,
+    ) -> Result<(), RenderError> {
+        let view = View::new(camera, self.gaussians.origin, settings)?;
+        (frame.width, frame.height) = (view.width, view.height);
+        if settings.quality == Quality::Reference || settings.effective_accuracy().resolution_frac < 1.0 {
+            let linear = self.render(camera, settings)?;
+            (frame.rgb8, frame.stats) = (linear.to_rgb8(), linear.stats);
+            return Ok(());
+        }
+        frame.rgb8.resize(view.width as usize * view.height as usize * 3, 0);
+        frame.stats = self.render_payload(&view, settings, Canvas::from(&mut *frame), &ColorOnly)?.0;
+        Ok(())
+    }
+
+    /// Renders at the resolution that the accuracy asks for.
+    fn render_small(
+        &self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        mut take: impl FnMut(&Frame),
+    ) -> Result<(), RenderError> {
+        let intrinsics = camera.intrinsics.scaled(settings.effective_accuracy().resolution_frac);
+        let view = View::new(&Camera { pose: camera.pose, intrinsics }, self.gaussians.origin, settings)?;
+        self.small_frames.with(|small| {
+            small.resize(view.width, view.height);
+            small.stats = self.render_payload(&view, settings, Canvas::from(&mut *small), &ColorOnly)?.0;
+            take(small);
+            Ok(())
+        })
     }
 
     /// Depth of what a camera sees, from the weights of the picture at full resolution.
@@ -132,7 +168,8 @@ impl<'scene> Renderer<'scene> {
         let view = View::new(camera, self.gaussians.origin, settings)?;
         let mut frame = Frame::default();
         frame.resize(view.width, view.height);
-        let parts = self.render_payload(&view, settings, &mut frame, payload)?;
+        let (stats, parts) = self.render_payload(&view, settings, Canvas::from(&mut frame), payload)?;
+        frame.stats = stats;
         Ok((frame, parts))
     }
 
@@ -140,11 +177,11 @@ impl<'scene> Renderer<'scene> {
         &self,
         view: &View,
         settings: &RenderSettings,
-        frame: &mut Frame,
+        canvas: Canvas<'_>,
         payload: &P,
-    ) -> Result<Vec<P::Part>, RenderError> {
+    ) -> Result<(RenderStats, Vec<P::Part>), RenderError> {
         let scene = (self.gaussians, &self.groups);
-        self.buffers.with(|buffers| fast::render(scene, view, settings, buffers, (frame, payload)))
+        self.buffers.with(|buffers| fast::render(scene, view, settings, buffers, (canvas, payload)))
     }
 
     fn render_reference(&self, view: &View, settings: &RenderSettings, frame: &mut Frame) -> Result<(), RenderError> {

@@ -38,8 +38,13 @@ impl Quality {
     /// What this preset sets.
     pub fn accuracy(self) -> Accuracy {
         match self {
-            Self::Draft => Accuracy { alpha_cut: 1.0 / 128.0, transmittance_stop: 1e-2, resolution_frac: 0.5 },
-            Self::Standard => Accuracy { transmittance_stop: 1e-3, ..Accuracy::SPEC },
+            Self::Draft => Accuracy {
+                alpha_cut: 1.0 / 128.0,
+                transmittance_stop: 1e-2,
+                resolution_frac: 0.5,
+                precision: Precision::Quick,
+            },
+            Self::Standard => Accuracy { transmittance_stop: 1e-3, precision: Precision::Quick, ..Accuracy::SPEC },
             Self::Final | Self::Reference => Accuracy::SPEC,
         }
     }
@@ -54,12 +59,27 @@ pub struct Accuracy {
     pub transmittance_stop: f64,
     /// Side length of the picture rendered over that of the picture returned, above 0 and up to 1.
     pub resolution_frac: f64,
+    /// Precision of the blending loop.
+    pub precision: Precision,
+}
+
+/// Precision of the blending loop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Precision {
+    /// Opacities within 2.5e-5 of themselves; each pixel stops on its own, as in the spec image.
+    Exact,
+    /// Opacities within 6.0e-4 of themselves; pixels stop in blocks of 8 x 4, when the last of them may.
+    Quick,
 }
 
 impl Accuracy {
     /// The constants of the spec image.
-    pub const SPEC: Self =
-        Self { alpha_cut: spec::ALPHA_CUT, transmittance_stop: spec::TRANSMITTANCE_STOP, resolution_frac: 1.0 };
+    pub const SPEC: Self = Self {
+        alpha_cut: spec::ALPHA_CUT,
+        transmittance_stop: spec::TRANSMITTANCE_STOP,
+        resolution_frac: 1.0,
+        precision: Precision::Exact,
+    };
 }
 
 /// Bounds on what one picture may take.

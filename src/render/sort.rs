@@ -1,41 +1,123 @@
-//! Splats to depth order: a stable radix sort over the bits of the depth, ties by Gaussian.
+//! Splats to depth order: runs are radix sorted side by side and merged. No two keys are equal, so the order does not
+//! depend on how many runs there were.
 
-/// Bits of a key looked at in one pass.
-const DIGIT_BITS: u32 = 11;
+/// Bits of a key looked at in one pass; with more, a pass writes to more places than the cache can follow.
+const DIGIT_BITS: u32 = 9;
 const NUM_DIGITS: usize = 1 << DIGIT_BITS;
 
-/// A splat's depth and where it is kept.
+/// Below this length a run is neither divided nor merged by several threads.
+const LEAST_LEN: usize = 4096;
+
+/// A splat's depth, the Gaussian that it shows, and where it is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct DepthKey {
     /// Bits of the depth, which is positive: they order as the numbers do.
     pub(super) depth_bits: u32,
+    /// Decides between equal depths.
+    pub(super) gaussian_idx: u32,
     /// Where the splat is kept.
     pub(super) place: u32,
 }
 
-/// Sorts by depth, nearest first. Keys of equal depth end up in the order of `tie_break`, which tells places apart.
-/// `spare` is memory to work in; it may be exchanged with `keys`.
-pub(super) fn sort(keys: &mut Vec<DepthKey>, spare: &mut Vec<DepthKey>, tie_break: impl Fn(u32) -> u32) {
-    spare.resize(keys.len(), DepthKey::default());
-    for shift in [0, DIGIT_BITS, 2 * DIGIT_BITS] {
-        if scatter(keys, spare, shift) {
-            std::mem::swap(keys, spare);
-        }
-    }
-    for ties in keys.chunk_by_mut(|a, b| a.depth_bits == b.depth_bits).filter(|ties| ties.len() > 1) {
-        ties.sort_unstable_by_key(|key| tie_break(key.place));
+impl DepthKey {
+    /// What keys are ordered by; no two are equal.
+    fn order(self) -> u64 {
+        u64::from(self.depth_bits) << 32 | u64::from(self.gaussian_idx)
     }
 }
 
-/// One pass: `to` is `from` in the order of one digit. False where all digits are equal and nothing was written.
-fn scatter(from: &[DepthKey], to: &mut [DepthKey], shift: u32) -> bool {
-    let digit = |key: &DepthKey| (key.depth_bits >> shift) as usize & (NUM_DIGITS - 1);
+/// Sorts by depth, nearest first, ties by Gaussian. `spare` is memory to work in.
+pub(super) fn sort(keys: &mut [DepthKey], spare: &mut Vec<DepthKey>) {
+    spare.resize(keys.len(), DepthKey::default());
+    let num_levels = rayon::current_num_threads().next_power_of_two().ilog2();
+    sort_runs(keys, spare, num_levels, false);
+}
+
+/// Sorts `keys`; the result is in `spare` if asked for, else in `keys`.
+fn sort_runs(keys: &mut [DepthKey], spare: &mut [DepthKey], num_levels: u32, into_spare: bool) {
+    if num_levels == 0 || keys.len() < LEAST_LEN {
+        radix_sort(keys, spare);
+        if into_spare {
+            spare.copy_from_slice(keys);
+        }
+        return;
+    }
+    let middle = keys.len() / 2;
+    let ((left, right), (spare_left, spare_right)) = (keys.split_at_mut(middle), spare.split_at_mut(middle));
+    rayon::join(
+        || sort_runs(left, spare_left, num_levels - 1, !into_spare),
+        || sort_runs(right, spare_right, num_levels - 1, !into_spare),
+    );
+    if into_spare {
+        merge(&keys[..middle], &keys[middle..], spare, num_levels);
+    } else {
+        merge(&spare[..middle], &spare[middle..], keys, num_levels);
+    }
+}
+
+/// Merges two sorted runs, with two to the power of `num_levels` threads.
+fn merge(left: &[DepthKey], right: &[DepthKey], to: &mut [DepthKey], num_levels: u32) {
+    if num_levels == 0 || to.len() < LEAST_LEN {
+        return merge_run(left, right, to);
+    }
+    let middle = to.len() / 2;
+    let from_left = num_from_left(left, right, middle);
+    let ((a, c), (b, d)) = (left.split_at(from_left), right.split_at(middle - from_left));
+    let (front, back) = to.split_at_mut(middle);
+    rayon::join(|| merge(a, b, front, num_levels - 1), || merge(c, d, back, num_levels - 1));
+}
+
+/// How many of the first `len` merged keys come from the left run.
+fn num_from_left(left: &[DepthKey], right: &[DepthKey], len: usize) -> usize {
+    let (mut low, mut high) = (len.saturating_sub(right.len()), len.min(left.len()));
+    while low < high {
+        let middle = usize::midpoint(low, high);
+        if left[middle].order() < right[len - middle - 1].order() { low = middle + 1 } else { high = middle }
+    }
+    low
+}
+
+fn merge_run<'a>(mut left: &'a [DepthKey], mut right: &'a [DepthKey], to: &mut [DepthKey]) {
+    for to in to {
+        let from = match (left.first(), right.first()) {
+            (Some(a), Some(b)) if a.order() < b.order() => &mut left,
+            (Some(_), None) => &mut left,
+            _ => &mut right,
+        };
+        if let Some((first, rest)) = from.split_first() {
+            (*to, *from) = (*first, rest);
+        }
+    }
+}
+
+/// Sorts digit after digit, the least significant first: those of the Gaussian, then those of the depth. Bits that are
+/// the same in all keys, as the high ones are, take no pass.
+fn radix_sort(keys: &mut [DepthKey], spare: &mut [DepthKey]) {
+    let Some(&first) = keys.first() else { return };
+    let (depths, gaussians) = keys.iter().fold((0, 0), |(depths, gaussians), key| {
+        (depths | (key.depth_bits ^ first.depth_bits), gaussians | (key.gaussian_idx ^ first.gaussian_idx))
+    });
+    let num_passes = |differing: u32| (u32::BITS - differing.leading_zeros()).div_ceil(DIGIT_BITS);
+    let (mut from, mut to) = (&mut *keys, &mut *spare);
+    for pass in 0..num_passes(gaussians) {
+        scatter(from, to, |key| key.gaussian_idx >> (DIGIT_BITS * pass));
+        std::mem::swap(&mut from, &mut to);
+    }
+    for pass in 0..num_passes(depths) {
+        scatter(from, to, |key| key.depth_bits >> (DIGIT_BITS * pass));
+        std::mem::swap(&mut from, &mut to);
+    }
+    if (num_passes(gaussians) + num_passes(depths)) % 2 == 1 {
+        keys.copy_from_slice(spare);
+    }
+}
+
+/// One pass: `to` is `from` in the order of one digit.
+fn scatter(from: &[DepthKey], to: &mut [DepthKey], digit: impl Fn(&DepthKey) -> u32) {
+    let digit = |key: &DepthKey| digit(key) as usize % NUM_DIGITS;
     let mut starts = [0_u32; NUM_DIGITS];
     for key in from {
         starts[digit(key)] += 1;
-    }
-    if starts.iter().any(|&count| count as usize == from.len()) {
-        return false;
     }
     let mut sum = 0;
     for start in &mut starts {
@@ -46,5 +128,4 @@ fn scatter(from: &[DepthKey], to: &mut [DepthKey], shift: u32) -> bool {
         to[*start as usize] = *key;
         *start += 1;
     }
-    true
 }

@@ -1,16 +1,19 @@
-//! Which 8 x 4 pixel blocks of a tile an ellipse touches, found for all strips of blocks at once.
+//! Which 8 x 4 pixel blocks of a tile the ellipses of a few hundred splats touch, found for many splats at once.
 
 use super::bin::TILE_PX;
+use super::kernel::RECORDS_LEN;
 use super::splat::Splat;
 
 /// Width of a block in pixels.
 pub(super) const BLOCK_WIDTH: usize = 8;
 /// Height of a block in pixels.
 pub(super) const BLOCK_HEIGHT: usize = 4;
-/// Blocks side by side in a tile; as many as there are bits in an entry of [`StripMasks`].
+/// Blocks side by side in a tile; as many as there are bits in a byte.
 pub(super) const BLOCKS_ACROSS: usize = TILE_PX / BLOCK_WIDTH;
 /// Strips of blocks on top of each other in a tile.
 pub(super) const NUM_STRIPS: usize = TILE_PX / BLOCK_HEIGHT;
+/// Blocks of a tile, numbered row by row.
+pub(super) const NUM_BLOCKS: usize = BLOCKS_ACROSS * NUM_STRIPS;
 
 /// One bit a block: `[strip]` counts block rows from the top, bit 0 is the leftmost block.
 pub(super) type StripMasks = [u8; NUM_STRIPS];
@@ -18,36 +21,165 @@ pub(super) type StripMasks = [u8; NUM_STRIPS];
 /// Slack in pixels for rounding; a block too many costs a little time, one too few a wrong pixel.
 const SLACK_PX: f32 = 0.02;
 
-/// The blocks that hold a pixel center inside the region where the splat counts, or a few more.
+/// Splats looked at together, the width of the widest registers.
+const LANES: usize = 16;
+
+/// Eight splats a word.
+const NUM_WORDS: usize = RECORDS_LEN / 8;
+
+/// One number for each of [`LANES`] splats.
+type Lane = [f32; LANES];
+
+/// The regions where splats count, relative to a tile's corner, one array an attribute.
+#[derive(Debug, Clone, Copy, Default)]
+struct Regions {
+    /// Center, pixels.
+    x: Lane,
+    y: Lane,
+    /// How far the middle of a row moves to the right a pixel down, and half a row's width a unit of the root below.
+    shift: Lane,
+    width: Lane,
+    /// See [`Splat`].
+    vy: Lane,
+    reach: Lane,
+    half_y: Lane,
+    lean: Lane,
+}
+
+/// For every block of a tile, the splats that touch it.
+#[derive(Debug)]
+pub(super) struct Touches {
+    regions: Box<[Regions; RECORDS_LEN / LANES]>,
+    /// `[block][position / 8]`, bit `position % 8`.
+    masks: Box<[[u8; NUM_WORDS]; NUM_BLOCKS]>,
+}
+
+impl Default for Touches {
+    fn default() -> Self {
+        Self {
+            regions: Box::new([Regions::default(); RECORDS_LEN / LANES]),
+            masks: Box::new([[0; NUM_WORDS]; NUM_BLOCKS]),
+        }
+    }
+}
+
+impl Touches {
+    /// Notes the region of a splat.
+    #[inline(always)]
+    pub(super) fn enter(&mut self, position: usize, splat: &Splat, corner_px: [f32; 2]) {
+        let to = &mut self.regions[position / LANES % (RECORDS_LEN / LANES)];
+        let lane = position % LANES;
+        let [ux, uy, vy] = splat.whiten;
+        (to.x[lane], to.y[lane]) = (splat.mean_px[0] - corner_px[0], splat.mean_px[1] - corner_px[1]);
+        (to.shift[lane], to.width[lane]) = (uy, ux);
+        (to.vy[lane], to.reach[lane]) = (vy, splat.reach);
+        (to.half_y[lane], to.lean[lane]) = (splat.half_px[1] + SLACK_PX, splat.lean_px);
+    }
+
+    /// Finds the blocks that the first splats touch, in strips that are not wholly done.
+    #[inline(always)]
+    pub(super) fn find(&mut self, num_splats: usize, done: &StripMasks) {
+        let num_groups = num_splats.div_ceil(LANES).min(RECORDS_LEN / LANES);
+        if let Some(last) = self.regions[..num_groups].last_mut() {
+            // Nothing is that low: the lanes behind the last splat touch no block.
+            let behind = (num_splats + LANES - 1) % LANES + 1;
+            last.half_y[behind..].fill(f32::NEG_INFINITY);
+        }
+        for group in &mut self.regions[..num_groups] {
+            for lane in 0..LANES {
+                let width = 1.0 / group.width[lane];
+                (group.shift[lane], group.width[lane]) = (-group.shift[lane] * width, width);
+            }
+        }
+        for (strip, blocks) in self.masks.as_chunks_mut::<BLOCKS_ACROSS>().0.iter_mut().enumerate() {
+            if done[strip % NUM_STRIPS] == u8::MAX {
+                continue;
+            }
+            let mut masks = [[0_u8; LANES]; RECORDS_LEN / LANES];
+            for (masks, group) in masks.iter_mut().zip(&self.regions[..num_groups]) {
+                *masks = touched_blocks(group, strip);
+            }
+            by_block(&masks, blocks);
+        }
+    }
+
+    /// Writes the positions of the splats that touch a block to the front of `list`, in order; returns their number.
+    #[inline(always)]
+    pub(super) fn list(&self, block: usize, list: &mut List) -> usize {
+        let masks = &self.masks[block % NUM_BLOCKS];
+        if masks.as_chunks::<8>().0.iter().all(|word| *word == [0; 8]) {
+            return 0;
+        }
+        // Without branches: eight positions a byte, those that are too many are written over.
+        let mut len = 0;
+        for (first, mask) in (0..).step_by(8).zip(masks) {
+            let positions = SET_BITS[usize::from(*mask)] | first * 0x0101_0101_0101_0101;
+            list.0[len..len + 8].copy_from_slice(&positions.to_le_bytes());
+            len += mask.count_ones() as usize;
+        }
+        len
+    }
+}
+
+/// Positions of splats, with room behind for what [`Touches::list`] writes too much.
+#[derive(Debug)]
+pub(super) struct List(pub(super) [u8; RECORDS_LEN + 8]);
+
+/// For every byte the positions of its set bits, lowest first, a byte each.
+const SET_BITS: [u64; 256] = set_bits();
+
+const fn set_bits() -> [u64; 256] {
+    let mut positions = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut left, mut shift) = (byte, 0);
+        while left != 0 {
+            positions[byte] |= (left.trailing_zeros() as u64) << shift;
+            left &= left - 1;
+            shift += 8;
+        }
+        byte += 1;
+    }
+    positions
+}
+
+/// For each splat the blocks of one strip that hold a pixel center inside the region where it counts, or a few more.
 ///
 /// At dy below the center the region reaches from `shift dy - w` to `shift dy + w`, w = sqrt(reach - (vy dy)^2) / ux.
-/// Both ends are monotone on either side of the outermost point, which lies `lean_px` below (right end) or above (left
+/// Both ends are monotone on either side of the outermost point, which lies `lean` below (right end) or above (left
 /// end) the center, so within a strip the extreme is at the dy nearest to that point.
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, and the loop would not vectorize")]
 #[inline(always)]
-pub(super) fn touched_blocks(splat: &Splat, origin_px: [f32; 2]) -> StripMasks {
-    let (x, y) = (splat.mean_px[0] - origin_px[0], splat.mean_px[1] - origin_px[1]);
-    let [ux, uy, vy] = splat.whiten;
-    let (shift, width) = (-uy / ux, 1.0 / ux);
-    let half_y = splat.half_px[1] + SLACK_PX;
-    let mut masks = [0; NUM_STRIPS];
-    for (strip, mask) in masks.iter_mut().enumerate() {
-        let top = (strip * BLOCK_HEIGHT) as f32 + 0.5 - y;
+fn touched_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
+    let mut masks = [0; LANES];
+    for lane in 0..LANES {
+        let top = (strip * BLOCK_HEIGHT) as f32 + 0.5 - of.y[lane];
         let bottom = top + (BLOCK_HEIGHT - 1) as f32;
-        let (dy_right, dy_left) = (splat.lean_px.max(top).min(bottom), (-splat.lean_px).max(top).min(bottom));
-        let (v_right, v_left) = (vy * dy_right, vy * dy_left);
-        let right = x + shift * dy_right + (splat.reach - v_right * v_right).max(0.0).sqrt() * width;
-        let left = x + shift * dy_left - (splat.reach - v_left * v_left).max(0.0).sqrt() * width;
+        let (dy_right, dy_left) = (of.lean[lane].max(top).min(bottom), (-of.lean[lane]).max(top).min(bottom));
+        let (v_right, v_left) = (of.vy[lane] * dy_right, of.vy[lane] * dy_left);
+        let half_width = |v: f32| root(of.reach[lane] - v * v) * of.width[lane];
+        let right = of.x[lane] + of.shift[lane] * dy_right + half_width(v_right);
+        let left = of.x[lane] + of.shift[lane] * dy_left - half_width(v_left);
         // Pixel i has its center at i + 0.5. Blocks `first..end`, both 0..=BLOCKS_ACROSS.
         let first_px = (left - (0.5 + SLACK_PX)).ceil();
         let end_px = right + (0.5 + SLACK_PX - 1.0 + BLOCK_WIDTH as f32);
         let first = (first_px * (1.0 / BLOCK_WIDTH as f32)).max(0.0).min(BLOCKS_ACROSS as f32);
         let end = (end_px * (1.0 / BLOCK_WIDTH as f32)).max(0.0).min(BLOCKS_ACROSS as f32);
-        let is_touched = (top <= half_y) & (bottom >= -half_y);
+        let is_touched = (top <= of.half_y[lane]) & (bottom >= -of.half_y[lane]);
         let bits = (0xff_u32 << whole(first)) & !(0xff_u32 << whole(end));
-        *mask = if is_touched { bits as u8 } else { 0 };
+        masks[lane] = if is_touched { bits as u8 } else { 0 };
     }
     masks
+}
+
+/// The square root or up to 0.4 % more, 0 for what is not above 0: a table-free first guess of the inverse and one
+/// Newton step, a third of the time of the exact root.
+#[inline(always)]
+fn root(number: f32) -> f32 {
+    let number = number.max(0.0);
+    let guess = f32::from_bits(0x5f37_59df - (number.to_bits() >> 1));
+    // The step never ends above the inverse root, and at most 0.18 % below it.
+    guess * (1.503 - 0.501 * number * guess * guess) * number
 }
 
 /// A number in 0..=8, rounded down. The sum has its whole part in the lowest bits; a cast would not vectorize.
@@ -55,4 +187,28 @@ pub(super) fn touched_blocks(splat: &Splat, origin_px: [f32; 2]) -> StripMasks {
 fn whole(number: f32) -> u32 {
     const SHIFT: f32 = 8_388_608.0;
     (number.floor() + SHIFT).to_bits() & 31
+}
+
+/// A strip's blocks of each splat to the splats of each block: the transpose of a matrix of bits.
+#[inline(always)]
+fn by_block(masks: &[[u8; LANES]; RECORDS_LEN / LANES], blocks: &mut [[u8; NUM_WORDS]; BLOCKS_ACROSS]) {
+    let mut words = [0_u64; NUM_WORDS];
+    for (word, splats) in words.iter_mut().zip(masks.as_flattened().as_chunks::<8>().0) {
+        *word = transposed(u64::from_le_bytes(*splats));
+    }
+    for (column, block) in blocks.iter_mut().enumerate() {
+        for (mask, word) in block.iter_mut().zip(&words) {
+            *mask = (word >> (8 * column)) as u8;
+        }
+    }
+}
+
+/// Transpose of 8 x 8 bits, a row a byte: swaps single bits, then pairs, then fours (Warren, Hacker's Delight, 7-3).
+#[inline(always)]
+fn transposed(mut bits: u64) -> u64 {
+    for (shift, mask) in [(7, 0x00aa_00aa_00aa_00aa), (14, 0x0000_cccc_0000_cccc), (28, 0x0000_0000_f0f0_f0f0)] {
+        let swap = (bits ^ (bits >> shift)) & mask;
+        bits ^= swap ^ (swap << shift);
+    }
+    bits
 }

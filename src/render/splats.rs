@@ -20,6 +20,7 @@ struct Touch {
     rect: [u16; 4],
     /// The Gaussian that it shows.
     gaussian_idx: u32,
+    depth: f32,
 }
 
 /// The splats of one batch of groups.
@@ -41,7 +42,7 @@ impl Touch {
     fn of(splat: &Splat, view: &View) -> Self {
         // First column behind the last: touches nothing.
         let rect = splat.tile_rect(TILE_PX as f32, view).unwrap_or([1, 0, 1, 0]);
-        Self { rect, gaussian_idx: splat.gaussian_idx }
+        Self { rect, gaussian_idx: splat.gaussian_idx, depth: splat.depth }
     }
 }
 
@@ -86,24 +87,17 @@ impl Splats {
         self.batches[place / BATCH_LEN].touches[place % BATCH_LEN].rect
     }
 
-    /// The Gaussian that the splat at a place shows.
-    #[inline(always)]
-    pub(super) fn gaussian_idx(&self, place: u32) -> u32 {
-        let place = place as usize;
-        self.batches[place / BATCH_LEN].touches[place % BATCH_LEN].gaussian_idx
-    }
-
     /// Writes the depth and place of every splat over `keys`.
     pub(super) fn write_keys(&self, keys: &mut Vec<DepthKey>) {
         keys.clear();
         keys.reserve(self.len());
         for (batch_idx, batch) in self.batches.iter().enumerate() {
             let first = (batch_idx * BATCH_LEN) as u32;
-            keys.extend(
-                (first..)
-                    .zip(&batch.splats)
-                    .map(|(place, splat)| DepthKey { depth_bits: splat.depth.to_bits(), place }),
-            );
+            keys.extend((first..).zip(&batch.touches).map(|(place, &Touch { depth, gaussian_idx, .. })| DepthKey {
+                depth_bits: depth.to_bits(),
+                gaussian_idx,
+                place,
+            }));
         }
     }
 }

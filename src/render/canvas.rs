@@ -1,0 +1,83 @@
+//! Where a picture goes: numbers as they are, or eight bits. What a film does not need is neither computed nor written.
+
+use std::sync::{Mutex, PoisonError};
+
+use pulp::{Simd, WithSimd};
+
+use super::bin::TILE_PX;
+use super::pixels::{LinearRow, Rgb8Row, TilePixels};
+use super::{Frame, Rgb8Frame};
+
+/// Rows of a picture to be written to.
+#[derive(Debug)]
+pub(super) enum Canvas<'a> {
+    /// Color and transmittance.
+    Linear { rgb: &'a mut [f32], transmittance: &'a mut [f32] },
+    /// Color in eight bits.
+    Rgb8(&'a mut [u8]),
+}
+
+impl<'a> From<&'a mut Frame> for Canvas<'a> {
+    fn from(frame: &'a mut Frame) -> Self {
+        Self::Linear { rgb: &mut frame.rgb, transmittance: &mut frame.transmittance }
+    }
+}
+
+impl<'a> From<&'a mut Rgb8Frame> for Canvas<'a> {
+    fn from(frame: &'a mut Rgb8Frame) -> Self {
+        Self::Rgb8(&mut frame.rgb8)
+    }
+}
+
+/// The rows of a picture that one row of tiles writes to.
+pub(super) type Band<'a> = Mutex<Canvas<'a>>;
+
+impl<'a> Canvas<'a> {
+    /// The picture as bands of one row of tiles each.
+    pub(super) fn into_bands(self, width: usize) -> Vec<Band<'a>> {
+        let len = width * TILE_PX;
+        match self {
+            Self::Linear { rgb, transmittance } => {
+                let rows = rgb.chunks_mut(3 * len).zip(transmittance.chunks_mut(len));
+                rows.map(|(rgb, transmittance)| Mutex::new(Self::Linear { rgb, transmittance })).collect()
+            }
+            Self::Rgb8(rgb8) => rgb8.chunks_mut(3 * len).map(|rgb8| Mutex::new(Self::Rgb8(rgb8))).collect(),
+        }
+    }
+}
+
+/// A finished tile on its way into the picture, compiled for every instruction set.
+pub(super) struct Finished<'a, 'frame> {
+    pub(super) pixels: &'a TilePixels,
+    pub(super) band: &'a Band<'frame>,
+    /// The tile's place in the band.
+    pub(super) column: usize,
+    /// Width of the picture.
+    pub(super) width: usize,
+    /// Shines through where something is left of it.
+    pub(super) background: [f32; 3],
+}
+
+impl WithSimd for Finished<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { pixels, band, column, width, background } = self;
+        let (left, right) = (column * TILE_PX, ((column + 1) * TILE_PX).min(width));
+        match &mut *band.lock().unwrap_or_else(PoisonError::into_inner) {
+            Canvas::Linear { rgb, transmittance } => {
+                let rows = rgb.chunks_mut(width * 3).zip(transmittance.chunks_mut(width)).enumerate();
+                for (row, (rgb, transmittance)) in rows {
+                    let (rgb, transmittance) = (&mut rgb[left * 3..right * 3], &mut transmittance[left..right]);
+                    pixels.write_row(row, background, LinearRow { rgb, transmittance });
+                }
+            }
+            Canvas::Rgb8(rgb8) => {
+                for (row, rgb8) in rgb8.chunks_mut(width * 3).enumerate() {
+                    pixels.write_row(row, background, Rgb8Row(&mut rgb8[left * 3..right * 3]));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! The pixels of a tile while it is being blended, half block after half block.
+//!
+//! A half block's colors and transmittances lie side by side, not in planes of their own: planes would be a multiple of
+//! 4 KiB apart, and a store to one would hold up loads from the others.
+
+use pulp::Simd;
+
+use super::kernel::Pixels;
+use super::spans::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_STRIPS};
+
+/// A block's left and right half are blended side by side.
+pub(super) const HALF_WIDTH: usize = BLOCK_WIDTH / 2;
+/// Pixels of half a block, row-major.
+pub(super) const HALF_LEN: usize = HALF_WIDTH * BLOCK_HEIGHT;
+/// Half blocks side by side in a tile.
+const HALVES_ACROSS: usize = 2 * BLOCKS_ACROSS;
+const NUM_HALVES: usize = HALVES_ACROSS * NUM_STRIPS;
+
+/// What has been blended of half a block: color, and transmittance, which is negative where a pixel has stopped on its own.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+struct HalfBlock {
+    red: [f32; HALF_LEN],
+    green: [f32; HALF_LEN],
+    blue: [f32; HALF_LEN],
+    transmittance: [f32; HALF_LEN],
+}
+
+impl HalfBlock {
+    const CLEAR: Self =
+        Self { red: [0.0; HALF_LEN], green: [0.0; HALF_LEN], blue: [0.0; HALF_LEN], transmittance: [1.0; HALF_LEN] };
+
+    /// Color over a background and transmittance of one row.
+    #[inline(always)]
+    fn row(&self, row: usize, background: [f32; 3]) -> ([f32; 3 * HALF_WIDTH], [f32; HALF_WIDTH]) {
+        let of = |channel: &[f32; HALF_LEN]| channel.as_chunks::<HALF_WIDTH>().0[row % BLOCK_HEIGHT];
+        let rest = of(&self.transmittance).map(f32::abs);
+        let channels = [of(&self.red), of(&self.green), of(&self.blue)];
+        let mut rgb = [0.0; 3 * HALF_WIDTH];
+        for (channel, values) in channels.iter().enumerate() {
+            for column in 0..HALF_WIDTH {
+                rgb[3 * column + channel] = values[column] + background[channel] * rest[column];
+            }
+        }
+        (rgb, rest)
+    }
+}
+
+/// The pixels of one tile. A pixel's number is `half block * 16 + row in block * 4 + column in half block`.
+#[derive(Debug)]
+pub(super) struct TilePixels(Box<[HalfBlock; NUM_HALVES]>);
+
+impl Default for TilePixels {
+    #[allow(clippy::large_stack_arrays, reason = "made once a thread, 64 KiB, and moved to the heap at once")]
+    fn default() -> Self {
+        Self(Box::new([HalfBlock::CLEAR; NUM_HALVES]))
+    }
+}
+
+impl TilePixels {
+    /// Nothing blended.
+    pub(super) fn clear(&mut self) {
+        self.0.fill(HalfBlock::CLEAR);
+    }
+
+    /// A register of pixels of a half block, from `first_lane` on.
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S, half: usize, first_lane: usize) -> Pixels<S> {
+        let pixels = &self.0[half % NUM_HALVES];
+        Pixels {
+            first: half * HALF_LEN + first_lane,
+            red: load(simd, &pixels.red, first_lane),
+            green: load(simd, &pixels.green, first_lane),
+            blue: load(simd, &pixels.blue, first_lane),
+            transmittance: load(simd, &pixels.transmittance, first_lane),
+            rest: simd.splat_f32s(0.0),
+        }
+    }
+
+    /// Writes what [`TilePixels::load`] has read.
+    #[inline(always)]
+    pub(super) fn store<S: Simd>(&mut self, simd: S, pixels: &Pixels<S>) {
+        let (half, first_lane) = (pixels.first / HALF_LEN, pixels.first % HALF_LEN);
+        let to = &mut self.0[half % NUM_HALVES];
+        store(simd, &mut to.red, first_lane, pixels.red);
+        store(simd, &mut to.green, first_lane, pixels.green);
+        store(simd, &mut to.blue, first_lane, pixels.blue);
+        store(simd, &mut to.transmittance, first_lane, pixels.transmittance);
+    }
+
+    /// Writes the pixels of one row of the tile, from the left, as many as the output holds.
+    #[inline(always)]
+    pub(super) fn write_row<O: RowOutput>(&self, row: usize, background: [f32; 3], mut output: O) {
+        let halves = &self.0[row / BLOCK_HEIGHT * HALVES_ACROSS..];
+        for (column, half) in halves.iter().take(HALVES_ACROSS).enumerate() {
+            let (rgb, rest) = half.row(row, background);
+            output.write(column, rgb, rest);
+        }
+    }
+}
+
+/// Where the pixels of one row of a tile go.
+pub(super) trait RowOutput {
+    /// Writes four pixels from column 4 `quad` on, those that the output holds.
+    fn write(&mut self, quad: usize, rgb: [f32; 3 * HALF_WIDTH], rest: [f32; HALF_WIDTH]);
+}
+
+/// Color and transmittance as they are.
+pub(super) struct LinearRow<'a> {
+    pub(super) rgb: &'a mut [f32],
+    pub(super) transmittance: &'a mut [f32],
+}
+
+impl RowOutput for LinearRow<'_> {
+    #[inline(always)]
+    fn write(&mut self, quad: usize, rgb: [f32; 3 * HALF_WIDTH], rest: [f32; HALF_WIDTH]) {
+        put(self.rgb, quad, rgb);
+        put(self.transmittance, quad, rest);
+    }
+}
+
+/// Color in eight bits.
+pub(super) struct Rgb8Row<'a>(pub(super) &'a mut [u8]);
+
+impl RowOutput for Rgb8Row<'_> {
+    #[inline(always)]
+    fn write(&mut self, quad: usize, rgb: [f32; 3 * HALF_WIDTH], _: [f32; HALF_WIDTH]) {
+        put(self.0, quad, rgb.map(super::frame::level));
+    }
+}
+
+/// Writes values to the place of a number of as many, those that there is room for.
+#[inline(always)]
+fn put<T: Copy, const N: usize>(to: &mut [T], place: usize, values: [T; N]) {
+    if let Some(whole) = to.get_mut(place * N..).and_then(|to| to.first_chunk_mut::<N>()) {
+        *whole = values;
+    } else if let Some(end) = to.get_mut(place * N..) {
+        end.copy_from_slice(&values[..end.len()]);
+    }
+}
+
+/// Column and row in the tile of the pixel of a number.
+pub(super) fn position_in_tile(pixel: usize) -> [usize; 2] {
+    let (half, lane) = (pixel / HALF_LEN, pixel % HALF_LEN);
+    let column = half % HALVES_ACROSS * HALF_WIDTH + lane % HALF_WIDTH;
+    [column, half / HALVES_ACROSS * BLOCK_HEIGHT + lane / HALF_WIDTH]
+}
+
+/// Pixel centers of the left half of a block relative to its tile, x and y, in the order of a half block.
+#[inline(always)]
+pub(super) fn half_block_centers(block: usize) -> ([f32; HALF_LEN], [f32; HALF_LEN]) {
+    let (left, top) = (block % BLOCKS_ACROSS * BLOCK_WIDTH, block / BLOCKS_ACROSS * BLOCK_HEIGHT);
+    let (mut x, mut y) = ([0.0; HALF_LEN], [0.0; HALF_LEN]);
+    for lane in 0..HALF_LEN {
+        x[lane] = (left + lane % HALF_WIDTH) as f32 + 0.5;
+        y[lane] = (top + lane / HALF_WIDTH) as f32 + 0.5;
+    }
+    (x, y)
+}
+
+/// A register of numbers from a place on.
+#[inline(always)]
+pub(super) fn load<S: Simd>(_: S, numbers: &[f32; HALF_LEN], first: usize) -> S::f32s {
+    S::as_simd_f32s(&numbers[first..first + S::F32_LANES]).0[0]
+}
+
+#[inline(always)]
+fn store<S: Simd>(_: S, numbers: &mut [f32; HALF_LEN], first: usize, values: S::f32s) {
+    S::as_mut_simd_f32s(&mut numbers[first..first + S::F32_LANES]).0[0] = values;
+}
