@@ -40,9 +40,11 @@ impl TileGrid {
 struct Run {
     /// Tiles each splat touches: first and last column, first and last row.
     rects: Vec<[u16; 4]>,
-    /// Where each tile's part of `places` begins; one more than there are tiles.
-    starts: Vec<u32>,
-    /// Places of splats, tile after tile.
+    /// Number of splats of each tile, and room for counts of 0 behind.
+    counts: Vec<u32>,
+    /// Where the next place of each tile goes; in the end one after its last.
+    ends: Vec<u32>,
+    /// Places of splats, tile after tile, each with one slot to spare behind it.
     places: Vec<u32>,
 }
 
@@ -81,8 +83,8 @@ impl Bins {
     /// Places of the splats of one tile, nearest first, in slices.
     pub(super) fn of_tile(&self, tile_idx: usize) -> impl Iterator<Item = &[u32]> {
         self.runs[..self.num_runs].iter().map(move |run| {
-            let (start, end) = (run.starts[tile_idx] as usize, run.starts[tile_idx + 1] as usize);
-            &run.places[start..end]
+            let end = run.ends[tile_idx] as usize;
+            &run.places[end - run.counts[tile_idx] as usize..end]
         })
     }
 }
@@ -91,44 +93,53 @@ impl Run {
     /// Finds the tiles that each splat touches and how many splats each tile gets; returns the number of pairs.
     fn count(&mut self, keys: &[DepthKey], splats: &Splats, grid: TileGrid) -> u64 {
         self.rects.clear();
-        self.starts.clear();
-        self.starts.resize(grid.len() + 1, 0);
-        let mut num_pairs = 0;
-        for key in keys {
-            let rect = splats.rect(key.place);
-            self.rects.push(rect);
-            for_each_tile(rect, grid, |tile_idx| {
-                self.starts[tile_idx + 1] += 1;
-                num_pairs += 1;
-            });
+        self.rects.extend(keys.iter().map(|key| splats.rect(key.place)));
+        self.counts.clear();
+        self.counts.resize(grid.len() + grid.across + 2, 0);
+        for &rect in &self.rects {
+            for_each_tile(rect, grid, |tile_idx, is_touched| self.counts[tile_idx] += is_touched);
         }
-        num_pairs
+        self.counts.iter().map(|&count| u64::from(count)).sum()
     }
 
     /// Writes every splat's place into the lists of its tiles.
     fn place(&mut self, keys: &[DepthKey], grid: TileGrid) {
-        for tile_idx in 0..grid.len() {
-            self.starts[tile_idx + 1] += self.starts[tile_idx];
-        }
+        let mut next = 0;
+        self.ends.clear();
+        self.ends.extend(self.counts.iter().map(|count| {
+            next += count + 1;
+            next - count - 1
+        }));
         self.places.clear();
-        self.places.resize(self.starts[grid.len()] as usize, 0);
-        let (starts, places) = (&mut self.starts, &mut self.places);
+        self.places.resize(next as usize, 0);
+        let (ends, places) = (&mut self.ends, &mut self.places);
         for (key, &rect) in keys.iter().zip(&self.rects) {
-            for_each_tile(rect, grid, |tile_idx| {
-                places[starts[tile_idx] as usize] = key.place;
-                starts[tile_idx] += 1;
+            for_each_tile(rect, grid, |tile_idx, is_touched| {
+                // Where it does not belong it is written over, or stays in the slot to spare.
+                places[ends[tile_idx] as usize] = key.place;
+                ends[tile_idx] += is_touched;
             });
         }
-        // Each start has moved to its tile's end, which is the next tile's start.
-        starts.copy_within(0..grid.len(), 1);
-        starts[0] = 0;
     }
 }
 
-fn for_each_tile([left, right, top, bottom]: [u16; 4], grid: TileGrid, mut visit: impl FnMut(usize)) {
-    for row in usize::from(top)..=usize::from(bottom) {
-        for column in usize::from(left)..=usize::from(right) {
-            visit(row * grid.across + column);
+/// Calls `visit` with every tile of a rectangle and 1. Up to 2 x 2 tiles, which is most, it is called four times, with 0
+/// for those that are not in it: whether they are cannot be foretold, and a wrong guess costs more than a visit.
+#[inline(always)]
+fn for_each_tile([left, right, top, bottom]: [u16; 4], grid: TileGrid, mut visit: impl FnMut(usize, u32)) {
+    let first = usize::from(top) * grid.across + usize::from(left);
+    let (columns, rows) = (u32::from(right + 1 - left), u32::from(bottom + 1 - top));
+    if columns.max(rows) <= 2 {
+        let (is_first, is_wide, is_high) = (columns.min(1), columns / 2, rows - 1);
+        visit(first, is_first);
+        visit(first + 1, is_wide);
+        visit(first + grid.across, is_first * is_high);
+        visit(first + grid.across + 1, is_wide * is_high);
+        return;
+    }
+    for row in 0..rows as usize {
+        for column in 0..columns as usize {
+            visit(first + row * grid.across + column, 1);
         }
     }
 }

@@ -11,8 +11,8 @@ use super::blend::{Tile, Workspace};
 use super::canvas::{Canvas, Finished};
 use super::groups::Groups;
 use super::kernel::{Arithmetic, Exact, Quick};
+use super::order::DepthOrder;
 use super::payload::{Payload, TileArea};
-use super::sort::{self, DepthKey};
 use super::splats::Splats;
 use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View, WorkCounts};
 use crate::scene::Gaussians;
@@ -21,8 +21,7 @@ use crate::scene::Gaussians;
 #[derive(Debug, Default)]
 pub(super) struct Buffers {
     splats: Splats,
-    keys: Vec<DepthKey>,
-    spare_keys: Vec<DepthKey>,
+    order: DepthOrder,
     bins: Bins,
     workspaces: Pool<Workspace>,
 }
@@ -59,17 +58,18 @@ pub(super) fn render<P: Payload>(
     buffers: &mut Buffers,
     (canvas, payload): (Canvas<'_>, &P),
 ) -> Result<(RenderStats, Vec<P::Part>), RenderError> {
-    let Buffers { splats, keys, spare_keys, bins, workspaces } = buffers;
+    let Buffers { splats, order, bins, workspaces } = buffers;
     let start = Instant::now();
     let num_projected = splats.fill(gaussians, groups, view);
     let projected = Instant::now();
-    splats.write_keys(keys);
-    sort::sort(keys, spare_keys);
+    let keys = order.of(splats, view, gaussians.len());
     let sorted = Instant::now();
     let num_pairs = bins.fill(keys, splats, view, &settings.limits)?;
     let binned = Instant::now();
     let tiles = (&*splats, &*bins);
-    let (num_block_blends, parts) = match settings.effective_accuracy().precision {
+    let precision =
+        if view.alpha_cut < 1.0 / 256.0 { Precision::Exact } else { settings.effective_accuracy().precision };
+    let (num_block_blends, parts) = match precision {
         Precision::Exact => blend_tiles::<Exact, P>(tiles, view, settings, workspaces, (canvas, payload)),
         Precision::Quick => blend_tiles::<Quick, P>(tiles, view, settings, workspaces, (canvas, payload)),
     };

@@ -59,5 +59,5 @@ pub struct Rgb8Frame {
 #[inline(always)]
 pub(super) fn level(value: f32) -> u8 {
     const SHIFT: f32 = 8_388_608.0;
-    (value.max(0.0).min(1.0) * 255.0 + SHIFT).to_bits() as u8
+    (value.clamp(0.0, 1.0) * 255.0 + SHIFT).to_bits() as u8
 }

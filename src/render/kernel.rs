@@ -88,8 +88,9 @@ pub(super) trait Arithmetic {
 pub(super) struct Exact;
 
 /// A block stops once all its pixels are below the least transmittance, which takes three operations a splat less than
-/// asking each pixel; until then its pixels are nearer to the spec image than if they had stopped. Relative error of
-/// opacities below 6.0e-4.
+/// asking each pixel; until then its pixels are nearer to the spec image than if they had stopped. Opacities are off by
+/// 0.0071 at most and by 2.9 % of themselves, and not held to 0.99; a polynomial of degree 3 would leave 6.0e-4 and took
+/// 5 % longer on the kitchen. Only for cuts of 1/256 and above.
 pub(super) struct Quick;
 
 impl Arithmetic for Exact {
@@ -106,11 +107,12 @@ impl Arithmetic for Quick {
 
     #[inline(always)]
     fn exp2<S: Simd, const N: usize>(simd: S, x: [S::f32s; N]) -> [S::f32s; N] {
-        polynomial(simd, [0.998_275_2, 0.666_007_6, 0.168_594_72], x)
+        polynomial(simd, [0.999_111_4, 0.672_792_5, 0.175_458_31], x)
     }
 }
 
-/// A polynomial of least relative error for 2^x (Remez), lowest power first.
+/// A polynomial for 2^x, lowest power first: of degree 4 that of least relative error on -1..=0, of degree 2 that of least
+/// relative error times 4^x, since faint splats may be off by more (Remez).
 #[inline(always)]
 fn polynomial<S: Simd, const T: usize, const N: usize>(simd: S, terms: [f32; T], x: [S::f32s; N]) -> [S::f32s; N] {
     let mut sum = [simd.splat_f32s(terms[T - 1]); N];

@@ -27,6 +27,7 @@ mod ids;
 mod instructions;
 mod kernel;
 mod lift;
+mod order;
 mod payload;
 mod pixels;
 mod project;

@@ -7,8 +7,10 @@
 use glam::{DVec3, Vec3};
 use pulp::{Simd, WithSimd};
 
+use super::bin::{TILE_PX, TileGrid};
 use super::groups::{Group, LANES, Lane, Pack};
-use super::splat::{EXPONENT_DIVISOR, Splat, whitening_unit};
+use super::splat::{EXPONENT_DIVISOR, NO_TILE, Splat, whitening_unit};
+use super::splats::Batch;
 use super::{View, harmonics, reference};
 use crate::scene::Gaussians;
 
@@ -28,6 +30,8 @@ struct Outputs {
     reach: Lane,
     half_px: [Lane; 2],
     lean_px: Lane,
+    /// See [`Splat::tile_rect`]; the first column is behind the last where no tile is touched.
+    tile_rect: [[u16; LANES]; 4],
 }
 
 /// The members of one group on their way to being splats, compiled for every instruction set.
@@ -35,7 +39,7 @@ struct GroupMembers<'a> {
     projection: &'a Projection,
     gaussians: &'a Gaussians,
     packs: &'a [Pack],
-    splats: &'a mut Vec<Splat>,
+    batch: &'a mut Batch,
 }
 
 impl WithSimd for GroupMembers<'_> {
@@ -43,7 +47,7 @@ impl WithSimd for GroupMembers<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.projection.project_packs(self.gaussians, self.packs, self.splats);
+        self.projection.project_packs(self.gaussians, self.packs, self.batch);
     }
 }
 
@@ -62,12 +66,17 @@ pub(super) struct Projection {
     compensation: f32,
     cut_level: f32,
     unit: f32,
+    /// Width and height of the picture.
+    size_px: [f32; 2],
+    /// Column and row of the last tile.
+    last_tile: [f32; 2],
 }
 
 impl Projection {
     /// The projection of a view.
     pub(super) fn new(view: &View) -> Self {
         let rows = view.camera_from_world.transpose();
+        let grid = TileGrid::of(view);
         let narrow = |(low, high): (f64, f64)| (low as f32, high as f32);
         Self {
             view: *view,
@@ -79,6 +88,8 @@ impl Projection {
             compensation: f32::from(u8::from(view.is_compensated)),
             cut_level: (view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32,
             unit: whitening_unit() as f32,
+            size_px: [view.width, view.height].map(|size| size as f32),
+            last_tile: [grid.across, grid.down].map(|count| (count - 1) as f32),
         }
     }
 
@@ -104,19 +115,21 @@ impl Projection {
     }
 
     /// Appends the splats of a group's members.
-    pub(super) fn project_group(&self, gaussians: &Gaussians, packs: &[Pack], splats: &mut Vec<Splat>) {
-        self.view.instructions.dispatch(GroupMembers { projection: self, gaussians, packs, splats });
+    pub(super) fn project_group(&self, gaussians: &Gaussians, packs: &[Pack], batch: &mut Batch) {
+        self.view.instructions.dispatch(GroupMembers { projection: self, gaussians, packs, batch });
     }
 
     #[inline(always)]
-    fn project_packs(&self, gaussians: &Gaussians, packs: &[Pack], splats: &mut Vec<Splat>) {
+    fn project_packs(&self, gaussians: &Gaussians, packs: &[Pack], batch: &mut Batch) {
         let mut outputs = Outputs::default();
         for pack in packs {
             self.centers(pack, &mut outputs);
             self.shapes(pack, &mut outputs);
             for lane in 0..pack.len.min(LANES) {
                 if outputs.is_seen[lane] != 0.0 {
-                    splats.extend(self.finished(gaussians, pack, &outputs, lane));
+                    if let Some((splat, rect)) = self.finished(gaussians, pack, &outputs, lane) {
+                        batch.push(splat, rect);
+                    }
                 }
             }
         }
@@ -200,6 +213,15 @@ impl Projection {
                 & (x - radius_px < self.end_px[0])
                 & (y - radius_px < self.end_px[1])
                 & (reach >= 0.0);
+            let (half_x, half_y) = (out.half_px[0][lane], out.half_px[1][lane]);
+            let (x_px, y_px) = (out.mean_px[0][lane], out.mean_px[1][lane]);
+            let ([width, height], [across, down]) = (self.size_px, self.last_tile);
+            let is_inside =
+                (x_px + half_x > 0.0) & (x_px - half_x < width) & (y_px + half_y > 0.0) & (y_px - half_y < height);
+            out.tile_rect[0][lane] = if is_inside { tile(x_px - half_x, across) } else { NO_TILE[0] };
+            out.tile_rect[1][lane] = if is_inside { tile(x_px + half_x, across) } else { NO_TILE[1] };
+            out.tile_rect[2][lane] = tile(y_px - half_y, down);
+            out.tile_rect[3][lane] = tile(y_px + half_y, down);
             // Zero times anything finite is zero; what is not finite becomes NaN and is looked at in `f64`.
             let trouble = (det + ux + x + y + radius_px) * 0.0;
             let front = out.is_seen[lane];
@@ -208,10 +230,10 @@ impl Projection {
     }
 
     /// The finished splat of one lane with its color; in `f64` where `f32` did not suffice.
-    fn finished(&self, gaussians: &Gaussians, pack: &Pack, out: &Outputs, lane: usize) -> Option<Splat> {
+    fn finished(&self, gaussians: &Gaussians, pack: &Pack, out: &Outputs, lane: usize) -> Option<(Splat, [u16; 4])> {
         let gaussian_idx = pack.gaussian_idx[lane];
-        let splat = if out.is_seen[lane] > 0.5 {
-            Splat {
+        let (splat, rect) = if out.is_seen[lane] > 0.5 {
+            let splat = Splat {
                 mean_px: [out.mean_px[0][lane], out.mean_px[1][lane]],
                 whiten: [out.whiten[0][lane], out.whiten[1][lane], out.whiten[2][lane]],
                 level: out.level[lane],
@@ -221,9 +243,12 @@ impl Projection {
                 depth: out.depth[lane],
                 color: [0.0; 3],
                 gaussian_idx,
-            }
+            };
+            (splat, [0, 1, 2, 3].map(|side| out.tile_rect[side][lane]))
         } else {
-            Splat::from_exact(&reference::project(gaussians, gaussian_idx as usize, &self.view)?, &self.view)
+            let exact = reference::project(gaussians, gaussian_idx as usize, &self.view)?;
+            let splat = Splat::from_exact(&exact, &self.view);
+            (splat, splat.tile_rect(TILE_PX as f32, &self.view).unwrap_or(NO_TILE))
         };
         let sh_dc = Vec3::from(pack.sh_dc.map(|channel| channel[lane]));
         let color = if gaussians.sh_degree == 0 {
@@ -232,8 +257,16 @@ impl Projection {
             let mean = DVec3::from(pack.mean.map(|axis| f64::from(axis[lane])));
             harmonics::color_f32(mean - self.view.center, sh_dc, gaussians.sh_rest_of(gaussian_idx as usize))
         };
-        Some(splat.with_source(gaussian_idx, color))
+        Some((splat.with_source(gaussian_idx, color), rect))
     }
+}
+
+/// The tile that holds a position, or the nearest one. The sum has its whole part in the lowest bits; a cast would not
+/// vectorize.
+#[inline(always)]
+fn tile(position_px: f32, last: f32) -> u16 {
+    const SHIFT: f32 = 8_388_608.0;
+    ((position_px * (1.0 / TILE_PX as f32)).max(0.0).min(last).floor() + SHIFT).to_bits() as u16
 }
 
 /// Binary logarithm of a positive normal number, absolute error below 1e-7; written so that it vectorizes.

@@ -68,7 +68,8 @@ pub struct Accuracy {
 pub enum Precision {
     /// Opacities within 2.5e-5 of themselves; each pixel stops on its own, as in the spec image.
     Exact,
-    /// Opacities within 6.0e-4 of themselves; pixels stop in blocks of 8 x 4, when the last of them may.
+    /// Opacities within 0.0071 and 2.9 % of themselves; pixels stop in blocks of 8 x 4, when the last of them may. Where
+    /// opacities below 1/256 count, as [`Precision::Exact`].
     Quick,
 }
 
@@ -114,6 +115,9 @@ pub struct RenderSettings {
     pub limits: Limits,
     /// The widest instructions that may be used; changes no picture.
     pub instructions: Instructions,
+    /// Whether the depth order of the picture before may help, as it does while the camera keeps its direction; changes
+    /// no picture.
+    pub reuses_order: bool,
 }
 
 impl Default for RenderSettings {
@@ -126,6 +130,7 @@ impl Default for RenderSettings {
             accuracy: None,
             limits: Limits::default(),
             instructions: Instructions::default(),
+            reuses_order: true,
         }
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct DepthKey {
 
 impl DepthKey {
     /// What keys are ordered by; no two are equal.
-    fn order(self) -> u64 {
+    pub(super) fn order(self) -> u64 {
         u64::from(self.depth_bits) << 32 | u64::from(self.gaussian_idx)
     }
 }
@@ -77,7 +77,8 @@ fn num_from_left(left: &[DepthKey], right: &[DepthKey], len: usize) -> usize {
     low
 }
 
-fn merge_run<'a>(mut left: &'a [DepthKey], mut right: &'a [DepthKey], to: &mut [DepthKey]) {
+/// Merges two sorted runs.
+pub(super) fn merge_run<'a>(mut left: &'a [DepthKey], mut right: &'a [DepthKey], to: &mut [DepthKey]) {
     for to in to {
         let from = match (left.first(), right.first()) {
             (Some(a), Some(b)) if a.order() < b.order() => &mut left,

@@ -113,7 +113,7 @@ impl Touches {
         // Without branches: eight positions a byte, those that are too many are written over.
         let mut len = 0;
         for (first, mask) in (0..).step_by(8).zip(masks) {
-            let positions = SET_BITS[usize::from(*mask)] | first * 0x0101_0101_0101_0101;
+            let positions = SET_BITS[usize::from(*mask)] | (first * 0x0101_0101_0101_0101);
             list.0[len..len + 8].copy_from_slice(&positions.to_le_bytes());
             len += mask.count_ones() as usize;
         }
@@ -152,7 +152,7 @@ const fn set_bits() -> [u64; 256] {
 #[inline(always)]
 fn touched_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
     let mut masks = [0; LANES];
-    for lane in 0..LANES {
+    for (lane, mask) in masks.iter_mut().enumerate() {
         let top = (strip * BLOCK_HEIGHT) as f32 + 0.5 - of.y[lane];
         let bottom = top + (BLOCK_HEIGHT - 1) as f32;
         let (dy_right, dy_left) = (of.lean[lane].max(top).min(bottom), (-of.lean[lane]).max(top).min(bottom));
@@ -167,7 +167,7 @@ fn touched_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
         let end = (end_px * (1.0 / BLOCK_WIDTH as f32)).max(0.0).min(BLOCKS_ACROSS as f32);
         let is_touched = (top <= of.half_y[lane]) & (bottom >= -of.half_y[lane]);
         let bits = (0xff_u32 << whole(first)) & !(0xff_u32 << whole(end));
-        masks[lane] = if is_touched { bits as u8 } else { 0 };
+        *mask = if is_touched { bits as u8 } else { 0 };
     }
     masks
 }

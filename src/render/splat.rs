@@ -6,6 +6,9 @@ use super::{View, reference::ExactSplat};
 /// lies in -1..=0 wherever the opacity counts; see [`super::exponential`].
 pub(super) const EXPONENT_DIVISOR: f64 = 8.0;
 
+/// The tiles of a splat that touches none: the first column behind the last.
+pub(super) const NO_TILE: [u16; 4] = [1, 0, 0, 0];
+
 /// Standard deviations to the units of [`Splat::whiten`]: an offset of w standard deviations costs (w k)^2 of exponent.
 pub(super) fn whitening_unit() -> f64 {
     (0.5 * std::f64::consts::LOG2_E / EXPONENT_DIVISOR).sqrt()

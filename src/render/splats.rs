@@ -1,7 +1,6 @@
 use rayon::prelude::*;
 
 use super::View;
-use super::bin::TILE_PX;
 use super::groups::{GROUP_LEN, Groups, PACKS_IN_GROUP};
 use super::project::Projection;
 use super::sort::DepthKey;
@@ -25,7 +24,7 @@ struct Touch {
 
 /// The splats of one batch of groups.
 #[derive(Debug, Default)]
-struct Batch {
+pub(super) struct Batch {
     splats: Vec<Splat>,
     /// What sorting and binning need of each splat, apart from the rest because they go through it in no order.
     touches: Vec<Touch>,
@@ -38,11 +37,12 @@ pub(super) struct Splats {
     batches: Vec<Batch>,
 }
 
-impl Touch {
-    fn of(splat: &Splat, view: &View) -> Self {
-        // First column behind the last: touches nothing.
-        let rect = splat.tile_rect(TILE_PX as f32, view).unwrap_or([1, 0, 1, 0]);
-        Self { rect, gaussian_idx: splat.gaussian_idx, depth: splat.depth }
+impl Batch {
+    /// Adds a splat and the tiles that it touches; see [`Splat::tile_rect`].
+    #[inline(always)]
+    pub(super) fn push(&mut self, splat: Splat, rect: [u16; 4]) {
+        self.splats.push(splat);
+        self.touches.push(Touch { rect, gaussian_idx: splat.gaussian_idx, depth: splat.depth });
     }
 }
 
@@ -55,15 +55,14 @@ impl Splats {
         let parts = groups.groups.par_chunks(GROUPS_IN_BATCH).zip(packs);
         self.batches.par_iter_mut().zip(parts).for_each(|(batch, (groups, packs))| {
             batch.splats.clear();
+            batch.touches.clear();
             batch.num_projected = 0;
             for (group, packs) in groups.iter().zip(packs.chunks(PACKS_IN_GROUP)) {
                 if projection.may_see(group) {
-                    projection.project_group(gaussians, packs, &mut batch.splats);
+                    projection.project_group(gaussians, packs, batch);
                     batch.num_projected += packs.iter().map(|pack| pack.len as u64).sum::<u64>();
                 }
             }
-            batch.touches.clear();
-            batch.touches.extend(batch.splats.iter().map(|splat| Touch::of(splat, view)));
         });
         self.batches.iter().map(|batch| batch.num_projected).sum()
     }

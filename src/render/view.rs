@@ -34,6 +34,8 @@ pub(super) struct View {
     pub(super) transmittance_stop: f64,
     /// The widest instructions that may be used.
     pub(super) instructions: Instructions,
+    /// Whether the depth order of the picture before may help.
+    pub(super) reuses_order: bool,
 }
 
 impl View {
@@ -66,6 +68,7 @@ impl View {
             alpha_cut: accuracy.alpha_cut,
             transmittance_stop: accuracy.transmittance_stop,
             instructions: settings.instructions,
+            reuses_order: settings.reuses_order,
         })
     }
 }

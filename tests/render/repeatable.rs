@@ -90,3 +90,43 @@ fn far_off_coordinates_give_the_picture_of_near_ones() {
     let there = Renderer::new(&far).render(&moved(&camera(320, 180), offset), &settings).unwrap();
     assert!(max_difference(&here.rgb, &there.rgb) < 1e-5);
 }
+
+#[test]
+fn dollies_holds_and_pans_are_the_same_whether_the_last_order_helps_or_not() {
+    let scene = crowd(6_000, 11);
+    let used = Renderer::new(&scene);
+    let mut camera = camera(200, 120);
+    // A hold, a dolly, a truck that ends far off, a pan too small and one too large to keep the order.
+    let moves = [
+        (0.0, DVec3::ZERO),
+        (0.0, DVec3::Z * 0.05),
+        (0.0, DVec3::new(3.0, 0.5, 1.0)),
+        (1e-5, DVec3::X),
+        (0.4, -DVec3::X),
+    ];
+    for (turn_rad, step) in moves.into_iter().chain(moves) {
+        camera.pose.position += step;
+        camera.pose.rotation = glam::DQuat::from_rotation_y(turn_rad) * camera.pose.rotation;
+        let with = used.render(&camera, &RenderSettings::default()).unwrap();
+        let alone = RenderSettings { reuses_order: false, ..RenderSettings::default() };
+        let without = Renderer::new(&scene).render(&camera, &alone).unwrap();
+        assert!(with.rgb == without.rgb && with.transmittance == without.transmittance, "{turn_rad} {step}");
+    }
+}
+
+#[test]
+fn eight_bit_frames_are_the_rounded_numbers() {
+    let scene = crowd(3_000, 12);
+    let renderer = Renderer::new(&scene);
+    for quality in Quality::ALL {
+        let settings =
+            RenderSettings { quality, background: glam::Vec3::new(0.2, 0.5, 1.5), ..RenderSettings::default() };
+        let linear = renderer.render(&camera(131, 77), &settings).unwrap();
+        let mut levels = cinesplat::render::Rgb8Frame::default();
+        renderer.render_rgb8_into(&camera(131, 77), &settings, &mut levels).unwrap();
+        assert_eq!((levels.width, levels.height), (131, 77));
+        let rounded: Vec<u8> =
+            linear.rgb.iter().map(|value| (value.clamp(0.0, 1.0) * 255.0).round_ties_even() as u8).collect();
+        assert!(levels.rgb8 == rounded, "{}", quality.name());
+    }
+}

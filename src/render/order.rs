@@ -1,0 +1,101 @@
+//! The depth order of a picture's splats, and what it owes to that of the picture before.
+//!
+//! While the camera keeps its direction (dollies, trucks, pedestals) every depth changes by the same amount and the
+//! order stays what it was, but for what rounding makes equal and for what comes into view. So the splats are put into
+//! the old order first; what comes into view is sorted and merged; and insertion repairs the rest. Where that would take
+//! more moves than there are splats, they are sorted anew. No two keys are equal: the order is the same either way.
+
+use glam::DVec3;
+
+use super::View;
+use super::sort::{self, DepthKey};
+use super::splats::Splats;
+
+/// Least cosine between the directions of two pictures of which the second is worth trying in the order of the first;
+/// a hundredth of a degree. Farther apart, the repair costs more than the sort.
+const LEAST_COSINE: f64 = 1.0 - 1.5e-8;
+
+/// No place in the order before.
+const UNSEEN: u32 = u32::MAX;
+
+/// Splats in depth order, and memory to find it in. Kept from picture to picture.
+#[derive(Debug, Default)]
+pub(super) struct DepthOrder {
+    keys: Vec<DepthKey>,
+    spare: Vec<DepthKey>,
+    /// Where each Gaussian stood in the last order; [`UNSEEN`] for those that did not.
+    rank: Vec<u32>,
+    /// Direction of the last view; zero where `rank` says nothing.
+    forward: DVec3,
+    /// Length of the last order.
+    last_len: usize,
+}
+
+impl DepthOrder {
+    /// The splats of a view of a scene of so many Gaussians, nearest first.
+    pub(super) fn of(&mut self, splats: &Splats, view: &View, num_gaussians: usize) -> &[DepthKey] {
+        splats.write_keys(&mut self.keys);
+        let forward = view.camera_from_world.row(2);
+        let is_near =
+            view.reuses_order && forward.dot(self.forward) >= LEAST_COSINE && self.rank.len() == num_gaussians;
+        if !(is_near && self.repair()) {
+            sort::sort(&mut self.keys, &mut self.spare);
+        }
+        if view.reuses_order {
+            self.remember(forward, num_gaussians);
+        }
+        &self.keys
+    }
+
+    /// Notes where every Gaussian stands.
+    fn remember(&mut self, forward: DVec3, num_gaussians: usize) {
+        self.rank.clear();
+        self.rank.resize(num_gaussians, UNSEEN);
+        for (rank, key) in (0..).zip(&self.keys) {
+            if let Some(place) = self.rank.get_mut(key.gaussian_idx as usize) {
+                *place = rank;
+            }
+        }
+        (self.forward, self.last_len) = (forward, self.keys.len());
+    }
+
+    /// Puts the keys in order by way of the last one; false, with the keys in some order, where that takes too long.
+    fn repair(&mut self) -> bool {
+        let absent = DepthKey { place: UNSEEN, ..DepthKey::default() };
+        self.spare.clear();
+        self.spare.resize(self.last_len, absent);
+        let mut new = Vec::new();
+        for key in &self.keys {
+            match self.rank.get(key.gaussian_idx as usize).and_then(|&rank| self.spare.get_mut(rank as usize)) {
+                Some(slot) => *slot = *key,
+                None => new.push(*key),
+            }
+        }
+        self.spare.retain(|key| key.place != UNSEEN);
+        let is_sorted = insert_all(&mut self.spare);
+        if new.is_empty() {
+            std::mem::swap(&mut self.keys, &mut self.spare);
+        } else {
+            sort::sort(&mut new, &mut Vec::new());
+            sort::merge_run(&self.spare, &new, &mut self.keys);
+        }
+        is_sorted
+    }
+}
+
+/// Sorts keys that are nearly sorted; false where it takes more moves than there are keys.
+fn insert_all(keys: &mut [DepthKey]) -> bool {
+    let mut num_moves = 0;
+    for idx in 1..keys.len() {
+        let mut place = idx;
+        while place > 0 && keys[place].order() < keys[place - 1].order() {
+            keys.swap(place, place - 1);
+            place -= 1;
+        }
+        num_moves += idx - place;
+        if num_moves > keys.len() {
+            return false;
+        }
+    }
+    true
+}
