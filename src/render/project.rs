@@ -126,10 +126,10 @@ impl Projection {
             self.centers(pack, &mut outputs);
             self.shapes(pack, &mut outputs);
             for lane in 0..pack.len.min(LANES) {
-                if outputs.is_seen[lane] != 0.0 {
-                    if let Some((splat, rect)) = self.finished(gaussians, pack, &outputs, lane) {
-                        batch.push(splat, rect);
-                    }
+                if outputs.is_seen[lane] != 0.0
+                    && let Some((splat, rect)) = self.finished(gaussians, pack, &outputs, lane)
+                {
+                    batch.push(splat, rect);
                 }
             }
         }
