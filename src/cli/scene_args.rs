@@ -7,7 +7,7 @@ use super::console;
 use super::failure::Failure;
 use crate::objects::{self, FindSettings, ObjectSet};
 use crate::pipeline::{self, Source};
-use crate::render::{Quality, RenderSettings};
+use crate::render::{Quality, RenderSettings, SortMode};
 use crate::scene::{LoadOptions, Scene, SplatFilter, UpSource};
 
 /// Which scene, and what the caller knows better than its file.
@@ -16,6 +16,13 @@ pub(super) struct SceneArgs {
     /// Scene file (.ply .spz .sog .splat), folder of an unbundled SOG, or synth:room:SEED, synth:tabletop:SEED, synth:demo
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+/// How scenes are read.
+#[derive(Debug, Clone, Args)]
+pub(super) struct SceneOptions {
     /// World up, instead of what the file says or what is estimated, such as 0,-1,0
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     up: Option<DVec3>,
@@ -27,16 +34,23 @@ pub(super) struct SceneArgs {
     max_file_bytes: u64,
 }
 
-impl SceneArgs {
-    /// Opens the scene and says which way is up, and what was dropped.
-    pub(super) fn open(&self) -> Result<Source, Failure> {
+impl SceneOptions {
+    /// Opens a scene and says what was dropped.
+    pub(super) fn open(&self, scene: &Path) -> Result<Source, Failure> {
         let (max_file_bytes, max_gaussians) = (self.max_file_bytes, self.max_gaussians);
         let options = LoadOptions { up: self.up, max_file_bytes, max_gaussians };
-        let source = pipeline::open_scene(&self.scene, &options)?;
+        let source = pipeline::open_scene(scene, &options)?;
         for note in &source.scene.notes {
             console::note(&format!("scene: {note}"));
         }
         Ok(source)
+    }
+}
+
+impl SceneArgs {
+    /// Opens the scene and says what was dropped.
+    pub(super) fn open(&self) -> Result<Source, Failure> {
+        self.options.open(&self.scene)
     }
 
     /// Opens the scene with its objects: of `file`, of the scene itself, or found. An objects file may correct the up
@@ -46,7 +60,7 @@ impl SceneArgs {
         let set = match (file, objects) {
             (Some(file), _) => {
                 let read = objects::read(file, &scene)?;
-                if let (Some(up), None) = (read.up, self.up) {
+                if let (Some(up), None) = (read.up, self.options.up) {
                     (scene.up, scene.up_source) = (up, UpSource::ObjectsFile);
                 }
                 read.set
@@ -86,6 +100,9 @@ pub(super) struct PictureArgs {
     /// Splat filter: auto (what the scene's file says), classic or mip
     #[arg(long, value_name = "FILTER", value_parser = ["auto", "classic", "mip"])]
     filter: Option<String>,
+    /// Order of blending: z (depth, as scenes are trained) or ray (distance; nothing pops while the camera turns)
+    #[arg(long, value_name = "ORDER", value_parser = parse_sort)]
+    sort: Option<SortMode>,
     /// Near plane in scene units, instead of 0.01 of the scene size, at most 0.2
     #[arg(long, value_name = "D", value_parser = parse_distance)]
     near: Option<f64>,
@@ -118,8 +135,13 @@ impl PictureArgs {
             _ => stated,
         };
         let near = self.near.or(near).unwrap_or_else(|| scene.bounds().default_near());
-        RenderSettings { quality: self.quality.unwrap_or(default), filter, near, ..RenderSettings::default() }
+        let (quality, sort) = (self.quality.unwrap_or(default), self.sort.unwrap_or_default());
+        RenderSettings { quality, filter, near, sort, ..RenderSettings::default() }
     }
+}
+
+fn parse_sort(name: &str) -> Result<SortMode, String> {
+    SortMode::from_name(name).ok_or_else(|| "expected z or ray".to_owned())
 }
 
 fn parse_quality(name: &str) -> Result<Quality, String> {

@@ -5,9 +5,10 @@
 
 use rayon::prelude::*;
 
+use super::memory::{Budget, bytes_of};
 use super::sort::DepthKey;
 use super::splats::Splats;
-use super::{Limits, RenderError, View};
+use super::{RenderError, View};
 
 /// Edge of a tile in pixels.
 pub(super) const TILE_PX: usize = 64;
@@ -65,7 +66,7 @@ impl Bins {
         keys: &[DepthKey],
         splats: &Splats,
         view: &View,
-        limits: &Limits,
+        budget: &mut Budget,
     ) -> Result<u64, RenderError> {
         let grid = TileGrid::of(view);
         self.num_runs = keys.len().div_ceil(RUN_LEN);
@@ -75,9 +76,16 @@ impl Bins {
         let runs = &mut self.runs[..self.num_runs];
         let num_pairs =
             runs.par_iter_mut().zip(keys.par_chunks(RUN_LEN)).map(|(run, keys)| run.count(keys, splats, grid)).sum();
-        check_pairs(num_pairs, limits)?;
+        budget.take_pairs(num_pairs)?;
         runs.par_iter_mut().zip(keys.par_chunks(RUN_LEN)).for_each(|(run, keys)| run.place(keys, grid));
         Ok(num_pairs)
+    }
+
+    /// Bytes that the lists hold on to.
+    pub(super) fn bytes(&self) -> u64 {
+        let lists =
+            |run: &Run| bytes_of(&run.rects) + bytes_of(&run.counts) + bytes_of(&run.ends) + bytes_of(&run.places);
+        self.runs.iter().map(lists).sum()
     }
 
     /// Places of the splats of one tile, nearest first, in slices.
@@ -142,19 +150,4 @@ fn for_each_tile([left, right, top, bottom]: [u16; 4], grid: TileGrid, mut visit
             visit(first + row * grid.across + column, 1);
         }
     }
-}
-
-/// Holds the number of splat-tile pairs against the caps.
-///
-/// # Errors
-/// [`RenderError::Cost`] or [`RenderError::Memory`].
-pub(super) fn check_pairs(num_pairs: u64, limits: &Limits) -> Result<(), RenderError> {
-    if num_pairs > limits.max_pairs {
-        return Err(RenderError::Cost { found: num_pairs, limit: limits.max_pairs });
-    }
-    let found_bytes = num_pairs * size_of::<u32>() as u64;
-    if found_bytes > limits.max_memory_bytes {
-        return Err(RenderError::Memory { num_pairs, found_bytes, limit_bytes: limits.max_memory_bytes });
-    }
-    Ok(())
 }

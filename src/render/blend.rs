@@ -95,6 +95,10 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
 }
 
 impl Workspace {
+    /// Bytes that it takes.
+    pub(super) const BYTES: usize =
+        RECORDS_LEN * (size_of::<Splat>() + size_of::<Record>()) + Touches::BYTES + TilePixels::BYTES;
+
     /// Starts a tile: nothing blended, blocks beyond the picture done with.
     fn clear(&mut self, origin_px: [usize; 2], view: &View) {
         self.pixels.clear();

@@ -28,12 +28,12 @@ pub enum RenderError {
         /// The length wanted.
         expected: usize,
     },
-    /// The work lists of this picture would not fit into the memory allowed.
-    #[error("{num_pairs} splat-tile pairs need {found_bytes} bytes, the cap is {limit_bytes}")]
+    /// This picture would not fit into the memory allowed.
+    #[error("with {what} the picture takes {found_bytes} bytes of memory, the cap is {limit_bytes}")]
     Memory {
-        /// Overlaps between splats and tiles.
-        num_pairs: u64,
-        /// Bytes needed.
+        /// What did not fit.
+        what: &'static str,
+        /// Bytes needed up to and with it.
         found_bytes: u64,
         /// Bytes allowed.
         limit_bytes: u64,

@@ -9,13 +9,18 @@ use rayon::prelude::*;
 use super::bin::{Bins, TILE_PX, TileGrid};
 use super::blend::{Tile, Workspace};
 use super::canvas::{Canvas, Finished};
-use super::groups::Groups;
+use super::groups::{Groups, LANES};
 use super::kernel::{Arithmetic, Exact, Quick};
+use super::memory::Budget;
 use super::order::DepthOrder;
 use super::payload::{Payload, TileArea};
-use super::splats::Splats;
+use super::sort::DepthKey;
+use super::splats::{self, Splats};
 use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View, WorkCounts};
 use crate::scene::Gaussians;
+
+/// Most bytes that a splat takes until its pairs are listed: itself, two keys, the tiles that it touches.
+const BYTES_A_SPLAT: usize = splats::BYTES_A_SPLAT + 2 * size_of::<DepthKey>() + size_of::<[u16; 4]>();
 
 /// Work lists of one picture, kept for the next.
 #[derive(Debug, Default)]
@@ -24,6 +29,13 @@ pub(super) struct Buffers {
     order: DepthOrder,
     bins: Bins,
     workspaces: Pool<Workspace>,
+}
+
+impl Buffers {
+    /// Bytes that they hold on to.
+    pub(super) fn bytes(&self) -> u64 {
+        self.order.bytes() + self.splats.bytes() + self.bins.bytes() + self.workspaces.sum(|_| Workspace::BYTES as u64)
+    }
 }
 
 /// Things that are lent one at a time.
@@ -45,6 +57,11 @@ impl<T: Default> Pool<T> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(thing);
         result
     }
+
+    /// Sum over all things that are not lent.
+    pub(super) fn sum(&self, size: impl Fn(&T) -> u64) -> u64 {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().map(size).sum()
+    }
 }
 
 /// Renders onto a canvas of the view's size.
@@ -59,12 +76,17 @@ pub(super) fn render<P: Payload>(
     (canvas, payload): (Canvas<'_>, &P),
 ) -> Result<(RenderStats, Vec<P::Part>), RenderError> {
     let Buffers { splats, order, bins, workspaces } = buffers;
+    let mut budget = Budget::of_picture(view, &settings.limits)?;
+    budget.take("the renderer's copy of the Gaussians", groups.bytes())?;
+    budget.take("buffers of the threads", (rayon::current_num_threads() * Workspace::BYTES) as u64)?;
+    budget.take("the splats", (groups.packs.len() * LANES * BYTES_A_SPLAT + gaussians.len() * 4) as u64)?;
     let start = Instant::now();
     let num_projected = splats.fill(gaussians, groups, view);
     let projected = Instant::now();
-    let keys = order.of(splats, view, gaussians.len());
+    let keys = order.of(splats, view, gaussians);
     let sorted = Instant::now();
-    let num_pairs = bins.fill(keys, splats, view, &settings.limits)?;
+    let num_pairs = bins.fill(keys, splats, view, &mut budget)?;
+    payload.allow(budget.left_bytes());
     let binned = Instant::now();
     let tiles = (&*splats, &*bins);
     let precision =

@@ -4,6 +4,7 @@
 use glam::{Quat, Vec3};
 use rayon::prelude::*;
 
+use super::memory::bytes_of;
 use crate::scene::Gaussians;
 
 /// Gaussians in a group. Smaller groups rule out more and cost more tests; 64 and 1024 were both slower on the kitchen.
@@ -65,6 +66,11 @@ impl Groups {
         let groups = gaussian_from_slot.par_chunks(GROUP_LEN).map(|members| group(gaussians, members)).collect();
         let packs = gaussian_from_slot.par_chunks(LANES).map(|members| Pack::of(gaussians, members)).collect();
         Self { packs, groups }
+    }
+
+    /// Bytes that they take.
+    pub(super) fn bytes(&self) -> u64 {
+        bytes_of(&self.packs) + bytes_of(&self.groups)
     }
 
     /// Indices of all Gaussians that can be drawn, in the order of the file.

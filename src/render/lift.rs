@@ -1,5 +1,6 @@
 use super::blend::TILE_LEN;
 use super::kernel::Record;
+use super::memory::Allowance;
 use super::payload::{Payload, Sink, TileArea};
 
 /// What the pixels of a picture say about each Gaussian.
@@ -46,6 +47,8 @@ pub(super) struct LiftPayload<'a> {
     /// `num_channels` values a pixel, row-major.
     pub(super) values: &'a [f32],
     pub(super) num_channels: usize,
+    /// Bytes that the rows may take.
+    pub(super) allowance: Allowance,
 }
 
 /// What one tile says: a row of sums for each splat it looked at, the last of them the weight alone.
@@ -56,7 +59,9 @@ pub(super) struct LiftPart {
 }
 
 /// Sums of one tile.
-pub(super) struct LiftSink {
+pub(super) struct LiftSink<'a> {
+    allowance: &'a Allowance,
+    is_full: bool,
     /// Values of the tile's pixels, the last of each 1: `[pixel * (num_channels + 1) + channel]`.
     values: Vec<f32>,
     stride: usize,
@@ -65,11 +70,16 @@ pub(super) struct LiftSink {
     first: usize,
 }
 
-impl Payload for LiftPayload<'_> {
-    type Sink = LiftSink;
+impl<'a> Payload for &'a LiftPayload<'_> {
+    type Sink = LiftSink<'a>;
     type Part = LiftPart;
 
-    fn sink(&self, area: TileArea) -> LiftSink {
+    fn allow(&self, max_bytes: u64) {
+        // Lists grow by doubling.
+        self.allowance.allow(max_bytes / 2);
+    }
+
+    fn sink(&self, area: TileArea) -> LiftSink<'a> {
         let stride = self.num_channels + 1;
         let mut values = vec![0.0; TILE_LEN * stride];
         for (pixel, row) in values.chunks_exact_mut(stride).enumerate() {
@@ -78,24 +88,33 @@ impl Payload for LiftPayload<'_> {
                 row[self.num_channels] = 1.0;
             }
         }
-        LiftSink { values, stride, part: LiftPart::default(), first: 0 }
+        let allowance = &self.allowance;
+        LiftSink { allowance, is_full: false, values, stride, part: LiftPart::default(), first: 0 }
     }
 
-    fn part(&self, sink: LiftSink, _: TileArea) -> LiftPart {
+    fn part(&self, sink: LiftSink<'a>, _: TileArea) -> LiftPart {
         sink.part
     }
 }
 
-impl Sink for LiftSink {
+impl Sink for LiftSink<'_> {
     const IS_ACTIVE: bool = true;
 
     fn begin(&mut self, records: &[Record]) {
+        let row_bytes = size_of::<u32>() + self.stride * size_of::<f32>();
+        self.is_full |= !self.allowance.take((records.len() * row_bytes) as u64);
+        if self.is_full {
+            return;
+        }
         self.first = self.part.gaussians.len();
         self.part.gaussians.extend(records.iter().map(|record| record.gaussian_idx));
         self.part.sums.resize(self.part.gaussians.len() * self.stride, 0.0);
     }
 
     fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
+        if self.is_full {
+            return;
+        }
         let sums = &mut self.part.sums[(self.first + position) * self.stride..][..self.stride];
         let values = self.values[first_pixel * self.stride..].chunks_exact(self.stride);
         for (values, &weight) in values.zip(weights).filter(|(_, weight)| **weight > 0.0) {

@@ -27,6 +27,7 @@ mod ids;
 mod instructions;
 mod kernel;
 mod lift;
+mod memory;
 mod order;
 mod payload;
 mod pixels;
@@ -51,7 +52,7 @@ pub use ids::IdMap;
 pub use instructions::Instructions;
 pub use lift::Lifted;
 pub use renderer::Renderer;
-pub use settings::{Accuracy, Limits, Precision, Quality, RenderSettings};
+pub use settings::{Accuracy, Limits, Precision, Quality, RenderSettings, SortMode};
 pub use stats::{RenderStats, StageTimes, WorkCounts};
 pub use weights::Weight;
 

@@ -6,10 +6,13 @@
 //! more moves than there are splats, they are sorted anew. No two keys are equal: the order is the same either way.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
-use super::View;
+use super::memory::bytes_of;
 use super::sort::{self, DepthKey};
 use super::splats::Splats;
+use super::{SortMode, View};
+use crate::scene::Gaussians;
 
 /// Least cosine between the directions of two pictures of which the second is worth trying in the order of the first;
 /// a hundredth of a degree. Farther apart, the repair costs more than the sort.
@@ -32,19 +35,31 @@ pub(super) struct DepthOrder {
 }
 
 impl DepthOrder {
-    /// The splats of a view of a scene of so many Gaussians, nearest first.
-    pub(super) fn of(&mut self, splats: &Splats, view: &View, num_gaussians: usize) -> &[DepthKey] {
+    /// The splats of a view, nearest first.
+    pub(super) fn of(&mut self, splats: &Splats, view: &View, gaussians: &Gaussians) -> &[DepthKey] {
         splats.write_keys(&mut self.keys);
+        if view.sort == SortMode::Ray {
+            self.keys.par_iter_mut().for_each(|key| {
+                let mean = gaussians.means[key.gaussian_idx as usize].as_dvec3();
+                key.depth_bits = view.sort_distance(mean, 0.0).to_bits();
+            });
+        }
+        // Distances change by amounts of their own when the camera moves.
+        let is_reusable = view.reuses_order && view.sort == SortMode::Z;
         let forward = view.camera_from_world.row(2);
-        let is_near =
-            view.reuses_order && forward.dot(self.forward) >= LEAST_COSINE && self.rank.len() == num_gaussians;
-        if !(is_near && self.repair()) {
+        let is_near = forward.dot(self.forward) >= LEAST_COSINE && self.rank.len() == gaussians.len();
+        if !(is_reusable && is_near && self.repair()) {
             sort::sort(&mut self.keys, &mut self.spare);
         }
-        if view.reuses_order {
-            self.remember(forward, num_gaussians);
+        if is_reusable {
+            self.remember(forward, gaussians.len());
         }
         &self.keys
+    }
+
+    /// Bytes that the lists hold on to.
+    pub(super) fn bytes(&self) -> u64 {
+        bytes_of(&self.keys) + bytes_of(&self.spare) + bytes_of(&self.rank)
     }
 
     /// Notes where every Gaussian stands.

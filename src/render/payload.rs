@@ -43,6 +43,9 @@ pub(super) trait Payload: Sync {
     /// What a tile leaves.
     type Part: Send;
 
+    /// Hears how many bytes all sinks and parts together may take.
+    fn allow(&self, _max_bytes: u64) {}
+
     /// An empty sink.
     fn sink(&self, area: TileArea) -> Self::Sink;
 

@@ -58,6 +58,9 @@ impl Default for TilePixels {
 }
 
 impl TilePixels {
+    /// Bytes that it takes.
+    pub(super) const BYTES: usize = NUM_HALVES * size_of::<HalfBlock>();
+
     /// Nothing blended.
     pub(super) fn clear(&mut self) {
         self.0.fill(HalfBlock::CLEAR);

@@ -8,7 +8,7 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::bin::check_pairs;
+use super::memory::Budget;
 use super::{Limits, RenderError, View, WorkCounts, harmonics, spec};
 use crate::scene::Gaussians;
 
@@ -100,6 +100,7 @@ impl ExactSplat {
 struct Colored {
     splat: ExactSplat,
     color: DVec3,
+    sort_distance: f32,
 }
 
 /// Renders the given Gaussians into rgb and transmittance; returns the work done.
@@ -112,10 +113,12 @@ pub(super) fn render(
     limits: &Limits,
     (rgb, transmittance): (&mut [f32], &mut [f32]),
 ) -> Result<WorkCounts, RenderError> {
+    let mut budget = Budget::of_picture(view, limits)?;
+    budget.take("the splats", (usable.len() * (size_of::<Colored>() + size_of::<u32>())) as u64)?;
     let splats = sorted_splats(gaussians, &usable, view);
     let tiles_across = view.width.div_ceil(TILE_PX) as usize;
     let num_pairs = splats.iter().map(|splat| tile_rect(splat, view).num_tiles()).sum();
-    check_pairs(num_pairs, limits)?;
+    budget.take_pairs(num_pairs)?;
     let bins = bin(&splats, view, tiles_across);
     let row_len = view.width as usize;
     let rows = rgb.par_chunks_mut(row_len * 3).zip(transmittance.par_chunks_mut(row_len)).enumerate();
@@ -129,16 +132,17 @@ pub(super) fn render(
     Ok(WorkCounts { num_projected, num_splats, num_pairs, num_block_blends: num_blends })
 }
 
-/// All splats in front, nearest first; depths that are equal in `f32` keep the order of the file.
+/// All splats in front, nearest first; distances that are equal in `f32` keep the order of the file.
 fn sorted_splats(gaussians: &Gaussians, usable: &[u32], view: &View) -> Vec<Colored> {
     let colored = |&idx: &u32| {
         let idx = idx as usize;
         let splat = project(gaussians, idx, view)?;
-        let offset = gaussians.means[idx].as_dvec3() - view.center;
-        Some(Colored { splat, color: harmonics::color(offset, gaussians.sh_dc[idx], gaussians.sh_rest_of(idx)) })
+        let mean = gaussians.means[idx].as_dvec3();
+        let color = harmonics::color(mean - view.center, gaussians.sh_dc[idx], gaussians.sh_rest_of(idx));
+        Some(Colored { splat, color, sort_distance: view.sort_distance(mean, splat.depth) })
     };
     let mut splats: Vec<Colored> = usable.par_iter().filter_map(colored).collect();
-    splats.par_sort_by(|a, b| (a.splat.depth as f32).total_cmp(&(b.splat.depth as f32)));
+    splats.par_sort_by(|a, b| a.sort_distance.total_cmp(&b.sort_distance));
     splats
 }
 
@@ -207,7 +211,7 @@ fn blend_pixel<'a>(
     position_px: DVec2,
 ) -> (DVec3, f64, u64) {
     let (mut color, mut transmittance, mut num_blends) = (DVec3::ZERO, 1.0, 0);
-    for Colored { splat, color: splat_color } in near_first {
+    for Colored { splat, color: splat_color, .. } in near_first {
         let alpha = splat.alpha(position_px);
         if alpha < view.alpha_cut {
             continue;

@@ -8,6 +8,7 @@ use super::fast::{self, Buffers, Pool};
 use super::groups::Groups;
 use super::ids::{IdMap, IdPayload};
 use super::lift::{LiftPayload, Lifted};
+use super::memory::{Allowance, bytes_of};
 use super::payload::{ColorOnly, Payload};
 use super::upsample::upsample;
 use super::weights::{Weight, WeightPayload};
@@ -31,6 +32,12 @@ impl<'scene> Renderer<'scene> {
     /// are never drawn.
     pub fn new(gaussians: &'scene Gaussians) -> Self {
         Self { gaussians, groups: Groups::new(gaussians), buffers: Pool::default(), small_frames: Pool::default() }
+    }
+
+    /// Bytes that the renderer holds on to between pictures, beyond the scene and the pictures handed out.
+    pub fn memory_bytes(&self) -> u64 {
+        let small = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
+        self.groups.bytes() + self.buffers.sum(Buffers::bytes) + self.small_frames.sum(small)
     }
 
     /// The picture that a camera takes.
@@ -143,7 +150,9 @@ impl<'scene> Renderer<'scene> {
         let num_pixels = camera.intrinsics.width as usize * camera.intrinsics.height as usize;
         check_len("pixel values", values.len(), num_pixels * num_channels)?;
         check_len("lifted weights", lifted.weights.len(), self.gaussians.len())?;
-        let (_, parts) = self.render_parts(camera, settings, &LiftPayload { values, num_channels })?;
+        let payload = &LiftPayload { values, num_channels, allowance: Allowance::default() };
+        let (_, parts) = self.render_parts(camera, settings, &payload)?;
+        payload.allowance.check("the rows of lifted sums")?;
         lifted.add(parts);
         Ok(())
     }
@@ -152,9 +161,11 @@ impl<'scene> Renderer<'scene> {
     /// many: some fifty a pixel in a room.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// As [`Renderer::render`]; [`RenderError::Memory`] where the list would not fit under the cap.
     pub fn weights(&self, camera: &Camera, settings: &RenderSettings) -> Result<Vec<Weight>, RenderError> {
-        let (_, parts) = self.render_parts(camera, settings, &WeightPayload)?;
+        let payload = &WeightPayload::default();
+        let (_, parts) = self.render_parts(camera, settings, &payload)?;
+        payload.allowance.check("the list of weights")?;
         Ok(parts.into_iter().flatten().collect())
     }
 

@@ -83,10 +83,39 @@ impl Accuracy {
     };
 }
 
+/// What decides which of two splats is in front.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SortMode {
+    /// Depth along the view axis, as the spec image: turning the camera may exchange overlapping splats.
+    #[default]
+    Z,
+    /// Distance from the camera center: turning the camera exchanges nothing.
+    Ray,
+}
+
+impl SortMode {
+    /// All of them, the default first.
+    pub const ALL: [Self; 2] = [Self::Z, Self::Ray];
+
+    /// The name in commands and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Z => "z",
+            Self::Ray => "ray",
+        }
+    }
+
+    /// The mode of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| mode.name() == name)
+    }
+}
+
 /// Bounds on what one picture may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes of work lists and buffers beyond the scene and the picture.
+    /// Bytes that the renderer may hold beyond the loaded scene: its own copy of the Gaussians, work lists, buffers,
+    /// the picture and outputs beside it.
     pub max_memory_bytes: u64,
     /// Overlaps between splats and tiles.
     pub max_pairs: u64,
@@ -109,6 +138,8 @@ pub struct RenderSettings {
     pub near: f64,
     /// What shows through, as-trained color.
     pub background: Vec3,
+    /// Order of blending.
+    pub sort: SortMode,
     /// Knobs in place of the preset's.
     pub accuracy: Option<Accuracy>,
     /// Caps on memory and work.
@@ -127,6 +158,7 @@ impl Default for RenderSettings {
             filter: SplatFilter::Classic,
             near: 0.2,
             background: Vec3::ZERO,
+            sort: SortMode::default(),
             accuracy: None,
             limits: Limits::default(),
             instructions: Instructions::default(),

@@ -64,6 +64,9 @@ impl Default for Touches {
 }
 
 impl Touches {
+    /// Bytes that it takes.
+    pub(super) const BYTES: usize = (RECORDS_LEN / LANES) * size_of::<Regions>() + NUM_BLOCKS * NUM_WORDS;
+
     /// Notes the region of a splat.
     #[inline(always)]
     pub(super) fn enter(&mut self, position: usize, splat: &Splat, corner_px: [f32; 2]) {

@@ -2,6 +2,7 @@ use rayon::prelude::*;
 
 use super::View;
 use super::groups::{GROUP_LEN, Groups, PACKS_IN_GROUP};
+use super::memory::bytes_of;
 use super::project::Projection;
 use super::sort::DepthKey;
 use super::splat::Splat;
@@ -11,6 +12,9 @@ use crate::scene::Gaussians;
 const GROUPS_IN_BATCH: usize = 16;
 /// Room for a batch in the numbering of places.
 const BATCH_LEN: usize = GROUPS_IN_BATCH * GROUP_LEN;
+
+/// Bytes that a splat takes here.
+pub(super) const BYTES_A_SPLAT: usize = size_of::<Splat>() + size_of::<Touch>();
 
 /// Where a splat goes.
 #[derive(Debug, Clone, Copy)]
@@ -70,6 +74,11 @@ impl Splats {
     /// Number of splats.
     pub(super) fn len(&self) -> usize {
         self.batches.iter().map(|batch| batch.splats.len()).sum()
+    }
+
+    /// Bytes that they hold on to.
+    pub(super) fn bytes(&self) -> u64 {
+        self.batches.iter().map(|batch| bytes_of(&batch.splats) + bytes_of(&batch.touches)).sum()
     }
 
     /// The splat at a place.

@@ -1,6 +1,6 @@
 use glam::{DMat3, DVec3};
 
-use super::{Instructions, RenderError, RenderSettings, spec};
+use super::{Instructions, RenderError, RenderSettings, SortMode, spec};
 use crate::geometry::Camera;
 
 /// A camera and the settings as the projection needs them, all `f64`.
@@ -32,6 +32,8 @@ pub(super) struct View {
     pub(super) alpha_cut: f64,
     /// Least transmittance that blending may leave.
     pub(super) transmittance_stop: f64,
+    /// Order of blending.
+    pub(super) sort: SortMode,
     /// The widest instructions that may be used.
     pub(super) instructions: Instructions,
     /// Whether the depth order of the picture before may help.
@@ -67,8 +69,18 @@ impl View {
             is_compensated: settings.is_compensated(),
             alpha_cut: accuracy.alpha_cut,
             transmittance_stop: accuracy.transmittance_stop,
+            sort: settings.sort,
             instructions: settings.instructions,
             reuses_order: settings.reuses_order,
         })
+    }
+
+    /// What a Gaussian is sorted by, scene units: its depth, or its distance in mode `ray`. Rounded once, so that the
+    /// order is that of the spec image.
+    pub(super) fn sort_distance(&self, mean: DVec3, depth: f64) -> f32 {
+        match self.sort {
+            SortMode::Z => depth as f32,
+            SortMode::Ray => (mean - self.center).length() as f32,
+        }
     }
 }

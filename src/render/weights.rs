@@ -1,4 +1,5 @@
 use super::kernel::Record;
+use super::memory::Allowance;
 use super::payload::{Payload, Sink, TileArea};
 
 /// One splat's part in one pixel.
@@ -13,29 +14,39 @@ pub struct Weight {
 }
 
 /// The payload that lists every weight.
-pub(super) struct WeightPayload;
+#[derive(Default)]
+pub(super) struct WeightPayload {
+    /// Bytes that the lists may take.
+    pub(super) allowance: Allowance,
+}
 
 /// The weights of one tile.
-pub(super) struct WeightSink {
+pub(super) struct WeightSink<'a> {
+    allowance: &'a Allowance,
     area: TileArea,
     gaussians: Vec<u32>,
     list: Vec<Weight>,
 }
 
-impl Payload for WeightPayload {
-    type Sink = WeightSink;
+impl<'a> Payload for &'a WeightPayload {
+    type Sink = WeightSink<'a>;
     type Part = Vec<Weight>;
 
-    fn sink(&self, area: TileArea) -> WeightSink {
-        WeightSink { area, gaussians: Vec::new(), list: Vec::new() }
+    fn allow(&self, max_bytes: u64) {
+        // Lists grow by doubling and are joined to one in the end.
+        self.allowance.allow(max_bytes / 3);
     }
 
-    fn part(&self, sink: WeightSink, _: TileArea) -> Vec<Weight> {
+    fn sink(&self, area: TileArea) -> WeightSink<'a> {
+        WeightSink { allowance: &self.allowance, area, gaussians: Vec::new(), list: Vec::new() }
+    }
+
+    fn part(&self, sink: WeightSink<'a>, _: TileArea) -> Vec<Weight> {
         sink.list
     }
 }
 
-impl Sink for WeightSink {
+impl Sink for WeightSink<'_> {
     const IS_ACTIVE: bool = true;
 
     fn begin(&mut self, records: &[Record]) {
@@ -45,6 +56,10 @@ impl Sink for WeightSink {
 
     fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         let gaussian_idx = self.gaussians[position];
+        let num_new = weights.iter().filter(|&&weight| weight > 0.0).count();
+        if num_new == 0 || !self.allowance.take((num_new * size_of::<Weight>()) as u64) {
+            return;
+        }
         for (pixel, &weight) in (first_pixel..).zip(weights).filter(|(_, weight)| **weight > 0.0) {
             if let Some(idx) = self.area.picture_idx(pixel) {
                 self.list.push(Weight { pixel_idx: idx as u32, gaussian_idx, weight });

@@ -8,3 +8,4 @@ mod payloads;
 mod pictures;
 mod repeatable;
 mod scenes;
+mod sort_modes;

@@ -1,6 +1,6 @@
 //! Depth, object ids, weights and lifting come from the weights of the picture.
 
-use cinesplat::render::{Frame, Lifted, Quality, RenderSettings, Renderer};
+use cinesplat::render::{Frame, Lifted, Limits, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use glam::{Quat, Vec3};
 
@@ -101,4 +101,20 @@ fn labels_and_values_of_the_wrong_length_are_refused() {
     let wrong = renderer.object_ids(&camera(20, 10), &SETTINGS(), &[1]).unwrap_err();
     assert_eq!((wrong.code(), wrong.exit_code()), ("RENDER-LENGTH", 65));
     assert!(renderer.lift(&camera(20, 10), &SETTINGS(), &[0.0; 3], &mut Lifted::new(2, 1)).is_err());
+}
+
+#[test]
+fn a_list_of_weights_ends_at_the_cap_with_one_error() {
+    let scene = crowd(4_000, 17);
+    let renderer = Renderer::new(&scene);
+    let view = camera(150, 90);
+    let all = renderer.weights(&view, &SETTINGS()).unwrap();
+    let held = renderer.memory_bytes() + 150 * 90 * 16;
+    let with_cap = |max_memory_bytes: u64| {
+        let limits = Limits { max_memory_bytes, ..Limits::default() };
+        renderer.weights(&view, &RenderSettings { limits, ..SETTINGS() })
+    };
+    let refused = with_cap(held + (all.len() * 12) as u64 / 2).unwrap_err();
+    assert_eq!((refused.code(), refused.exit_code()), ("RENDER-MEMORY", 71));
+    assert_eq!(with_cap(held * 8 + (all.len() * 12 * 4) as u64).unwrap(), all);
 }
