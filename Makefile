@@ -10,6 +10,15 @@ PACKAGES := build-essential pkg-config libavcodec-dev libavformat-dev libavutil-
 DEMO_SCENE := synth:demo
 DEMO_PROMPT := slowly push in on the sofa, then orbit it to the right
 
+# Scenes of the bench, each with its cameras file behind an @.
+DATA := ../shared/data
+BENCH_REAL := kitchen/scene.spz@golden/kitchen.cameras.json composites/kitchen_plus_dev.spz@golden/kitchen.cameras.json \
+	guitar/guitar.compressed.ply@golden/guitar.cameras.json composites/livingroom_surfels.spz skull/skull.sog \
+	playbot/2_0 playbot/3_0 playbot/4_0 playbot/5_0 playbot/6_0
+BENCH_FOUND := $(foreach scene,$(BENCH_REAL),$(if $(wildcard $(DATA)/$(firstword $(subst @, ,$(scene)))),$(scene)))
+BENCH_SCENES := $(if $(BENCH_FOUND),$(foreach scene,$(BENCH_FOUND),$(DATA)/$(firstword $(subst @, ,$(scene)))@$(if \
+	$(word 2,$(subst @, ,$(scene))),$(DATA)/$(word 2,$(subst @, ,$(scene))),auto)),synth:demo@auto synth:tabletop:1@auto)
+
 .DEFAULT_GOAL := help
 .PHONY: help deps build demo test train bench clean
 
@@ -55,8 +64,12 @@ train: build
 	$(BIN) dataset -o target/train/shots
 	$(BIN) train -o target/train/model --shots target/train/shots
 
+# Accuracy against time, and how cost grows: CSV, tables and plots in renders/bench. Real scenes where DATA has them.
 bench: build
-	$(BIN) bench $(DEMO_SCENE)
+	$(BIN) bench render $(foreach scene,$(BENCH_SCENES),$(word 1,$(subst @, ,$(scene)))) \
+		$(foreach scene,$(BENCH_SCENES),--cameras $(word 2,$(subst @, ,$(scene)))) \
+		--sizes 1280x720,1920x1080 -o renders/bench > /dev/null
+	$(BIN) bench scaling synth:tabletop:1 -o renders/bench > /dev/null
 
 clean:
 	cargo clean

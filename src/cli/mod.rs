@@ -77,7 +77,7 @@ enum Command {
     Train(train::Args),
     /// Makes the director's training data.
     Dataset(dataset::Args),
-    /// Measures accuracy against time.
+    /// Measures what accuracy costs in time, and how cost grows with the work.
     Bench(bench::Args),
 }
 

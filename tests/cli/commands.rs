@@ -22,7 +22,7 @@ fn help_shows_every_command_and_examples() {
       eval     Compares two trajectories: absolute and relative pose error
       train    Trains the director
       dataset  Makes the director's training data
-      bench    Measures accuracy against time
+      bench    Measures what accuracy costs in time, and how cost grows with the work
       help     Print this message or the help of the given subcommand(s)
 
     Options:
@@ -137,15 +137,26 @@ fn stills_are_named_after_their_cameras() {
 }
 
 #[test]
-fn bench_prints_a_table() {
+fn bench_prints_rows_and_keeps_table_and_plots() {
     let folder = tempfile::tempdir().unwrap();
-    let table = data(folder.path(), &["bench", SMALL_SCENE, "--height", "36", "--runs", "1"]);
-    let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(lines[0], "camera,width,height,quality,ms_least,ms_median,ms_most,psnr_db");
-    assert_eq!(lines.len(), 1 + 4 * 3);
-    let finals = lines.iter().filter(|line| line.contains(",final,"));
-    for line in finals {
-        let db: f64 = line.rsplit(',').next().unwrap().parse().unwrap();
-        assert!(db > 60.0, "{line}");
+    let bench = ["bench", "render", SMALL_SCENE, "--sizes", "64x36", "--runs", "1", "--max-cameras", "1", "-o", "out"];
+    let csv = data(folder.path(), &bench);
+    assert!(csv.starts_with("scene,camera,width,height,kind,variant,threads,median_ms,"), "{csv}");
+    assert_eq!(fs::read_to_string(folder.path().join("out/render.csv")).unwrap(), csv);
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let finals = csv.lines().map(cells).find(|row| row[5] == "final").unwrap();
+    assert!(finals[18].parse::<f64>().unwrap() > 60.0, "{finals:?}");
+    assert!(csv.lines().map(cells).filter(|row| row[4] == "free").all(|row| row[18] == "inf"));
+    for name in ["render.md", "render.psnr.svg", "render.ssim.svg", "render.worst.svg"] {
+        assert!(folder.path().join("out").join(name).exists(), "{name}");
     }
+}
+
+#[test]
+fn bench_scaling_measures_each_case_in_its_own_process() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = data(folder.path(), &["bench", "scaling", SMALL_SCENE, "--runs", "1", "--most", "200", "-o", "out"]);
+    let growths: Vec<&str> = csv.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
+    assert_eq!(growths, ["pixels", "overdraw", "overdraw", "overdraw", "overdraw"]);
+    assert!(fs::read_to_string(folder.path().join("out/scaling.svg")).unwrap().starts_with("<svg"));
 }

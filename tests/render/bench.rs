@@ -1,27 +1,95 @@
 //! The bench of the renderer: rows for every camera and variant, knobs that must be free are free.
 
-use cinesplat::render::bench::{BenchSettings, measure, to_csv};
-use cinesplat::render::{Quality, RenderSettings, Renderer};
+use cinesplat::render::bench::{
+    Axis, BenchRow, BenchSettings, Kind, difference, measure, pareto_svg, scaling, to_csv, to_table, variants,
+};
+use cinesplat::render::{Frame, RenderSettings, Renderer};
 
 use super::scenes::{camera, crowd};
 
-#[test]
-fn rows_hold_accuracy_and_counts_of_every_variant() {
+fn rows() -> Vec<BenchRow> {
     let scene = crowd(2_000, 20);
-    let variant =
-        |quality: Quality| (quality.name().to_string(), RenderSettings { quality, ..RenderSettings::default() });
-    let settings = BenchSettings {
-        variants: vec![variant(Quality::Final), variant(Quality::Standard), variant(Quality::Draft)],
-        num_repeats: 3,
-        measures_accuracy: true,
-    };
-    let rows = measure(&Renderer::new(&scene), &[("c0".into(), camera(160, 90))], &settings).unwrap();
-    let db: Vec<f64> = rows.iter().map(|row| row.accuracy.unwrap().0).collect();
-    assert!(db[0] > 60.0 && db[0] > db[1] && db[1] > db[2], "{db:?}");
-    assert!(rows.iter().all(|row| row.range[0] <= row.median && row.median <= row.range[1]));
-    assert!(rows[0].stats.counts.num_pairs >= rows[0].stats.counts.num_splats);
+    let variants = variants(&RenderSettings::default());
+    let settings = BenchSettings { scene: "crowd".into(), variants, num_repeats: 2 };
+    measure(&Renderer::new(&scene), &[("c0".into(), camera(96, 54))], &settings, &mut |_| ()).unwrap()
+}
+
+#[test]
+fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
+    let rows = rows();
+    let db = |variant: &str| rows.iter().find(|row| row.variant == variant).unwrap().difference.psnr_db;
+    assert!(db("final") > 60.0 && db("final") > db("standard") && db("standard") > db("draft"));
+    assert!(db("1/512") > db("1/64") && db("1/64") > db("1/16"));
+    assert!(db("0.001") > db("0.03") && db("0.90") > db("0.33"));
+    let free: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == Kind::Free).collect();
+    assert!(free.len() >= 6);
+    for row in free {
+        assert_eq!(row.difference.psnr_db, f64::INFINITY, "{}", row.variant);
+        assert!(row.difference.worst == 0.0 && (row.difference.ssim - 1.0).abs() < 1e-12, "{}", row.variant);
+    }
+    assert!(rows.iter().all(|row| row.timed.range[0] <= row.timed.median && row.timed.median <= row.timed.range[1]));
     let csv = to_csv(&rows);
-    let columns = |line: &str| line.split(',').count();
-    assert_eq!(csv.lines().count(), 4);
-    assert!(csv.lines().all(|line| columns(line) == 18), "{csv}");
+    assert_eq!(csv.lines().count(), rows.len() + 1);
+    assert!(csv.lines().all(|line| line.split(',').count() == 21), "{csv}");
+    let table = to_table(&rows);
+    assert!(table.contains("| crowd | 96x54 | draft |") && table.contains("6 of 6 pictures equal"), "{table}");
+    for axis in Axis::ALL {
+        let svg = pareto_svg(&rows, [96, 54], axis);
+        assert!(svg.starts_with("<svg") && svg.contains("crowd") && !svg.contains("NaN") && !svg.contains("inf"));
+    }
+}
+
+/// A gray picture of 24 x 16 pixels.
+fn picture(value: impl Fn(usize, usize) -> f32) -> Frame {
+    let pixels = (0..16).flat_map(|y| (0..24).map(move |x| (x, y)));
+    let rgb = pixels.flat_map(|(x, y)| [value(x, y); 3]).collect();
+    Frame { width: 24, height: 16, rgb, transmittance: vec![0.0; 24 * 16], ..Frame::default() }
+}
+
+#[test]
+fn differences_of_flat_pictures_are_those_of_the_formulas() {
+    let apart = difference(&picture(|_, _| 0.5), &picture(|_, _| 0.6));
+    // Without variance the similarity is (2 a b + C1) / (a^2 + b^2 + C1).
+    assert!((apart.ssim - (0.6 + 1e-4) / (0.25 + 0.36 + 1e-4)).abs() < 1e-6, "{apart:?}");
+    assert!((apart.psnr_db - 20.0).abs() < 1e-4 && (apart.worst - 0.1).abs() < 1e-6, "{apart:?}");
+    let one_dot = difference(&picture(|x, y| f32::from(u8::from((x, y) == (12, 8)))), &picture(|_, _| 0.0));
+    assert!((one_dot.worst - 1.0).abs() < 1e-6 && one_dot.ssim < 0.999);
+}
+
+#[test]
+fn similarity_is_that_of_a_sum_over_the_window_written_out() {
+    let wave = |x: usize, y: usize| 0.5 + 0.4 * ((x * 7 + y * 13) as f32 * 0.61).sin();
+    let other = |x: usize, y: usize| 0.45 + 0.35 * ((x * 7 + y * 13) as f32 * 0.61 + 0.3).sin();
+    let found = difference(&picture(wave), &picture(other)).ssim;
+    let weight = |dx: i32, dy: i32| (-f64::from(dx * dx + dy * dy) / 4.5).exp();
+    let offsets = || (-5..=5).flat_map(|dy| (-5..=5).map(move |dx| (dx, dy)));
+    let total: f64 = offsets().map(|(dx, dy)| weight(dx, dy)).sum();
+    let mut sum = 0.0;
+    for (x, y) in (5..11).flat_map(|y| (5..19).map(move |x| (x, y))) {
+        let at = |f: &dyn Fn(usize, usize) -> f32, dx: i32, dy: i32| f64::from(f((x + dx) as usize, (y + dy) as usize));
+        let mean =
+            |f: &dyn Fn(i32, i32) -> f64| offsets().map(|(dx, dy)| weight(dx, dy) / total * f(dx, dy)).sum::<f64>();
+        let (a, b) = (mean(&|dx, dy| at(&wave, dx, dy)), mean(&|dx, dy| at(&other, dx, dy)));
+        let va = mean(&|dx, dy| (at(&wave, dx, dy) - a).powi(2));
+        let vb = mean(&|dx, dy| (at(&other, dx, dy) - b).powi(2));
+        let cov = mean(&|dx, dy| (at(&wave, dx, dy) - a) * (at(&other, dx, dy) - b));
+        sum += (2.0 * a * b + 1e-4) * (2.0 * cov + 9e-4) / ((a * a + b * b + 1e-4) * (va + vb + 9e-4));
+    }
+    assert!((found - sum / 84.0).abs() < 1e-9, "{found} and {}", sum / 84.0);
+}
+
+#[test]
+fn scaling_counts_what_it_renders() {
+    let base = crowd(500, 21);
+    let settings = RenderSettings { near: 0.01, ..RenderSettings::default() };
+    let case = |growth, value| scaling::measure(scaling::Case { growth, value }, &base, &settings, 1).unwrap();
+    let few = case(scaling::Growth::Gaussians, 1_000);
+    let many = case(scaling::Growth::Gaussians, 8_000);
+    assert_eq!((few.num_gaussians, many.num_gaussians), (1_000, 8_000));
+    assert!(many.timed.stats.counts.num_splats > 4 * few.timed.stats.counts.num_splats);
+    let small = case(scaling::Growth::Pixels, 90);
+    assert_eq!(small.num_pixels, 160 * 90);
+    let csv = format!("{}{}{}", scaling::CSV_HEADER, scaling::csv_line(&few), scaling::csv_line(&small));
+    assert!(csv.lines().all(|line| line.split(',').count() == 17), "{csv}");
+    assert!(scaling::scaling_svg(&csv).contains("<polyline"));
 }

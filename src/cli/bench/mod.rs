@@ -1,0 +1,33 @@
+mod render;
+mod scaling;
+
+use super::failure::Failure;
+use super::{console, outputs, scene_args};
+
+/// Measures what accuracy costs in time, and how cost grows with the work.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat bench render room.spz --cameras cameras.json -o bench
+  cinesplat bench scaling room.spz -o bench")]
+pub(super) struct Args {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum What {
+    /// Scenes at every preset and every knob alone: time, PSNR, SSIM, worst pixel.
+    Render(render::Args),
+    /// Time and memory against Gaussians, pixels and layers.
+    Scaling(scaling::Args),
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        match self.what {
+            What::Render(args) => args.run(),
+            What::Scaling(args) => args.run(),
+        }
+    }
+}

@@ -1,0 +1,87 @@
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use super::failure::Failure;
+use super::scene_args::{PictureArgs, SceneArgs};
+use super::{console, outputs};
+use crate::render::Quality;
+use crate::render::bench::scaling::{self, Case, Growth};
+
+/// Measures how time and memory grow with Gaussians, pixels and layers.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Example:
+  cinesplat bench scaling synth:tabletop:1 -o bench
+One line of CSV a case on stdout, each measured in a process of its own; -o keeps it with a plot.")]
+pub(in super::super) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Runs of every picture, after one that is not counted
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    runs: u16,
+    /// Leaves out cases above so many Gaussians, rows of pixels or layers
+    #[arg(long, value_name = "N", default_value_t = u64::MAX)]
+    most: u64,
+    /// Folder for scaling.csv and scaling.svg
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// One case alone, in this process
+    #[arg(long, value_name = "GROWTH:VALUE", hide = true, value_parser = parse_case)]
+    case: Option<Case>,
+    #[command(flatten)]
+    picture: PictureArgs,
+}
+
+impl Args {
+    pub(in super::super) fn run(self) -> Result<(), Failure> {
+        if let Some(case) = self.case {
+            return self.measure(case);
+        }
+        if let Some(folder) = &self.output {
+            fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))?;
+        }
+        let mut csv = scaling::CSV_HEADER.to_owned();
+        console::data(&csv)?;
+        for growth in Growth::ALL {
+            for value in growth.values().iter().filter(|value| **value <= self.most) {
+                let line = in_own_process(growth, *value)?;
+                console::data(&line)?;
+                csv.push_str(&line);
+            }
+        }
+        let Some(folder) = &self.output else { return Ok(()) };
+        outputs::write(&folder.join("scaling.csv"), csv.as_bytes())?;
+        outputs::write(&folder.join("scaling.svg"), scaling::scaling_svg(&csv).as_bytes())
+    }
+
+    fn measure(&self, case: Case) -> Result<(), Failure> {
+        self.picture.bound_threads()?;
+        let scene = self.scene.open()?.scene;
+        let settings = self.picture.settings(&scene, Quality::Standard, None, None);
+        let row = scaling::measure(case, &scene.gaussians, &settings, usize::from(self.runs))?;
+        console::data(&scaling::csv_line(&row))
+    }
+}
+
+/// The line of one case, measured by this program started anew with the same arguments.
+fn in_own_process(growth: Growth, value: u64) -> Result<String, Failure> {
+    let program = std::env::current_exe().map_err(|error| Failure::io("cinesplat", &error))?;
+    let case = format!("--case={}:{value}", growth.name());
+    let ran = Command::new(program).args(std::env::args_os().skip(1)).arg(case).output();
+    let ran = ran.map_err(|error| Failure::io("cinesplat", &error))?;
+    if ran.status.success() {
+        return Ok(String::from_utf8_lossy(&ran.stdout).into_owned());
+    }
+    let said = String::from_utf8_lossy(&ran.stderr).trim().replace('\n', "; ");
+    let exit_code = ran.status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(70);
+    Err(Failure::new("BENCH-CASE", format!("{} {value}: {said}", growth.name()), "see its error", exit_code))
+}
+
+fn parse_case(text: &str) -> Result<Case, String> {
+    let read = text.split_once(':').and_then(|(name, value)| {
+        let growth = Growth::ALL.into_iter().find(|growth| growth.name() == name)?;
+        Some(Case { growth, value: value.parse().ok()? })
+    });
+    read.ok_or_else(|| "expected GROWTH:VALUE".to_owned())
+}

@@ -1,0 +1,19 @@
+//! Accuracy against time: scenes at several settings, each timed and held against the spec image.
+//!
+//! Enters: a renderer, cameras, [`Variant`]s. Leaves: [`BenchRow`]s, and of them a CSV, a table and Pareto plots.
+//! [`scaling`] measures how cost grows with the work instead. The one invariant: a variant of [`Kind::Free`] is held
+//! against the picture of `standard` bit by bit, all others against `reference`.
+
+mod chart;
+mod difference;
+mod measure;
+mod pareto;
+mod report;
+pub mod scaling;
+mod variants;
+
+pub use difference::{Difference, difference};
+pub use measure::{BenchRow, BenchSettings, Timed, measure, time};
+pub use pareto::{Axis, pareto_svg};
+pub use report::{to_csv, to_table};
+pub use variants::{Kind, Variant, variants};
