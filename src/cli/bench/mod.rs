@@ -1,8 +1,8 @@
 mod render;
 mod scaling;
 
-use super::failure::Failure;
-use super::{console, outputs, scene_args};
+use super::{console, failure, outputs, scene_args};
+use failure::Failure;
 
 /// Measures what accuracy costs in time, and how cost grows with the work.
 #[derive(Debug, clap::Args)]
