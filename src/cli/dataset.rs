@@ -3,8 +3,9 @@ use std::time::Instant;
 
 use super::console;
 use super::failure::Failure;
+use super::shot_args::parse_level;
 use crate::director::{DatasetSettings, write_dataset};
-use crate::operator::Effort;
+use crate::operator::SolveLevel;
 
 /// Makes the director's training data.
 #[derive(Debug, clap::Args)]
@@ -27,8 +28,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "FRAC", default_value_t = DatasetSettings::default().detail)]
     detail: f64,
     /// How long the operator looks for cameras
-    #[arg(long, value_name = "off|fast|full", default_value = "fast", value_parser = parse_effort)]
-    solve: Effort,
+    #[arg(long, value_name = "off|fast|full", default_value = "fast", value_parser = parse_level)]
+    solve: SolveLevel,
     /// Seed of scenes and prompts
     #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().seed)]
     seed: u64,
@@ -45,7 +46,7 @@ impl Args {
             scenes: self.scenes,
             shots: self.shots,
             detail: self.detail,
-            effort: self.solve,
+            solve: self.solve,
             threads: self.threads,
         };
         let start = Instant::now();
@@ -62,14 +63,5 @@ impl Args {
             summary.shards_kept
         ));
         Ok(())
-    }
-}
-
-fn parse_effort(name: &str) -> Result<Effort, String> {
-    match name {
-        "off" => Ok(Effort::Off),
-        "fast" => Ok(Effort::Fast),
-        "full" => Ok(Effort::Full),
-        _ => Err("expected off, fast or full".into()),
     }
 }

@@ -8,7 +8,7 @@ use super::outputs;
 use crate::director::Director;
 use crate::lens::{self, Call, Decision, EffectChoice};
 use crate::objects::ObjectSet;
-use crate::operator::Effort;
+use crate::operator::SolveLevel;
 use crate::pipeline::{self, DirectSettings, Directed, StageTimes};
 use crate::scene::Scene;
 use crate::trajectory::{Shot, retimed};
@@ -37,9 +37,9 @@ pub(super) struct ShotArgs {
     /// Moves the inner keys in time so that the camera cruises at even speed
     #[arg(long)]
     retime: bool,
-    /// Time against how well open choices are made: off, fast or full
-    #[arg(long, value_name = "EFFORT", default_value = "full", value_parser = ["off", "fast", "full"])]
-    effort: String,
+    /// How well open choices are made, against time: off (the network's cameras as they are), fast or full
+    #[arg(long, value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
+    solve: SolveLevel,
     /// Weights of the director from a folder, instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     model: Option<PathBuf>,
@@ -60,7 +60,7 @@ impl ShotArgs {
             rate_fps: self.fps.unwrap_or(30.0),
             duration_secs: self.duration,
             seed: self.seed.unwrap_or(0),
-            effort: self.effort(),
+            solve: self.solve,
             effects: self.effects.clone(),
         };
         let mut directed = pipeline::direct(scene, objects, prompt, &director, &settings)?;
@@ -99,14 +99,6 @@ impl ShotArgs {
         }
         if self.retime { retimed(&shot) } else { shot }
     }
-
-    fn effort(&self) -> Effort {
-        match self.effort.as_str() {
-            "off" => Effort::Off,
-            "fast" => Effort::Fast,
-            _ => Effort::Full,
-        }
-    }
 }
 
 /// Flags and defaults that decide the result, for the command that reproduces it.
@@ -134,6 +126,11 @@ fn print_effects(decisions: &[Decision]) {
     for decision in decisions {
         console::note(&format!("effect: {}", decision.sentence()));
     }
+}
+
+/// A solve level by name.
+pub(super) fn parse_level(name: &str) -> Result<SolveLevel, String> {
+    SolveLevel::from_name(name).ok_or_else(|| "expected off, fast or full".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -150,7 +150,7 @@ fn choices() -> Vec<String> {
     let moves = Move::ALL.iter().map(|choice| choice.name().to_owned());
     let sizes = ShotSize::ALL.iter().map(|choice| choice.name().to_owned());
     let angles = ShotAngle::ALL.iter().map(|choice| choice.name().to_owned());
-    let easings = Easing::ALL.iter().map(|choice| choice.name().to_owned());
+    let easings = Easing::SPOKEN.iter().map(|choice| choice.name().to_owned());
     let parts = Part::ALL.iter().map(|choice| format!("{choice:?}"));
     let passes = Pass::ALL.iter().map(|choice| format!("{choice:?}"));
     let speeds = Speed::ALL.iter().map(|choice| format!("{choice:?}"));

@@ -1,5 +1,6 @@
 //! LichtFeld Studio timelines, version 4: seconds, position, quaternion w x y z with OpenGL camera axes, focal length in
-//! mm on a frame 24 mm high, and one of four easings. Its own spline joins the keys; it keeps numbers as f32.
+//! mm on a frame 24 mm high, and one of four easings; other
+//! easings become the one of the four that rests at the same ends. Its own spline joins the keys; it keeps numbers as f32.
 
 use super::ExportError;
 use super::json_read::{self, Node};
@@ -23,7 +24,7 @@ pub(super) fn focal_mm(fov_y_rad: f64) -> f64 {
 pub(super) fn write(track: &PoseTrack) -> String {
     let keyframes = track.since_start().map(|(secs, frame)| {
         let [x, y, z, w] = opengl_rotation(&frame.pose).to_array();
-        let easing = EASINGS.iter().position(|easing| *easing == frame.easing).unwrap_or(0);
+        let easing = EASINGS.iter().position(|easing| *easing == frame.easing.as_cruise()).unwrap_or(0);
         object([
             ("time", secs.into()),
             ("position", frame.pose.position.into()),

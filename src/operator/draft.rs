@@ -177,8 +177,12 @@ pub(super) fn keyframes(parts: &[Part], labels: &[StepLabels]) -> Vec<Keyframe> 
 /// Time between the last key before a cut and the first after it.
 pub(super) const CUT_SECS: f64 = 1e-3;
 
-/// Easing of one segment of a part that has several: ramps at the part's ends only.
+/// Easing of one segment of a part. Of several segments each cruises, with ramps at the part's ends only: a curve over
+/// all of them has no name for its pieces.
 fn segment_easing(easing: Easing, segment: usize, num_segments: usize) -> Easing {
+    if num_segments == 1 {
+        return easing;
+    }
     let starts = segment == 0 && easing.rests_at_start();
     let ends = segment + 1 == num_segments && easing.rests_at_end();
     match (starts, ends) {

@@ -14,6 +14,7 @@ mod moves;
 mod program;
 mod report;
 mod search;
+mod suggested;
 mod support;
 mod view;
 mod world;
@@ -22,35 +23,50 @@ pub use framing::DEFAULT_ASPECT;
 pub use program::{Amount, Framing, Part, Pass, Program, Speed, Step, Via};
 pub use world::{DEFAULT_CAMERA_RADIUS_FRAC, Subject, World};
 
-use crate::trajectory::{CameraState, Keyframe, ReportLine, retime};
+use crate::trajectory::{CameraState, Keyframe, ReportLine, named_choices, retime};
 use draft::{StepLabels, keyframes};
 
-/// How long the operator may look for a better film.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Effort {
-    /// Not at all: the first choice that each move makes, from the director's suggestion.
-    Off,
-    /// Some 500 tries for one step.
-    Fast,
-    /// Some 1,300 tries for one step, and 1,800 for each after it.
-    #[default]
-    Full,
+named_choices! {
+    /// How long the operator may look for a better film.
+    #[derive(Default)]
+    SolveLevel {
+        /// Not at all: the director's cameras joined by the path. A step without a suggestion takes the first choice
+        /// that its move makes.
+        Off = "off",
+        /// Some 300 tries for one step.
+        Fast = "fast",
+        /// Some 1,300 tries for one step, and 1,800 for each after it.
+        #[default]
+        Full = "full",
+    }
 }
 
-/// A camera that the director has in mind for the start of a step.
+/// Cameras that the director has in mind for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Suggestion {
-    /// Pose and lens.
+    /// At its start.
     pub state: CameraState,
+    /// At its end.
+    pub end: CameraState,
+    /// How long it takes from one to the other.
+    pub secs: f64,
 }
 
 /// How to solve.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolveSettings {
     /// Time against how well the open choices are made.
-    pub effort: Effort,
+    pub level: SolveLevel,
     /// Seed of the search.
     pub seed: u64,
+    /// Factor on the number of tries of the level, for measuring accuracy against time.
+    pub tries_factor: f64,
+}
+
+impl Default for SolveSettings {
+    fn default() -> Self {
+        Self { level: SolveLevel::default(), seed: 0, tries_factor: 1.0 }
+    }
 }
 
 /// A solved shot.
@@ -90,9 +106,12 @@ pub fn realize(
         program
     };
     let task = search::Task { world, program, suggestions };
-    let film = search::best_film(&task, settings.seed, settings.effort);
+    let film = search::best_film(&task, settings);
     let cost = film.cost();
     let mut parts: Vec<draft::Part> = film.parts.into_iter().flatten().collect();
+    if settings.level == SolveLevel::Off {
+        parts = suggested::as_suggested(parts, suggestions);
+    }
     fit_duration(&mut parts, program.duration_secs);
     let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
     let mut keys = keyframes(&parts, &labels);

@@ -1,6 +1,6 @@
 //! The search for what a program leaves open: a beam over steps, then small changes to the best film found.
 //!
-//! Bounded and deterministic: the number of tries is fixed by the effort, every random number comes from the seed in a
+//! Bounded and deterministic: the number of tries is fixed by the level, every random number comes from the seed in a
 //! fixed order, and ties go to the earlier try. The best film so far is never lost.
 
 use rand::{Rng, RngExt, SeedableRng};
@@ -11,7 +11,7 @@ use super::draft::{Genes, NUM_GENES, Part};
 use super::judge::cost;
 use super::moves::{Scenario, build};
 use super::world::World;
-use super::{Effort, Program, Suggestion};
+use super::{Program, SolveLevel, SolveSettings, Suggestion};
 use crate::trajectory::CameraState;
 
 /// A film up to some step: the choices made, the parts they give and what they cost, step by step.
@@ -44,19 +44,23 @@ pub(super) struct Task<'a> {
     pub(super) suggestions: &'a [Suggestion],
 }
 
-/// Numbers of tries for an effort: first step, tries a film and step after it, films kept, changes at the end.
-fn budget(effort: Effort) -> (usize, usize, usize, usize) {
-    match effort {
-        Effort::Off => (1, 1, 1, 0),
-        Effort::Fast => (220, 24, 10, 80),
-        Effort::Full => (900, 64, 28, 420),
-    }
+/// Numbers of tries of a level: first step, tries a film and step after it, films kept, changes at the end.
+fn budget(settings: &SolveSettings) -> (usize, usize, usize, usize) {
+    let (first, each, width, changes) = match settings.level {
+        SolveLevel::Off => return (1, 1, 1, 0),
+        SolveLevel::Fast => (220.0, 24.0, 10.0, 80.0),
+        SolveLevel::Full => (900.0, 64.0, 28.0, 420.0),
+    };
+    let count = |tries: f64, factor: f64| ((tries * factor).round() as usize).max(1);
+    // Steps after the first are tried for every film kept: both share the factor.
+    let (factor, root) = (settings.tries_factor, settings.tries_factor.sqrt());
+    (count(first, factor), count(each, root), count(width, root), count(changes, factor))
 }
 
 /// The best film found.
-pub(super) fn best_film(task: &Task, seed: u64, effort: Effort) -> Film {
-    let mut rng = Pcg64Mcg::seed_from_u64(seed);
-    let (first_tries, tries, width, changes) = budget(effort);
+pub(super) fn best_film(task: &Task, settings: &SolveSettings) -> Film {
+    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
+    let (first_tries, tries, width, changes) = budget(settings);
     let mut beam = vec![Film::default()];
     for index in 0..task.program.steps.len() {
         let count = if index == 0 || task.program.steps[index].cut { first_tries } else { tries };

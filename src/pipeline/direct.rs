@@ -1,9 +1,9 @@
 use super::{PipelineError, StageTimes};
 use crate::director::language::{self, Linked, NamedObject};
-use crate::director::{Direction, Director, Stage};
+use crate::director::{Direction, Director, Stage, SuggestedCamera};
 use crate::lens::{self, Call, Decision, EffectChoice};
 use crate::objects::{self, CloudSettings, ObjectSet};
-use crate::operator::{self, Effort, SolveSettings, Step, Suggestion, World};
+use crate::operator::{self, SolveLevel, SolveSettings, Step, Suggestion, World};
 use crate::scene::Scene;
 use crate::trajectory::{CameraState, ReportLine, SceneRef, Shot};
 
@@ -20,8 +20,8 @@ pub struct DirectSettings {
     pub duration_secs: Option<f64>,
     /// Seed of the search for cameras.
     pub seed: u64,
-    /// How long the search may take.
-    pub effort: Effort,
+    /// How well open choices are made, against time.
+    pub solve: SolveLevel,
     /// Effects of the lens.
     pub effects: EffectChoice,
 }
@@ -34,7 +34,7 @@ impl Default for DirectSettings {
             rate_fps: 30.0,
             duration_secs: None,
             seed: 0,
-            effort: Effort::default(),
+            solve: SolveLevel::default(),
             effects: EffectChoice::default(),
         }
     }
@@ -101,7 +101,7 @@ pub fn direct(
     }
     let solution = times.measure("solve", || {
         let world = World::new(&scene.gaussians, scene.up, &objects, &linked.slots)?;
-        let solve = SolveSettings { effort: settings.effort, seed: settings.seed };
+        let solve = SolveSettings { level: settings.solve, seed: settings.seed, ..SolveSettings::default() };
         Ok::<_, PipelineError>(operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve))
     })?;
     let effects = lens::decide(&settings.effects, &calls(&linked)?);
@@ -145,11 +145,18 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     Ok(set)
 }
 
-/// The camera that the network has in mind for the start of each step.
+/// The cameras that the network has in mind for each step.
 fn suggestions(direction: &Direction) -> Vec<Suggestion> {
-    let starts = direction.step_cameras.iter().map_while(|&[start, _]| direction.cameras.get(start));
-    let state = |pose, fov_y_rad| CameraState { pose, fov_y_rad, focus_distance: None };
-    starts.map(|camera| Suggestion { state: state(camera.pose, camera.fov_y_rad) }).collect()
+    let camera = |index: usize| direction.cameras.get(index);
+    let state =
+        |at: &SuggestedCamera| CameraState { pose: at.pose, fov_y_rad: at.fov_y_rad, focus_distance: None };
+    let ends = direction.step_cameras.iter().map_while(|&[start, end]| camera(start).zip(camera(end)));
+    let suggestion = |(start, end): (&SuggestedCamera, &SuggestedCamera)| Suggestion {
+        state: state(start),
+        end: state(end),
+        secs: end.time_secs - start.time_secs,
+    };
+    ends.map(suggestion).collect()
 }
 
 fn calls(linked: &Linked) -> Result<Vec<Call>, PipelineError> {

@@ -20,4 +20,5 @@ pub use path::{CameraPath, CameraState};
 pub use shot::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
 pub(crate) use timing::retime;
 pub use timing::retimed;
+pub(crate) use vocabulary::named_choices;
 pub use vocabulary::{Move, ShotAngle, ShotSize};

@@ -1,9 +1,9 @@
 //! The camera at any time of a shot.
 
 use super::leg::{COARSE_CHORDS, FINE_CHORDS, Kind, Leg};
-use super::profile::{SpeedProfile, ramp_secs};
+use super::profile::{SpeedProfile, natural_speeds, ramp_secs};
 use super::track::harmonic_mean;
-use super::{Keyframe, Shot, TrajectoryError};
+use super::{Easing, Keyframe, Shot, TrajectoryError};
 use crate::geometry::{LevelFrame, Pose};
 
 /// Pose and lens at one moment.
@@ -49,6 +49,7 @@ pub(super) struct Stretch {
     pub(super) leg: Option<(usize, usize)>,
     pub(super) length: f64,
     pub(super) duration_secs: f64,
+    pub(super) easing: Easing,
     pub(super) rests_at_start: bool,
     pub(super) rests_at_end: bool,
 }
@@ -58,6 +59,11 @@ impl Stretch {
     fn cruise_speed(&self) -> f64 {
         let ramps = f64::from(u8::from(self.rests_at_start)) + f64::from(u8::from(self.rests_at_end));
         self.length / (self.duration_secs - ramps * ramp_secs(self.duration_secs) / 2.0)
+    }
+
+    /// Speeds at both ends when nothing else is asked of them.
+    fn natural_speeds(&self) -> (f64, f64) {
+        natural_speeds(self.easing, self.length / self.duration_secs, self.cruise_speed())
     }
 }
 
@@ -81,16 +87,15 @@ impl CameraPath {
         let (legs, stretches) = stretches(&keys, frame, num_chords);
         let mut segments = Vec::with_capacity(stretches.len());
         for (i, stretch) in stretches.iter().enumerate() {
-            let speed_at = |rests: bool, neighbor: Option<&Stretch>| match neighbor {
-                Some(neighbor) if !rests => harmonic_mean(neighbor.cruise_speed(), stretch.cruise_speed()),
-                _ if rests => 0.0,
-                _ => stretch.cruise_speed(),
-            };
             let before = i.checked_sub(1).and_then(|j| stretches.get(j)).filter(|s| s.leg.is_some());
             let after = stretches.get(i + 1).filter(|s| s.leg.is_some());
-            let start_speed = speed_at(stretch.rests_at_start, before);
-            let end_speed = speed_at(stretch.rests_at_end, after);
-            let profile = SpeedProfile::new(stretch.duration_secs, stretch.length, start_speed, end_speed);
+            // What two neighbors would have by themselves decides the speed at the key between them.
+            let between = |a: &Stretch, b: &Stretch| harmonic_mean(a.natural_speeds().1, b.natural_speeds().0);
+            let start_speed =
+                if stretch.rests_at_start { Some(0.0) } else { before.map(|before| between(before, stretch)) };
+            let end_speed = if stretch.rests_at_end { Some(0.0) } else { after.map(|after| between(stretch, after)) };
+            let ends = [start_speed, end_speed];
+            let profile = SpeedProfile::new(stretch.easing, stretch.duration_secs, stretch.length, ends);
             segments.push(Segment { place: stretch.leg, profile });
         }
         Self { keys, legs, segments }
@@ -143,6 +148,7 @@ pub(super) fn stretches(keys: &[Keyframe], frame: Option<LevelFrame>, num_chords
                 leg: leg.as_ref().map(|_| (legs.len(), i - first)),
                 length: leg.as_ref().map_or(0.0, |leg| leg.length(i - first)),
                 duration_secs: keys[i + 1].time_secs - keys[i].time_secs,
+                easing: keys[i].easing,
                 rests_at_start: i == first && (joins(i) || keys[i].easing.rests_at_start()),
                 rests_at_end: i + 1 == end && (joins(end) || keys[i].easing.rests_at_end()),
             });

@@ -7,7 +7,7 @@ use super::{Keyframe, Shot};
 use crate::geometry::LevelFrame;
 
 /// The shot with the inner keys of every leg moved to times of even speed along the path. First and last keys, cuts and
-/// moments of rest keep their times.
+/// moments of rest keep their times, and so do legs with an easing that follows a curve.
 pub fn retimed(shot: &Shot) -> Shot {
     let frame = shot.scene.up.and_then(|up| LevelFrame::new(up).ok());
     let mut out = shot.clone();
@@ -25,7 +25,9 @@ pub(crate) fn retime(keys: &mut [Keyframe], frame: Option<LevelFrame>) {
     while first < stretches.len() {
         let leg = stretches[first].leg.map(|(leg, _)| leg);
         let count = stretches[first..].iter().take_while(|s| leg.is_some() && s.leg.map(|(l, _)| l) == leg).count();
-        if count > 1 {
+        // A segment with a curve of its own is not meant to be even.
+        let even = stretches[first..first + count].iter().all(|stretch| stretch.easing.curve().is_none());
+        if count > 1 && even {
             retime_leg(&mut keys[first..=first + count], &stretches[first..first + count]);
         }
         first += count.max(1);

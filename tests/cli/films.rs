@@ -57,7 +57,7 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     let objects: serde_json::Value = serde_json::from_str(&objects).unwrap();
     let prompt = format!("push in on <obj-{}> with film grain", objects[0]["id"]);
     let plan =
-        ["plan", SMALL_SCENE, "-p", &prompt, "-o", "shot.json", "--effort", "fast", "--size", "64x36", "--explain"];
+        ["plan", SMALL_SCENE, "-p", &prompt, "-o", "shot.json", "--solve", "fast", "--size", "64x36", "--explain"];
     let output = run(folder.path(), &plan);
     let (explained, said) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert!(output.status.success(), "{said}");
@@ -70,7 +70,7 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
         shot["report"].as_array().unwrap().iter().any(|line| line["met"] == false),
         "the missing grain is admitted"
     );
-    let again = ["plan", SMALL_SCENE, "-p", &prompt, "--json", "--effort", "fast", "--size", "64x36"];
+    let again = ["plan", SMALL_SCENE, "-p", &prompt, "--json", "--solve", "fast", "--size", "64x36"];
     assert_eq!(data(folder.path(), &again), text, "the same sentence gives the same shot");
     let said =
         answer(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4", "--frames", "0..2"]);

@@ -4,7 +4,7 @@ mod moves;
 mod places;
 
 use cinesplat::objects::{Object, ObjectSet};
-use cinesplat::operator::{Effort, Program, Solution, SolveSettings, Step, World, realize};
+use cinesplat::operator::{SolveLevel, Program, Solution, SolveSettings, Step, World, realize};
 use cinesplat::scene::Gaussians;
 use cinesplat::trajectory::{CameraPath, CameraState, SceneRef, Shot};
 use glam::{DQuat, DVec3, Quat, Vec3};
@@ -80,7 +80,7 @@ pub fn world() -> World {
 /// A program solved quickly with one seed.
 pub fn solved(world: &World, steps: Vec<Step>) -> Solution {
     let program = Program { steps, ..Program::default() };
-    realize(world, &program, "", &[], &SolveSettings { effort: Effort::Fast, seed: 7 })
+    realize(world, &program, "", &[], &SolveSettings { level: SolveLevel::Fast, seed: 7, ..SolveSettings::default() })
 }
 
 /// The film of a solution at ten frames a second, and its very end.

@@ -1,6 +1,6 @@
 //! Where a camera may stand: clear of matter, and where the capture shows its good side.
 
-use cinesplat::operator::{Amount, Effort, Framing, Program, SolveSettings, Step, realize};
+use cinesplat::operator::{Amount, SolveLevel, Framing, Program, SolveSettings, Step, realize};
 use cinesplat::trajectory::Move;
 use glam::DVec3;
 
@@ -52,7 +52,7 @@ fn the_same_seed_gives_the_same_shot_on_any_number_of_threads() {
     let world = world();
     let step = Step { start: Framing { subjects: vec![1], ..Framing::default() }, ..Step::of(Move::CraneUp) };
     let program = Program { steps: vec![step], ..Program::default() };
-    let settings = SolveSettings { effort: Effort::Fast, seed: 3 };
+    let settings = SolveSettings { level: SolveLevel::Fast, seed: 3, ..SolveSettings::default() };
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| realize(&world, &program, "", &[], &settings))

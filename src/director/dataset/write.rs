@@ -14,7 +14,7 @@ use crate::director::ground::MAX_POINTS;
 use crate::director::keys::{MAX_KEYS, Next, keys_of};
 use crate::director::language::{NamedObject, Phrasebook, Sample, program_to_notation};
 use crate::objects::{CloudSettings, Object, ObjectSet, fill_clouds};
-use crate::operator::{Effort, Program, Solution, SolveSettings, World, realize};
+use crate::operator::{SolveLevel, Program, Solution, SolveSettings, World, realize};
 use crate::scene::synth::{SynthKind, SynthScene, SynthSettings, generate};
 use crate::scene::{Scene, UpSource};
 use crate::trajectory::Keyframe;
@@ -38,14 +38,14 @@ pub struct DatasetSettings {
     /// Number of Gaussians relative to film quality.
     pub detail: f64,
     /// How long the operator looks for cameras.
-    pub effort: Effort,
+    pub solve: SolveLevel,
     /// Threads that make shards side by side.
     pub threads: usize,
 }
 
 impl Default for DatasetSettings {
     fn default() -> Self {
-        Self { out: PathBuf::new(), seed: 8, scenes: 256, shots: 24, detail: 0.05, effort: Effort::Fast, threads: 2 }
+        Self { out: PathBuf::new(), seed: 8, scenes: 256, shots: 24, detail: 0.05, solve: SolveLevel::Fast, threads: 2 }
     }
 }
 
@@ -152,7 +152,7 @@ fn shoot_scene(settings: &DatasetSettings, scene_idx: u64) -> Result<SceneRecord
     let mut shots = Vec::new();
     for _ in 0..settings.shots {
         let Sample { prompt, program } = phrasebook.sample(&named, &mut rng);
-        let solve = SolveSettings { effort: settings.effort, seed: rng.random() };
+        let solve = SolveSettings { level: settings.solve, seed: rng.random(), ..SolveSettings::default() };
         let solution = realize(&world, &program, &prompt, &[], &solve);
         shots.extend(shot_record(prompt, &program, &solution));
     }
