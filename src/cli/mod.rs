@@ -15,6 +15,7 @@ mod info;
 mod interrupt;
 mod npy;
 mod objects;
+mod operator_bench;
 mod outputs;
 mod plan;
 mod progress;

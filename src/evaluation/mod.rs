@@ -31,7 +31,7 @@ pub use evaluate::{EvalSettings, Evaluation, Metric, evaluate};
 pub use lens::{FocalError, focal_error};
 pub use named_move::{NamedMove, name_move};
 pub use pairs::{Delta, PairSettings, pairs};
-pub use plot::plot_svg;
+pub use plot::{curve_svg, plot_svg};
 pub use relation::Relation;
 pub use smoothness::{Smoothness, smoothness};
 pub use statistics::Statistics;

@@ -13,6 +13,18 @@ pub struct Program {
     pub unmet: Vec<(String, String)>,
 }
 
+impl Program {
+    /// Ids of all objects that the steps are about or pass, each once, in order of id.
+    pub fn object_ids(&self) -> Vec<u32> {
+        let passed = |step: &Step| step.via.iter().flat_map(|via| via.objects.clone()).collect::<Vec<u32>>();
+        let named = |step: &Step| [&step.start.subjects[..], &step.end.subjects[..], &passed(step)[..]].concat();
+        let mut ids: Vec<u32> = self.steps.iter().flat_map(named).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        ids
+    }
+}
+
 /// One stretch of the film: from a framing, by a move, to a framing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {

@@ -3,7 +3,7 @@ use crate::director::language::{self, Linked, NamedObject};
 use crate::director::{Direction, Director, Stage, SuggestedCamera};
 use crate::lens::{self, Call, Decision, EffectChoice};
 use crate::objects::{self, CloudSettings, ObjectSet};
-use crate::operator::{self, SolveLevel, SolveSettings, Step, Suggestion, World};
+use crate::operator::{self, Solution, SolveLevel, SolveSettings, Step, Suggestion, World};
 use crate::scene::Scene;
 use crate::trajectory::{CameraState, ReportLine, SceneRef, Shot};
 
@@ -99,34 +99,38 @@ pub fn direct(
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }
+    let ids = direction.program.object_ids();
+    let world = times.measure("world", || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
+    let solve = SolveSettings { level: settings.solve, seed: settings.seed, ..SolveSettings::default() };
     let solution = times.measure("solve", || {
-        let world = World::new(&scene.gaussians, scene.up, &objects, &linked.slots)?;
-        let solve = SolveSettings { level: settings.solve, seed: settings.seed, ..SolveSettings::default() };
-        Ok::<_, PipelineError>(operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve))
-    })?;
+        operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve)
+    });
+    let mut shot = shot_of(scene, prompt, solution, settings);
     let effects = lens::decide(&settings.effects, &calls(&linked)?);
-    let mut report = solution.report;
-    report.extend(effects.iter().filter_map(Decision::report_line));
-    report.extend(linked.unknown.iter().map(unknown_name));
-    let shot = Shot {
-        scene: SceneRef {
-            path: scene.path.to_string_lossy().into_owned(),
-            sha256: scene.sha256.clone(),
-            up: Some(scene.up),
-        },
+    shot.model = Some(director.model_ref());
+    shot.effects = effects.iter().filter_map(Decision::request).collect();
+    shot.report.extend(effects.iter().filter_map(Decision::report_line));
+    shot.report.extend(linked.unknown.iter().map(unknown_name));
+    let steps = readings(prompt, &direction);
+    Ok(Directed { shot: shot.validated()?, steps, effects, warnings: linked.warnings, times })
+}
+
+/// The shot of solved keyframes: no director had a part in it, no effects.
+pub fn shot_of(scene: &Scene, prompt: &str, solution: Solution, settings: &DirectSettings) -> Shot {
+    let path = scene.path.to_string_lossy().into_owned();
+    Shot {
+        scene: SceneRef { path, sha256: scene.sha256.clone(), up: Some(scene.up) },
         prompt: prompt.to_owned(),
         seed: settings.seed,
-        model: Some(director.model_ref()),
+        model: None,
         width: settings.width,
         height: settings.height,
         fps: settings.rate_fps,
         duration_secs: solution.duration_secs,
         keyframes: solution.keyframes,
-        effects: effects.iter().filter_map(Decision::request).collect(),
-        report,
-    };
-    let steps = readings(prompt, &direction);
-    Ok(Directed { shot: shot.validated()?, steps, effects, warnings: linked.warnings, times })
+        effects: Vec::new(),
+        report: solution.report,
+    }
 }
 
 fn names(objects: &ObjectSet) -> Vec<NamedObject> {

@@ -11,7 +11,7 @@ mod source;
 mod stage_times;
 mod stills;
 
-pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects};
+pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
 pub use film::{FilmReport, FilmSettings, Flow, Progress, film};
 pub use frames::FrameRange;

@@ -1,7 +1,7 @@
 mod render;
 mod scaling;
 
-use super::{console, failure, outputs, scene_args};
+use super::{console, failure, operator_bench, outputs, scene_args};
 use failure::Failure;
 
 /// Measures what accuracy costs in time, and how cost grows with the work.
@@ -9,7 +9,8 @@ use failure::Failure;
 #[command(after_help = "\
 Examples:
   cinesplat bench render room.spz --cameras cameras.json -o bench
-  cinesplat bench scaling room.spz -o bench")]
+  cinesplat bench scaling room.spz -o bench
+  cinesplat bench operator moves")]
 pub(super) struct Args {
     #[command(subcommand)]
     what: What,
@@ -21,6 +22,8 @@ enum What {
     Render(render::Args),
     /// Time and memory against Gaussians, pixels and layers.
     Scaling(scaling::Args),
+    /// The operator: exactness of moves, films of cases, void, accuracy against time, stages.
+    Operator(operator_bench::Args),
 }
 
 impl Args {
@@ -28,6 +31,7 @@ impl Args {
         match self.what {
             What::Render(args) => args.run(),
             What::Scaling(args) => args.run(),
+            What::Operator(args) => args.run(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A figure of paths as SVG: from above, from the side, and x y z roll pitch yaw over time.
 
 mod chart;
+mod curve;
 mod ticks;
 
 use std::fmt::Write as _;
@@ -8,6 +9,7 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use self::chart::{Chart, Series};
+pub use self::curve::curve_svg;
 use super::table::table_beside;
 use super::{TableRow, Trajectory};
 use crate::geometry::LevelFrame;

@@ -1,0 +1,156 @@
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde::Deserialize;
+
+use crate::cli::failure::Failure;
+use crate::cli::outputs;
+use crate::director::Director;
+use crate::director::language::program_from_notation;
+use crate::objects::{self, ObjectSet};
+use crate::operator::{Program, SolveLevel, SolveSettings, World, realize};
+use crate::pipeline::{self, DirectSettings};
+use crate::scene::{LoadOptions, Scene};
+use crate::trajectory::Shot;
+
+/// Which prompts are solved, on which scenes.
+#[derive(Debug, Clone, clap::Args)]
+pub(super) struct CaseArgs {
+    /// Cases: JSON lines with id, scene, objects and prompt
+    #[arg(long, value_name = "CASES.JSONL")]
+    cases: PathBuf,
+    /// Programs by case, instead of the network's reading of the prompts
+    #[arg(long, value_name = "INTENTS.JSON")]
+    intents: Option<PathBuf>,
+    /// Part of the ids of the cases that count
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    only: String,
+    /// Seed of the search for cameras
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+}
+
+/// A prompt on a scene.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Case {
+    pub(super) id: String,
+    scene: PathBuf,
+    objects: PathBuf,
+    prompt: String,
+    #[serde(skip)]
+    program: Option<Program>,
+}
+
+/// A scene with its objects, up axis corrected by the objects file.
+pub(super) struct Place {
+    pub(super) scene: Scene,
+    objects: ObjectSet,
+}
+
+/// Scenes that are open, and the director where prompts have to be read.
+pub(super) struct Studio {
+    director: Option<Director>,
+    places: BTreeMap<(PathBuf, PathBuf), Place>,
+    seed: u64,
+}
+
+impl CaseArgs {
+    /// The cases with their programs, and a studio to film them in.
+    pub(super) fn open(&self) -> Result<(Vec<Case>, Studio), Failure> {
+        let programs = self.intents.as_deref().map(programs).transpose()?;
+        let folder = self.cases.parent().unwrap_or(Path::new("."));
+        let bad = |line: usize, found: &str| {
+            let found = format!("{}: line {line}: {found}, expected a case", self.cases.display());
+            Failure::new("BAD-CASE", found, "see cinesplat bench operator --help", 65)
+        };
+        let mut cases = Vec::new();
+        for (number, line) in outputs::read_text(&self.cases)?.lines().enumerate() {
+            let mut case: Case = serde_json::from_str(line).map_err(|error| bad(number + 1, &error.to_string()))?;
+            if !case.id.contains(&self.only) {
+                continue;
+            }
+            (case.scene, case.objects) = (folder.join(&case.scene), folder.join(&case.objects));
+            if let Some(programs) = &programs {
+                let program = programs.get(&case.id).ok_or_else(|| bad(number + 1, "no program in the intents"))?;
+                case.program = Some(program.clone());
+            }
+            cases.push(case);
+        }
+        let director = if programs.is_none() { Some(Director::embedded()?) } else { None };
+        Ok((cases, Studio { director, places: BTreeMap::new(), seed: self.seed }))
+    }
+}
+
+/// The programs of an intents file.
+fn programs(path: &Path) -> Result<BTreeMap<String, Program>, Failure> {
+    let bad = |found: &str| {
+        let found = format!("{}: {found}, expected programs by case id", path.display());
+        Failure::new("BAD-INTENTS", found, "see cinesplat bench operator --help", 65)
+    };
+    let texts: BTreeMap<String, String> =
+        serde_json::from_str(&outputs::read_text(path)?).map_err(|error| bad(&error.to_string()))?;
+    let program = |(id, text): (String, String)| {
+        program_from_notation(&text).map(|program| (id.clone(), program)).map_err(|error| bad(&format!("{id}: {error}")))
+    };
+    texts.into_iter().map(program).collect()
+}
+
+impl Studio {
+    /// The place of a case, opened on first use.
+    pub(super) fn place(&mut self, case: &Case) -> Result<&Place, Failure> {
+        let key = (case.scene.clone(), case.objects.clone());
+        if !self.places.contains_key(&key) {
+            let mut scene = pipeline::open_scene(&case.scene, &LoadOptions::default())?.scene;
+            let read = objects::read(&case.objects, &scene)?;
+            scene.up = read.up.unwrap_or(scene.up);
+            self.places.insert(key.clone(), Place { scene, objects: read.set });
+        }
+        self.places.get(&key).ok_or_else(|| Failure::fault("a scene that was opened is gone"))
+    }
+
+    /// The shot of a case.
+    pub(super) fn shoot(&mut self, case: &Case, level: SolveLevel) -> Result<Shot, Failure> {
+        let settings = DirectSettings { seed: self.seed, solve: level, ..DirectSettings::default() };
+        self.place(case)?;
+        let place = &self.places[&(case.scene.clone(), case.objects.clone())];
+        if let Some(program) = &case.program {
+            let solve = SolveSettings { level, seed: self.seed, ..SolveSettings::default() };
+            return Ok(place.shoot(program, &case.prompt, &solve, &settings)?.0);
+        }
+        let director = self.director.as_ref().ok_or_else(|| Failure::fault("no director was opened"))?;
+        Ok(pipeline::direct(&place.scene, &place.objects, &case.prompt, director, &settings)?.shot)
+    }
+
+    /// Shots of a case for several settings of the search, each with the time of the search alone. Needs programs.
+    pub(super) fn shoot_each(&mut self, case: &Case, tries: &[SolveSettings]) -> Result<Vec<(Shot, Duration)>, Failure> {
+        let place = self.place(case)?;
+        let program = case.program.as_ref().ok_or_else(|| Failure::usage("no programs", "add --intents"))?;
+        let world = World::new(&place.scene.gaussians, place.scene.up, &place.objects, &program.object_ids())?;
+        let shoot = |solve: &SolveSettings| {
+            let start = Instant::now();
+            let solution = realize(&world, program, &case.prompt, &[], solve);
+            let time = start.elapsed();
+            (pipeline::shot_of(&place.scene, &case.prompt, solution, &DirectSettings::default()), time)
+        };
+        Ok(tries.iter().map(shoot).collect())
+    }
+}
+
+impl Place {
+    /// The shot of a program, and how long preparing the scene and solving took.
+    fn shoot(
+        &self,
+        program: &Program,
+        prompt: &str,
+        solve: &SolveSettings,
+        settings: &DirectSettings,
+    ) -> Result<(Shot, [Duration; 2]), Failure> {
+        let start = Instant::now();
+        let world = World::new(&self.scene.gaussians, self.scene.up, &self.objects, &program.object_ids())?;
+        let prepared = start.elapsed();
+        let solution = realize(&world, program, prompt, &[], solve);
+        let times = [prepared, start.elapsed().saturating_sub(prepared)];
+        Ok((pipeline::shot_of(&self.scene, prompt, solution, settings), times))
+    }
+}

@@ -1,0 +1,98 @@
+use std::path::PathBuf;
+use std::time::Duration;
+
+use super::cases::CaseArgs;
+use crate::cli::failure::Failure;
+use crate::cli::{console, outputs};
+use crate::evaluation::curve_svg;
+use crate::operator::{SolveLevel, SolveSettings};
+use crate::trajectory::Shot;
+
+/// Search budgets: a level and the factor on its tries.
+const BUDGETS: [(SolveLevel, f64); 9] = [
+    (SolveLevel::Off, 1.0),
+    (SolveLevel::Fast, 0.05),
+    (SolveLevel::Fast, 0.15),
+    (SolveLevel::Fast, 0.4),
+    (SolveLevel::Fast, 1.0),
+    (SolveLevel::Full, 0.5),
+    (SolveLevel::Full, 1.0),
+    (SolveLevel::Full, 2.0),
+    (SolveLevel::Full, 4.0),
+];
+
+/// Which films, and where the picture goes.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    cases: CaseArgs,
+    /// Writes the curve as a picture
+    #[arg(long, value_name = "OUT.SVG")]
+    plot: Option<PathBuf>,
+    /// Replaces a plot that is already there
+    #[arg(long)]
+    overwrite: bool,
+}
+
+/// All films of one budget.
+#[derive(Debug, Default)]
+struct Outcome {
+    ms: Vec<f64>,
+    lines: usize,
+    unmet: usize,
+    whole: usize,
+}
+
+impl Outcome {
+    fn add(&mut self, shot: &Shot, time: Duration) {
+        let unmet = shot.report.iter().filter(|line| !line.met).count();
+        self.ms.push(time.as_secs_f64() * 1e3);
+        self.lines += shot.report.len();
+        self.unmet += unmet;
+        self.whole += usize::from(unmet == 0);
+    }
+
+    /// Median and longest time, milliseconds.
+    fn times_ms(&self) -> (f64, f64) {
+        let mut sorted = self.ms.clone();
+        sorted.sort_by(f64::total_cmp);
+        (sorted.get(sorted.len() / 2).copied().unwrap_or(0.0), sorted.last().copied().unwrap_or(0.0))
+    }
+
+    /// Share of the report's lines that are not met.
+    fn violated_frac(&self) -> f64 {
+        self.unmet as f64 / self.lines.max(1) as f64
+    }
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        if let Some(plot) = &self.plot {
+            outputs::check_new(plot, self.overwrite)?;
+        }
+        let (cases, mut studio) = self.cases.open()?;
+        let tries = BUDGETS.map(|(level, tries_factor)| SolveSettings { level, tries_factor, seed: 0 });
+        let mut outcomes: [Outcome; BUDGETS.len()] = Default::default();
+        for case in &cases {
+            let shots = studio.shoot_each(case, &tries)?;
+            outcomes.iter_mut().zip(&shots).for_each(|(outcome, (shot, time))| outcome.add(shot, *time));
+            console::note(&format!("{}: done", case.id));
+        }
+        console::data("level,tries_factor,ms_median,ms_most,violated_frac,unmet_lines,whole_films,films\n")?;
+        for ((level, factor), outcome) in BUDGETS.iter().zip(&outcomes) {
+            let (median, most) = outcome.times_ms();
+            let (violated, unmet, whole) = (outcome.violated_frac(), outcome.unmet, outcome.whole);
+            let films = outcome.ms.len();
+            let name = level.name();
+            console::data(&format!("{name},{factor},{median:.1},{most:.1},{violated:.5},{unmet},{whole},{films}\n"))?;
+        }
+        let Some(plot) = &self.plot else { return Ok(()) };
+        let point = |outcome: &Outcome| (outcome.times_ms().0.max(1e-3).log10(), 100.0 * outcome.violated_frac());
+        let points: Vec<(f64, f64)> = outcomes.iter().map(point).collect();
+        let title = format!("what was asked for and not found, {} films", cases.len());
+        let svg = curve_svg(&title, "log10 of the search's milliseconds (median)", "lines not met, %", &points);
+        outputs::write(plot, svg.as_bytes())?;
+        console::note(&format!("{}: the curve", plot.display()));
+        Ok(())
+    }
+}

@@ -1,0 +1,43 @@
+use std::path::PathBuf;
+
+use super::cases::CaseArgs;
+use crate::cli::failure::Failure;
+use crate::cli::shot_args::parse_level;
+use crate::cli::{console, outputs};
+use crate::export::{self, ExportSettings, Format, shot_json};
+use crate::operator::SolveLevel;
+
+/// Where the films go.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    cases: CaseArgs,
+    /// How well open choices are made: off, fast or full
+    #[arg(long, value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
+    solve: SolveLevel,
+    /// Frames a second of the paths
+    #[arg(long, value_name = "F", default_value_t = 10.0)]
+    fps: f64,
+    /// Folder for ID.path.json (nerfstudio) and ID.shot.json, made where it is missing
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        std::fs::create_dir_all(&self.output)
+            .map_err(|error| Failure::io(&self.output.display().to_string(), &error))?;
+        let (cases, mut studio) = self.cases.open()?;
+        for case in &cases {
+            let shot = studio.shoot(case, self.solve)?;
+            let path = self.output.join(format!("{}.path.json", case.id));
+            let settings = ExportSettings { fps: Some(self.fps), ..ExportSettings::default() };
+            export::write(&path, Format::Nerfstudio, &shot, &settings)?;
+            let file = self.output.join(format!("{}.shot.json", case.id));
+            outputs::write(&file, shot_json::write(&shot).as_bytes())?;
+            let unmet = shot.report.iter().filter(|line| !line.met).count();
+            console::note(&format!("{}: {:.1} s, {unmet} lines of the report not met", case.id, shot.duration_secs));
+        }
+        Ok(())
+    }
+}

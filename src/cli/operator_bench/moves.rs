@@ -1,0 +1,219 @@
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::path_facts::{Sampled, height_frac};
+use crate::cli::console;
+use crate::cli::failure::Failure;
+use crate::geometry::{LevelFrame, Pose};
+use crate::objects::{Object, ObjectSet};
+use crate::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, Via, World, realize};
+use crate::pipeline::{self, DirectSettings, Source};
+use crate::scene::{LoadOptions, Scene};
+use crate::trajectory::{Easing, Intent, Keyframe, Move, SceneRef, Shot, retimed};
+
+/// The generated room in which moves are planned.
+const ROOM: &str = "synth:room:7:0.2";
+/// Objects of the room about which each move is planned.
+const NUM_SUBJECTS: usize = 6;
+
+/// Nothing to choose.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {}
+
+/// Something measured: worst value over `cases`, and what it must stay under.
+struct Row {
+    what: &'static str,
+    cases: usize,
+    worst: f64,
+    limit: f64,
+}
+
+impl Row {
+    fn of(what: &'static str, limit: f64, values: &[f64]) -> Self {
+        // A NaN is the worst of all.
+        let worst = values.iter().copied().max_by(f64::total_cmp).unwrap_or(f64::NAN);
+        Self { what, cases: values.len(), worst, limit }
+    }
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let set = Set::open()?;
+        let mut rows = authored()?;
+        rows.extend(planned(&set)?);
+        console::data("what,cases,worst,limit,holds\n")?;
+        for row in rows {
+            let holds = row.worst <= row.limit;
+            console::data(&format!("{},{},{:.2e},{},{holds}\n", row.what, row.cases, row.worst, row.limit))?;
+        }
+        Ok(())
+    }
+}
+
+/// Keys as a person types them.
+fn authored() -> Result<Vec<Row>, Failure> {
+    let frame = LevelFrame::new(DVec3::Y)?;
+    let pivot = DVec3::new(3.0, -1.0, 0.5);
+    let mut radius = Vec::new();
+    for count in 3..=12 {
+        for uneven in [0.0, 0.35] {
+            radius.push(Sampled::new(&orbit_keys(pivot, count, uneven)?)?.radius_error(&frame, pivot));
+        }
+    }
+    let bound = uneven_keys();
+    let even = retimed(&bound);
+    let (bound, even) = (Sampled::new(&bound)?, Sampled::new(&even)?);
+    let (jump, turn_jump) = bound.velocity_jumps();
+    let back = bound.num_reversals() + even.num_reversals();
+    Ok(vec![
+        Row::of("orbit radius error from 3 to 12 keys", 1e-3, &radius),
+        Row::of("speed variation of keys 1 and 0.2 and 3.8 apart retimed", 0.01, &[even.speed_variation([0.0, 1.0])]),
+        Row::of("velocity jump at their bound times", 0.01, &[jump]),
+        Row::of("angular velocity jump at their bound times", 0.01, &[turn_jump]),
+        Row::of("steps backward between them", 0.0, &[back as f64]),
+    ])
+}
+
+fn shot(up: DVec3, keyframes: Vec<Keyframe>, duration_secs: f64) -> Shot {
+    Shot {
+        scene: SceneRef { up: Some(up), ..SceneRef::default() },
+        prompt: String::new(),
+        seed: 0,
+        model: None,
+        width: 1280,
+        height: 720,
+        fps: 30.0,
+        duration_secs,
+        keyframes,
+        effects: Vec::new(),
+        report: Vec::new(),
+    }
+}
+
+fn key(time_secs: f64, pose: Pose, intent: Option<Intent>) -> Keyframe {
+    let easing = Easing::Linear;
+    Keyframe { time_secs, pose, fov_y_rad: 0.8, focus_distance: None, easing, cut: false, intent }
+}
+
+/// An orbit of 300 degrees in `count` keys, moved along the circle by `uneven` of their distance in turn.
+fn orbit_keys(pivot: DVec3, count: usize, uneven: f64) -> Result<Shot, Failure> {
+    let at = |i: usize| {
+        let inner = i > 0 && i + 1 < count;
+        let off = if inner { uneven * (i as f64 * 2.4).sin() } else { 0.0 };
+        let angle = (300.0 * (i as f64 + off) / (count - 1) as f64).to_radians();
+        let position = pivot + DVec3::new(angle.sin(), 0.35, angle.cos()) * 2.0;
+        let intent = Intent { movement: Some(Move::OrbitRight), pivot: Some(pivot), ..Intent::default() };
+        Ok(key(i as f64, Pose::look_at(position, pivot, DVec3::Y, None)?, Some(intent)))
+    };
+    let keys: Result<Vec<Keyframe>, Failure> = (0..count).map(at).collect();
+    Ok(shot(DVec3::Y, keys?, (count - 1) as f64))
+}
+
+/// Keys 1, 0.2 and 3.8 apart at even times, that turn on the way.
+fn uneven_keys() -> Shot {
+    let at = |(i, x): (usize, f64)| {
+        let forward = DVec3::new((0.4 * i as f64).sin(), -0.1 * i as f64, -(0.4 * i as f64).cos()).normalize();
+        key(i as f64, Pose::facing(DVec3::X * x, forward, DVec3::Y, None), None)
+    };
+    shot(DVec3::Y, [0.0, 1.0, 1.2, 5.0].into_iter().enumerate().map(at).collect(), 3.0)
+}
+
+/// A generated room to plan in.
+struct Set {
+    scene: Scene,
+    subjects: Vec<Object>,
+    world: World,
+}
+
+impl Set {
+    fn open() -> Result<Self, Failure> {
+        let Source { scene, objects } = pipeline::open_scene(Path::new(ROOM), &LoadOptions::default())?;
+        let objects: ObjectSet = objects.ok_or_else(|| Failure::fault("a generated room without objects"))?;
+        let subjects: Vec<Object> = objects.objects.iter().take(NUM_SUBJECTS).cloned().collect();
+        let ids: Vec<u32> = subjects.iter().map(|object| object.id).collect();
+        let world = World::new(&scene.gaussians, scene.up, &objects, &ids)?;
+        Ok(Self { scene, subjects, world })
+    }
+
+    /// A film of one step.
+    fn plan(&self, step: Step) -> Shot {
+        let program = Program { steps: vec![step], ..Program::default() };
+        let solve = SolveSettings { level: SolveLevel::Fast, ..SolveSettings::default() };
+        let solution = realize(&self.world, &program, "", &[], &solve);
+        pipeline::shot_of(&self.scene, "", solution, &DirectSettings::default())
+    }
+}
+
+fn about(object: &Object) -> Framing {
+    Framing { subjects: vec![object.id], ..Framing::default() }
+}
+
+/// Moves as the operator plans them.
+fn planned(set: &Set) -> Result<Vec<Row>, Failure> {
+    let frame = &set.world.frame;
+    let (mut radius, mut even, mut plane, mut boxes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut jumps, mut back) = (Vec::new(), Vec::new());
+    for object in &set.subjects {
+        for degrees in [45.0, 120.0, 360.0] {
+            let amount = Some(Amount::Degrees(degrees));
+            let step = Step { start: about(object), amount, easing: Some(Easing::Linear), ..Step::of(Move::OrbitLeft) };
+            let film = set.plan(step);
+            let path = Sampled::new(&film)?;
+            radius.push(path.radius_error(frame, object.center));
+            even.push(path.speed_variation([0.0, 1.0]));
+            back.push(path.num_reversals() as f64);
+        }
+        for movement in [Move::DollyZoomIn, Move::DollyZoomOut] {
+            let film = set.plan(Step { start: about(object), ..Step::of(movement) });
+            let path = Sampled::new(&film)?;
+            let corners = object.corners();
+            let distance = |s: &crate::trajectory::CameraState| s.pose.position.distance(object.center);
+            plane.push(path.drift(|s| distance(s) * (s.fov_y_rad / 2.0).tan()));
+            boxes.push(path.drift(|s| height_frac(s, &corners)));
+            back.push(path.num_reversals() as f64);
+        }
+    }
+    for film in ways(set) {
+        let path = Sampled::new(&film)?;
+        let (jump, turn_jump) = path.velocity_jumps();
+        jumps.push(jump.max(turn_jump));
+        back.push(path.num_reversals() as f64);
+    }
+    for film in &cruises(set) {
+        even.push(Sampled::new(film)?.speed_variation([0.0, 1.0]));
+    }
+    Ok(vec![
+        Row::of("orbit radius error as planned", 1e-3, &radius),
+        Row::of("speed variation of even moves as planned", 0.01, &even),
+        Row::of("dolly zoom drift of the subject's plane", 0.01, &plane),
+        Row::of("dolly zoom drift of the box's projected height", f64::INFINITY, &boxes),
+        Row::of("velocity jump of films of several moves", 0.01, &jumps),
+        Row::of("steps backward in one move", 0.0, &back),
+    ])
+}
+
+/// Free ways of one even speed: past and over things, from one to another.
+fn cruises(set: &Set) -> Vec<Shot> {
+    let pairs = set.subjects.windows(2);
+    let follow = |pair: &[Object]| {
+        let easing = Some(Easing::Linear);
+        let via = Some(Via { how: crate::operator::Pass::Over, objects: vec![pair[0].id] });
+        [
+            set.plan(Step { start: about(&pair[0]), end: about(&pair[1]), easing, ..Step::of(Move::Follow) }),
+            set.plan(Step { via, end: about(&pair[1]), easing, ..Step::of(Move::FlyThrough) }),
+        ]
+    };
+    pairs.flat_map(follow).collect()
+}
+
+/// Films of one way each that must not turn back.
+fn ways(set: &Set) -> Vec<Shot> {
+    let film = |object: &Object| {
+        [Move::PushIn, Move::PullOut, Move::TruckLeft, Move::TruckRight, Move::PedestalUp, Move::CraneUp]
+            .map(|movement| set.plan(Step { start: about(object), end: about(object), ..Step::of(movement) }))
+    };
+    let mut out: Vec<Shot> = set.subjects.iter().flat_map(film).collect();
+    out.extend(cruises(set));
+    out
+}

@@ -1,0 +1,76 @@
+use std::fmt::Write as _;
+
+use super::cases::CaseArgs;
+use crate::cli::console;
+use crate::cli::failure::Failure;
+use crate::cli::shot_args::parse_level;
+use crate::geometry::{Camera, Intrinsics};
+use crate::operator::SolveLevel;
+use crate::render::{RenderSettings, Renderer};
+use crate::scene::Scene;
+use crate::trajectory::{CameraPath, Shot};
+
+/// How pictures are looked at.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    cases: CaseArgs,
+    /// How well open choices are made: off, fast or full
+    #[arg(long, value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
+    solve: SolveLevel,
+    /// Height of the pictures in pixels
+    #[arg(long, value_name = "N", default_value_t = 72, value_parser = clap::value_parser!(u32).range(16..=2160))]
+    height: u32,
+    /// Pictures a second of film
+    #[arg(long, value_name = "F", default_value_t = 2.0)]
+    fps: f64,
+    /// A pixel is void where more than this share of the light comes from behind all Gaussians
+    #[arg(long, value_name = "T", default_value_t = 0.5)]
+    threshold: f32,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let (cases, mut studio) = self.cases.open()?;
+        console::data("film,mean_void_frac,worst_void_frac\n")?;
+        let mut means = Vec::new();
+        for case in &cases {
+            let shot = studio.shoot(case, self.solve)?;
+            let shares = self.void_fracs(&studio.place(case)?.scene, &shot)?;
+            let (mean, worst) = summary(&shares);
+            means.push(mean);
+            console::data(&format!("{},{mean:.4},{worst:.4}\n", case.id))?;
+        }
+        means.sort_by(f64::total_cmp);
+        let median = means.get(means.len() / 2).copied().unwrap_or(0.0);
+        let worst = means.last().copied().unwrap_or(0.0);
+        let mut text = String::new();
+        let _ = write!(text, "{} films, solver {}: mean void per film ", means.len(), self.solve.name());
+        let _ = write!(text, "median {median:.4}, worst {worst:.4} (transmittance above {})", self.threshold);
+        console::note(&text);
+        Ok(())
+    }
+
+    /// Share of void pixels of every picture.
+    fn void_fracs(&self, scene: &Scene, shot: &Shot) -> Result<Vec<f64>, Failure> {
+        let path = CameraPath::new(shot)?;
+        let renderer = Renderer::new(&scene.gaussians);
+        let settings = RenderSettings { near: scene.bounds().default_near(), ..RenderSettings::default() };
+        let count = ((shot.duration_secs * self.fps).ceil() as usize).max(1) + 1;
+        let share = |i: usize| {
+            let state = path.sample(shot.duration_secs * i as f64 / (count - 1) as f64);
+            let width = (f64::from(self.height) * f64::from(shot.width) / f64::from(shot.height)).round() as u32;
+            let intrinsics = Intrinsics::from_fov_y(width, self.height, state.fov_y_rad);
+            let frame = renderer.render(&Camera { pose: state.pose, intrinsics }, &settings)?;
+            let void = frame.transmittance.iter().filter(|&&t| t > self.threshold).count();
+            Ok(void as f64 / frame.transmittance.len() as f64)
+        };
+        (0..count).map(share).collect()
+    }
+}
+
+/// Mean and largest.
+fn summary(values: &[f64]) -> (f64, f64) {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    (mean, values.iter().copied().fold(0.0, f64::max))
+}
