@@ -20,7 +20,7 @@ BENCH_SCENES := $(if $(BENCH_FOUND),$(foreach scene,$(BENCH_FOUND),$(DATA)/$(fir
 	$(word 2,$(subst @, ,$(scene))),$(DATA)/$(word 2,$(subst @, ,$(scene))),auto)),synth:demo@auto synth:tabletop:1@auto)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps build demo test train bench clean
+.PHONY: help deps build demo test train bench check-shots clean
 
 help:
 	@sed -n 's/^# //p' $(firstword $(MAKEFILE_LIST)) | sed -n '1,/^make   /p'
@@ -70,6 +70,20 @@ bench: build
 		$(foreach scene,$(BENCH_SCENES),--cameras $(word 2,$(subst @, ,$(scene)))) \
 		--sizes 1280x720,1920x1080 -o renders/bench > /dev/null
 	$(BIN) bench scaling synth:tabletop:1 -o renders/bench > /dev/null
+
+# Does the camera do what is asked? Films of cases of ../shared (not part of this repository) with solver off and full,
+# from the network's reading of the prompts and from programs written by hand, all held against the checker there.
+CASES := ../shared/data/prompts/public.jsonl
+CHECKER := python3 ../shared/tools/check_shot.py
+check-shots: build
+	@for solve in off full; do \
+		for by in network hand; do \
+			[ $$by = hand ] && intents="--intents tests/operator/intents.json" || intents=""; \
+			echo "== solver $$solve, programs by $$by"; \
+			$(BIN) bench operator films --cases $(CASES) $$intents --solve $$solve -o target/shots/$$by-$$solve 2>/dev/null; \
+			$(CHECKER) --cases $(CASES) --paths target/shots/$$by-$$solve; \
+		done; \
+	done || true
 
 clean:
 	cargo clean

@@ -1,11 +1,14 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
+
 use super::export::parse_format;
 use super::failure::Failure;
-use super::{console, outputs};
+use super::{console, eval_folders, outputs};
 use crate::evaluation::{
-    Align, Delta, EvalSettings, Evaluation, Metric, PairSettings, Relation, Trajectory, evaluate, plot_svg,
+    Align, Delta, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere, Trajectory,
+    evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,
 };
 use crate::export::{self, Format, PoseTrack};
 
@@ -16,13 +19,15 @@ use crate::export::{self, Format, PoseTrack};
 Examples:
   cinesplat eval groundtruth.txt estimate.txt --align se3
   cinesplat eval plan.shot.json flown.tum --rpe --delta 1 --unit m --relation angle_deg --json
+  cinesplat eval planned/ flown/ --align se3 --csv > all.csv
+  cinesplat eval a.shot.json b.shot.json --subject 0,1,-2,0.4 --motion
 Relations: full trans rot angle_deg angle_rad point_distance point_distance_ratio. Nothing is aligned unless asked.
-A shot.json stands for the frames of its film.")]
+A shot.json stands for the frames of its film. Of two folders the files of one name (up to the first dot) are compared.")]
 pub(super) struct Args {
-    /// The path that is taken for true
+    /// The path that is taken for true, or a folder of paths
     #[arg(value_name = "REF")]
     reference: PathBuf,
-    /// The path that is measured
+    /// The path that is measured, or a folder of paths
     #[arg(value_name = "EST")]
     estimate: PathBuf,
     /// Format of both files, instead of what their contents say
@@ -46,12 +51,36 @@ pub(super) struct Args {
     /// Pairs of poses may overlap
     #[arg(long, requires = "rpe")]
     all_pairs: bool,
+    /// Measures --delta along the reference instead of the estimate
+    #[arg(long, requires = "rpe")]
+    pairs_from_reference: bool,
+    /// Number of poses from the start that the alignment sees, instead of all
+    #[arg(long, value_name = "N")]
+    align_poses: Option<usize>,
+    /// Interpolates the estimate to the reference's times instead of matching the nearest poses
+    #[arg(long)]
+    interpolate: bool,
+    /// Seconds added to the estimate's times
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_hyphen_values = true)]
+    time_offset: f64,
+    /// Diameter of the scene, for the error relative to it, instead of the reference path's
+    #[arg(long, value_name = "D")]
+    diameter: Option<f64>,
+    /// Sphere that both paths should frame alike: center and radius, scene units
+    #[arg(long, value_name = "X,Y,Z,R", value_parser = parse_subject, allow_hyphen_values = true)]
+    subject: Option<SubjectSphere>,
+    /// Says how both paths move too: smoothness, motion tags, tables of poses
+    #[arg(long)]
+    motion: bool,
     /// Largest time between the two poses of a match, seconds
     #[arg(long, value_name = "S", default_value_t = EvalSettings::default().max_diff_secs)]
     max_diff: f64,
     /// One JSON object instead of lines
     #[arg(long)]
     json: bool,
+    /// Of folders: a CSV table instead of lines
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
     /// Writes both paths and their x y z roll pitch yaw as a picture
     #[arg(long, value_name = "OUT.SVG")]
     plot: Option<PathBuf>,
@@ -65,14 +94,11 @@ impl Args {
         if let Some(plot) = &self.plot {
             outputs::check_new(plot, self.overwrite)?;
         }
+        let settings = self.settings()?;
+        if self.reference.is_dir() && self.estimate.is_dir() {
+            return self.run_folders(&settings);
+        }
         let (reference, estimate) = (self.read(&self.reference)?, self.read(&self.estimate)?);
-        let settings = EvalSettings {
-            metric: self.metric()?,
-            relation: self.relation,
-            align: self.align,
-            max_diff_secs: self.max_diff,
-            ..EvalSettings::default()
-        };
         let evaluation = evaluate(&reference, &estimate, &settings)?;
         if let Some(plot) = &self.plot {
             let paths = [("reference", &evaluation.matches.reference), ("estimate", &evaluation.matches.estimate)];
@@ -80,12 +106,46 @@ impl Args {
             console::note(&format!("{}: both paths", plot.display()));
         }
         if self.json {
-            return console::data(&evaluation.to_json());
+            let json = if self.motion { evaluation.to_json_with_motion() } else { evaluation.to_json() };
+            return console::data(&json);
         }
         for line in &evaluation.notes {
             console::note(&format!("note: {line}"));
         }
-        console::data(&text(&evaluation))
+        console::data(&text(&evaluation))?;
+        if self.motion {
+            console::data(&motion_text("reference", &evaluation.matches.reference))?;
+            console::data(&motion_text("estimate", &evaluation.matches.estimate))?;
+        }
+        Ok(())
+    }
+
+    /// A table over pairs of files.
+    fn run_folders(&self, settings: &EvalSettings) -> Result<(), Failure> {
+        if self.plot.is_some() || self.motion {
+            return Err(Failure::usage("--plot and --motion are of one pair", "give two files, or leave them out"));
+        }
+        let rows = eval_folders::compare([&self.reference, &self.estimate], settings, |path| self.read(path))?;
+        let table = match (self.json, self.csv) {
+            (true, _) => summary_json(&rows),
+            (_, true) => summary_csv(&rows),
+            _ => summary_text(&rows),
+        };
+        console::data(&table)
+    }
+
+    fn settings(&self) -> Result<EvalSettings, Failure> {
+        Ok(EvalSettings {
+            metric: self.metric()?,
+            relation: self.relation,
+            align: self.align,
+            align_poses: self.align_poses,
+            max_diff_secs: self.max_diff,
+            estimate_offset_secs: self.time_offset,
+            matching: if self.interpolate { Matching::Interpolated } else { Matching::Nearest },
+            scene_diameter: self.diameter,
+            subject: self.subject,
+        })
     }
 
     fn read(&self, path: &Path) -> Result<Trajectory, Failure> {
@@ -104,7 +164,7 @@ impl Args {
         }
         let delta = Delta::new(self.delta, &self.unit)?;
         let pairs = PairSettings { delta, all_pairs: self.all_pairs, ..PairSettings::default() };
-        Ok(Metric::Rpe { pairs, pairs_from_reference: false })
+        Ok(Metric::Rpe { pairs, pairs_from_reference: self.pairs_from_reference })
     }
 }
 
@@ -128,7 +188,31 @@ fn text(evaluation: &Evaluation) -> String {
     if settings.align != Align::None {
         let _ = writeln!(text, "scale   {:.9}", evaluation.alignment.scale);
     }
+    if let Some(share) = evaluation.relative_to_diameter {
+        let _ = writeln!(text, "mean over diameter {share:.9}");
+    }
+    if let Some(focal) = &evaluation.focal {
+        let (rmse, most) = (focal.log_ratio_rmse, focal.log_ratio_max);
+        let _ = writeln!(text, "focal length: rmse {rmse:.9}, most {most:.9} (logarithm of the ratio)");
+    }
+    if let Some(framing) = &evaluation.framing {
+        let (offset, most, size) = (framing.offset_rmse, framing.offset_max, framing.log_size_rmse);
+        let lost = 100.0 * framing.lost_frac;
+        let _ = writeln!(text, "framing: off by rmse {offset:.6}, most {most:.6} frame heights");
+        let _ = writeln!(text, "framing: size rmse {size:.6} (logarithm of the ratio), lost in {lost:.1} % of frames");
+    }
     text.lines().fold(String::new(), |text, line| text + line.trim_end() + "\n")
+}
+
+fn parse_subject(text: &str) -> Result<SubjectSphere, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    let sphere = numbers
+        .ok()
+        .and_then(|numbers| <[f64; 4]>::try_from(numbers).ok())
+        .map(|[x, y, z, radius]| SubjectSphere { center: DVec3::new(x, y, z), radius });
+    let usable = sphere.filter(|sphere| sphere.center.is_finite() && sphere.radius > 0.0 && sphere.radius.is_finite());
+    usable
+        .ok_or_else(|| "expected x, y, z and a radius above 0 with commas between them, such as 0,1,-2,0.4".to_owned())
 }
 
 fn parse_align(name: &str) -> Result<Align, String> {

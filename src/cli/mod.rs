@@ -7,6 +7,7 @@ mod bench;
 mod console;
 mod dataset;
 mod eval;
+mod eval_folders;
 mod explain;
 mod export;
 mod failure;

@@ -42,6 +42,40 @@ pub fn summary_csv(rows: &[BatchRow]) -> String {
     out
 }
 
+/// The same as aligned text with a line for the whole.
+pub fn summary_text(rows: &[BatchRow]) -> String {
+    let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max(6);
+    let mut out = format!("{:<width$} {:>7}", "name", "pairs");
+    for name in ["rmse", "mean", "median", "std", "min", "max"] {
+        let _ = write!(out, " {name:>12}");
+    }
+    out.push('\n');
+    for row in rows {
+        let _ = write!(out, "{:<width$} ", row.name);
+        match &row.outcome {
+            Ok(result) => {
+                let _ = write!(out, "{:>7}", result.errors.len());
+                for (_, value) in result.statistics.named().iter().filter(|(name, _)| *name != "sse") {
+                    let _ = write!(out, " {value:>12.6}");
+                }
+            }
+            Err(error) => out.push_str(&error.to_string()),
+        }
+        out.push('\n');
+    }
+    let all = rmse_sorted(rows);
+    let show = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.6}"));
+    let (mean, worst) = (show(mean_of(&all)), show(all.last().copied()));
+    let failed = rows.len() - all.len();
+    let _ = writeln!(
+        out,
+        "{} compared, {failed} failed; rmse mean {mean}, median {}, worst {worst}",
+        all.len(),
+        show(median_of(&all))
+    );
+    out
+}
+
 /// The same as JSON text: a list of objects, and under `over_all` the mean, median and worst of the root mean squares.
 pub fn summary_json(rows: &[BatchRow]) -> String {
     let row = |row: &BatchRow| match &row.outcome {
@@ -53,19 +87,31 @@ pub fn summary_json(rows: &[BatchRow]) -> String {
         }
         Err(error) => object([("name", row.name.as_str().into()), ("error", error.to_string().as_str().into())]),
     };
-    let mut all: Vec<f64> = rows.iter().filter_map(|row| Some(row.outcome.as_ref().ok()?.statistics.rmse)).collect();
-    all.sort_by(f64::total_cmp);
-    let middle =
-        all.get(all.len() / 2).zip(all.get(all.len().saturating_sub(1) / 2)).map(|(a, b)| f64::midpoint(*a, *b));
-    let mean = (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64);
+    let all = rmse_sorted(rows);
     let over_all = object([
         ("compared", all.len().into()),
         ("failed", (rows.len() - all.len()).into()),
-        ("mean_rmse", mean.into()),
-        ("median_rmse", middle.into()),
+        ("mean_rmse", mean_of(&all).into()),
+        ("median_rmse", median_of(&all).into()),
         ("worst_rmse", all.last().copied().into()),
     ]);
     object([("pairs", Json::list(rows.iter().map(row))), ("over_all", over_all)]).pretty()
+}
+
+/// Root mean squares of the comparisons that succeeded, sorted.
+fn rmse_sorted(rows: &[BatchRow]) -> Vec<f64> {
+    let mut all: Vec<f64> = rows.iter().filter_map(|row| Some(row.outcome.as_ref().ok()?.statistics.rmse)).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn mean_of(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+fn median_of(sorted: &[f64]) -> Option<f64> {
+    let upper = sorted.get(sorted.len() / 2)?;
+    sorted.get((sorted.len() - 1) / 2).map(|lower| f64::midpoint(*lower, *upper))
 }
 
 /// A CSV cell, in quotes where it needs them.

@@ -9,6 +9,12 @@ pub enum EvaluationError {
         /// "reference" or "estimate".
         which: &'static str,
     },
+    /// A file of a batch that is no path.
+    #[error("{reason}")]
+    Unreadable {
+        /// The file and what is wrong with it.
+        reason: String,
+    },
     /// No time stamps that lie close enough together.
     #[error(
         "no poses at the same times: nearest are {nearest_secs:.6} s apart, expected at most {max_diff_secs} s \
@@ -53,6 +59,7 @@ impl EvaluationError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Empty { .. } => "EVAL-EMPTY",
+            Self::Unreadable { .. } => "EVAL-UNREADABLE",
             Self::NoMatches { .. } => "EVAL-NO-MATCHES",
             Self::NoPairs { .. } => "EVAL-NO-PAIRS",
             Self::BadSetting { .. } => "EVAL-SETTING",
@@ -63,6 +70,7 @@ impl EvaluationError {
     pub fn help(&self) -> String {
         match self {
             Self::Empty { which } => format!("check that the {which} file holds a camera path"),
+            Self::Unreadable { .. } => "check the file, or take it out of the folder".into(),
             Self::NoMatches { .. } => "raise --max-diff, or check that both files use one clock".into(),
             Self::NoPairs { .. } => "lower --delta or take --unit f".into(),
             Self::BadSetting { setting, expected, .. } => format!("set {setting} to {expected}"),

@@ -2,8 +2,8 @@
 
 use super::relation::Rigid;
 use super::{
-    Align, Alignment, EvaluationError, FocalError, Matches, Matching, PairSettings, Relation, Statistics, Trajectory,
-    align, associate, focal_error, pairs,
+    Align, Alignment, EvaluationError, FocalError, FramingError, Matches, Matching, PairSettings, Relation, Statistics,
+    SubjectSphere, Trajectory, align, associate, focal_error, framing_error, pairs,
 };
 
 /// Which error is taken.
@@ -40,6 +40,8 @@ pub struct EvalSettings {
     pub matching: Matching,
     /// Diameter of the scene, for errors relative to it; `None` takes that of the reference path.
     pub scene_diameter: Option<f64>,
+    /// What should stand in the frame as the reference shows it.
+    pub subject: Option<SubjectSphere>,
 }
 
 impl Default for EvalSettings {
@@ -53,6 +55,7 @@ impl Default for EvalSettings {
             estimate_offset_secs: 0.0,
             matching: Matching::Nearest,
             scene_diameter: None,
+            subject: None,
         }
     }
 }
@@ -74,6 +77,8 @@ pub struct Evaluation {
     pub matches: Matches,
     /// Error of the lens; `None` where a file holds no fields of view.
     pub focal: Option<FocalError>,
+    /// Error of the framing of the subject; `None` without a subject or where a file holds no fields of view.
+    pub framing: Option<FramingError>,
     /// Mean error over the diameter of the scene or the reference path, for errors in scene units; `None` else.
     pub relative_to_diameter: Option<f64>,
     /// What should be known about the result, for a person to read.
@@ -118,6 +123,7 @@ pub fn evaluate(
         errors,
         alignment,
         focal: focal_error(&matches.reference, &matches.estimate),
+        framing: settings.subject.and_then(|s| framing_error(&matches.reference, &matches.estimate, &s)),
         relative_to_diameter: in_units.then(|| statistics.mean / diameter),
         matches,
         notes,
@@ -136,7 +142,7 @@ fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {
         return bad("--time-offset", settings.estimate_offset_secs, "a finite number of seconds");
     }
     if settings.scene_diameter.is_some_and(|diameter| !(diameter > 0.0)) {
-        return bad("scene diameter", settings.scene_diameter.unwrap_or(0.0), "above 0");
+        return bad("--diameter", settings.scene_diameter.unwrap_or(0.0), "above 0");
     }
     if settings.relation == Relation::PointDistanceRatio && settings.metric == Metric::Ape {
         let (setting, found) = ("--relation", settings.relation.name().to_owned());

@@ -1,6 +1,7 @@
 //! Errors of the lens, which trajectory measures leave out.
 
 use super::Trajectory;
+use super::statistics::root_mean_square;
 
 /// How far fields of view are off, over matched poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,10 +24,9 @@ pub fn focal_error(reference: &Trajectory, estimate: &Trajectory) -> Option<Foca
     if ratios.is_empty() {
         return None;
     }
-    let count = ratios.len() as f64;
     Some(FocalError {
-        log_ratio_rmse: (ratios.iter().map(|r| r * r).sum::<f64>() / count).sqrt(),
-        log_ratio_mean: ratios.iter().sum::<f64>() / count,
+        log_ratio_rmse: root_mean_square(&ratios),
+        log_ratio_mean: ratios.iter().sum::<f64>() / ratios.len() as f64,
         log_ratio_max: ratios.iter().fold(0.0, |most, r| r.abs().max(most)),
     })
 }

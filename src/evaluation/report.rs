@@ -1,5 +1,6 @@
 //! A comparison as the JSON object that `eval --json` prints.
 
+use super::motion::motion_value;
 use super::{Evaluation, Metric};
 use crate::export::json_write::{Json, object};
 
@@ -7,6 +8,18 @@ impl Evaluation {
     /// The text of one JSON object. At its top level: `rmse mean median std min max sse` in the relation's unit, `pairs`
     /// (number of errors), `relation`, `align`, and `scale`, `rotation` (3 x 3, rows) and `translation` of the alignment.
     pub fn to_json(&self) -> String {
+        Json::Object(self.fields()).pretty()
+    }
+
+    /// The same with how both matched paths move under `motion`: smoothness, motion tags, tables of poses.
+    pub fn to_json_with_motion(&self) -> String {
+        let both = [("reference", &self.matches.reference), ("estimate", &self.matches.estimate)];
+        let mut fields = self.fields();
+        fields.push(("motion".to_owned(), object(both.map(|(name, path)| (name, motion_value(path))))));
+        Json::Object(fields).pretty()
+    }
+
+    fn fields(&self) -> Vec<(String, Json)> {
         let settings = &self.settings;
         let mut fields: Vec<(String, Json)> = Vec::new();
         let mut put = |name: &str, value: Json| fields.push((name.to_owned(), value));
@@ -35,10 +48,19 @@ impl Evaluation {
             ];
             put("focal_error", object(numbers));
         }
+        if let Some(framing) = &self.framing {
+            let numbers = [
+                ("offset_rmse", framing.offset_rmse.into()),
+                ("offset_max", framing.offset_max.into()),
+                ("log_size_rmse", framing.log_size_rmse.into()),
+                ("lost_frac", framing.lost_frac.into()),
+            ];
+            put("framing_error", object(numbers));
+        }
         put("notes", Json::list(self.notes.iter().map(String::as_str)));
         put("at_secs", Json::list(self.at_secs.iter().copied()));
         put("errors", Json::list(self.errors.iter().copied()));
-        Json::Object(fields).pretty()
+        fields
     }
 
     fn metric_json(&self) -> Json {

@@ -61,3 +61,8 @@ impl Statistics {
         ]
     }
 }
+
+/// Root mean square of values; NaN of none.
+pub(super) fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
+}

@@ -82,6 +82,10 @@ pub fn table_text(rows: &[TableRow]) -> String {
 
 /// The table as JSON text: a list of objects.
 pub fn table_json(rows: &[TableRow]) -> String {
+    rows_json(rows).pretty()
+}
+
+pub(super) fn rows_json(rows: &[TableRow]) -> Json {
     let row = |row: &TableRow| {
         object([
             ("time_secs", row.time_secs.into()),
@@ -92,5 +96,5 @@ pub fn table_json(rows: &[TableRow]) -> String {
             ("fov_y_deg", row.fov_y_deg.into()),
         ])
     };
-    Json::list(rows.iter().map(row)).pretty()
+    Json::list(rows.iter().map(row))
 }

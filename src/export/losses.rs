@@ -31,7 +31,10 @@ pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
     lost(!holds.focus && any(|f| f.focus_distance.is_some()), "holds no focus distance".into());
     lost(!holds.easing && any(|f| f.easing != Easing::Linear), "holds no easing".into());
     let has_curve = any(|f| f.easing != f.easing.as_cruise());
-    lost(format == Format::Lichtfeld && has_curve, "has four easings: others become the one with the same rests".into());
+    lost(
+        format == Format::Lichtfeld && has_curve,
+        "has four easings: others become the one with the same rests".into(),
+    );
     lost(!holds.cuts && any(|f| f.cut), "holds no cuts: a reader may sweep across them".into());
     let roll = if holds.roll { 0.0 } else { largest_roll_rad(track, DVec3::NEG_Y) };
     lost(

@@ -62,6 +62,8 @@ pub(super) enum When {
 pub(super) enum GoalKind {
     /// The target's aim at most this far from the frame's middle.
     Centered(Target, f64),
+    /// The target's aim on the left or right third of the frame.
+    OnThird(Target),
     /// At least this share of the subject's framed points seen past everything else.
     Unoccluded(u32, f64),
     /// Projected height over the frame's in this band.

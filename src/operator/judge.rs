@@ -13,6 +13,9 @@ const SEARCH_POINTS: usize = 14;
 /// What must show beyond the goal while searching.
 const SEARCH_MARGIN: f64 = 0.12;
 
+/// Distance from the frame's middle that is still on a third.
+const THIRD_BAND: (f64, f64) = (0.13, 0.2);
+
 /// How a goal came out.
 #[derive(Debug, Clone)]
 pub(super) struct Outcome {
@@ -49,14 +52,10 @@ pub(super) fn cost(world: &World, part: &Part, suggestion: Option<&CameraState>)
 
 /// Even samples in time of a part.
 pub(super) fn sampled(world: &World, part: &Part, count: usize) -> Vec<CameraState> {
-    let alone = Part { cut: false, ..part.clone() };
-    let path = CameraPath::coarse(keyframes(&[alone], &[pivot_label()]), world.frame);
+    let alone = Part { cut: false, step: 0, ..part.clone() };
+    // Labels that carry nothing let the keys keep their move and pivot.
+    let path = CameraPath::coarse(keyframes(&[alone], &[StepLabels::default()]), world.frame);
     (0..count).map(|i| path.sample(part.secs * i as f64 / (count - 1) as f64)).collect()
-}
-
-/// Labels that carry nothing but let the keys keep their move and pivot.
-fn pivot_label() -> StepLabels {
-    StepLabels::default()
 }
 
 /// Coming too near to matter.
@@ -77,6 +76,10 @@ fn support_cost(world: &World, states: &[CameraState]) -> f64 {
     if sunk > 0.0 && world.is_indoor() {
         return 5.0 + 20.0 * sunk.min(0.4);
     }
+    let around = states.iter().map(|s| around_a_corner_frac(world, position(s))).fold(0.0, f64::max);
+    if around > 0.0 && world.is_indoor() {
+        return 5.0 + 20.0 * around.min(0.4);
+    }
     let unsupported = states.iter().filter(|s| !world.supports(position(s))).count() as f64 / states.len() as f64;
     if unsupported > 0.0 {
         return 5.0 + 8.0 * unsupported;
@@ -87,13 +90,26 @@ fn support_cost(world: &World, states: &[CameraState]) -> f64 {
     3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
 }
 
+/// How far a point lies outside the scene's core in two level directions at once, the lesser of both over the scene size.
+/// A room is often captured through an open side: the camera may stand before it, but not beyond the lines of the walls
+/// beside it, from where their backs show.
+fn around_a_corner_frac(world: &World, point: DVec3) -> f64 {
+    let bounds = &world.bounds;
+    let outside = (bounds.core_min - point).max(point - bounds.core_max).max(DVec3::ZERO);
+    let mut level = outside;
+    // Up and down do not count.
+    level[world.frame.up.abs().max_position()] = f64::INFINITY;
+    level.min_element() / bounds.size()
+}
+
 /// Least clearance over a part, scene units, and the share of its samples that stand in supported space.
 pub(super) fn safety(world: &World, states: &[CameraState]) -> (f64, f64) {
     let pairs = states.windows(2).map(|p| world.clearance_between(p[0].pose.position, p[1].pose.position));
     let least = pairs.fold(world.clearance(states[0].pose.position), f64::min);
     let good = |s: &&CameraState| {
         let p = s.pose.position;
-        world.supports(p) && world.is_good_side(p) && (world.sunk_frac(p) <= 0.0 || !world.is_indoor())
+        let inside = world.sunk_frac(p) <= 0.0 && around_a_corner_frac(world, p) <= 0.0;
+        world.supports(p) && world.is_good_side(p) && (inside || !world.is_indoor())
     };
     let supported = states.iter().filter(good).count();
     (least, supported as f64 / states.len() as f64)
@@ -148,6 +164,7 @@ pub(super) fn outcome(world: &World, goal: &Goal, states: &[CameraState], num_po
     let (first, last) = (&states[0], &states[states.len() - 1]);
     match &goal.kind {
         GoalKind::Centered(target, most) => over(&|s| off_center(s, target.aim), (0.0, *most), 0.2),
+        GoalKind::OnThird(target) => over(&|s| off_center(s, target.aim), THIRD_BAND, 0.2),
         GoalKind::Unoccluded(id, least) => seen_share(world, *id, *least, picked, num_points),
         GoalKind::Height(target, band) => over(&|s| height(s, target), *band, 0.3 * band.0.max(0.2)),
         GoalKind::InFrame(ids, least) => over(&|s| framed(world, s, ids), (*least, 1.0), 0.4),
@@ -239,6 +256,7 @@ pub(super) fn wording(world: &World, goal: &Goal) -> String {
     let names = |ids: &[u32]| ids.iter().map(name).collect::<Vec<_>>().join(", ");
     let what = match &goal.kind {
         GoalKind::Centered(target, most) => format!("{} within {most:.2} of the frame's middle", names(&target.ids)),
+        GoalKind::OnThird(target) => format!("{} on a third of the frame", names(&target.ids)),
         GoalKind::Unoccluded(id, least) => format!("{} seen past everything else, share at least {least:.2}", name(id)),
         GoalKind::Height(target, (low, high)) => {
             format!("{} {low:.2} to {high:.2} of the frame's height", names(&target.ids))

@@ -7,6 +7,7 @@
 //! space that the capture shows from its good side. Never does IO.
 
 mod draft;
+mod dutch;
 mod framing;
 mod grid;
 mod judge;
@@ -61,11 +62,13 @@ pub struct SolveSettings {
     pub seed: u64,
     /// Factor on the number of tries of the level, for measuring accuracy against time.
     pub tries_factor: f64,
+    /// Roll of the whole film, degrees clockwise: a dutch angle that the words ask for. The horizon is level without one.
+    pub dutch_deg: Option<f64>,
 }
 
 impl Default for SolveSettings {
     fn default() -> Self {
-        Self { level: SolveLevel::default(), seed: 0, tries_factor: 1.0 }
+        Self { level: SolveLevel::default(), seed: 0, tries_factor: 1.0, dutch_deg: None }
     }
 }
 
@@ -113,11 +116,15 @@ pub fn realize(
         parts = suggested::as_suggested(parts, suggestions);
     }
     fit_duration(&mut parts, program.duration_secs);
+    if let Some(degrees) = settings.dutch_deg {
+        dutch::roll(&mut parts, degrees);
+    }
     let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
     let mut keys = keyframes(&parts, &labels);
     retime(&mut keys, Some(world.frame));
     let duration_secs = parts.iter().map(|part| part.secs).sum();
-    let report = report::report(world, program, prompt, &parts);
+    let mut report = report::report(world, program, prompt, &parts);
+    report.extend(settings.dutch_deg.map(|_| dutch::line(world, &keys)));
     let step_keys = step_keys(&parts, program.steps.len());
     Solution { keyframes: keys, duration_secs, report, step_keys, cost }
 }

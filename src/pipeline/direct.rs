@@ -7,6 +7,11 @@ use crate::operator::{self, Solution, SolveLevel, SolveSettings, Step, Suggestio
 use crate::scene::Scene;
 use crate::trajectory::{CameraState, ReportLine, SceneRef, Shot};
 
+/// The name under which words ask for a slanted horizon, and the roll that it gets: in the middle of 5 to 35 degrees, what
+/// storyboards mean by it.
+const DUTCH: &str = "dutch-angle";
+const DUTCH_DEG: f64 = 15.0;
+
 /// What a shot is to be like beyond its words.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DirectSettings {
@@ -101,12 +106,15 @@ pub fn direct(
     }
     let ids = direction.program.object_ids();
     let world = times.measure("world", || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
-    let solve = SolveSettings { level: settings.solve, seed: settings.seed, ..SolveSettings::default() };
-    let solution = times.measure("solve", || {
-        operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve)
-    });
+    let mut calls = calls(&linked)?;
+    let dutch = calls.iter().position(|call| call.kind == DUTCH).map(|at| calls.remove(at));
+    let dutch_deg = dutch.map(|_| DUTCH_DEG);
+    let (level, seed) = (settings.solve, settings.seed);
+    let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
+    let solution = times
+        .measure("solve", || operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve));
     let mut shot = shot_of(scene, prompt, solution, settings);
-    let effects = lens::decide(&settings.effects, &calls(&linked)?);
+    let effects = lens::decide(&settings.effects, &calls);
     shot.model = Some(director.model_ref());
     shot.effects = effects.iter().filter_map(Decision::request).collect();
     shot.report.extend(effects.iter().filter_map(Decision::report_line));
@@ -152,8 +160,7 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
 /// The cameras that the network has in mind for each step.
 fn suggestions(direction: &Direction) -> Vec<Suggestion> {
     let camera = |index: usize| direction.cameras.get(index);
-    let state =
-        |at: &SuggestedCamera| CameraState { pose: at.pose, fov_y_rad: at.fov_y_rad, focus_distance: None };
+    let state = |at: &SuggestedCamera| CameraState { pose: at.pose, fov_y_rad: at.fov_y_rad, focus_distance: None };
     let ends = direction.step_cameras.iter().map_while(|&[start, end]| camera(start).zip(camera(end)));
     let suggestion = |(start, end): (&SuggestedCamera, &SuggestedCamera)| Suggestion {
         state: state(start),

@@ -109,6 +109,33 @@ fn a_path_survives_the_way_out_and_back() {
 }
 
 #[test]
+fn folders_are_compared_by_the_names_of_their_files() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    for name in ["planned", "flown"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+    }
+    for path in ["planned/a.tum", "flown/a.csv", "planned/alone.tum"] {
+        data(folder.path(), &["export", "shot.json", "-o", path]);
+    }
+    fs::copy(folder.path().join("planned/a.tum"), folder.path().join("planned/bad.tum")).unwrap();
+    fs::write(folder.path().join("flown/bad.tum"), "no numbers").unwrap();
+    let table = data(folder.path(), &["eval", "planned", "flown", "--csv"]);
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 3, "{table}");
+    assert!(lines[1].starts_with("a,8,") && lines[2].starts_with("bad,,") && lines[2].contains("bad.tum"), "{table}");
+    let json = data(folder.path(), &["eval", "planned", "flown", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!((json["over_all"]["compared"].as_u64(), json["over_all"]["failed"].as_u64()), (Some(1), Some(1)));
+    let text = data(folder.path(), &["eval", "planned", "flown"]);
+    assert!(text.ends_with("1 compared, 1 failed; rmse mean 0.000000, median 0.000000, worst 0.000000\n"), "{text}");
+    let motion = data(folder.path(), &["eval", "shot.json", "planned/a.tum", "--json", "--motion"]);
+    let motion: serde_json::Value = serde_json::from_str(&motion).unwrap();
+    assert_eq!(motion["motion"]["reference"]["table"].as_array().unwrap().len(), 8);
+    assert!(motion["motion"]["estimate"]["smoothness"]["jerk_rms"].is_number(), "{motion}");
+}
+
+#[test]
 fn stills_are_named_after_their_cameras() {
     let folder = tempfile::tempdir().unwrap();
     let camera = |name: &str| {

@@ -6,6 +6,7 @@ mod batch;
 mod degenerate;
 mod evo_pairs;
 mod evo_parity;
+mod framing;
 mod named_moves;
 mod paths;
 mod plot;

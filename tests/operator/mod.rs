@@ -1,13 +1,16 @@
 //! Programs made into exact shots, in a small room built for the purpose.
 
+mod intents;
 mod moves;
 mod places;
 
 use cinesplat::objects::{Object, ObjectSet};
-use cinesplat::operator::{SolveLevel, Program, Solution, SolveSettings, Step, World, realize};
+use cinesplat::operator::{Program, Solution, SolveLevel, SolveSettings, Step, World, realize};
 use cinesplat::scene::Gaussians;
-use cinesplat::trajectory::{CameraPath, CameraState, SceneRef, Shot};
+use cinesplat::trajectory::{CameraPath, CameraState, Shot};
 use glam::{DQuat, DVec3, Quat, Vec3};
+
+use crate::support::shot_over;
 
 /// Half extents of the room about the vertical axis, and its height.
 pub const ROOM: DVec3 = DVec3::new(3.0, 2.6, 3.0);
@@ -85,19 +88,7 @@ pub fn solved(world: &World, steps: Vec<Step>) -> Solution {
 
 /// The film of a solution at ten frames a second, and its very end.
 pub fn film(solution: &Solution) -> Vec<CameraState> {
-    let shot = Shot {
-        scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: 640,
-        height: 360,
-        fps: 10.0,
-        duration_secs: solution.duration_secs,
-        keyframes: solution.keyframes.clone(),
-        effects: Vec::new(),
-        report: Vec::new(),
-    };
+    let shot = Shot { fps: 10.0, duration_secs: solution.duration_secs, ..shot_over(solution.keyframes.clone()) };
     let path = CameraPath::new(&shot).unwrap();
     let frames = (0..shot.num_frames()).map(|k| path.sample(shot.frame_time_secs(k)));
     frames.chain([path.sample(solution.duration_secs)]).collect()

@@ -1,7 +1,7 @@
 //! Each move does what the contract's "Moves, exactly" says, measured on the film.
 
 use cinesplat::geometry::{LevelFrame, rotation};
-use cinesplat::operator::{Amount, Framing, Program, SolveSettings, Step, realize};
+use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, Suggestion, realize};
 use cinesplat::trajectory::{CameraState, Move, ShotSize};
 use glam::DVec3;
 
@@ -117,4 +117,51 @@ fn what_cannot_be_is_reported_and_still_filmed() {
     let solution = solved(&world, vec![Step { start, ..Step::of(Move::Static) }]);
     assert!(solution.report.iter().any(|line| !line.met && !line.note.is_empty()));
     assert!(film(&solution).iter().all(|s| s.pose.position.is_finite()));
+}
+
+#[test]
+fn a_held_view_puts_its_subject_on_a_third_and_a_push_in_the_middle() {
+    let frames = filmed(Step { start: about(2), ..Step::of(Move::Static) });
+    let state = &frames[0];
+    let away = DVec3::new(-1.2, 0.5, 0.8) - state.pose.position;
+    let width = 2.0 * away.dot(state.pose.forward()) * (state.fov_y_rad / 2.0).tan() * 16.0 / 9.0;
+    let across = away.dot(state.pose.right()) / width;
+    assert!((across.abs() - 1.0 / 6.0).abs() < 1e-6, "{across} of the width from the middle");
+    let push = filmed(Step { end: about(2), ..Step::of(Move::PushIn) });
+    let away = DVec3::new(-1.2, 0.5, 0.8) - push[0].pose.position;
+    assert!(away.angle_between(push[0].pose.forward()) < 1e-6);
+}
+
+#[test]
+fn a_dutch_angle_slants_every_frame_and_the_report_says_so() {
+    let step = Step { start: about(1), amount: Some(Amount::Degrees(60.0)), ..Step::of(Move::OrbitRight) };
+    let program = Program { steps: vec![step], ..Program::default() };
+    let settings = SolveSettings { dutch_deg: Some(15.0), level: SolveLevel::Fast, ..SolveSettings::default() };
+    let solution = realize(&world(), &program, "", &[], &settings);
+    let frame = LevelFrame::new(DVec3::Y).unwrap();
+    for state in film(&solution) {
+        let roll = frame.roll_rad(&state.pose).to_degrees();
+        assert!((roll - 15.0).abs() < 1e-6, "roll {roll}");
+    }
+    assert!(solution.report.iter().any(|line| line.clause == "dutch angle" && line.met));
+}
+
+#[test]
+fn without_a_search_the_film_goes_through_the_suggested_cameras() {
+    let world = world();
+    let at = |position: DVec3| CameraState {
+        pose: cinesplat::geometry::Pose::look_at(position, CENTER, DVec3::Y, None).unwrap(),
+        fov_y_rad: 0.8,
+        focus_distance: None,
+    };
+    let (state, end) = (at(DVec3::new(-0.5, 1.0, -1.5)), at(DVec3::new(0.2, 0.9, -0.4)));
+    let suggestion = Suggestion { state, end, secs: 3.0 };
+    let program = Program { steps: vec![Step { end: about(1), ..Step::of(Move::PushIn) }], ..Program::default() };
+    let settings = SolveSettings { level: SolveLevel::Off, ..SolveSettings::default() };
+    let solution = realize(&world, &program, "", &[suggestion], &settings);
+    let frames = film(&solution);
+    assert!((solution.duration_secs - 3.0).abs() < 1e-9);
+    assert!(frames[0].pose.position.distance(state.pose.position) < 1e-9);
+    assert!(frames[frames.len() - 1].pose.position.distance(end.pose.position) < 1e-9);
+    assert!(!solution.report.is_empty(), "what the step wants is still held against the film");
 }

@@ -1,6 +1,6 @@
 //! Where a camera may stand: clear of matter, and where the capture shows its good side.
 
-use cinesplat::operator::{Amount, SolveLevel, Framing, Program, SolveSettings, Step, realize};
+use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, realize};
 use cinesplat::trajectory::Move;
 use glam::DVec3;
 

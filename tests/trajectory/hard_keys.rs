@@ -122,3 +122,104 @@ fn times_must_increase_and_numbers_be_finite() {
     assert!(matches!(CameraPath::new(&nan), Err(TrajectoryError::BadValue { index: 0, field: "position", .. })));
     assert!(matches!(CameraPath::new(&shot(vec![])), Err(TrajectoryError::NoKeyframes)));
 }
+
+/// Shots of seven keys at random places, turns, lenses and uneven times, some keys equal to the one before.
+fn random_shots() -> impl Iterator<Item = cinesplat::trajectory::Shot> {
+    use rand::{RngExt, SeedableRng};
+    let mut rng = rand_pcg::Pcg64::seed_from_u64(4);
+    (0..60).map(move |_| {
+        let mut keys: Vec<cinesplat::trajectory::Keyframe> = Vec::new();
+        let mut time_secs = 0.0;
+        for i in 0..7 {
+            let mut unit = || rng.random::<f64>() * 2.0 - 1.0;
+            let place = DVec3::new(unit(), unit(), unit()) * 3.0;
+            let turn = rotation::exp(DVec3::new(unit(), unit(), unit()) * 1.5);
+            let stays = i > 0 && unit() > 0.6;
+            let fov_y_rad = 0.9 + 0.4 * unit();
+            let easing = Easing::ALL[((unit() + 1.0) * 0.499 * Easing::ALL.len() as f64) as usize];
+            let mut next = cinesplat::trajectory::Keyframe { fov_y_rad, easing, ..key(time_secs, place) };
+            next.pose.rotation *= turn;
+            if stays {
+                next.pose = keys[i - 1].pose;
+            }
+            keys.push(next);
+            time_secs += 0.2 + 1.5 * (unit() + 1.0);
+        }
+        shot(keys)
+    })
+}
+
+#[test]
+fn velocity_and_angular_velocity_are_continuous_at_every_key() {
+    for (number, shot) in random_shots().enumerate() {
+        let path = CameraPath::new(&shot).unwrap();
+        let rates = |t: f64| {
+            let (a, b) = (path.sample(t).pose, path.sample(t + 1e-6).pose);
+            ((b.position - a.position) / 1e-6, rotation::log(b.rotation * a.rotation.conjugate()) / 1e-6)
+        };
+        let even = (0..500).map(|i| rates(shot.duration_secs * f64::from(i) / 500.0));
+        let (peak, turn_peak) = even.fold((0.0_f64, 0.0_f64), |(v, w), r| (v.max(r.0.length()), w.max(r.1.length())));
+        for key in &shot.keyframes[1..6] {
+            let (before, after) = (rates(key.time_secs - 2e-6), rates(key.time_secs));
+            let jump = (before.0 - after.0).length() / peak;
+            let turn_jump = (before.1 - after.1).length() / turn_peak;
+            assert!(jump < 0.02 && turn_jump < 0.02, "shot {number} at {} s: {jump}, {turn_jump}", key.time_secs);
+        }
+    }
+}
+
+#[test]
+fn every_key_of_any_shot_is_met_exactly() {
+    for shot in random_shots() {
+        let path = CameraPath::new(&shot).unwrap();
+        for key in &shot.keyframes {
+            let state = path.sample(key.time_secs);
+            assert!(state.pose.position.distance(key.pose.position) < 1e-9);
+            assert!(rotation::angle_between(state.pose.rotation, key.pose.rotation) < 1e-7);
+            assert!((state.fov_y_rad - key.fov_y_rad).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn straight_ways_never_overshoot_a_key() {
+    let places = [0.0, 0.001, 4.0, 4.002, 4.9, 5.0];
+    let keys = places.iter().enumerate().map(|(i, &x)| key([0.0, 0.9, 1.0, 2.5, 2.6, 6.0][i], DVec3::X * x)).collect();
+    let shot = shot(keys);
+    let path = CameraPath::new(&shot).unwrap();
+    for (pair, at) in places.windows(2).zip(shot.keyframes.windows(2)) {
+        for i in 0..=100 {
+            let t = at[0].time_secs + (at[1].time_secs - at[0].time_secs) * f64::from(i) / 100.0;
+            let p = path.sample(t).pose.position;
+            assert!(p.x >= pair[0] - 1e-9 && p.x <= pair[1] + 1e-9 && p.with_x(0.0).length() < 1e-12, "{p} at {t}");
+        }
+    }
+}
+
+#[test]
+fn a_way_through_the_zenith_turns_evenly() {
+    // Tilting up and over: 80, 90 and 100 degrees of pitch, the last of which is 80 degrees facing back.
+    let tilted = |degrees: f64| DQuat::from_axis_angle(DVec3::X, degrees.to_radians());
+    let mut keys = vec![key(0.0, DVec3::ZERO), key(1.0, DVec3::ZERO), key(2.0, DVec3::ZERO)];
+    for (key, degrees) in keys.iter_mut().zip([80.0, 90.0, 100.0]) {
+        key.pose.rotation = tilted(degrees) * key.pose.rotation;
+    }
+    let path = CameraPath::new(&shot(keys)).unwrap();
+    let turn = |t: f64| rotation::angle_between(path.sample(t).pose.rotation, path.sample(t + 0.01).pose.rotation);
+    for i in 0..199 {
+        let rate = turn(f64::from(i) * 0.01).to_degrees() / 0.01;
+        assert!((rate - 10.0).abs() < 0.2, "{rate} degrees a second at {i}");
+    }
+}
+
+#[test]
+fn a_dwell_holds_to_the_bit_and_the_moves_around_it_rest() {
+    let places = [DVec3::ZERO, DVec3::X, DVec3::X, DVec3::X * 2.0];
+    let shot = shot(places.iter().enumerate().map(|(i, &p)| key(i as f64, p)).collect());
+    let path = CameraPath::new(&shot).unwrap();
+    for i in 0..=50 {
+        assert_eq!(path.sample(1.0 + f64::from(i) / 50.0).pose.position, DVec3::X);
+    }
+    let speed = |t: f64| (path.sample(t + 1e-5).pose.position - path.sample(t).pose.position).length() / 1e-5;
+    assert!(speed(1.0 - 2e-5) < 1e-2 && speed(2.0) < 1e-2);
+}

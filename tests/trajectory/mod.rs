@@ -1,29 +1,15 @@
 //! Paths through keyframes.
 
+mod easing;
 mod hard_keys;
 mod moves;
 mod shots;
 
 use cinesplat::geometry::{LevelAngles, LevelFrame, Pose};
-use cinesplat::trajectory::{Easing, Keyframe, SceneRef, Shot};
+use cinesplat::trajectory::{Easing, Keyframe, Shot};
 use glam::DVec3;
 
-/// A shot over keys in a world whose up is +y.
-pub fn shot(keyframes: Vec<Keyframe>) -> Shot {
-    Shot {
-        scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: 640,
-        height: 360,
-        fps: 30.0,
-        duration_secs: keyframes.last().map_or(0.0, |key| key.time_secs),
-        keyframes,
-        effects: Vec::new(),
-        report: Vec::new(),
-    }
-}
+pub use crate::support::shot_over as shot;
 
 /// A key at a place, level, heading at yaw 0.
 pub fn key(time_secs: f64, position: DVec3) -> Keyframe {

@@ -91,7 +91,9 @@ fn programs(path: &Path) -> Result<BTreeMap<String, Program>, Failure> {
     let texts: BTreeMap<String, String> =
         serde_json::from_str(&outputs::read_text(path)?).map_err(|error| bad(&error.to_string()))?;
     let program = |(id, text): (String, String)| {
-        program_from_notation(&text).map(|program| (id.clone(), program)).map_err(|error| bad(&format!("{id}: {error}")))
+        program_from_notation(&text)
+            .map(|program| (id.clone(), program))
+            .map_err(|error| bad(&format!("{id}: {error}")))
     };
     texts.into_iter().map(program).collect()
 }
@@ -123,7 +125,11 @@ impl Studio {
     }
 
     /// Shots of a case for several settings of the search, each with the time of the search alone. Needs programs.
-    pub(super) fn shoot_each(&mut self, case: &Case, tries: &[SolveSettings]) -> Result<Vec<(Shot, Duration)>, Failure> {
+    pub(super) fn shoot_each(
+        &mut self,
+        case: &Case,
+        tries: &[SolveSettings],
+    ) -> Result<Vec<(Shot, Duration)>, Failure> {
         let place = self.place(case)?;
         let program = case.program.as_ref().ok_or_else(|| Failure::usage("no programs", "add --intents"))?;
         let world = World::new(&place.scene.gaussians, place.scene.up, &place.objects, &program.object_ids())?;

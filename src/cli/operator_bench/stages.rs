@@ -37,8 +37,7 @@ impl Args {
         for seed in 0..u64::from(self.runs) {
             let mut times = StageTimes::default();
             let ids = program.object_ids();
-            let world =
-                times.measure("world", || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
+            let world = times.measure("world", || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
             for level in [SolveLevel::Off, SolveLevel::Fast, SolveLevel::Full] {
                 let solve = SolveSettings { level, seed, ..SolveSettings::default() };
                 times.measure(stage_name(level), || realize(&world, &program, "", &[], &solve));

@@ -14,7 +14,7 @@ use crate::director::ground::MAX_POINTS;
 use crate::director::keys::{MAX_KEYS, Next, keys_of};
 use crate::director::language::{NamedObject, Phrasebook, Sample, program_to_notation};
 use crate::objects::{CloudSettings, Object, ObjectSet, fill_clouds};
-use crate::operator::{SolveLevel, Program, Solution, SolveSettings, World, realize};
+use crate::operator::{Program, Solution, SolveLevel, SolveSettings, World, realize};
 use crate::scene::synth::{SynthKind, SynthScene, SynthSettings, generate};
 use crate::scene::{Scene, UpSource};
 use crate::trajectory::Keyframe;

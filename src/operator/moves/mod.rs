@@ -29,6 +29,8 @@ pub(super) struct Scenario<'a> {
     pub(super) world: &'a World,
     pub(super) step: &'a Step,
     pub(super) index: usize,
+    /// No step follows without a cut.
+    pub(super) is_last: bool,
     /// The camera at the end of the step before; `None` at the start and after a cut.
     pub(super) before: Option<CameraState>,
     /// The camera at the start of the whole shot.
@@ -61,7 +63,8 @@ impl<'a> Scenario<'a> {
         };
         let subject = (0..index).rev().find_map(named);
         let azimuths_rad = wishes(world, program, index);
-        Self { world, step, index, before, origin, start, end, subject, suggestion, azimuths_rad, genes }
+        let is_last = program.steps.get(index + 1).is_none_or(|next| next.cut);
+        Self { world, step, index, is_last, before, origin, start, end, subject, suggestion, azimuths_rad, genes }
     }
 
     /// What the step is mainly about: what it ends on, else what it starts on, else what went before, else the scene.

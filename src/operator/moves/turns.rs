@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{Scenario, TURN_DEG_PER_SEC};
 use crate::geometry::{LevelAngles, Pose, rotation};
 use crate::operator::draft::{GoalKind, Part, When};
-use crate::operator::framing::Target;
+use crate::operator::framing::{DEFAULT_ASPECT, Target, extent_frac, off_center};
 use crate::operator::view::{aimed, aimed_at_side, lerp};
 use crate::operator::{Amount, Part as ObjectPart};
 use crate::trajectory::{CameraState, Easing, Move};
@@ -25,7 +25,8 @@ pub(super) fn hold(scenario: &Scenario) -> Vec<Part> {
             framing.size = framing.size.or(scenario.step.end.size);
             framing.angle = framing.angle.or(scenario.step.end.angle);
             framing.whole |= scenario.step.end.whole;
-            (Vec::new(), scenario.view(&target, &framing, (0.45, 0.75), super::NORMAL_LENS_DEG))
+            let view = scenario.view(&target, &framing, (0.45, 0.75), super::NORMAL_LENS_DEG);
+            (Vec::new(), if is_free(scenario, &framing) { on_a_third(scenario, &target, view) } else { view })
         }
     };
     let natural = if scenario.index == 0 && scenario.before.is_none() { 4.0 } else { 1.5 };
@@ -33,9 +34,35 @@ pub(super) fn hold(scenario: &Scenario) -> Vec<Part> {
     if scenario.before.is_none() {
         part = super::seen(scenario.ending(scenario.beginning(part)), &target, When::All);
         part = pitch_goal(scenario, part);
+        if (off_center(&state, target.aim) - THIRD).abs() < 1e-6 {
+            part = part.keeping(When::All, GoalKind::OnThird(target.clone()));
+        }
     }
     parts.push(part);
     parts
+}
+
+/// Distance of a third from the frame's middle, over its width.
+const THIRD: f64 = 1.0 / 6.0;
+/// Widest subject that is put on a third, over the frame's width: a wider one would nearly touch the frame.
+const MOST_WIDTH: f64 = 0.5;
+
+/// Whether words leave the composition of a held view open: one subject, nothing said of its size, place or angle, and no
+/// later step that needs it in the middle.
+fn is_free(scenario: &Scenario, framing: &crate::operator::Framing) -> bool {
+    let alone = framing.subjects.len() <= 1 && !framing.whole && framing.part == ObjectPart::Middle;
+    alone && framing.size.is_none() && framing.angle.is_none() && scenario.is_last
+}
+
+/// The view turned so that its subject stands on the left or right third, where it fits there.
+fn on_a_third(scenario: &Scenario, target: &Target, view: CameraState) -> CameraState {
+    if target.ids.is_empty() || extent_frac(&view, &target.corners).x > MOST_WIDTH {
+        return view;
+    }
+    let distance = view.pose.position.distance(target.aim);
+    let frame_width = 2.0 * distance * (view.fov_y_rad / 2.0).tan() * DEFAULT_ASPECT;
+    let sign = if scenario.genes[5] < 0.5 { -1.0 } else { 1.0 };
+    aimed(scenario.world, &view, target.aim + view.pose.right() * (sign * frame_width * THIRD))
 }
 
 /// Pitch that an angle word asks for on the first view.
