@@ -71,7 +71,8 @@ impl Args {
             outputs::check_new(plot, self.overwrite)?;
         }
         let (cases, mut studio) = self.cases.open()?;
-        let tries = BUDGETS.map(|(level, tries_factor)| SolveSettings { level, tries_factor, seed: 0 });
+        let tries =
+            BUDGETS.map(|(level, tries_factor)| SolveSettings { level, tries_factor, ..SolveSettings::default() });
         let mut outcomes: [Outcome; BUDGETS.len()] = Default::default();
         for case in &cases {
             let shots = studio.shoot_each(case, &tries)?;
