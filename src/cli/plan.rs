@@ -1,10 +1,14 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::scene_args::SceneArgs;
+use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, explain, outputs, reproduce};
 use crate::export::shot_json;
+use crate::pipeline;
+use crate::render::{Quality, Renderer};
+use crate::scene::Scene;
+use crate::trajectory::Shot;
 
 /// Makes a sentence into keyframes, without rendering.
 #[derive(Debug, clap::Args)]
@@ -30,6 +34,8 @@ pub(super) struct Args {
     /// Prints how every clause was understood and what it got
     #[arg(long)]
     explain: bool,
+    #[command(flatten)]
+    picture: PictureArgs,
     /// Replaces a shot that is already there
     #[arg(long)]
     overwrite: bool,
@@ -40,6 +46,7 @@ impl Args {
         if let Some(output) = &self.output {
             outputs::check_new(output, self.overwrite)?;
         }
+        self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
         let mut directed = self.shot.direct(&scene, &objects, &self.prompt)?;
         if let Some(output) = &self.output {
@@ -49,6 +56,7 @@ impl Args {
             console::note(&format!("{}: {keys} keys, {secs:.2} s", output.display()));
         }
         if self.explain {
+            self.print_forecasts(&scene, &directed.shot)?;
             let text = explain::explanation(&directed, &objects);
             if self.json { console::note(&text) } else { console::data(&text)? }
         }
@@ -56,6 +64,18 @@ impl Args {
             console::data(&shot_json::write(&directed.shot))?;
         }
         reproduce::print(&deciding(&directed.shot));
+        Ok(())
+    }
+
+    /// What the film would cost on this machine, on stderr: it differs from run to run.
+    fn print_forecasts(&self, scene: &Scene, shot: &Shot) -> Result<(), Failure> {
+        let settings = self.picture.settings(scene, Quality::Standard, None, None);
+        let renderer = Renderer::new(&scene.gaussians);
+        let num_frames = shot.num_frames();
+        let forecasts = pipeline::forecast(&renderer, shot, &(0..num_frames), &settings, &Quality::ALL)?;
+        for forecast in forecasts {
+            console::note(&format!("predicted for {num_frames} frames: {}", forecast.sentence()));
+        }
         Ok(())
     }
 }

@@ -8,8 +8,8 @@ use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, outputs, reproduce};
 use crate::export::shot_json;
-use crate::pipeline::{self, FilmReport, FilmSettings, Flow, FrameRange, StageTimes};
-use crate::render::Quality;
+use crate::pipeline::{self, FilmReport, FilmSettings, Flow, Forecast, FrameRange, StageTimes, Wish};
+use crate::render::{Quality, RenderSettings, Renderer};
 use crate::scene::Scene;
 use crate::trajectory::Shot;
 use crate::video::{self, Preset, VideoSettings};
@@ -33,6 +33,15 @@ pub(super) struct Args {
     shot: ShotArgs,
     #[command(flatten)]
     picture: PictureArgs,
+    /// Longest time to render, such as 90s, 5m or 1h; chooses the quality
+    #[arg(long, value_name = "TIME", value_parser = parse_time, conflicts_with = "quality")]
+    budget: Option<Duration>,
+    /// Least PSNR of the worst frame against `reference`, dB; chooses the fastest quality that has it
+    #[arg(long, value_name = "DB", value_parser = parse_decibels, conflicts_with = "quality")]
+    min_psnr: Option<f64>,
+    /// Prints what was predicted and what was measured on stdout
+    #[arg(long)]
+    json: bool,
     /// Part of the film's frames, B one after the last
     #[arg(long, value_name = "A..B", default_value = "..")]
     frames: FrameRange,
@@ -81,11 +90,22 @@ impl Args {
             saved.scene.path = outputs::relative_to(path, &scene.path);
             outputs::write(path, shot_json::write(&saved).as_bytes())?;
         }
-        let report = self.film(&scene, &shot)?;
+        let renderer = Renderer::new(&scene.gaussians);
+        let render = self.picture.settings(&scene, Quality::Standard, None, None);
+        let (render, predicted) = times.measure("predict", || self.predict(&renderer, &shot, render))?;
+        let report = self.film(&scene, &shot, render)?;
         times.add("render", report.render_time);
         times.add("encode", report.encode_time);
         print_times(&times, &report, start.elapsed());
-        reproduce::print(&deciding(&shot));
+        let frames = self.frames.of_film(shot.num_frames())?;
+        let psnr_db = pipeline::checked_psnr_db(&renderer, &shot, &frames, &render)?;
+        self.print_comparison(&predicted, &report, psnr_db)?;
+        let mut decided = deciding(&shot).to_vec();
+        if self.wish() != Wish::default() {
+            // On another machine, or another day, the same wish may choose another quality.
+            decided.push(("--quality", render.quality.name().to_owned()));
+        }
+        reproduce::print(&decided);
         finish(&report)
     }
 
@@ -131,13 +151,54 @@ impl Args {
         })
     }
 
-    fn film(&self, scene: &Scene, shot: &Shot) -> Result<FilmReport, Failure> {
-        let settings = FilmSettings {
-            render: self.picture.settings(scene, Quality::Standard, None, None),
-            video: self.video(shot)?,
-            frames: self.frames,
-            sheet: self.sheet.clone(),
-        };
+    fn wish(&self) -> Wish {
+        Wish { budget: self.budget, min_psnr_db: self.min_psnr }
+    }
+
+    /// What the film will cost, and the quality that holds what is wished for.
+    fn predict(
+        &self,
+        renderer: &Renderer<'_>,
+        shot: &Shot,
+        render: RenderSettings,
+    ) -> Result<(RenderSettings, Forecast), Failure> {
+        let frames = self.frames.of_film(shot.num_frames())?;
+        let wish = self.wish();
+        let qualities = if wish == Wish::default() { vec![render.quality] } else { Quality::ALL.to_vec() };
+        let forecasts = pipeline::forecast(renderer, shot, &frames, &render, &qualities)?;
+        let quality = pipeline::choose(&forecasts, wish)?;
+        let chosen = forecasts.iter().find(|forecast| forecast.quality == quality).copied();
+        let predicted = chosen.ok_or_else(|| Failure::fault("a quality without a forecast"))?;
+        console::note(&format!("predicted for {} frames: {}", frames.len(), predicted.sentence()));
+        Ok((RenderSettings { quality, ..render }, predicted))
+    }
+
+    /// Predicted and measured figures beside each other.
+    fn print_comparison(&self, predicted: &Forecast, report: &FilmReport, psnr_db: f64) -> Result<(), Failure> {
+        let measured = report.render_time.as_secs_f64();
+        // A film that was stopped took its part of the time.
+        let expected = predicted.render_time.as_secs_f64() * report.num_frames as f64 / report.num_wanted as f64;
+        let quality = predicted.quality.name();
+        console::note(&format!(
+            "{quality}: rendered in {measured:.2} s (predicted {expected:.2} s), {psnr_db:.1} dB (predicted {:.1} dB)",
+            predicted.psnr_db
+        ));
+        if !self.json {
+            return Ok(());
+        }
+        // JSON has no infinity: null is exact.
+        let summary = serde_json::json!({
+            "path": report.path.to_string_lossy(), "frames": report.num_frames, "quality": quality,
+            "predicted": {"render_secs": expected, "psnr_db": predicted.psnr_db, "worst_psnr_db": predicted.worst_psnr_db},
+            "measured": {"render_secs": measured, "psnr_db": psnr_db, "encode_secs": report.encode_time.as_secs_f64(),
+                "film_secs": report.total_time.as_secs_f64()},
+        });
+        console::data(&format!("{summary:#}\n"))
+    }
+
+    fn film(&self, scene: &Scene, shot: &Shot, render: RenderSettings) -> Result<FilmReport, Failure> {
+        let settings =
+            FilmSettings { render, video: self.video(shot)?, frames: self.frames, sheet: self.sheet.clone() };
         let interrupt = Interrupt::listen()?;
         let mut bar = FrameProgress::new();
         let mut watch = |progress: pipeline::Progress| {
@@ -172,6 +233,19 @@ fn finish(report: &FilmReport) -> Result<(), Failure> {
     let (done, wanted) = (report.num_frames, report.num_wanted);
     let found = format!("{}: stopped after {done} of {wanted} frames", report.path.display());
     Err(Failure::new("STOPPED", found, format!("render the rest with --frames, from frame {done} of this part on"), 75))
+}
+
+fn parse_time(text: &str) -> Result<Duration, String> {
+    let units = [("ms", 0.001), ("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)];
+    let read = units.into_iter().find_map(|(unit, secs)| {
+        let number: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
+        (number > 0.0 && number * secs <= 1e9).then(|| Duration::from_secs_f64(number * secs))
+    });
+    read.ok_or_else(|| "expected a time above 0 such as 90s, 5m or 1h".to_owned())
+}
+
+fn parse_decibels(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|db: &f64| (0.0..=300.0).contains(db)).ok_or("expected 0 to 300 dB".to_owned())
 }
 
 fn parse_preset(name: &str) -> Result<Preset, String> {

@@ -9,11 +9,22 @@ pub(super) fn print(deciding: &[(&str, String)]) {
 
 fn command(arguments: impl Iterator<Item = OsString>, deciding: &[(&str, String)]) -> String {
     let given: Vec<String> = arguments.map(|argument| argument.to_string_lossy().into_owned()).collect();
+    let given = if deciding.iter().any(|(flag, _)| *flag == "--quality") { without_wishes(&given) } else { given };
     let is_given = |flag: &str| given.iter().any(|word| word == flag || word.starts_with(&format!("{flag}=")));
     let missing = deciding.iter().filter(|(flag, _)| !is_given(flag));
     let added = missing.flat_map(|(flag, value)| [(*flag).to_owned(), value.clone()]);
     let words = given.iter().cloned().chain(added).map(|word| quoted(&word));
     std::iter::once("cinesplat".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// The words less those that leave the quality open.
+fn without_wishes(words: &[String]) -> Vec<String> {
+    let is_wish = |word: &str| word == "--budget" || word == "--min-psnr";
+    let is_value = |idx: usize| idx > 0 && is_wish(&words[idx - 1]);
+    let stays = |(idx, word): &(usize, &String)| {
+        !is_wish(word) && !is_value(*idx) && !word.starts_with("--budget=") && !word.starts_with("--min-psnr=")
+    };
+    words.iter().enumerate().filter(stays).map(|(_, word)| word.clone()).collect()
 }
 
 /// A word as a POSIX shell takes it back.
@@ -38,5 +49,12 @@ mod tests {
             command(arguments, &deciding),
             r"cinesplat plan 'my room.spz' -p 'the cat'\''s bed' --seed=4 --fps 30"
         );
+    }
+
+    #[test]
+    fn a_quality_that_was_chosen_stands_in_place_of_the_wish() {
+        let arguments = ["render", "a.spz", "--budget", "90s", "--min-psnr=50", "-o", "a.mp4"].map(OsString::from);
+        let deciding = [("--quality", "draft".to_owned())];
+        assert_eq!(command(arguments.into_iter(), &deciding), "cinesplat render a.spz -o a.mp4 --quality draft");
     }
 }

@@ -5,8 +5,10 @@ use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs, print_up};
 use super::{console, npy, outputs};
 use crate::export::cameras_json::{self, StillCameras};
-use crate::pipeline::{self, Still};
-use crate::render::Quality;
+use crate::objects;
+use crate::pipeline::{self, Still, StillOutputs};
+use crate::render::{Quality, Weight};
+use crate::scene::Scene;
 use crate::video;
 
 /// Takes still pictures from given cameras.
@@ -14,6 +16,7 @@ use crate::video;
 #[command(
     after_help = "Example:\n  cinesplat still room.spz --cameras cameras.json -o stills --quality reference --npy"
 )]
+#[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
@@ -28,6 +31,21 @@ pub(super) struct Args {
     /// Writes NAME.npy too, float32 H x W x 3 not clamped from above, and NAME.T.npy, the final transmittance
     #[arg(long)]
     npy: bool,
+    /// Writes NAME.depth.npy and NAME.median.npy too: expected and median depth along the view axis, float32 H x W, NaN
+    /// where nothing is
+    #[arg(long)]
+    depth: bool,
+    /// Writes NAME.ids.npy too: the object of each pixel, uint16 H x W, from one label a Gaussian (of the scene itself
+    /// without a file)
+    #[arg(long, value_name = "LABELS.NPY", num_args = 0..=1)]
+    #[allow(clippy::option_option, reason = "not given, given without a file, given with one")]
+    ids: Option<Option<PathBuf>>,
+    /// Writes NAME.features.npy too: rows of the file, float32 Gaussians x N, blended as color is, H x W x N
+    #[arg(long, value_name = "FILE.NPY")]
+    features: Option<PathBuf>,
+    /// Writes NAME.weights.npy too: (pixel, gaussian, weight) of every splat in every pixel; large
+    #[arg(long)]
+    weights: bool,
     /// Replaces pictures that are already there
     #[arg(long)]
     overwrite: bool,
@@ -42,7 +60,40 @@ impl Args {
         let scene = self.scene.open()?.scene;
         print_up(&scene);
         let settings = self.picture.settings(&scene, Quality::Final, cameras.filter.as_deref(), cameras.near);
-        pipeline::still(&scene, &cameras.cameras, &settings, &mut |still| self.write(&still))
+        let outputs = self.outputs(&scene)?;
+        pipeline::still(&scene, &cameras.cameras, &settings, &outputs, &mut |still| self.write(&still))
+    }
+
+    /// Reads what the further outputs need.
+    fn outputs(&self, scene: &Scene) -> Result<StillOutputs, Failure> {
+        let bad = |path: &Path, found: String, expected: &str| {
+            let message = format!("{}: {found}, expected {expected}", path.display());
+            Failure::new("NPY", message, "write it with numpy.save, one row a Gaussian in file order", 65)
+        };
+        let read = |path: &Path| fs::read(path).map_err(|error| Failure::io(&path.display().to_string(), &error));
+        let labels = match &self.ids {
+            None => None,
+            Some(None) if scene.gaussians.ids.is_empty() => {
+                return Err(Failure::usage(
+                    "--ids: this scene has no labels of its own",
+                    "name a file: --ids LABELS.NPY",
+                ));
+            }
+            Some(None) => Some(scene.gaussians.ids.clone()),
+            Some(Some(path)) => Some(objects::read_labels(path, scene)?),
+        };
+        let rows = |path: &PathBuf| {
+            let (values, num_channels) =
+                npy::decode_rows(&read(path)?).map_err(|found| bad(path, found, "float32 of two axes"))?;
+            let num_rows = values.len() / num_channels.max(1);
+            // Rows of Gaussians that were dropped on reading are dropped too.
+            let kept = scene.kept(&(0..num_rows).collect::<Vec<_>>());
+            let kept = kept.ok_or_else(|| bad(path, format!("{num_rows} rows"), "one a Gaussian of the file"))?;
+            let row = |idx: usize| values[idx * num_channels..][..num_channels].iter().copied();
+            Ok::<_, Failure>((kept.into_iter().flat_map(row).collect(), num_channels))
+        };
+        let features = self.features.as_ref().map(rows).transpose()?;
+        Ok(StillOutputs { depth: self.depth, labels, features, weights: self.weights })
     }
 
     fn check_outputs(&self, cameras: &StillCameras) -> Result<(), Failure> {
@@ -61,8 +112,18 @@ impl Args {
     }
 
     fn files(&self, name: &str) -> Vec<PathBuf> {
-        let endings: &[&str] = if self.npy { &["png", "npy", "T.npy"] } else { &["png"] };
-        endings.iter().map(|ending| self.file(name, ending)).collect()
+        let wanted = [
+            (true, "png"),
+            (self.npy, "npy"),
+            (self.npy, "T.npy"),
+            (self.depth, "depth.npy"),
+            (self.depth, "median.npy"),
+            (self.ids.is_some(), "ids.npy"),
+            (self.features.is_some(), "features.npy"),
+            (self.weights, "weights.npy"),
+        ];
+        let endings = wanted.iter().filter(|(is_wanted, _)| *is_wanted);
+        endings.map(|(_, ending)| self.file(name, ending)).collect()
     }
 
     fn file(&self, name: &str, ending: &str) -> PathBuf {
@@ -77,8 +138,31 @@ impl Args {
             outputs::write(&self.file(name, "npy"), &npy::encode_f32(&[height, width, 3], &frame.rgb))?;
             outputs::write(&self.file(name, "T.npy"), &npy::encode_f32(&[height, width], &frame.transmittance))?;
         }
+        self.write_outputs(still, [height, width])?;
         let milliseconds = frame.stats.times.total().as_secs_f64() * 1e3;
         console::note(&format!("{}: {width}x{height}, {milliseconds:.0} ms", self.file(name, "png").display()));
+        Ok(())
+    }
+
+    fn write_outputs(&self, still: &Still, shape: [u32; 2]) -> Result<(), Failure> {
+        let write = |ending: &str, bytes: Vec<u8>| outputs::write(&self.file(still.name, ending), &bytes);
+        if let Some(depth) = &still.depth {
+            write("depth.npy", npy::encode_f32(&shape, &depth.expected))?;
+            write("median.npy", npy::encode_f32(&shape, &depth.median))?;
+        }
+        if let Some(ids) = &still.ids {
+            write("ids.npy", npy::encode_u16(&shape, &ids.ids))?;
+        }
+        if let Some(map) = &still.features {
+            let shape = [shape[0], shape[1], map.num_channels as u32];
+            write("features.npy", npy::encode_f32(&shape, &map.values))?;
+        }
+        if let Some(weights) = &still.weights {
+            let descr = "[('pixel', '<u4'), ('gaussian', '<u4'), ('weight', '<f4')]";
+            let bytes = |w: &Weight| [w.pixel_idx.to_le_bytes(), w.gaussian_idx.to_le_bytes(), w.weight.to_le_bytes()];
+            let data = weights.iter().flat_map(bytes).flatten();
+            write("weights.npy", npy::encode(descr, &[weights.len() as u32], data))?;
+        }
         Ok(())
     }
 }

@@ -56,6 +56,14 @@ pub enum PipelineError {
         /// Frames of the film.
         num_frames: usize,
     },
+    /// No quality holds what is wished for.
+    #[error("no quality gives {wanted}; predicted: {reachable}")]
+    Unreachable {
+        /// Time and accuracy wished for.
+        wanted: String,
+        /// What each quality would give.
+        reachable: String,
+    },
     /// The encoding thread ended without a word.
     #[error("the encoding thread stopped without an error")]
     EncoderStopped,
@@ -85,6 +93,7 @@ impl PipelineError {
             Self::Geometry(_) => "GEOMETRY",
             Self::UnknownSynth { .. } => "SCENE-SYNTH",
             Self::NoSuchFrames { .. } => "SHOT-FRAMES",
+            Self::Unreachable { .. } => "COST-BUDGET",
             Self::EncoderStopped => "VIDEO-STOPPED",
         )
     }
@@ -96,6 +105,9 @@ impl PipelineError {
             Self::Geometry(_) => "check the pose or direction that was given".to_owned(),
             Self::UnknownSynth { .. } => "for example synth:room:7, or a file with ./ before its name".to_owned(),
             Self::NoSuchFrames { .. } => "give --frames A..B with B one after the last frame".to_owned(),
+            Self::Unreachable { .. } => {
+                "allow more time, ask for fewer decibels, or film smaller (--size, --fps, --frames)".to_owned()
+            }
             Self::EncoderStopped => "this is a fault of cinesplat: please report the command".to_owned(),
         )
     }
@@ -106,6 +118,7 @@ impl PipelineError {
             Self::Trajectory(_) | Self::Geometry(_) => 65,
             Self::UnknownSynth { .. } => 66,
             Self::NoSuchFrames { .. } => 2,
+            Self::Unreachable { .. } => 71,
             Self::EncoderStopped => 70,
         )
     }

@@ -1,11 +1,11 @@
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{FrameRange, PipelineError};
 use crate::geometry::{Camera, Intrinsics};
-use crate::render::{Frame, RenderSettings, Renderer};
+use crate::render::{RenderSettings, Renderer, Rgb8Frame};
 use crate::scene::Scene;
 use crate::trajectory::{CameraPath, Shot};
 use crate::video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
@@ -98,7 +98,9 @@ pub fn film(
     let writer = VideoWriter::create(output, &video)?;
     let sheet = settings.sheet.as_ref().map(|_| ContactSheet::new(shot.width, shot.height, num_wanted));
     let (sender, receiver) = sync_channel(QUEUE_FRAMES);
-    let encoder = Encoder { writer, sheet, busy: Duration::ZERO };
+    let (give_back, used) = channel();
+    let encoder = Encoder { writer, sheet, busy: Duration::ZERO, give_back };
+    let (mut frame, mut last_camera) = (Rgb8Frame::default(), None);
     let renderer = Renderer::new(&scene.gaussians);
     let mut render_time = Duration::ZERO;
 
@@ -108,9 +110,17 @@ pub fn film(
         let mut tell = |done| watch(Progress { done, total: num_wanted });
         let rendered = frames.enumerate().try_for_each(|(done, frame_idx)| {
             let start = Instant::now();
-            let picture = renderer.render(&camera_at(frame_idx), &settings.render);
+            let camera = camera_at(frame_idx);
+            // A camera that stands still sees what it saw.
+            if last_camera != Some(camera) {
+                renderer.render_rgb8_into(&camera, &settings.render, &mut frame)?;
+                last_camera = Some(camera);
+            }
             render_time += start.elapsed();
-            send(&picture?, &sender, done, &mut tell)
+            // Memory of a frame that is written already, or new.
+            let mut rgb8 = used.try_recv().unwrap_or_default();
+            rgb8.clone_from(&frame.rgb8);
+            send(rgb8, &sender, done, &mut tell)
         });
         drop(sender);
         (rendered, encoding.join())
@@ -149,20 +159,21 @@ impl<E: Into<PipelineError>> From<E> for Break {
 
 /// Passes a picture on and asks whether to go on.
 fn send(
-    picture: &Frame,
+    rgb8: Vec<u8>,
     sender: &SyncSender<Vec<u8>>,
     num_before: usize,
     tell: &mut dyn FnMut(usize) -> Flow,
 ) -> Result<(), Break> {
     // The encoder hangs up when it fails; its own error says why.
-    sender.send(picture.to_rgb8()).map_err(|_| Break::Stopped)?;
+    sender.send(rgb8).map_err(|_| Break::Stopped)?;
     match tell(num_before + 1) {
         Flow::Continue => Ok(()),
         Flow::Stop => Err(Break::Stopped),
     }
 }
 
-fn camera_at(path: &CameraPath, shot: &Shot, frame_idx: usize) -> Camera {
+/// The camera of one frame.
+pub(super) fn camera_at(path: &CameraPath, shot: &Shot, frame_idx: usize) -> Camera {
     let state = path.sample(shot.frame_time_secs(frame_idx));
     Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(shot.width, shot.height, state.fov_y_rad) }
 }
@@ -172,6 +183,8 @@ struct Encoder {
     writer: VideoWriter,
     sheet: Option<ContactSheet>,
     busy: Duration,
+    /// Takes frames that are written back to the renderer, which uses their memory again.
+    give_back: Sender<Vec<u8>>,
 }
 
 impl Encoder {
@@ -183,6 +196,8 @@ impl Encoder {
             }
             self.writer.write_frame(&rgb8)?;
             self.busy += start.elapsed();
+            // After its last frame the renderer wants no more.
+            let _ = self.give_back.send(rgb8);
         }
         Ok(self)
     }

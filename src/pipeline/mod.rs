@@ -6,6 +6,7 @@
 mod direct;
 mod error;
 mod film;
+mod forecast;
 mod frames;
 mod source;
 mod stage_times;
@@ -14,7 +15,8 @@ mod stills;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
 pub use film::{FilmReport, FilmSettings, Flow, Progress, film};
+pub use forecast::{Forecast, Wish, checked_psnr_db, choose, forecast};
 pub use frames::FrameRange;
 pub use source::{Source, open_scene};
 pub use stage_times::StageTimes;
-pub use stills::{Still, still};
+pub use stills::{Still, StillOutputs, still};

@@ -1,3 +1,5 @@
+use rayon::prelude::*;
+
 use super::RenderStats;
 
 /// A rendered picture. Rows from the top, pixels from the left.
@@ -27,6 +29,15 @@ impl Frame {
     /// Eight-bit color, values clamped to 0..=1 and rounded to the nearest level.
     pub fn to_rgb8(&self) -> Vec<u8> {
         self.rgb.iter().map(|&value| level(value)).collect()
+    }
+
+    /// Writes eight-bit color over `rgb8`, which is made to fit.
+    pub fn write_rgb8(&self, rgb8: &mut Vec<u8>) {
+        const VALUES_AT_ONCE: usize = 1 << 16;
+        rgb8.resize(self.rgb.len(), 0);
+        rgb8.par_chunks_mut(VALUES_AT_ONCE).zip(self.rgb.par_chunks(VALUES_AT_ONCE)).for_each(|(levels, values)| {
+            levels.iter_mut().zip(values).for_each(|(to, &value)| *to = level(value));
+        });
     }
 
     /// Peak signal-to-noise ratio in dB against another picture of the same size, both clamped to 0..=1, peak 1.

@@ -20,6 +20,7 @@ mod canvas;
 mod depth;
 mod error;
 mod fast;
+mod features;
 mod frame;
 mod groups;
 mod harmonics;
@@ -47,6 +48,7 @@ mod weights;
 
 pub use depth::DepthMap;
 pub use error::RenderError;
+pub use features::FeatureMap;
 pub use frame::{Frame, Rgb8Frame};
 pub use ids::IdMap;
 pub use instructions::Instructions;

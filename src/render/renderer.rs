@@ -40,6 +40,11 @@ impl<'scene> Renderer<'scene> {
         self.groups.bytes() + self.buffers.sum(Buffers::bytes) + self.small_frames.sum(small)
     }
 
+    /// Gaussians of the scene.
+    pub fn num_gaussians(&self) -> usize {
+        self.gaussians.len()
+    }
+
     /// The picture that a camera takes.
     ///
     /// # Errors
@@ -90,7 +95,8 @@ impl<'scene> Renderer<'scene> {
         (frame.width, frame.height) = (view.width, view.height);
         if settings.quality == Quality::Reference || settings.effective_accuracy().resolution_frac < 1.0 {
             let linear = self.render(camera, settings)?;
-            (frame.rgb8, frame.stats) = (linear.to_rgb8(), linear.stats);
+            linear.write_rgb8(&mut frame.rgb8);
+            frame.stats = linear.stats;
             return Ok(());
         }
         frame.rgb8.resize(view.width as usize * view.height as usize * 3, 0);
@@ -105,8 +111,12 @@ impl<'scene> Renderer<'scene> {
         settings: &RenderSettings,
         mut take: impl FnMut(&Frame),
     ) -> Result<(), RenderError> {
-        let intrinsics = camera.intrinsics.scaled(settings.effective_accuracy().resolution_frac);
-        let view = View::new(&Camera { pose: camera.pose, intrinsics }, self.gaussians.origin, settings)?;
+        let resolution_frac = settings.effective_accuracy().resolution_frac;
+        let intrinsics = camera.intrinsics.scaled(resolution_frac);
+        let mut view = View::new(&Camera { pose: camera.pose, intrinsics }, self.gaussians.origin, settings)?;
+        // As wide on the large picture as ever: then a small picture is made of values of the large one, and what
+        // enlarging has to guess is only what lies between them.
+        view.dilation_px2 *= resolution_frac * resolution_frac;
         self.small_frames.with(|small| {
             small.resize(view.width, view.height);
             small.stats = self.render_payload(&view, settings, Canvas::from(&mut *small), &ColorOnly)?.0;
@@ -170,7 +180,7 @@ impl<'scene> Renderer<'scene> {
     }
 
     /// A picture at full resolution in `f32` with the parts of a payload.
-    fn render_parts<P: Payload>(
+    pub(super) fn render_parts<P: Payload>(
         &self,
         camera: &Camera,
         settings: &RenderSettings,
@@ -207,7 +217,8 @@ impl<'scene> Renderer<'scene> {
     }
 }
 
-fn check_len(what: &'static str, found: usize, expected: usize) -> Result<(), RenderError> {
+/// Holds the length of an input against what it has to be.
+pub(super) fn check_len(what: &'static str, found: usize, expected: usize) -> Result<(), RenderError> {
     if found == expected { Ok(()) } else { Err(RenderError::Length { what, found, expected }) }
 }
 

@@ -6,7 +6,7 @@ use crate::scene::SplatFilter;
 /// How much accuracy is traded for time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quality {
-    /// Half resolution, coarse cutoffs: for previews.
+    /// Half the resolution, enlarged, with a coarser alpha cut: for previews.
     Draft,
     /// Full resolution, blending stops a little early.
     Standard,
@@ -36,11 +36,16 @@ impl Quality {
     }
 
     /// What this preset sets.
+    ///
+    /// Chosen on the golden cameras at 1280x720 (`bench render` measures all knobs alone). Stopping earlier than at 1e-3
+    /// buys little: 4e-3 costs 13 dB on the kitchen for 4 % of the time, 1e-2 costs 20 dB for 8 %. For `draft` half the
+    /// size saves most, 35 % of the kitchen's time at 37 to 45 dB; three quarters saves 25 % at 42 to 44 dB, the full
+    /// size with a cut of 1/32 saves 20 % at 39 dB. For `standard` a cut of 1/128 would save 4 % and leave 51 dB of 56.
     pub fn accuracy(self) -> Accuracy {
         match self {
             Self::Draft => Accuracy {
                 alpha_cut: 1.0 / 128.0,
-                transmittance_stop: 1e-2,
+                transmittance_stop: 1e-3,
                 resolution_frac: 0.5,
                 precision: Precision::Quick,
             },

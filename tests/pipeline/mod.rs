@@ -1,5 +1,7 @@
 //! The stages in a row, used as a library.
 
+mod forecast;
+
 use std::path::Path;
 
 use cinesplat::pipeline::{FilmSettings, Flow, FrameRange, PipelineError, Progress, film, open_scene};

@@ -5,6 +5,7 @@ mod goldens;
 mod hard_cases;
 mod oracle;
 mod payloads;
+mod per_ray;
 mod pictures;
 mod repeatable;
 mod scenes;

@@ -1,10 +1,13 @@
 //! Depth, object ids, weights and lifting come from the weights of the picture.
 
+use cinesplat::geometry::{Camera, Intrinsics, Pose};
+use cinesplat::objects;
 use cinesplat::render::{Frame, Lifted, Limits, Quality, RenderSettings, Renderer};
-use cinesplat::scene::Gaussians;
-use glam::{Quat, Vec3};
+use cinesplat::scene::{self, Gaussians, LoadOptions};
+use glam::{DVec3, Quat, Vec3};
 
 use super::scenes::{camera, crowd, push};
+use crate::support;
 
 const SETTINGS: fn() -> RenderSettings = || RenderSettings { quality: Quality::Final, ..RenderSettings::default() };
 
@@ -117,4 +120,89 @@ fn a_list_of_weights_ends_at_the_cap_with_one_error() {
     let refused = with_cap(held + (all.len() * 12) as u64 / 2).unwrap_err();
     assert_eq!((refused.code(), refused.exit_code()), ("RENDER-MEMORY", 71));
     assert_eq!(with_cap(held * 8 + (all.len() * 12 * 4) as u64).unwrap(), all);
+}
+
+#[test]
+fn features_blend_as_color_does_whatever_the_number_of_channels() {
+    let mut scene = crowd(2_000, 18);
+    // Color without direction, so that it can be given as features.
+    scene.sh_degree = 0;
+    scene.sh_rest.clear();
+    let renderer = Renderer::new(&scene);
+    let view = camera(150, 90);
+    let frame = renderer.render(&view, &SETTINGS()).unwrap();
+    // Nineteen channels take the blending loop twice; red, green and blue come back in three of them.
+    let num_channels = 19;
+    let mut features = vec![0.25_f32; scene.len() * num_channels];
+    for (row, dc) in features.chunks_exact_mut(num_channels).zip(&scene.sh_dc) {
+        let color = (*dc * 0.282_094_8 + 0.5).max(Vec3::ZERO);
+        (row[0], row[7], row[18]) = (color.x, color.y, color.z);
+    }
+    let map = renderer.features(&view, &SETTINGS(), &features, num_channels).unwrap();
+    assert_eq!((map.width, map.height, map.values.len()), (150, 90, 150 * 90 * num_channels));
+    let pixels = map.values.chunks_exact(num_channels).zip(frame.rgb.chunks_exact(3)).zip(&frame.transmittance);
+    for ((row, rgb), rest) in pixels {
+        let apart = [(row[0], rgb[0]), (row[7], rgb[1]), (row[18], rgb[2]), (row[3], 0.25 * (1.0 - rest))];
+        assert!(apart.iter().all(|(found, expected)| (found - expected).abs() < 1e-4), "{apart:?}");
+    }
+    let short = renderer.features(&view, &SETTINGS(), &features[1..], num_channels).unwrap_err();
+    assert_eq!(short.code(), "RENDER-LENGTH");
+    let limits = Limits { max_memory_bytes: 150 * 90 * 16 + 1_000, ..Limits::default() };
+    let large = renderer.features(&view, &RenderSettings { limits, ..SETTINGS() }, &features, num_channels);
+    assert_eq!(large.unwrap_err().code(), "RENDER-MEMORY");
+}
+
+#[test]
+fn a_picture_with_another_output_has_the_colors_of_one_without() {
+    let scene = crowd(3_000, 19);
+    let renderer = Renderer::new(&scene);
+    let view = camera(150, 90);
+    let before = renderer.render(&view, &SETTINGS()).unwrap();
+    renderer.depth(&view, &SETTINGS()).unwrap();
+    renderer.weights(&view, &SETTINGS()).unwrap();
+    let after = renderer.render(&view, &SETTINGS()).unwrap();
+    assert!(before.rgb == after.rgb && before.transmittance == after.transmittance);
+}
+
+/// Level cameras on two rings about a point, looking at it.
+fn ring(center: DVec3, radius: f64, num: usize) -> Vec<Camera> {
+    let around = |idx: usize| {
+        let angle = idx as f64 / num as f64 * std::f64::consts::TAU;
+        let rise = if idx.is_multiple_of(2) { 0.15 } else { 0.6 };
+        let eye = center + DVec3::new(angle.cos(), rise, angle.sin()) * radius;
+        let pose = Pose::facing(eye, center - eye, DVec3::Y, None);
+        Camera { pose, intrinsics: Intrinsics::from_fov_y(240, 240, 1.0) }
+    };
+    (0..num).map(around).collect()
+}
+
+#[test]
+fn a_mask_of_the_guitar_lifted_from_24_views_is_its_label() {
+    let Some(folder) = support::shared("data/composites") else { return };
+    let scene = scene::load(&folder.join("kitchen_plus_dev.spz"), &LoadOptions::default()).unwrap();
+    let labels = objects::read_labels(&folder.join("kitchen_plus_dev_labels.npy"), &scene).unwrap();
+    let gaussians = &scene.gaussians;
+    let renderer = Renderer::new(gaussians);
+    let settings = RenderSettings { near: 0.02, ..RenderSettings::default() };
+    // The middle of the guitar's box, from the file beside the scene.
+    let views = ring(DVec3::new(0.7708, 0.75, -0.376), 1.35, 24);
+    let mut lifted = Lifted::new(gaussians.len(), 1);
+    for view in &views {
+        let ids = renderer.object_ids(view, &settings, &labels).unwrap();
+        let mask: Vec<f32> = ids.ids.iter().map(|&id| f32::from(u8::from(id == 1))).collect();
+        renderer.lift(view, &settings, &mask, &mut lifted).unwrap();
+    }
+    // Of what the views show at all: what lies inside or behind is in no mask.
+    let seen = |idx: &usize| lifted.weights[*idx] > 0.05;
+    let (mut both, mut either) = (0, 0);
+    for idx in (0..gaussians.len()).filter(seen) {
+        let (found, is) = (lifted.mean(idx, 0).unwrap() > 0.5, labels[idx] == 1);
+        both += usize::from(found && is);
+        either += usize::from(found || is);
+    }
+    let (of_guitar, num_seen) =
+        (labels.iter().filter(|&&label| label == 1).count(), (0..labels.len()).filter(seen).count());
+    let iou = both as f64 / either as f64;
+    assert!(iou >= 0.9, "IoU {iou:.3}: {both} of {either}; {num_seen} Gaussians seen, {of_guitar} are the guitar");
+    assert!(both * 2 > of_guitar, "{both} of {of_guitar} found");
 }

@@ -1,0 +1,124 @@
+use super::blend::TILE_LEN;
+use super::kernel::Record;
+use super::memory::Budget;
+use super::payload::{Payload, Sink, TileArea};
+use super::renderer::check_len;
+use super::{RenderError, RenderSettings, Renderer, View};
+use crate::geometry::Camera;
+
+/// Channels blended in one go; more take the blending loop once more for every so many.
+const CHANNELS_AT_ONCE: usize = 16;
+
+/// Features of what is seen in each pixel: `[(row * width + column) * num_channels + channel]`, 0 where nothing is.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FeatureMap {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Values a pixel.
+    pub num_channels: usize,
+    /// Sum of the splats' features, each with its weight.
+    pub values: Vec<f32>,
+}
+
+/// The payload of some channels of a [`FeatureMap`].
+struct FeaturePayload<'a> {
+    /// A row of `stride` numbers for each Gaussian.
+    features: &'a [f32],
+    stride: usize,
+    /// The channels blended: the first, and how many.
+    first: usize,
+    num_channels: usize,
+}
+
+/// Sums of one tile: `[pixel * num_channels + channel]`.
+struct FeatureSink<'a> {
+    payload: &'a FeaturePayload<'a>,
+    rows: Vec<&'a [f32]>,
+    sums: Vec<f32>,
+}
+
+impl<'a> Payload for &'a FeaturePayload<'a> {
+    type Sink = FeatureSink<'a>;
+    type Part = (TileArea, Vec<f32>);
+
+    fn sink(&self, _: TileArea) -> FeatureSink<'a> {
+        FeatureSink { payload: self, rows: Vec::new(), sums: vec![0.0; TILE_LEN * self.num_channels] }
+    }
+
+    fn part(&self, sink: FeatureSink<'a>, area: TileArea) -> (TileArea, Vec<f32>) {
+        (area, sink.sums)
+    }
+}
+
+impl Sink for FeatureSink<'_> {
+    const IS_ACTIVE: bool = true;
+
+    fn begin(&mut self, records: &[Record]) {
+        let FeaturePayload { features, stride, first, num_channels } = *self.payload;
+        let row = |record: &Record| &features[record.gaussian_idx as usize * stride + first..][..num_channels];
+        self.rows.clear();
+        self.rows.extend(records.iter().map(row));
+    }
+
+    fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
+        let (row, num_channels) = (self.rows[position], self.payload.num_channels);
+        let pixels = self.sums[first_pixel * num_channels..].chunks_exact_mut(num_channels);
+        for (sums, &weight) in pixels.zip(weights).filter(|(_, weight)| **weight > 0.0) {
+            sums.iter_mut().zip(row).for_each(|(sum, feature)| *sum += weight * feature);
+        }
+    }
+}
+
+impl Renderer<'_> {
+    /// Features of the Gaussians (`num_channels` each, row after row) blended with the weights of the picture at full
+    /// resolution, as color is. Memory beyond the map does not grow with the channels.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`]; [`RenderError::Length`] unless there is one row a Gaussian and at least one channel;
+    /// [`RenderError::Memory`] where the map would not fit under the cap.
+    pub fn features(
+        &self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        features: &[f32],
+        num_channels: usize,
+    ) -> Result<FeatureMap, RenderError> {
+        check_len("features", features.len(), self.num_gaussians() * num_channels)?;
+        check_len("channels of a feature", num_channels.min(1), 1)?;
+        let view = View::new(camera, glam::DVec3::ZERO, settings)?;
+        let num_pixels = view.width as usize * view.height as usize;
+        let num_tile_pixels = (view.width as usize + 64) * (view.height as usize + 64);
+        let num_values = num_pixels * num_channels + num_tile_pixels * num_channels.min(CHANNELS_AT_ONCE);
+        let mut budget = Budget::of_picture(&view, &settings.limits)?;
+        budget.take("the feature map", (num_values * size_of::<f32>()) as u64)?;
+        let limits = super::Limits { max_memory_bytes: budget.left_bytes(), ..settings.limits };
+        let settings = RenderSettings { limits, ..*settings };
+
+        let mut map = FeatureMap {
+            width: view.width,
+            height: view.height,
+            num_channels,
+            values: vec![0.0; num_pixels * num_channels],
+        };
+        for first in (0..num_channels).step_by(CHANNELS_AT_ONCE) {
+            let num_some = CHANNELS_AT_ONCE.min(num_channels - first);
+            let payload = FeaturePayload { features, stride: num_channels, first, num_channels: num_some };
+            let (_, parts) = self.render_parts(camera, &settings, &&payload)?;
+            parts.into_iter().for_each(|part| map.fill(part, first, num_some));
+        }
+        Ok(map)
+    }
+}
+
+impl FeatureMap {
+    /// Puts some channels of a tile into place.
+    fn fill(&mut self, (area, sums): (TileArea, Vec<f32>), first: usize, num_some: usize) {
+        for (pixel, sums) in sums.chunks_exact(num_some).enumerate() {
+            if let Some(idx) = area.picture_idx(pixel) {
+                self.values[idx * self.num_channels + first..][..num_some].copy_from_slice(sums);
+            }
+        }
+    }
+}
