@@ -16,21 +16,14 @@ pub(super) fn upsample(from: &Frame, to: &mut Frame) {
         || vec![[0.0; 4]; narrow],
         |mixed, ((rgb, transmittance), row)| {
             // Down the columns first: red, green, blue, transmittance of one row of source pixels.
-            for (x, sums) in mixed.iter_mut().enumerate() {
-                *sums = [0.0; 4];
-                for (y, weight) in row.places.into_iter().zip(row.weights) {
+            for (x, mixed) in mixed.iter_mut().enumerate() {
+                *mixed = row.mix(|y| {
                     let at = y * narrow + x;
-                    let [r, g, b] = [from.rgb[at * 3], from.rgb[at * 3 + 1], from.rgb[at * 3 + 2]];
-                    let values = [r, g, b, from.transmittance[at]];
-                    sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
-                }
+                    [from.rgb[at * 3], from.rgb[at * 3 + 1], from.rgb[at * 3 + 2], from.transmittance[at]]
+                });
             }
             for ((rgb, rest), column) in rgb.chunks_exact_mut(3).zip(transmittance).zip(&columns) {
-                let mut sums = [0.0_f32; 4];
-                for (&x, &weight) in column.places.iter().zip(&column.weights) {
-                    sums.iter_mut().zip(mixed[x]).for_each(|(sum, value)| *sum += weight * value);
-                }
-                let [r, g, b, t] = sums;
+                let [r, g, b, t] = column.mix(|x| mixed[x]);
                 rgb.copy_from_slice(&[r.max(0.0), g.max(0.0), b.max(0.0)]);
                 *rest = t.clamp(0.0, 1.0);
             }
@@ -43,6 +36,23 @@ pub(super) fn upsample(from: &Frame, to: &mut Frame) {
 struct Taps {
     places: [usize; NUM_TAPS],
     weights: [f32; NUM_TAPS],
+}
+
+impl Taps {
+    /// The weighted sum of four numbers at each place: the nearest before, and parts of what the others differ from it by,
+    /// so that an even surface stays as it is to the bit.
+    #[inline]
+    fn mix(&self, at: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
+        let base = at(self.places[1]);
+        let mut sums = base;
+        for tap in [0, 2, 3] {
+            let (values, weight) = (at(self.places[tap]), self.weights[tap]);
+            for ((sum, value), base) in sums.iter_mut().zip(values).zip(base) {
+                *sum += weight * (value - base);
+            }
+        }
+        sums
+    }
 }
 
 fn taps(from: u32, to: u32) -> Vec<Taps> {
