@@ -10,6 +10,7 @@ mod dataset;
 mod decode;
 mod directing;
 mod error;
+mod files;
 mod frame;
 mod ground;
 pub mod keys;
@@ -23,6 +24,7 @@ mod weights;
 pub use dataset::{DatasetError, DatasetSettings, DatasetSummary, write_dataset};
 pub use directing::{Direction, Director, Stage, StepCertainty, SuggestedCamera};
 pub use error::DirectorError;
+pub use files::FileError;
 pub use frame::SceneFrame;
 pub use model::ModelConfig;
 pub use train::{

@@ -2,8 +2,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::director::DirectorError;
 use crate::director::language::LanguageError;
+use crate::director::{DirectorError, FileError};
 use crate::geometry::GeometryError;
 use crate::objects::ObjectsError;
 
@@ -39,22 +39,9 @@ pub enum DatasetError {
         /// What was expected.
         expected: &'static str,
     },
-    /// A shard cannot be read.
-    #[error("{}: cannot read: {source}", path.display())]
-    Read {
-        /// The file or folder.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// A shard cannot be written.
-    #[error("{}: cannot write: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
 }
 
 impl DatasetError {
@@ -64,10 +51,9 @@ impl DatasetError {
             Self::Language(error) => error.code(),
             Self::Director(error) => error.code(),
             Self::Objects(error) => error.code(),
+            Self::File(error) => error.code(),
             Self::Scene { .. } => "DATASET-SCENE",
             Self::BadLine { .. } => "DATASET-LINE",
-            Self::Read { .. } => "DATASET-READ",
-            Self::Write { .. } => "DATASET-WRITE",
         }
     }
 
@@ -77,10 +63,9 @@ impl DatasetError {
             Self::Language(error) => error.help(),
             Self::Director(error) => error.help(),
             Self::Objects(error) => error.help(),
+            Self::File(error) => error.help(),
             Self::Scene { .. } => "this is a fault of the scene generator: report it with the seed".into(),
             Self::BadLine { .. } => "write the shards again with `cinesplat dataset`".into(),
-            Self::Read { .. } => "check the path, or write shards first with `cinesplat dataset`".into(),
-            Self::Write { .. } => "check the folder and the space on its disk".into(),
         }
     }
 
@@ -90,11 +75,9 @@ impl DatasetError {
             Self::Language(error) => error.exit_code(),
             Self::Director(error) => error.exit_code(),
             Self::Objects(error) => error.exit_code(),
+            Self::File(error) => error.exit_code(),
             Self::Scene { .. } => 70,
             Self::BadLine { .. } => 65,
-            Self::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => 66,
-            Self::Read { .. } => 74,
-            Self::Write { .. } => 73,
         }
     }
 }

@@ -11,6 +11,7 @@ use rand_pcg::Pcg64;
 
 use super::DatasetError;
 use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, VERSION};
+use crate::director::FileError;
 use crate::director::directing::log_fov;
 use crate::director::frame::SceneFrame;
 use crate::director::ground::{MAX_OTHERS, object_input};
@@ -97,9 +98,9 @@ impl RealizedShot {
 /// All shots of the shards (`*.jsonl`) of a folder, in order of file names.
 ///
 /// # Errors
-/// [`DatasetError::Read`] · [`DatasetError::BadLine`] naming the first line that is not understood.
+/// [`FileError::Read`] · [`DatasetError::BadLine`] naming the first line that is not understood.
 pub(crate) fn read_shards(folder: &Path) -> Result<Vec<RealizedShot>, DatasetError> {
-    let failed = |source| DatasetError::Read { path: folder.to_owned(), source };
+    let failed = |source| FileError::Read { path: folder.to_owned(), source };
     let entries = std::fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
     let mut paths: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "jsonl"));
@@ -112,7 +113,7 @@ pub(crate) fn read_shards(folder: &Path) -> Result<Vec<RealizedShot>, DatasetErr
 }
 
 fn read_shard(path: &Path, shots: &mut Vec<RealizedShot>) -> Result<(), DatasetError> {
-    let failed = |source| DatasetError::Read { path: path.to_owned(), source };
+    let failed = |source| FileError::Read { path: path.to_owned(), source };
     let file = std::fs::File::open(path).map_err(failed)?;
     for (line_idx, line) in BufReader::new(file).lines().enumerate() {
         let line = line.map_err(failed)?;

@@ -1,6 +1,6 @@
 //! Shots made by the operator in generated scenes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -10,6 +10,7 @@ use rand_pcg::Pcg64;
 
 use super::DatasetError;
 use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, ShotRecord, VERSION};
+use crate::director::files::{FileError, write_whole};
 use crate::director::ground::MAX_POINTS;
 use crate::director::keys::{MAX_KEYS, Next, keys_of};
 use crate::director::language::{NamedObject, Phrasebook, Sample, program_to_notation};
@@ -66,13 +67,12 @@ pub struct DatasetSummary {
 /// every scene (scenes done, scenes in all).
 ///
 /// # Errors
-/// [`DatasetError::Write`] · [`DatasetError::Scene`] · [`DatasetError::Objects`].
+/// [`FileError::Write`] · [`DatasetError::Scene`] · [`DatasetError::Objects`].
 pub fn write_dataset(
     settings: &DatasetSettings,
     report: &(dyn Fn(u64, u64) + Sync),
 ) -> Result<DatasetSummary, DatasetError> {
-    std::fs::create_dir_all(&settings.out)
-        .map_err(|source| DatasetError::Write { path: settings.out.clone(), source })?;
+    std::fs::create_dir_all(&settings.out).map_err(|source| FileError::Write { path: settings.out.clone(), source })?;
     let next = AtomicU64::new(0);
     let done = AtomicU64::new(0);
     let total = Mutex::new(DatasetSummary::default());
@@ -111,7 +111,7 @@ fn write_shard(settings: &DatasetSettings, shard: u64, scene_done: &dyn Fn()) ->
         scenes.for_each(|_| scene_done());
         return Ok(DatasetSummary { shards_kept: 1, ..DatasetSummary::default() });
     }
-    let bad = |error: serde_json::Error| DatasetError::Write { path: path.clone(), source: error.into() };
+    let bad = |error: serde_json::Error| FileError::Write { path: path.clone(), source: error.into() };
     let header = Header { format: FORMAT.into(), version: VERSION, seed: settings.seed };
     let mut text = serde_json::to_string(&header).map_err(bad)? + "\n";
     let mut summary = DatasetSummary::default();
@@ -123,16 +123,8 @@ fn write_shard(settings: &DatasetSettings, shard: u64, scene_done: &dyn Fn()) ->
         text += &(serde_json::to_string(&scene).map_err(bad)? + "\n");
         scene_done();
     }
-    write_whole(&path, &text)?;
+    write_whole(&path, text.as_bytes())?;
     Ok(summary)
-}
-
-/// Writes under a passing name first, so that a shard is whole or absent.
-fn write_whole(path: &Path, text: &str) -> Result<(), DatasetError> {
-    let failed = |source| DatasetError::Write { path: path.to_owned(), source };
-    let temporary = path.with_extension("tmp");
-    std::fs::write(&temporary, text).map_err(failed)?;
-    std::fs::rename(&temporary, path).map_err(failed)
 }
 
 /// One generated scene with its shots. Two of three scenes are rooms.

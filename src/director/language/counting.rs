@@ -26,6 +26,11 @@ const ONES: [&str; 20] = [
 ];
 const TENS: [&str; 10] = ["", "", "twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety"];
 
+/// The word for a whole number up to twenty.
+pub(crate) fn number_word(value: u32) -> Option<&'static str> {
+    if value == 20 { Some("twenty") } else { ONES.get(value as usize).copied() }
+}
+
 /// How a number was said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Said {

@@ -4,6 +4,8 @@ use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 
+use super::counting::number_word;
+
 /// Whether `{name}` makes a quantity.
 pub(crate) fn is_figure(name: &str) -> bool {
     matches!(name, "SECS" | "SECS0" | "SECSADJ" | "DEG" | "UNITS" | "NEARER" | "FARTHER" | "LENS")
@@ -23,37 +25,9 @@ pub(crate) fn figure(name: &str, rng: &mut Pcg64) -> (String, String) {
     }
 }
 
-const NAMES: [&str; 21] = [
-    "zero",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-    "thirteen",
-    "fourteen",
-    "fifteen",
-    "sixteen",
-    "seventeen",
-    "eighteen",
-    "nineteen",
-    "twenty",
-];
-
 /// Hundredths keep every value exact in text and in the program.
 fn shown(hundredths: u32) -> String {
     format!("{}", f64::from(hundredths) / 100.0)
-}
-
-fn number_word(value: u32) -> Option<&'static str> {
-    NAMES.get(value as usize).copied()
 }
 
 fn seconds(rng: &mut Pcg64, key: &str) -> (String, String) {

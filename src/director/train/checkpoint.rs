@@ -1,13 +1,14 @@
 //! Checkpoints: everything that a training needs to go on as if it had never stopped.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use candle_core::{Device, Tensor, Var};
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
 use super::TrainError;
 use super::optimizer::{AdamW, Moments};
+use crate::director::files::{FileError, write_whole};
 
 /// Key of the step count in a checkpoint's metadata.
 const STEPS: &str = "steps";
@@ -40,23 +41,13 @@ pub(super) fn write(
     let metadata = [(STEPS, optimizer.steps.to_string()), (SETTINGS, settings.to_owned())];
     let metadata = metadata.map(|(key, value)| (key.to_owned(), value)).into_iter().collect();
     let bytes = safetensors::serialize(views, Some(metadata)).map_err(bad)?;
-    write_whole(path, &bytes)
-}
-
-/// Writes a file under a temporary name, then renames it.
-pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
-    let failed = |source| TrainError::Write { path: path.to_owned(), source };
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".tmp");
-    let temporary = PathBuf::from(temporary);
-    std::fs::write(&temporary, bytes).map_err(failed)?;
-    std::fs::rename(&temporary, path).map_err(failed)
+    Ok(write_whole(path, &bytes)?)
 }
 
 /// Puts a checkpoint's numbers into `vars` and returns the optimizer's state.
 pub(super) fn read(path: &Path, vars: &BTreeMap<String, Var>, settings: &str) -> Result<AdamW, TrainError> {
     let bad = |found: String| TrainError::BadCheckpoint { path: path.to_owned(), found };
-    let bytes = std::fs::read(path).map_err(|source| TrainError::Read { path: path.to_owned(), source })?;
+    let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.to_owned(), source })?;
     let (_, header) = SafeTensors::read_metadata(&bytes).map_err(|error| bad(error.to_string()))?;
     let metadata = header.metadata().clone().unwrap_or_default();
     match metadata.get(SETTINGS) {

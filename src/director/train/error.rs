@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::director::language::LanguageError;
-use crate::director::{DatasetError, DirectorError};
+use crate::director::{DatasetError, DirectorError, FileError};
 
 /// What keeps the network from being trained.
 #[derive(Debug, Error)]
@@ -45,22 +45,9 @@ pub enum TrainError {
         /// What was found.
         found: String,
     },
-    /// A file cannot be read.
-    #[error("{}: cannot read: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// A file cannot be written.
-    #[error("{}: cannot write: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
 }
 
 impl From<candle_core::Error> for TrainError {
@@ -76,12 +63,11 @@ impl TrainError {
             Self::Director(error) => error.code(),
             Self::Language(error) => error.code(),
             Self::Dataset(error) => error.code(),
+            Self::File(error) => error.code(),
             Self::NoLesson { .. } => "TRAIN-NO-LESSON",
             Self::Diverged { .. } => "TRAIN-DIVERGED",
             Self::Stopped { .. } => "TRAIN-STOPPED",
             Self::BadCheckpoint { .. } => "TRAIN-CHECKPOINT",
-            Self::Read { .. } => "TRAIN-READ",
-            Self::Write { .. } => "TRAIN-WRITE",
         }
     }
 
@@ -91,14 +77,13 @@ impl TrainError {
             Self::Director(error) => error.help(),
             Self::Language(error) => error.help(),
             Self::Dataset(error) => error.help(),
+            Self::File(error) => error.help(),
             Self::NoLesson { .. } => "this is a fault of the phrasebook: report it with the seed".into(),
             Self::Diverged { .. } => "go on from the last checkpoint with a smaller --rate".into(),
             Self::Stopped { .. } => "the same command with --resume goes on from there".into(),
             Self::BadCheckpoint { .. } => {
                 "train into another folder, or give the settings that it was made with".into()
             }
-            Self::Read { .. } => "check the path".into(),
-            Self::Write { .. } => "check the folder and the space on its disk".into(),
         }
     }
 
@@ -108,12 +93,10 @@ impl TrainError {
             Self::Director(error) => error.exit_code(),
             Self::Language(error) => error.exit_code(),
             Self::Dataset(error) => error.exit_code(),
+            Self::File(error) => error.exit_code(),
             Self::NoLesson { .. } | Self::Diverged { .. } => 70,
             Self::Stopped { .. } => 75,
             Self::BadCheckpoint { .. } => 65,
-            Self::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => 66,
-            Self::Read { .. } => 74,
-            Self::Write { .. } => 73,
         }
     }
 }

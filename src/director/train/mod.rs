@@ -28,6 +28,7 @@ use rand_pcg::Pcg64;
 
 use super::Director;
 use super::dataset::{RealizedShot, read_shards};
+use super::files::{FileError, write_whole};
 use super::language::{Phrasebook, link};
 use super::model::{Dropout, ModelConfig, Network, Parameters};
 use super::vocabulary::Vocabulary;
@@ -93,8 +94,7 @@ pub struct TrainSummary {
 /// [`TrainError::Stopped`] when `report` says so: a checkpoint is there then.
 pub fn train(settings: &TrainSettings, report: &mut Report<'_>) -> Result<TrainSummary, TrainError> {
     let phrasebook = Phrasebook::embedded()?;
-    std::fs::create_dir_all(&settings.out)
-        .map_err(|source| TrainError::Write { path: settings.out.clone(), source })?;
+    std::fs::create_dir_all(&settings.out).map_err(|source| FileError::Write { path: settings.out.clone(), source })?;
     let shots = settings.shots.as_deref().map(read_shards).transpose()?.unwrap_or_default();
     let held_out: Vec<RealizedShot> = shots.iter().step_by(HELD_OUT_EVERY).cloned().collect();
     let learned: Vec<RealizedShot> =
@@ -270,9 +270,9 @@ impl Training<'_> {
         checkpoint::write(&self.checkpoint_path(), &self.vars, &self.optimizer, &self.fingerprint())?;
         let files = self.files()?;
         let folder = &self.settings.out;
-        checkpoint::write_whole(&folder.join(WEIGHTS_FILE), &files.weights)?;
-        checkpoint::write_whole(&folder.join(TOKENIZER_FILE), &files.tokenizer)?;
-        checkpoint::write_whole(&folder.join(MANIFEST_FILE), &files.manifest)?;
+        write_whole(&folder.join(WEIGHTS_FILE), &files.weights)?;
+        write_whole(&folder.join(TOKENIZER_FILE), &files.tokenizer)?;
+        write_whole(&folder.join(MANIFEST_FILE), &files.manifest)?;
         let director = Director::of(Model::load(&files)?);
         let count = self.settings.exam_prompts;
         let exam = if count == 0 { Marks::default() } else { examine(&director, Paper::Exam)? };
