@@ -1,24 +1,26 @@
-//! Keys out of the network, one by one, under rules: what comes out is always a program that can be carried out.
+//! Keys out of the network, one by one: what it finds likeliest, unless that leaves some of the words out.
 //!
-//! Rules: at most [`MAX_KEYS`] keys, the first begins a step, a cut is followed by a step; objects are those that the text
-//! names (any where it names none), each once; an amount or a duration is a quantity of the right kind; words run
-//! forward; poses are finite.
+//! Every object and every quantity that the prompt names has to be used by a step that speaks of it, and every word for a
+//! move has to be among the words of a step. Where the likeliest keys leave one out (the middle one of three clauses, say),
+//! a beam search weighs their likelihood against that of keys that leave out less. The same input gives the same keys.
 
 use candle_core::{Result, Tensor};
 use glam::DQuat;
 
-use super::codes::{
-    AMOUNT_QUANTITY, Field, KeyCode, NEXT_CUT, NEXT_SEGMENT, NEXT_STOP, NUM_FIELDS, OBJECT_POINTERS, PLACES,
-};
+use super::choices::{ChosenKey, KeyCertainty, ScoreRow, WordRules, alternatives, likeliest};
+use super::codes::{Field, KeyCode, NEXT_STOP};
+use super::coverage::left_out;
 use super::keys::MAX_KEYS;
 use super::model::{Dropout, KeyBatch, Memory, Network, POSE_WIDTH, PoseCode, Prompt, PromptBatch, anchor_places};
 
-/// How sure the network is of one key: the probability of each choice that it made.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct KeyCertainty {
-    /// `(what, probability)`, only choices that apply.
-    pub(crate) choices: Vec<(&'static str, f64)>,
-}
+/// Sequences of keys that the search follows at once.
+const BEAM: usize = 6;
+/// Second-best choices of a key that it tries.
+const TWISTS: usize = 5;
+/// What leaving out the mention of an object or of a quantity costs, as the logarithm of a likelihood.
+const MENTION_COST: f64 = 4.0;
+/// What leaving out a word for a move costs; a step may also have two such words, or be told in too few words.
+const MOVE_COST: f64 = 2.0;
 
 /// What the network makes of a prompt.
 #[derive(Debug, Clone, Default)]
@@ -31,179 +33,98 @@ pub(crate) struct Decoded {
     pub(crate) film: Option<usize>,
 }
 
-/// Which quantities may be what.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct QuantityRules {
-    /// Quantities that are times.
-    pub(crate) is_time: Vec<bool>,
+impl Decoded {
+    fn is_whole(&self) -> bool {
+        self.keys.last().is_some_and(|key| key.class(Field::Next) == NEXT_STOP) || self.keys.len() >= MAX_KEYS
+    }
+
+    fn take(&mut self, chosen: ChosenKey) {
+        if self.keys.is_empty() {
+            self.film = chosen.film;
+        }
+        self.keys.push(chosen.key);
+        self.certainties.push(chosen.certainty);
+    }
+}
+
+/// What is needed to score keys.
+struct Reading<'a> {
+    network: &'a Network,
+    prompt: &'a Prompt,
+    batch: &'a PromptBatch,
+    rules: &'a WordRules,
+    memory: Memory,
 }
 
 /// Decodes one prompt.
-pub(crate) fn decode(
-    network: &Network,
-    prompt: &Prompt,
-    batch: &PromptBatch,
-    rules: &QuantityRules,
-) -> Result<Decoded> {
-    let off = Dropout::off();
-    let memory = network.remember(batch, &off)?;
-    let mut decoded = Decoded::default();
-    while decoded.keys.last().is_none_or(|key| key.class(Field::Next) != NEXT_STOP) && decoded.keys.len() < MAX_KEYS {
-        let before = match decoded.keys.len() {
-            0 => None,
-            _ => Some(KeyBatch::new(&[&decoded.keys], &[prompt], batch)?),
-        };
-        let states = network.states(before.as_ref(), &memory, &off)?;
-        let last = states.narrow(1, decoded.keys.len(), 1)?.contiguous()?; // [1, 1, width]
-        let scores = network.scores(&last, &memory, batch)?;
-        let mut chooser = Chooser { prompt, rules, certainty: KeyCertainty::default() };
-        if decoded.keys.is_empty() {
-            let film = scores.film.flatten_all()?.to_vec1::<f32>()?;
-            decoded.film = chooser.quantity("film length", &film, true).and_then(|place| place.checked_sub(1));
-        }
-        let row = ScoreRow {
-            classes: scores.classes.flatten_all()?.to_vec1()?,
-            objects: scores.objects.reshape((OBJECT_POINTERS, ()))?.to_vec2()?,
-            quantities: scores.quantities.reshape((2, ()))?.to_vec2()?,
-            words: scores.words.reshape((2, ()))?.to_vec2()?,
-        };
-        let key = chooser.key(&row, &decoded.keys);
-        decoded.keys.push(key);
-        decoded.certainties.push(chooser.certainty);
+pub(crate) fn decode(network: &Network, prompt: &Prompt, batch: &PromptBatch, rules: &WordRules) -> Result<Decoded> {
+    let memory = network.remember(batch, &Dropout::off())?;
+    let reading = Reading { network, prompt, batch, rules, memory };
+    let mut decoded = reading.likeliest()?;
+    if reading.cost(&decoded) > 0.0 {
+        decoded = reading.search()?;
     }
-    decoded.poses = poses(network, prompt, batch, &memory, &decoded.keys)?;
+    decoded.poses = poses(network, prompt, batch, &reading.memory, &decoded.keys)?;
     Ok(decoded)
 }
 
-/// Scores of one key.
-struct ScoreRow {
-    classes: Vec<f32>,
-    objects: Vec<Vec<f32>>,
-    quantities: Vec<Vec<f32>>,
-    words: Vec<Vec<f32>>,
-}
-
-struct Chooser<'a> {
-    prompt: &'a Prompt,
-    rules: &'a QuantityRules,
-    certainty: KeyCertainty,
-}
-
-impl Chooser<'_> {
-    /// The best choice among those allowed, with its probability among all.
-    fn choose(&mut self, what: &'static str, scores: &[f32], allowed: impl Fn(usize) -> bool) -> Option<usize> {
-        let best = (0..scores.len()).filter(|idx| allowed(*idx)).max_by(|a, b| scores[*a].total_cmp(&scores[*b]))?;
-        let top = scores.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        let sum: f64 = scores.iter().map(|score| f64::from(score - top).exp()).sum();
-        self.certainty.choices.push((what, f64::from(scores[best] - top).exp() / sum));
-        Some(best)
-    }
-
-    fn key(&mut self, row: &ScoreRow, before: &[KeyCode]) -> KeyCode {
-        let mut key = KeyCode::default();
-        let next = self.next(&row.classes, before);
-        let is_first = before.is_empty();
-        let mut offset = 0;
-        for field_idx in 0..NUM_FIELDS {
-            let field = Field::ALL[field_idx];
-            let scores = &row.classes[offset..offset + field.num_classes()];
-            offset += field.num_classes();
-            if field == Field::Next {
-                key.classes[field_idx] = Some(next);
-            } else if field.applies(next, is_first) {
-                let has_quantity = self.rules.is_time.iter().any(|is_time| !is_time);
-                let has_object = !self.prompt.objects.is_empty();
-                let allowed = |class: usize| match field {
-                    Field::Amount => has_quantity || class != usize::from(AMOUNT_QUANTITY),
-                    Field::Via => has_object || class == 0,
-                    _ => true,
-                };
-                key.classes[field_idx] = self.choose(field.name(), scores, allowed).map(|class| class as u8);
-            }
-        }
-        self.point(row, &mut key, is_first);
-        key
-    }
-
-    fn next(&mut self, classes: &[f32], before: &[KeyCode]) -> u8 {
-        let room = MAX_KEYS - before.len();
-        let after_cut = before.last().is_some_and(|key| key.class(Field::Next) == NEXT_CUT);
-        let must_move = before.is_empty() || after_cut;
-        let allowed = |class: usize| match class as u8 {
-            NEXT_SEGMENT => room >= 2,
-            NEXT_CUT => room >= 3 && !must_move,
-            _ => !must_move || room < 2,
+impl Reading<'_> {
+    /// Scores of the key after those `before`.
+    fn scores(&self, before: &[KeyCode]) -> Result<ScoreRow> {
+        let off = Dropout::off();
+        let keys = match before {
+            [] => None,
+            _ => Some(KeyBatch::new(&[before], &[self.prompt], self.batch)?),
         };
-        let scores = &classes[..Field::Next.num_classes()];
-        self.choose(Field::Next.name(), scores, allowed).map_or(NEXT_STOP, |class| class as u8)
+        let states = self.network.states(keys.as_ref(), &self.memory, &off)?;
+        let last = states.narrow(1, before.len(), 1)?.contiguous()?; // [1, 1, width]
+        ScoreRow::of(&self.network.scores(&last, &self.memory, self.batch)?)
     }
 
-    /// Sets the pointers of a key whose classes are set.
-    fn point(&mut self, row: &ScoreRow, key: &mut KeyCode, is_first: bool) {
-        if !is_first {
-            self.objects("end subjects", &row.objects, 0, false, key);
+    /// The likeliest key each time.
+    fn likeliest(&self) -> Result<Decoded> {
+        let mut decoded = Decoded::default();
+        while !decoded.is_whole() {
+            let row = self.scores(&decoded.keys)?;
+            let chosen = likeliest(self.prompt, self.rules, &row, &decoded.keys);
+            decoded.take(chosen);
         }
-        if key.class(Field::Next) != NEXT_SEGMENT {
-            return;
-        }
-        self.objects("start subjects", &row.objects, PLACES, false, key);
-        if key.class(Field::Via) > 0 {
-            self.objects("objects on the way", &row.objects, 2 * PLACES, true, key);
-        }
-        if key.class(Field::Amount) == AMOUNT_QUANTITY {
-            key.quantities[0] = self.quantity("amount", &row.quantities[0], false).map(|place| place as u8);
-        }
-        key.quantities[1] = self.quantity("duration", &row.quantities[1], true).map(|place| place as u8);
-        key.span = self.words(&row.words);
+        Ok(decoded)
     }
 
-    /// Up to [`PLACES`] different objects; `needed`: at least one.
-    fn objects(&mut self, what: &'static str, scores: &[Vec<f32>], first: usize, needed: bool, key: &mut KeyCode) {
-        let named = self.prompt.num_named;
-        let limit = if named > 0 { named } else { self.prompt.objects.len() };
-        let mut taken: Vec<usize> = Vec::new();
-        for rank in 0..PLACES {
-            let must = needed && rank == 0 && limit > 0;
-            let allowed = |place: usize| match place {
-                0 => !must,
-                place => place <= limit && !taken.contains(&place),
-            };
-            let place = self.choose(what, &scores[first + rank], allowed).unwrap_or(0);
-            if place == 0 {
-                break;
+    /// The sequence of the best likelihood less the cost of what it leaves out.
+    fn search(&self) -> Result<Decoded> {
+        let mut beam = vec![(Decoded::default(), 0.0_f64)];
+        while beam.iter().any(|(decoded, _)| !decoded.is_whole()) {
+            let mut grown = Vec::new();
+            for (decoded, likelihood) in beam {
+                if decoded.is_whole() {
+                    grown.push((decoded, likelihood));
+                    continue;
+                }
+                let row = self.scores(&decoded.keys)?;
+                for chosen in alternatives(self.prompt, self.rules, &row, &decoded.keys, TWISTS) {
+                    let mut longer = decoded.clone();
+                    let likelihood = likelihood + chosen.log_likelihood;
+                    longer.take(chosen);
+                    grown.push((longer, likelihood));
+                }
             }
-            taken.push(place);
+            grown.sort_by(|a, b| self.worth(b).total_cmp(&self.worth(a)));
+            grown.truncate(BEAM);
+            beam = grown;
         }
-        for rank in 0..PLACES {
-            key.objects[first + rank] = Some(taken.get(rank).map_or(0, |place| *place as u8));
-        }
+        Ok(beam.into_iter().next().map(|(decoded, _)| decoded).unwrap_or_default())
     }
 
-    /// A quantity that is a time, or that is none; for a time also nothing (0).
-    fn quantity(&mut self, what: &'static str, scores: &[f32], time: bool) -> Option<usize> {
-        let is_time = &self.rules.is_time;
-        let allowed = |place: usize| match place.checked_sub(1) {
-            None => time,
-            Some(place) => is_time.get(place) == Some(&time),
-        };
-        self.choose(what, scores, allowed)
+    fn worth(&self, (decoded, likelihood): &(Decoded, f64)) -> f64 {
+        likelihood - self.cost(decoded)
     }
 
-    /// The likeliest first and last token with first <= last; never the token that begins the text.
-    fn words(&mut self, scores: &[Vec<f32>]) -> Option<[usize; 2]> {
-        let num_tokens = self.prompt.tokens.len();
-        let mut best: Option<([usize; 2], f32)> = None;
-        let mut first = 1;
-        for last in 1..num_tokens {
-            if scores[0][last] > scores[0][first] {
-                first = last;
-            }
-            let score = scores[0][first] + scores[1][last];
-            if best.is_none_or(|(_, top)| score > top) {
-                best = Some(([first, last], score));
-            }
-        }
-        best.map(|(span, _)| span)
+    /// What the words cost that the keys leave out.
+    fn cost(&self, decoded: &Decoded) -> f64 {
+        let left_out = left_out(self.prompt, &self.rules.is_move, &decoded.keys, decoded.film);
+        MENTION_COST * left_out.mentions as f64 + MOVE_COST * left_out.moves as f64
     }
 }
 

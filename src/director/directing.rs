@@ -1,7 +1,8 @@
 use std::path::Path;
 
+use super::choices::{KeyCertainty, WordRules};
 use super::codes::{self, Field, KeyCode, NEXT_SEGMENT};
-use super::decode::{Decoded, KeyCertainty, QuantityRules, decode, level_rotation};
+use super::decode::{Decoded, decode, level_rotation};
 use super::frame::SceneFrame;
 use super::ground::{Ground, ground, object_input, others, prompt};
 use super::keys::{boundaries_of, steps_of};
@@ -118,7 +119,7 @@ impl Director {
         let objects = objects.map(Option::unwrap_or_default).collect();
         let prompt = prompt(tokens, objects, &ground, linked.slots.len());
         let batch = PromptBatch::new(&[&prompt], &self.model.manifest.config)?;
-        let rules = QuantityRules { is_time: ground.is_time() };
+        let rules = WordRules { is_time: ground.is_time(), is_move: ground.is_move(&linked.tokens_text) };
         let decoded = decode(&self.model.network, &prompt, &batch, &rules)?;
         direction(&decoded, &ground, &frame)
     }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::DirectorError;
 use super::codes::Grounding;
+use super::coverage::tells_of_move;
 use super::frame::SceneFrame;
 use super::language::{Linked, Quantity, QuantityKind};
 use super::model::{ObjectInput, Prompt, TokenInput};
@@ -29,6 +30,8 @@ pub(crate) struct Ground {
 #[derive(Debug, Clone, Copy)]
 struct GroundToken {
     bytes: [usize; 2],
+    /// Which word of the text it is of.
+    word: Option<usize>,
     quantity: Option<usize>,
 }
 
@@ -41,12 +44,12 @@ pub(crate) fn ground(
     let tokens = vocabulary.encode(&linked.tokens_text)?;
     let word_starts = word_starts(&linked.tokens_text);
     let mut inputs = vec![TokenInput { id: BEGIN, ..TokenInput::default() }];
-    let mut grounds = vec![GroundToken { bytes: [0, 0], quantity: None }];
+    let mut grounds = vec![GroundToken { bytes: [0, 0], word: None, quantity: None }];
     for token in tokens {
         let word_idx = word_starts.partition_point(|start| *start <= token.bytes[0]).saturating_sub(1);
         let input = token_input(token, &linked.quantities);
         let bytes = linked.spans.get(word_idx).copied().unwrap_or([0, 0]);
-        grounds.push(GroundToken { bytes, quantity: input.quantity });
+        grounds.push(GroundToken { bytes, word: Some(word_idx), quantity: input.quantity });
         inputs.push(input);
     }
     let ids = linked.slots.iter().chain(others).copied().collect();
@@ -82,6 +85,17 @@ impl Ground {
     /// For every quantity whether it is a time.
     pub(crate) fn is_time(&self) -> Vec<bool> {
         self.quantities.iter().map(|quantity| quantity.kind == QuantityKind::Seconds).collect()
+    }
+
+    /// For every token whether it begins a word of `text` that surely tells of a move.
+    pub(crate) fn is_move(&self, text: &str) -> Vec<bool> {
+        let words: Vec<&str> = text.split(' ').collect();
+        let mut last = None;
+        let mut begins = |token: &GroundToken| {
+            let word = std::mem::replace(&mut last, token.word);
+            token.word.filter(|idx| word != Some(*idx)).and_then(|idx| words.get(idx))
+        };
+        self.tokens.iter().map(|token| begins(token).is_some_and(|word| tells_of_move(word))).collect()
     }
 
     /// The quantity of this kind and value: the first within `span`, else the first at all.

@@ -5,7 +5,9 @@
 //! text and object tokens and emits keys one by one until it stops. The one invariant: whatever the words, the program
 //! names only objects of the scene and all numbers are finite. The only folder with candle and tokenizers.
 
+mod choices;
 mod codes;
+mod coverage;
 mod dataset;
 mod decode;
 mod directing;

@@ -1,11 +1,13 @@
 //! The shipped weights at work.
 
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 use cinesplat::director::keys::MAX_KEYS;
-use cinesplat::director::language::{Linked, NamedObject, link};
+use cinesplat::director::language::{Linked, NamedObject, exam, exam_objects, link};
 use cinesplat::director::{Direction, Director, Paper, Stage, examine};
 use cinesplat::objects::Object;
+use cinesplat::operator::Program;
 use cinesplat::trajectory::Move;
 use glam::{DQuat, DVec3};
 
@@ -46,6 +48,56 @@ fn plain_words_are_understood() {
     let orbit = directed(&director, "Orbit <obj-12> to the right by 45 degrees.", &objects);
     assert_eq!(orbit.program.steps.len(), 1);
     assert_eq!(orbit.program.steps[0].amount, Some(cinesplat::operator::Amount::Degrees(45.0)));
+}
+
+#[test]
+fn the_middle_one_of_three_clauses_is_carried_out() {
+    let director = Director::embedded().unwrap();
+    let objects = cast();
+    let said = |prompt: &str| directed(&director, prompt, &objects).program.steps;
+    let moves = |prompt: &str| said(prompt).iter().map(|step| step.movement).collect::<Vec<Move>>();
+    let until_both =
+        "Push in on <obj-10>, pan left to <obj-11>, then pull back until <obj-10> and <obj-11> are both in frame.";
+    assert_eq!(moves(until_both), [Move::PushIn, Move::PanLeft, Move::PullOut]);
+    let hold = said("Push in on the guitar, hold for two seconds, then pull back.");
+    assert_eq!(
+        hold.iter().map(|step| (step.movement, step.duration_secs)).collect::<Vec<_>>(),
+        [(Move::PushIn, None), (Move::Static, Some(2.0)), (Move::PullOut, None)]
+    );
+    assert_eq!(moves("After panning right to the table, push in on it."), [Move::PanRight, Move::PushIn]);
+}
+
+/// A step has to use each object that the exam's sentences name; which ones they name was written by hand.
+#[test]
+fn what_a_sentence_names_is_used() {
+    let director = Director::embedded().unwrap();
+    let cast = exam_objects().unwrap();
+    let objects: Vec<Object> = cast
+        .iter()
+        .enumerate()
+        .map(|(place, named)| Object {
+            id: named.id,
+            label: named.label.clone(),
+            center: DVec3::new(place as f64, 0.0, (place % 3) as f64),
+            half_extents: DVec3::splat(0.3),
+            rotation: DQuat::IDENTITY,
+            num_gaussians: 0,
+            points: Vec::new(),
+            shape_radius: 0.0,
+            mask_iou: 0.0,
+        })
+        .collect();
+    let ids = |program: &Program| -> BTreeSet<u32> {
+        let framed = program.steps.iter().flat_map(|step| step.start.subjects.iter().chain(&step.end.subjects));
+        let passed = program.steps.iter().filter_map(|step| step.via.as_ref()).flat_map(|via| via.objects.iter());
+        framed.chain(passed).copied().collect()
+    };
+    let items = exam().unwrap();
+    let whole = items
+        .iter()
+        .filter(|item| ids(&directed(&director, &item.prompt, &objects).program).is_superset(&ids(&item.program)));
+    let (whole, all) = (whole.count(), items.len());
+    assert!(whole * 100 >= all * 97, "{whole} of {all}");
 }
 
 #[test]

@@ -87,6 +87,40 @@ fn programs_are_well_formed_and_their_words_lie_in_the_prompt() {
     }
 }
 
+/// Steps come in the order in which they are told, but for two that `before` turns around.
+#[test]
+fn before_turns_two_clauses_around() {
+    let mut turned = 0;
+    for (sample, objects) in samples(Split::Train, 12, NUM_SAMPLES) {
+        let starts: Vec<usize> = sample.program.steps.iter().map(|step| step.words.unwrap()[0]).collect();
+        let text = link(&sample.prompt, &objects).unwrap().tokens_text;
+        if starts.is_sorted() {
+            assert!(starts.len() < 2 || !text.starts_with("before "), "{}", sample.prompt);
+        } else {
+            assert!(!sample.program.steps.iter().any(|step| step.returns || step.cut), "{}", sample.prompt);
+            turned += 1;
+        }
+    }
+    assert!(turned > 5, "{turned}");
+}
+
+/// `rush up to the vase and hold for 2 seconds`: the time belongs to the hold.
+#[test]
+fn holds_have_times_of_their_own() {
+    let mut holds = 0;
+    for (sample, _) in samples(Split::Train, 13, NUM_SAMPLES) {
+        for pair in sample.program.steps.windows(2) {
+            let [before, hold] = pair else { continue };
+            if hold.movement == Move::Static && !hold.cut && hold.words == before.words {
+                assert_eq!(before.duration_secs, None, "{}", sample.prompt);
+                assert_eq!(hold.speed, cinesplat::operator::Speed::Normal, "{}", sample.prompt);
+                holds += 1;
+            }
+        }
+    }
+    assert!(holds > 5, "{holds}");
+}
+
 #[test]
 fn every_move_is_spoken_of() {
     let seen: BTreeSet<Move> = samples(Split::Train, 3, 4000)

@@ -48,6 +48,8 @@ pub(crate) struct Drawn {
 pub(crate) struct Drawer<'a> {
     pub(crate) grammar: &'a Grammar,
     pub(crate) split: Split,
+    /// The writer says no more than is needed: wordings that say nothing come far more often.
+    pub(crate) terse: bool,
 }
 
 impl Drawer<'_> {
@@ -60,6 +62,7 @@ impl Drawer<'_> {
         let weight = |wording: &Wording| match (self.split, wording.held_out) {
             (Split::Train, true) => 0.0,
             (Split::HeldOut, true) => wording.weight * 12.0,
+            (_, false) if self.terse && wording.parts.is_empty() => wording.weight * 8.0,
             (_, false) => wording.weight,
         };
         let total: f64 = wordings.clone().map(weight).sum();

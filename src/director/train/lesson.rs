@@ -158,9 +158,21 @@ impl School<'_> {
         match rng.random_range(0..4) {
             // No vocabulary has this character.
             0 | 1 => "\u{fffd}".to_owned(),
-            2 => self.words.choose(rng).cloned().unwrap_or_else(|| word.to_owned()),
+            2 => self.made_up(word, rng),
             _ => misspelled(word, rng),
         }
+    }
+
+    /// A word that nobody knows, of the front of one word and the back of another: like the verbs of people that the
+    /// phrasebook lacks it has to be understood from what stands around it.
+    fn made_up(&self, word: &str, rng: &mut Pcg64) -> String {
+        let mut half = |back: bool| {
+            let letters: Vec<char> = self.words.choose(rng).map_or(word, String::as_str).chars().collect();
+            let middle = letters.len().div_ceil(2);
+            if back { letters.into_iter().skip(middle).collect() } else { letters.into_iter().take(middle).collect() }
+        };
+        let (front, back): (String, String) = (half(false), half(true));
+        front + &back
     }
 
     /// Gives the objects of some lessons identifiers from anywhere, so that all of them are learned.

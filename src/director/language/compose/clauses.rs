@@ -3,7 +3,7 @@
 use rand::RngExt;
 
 use super::sense::{is_idle, is_sensible, open_with};
-use super::{Binding, Composer, Place, Voice, bound, pick_family};
+use super::{Binding, Composer, Order, Place, Style, Voice, bound, pick_family};
 use crate::director::language::grammar::{Family, Form, Wording};
 use crate::director::language::inflection::Tense;
 use crate::director::language::notation::step_from_tokens;
@@ -24,7 +24,8 @@ impl Composer<'_> {
     pub(super) fn add_clause(&mut self, place: Place, start: Option<&Framing>) -> Option<()> {
         let joint = self.joint(place);
         let (forms, tense) = self.forms_after(&joint, place);
-        let clause = self.draw_clause(&forms, place, start)?;
+        let time = if forms == [Form::Verb] && tense == Tense::Base { self.time_first(&joint, place) } else { None };
+        let clause = self.draw_clause(&forms, place, start, time.as_ref())?;
         self.add_joint(&joint, place, clause.form);
         self.add_atoms(&clause.drawn.atoms, tense, Some(self.num_clauses), &clause.binding)?;
         self.held_out |= clause.drawn.held_out;
@@ -43,35 +44,74 @@ impl Composer<'_> {
 
     /// The words between this clause and what stands before it; a last word ending in `+g` or `+n` asks for a form.
     fn joint(&mut self, place: Place) -> Drawn {
-        let name = if place.inverted {
-            "lead.after"
-        } else if place.is_first() {
-            match self.voice {
-                Voice::Imperative => "lead.imp",
-                Voice::Request => "lead.request",
-                Voice::Third => "lead.third",
-                Voice::Gerund => "silence",
-                Voice::Noun => "lead.n",
-            }
-        } else if self.voice == Voice::Noun {
-            "join.n"
-        } else if place.nth + 1 == place.count && place.nth > 0 && self.rng.random_bool(0.35) {
-            "join.last"
-        } else {
-            "join"
-        };
+        let name = if place.is_first() { self.lead(place) } else { self.link(place) };
         self.drawer.list(name, self.rng)
+    }
+
+    fn lead(&self, place: Place) -> &'static str {
+        match (self.voice, self.order) {
+            (_, Order::After) if place.inverted => "lead.after",
+            (_, Order::Before) if place.inverted => "lead.before",
+            (Voice::Imperative, _) => "lead.imp",
+            (Voice::Request, _) => "lead.request",
+            (Voice::Third, _) => "lead.third",
+            (Voice::Gerund, _) => "silence",
+            (Voice::Noun, _) => "lead.n",
+        }
+    }
+
+    fn link(&mut self, place: Place) -> &'static str {
+        let last = place.nth > 0 && place.nth + 1 == place.count;
+        match (self.style, self.voice == Voice::Noun) {
+            (Style::List, false) if place.count > 1 => {
+                if last {
+                    "join.end"
+                } else {
+                    "join.list"
+                }
+            }
+            (Style::List, true) if place.count > 1 => {
+                if last {
+                    "join.n.end"
+                } else {
+                    "join.n.list"
+                }
+            }
+            (_, true) => "join.n",
+            (Style::Then, false) => "join.then",
+            (Style::Sentences, false) => "join.sentence",
+            _ if last && self.rng.random_bool(0.35) => "join.last",
+            _ => "join",
+        }
+    }
+
+    /// `over 3 seconds,` before what takes them; only after words that begin anew.
+    fn time_first(&mut self, joint: &Drawn, place: Place) -> Option<Drawn> {
+        let opens = match joint.atoms.last() {
+            Some(Atom::Word(word)) if word == "," => joint.atoms.len() > 1,
+            Some(Atom::Word(word)) => matches!(word.as_str(), "then" | "." | ";" | "now" | "next"),
+            _ => false,
+        };
+        let list = if place.nth > 0 && opens && self.rng.random_bool(0.08) {
+            "dur.pre"
+        } else if place.nth == 0 && !place.opened && self.rng.random_bool(0.02) {
+            "dur.take"
+        } else {
+            return None;
+        };
+        Some(self.drawer.list(list, self.rng))
     }
 
     fn forms_after(&mut self, joint: &Drawn, place: Place) -> (Vec<Form>, Tense) {
         let marked = |mark: &str| matches!(joint.atoms.last(), Some(Atom::Word(word)) if word.ends_with(mark));
-        if place.inverted || marked("+g") {
+        if marked("+g") {
             return (vec![Form::Verb], Tense::Gerund);
         }
         if marked("+n") {
             return (vec![Form::Noun], Tense::Base);
         }
         match self.voice {
+            _ if place.inverted => (vec![Form::Verb], Tense::Base),
             Voice::Noun => (vec![Form::Noun], Tense::Base),
             Voice::Third => (vec![Form::Verb], Tense::Third),
             Voice::Gerund => (vec![Form::Verb], Tense::Gerund),
@@ -84,7 +124,7 @@ impl Composer<'_> {
 
     fn add_joint(&mut self, joint: &Drawn, place: Place, form: Form) {
         let clause = self.num_clauses;
-        if place.nth == 1 && self.inverted {
+        if place.nth == 1 && self.order != Order::Told {
             self.page.add(",", None, false);
             return;
         }
@@ -109,7 +149,14 @@ impl Composer<'_> {
     }
 
     /// Draws until a clause fits: its tokens agree, its objects exist, it makes sense after what came before.
-    fn draw_clause(&mut self, forms: &[Form], place: Place, start: Option<&Framing>) -> Option<Clause> {
+    /// `time` is said before it.
+    fn draw_clause(
+        &mut self,
+        forms: &[Form],
+        place: Place,
+        start: Option<&Framing>,
+        time: Option<&Drawn>,
+    ) -> Option<Clause> {
         for _ in 0..40 {
             let grammar = self.drawer.grammar;
             let (focused, moved, num_objects) = (self.focus.len() == 1, self.moved, self.objects.len());
@@ -122,7 +169,12 @@ impl Composer<'_> {
             };
             let Some(family) = pick_family(grammar.families.iter().filter(able), self.rng) else { continue };
             let Some((form, wording)) = self.pick_clause(family, forms) else { continue };
-            let drawn = self.drawer.wording(wording, self.rng);
+            let mut drawn = self.drawer.wording(wording, self.rng);
+            if let Some(time) = time.filter(|_| family.steps.len() == 1) {
+                drawn.atoms.splice(0..0, time.atoms.iter().cloned());
+                drawn.meaning.extend(time.meaning.iter().cloned());
+                drawn.held_out |= time.held_out;
+            }
             // `the camera pans the camera`.
             let doubled = |atom: &Atom| matches!(atom, Atom::Word(word) if word == "camera");
             if self.voice == Voice::Third && drawn.atoms.iter().take(4).any(doubled) {
@@ -167,6 +219,8 @@ impl Composer<'_> {
         let tokens: Vec<String> = tokens.collect();
         let resolve = |name: &str| match name {
             "F" => Some(self.focus.clone()),
+            // What a hold looks at: that one thing, or nothing in particular.
+            "H" => Some(self.focus.iter().copied().filter(|_| self.focus.len() == 1).collect()),
             _ => bound(binding, name.chars().next()?).map(|id| vec![id]),
         };
         let tokens: Vec<&str> = tokens.iter().map(String::as_str).collect();
@@ -181,9 +235,14 @@ impl Composer<'_> {
         start: Option<&Framing>,
     ) -> Option<Vec<Step>> {
         let last = family.steps.len().checked_sub(1)?;
+        // Of `rush up to A and hold for 2 seconds` the time is the hold's and the speed is not.
+        let holds = last > 0 && family.steps.last()?.first().is_some_and(|movement| movement == "static");
+        let belongs = |token: &String, index: usize| {
+            if holds && !token.starts_with("dur=") { index == 0 } else { index == last }
+        };
         let mut steps = Vec::new();
         for (index, tokens) in family.steps.iter().enumerate() {
-            let more: &[String] = if index == last { &drawn.meaning } else { &[] };
+            let more = drawn.meaning.iter().filter(|token| belongs(token, index));
             let step = self.step(tokens.iter().chain(more).cloned(), binding)?;
             steps.push(step);
         }

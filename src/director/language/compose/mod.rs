@@ -37,7 +37,32 @@ const VOICES: [(Voice, u32); 5] =
     [(Voice::Imperative, 58), (Voice::Request, 10), (Voice::Third, 14), (Voice::Gerund, 4), (Voice::Noun, 14)];
 const HANDS: [(Hand, u32); 5] =
     [(Hand::Neat, 66), (Hand::Lower, 18), (Hand::Bare, 4), (Hand::Upper, 2), (Hand::Slip, 10)];
-const LENGTHS: [(usize, u32); 5] = [(1, 40), (2, 32), (3, 19), (4, 6), (5, 3)];
+const LENGTHS: [(usize, u32); 5] = [(1, 30), (2, 32), (3, 26), (4, 9), (5, 3)];
+const STYLES: [(Style, u32); 4] = [(Style::Mixed, 44), (Style::List, 36), (Style::Then, 10), (Style::Sentences, 10)];
+
+/// How the writer of a prompt joins clauses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Style {
+    /// Each joint by itself.
+    Mixed,
+    /// `push in, pan left and pull back`.
+    List,
+    /// `push in, then pan left, then pull back`.
+    Then,
+    /// `Push in. Pan left. Then pull back.`
+    Sentences,
+}
+
+/// How the first two clauses of a prompt stand in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Order {
+    /// As they are told.
+    Told,
+    /// `after pushing in, pan left`.
+    After,
+    /// `before pushing in, pan left`: the second one told comes first.
+    Before,
+}
 
 fn weighted<T: Copy>(choices: &[(T, u32)], rng: &mut Pcg64) -> Option<T> {
     let total: u32 = choices.iter().map(|(_, weight)| weight).sum();
@@ -59,7 +84,7 @@ struct Place {
     count: usize,
     /// A framing was said before all clauses.
     opened: bool,
-    /// It is the first of an inverted pair: `after pushing in`.
+    /// It is the first of a pair that begins with `after` or `before`.
     inverted: bool,
 }
 
@@ -81,6 +106,7 @@ pub(crate) struct Composer<'a> {
     objects: &'a [NamedObject],
     rng: &'a mut Pcg64,
     voice: Voice,
+    style: Style,
     /// Share of mentions by number.
     numbered: f64,
     page: Page,
@@ -90,8 +116,7 @@ pub(crate) struct Composer<'a> {
     num_clauses: usize,
     focus: Vec<u32>,
     moved: bool,
-    /// The prompt begins with `after`: `after pushing in on the vase, orbit it`.
-    inverted: bool,
+    order: Order,
     held_out: bool,
     /// Object ids in order of first mention, as the linker has to find them.
     mentioned: Vec<u32>,
@@ -112,12 +137,14 @@ pub(crate) struct Composed {
 impl<'a> Composer<'a> {
     pub(crate) fn new(grammar: &'a Grammar, split: Split, objects: &'a [NamedObject], rng: &'a mut Pcg64) -> Self {
         let voice = weighted(&VOICES, rng).unwrap_or(Voice::Imperative);
+        let style = weighted(&STYLES, rng).unwrap_or(Style::Mixed);
         let numbered = [1.0, 0.0, 0.0, 0.5].choose(rng).copied().unwrap_or(0.0);
         Self {
-            drawer: Drawer { grammar, split },
+            drawer: Drawer { grammar, split, terse: rng.random_bool(0.5) },
             objects,
             rng,
             voice,
+            style,
             numbered,
             page: Page::default(),
             program: Program::default(),
@@ -125,7 +152,7 @@ impl<'a> Composer<'a> {
             num_clauses: 0,
             focus: Vec::new(),
             moved: false,
-            inverted: false,
+            order: Order::Told,
             held_out: false,
             mentioned: Vec::new(),
             num_mentions: 0,
@@ -162,15 +189,37 @@ impl<'a> Composer<'a> {
         let opening =
             if self.voice != Voice::Third && self.rng.random_bool(0.2) { Some(self.add_opening()?) } else { None };
         let opened = opening.is_some();
-        self.inverted = !opened && count > 1 && self.voice == Voice::Imperative && self.rng.random_bool(0.07);
+        if !opened && self.voice == Voice::Imperative {
+            self.order = self.draw_order(count);
+        }
         for nth in 0..count {
-            let place = Place { nth, count, opened, inverted: self.inverted && nth == 0 };
+            let place = Place { nth, count, opened, inverted: self.order != Order::Told && nth == 0 };
             self.add_clause(place, opening.as_ref().filter(|_| nth == 0))?;
+        }
+        if self.order == Order::Before {
+            return self.swap_clauses();
         }
         if self.rng.random_bool(0.14) {
             self.add_closing()?;
         }
         Some(())
+    }
+
+    fn draw_order(&mut self, count: usize) -> Order {
+        match self.rng.random_range(0..100) {
+            0..14 if count > 1 => Order::After,
+            // What a third clause goes on from would be the one told first.
+            14..20 if count == 2 => Order::Before,
+            _ => Order::Told,
+        }
+    }
+
+    /// Puts the steps of the clause told first behind those of the other.
+    fn swap_clauses(&mut self) -> Option<()> {
+        let first = self.clause_of_step.iter().filter(|clause| **clause == 0).count();
+        self.program.steps.rotate_left(first);
+        self.clause_of_step.rotate_left(first);
+        (!self.program.steps.iter().any(|step| step.cut || step.returns)).then_some(())
     }
 
     fn finish(mut self) -> Option<Composed> {
