@@ -164,6 +164,14 @@ fn stills_are_named_after_their_cameras() {
 }
 
 #[test]
+fn bench_wants_a_scene_or_a_part() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(answer(folder.path(), &["bench"]).starts_with("exit 2\n"));
+    assert!(answer(folder.path(), &["bench", "operator", "void"]).starts_with("exit 2\n"));
+    assert!(answer(folder.path(), &["bench", "operator", "--help"]).contains("films"));
+}
+
+#[test]
 fn bench_prints_rows_and_keeps_table_and_plots() {
     let folder = tempfile::tempdir().unwrap();
     let bench = ["bench", "render", SMALL_SCENE, "--sizes", "64x36", "--runs", "1", "--max-cameras", "1", "-o", "out"];

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{Scenario, TURN_DEG_PER_SEC};
 use crate::geometry::{LevelAngles, Pose, rotation};
 use crate::operator::draft::{GoalKind, Part, When};
-use crate::operator::framing::{DEFAULT_ASPECT, Target, extent_frac, off_center};
+use crate::operator::framing::{DEFAULT_ASPECT, Target, extent_frac, frame_position, off_center};
 use crate::operator::view::{aimed, aimed_at_side, lerp};
 use crate::operator::{Amount, Part as ObjectPart};
 use crate::trajectory::{CameraState, Easing, Move};
@@ -34,7 +34,7 @@ pub(super) fn hold(scenario: &Scenario) -> Vec<Part> {
     if scenario.before.is_none() {
         part = super::seen(scenario.ending(scenario.beginning(part)), &target, When::All);
         part = pitch_goal(scenario, part);
-        if (off_center(&state, target.aim) - THIRD).abs() < 1e-6 {
+        if (off_center(&state, target.aim) - THIRD).abs() < 1e-4 {
             part = part.keeping(When::All, GoalKind::OnThird(target.clone()));
         }
     }
@@ -62,7 +62,14 @@ fn on_a_third(scenario: &Scenario, target: &Target, view: CameraState) -> Camera
     let distance = view.pose.position.distance(target.aim);
     let frame_width = 2.0 * distance * (view.fov_y_rad / 2.0).tan() * DEFAULT_ASPECT;
     let sign = if scenario.genes[5] < 0.5 { -1.0 } else { 1.0 };
-    aimed(scenario.world, &view, target.aim + view.pose.right() * (sign * frame_width * THIRD))
+    let (mut beside, mut out) = (frame_width * THIRD, view);
+    // A pitched camera swings on a cone, so the turn is found step by step; each one divides what is off by ten or more.
+    for _ in 0..8 {
+        out = aimed(scenario.world, &view, target.aim + view.pose.right() * (sign * beside));
+        let across = frame_position(&out, target.aim).map_or(THIRD, |(at, _)| at.x.abs());
+        beside *= THIRD / across.max(0.01);
+    }
+    out
 }
 
 /// Pitch that an angle word asks for on the first view.
