@@ -29,5 +29,6 @@ pub fn shot_over(keyframes: Vec<Keyframe>) -> Shot {
         keyframes,
         effects: Vec::new(),
         report: Vec::new(),
+        clearance: None,
     }
 }

@@ -4,6 +4,7 @@ use crate::lens::{Decision, Effect};
 use crate::objects::ObjectSet;
 use crate::operator::{Amount, Framing, Part, Pass, Speed, Step};
 use crate::pipeline::Directed;
+use crate::trajectory::ClearanceProof;
 
 /// How a prompt was understood, clause by clause: its words, what they mean, what was wanted and got, and what each
 /// effect decided.
@@ -23,6 +24,8 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
         let note = if line.note.is_empty() { String::new() } else { format!(" ({})", line.note) };
         let _ = writeln!(text, "  {verdict} {}: wanted {}, got {:.3}{note}", line.clause, line.wanted, line.got);
     }
+    text.push_str("\nclearance\n");
+    text.extend(directed.shot.clearance.as_ref().map(clearance));
     text.push_str("\neffects\n");
     for effect in Effect::ALL {
         let decided = directed.effects.iter().find(|decision| decision.call.kind == effect.name());
@@ -33,6 +36,21 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
         let _ = writeln!(text, "  {}", decision.sentence());
     }
     text
+}
+
+/// What was proved about the camera's distance to matter, in words.
+fn clearance(proof: &ClearanceProof) -> String {
+    let (radius, parts) = (proof.camera_radius, proof.num_parts);
+    let matter = format!("Gaussians of opacity {} and more, out to {} sigma", proof.opacity_floor, proof.sigma_level);
+    let nearest = proof.gaussian_idx.map_or_else(String::new, |idx| format!(", to Gaussian {idx}"));
+    let found = match &proof.failure {
+        None => format!("proved: never nearer than {:.4}, about {:.2} s{nearest}", proof.least, proof.at_secs),
+        Some(failure) => format!(
+            "NOT CLEAR from {:.2} to {:.2} s: {:.4} from Gaussian {}",
+            failure.from_secs, failure.to_secs, failure.distance, failure.gaussian_idx
+        ),
+    };
+    format!("  {found}\n  camera radius {radius:.4}, {matter}; {parts} parts of the path looked at\n")
 }
 
 /// A step in words.

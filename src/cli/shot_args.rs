@@ -66,6 +66,7 @@ impl ShotArgs {
         let mut directed = pipeline::direct(scene, objects, prompt, &director, &settings)?;
         if self.retime {
             directed.shot = retimed(&directed.shot);
+            directed.shot.clearance = Some(pipeline::prove_clearance(scene, &directed.shot)?);
         }
         times.extend(&directed.times);
         directed.times = times;
@@ -82,6 +83,8 @@ impl ShotArgs {
             console::note(&format!("warning: {} was made for another scene ({})", path.display(), shot.scene.path));
         }
         let mut shot = self.changed(shot);
+        shot.clearance = Some(pipeline::prove_clearance(scene, &shot)?);
+        print_clearance(&shot);
         let calls = shot.effects.iter().map(|e| Call { kind: e.kind.clone(), because: e.because.clone() });
         let decisions = lens::decide(&self.effects, &calls.collect::<Vec<_>>());
         shot.effects.retain(|effect| decisions.iter().any(|d| d.call.kind == effect.kind && d.request().is_some()));
@@ -108,6 +111,18 @@ pub(super) fn deciding(shot: &Shot) -> [(&'static str, String); 3] {
         ("--fps", shot.fps.to_string()),
         ("--seed", shot.seed.to_string()),
     ]
+}
+
+/// Warns of a shot that comes too near to matter.
+fn print_clearance(shot: &Shot) {
+    let Some((proof, failure)) = shot.clearance.as_ref().and_then(|proof| Some((proof, proof.failure?))) else {
+        return;
+    };
+    console::note(&format!(
+        "warning: the camera is not clear of matter from {:.2} to {:.2} s: {:.4} from Gaussian {}, closer than its radius \
+         {:.4}",
+        failure.from_secs, failure.to_secs, failure.distance, failure.gaussian_idx, proof.camera_radius
+    ));
 }
 
 /// Guesses, effects, and every line of the report that was not met.

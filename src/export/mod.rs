@@ -7,6 +7,7 @@
 
 mod blender;
 pub mod cameras_json;
+mod clearance_json;
 mod colmap;
 mod columns;
 mod csv;

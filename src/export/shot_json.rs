@@ -7,6 +7,7 @@
 use glam::DQuat;
 
 use super::ExportError;
+use super::clearance_json;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use crate::geometry::{LevelAngles, LevelFrame, Pose};
@@ -41,8 +42,12 @@ pub fn read(text: &str) -> Result<Shot, ExportError> {
         keyframes: list_of(&root.field("keyframes", "a list of keyframes")?, read_keyframe)?,
         effects: root.optional("effects").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_effect))?,
         report: root.optional("report").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_report_line))?,
+        clearance: None,
     };
     let mut shot = shot.validated()?;
+    if let Some(node) = root.optional("clearance") {
+        shot.clearance = clearance_json::read(&node, &shot)?;
+    }
     for key in &mut shot.keyframes {
         // A quaternion typed by hand with a few digits is off unit length; one that we wrote keeps its bits.
         if (key.pose.rotation.length() - 1.0).abs() > 1e-12 {
@@ -181,6 +186,7 @@ pub fn write(shot: &Shot) -> String {
         ("effects", Json::list(shot.effects.iter().map(effect_json))),
         ("report", Json::list(shot.report.iter().map(report_json))),
     ]);
+    fields.extend(shot.clearance.as_ref().map(|proof| ("clearance", clearance_json::write(proof, shot))));
     Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()).pretty()
 }
 

@@ -145,6 +145,7 @@ impl PoseTrack {
             keyframes: self.frames.iter().map(keyframe).collect(),
             effects: Vec::new(),
             report: Vec::new(),
+            clearance: None,
         };
         Ok((shot.validated()?, self.assumptions()))
     }

@@ -1,7 +1,6 @@
-//! The scene as cells of opacity: what blocks light, what is solid, and how far the nearest solid cell is.
+//! The scene as cells of opacity: what blocks light on its way to the camera.
 
 use glam::{DVec3, IVec3, UVec3};
-use rayon::prelude::*;
 
 use crate::scene::{Bounds, Gaussians};
 
@@ -33,9 +32,14 @@ impl Grid {
         let upright = up.abs();
         let margin = (DVec3::splat(MARGIN_FRAC.0) * (1.0 - upright) + upright * MARGIN_FRAC.1) * size;
         let (low, high) = (bounds.core_min - margin, bounds.core_max + margin);
+        Self::over(low, high, size / CELLS_ALONG_SIZE)
+    }
+
+    /// Cells of an edge over a box; larger ones where there would be too many.
+    pub(super) fn over(low: DVec3, high: DVec3, cell: f64) -> Self {
         let extent = high - low;
         let volume = extent.x * extent.y * extent.z;
-        let cell = (size / CELLS_ALONG_SIZE).max((volume / MAX_CELLS).cbrt());
+        let cell = cell.max((volume / MAX_CELLS).cbrt());
         Self { low, cell, dims: (extent / cell).ceil().max(DVec3::ONE).as_uvec3() }
     }
 
@@ -53,6 +57,17 @@ impl Grid {
     /// Index of a cell that is inside.
     fn unchecked_index(&self, at: IVec3) -> usize {
         (at.x as usize * self.dims.y as usize + at.y as usize) * self.dims.z as usize + at.z as usize
+    }
+
+    /// Integer coordinates of the cell of an index.
+    pub(super) fn cell_of(&self, index: usize) -> IVec3 {
+        let (ny, nz) = (self.dims.y as usize, self.dims.z as usize);
+        IVec3::new((index / (ny * nz)) as i32, (index / nz % ny) as i32, (index % nz) as i32)
+    }
+
+    /// Middle of the cell of an index, world.
+    pub(super) fn middle(&self, index: usize) -> DVec3 {
+        self.low + (self.cell_of(index).as_dvec3() + 0.5) * self.cell
     }
 
     /// Index of the cell that holds a world point.
@@ -88,12 +103,6 @@ impl OpacityGrid {
         let mut made = Self { grid, log_pass, blocks: Vec::new() };
         made.find_blocks();
         made
-    }
-
-    /// Which cells hold something solid.
-    pub(super) fn occupied(&self) -> Vec<bool> {
-        let solid = log_pass(SOLID_OPACITY);
-        self.log_pass.iter().map(|&log| log <= solid).collect()
     }
 
     /// Share of light that gets from `target` to `eye`, except for what the last two cells before the target hold back.
@@ -252,71 +261,6 @@ fn for_reached_points(gaussians: &Gaussians, i: usize, cell: f64, mut visit: imp
                 visit(mean + axes[a] * u + axes[b] * v);
             }
         }
-    }
-}
-
-/// Distance from every cell's middle to the nearest occupied cell's middle, scene units; exact (Felzenszwalb and
-/// Huttenlocher 2012), axis by axis.
-pub(super) fn distances(grid: &Grid, occupied: &[bool]) -> Vec<f32> {
-    let [nx, ny, nz] = grid.dims.to_array().map(|n| n as usize);
-    let far = 1e12_f32;
-    let mut squares: Vec<f32> = occupied.iter().map(|&o| if o { 0.0 } else { far }).collect();
-    squares.par_chunks_mut(nz).for_each(lower_envelope_in_place);
-    squares.par_chunks_mut(ny * nz).for_each(|plane| {
-        let mut line = vec![0.0; ny];
-        for z in 0..nz {
-            line.iter_mut().enumerate().for_each(|(y, v)| *v = plane[y * nz + z]);
-            lower_envelope_in_place(&mut line);
-            line.iter().enumerate().for_each(|(y, &v)| plane[y * nz + z] = v);
-        }
-    });
-    let along_x: Vec<Vec<f32>> = (0..ny * nz)
-        .into_par_iter()
-        .map(|yz| {
-            let mut line: Vec<f32> = (0..nx).map(|x| squares[x * ny * nz + yz]).collect();
-            lower_envelope_in_place(&mut line);
-            line
-        })
-        .collect();
-    let cell = grid.cell as f32;
-    (0..grid.len()).into_par_iter().map(|i| along_x[i % (ny * nz)][i / (ny * nz)].sqrt() * cell).collect()
-}
-
-/// Replaces f by min over q of f(q) + (p - q)^2.
-fn lower_envelope_in_place(f: &mut [f32]) {
-    let n = f.len();
-    let mut roots: Vec<usize> = Vec::with_capacity(n);
-    let mut starts: Vec<f32> = Vec::with_capacity(n);
-    for q in 0..n {
-        if f[q] >= 1e11 {
-            continue;
-        }
-        let meet = |p: usize| {
-            let (pf, qf) = (p as f32, q as f32);
-            ((f[q] + qf * qf) - (f[p] + pf * pf)) / (2.0 * (qf - pf))
-        };
-        while let (Some(&p), Some(&start)) = (roots.last(), starts.last()) {
-            if roots.len() > 1 && meet(p) <= start {
-                roots.pop();
-                starts.pop();
-            } else {
-                break;
-            }
-        }
-        starts.push(roots.last().map_or(f32::NEG_INFINITY, |&p| meet(p)));
-        roots.push(q);
-    }
-    if roots.is_empty() {
-        return;
-    }
-    let source: Vec<f32> = f.to_vec();
-    let mut k = 0;
-    for (p, out) in f.iter_mut().enumerate() {
-        while k + 1 < roots.len() && starts[k + 1] < p as f32 {
-            k += 1;
-        }
-        let away = p as f32 - roots[k] as f32;
-        *out = source[roots[k]] + away * away;
     }
 }
 

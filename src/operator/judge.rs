@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::clearance::{Search, least_clearance};
 use super::draft::{Axis, Goal, GoalKind, Part, StepLabels, When, keyframes};
 use super::framing::{DEFAULT_ASPECT, Target, extent_frac, in_frame_frac, off_center, unoccluded_frac};
 use super::world::World;
@@ -15,6 +16,9 @@ const SEARCH_MARGIN: f64 = 0.12;
 
 /// Distance from the frame's middle that is still on a third.
 const THIRD_BAND: (f64, f64) = (0.13, 0.2);
+
+/// Parts of a path that are looked at for its clearance while searching.
+const SEARCH_PARTS: usize = 400;
 
 /// How a goal came out.
 #[derive(Debug, Clone)]
@@ -31,14 +35,15 @@ const HOPELESS: f64 = 9.0;
 /// Cost of a part: sums over parts; 0 to 3 for a good one, above 3 when something asked for is missing. What costs little
 /// to measure comes first; a part that is already hopeless is charged for the rest without a look.
 pub(super) fn cost(world: &World, part: &Part, suggestion: Option<&CameraState>) -> f64 {
-    let states = sampled(world, part, if part.states.len() > 2 { 11 } else { 9 });
+    let path = path_of(world, part);
+    let states = sampled(&path, part, if part.states.len() > 2 { 11 } else { 9 });
     let charge = |goal: &Goal| match outcome(world, goal, &states, SEARCH_POINTS).violation {
         violation if violation > 0.0 => 3.0 + 4.0 * violation.min(2.0),
         _ => 0.0,
     };
     let (dear, cheap): (Vec<&Goal>, Vec<&Goal>) =
         part.goals.iter().partition(|goal| matches!(goal.kind, GoalKind::Unoccluded(..)));
-    let mut total: f64 = cheap.into_iter().map(charge).sum::<f64>() + clearance_cost(world, &states);
+    let mut total: f64 = cheap.into_iter().map(charge).sum::<f64>() + clearance_cost(world, &path);
     if total > HOPELESS {
         return total + HOPELESS;
     }
@@ -50,23 +55,24 @@ pub(super) fn cost(world: &World, part: &Part, suggestion: Option<&CameraState>)
     total + void_cost(world, &states) + suggestion.map_or(0.0, |guess| departure(world, &states[0], guess))
 }
 
-/// Even samples in time of a part.
-pub(super) fn sampled(world: &World, part: &Part, count: usize) -> Vec<CameraState> {
+/// The path of a part by itself.
+pub(super) fn path_of(world: &World, part: &Part) -> CameraPath {
     let alone = Part { cut: false, step: 0, ..part.clone() };
     // Labels that carry nothing let the keys keep their move and pivot.
-    let path = CameraPath::coarse(keyframes(&[alone], &[StepLabels::default()]), world.frame);
+    CameraPath::coarse(keyframes(&[alone], &[StepLabels::default()]), world.frame)
+}
+
+/// Even samples in time of the path of a part.
+pub(super) fn sampled(path: &CameraPath, part: &Part, count: usize) -> Vec<CameraState> {
     (0..count).map(|i| path.sample(part.secs * i as f64 / (count - 1) as f64)).collect()
 }
 
-/// Coming too near to matter.
-fn clearance_cost(world: &World, states: &[CameraState]) -> f64 {
-    let position = |state: &CameraState| state.pose.position;
-    let mut least = world.clearance(position(&states[0]));
-    for pair in states.windows(2) {
-        least = least.min(world.clearance_between(position(&pair[0]), position(&pair[1])));
-    }
-    let short = (1.0 - least / world.camera_radius).max(0.0);
-    if short > 0.0 { 6.0 + 4.0 * short.min(3.0) } else { 0.0 }
+/// Coming too near to matter at any moment.
+fn clearance_cost(world: &World, path: &CameraPath) -> f64 {
+    let radius = world.camera_radius;
+    let search = Search { enough: radius, tolerance: 0.1 * radius, max_parts: SEARCH_PARTS };
+    let short = 1.0 - least_clearance(world.ellipsoids(), path, &search).bound / radius;
+    if short > 0.0 { 6.0 + 6.0 * short } else { 0.0 }
 }
 
 /// Standing where the capture shows backs, or (mildly) far outside of what it covers.
@@ -102,17 +108,14 @@ fn around_a_corner_frac(world: &World, point: DVec3) -> f64 {
     level.min_element() / bounds.size()
 }
 
-/// Least clearance over a part, scene units, and the share of its samples that stand in supported space.
-pub(super) fn safety(world: &World, states: &[CameraState]) -> (f64, f64) {
-    let pairs = states.windows(2).map(|p| world.clearance_between(p[0].pose.position, p[1].pose.position));
-    let least = pairs.fold(world.clearance(states[0].pose.position), f64::min);
+/// Share of a part's samples that stand in supported space.
+pub(super) fn supported_frac(world: &World, states: &[CameraState]) -> f64 {
     let good = |s: &&CameraState| {
         let p = s.pose.position;
         let inside = world.sunk_frac(p) <= 0.0 && around_a_corner_frac(world, p) <= 0.0;
         world.supports(p) && world.is_good_side(p) && (inside || !world.is_indoor())
     };
-    let supported = states.iter().filter(good).count();
-    (least, supported as f64 / states.len() as f64)
+    states.iter().filter(good).count() as f64 / states.len() as f64
 }
 
 /// Pictures of nothing, and pictures with something large right before the lens.

@@ -6,25 +6,33 @@
 //! seeded search looks for a film that keeps its subjects in the frame and unhidden, stays clear of matter and in the
 //! space that the capture shows from its good side. Never does IO.
 
+mod clearance;
+mod clearing;
 mod draft;
 mod dutch;
 mod framing;
 mod grid;
 mod judge;
 mod moves;
+mod pairs;
 mod program;
 mod report;
+mod route;
 mod search;
 mod suggested;
 mod support;
 mod view;
 mod world;
 
+pub use clearance::{ClearanceIndex, Nearest, OPACITY_FLOOR, SIGMA_LEVEL};
 pub use framing::DEFAULT_ASPECT;
+pub use pairs::{PairResult, PairSettings, try_pairs};
 pub use program::{Amount, Framing, Part, Pass, Program, Speed, Step, Via};
-pub use world::{DEFAULT_CAMERA_RADIUS_FRAC, Subject, World};
+pub use route::{NoRoute, Route, route};
+pub use world::{DEFAULT_CAMERA_RADIUS_FRAC, Subject, World, default_camera_radius};
 
-use crate::trajectory::{CameraState, Keyframe, ReportLine, named_choices, retime};
+use crate::scene::{Bounds, Gaussians};
+use crate::trajectory::{CameraPath, CameraState, ClearanceProof, Keyframe, ReportLine, named_choices, retime};
 use draft::{StepLabels, keyframes};
 
 named_choices! {
@@ -83,6 +91,8 @@ pub struct Solution {
     pub report: Vec<ReportLine>,
     /// Index of the key at which each step of the program begins, and of the film's last key.
     pub step_keys: Vec<usize>,
+    /// What was proved about the whole path's distance to matter.
+    pub clearance: ClearanceProof,
     /// What the search minimized: below 3 everything asked for was found.
     pub cost: f64,
 }
@@ -112,9 +122,13 @@ pub fn realize(
     let film = search::best_film(&task, settings);
     let cost = film.cost();
     let mut parts: Vec<draft::Part> = film.parts.into_iter().flatten().collect();
-    if settings.level == SolveLevel::Off {
+    // Without a search the cameras stay as they are: the report says what is in their way.
+    let detours = if settings.level == SolveLevel::Off {
         parts = suggested::as_suggested(parts, suggestions);
-    }
+        Vec::new()
+    } else {
+        clearing::lead_around(world, program, &mut parts)
+    };
     fit_duration(&mut parts, program.duration_secs);
     if let Some(degrees) = settings.dutch_deg {
         dutch::roll(&mut parts, degrees);
@@ -123,10 +137,18 @@ pub fn realize(
     let mut keys = keyframes(&parts, &labels);
     retime(&mut keys, Some(world.frame));
     let duration_secs = parts.iter().map(|part| part.secs).sum();
+    let clearance = clearing::proof(world, &keys);
     let mut report = report::report(world, program, prompt, &parts);
+    report.extend(clearing::clearance_lines(world, (program, prompt), &parts, &detours, &clearance));
     report.extend(settings.dutch_deg.map(|_| dutch::line(world, &keys)));
     let step_keys = step_keys(&parts, program.steps.len());
-    Solution { keyframes: keys, duration_secs, report, step_keys, cost }
+    Solution { keyframes: keys, duration_secs, report, step_keys, cost, clearance }
+}
+
+/// What can be proved about the distance between a path and the matter of a scene, for a camera of the default radius.
+pub fn prove_clear(gaussians: &Gaussians, path: &CameraPath) -> ClearanceProof {
+    let index = ClearanceIndex::new(gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+    clearance::prove(&index, path, default_camera_radius(&Bounds::of(gaussians)))
 }
 
 /// Scales the parts whose length is free so that the whole lasts as long as the words say.

@@ -2,7 +2,7 @@
 
 use super::Program;
 use super::draft::Part;
-use super::judge::{outcome, safety, sampled, wording};
+use super::judge::{outcome, path_of, sampled, supported_frac, wording};
 use super::world::World;
 use crate::trajectory::ReportLine;
 
@@ -13,14 +13,13 @@ const NUM_SAMPLES: usize = 49;
 /// at the edge of what was captured it flickers.
 const LEAST_SUPPORTED: f64 = 0.9;
 
-/// The report of a film: every goal of every step, clearance and support of the whole, and what could not be done.
+/// The report of a film: every goal of every step, support of the whole, and what could not be done.
 pub(super) fn report(world: &World, program: &Program, prompt: &str, parts: &[Part]) -> Vec<ReportLine> {
     let mut lines: Vec<ReportLine> = Vec::new();
-    let (mut least, mut supported) = (f64::INFINITY, 1.0_f64);
+    let mut supported = 1.0_f64;
     for part in parts {
-        let states = sampled(world, part, NUM_SAMPLES);
-        let (clear, share) = safety(world, &states);
-        (least, supported) = (least.min(clear), supported.min(share));
+        let states = sampled(&path_of(world, part), part, NUM_SAMPLES);
+        supported = supported.min(supported_frac(world, &states));
         let words = program.steps.get(part.step).and_then(|step| step.words);
         for goal in &part.goals {
             let found = outcome(world, goal, &states, usize::MAX);
@@ -35,7 +34,6 @@ pub(super) fn report(world: &World, program: &Program, prompt: &str, parts: &[Pa
             });
         }
     }
-    lines.push(safety_line(world, least));
     if supported < LEAST_SUPPORTED {
         lines.push(ReportLine {
             clause: "camera stays where the capture shows the scene's good side".to_owned(),
@@ -56,7 +54,8 @@ pub(super) fn report(world: &World, program: &Program, prompt: &str, parts: &[Pa
     lines
 }
 
-fn clause(prompt: &str, words: Option<[usize; 2]>, part: &Part) -> String {
+/// The words of a part, or the name of its move.
+pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, part: &Part) -> String {
     let text = words.and_then(|[from, to]| prompt.get(from..to)).map(str::trim).unwrap_or_default();
     if text.is_empty() { part.movement.name().to_owned() } else { text.to_owned() }
 }
@@ -64,15 +63,4 @@ fn clause(prompt: &str, words: Option<[usize; 2]>, part: &Part) -> String {
 fn gave_way(has_words: bool) -> String {
     let why = "no camera was found that keeps this together with the rest: this gave way";
     if has_words { why.to_owned() } else { format!("{why} (nothing in the words asks for it)") }
-}
-
-fn safety_line(world: &World, least: f64) -> ReportLine {
-    let met = least >= world.camera_radius;
-    ReportLine {
-        clause: "clear of matter".to_owned(),
-        wanted: format!("distance to solid matter at least {:.4} scene units", world.camera_radius),
-        got: least.min(world.bounds.size()),
-        met,
-        note: if met { String::new() } else { "the way comes too near to something: clearance gave way".to_owned() },
-    }
 }

@@ -7,6 +7,7 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use super::clearance::ClearanceIndex;
 use super::grid::OpacityGrid;
 use crate::geometry::LevelFrame;
 use crate::objects::Object;
@@ -42,13 +43,13 @@ impl Support {
     /// No hub stands in one of `boxes`: the inside of a thing is no place to film from, however well it is enclosed.
     pub(super) fn of(
         matter: &OpacityGrid,
-        clearance: &[f32],
+        clearance: &ClearanceIndex,
         bounds: &Bounds,
         frame: &LevelFrame,
         boxes: &[Object],
     ) -> Self {
         let free = |p: DVec3| {
-            let open = matter.grid.index_at(p).is_some_and(|cell| f64::from(clearance[cell]) > 0.03 * bounds.size());
+            let open = clearance.nearest_within(p, 0.03 * bounds.size()).is_none();
             open && !boxes.iter().any(|object| object.contains(p, 0.0))
         };
         let (hubs, indoor) = hubs(matter, bounds, frame, free);
@@ -62,12 +63,6 @@ impl Support {
     /// Whether what is seen from a point is seen from its good side: what stands on a floor has that floor before it.
     pub(super) fn is_good_side(&self, matter: &OpacityGrid, point: DVec3) -> bool {
         self.least_grounded <= 0.0 || grounded_frac(matter, point, self.up, self.size, 40) >= self.least_grounded
-    }
-
-    /// Share of the hubs that see a point.
-    pub(super) fn seen_frac(&self, matter: &OpacityGrid, point: DVec3) -> f64 {
-        let seen = self.hubs.iter().filter(|&&hub| matter.is_open(point, hub)).count();
-        seen as f64 / self.hubs.len().max(1) as f64
     }
 
     /// Whether a camera may stand at a point.

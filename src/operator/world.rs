@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::grid::{Grid, OpacityGrid, SOLID_OPACITY, distances};
+use super::clearance::{ClearanceIndex, OPACITY_FLOOR, SIGMA_LEVEL};
+use super::grid::{Grid, OpacityGrid, SOLID_OPACITY};
 use super::support::Support;
 use crate::geometry::{GeometryError, LevelFrame};
 use crate::objects::{Object, ObjectSet};
@@ -12,6 +13,8 @@ use crate::scene::{Bounds, Gaussians};
 
 /// Least distance from the lens to solid matter, over the scene size, unless asked for otherwise.
 pub const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;
+/// The camera's radius in a scene without extent, scene units.
+const SMALLEST_CAMERA_RADIUS: f64 = 1e-6;
 /// Points that stand for a subject when it is framed and looked for.
 const SUBJECT_POINTS: usize = 48;
 
@@ -25,7 +28,7 @@ pub struct World {
     pub camera_radius: f64,
     subjects: BTreeMap<u32, Subject>,
     matter: OpacityGrid,
-    clearance: Vec<f32>,
+    clearance: ClearanceIndex,
     support: Support,
 }
 
@@ -56,7 +59,7 @@ impl World {
         let frame = LevelFrame::new(up)?;
         let bounds = Bounds::of(gaussians);
         let matter = OpacityGrid::of(Grid::around(&bounds, frame.up), gaussians, |_| true);
-        let clearance = distances(&matter.grid, &matter.occupied());
+        let clearance = ClearanceIndex::new(gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
         let support = Support::of(&matter, &clearance, &bounds, &frame, &objects.objects);
         let subjects = objects
             .objects
@@ -64,7 +67,7 @@ impl World {
             .filter(|object| ids.contains(&object.id))
             .map(|object| (object.id, Subject::of(gaussians, object, &objects.labels, &matter.grid)))
             .collect();
-        let camera_radius = DEFAULT_CAMERA_RADIUS_FRAC * bounds.size();
+        let camera_radius = default_camera_radius(&bounds);
         Ok(Self { frame, bounds, camera_radius, subjects, matter, clearance, support })
     }
 
@@ -73,26 +76,15 @@ impl World {
         self.subjects.get(&id)
     }
 
-    /// Lower bound of the distance from a point to solid matter, scene units; large far from the scene.
+    /// Distance from a point to the nearest matter, scene units; that to the far end of the scene where there is less.
     pub fn clearance(&self, point: DVec3) -> f64 {
-        match self.matter.grid.index_at(point) {
-            // The point and the matter may lie anywhere in their cells.
-            Some(cell) => f64::from(self.clearance[cell]) - self.matter.grid.cell,
-            None => 0.2 * self.bounds.size(),
-        }
+        let far = 2.0 * self.bounds.size() + self.camera_radius;
+        self.clearance.nearest_within(point, far).map_or(far, |nearest| nearest.distance)
     }
 
-    /// Least clearance along the straight way from `a` to `b`.
-    pub fn clearance_between(&self, a: DVec3, b: DVec3) -> f64 {
-        let length = a.distance(b);
-        let (mut at, mut least) = (0.0, self.clearance(b));
-        while at < length {
-            let here = self.clearance(a.lerp(b, at / length));
-            least = least.min(here);
-            // Clearance changes by no more than the way; steps of a cell at least.
-            at += (here - self.camera_radius).max(0.7 * self.matter.grid.cell);
-        }
-        least
+    /// The matter of the scene as ellipsoids.
+    pub fn ellipsoids(&self) -> &ClearanceIndex {
+        &self.clearance
     }
 
     /// Whether the capture shows its good side from a point.
@@ -121,11 +113,6 @@ impl World {
         self.support.is_good_side(&self.matter, point)
     }
 
-    /// Share of the good places to stand that see a point: 0 behind walls, high in the middle of a room.
-    pub fn seen_frac(&self, point: DVec3) -> f64 {
-        self.support.seen_frac(&self.matter, point)
-    }
-
     /// Free places with a good view of the scene, the best first.
     pub fn hubs(&self) -> &[DVec3] {
         &self.support.hubs
@@ -140,6 +127,12 @@ impl World {
     pub fn hit_distance(&self, eye: DVec3, direction: DVec3) -> Option<f64> {
         self.matter.hit_distance(eye, direction, 1.6 * self.bounds.size())
     }
+}
+
+/// The camera's radius unless asked for otherwise; never 0.
+pub fn default_camera_radius(bounds: &Bounds) -> f64 {
+    let radius = DEFAULT_CAMERA_RADIUS_FRAC * bounds.size();
+    if radius > 0.0 { radius } else { SMALLEST_CAMERA_RADIUS }
 }
 
 impl Subject {

@@ -138,6 +138,7 @@ pub fn shot_of(scene: &Scene, prompt: &str, solution: Solution, settings: &Direc
         keyframes: solution.keyframes,
         effects: Vec::new(),
         report: solution.report,
+        clearance: Some(super::clearance::in_file_order(scene, solution.clearance)),
     }
 }
 

@@ -3,6 +3,7 @@
 //! Enters: paths, prompts, settings. Leaves: shots, films, stills and how long each stage took. Progress goes to a
 //! callback, nothing is printed. The one invariant: a file that bears its name is whole.
 
+mod clearance;
 mod direct;
 mod error;
 mod film;
@@ -12,6 +13,7 @@ mod source;
 mod stage_times;
 mod stills;
 
+pub use clearance::prove_clearance;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
 pub use film::{FilmReport, FilmSettings, Flow, Progress, film};

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
 
+use super::stray::sub_bezier;
 use super::track::Track;
 use super::{Keyframe, Move};
 use crate::geometry::{LevelAngles, LevelFrame, Pose, rotation};
@@ -33,6 +34,26 @@ impl PositionCurve {
         Self::Arc { frame, pivot, azimuth: track(&azimuths), radius: track(&radii), height: track(&heights) }
     }
 
+    /// Bound of the distance between `center`, the position half way, and any position on `range` of a segment's knots.
+    pub(super) fn stray(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
+        match self {
+            Self::Spline(track) => {
+                let hull = sub_bezier(track.bezier(segment), range);
+                hull.into_iter().map(|point| point.distance(center)).fold(0.0, f64::max)
+            }
+            Self::Arc { frame, pivot, azimuth, radius, height } => {
+                let offset = center - *pivot;
+                let middle_radius = frame.horizontal(offset).length();
+                let middle_azimuth = sub_bezier(azimuth.bezier(segment), (range.0, range.0.midpoint(range.1)))[3];
+                let turned = spread(azimuth, segment, range, middle_azimuth).min(PI);
+                let widened = spread(radius, segment, range, middle_radius);
+                let raised = spread(height, segment, range, frame.height(offset));
+                // A point at radius r, turned by a from another at radius s, is at most |r - s| + 2 s sin(a / 2) from it.
+                (widened + 2.0 * middle_radius * (turned / 2.0).sin()).hypot(raised)
+            }
+        }
+    }
+
     /// Position at a knot value.
     pub(super) fn at(&self, knot: f64) -> DVec3 {
         match self {
@@ -42,6 +63,11 @@ impl PositionCurve {
             }
         }
     }
+}
+
+/// How far a track gets from `middle` on `range` of a segment's knots, at most.
+fn spread(track: &Track<f64>, segment: usize, range: (f64, f64), middle: f64) -> f64 {
+    sub_bezier(track.bezier(segment), range).into_iter().map(|value| (value - middle).abs()).fold(0.0, f64::max)
 }
 
 /// Sign of the change of azimuth that an orbit asks for: travel to the camera's right lowers the azimuth of the camera

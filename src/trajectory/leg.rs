@@ -94,20 +94,39 @@ impl Leg {
 
     /// The camera where `length` of a segment is covered.
     pub(super) fn at_length(&self, segment: usize, length: f64) -> CameraState {
+        self.at_fraction(segment, self.fraction_at_length(segment, length))
+    }
+
+    /// Fraction of a segment's knots at which `length` of it is covered, 0..=1.
+    pub(super) fn fraction_at_length(&self, segment: usize, length: f64) -> f64 {
         let table = &self.lengths[segment];
         let total = table[self.num_chords];
         if !(total > 0.0) {
-            return self.at_fraction(segment, 0.0);
+            return 0.0;
         }
         let above = table.partition_point(|&l| l < length).clamp(1, self.num_chords);
         let (low, high) = (table[above - 1], table[above]);
         let within = if high > low { ((length - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 };
-        self.at_fraction(segment, ((above - 1) as f64 + within) / self.num_chords as f64)
+        ((above - 1) as f64 + within) / self.num_chords as f64
+    }
+
+    /// Where the camera is at a fraction of a segment's knots.
+    pub(super) fn position_at(&self, segment: usize, fraction: f64) -> DVec3 {
+        self.position.at(self.knot(segment, fraction))
+    }
+
+    /// Bound of the distance between `center`, the position half way, and any position on `range` of a segment.
+    pub(super) fn stray(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
+        self.position.stray(segment, range, center)
+    }
+
+    fn knot(&self, segment: usize, fraction: f64) -> f64 {
+        self.knots[segment] + (self.knots[segment + 1] - self.knots[segment]) * fraction
     }
 
     /// The camera at a fraction of a segment's knots.
     fn at_fraction(&self, segment: usize, fraction: f64) -> CameraState {
-        let knot = self.knots[segment] + (self.knots[segment + 1] - self.knots[segment]) * fraction;
+        let knot = self.knot(segment, fraction);
         let position = self.position.at(knot);
         let pose = Pose { position, rotation: self.turn.at(segment, knot, position) };
         let focal = self.focal.at(knot);

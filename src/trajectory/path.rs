@@ -78,7 +78,12 @@ impl CameraPath {
         Ok(Self::through(shot.keyframes, frame, FINE_CHORDS))
     }
 
-    /// The path through keys that are known to be valid, for judging it: lengths are good to 2e-4.
+    /// The path through keys that are known to be valid.
+    pub(crate) fn fine(keys: Vec<Keyframe>, frame: LevelFrame) -> Self {
+        Self::through(keys, Some(frame), FINE_CHORDS)
+    }
+
+    /// As [`Self::fine`], for judging it: lengths are good to 2e-4.
     pub(crate) fn coarse(keys: Vec<Keyframe>, frame: LevelFrame) -> Self {
         Self::through(keys, Some(frame), COARSE_CHORDS)
     }
@@ -113,6 +118,18 @@ impl CameraPath {
             return CameraState::from(key);
         }
         self.legs[*leg].at_length(*segment, profile.length_at(time_secs - key.time_secs))
+    }
+
+    /// The curve that leaves a key; `None` where the camera stays at the key.
+    pub(super) fn place(&self, key_idx: usize) -> Option<(&Leg, usize)> {
+        let (leg, segment) = self.segments.get(key_idx)?.place?;
+        Some((&self.legs[leg], segment))
+    }
+
+    /// Fraction of the curve that leaves a key which is covered at a time; 0 where the camera stays.
+    pub(super) fn fraction_at(&self, key_idx: usize, time_secs: f64) -> f64 {
+        let (Some((leg, segment)), Some(part)) = (self.place(key_idx), self.segments.get(key_idx)) else { return 0.0 };
+        leg.fraction_at_length(segment, part.profile.length_at(time_secs - self.keys[key_idx].time_secs))
     }
 
     /// The keys that the path goes through.

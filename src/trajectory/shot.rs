@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{Easing, Move, ShotAngle, ShotSize, TrajectoryError};
+use super::{ClearanceProof, Easing, Move, ShotAngle, ShotSize, TrajectoryError};
 use crate::geometry::Pose;
 
 /// A shot: keyframes with what they are for. The in-memory twin of `shot.json`, version 1.
@@ -28,6 +28,8 @@ pub struct Shot {
     pub effects: Vec<EffectRequest>,
     /// What was asked for and what came of it, clause by clause.
     pub report: Vec<ReportLine>,
+    /// What was proved about the path's distance to matter; `None` for a path that was not looked at, or changed since.
+    pub clearance: Option<ClearanceProof>,
 }
 
 /// Which scene a shot belongs to.

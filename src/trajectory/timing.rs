@@ -12,6 +12,7 @@ pub fn retimed(shot: &Shot) -> Shot {
     let frame = shot.scene.up.and_then(|up| LevelFrame::new(up).ok());
     let mut out = shot.clone();
     retime(&mut out.keyframes, frame);
+    out.clearance = None;
     out
 }
 

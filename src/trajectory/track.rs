@@ -34,6 +34,21 @@ where
     }
 }
 
+impl<V: Copy> Track<V> {
+    /// Bezier values of the cubic between keys `segment` and `segment + 1`.
+    pub(super) fn bezier(&self, segment: usize) -> [V; 4] {
+        let keys = self.spline.keys();
+        let key = |i: usize| {
+            keys.get(i).map_or((self.first, self.first, self.first), |key| match key.interpolation {
+                Interpolation::StrokeBezier(before, after) => (before, key.value, after),
+                _ => (key.value, key.value, key.value),
+            })
+        };
+        let ((_, start, out), (into, end, _)) = (key(segment), key(segment + 1));
+        [start, out, into, end]
+    }
+}
+
 impl Track<f64> {
     /// A monotone curve: between two keys it never leaves their range (Fritsch and Butland 1984).
     pub(super) fn monotone(knots: &[f64], values: &[f64]) -> Self {

@@ -32,6 +32,7 @@ pub(super) fn shot(keyframes: Vec<Keyframe>, up: DVec3) -> Shot {
         keyframes,
         effects: Vec::new(),
         report: Vec::new(),
+        clearance: None,
     }
 }
 

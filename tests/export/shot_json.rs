@@ -1,6 +1,6 @@
 use cinesplat::export::shot_json::{read, write};
 use cinesplat::geometry::{LevelFrame, Pose};
-use cinesplat::trajectory::{Move, Shot, ShotAngle, ShotSize};
+use cinesplat::trajectory::{ClearanceFailure, ClearanceProof, Move, Shot, ShotAngle, ShotSize};
 use glam::{DQuat, DVec3};
 
 /// The example of the format's description with numbers filled in.
@@ -103,4 +103,26 @@ fn hostile_text_is_refused_cleanly() {
     assert_eq!(refused(&EXAMPLE.replace("[1,2,4]", "[1,NaN,4]")), ("EXCHANGE-JSON", 65));
     assert_eq!(refused("[]"), ("EXCHANGE-FIELD", 65));
     assert_eq!(refused(""), ("EXCHANGE-JSON", 65));
+}
+
+#[test]
+fn what_was_proved_is_kept_until_somebody_edits_a_key() {
+    let mut shot = read(EXAMPLE).unwrap();
+    shot.clearance = Some(ClearanceProof {
+        camera_radius: 0.08,
+        opacity_floor: 0.5,
+        sigma_level: 1.5,
+        least: 0.125,
+        at_secs: 1.25,
+        gaussian_idx: Some(4711),
+        num_parts: 93,
+        failure: Some(ClearanceFailure { from_secs: 1.0, to_secs: 1.5, distance: 0.01, gaussian_idx: 4711 }),
+    });
+    let text = write(&shot);
+    assert_eq!(read(&text).unwrap().clearance, shot.clearance);
+    assert!(text.contains("\"proved\": false"));
+    // Whoever moves a key by hand leaves the rest of the file as it was.
+    let moved = text.replacen("\"time_secs\": 2.5", "\"time_secs\": 2.25", 1);
+    assert_ne!(moved, text);
+    assert_eq!(read(&moved).unwrap().clearance, None);
 }

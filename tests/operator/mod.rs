@@ -1,11 +1,14 @@
 //! Programs made into exact shots, in a small room built for the purpose.
 
+mod clearance;
 mod intents;
 mod moves;
 mod places;
+mod proof;
+mod route;
 
 use cinesplat::objects::{Object, ObjectSet};
-use cinesplat::operator::{Program, Solution, SolveLevel, SolveSettings, Step, World, realize};
+use cinesplat::operator::{Program, SIGMA_LEVEL, Solution, SolveLevel, SolveSettings, Step, World, realize};
 use cinesplat::scene::Gaussians;
 use cinesplat::trajectory::{CameraPath, CameraState, Shot};
 use glam::{DQuat, DVec3, Quat, Vec3};
@@ -59,17 +62,51 @@ pub fn room() -> (Gaussians, ObjectSet) {
     (gaussians, ObjectSet { objects: objects.to_vec(), labels: Vec::new() })
 }
 
+/// One more Gaussian.
+pub fn add(gaussians: &mut Gaussians, mean: DVec3, scales: Vec3, rotation: Quat, opacity: f32) {
+    gaussians.means.push(mean.as_vec3());
+    gaussians.scales.push(scales);
+    gaussians.rotations.push(rotation);
+    gaussians.opacities.push(opacity);
+    gaussians.sh_dc.push(Vec3::ZERO);
+}
+
+/// Distance from a point to the ellipsoid of one Gaussian, 0 inside, by bisection of its own equation.
+pub fn bisected(gaussians: &Gaussians, i: usize, point: DVec3) -> f64 {
+    let y = gaussians.rotations[i].as_dquat().normalize().conjugate() * (point - gaussians.mean_world(i));
+    let e = (gaussians.scales[i].as_dvec3() * SIGMA_LEVEL).max(DVec3::splat(1e-12));
+    let sum = |t: f64| (e * y / (e * e + t)).length_squared();
+    if sum(0.0) <= 1.0 {
+        return 0.0;
+    }
+    let (mut low, mut high): (f64, f64) = (0.0, y.length() * e.max_element());
+    for _ in 0..200 {
+        let middle = low.midpoint(high);
+        if sum(middle) > 1.0 { low = middle } else { high = middle }
+    }
+    y.distance(e * e * y / (e * e + high))
+}
+
+/// Distance from a point to the nearest ellipsoid of opacity 0.5 and more, and its Gaussian, one after the other.
+pub fn brute_force(gaussians: &Gaussians, point: DVec3) -> (f64, usize) {
+    let mut best = (f64::INFINITY, 0);
+    for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= 0.5) {
+        let reach = SIGMA_LEVEL * f64::from(gaussians.scales[i].max_element());
+        if gaussians.mean_world(i).distance(point) - reach < best.0 {
+            let distance = bisected(gaussians, i, point);
+            best = if distance < best.0 { (distance, i) } else { best };
+        }
+    }
+    best
+}
+
 /// A parallelogram of round, opaque Gaussians 6 cm apart.
-fn wall(gaussians: &mut Gaussians, corner: DVec3, u: DVec3, v: DVec3) {
+pub fn wall(gaussians: &mut Gaussians, corner: DVec3, u: DVec3, v: DVec3) {
     let count = |side: DVec3| (side.length() / 0.06).ceil() as usize;
     for i in 0..=count(u) {
         for j in 0..=count(v) {
             let at = corner + u * (i as f64 / count(u) as f64) + v * (j as f64 / count(v) as f64);
-            gaussians.means.push(at.as_vec3());
-            gaussians.scales.push(Vec3::splat(0.03));
-            gaussians.rotations.push(Quat::IDENTITY);
-            gaussians.opacities.push(0.95);
-            gaussians.sh_dc.push(Vec3::ZERO);
+            add(gaussians, at, Vec3::splat(0.03), Quat::IDENTITY, 0.95);
         }
     }
 }

@@ -4,6 +4,7 @@ mod easing;
 mod hard_keys;
 mod moves;
 mod shots;
+mod stray;
 
 use cinesplat::geometry::{LevelAngles, LevelFrame, Pose};
 use cinesplat::trajectory::{Easing, Keyframe, Shot};

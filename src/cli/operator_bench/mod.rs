@@ -4,6 +4,7 @@ mod cases;
 mod curve;
 mod films;
 mod moves;
+mod pairs;
 mod path_facts;
 mod stages;
 mod void;
@@ -19,6 +20,7 @@ Examples:
   cinesplat bench operator void --cases public.jsonl --only ps
   cinesplat bench operator curve --cases public.jsonl --intents intents.json --plot curve.svg
   cinesplat bench operator stages room.spz
+  cinesplat bench operator pairs kitchen.spz synth:demo > pairs.csv
 Cases are JSON lines with id, scene, objects and prompt, file names relative to the file; intents are one JSON object of
 programs by id, such as {\"a1\": \"push-in end=2 / pan-left end=3\"}, and stand for the network's reading of the prompt.")]
 pub(super) struct Args {
@@ -38,6 +40,8 @@ enum Part {
     Curve(curve::Args),
     /// Time of every stage of planning.
     Stages(stages::Args),
+    /// Ways between random places: clear of matter, by a plain scan of all Gaussians, and how long they take to find.
+    Pairs(pairs::Args),
 }
 
 impl Args {
@@ -48,6 +52,7 @@ impl Args {
             Part::Void(args) => args.run(),
             Part::Curve(args) => args.run(),
             Part::Stages(args) => args.run(),
+            Part::Pairs(args) => args.run(),
         }
     }
 }

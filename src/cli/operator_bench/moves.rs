@@ -88,6 +88,7 @@ fn shot(up: DVec3, keyframes: Vec<Keyframe>, duration_secs: f64) -> Shot {
         keyframes,
         effects: Vec::new(),
         report: Vec::new(),
+        clearance: None,
     }
 }
 

@@ -1,0 +1,121 @@
+//! Ways around: through a door, not through a wall, and none out of a closed box.
+
+use std::time::Duration;
+
+use cinesplat::geometry::Pose;
+use cinesplat::objects::ObjectSet;
+use cinesplat::operator::{NoRoute, PairSettings, Route, World, route, try_pairs};
+use cinesplat::scene::Gaussians;
+use cinesplat::trajectory::{CameraPath, CameraState, SceneRef, Shot};
+use glam::DVec3;
+
+use super::{brute_force, room, wall};
+
+/// Where the door is: in the plane x = 0, between these z, up to this height.
+const DOOR: (f64, f64, f64) = (1.2, 2.0, 2.0);
+
+/// The room with a wall across its middle and a door in it.
+fn divided() -> Gaussians {
+    let (mut gaussians, _) = room();
+    let floor = DVec3::new(0.0, 0.0, -3.0);
+    wall(&mut gaussians, floor, DVec3::Z * (DOOR.0 + 3.0), DVec3::Y * 2.6);
+    wall(&mut gaussians, DVec3::new(0.0, 0.0, DOOR.1), DVec3::Z * (3.0 - DOOR.1), DVec3::Y * 2.6);
+    wall(&mut gaussians, DVec3::new(0.0, DOOR.2, DOOR.0), DVec3::Z * (DOOR.1 - DOOR.0), DVec3::Y * 0.6);
+    // A ceiling, so that no way leads over the wall.
+    wall(&mut gaussians, DVec3::new(-3.0, 2.6, -3.0), DVec3::X * 6.0, DVec3::Z * 6.0);
+    gaussians
+}
+
+fn prepared(gaussians: &Gaussians) -> World {
+    World::new(gaussians, DVec3::Y, &ObjectSet::default(), &[]).unwrap()
+}
+
+fn camera(x: f64, y: f64, z: f64) -> CameraState {
+    let pose = Pose::facing(DVec3::new(x, y, z), DVec3::X, DVec3::Y, None);
+    CameraState { pose, fov_y_rad: 0.9, focus_distance: None }
+}
+
+/// Many positions of a route's film.
+fn positions(world: &World, route: &Route) -> Vec<DVec3> {
+    let shot = Shot {
+        scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
+        prompt: String::new(),
+        seed: 0,
+        model: None,
+        width: 64,
+        height: 36,
+        fps: 10.0,
+        duration_secs: 6.0,
+        keyframes: route.keyframes(world, 6.0),
+        effects: Vec::new(),
+        report: Vec::new(),
+        clearance: None,
+    };
+    let path = CameraPath::new(&shot).unwrap();
+    (0..=1500).map(|i| path.sample(f64::from(i) * 0.004).pose.position).collect()
+}
+
+#[test]
+fn a_wall_is_passed_through_its_door() {
+    let gaussians = divided();
+    let world = prepared(&gaussians);
+    let (start, goal) = (camera(-2.0, 1.2, -1.5), camera(2.2, 1.4, -1.2));
+    let found = route(&world, &start, &goal).unwrap();
+    assert!(!found.is_straight() && found.proof.is_clear());
+    assert_eq!((found.states[0], found.states[found.states.len() - 1]), (start, goal));
+    let way = positions(&world, &found);
+    for pair in way.windows(2) {
+        let distance = brute_force(&gaussians, pair[0]).0;
+        assert!(distance >= world.camera_radius && distance >= found.proof.least - 1e-9, "{distance} at {}", pair[0]);
+        if pair[0].x * pair[1].x <= 0.0 {
+            assert!((DOOR.0..DOOR.1).contains(&pair[0].z) && pair[0].y < DOOR.2, "crosses at {}", pair[0]);
+        }
+    }
+    // It goes about as far as it has to, 5.6 by the door's edge, and does not jerk.
+    let length: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    assert!(length < 7.2, "{length}");
+    assert_eq!(route(&world, &start, &goal).unwrap(), found, "the same once more");
+}
+
+#[test]
+fn what_is_open_is_gone_straight() {
+    let world = prepared(&divided());
+    let found = route(&world, &camera(-2.0, 1.2, -1.5), &camera(-2.0, 1.2, 1.5)).unwrap();
+    assert!(found.is_straight());
+}
+
+#[test]
+fn out_of_a_closed_box_there_is_no_way() {
+    let (mut gaussians, _) = room();
+    let low = DVec3::new(-2.0, 0.6, -2.0);
+    for (corner, u, v) in [
+        (low, DVec3::X, DVec3::Y),
+        (low + DVec3::Z, DVec3::X, DVec3::Y),
+        (low, DVec3::Z, DVec3::Y),
+        (low + DVec3::X, DVec3::Z, DVec3::Y),
+        (low, DVec3::X, DVec3::Z),
+        (low + DVec3::Y, DVec3::X, DVec3::Z),
+    ] {
+        wall(&mut gaussians, corner, u, v);
+    }
+    let world = prepared(&gaussians);
+    let (outside, inside) = (camera(0.5, 1.2, -1.0), camera(-1.5, 1.1, -1.5));
+    assert_eq!(route(&world, &outside, &inside), Err(NoRoute::Enclosed));
+    assert_eq!(route(&world, &inside, &outside), Err(NoRoute::Enclosed));
+    assert_eq!(route(&world, &camera(-3.0, 1.2, 0.0), &outside), Err(NoRoute::BlockedStart));
+    assert_eq!(route(&world, &outside, &camera(-2.0, 1.1, -1.5)), Err(NoRoute::BlockedGoal));
+}
+
+#[test]
+fn pairs_are_the_same_for_a_seed_and_clear_by_a_plain_scan() {
+    let gaussians = divided();
+    let world = prepared(&gaussians);
+    let settings = PairSettings { num_pairs: 6, num_samples: 2000, seed: 4 };
+    let ways = |results: &[cinesplat::operator::PairResult]| -> Vec<Result<Route, NoRoute>> {
+        results.iter().map(|result| result.route.clone()).collect()
+    };
+    let first = try_pairs(&world, &gaussians, &settings, Duration::default);
+    assert_eq!(ways(&first), ways(&try_pairs(&world, &gaussians, &settings, Duration::default)));
+    assert!(first.iter().all(|result| result.route.is_err() || result.num_violations == Some(0)));
+    assert!(first.iter().any(|result| result.route.as_ref().is_ok_and(|route| !route.is_straight())));
+}

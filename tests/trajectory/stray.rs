@@ -1,0 +1,48 @@
+//! Balls about parts of a path hold every position of the part.
+
+use cinesplat::trajectory::{CameraPath, Intent, Keyframe, Move};
+use glam::DVec3;
+
+use super::{key, shot};
+
+fn check(keys: Vec<Keyframe>) {
+    let path = CameraPath::new(&shot(keys)).unwrap();
+    let mut parts = path.parts();
+    for _ in 0..6 {
+        for &part in &parts {
+            let ball = path.ball(part);
+            let (from, to) = (path.time_at(part.key_idx, part.from), path.time_at(part.key_idx, part.to));
+            for i in 0..=40 {
+                // The last moment before the key that follows still belongs to the part.
+                let time = from + (to - from) * f64::from(i) / 40.0 * (1.0 - 1e-12);
+                let off = path.sample(time).pose.position.distance(ball.center);
+                assert!(off <= ball.radius + 1e-7, "{off} off a ball of {} at {time} s", ball.radius);
+            }
+        }
+        let before = parts.iter().map(|&part| path.ball(part).radius).fold(0.0, f64::max);
+        parts = parts.into_iter().flat_map(|part| part.halves()).collect();
+        let after = parts.iter().map(|&part| path.ball(part).radius).fold(0.0, f64::max);
+        assert!(after <= 0.75 * before + 1e-12, "halves of {before} are {after}");
+    }
+}
+
+#[test]
+fn of_splines() {
+    check(vec![
+        key(0.0, DVec3::new(0.0, 0.0, 0.0)),
+        key(1.0, DVec3::new(1.0, 0.5, 0.0)),
+        key(1.5, DVec3::new(1.1, 2.0, 0.3)),
+        key(5.0, DVec3::new(-3.0, 2.0, 4.0)),
+    ]);
+}
+
+#[test]
+fn of_circles_and_spirals() {
+    let around = |time: f64, degrees: f64, radius: f64, height: f64| {
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        let intent = Intent { movement: Some(Move::OrbitLeft), pivot: Some(DVec3::ZERO), ..Intent::default() };
+        Keyframe { intent: Some(intent), ..key(time, DVec3::new(radius * sin, height, radius * cos)) }
+    };
+    check(vec![around(0.0, 10.0, 2.0, 1.0), around(3.0, -160.0, 2.0, 1.0)]);
+    check(vec![around(0.0, 10.0, 2.0, 1.0), around(1.0, -80.0, 3.0, 0.2), around(4.0, -170.0, 1.0, 2.0)]);
+}
