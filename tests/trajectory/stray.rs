@@ -1,6 +1,6 @@
 //! Balls about parts of a path hold every position of the part.
 
-use cinesplat::trajectory::{CameraPath, Intent, Keyframe, Move};
+use cinesplat::trajectory::{CameraPath, Intent, Keyframe, Move, PathPart};
 use glam::DVec3;
 
 use super::{key, shot};
@@ -20,7 +20,7 @@ fn check(keys: Vec<Keyframe>) {
             }
         }
         let before = parts.iter().map(|&part| path.ball(part).radius).fold(0.0, f64::max);
-        parts = parts.into_iter().flat_map(|part| part.halves()).collect();
+        parts = parts.into_iter().flat_map(PathPart::halves).collect();
         let after = parts.iter().map(|&part| path.ball(part).radius).fold(0.0, f64::max);
         assert!(after <= 0.75 * before + 1e-12, "halves of {before} are {after}");
     }

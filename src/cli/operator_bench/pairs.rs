@@ -3,10 +3,12 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
+use glam::DVec3;
+
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::objects::ObjectSet;
-use crate::operator::{ClearanceIndex, OPACITY_FLOOR, PairResult, PairSettings, SIGMA_LEVEL, World, try_pairs};
+use crate::operator::{ClearanceIndex, OPACITY_FLOOR, PairResult, PairSettings, Route, SIGMA_LEVEL, World, try_pairs};
 use crate::pipeline;
 use crate::scene::{LoadOptions, Scene};
 
@@ -76,7 +78,7 @@ fn on_scene(scene: &Scene, settings: &PairSettings) -> Result<Vec<PairResult>, F
 
 fn line(head: &str, result: &PairResult, radius: f64) -> String {
     let coordinates: Vec<String> =
-        [result.start, result.goal].iter().flat_map(|p| p.to_array()).map(|v| format!("{v:.4}")).collect();
+        [result.start, result.goal].iter().flat_map(DVec3::to_array).map(|v| format!("{v:.4}")).collect();
     let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.6}"));
     let (outcome, keys, proved) = match &result.route {
         Ok(route) => {
@@ -100,7 +102,7 @@ fn line(head: &str, result: &PairResult, radius: f64) -> String {
 fn summary(results: &[PairResult]) -> String {
     let mut times: Vec<f64> = results.iter().map(|result| milliseconds(result.solve_time)).collect();
     times.sort_by(f64::total_cmp);
-    let straight = results.iter().filter(|r| r.route.as_ref().is_ok_and(|route| route.is_straight())).count();
+    let straight = results.iter().filter(|r| r.route.as_ref().is_ok_and(Route::is_straight)).count();
     let found = results.iter().filter(|r| r.route.is_ok()).count();
     let violating = results.iter().filter(|r| r.num_violations.is_some_and(|count| count > 0)).count();
     // A scan that finds less than what was proved would break the proof, even where the camera has room. It stops looking

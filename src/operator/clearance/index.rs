@@ -127,12 +127,10 @@ impl Node {
     /// Lower bounds of the squared distances from a point to the eight boxes.
     fn squared_distances(&self, point: [f32; 3]) -> [f32; WIDTH] {
         let mut sum = [0.0_f32; WIDTH];
-        for axis in 0..3 {
-            for child in 0..WIDTH {
-                let below = self.low[axis][child] - point[axis];
-                let above = point[axis] - self.high[axis][child];
-                let apart = below.max(above).max(0.0);
-                sum[child] += apart * apart;
+        for ((low, high), at) in self.low.iter().zip(&self.high).zip(point) {
+            for ((sum, low), high) in sum.iter_mut().zip(low).zip(high) {
+                let apart = (low - at).max(at - high).max(0.0);
+                *sum += apart * apart;
             }
         }
         sum.map(|squared| squared * SURE_FRAC)

@@ -6,10 +6,10 @@ use super::straight::{end_room, free_around};
 use crate::operator::world::World;
 
 /// Points of the band over a way as long as the scene's size, and at least and at most.
-const POINTS_PER_SIZE: f64 = 64.0;
-const POINTS: (usize, usize) = (16, 128);
+const POINTS_PER_SIZE: f64 = 48.0;
+const POINTS: (usize, usize) = (16, 96);
 /// Sweeps over the band.
-const SWEEPS: usize = 36;
+const SWEEPS: usize = 24;
 /// Distance to walls up to which they push, over the room that is needed.
 const PUSHED_WITHIN: f64 = 1.8;
 
@@ -17,17 +17,36 @@ const PUSHED_WITHIN: f64 = 1.8;
 pub(super) fn rounded(world: &World, way: &[DVec3], room: f64) -> Vec<DVec3> {
     let length: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let count = ((length / world.bounds.size() * POINTS_PER_SIZE) as usize).clamp(POINTS.0, POINTS.1);
-    let mut band = spread(way, length, count);
+    let spacing = length / count as f64;
+    let look = Look { world, wide: PUSHED_WITHIN * room, reach: PUSHED_WITHIN * room + spacing };
+    let mut band: Vec<Place> = spread(way, length, count).into_iter().map(|point| look.at(point)).collect();
     let near_ends = end_room(world, way, room);
     for _ in 0..SWEEPS {
         for i in 1..count {
             let needed = if i <= 2 || i + 2 >= count { near_ends } else { room };
-            if let Some(moved) = moved(world, &band[i - 1..=i + 1], needed, length / count as f64) {
+            if let Some(moved) = look.moved(&band[i - 1..=i + 1], needed, spacing) {
                 band[i] = moved;
             }
         }
     }
-    band
+    band.into_iter().map(|place| place.point).collect()
+}
+
+/// A point of the band.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    point: DVec3,
+    /// Distance to matter, as far as one looks.
+    free: f64,
+}
+
+/// How far one looks for matter.
+struct Look<'a> {
+    world: &'a World,
+    /// Distance up to which walls push.
+    wide: f64,
+    /// Distance beyond which it makes no difference.
+    reach: f64,
 }
 
 /// `count + 1` points at even distances along a polyline.
@@ -49,32 +68,30 @@ fn spread(way: &[DVec3], length: f64, count: usize) -> Vec<DVec3> {
     points
 }
 
-/// Where the middle one of three points goes next; `None` where it would lose its room.
-fn moved(world: &World, three: &[DVec3], room: f64, spacing: f64) -> Option<DVec3> {
-    let (before, here, after) = (three[0], three[1], three[2]);
-    let wide = PUSHED_WITHIN * room;
-    let free = free_around(world, here, wide);
-    let mut next = here.lerp(before.midpoint(after), 0.6);
-    if free < wide {
-        let push = away_from_matter(world, here, free, 0.25 * room) * (wide - free);
-        next += push.clamp_length_max(0.5 * spacing);
+impl Look<'_> {
+    fn at(&self, point: DVec3) -> Place {
+        Place { point, free: free_around(self.world, point, self.reach) }
     }
-    let needed = room.min(free);
-    let clear = free_around(world, next, wide + spacing);
-    // The band between two neighbors is free where balls of what is free about them meet.
-    let meets = |other: DVec3| {
-        let around = free_around(world, other, wide + spacing);
-        clear + around - next.distance(other) >= 2.0 * needed.min(around)
-    };
-    (clear >= needed && meets(before) && meets(after)).then_some(next)
-}
 
-/// Unit direction in which the distance to matter grows; zero in the middle between walls.
-fn away_from_matter(world: &World, point: DVec3, free: f64, step: f64) -> DVec3 {
-    let far = free + 2.0 * step;
-    let slope = |axis: DVec3| {
-        (free_around(world, point + axis * step, far) - free_around(world, point - axis * step, far)) / (2.0 * step)
-    };
-    let gradient = DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
-    gradient.clamp_length_max(1.0)
+    /// Where the middle one of three points goes next; `None` where it would lose its room.
+    fn moved(&self, three: &[Place], room: f64, spacing: f64) -> Option<Place> {
+        let [before, here, after] = [three[0], three[1], three[2]];
+        let mut next = here.point.lerp(before.point.midpoint(after.point), 0.6);
+        if here.free < self.wide {
+            let push = self.away_from_matter(here, 0.1 * room) * (self.wide - here.free);
+            next += push.clamp_length_max(0.5 * spacing);
+        }
+        let next = self.at(next);
+        let needed = room.min(here.free);
+        // The band between two neighbors is free where balls of what is free about them meet.
+        let meets =
+            |other: Place| next.free + other.free - next.point.distance(other.point) >= 2.0 * needed.min(other.free);
+        (next.free >= needed && meets(before) && meets(after)).then_some(next)
+    }
+
+    /// Direction in which the distance to matter grows, of length 1 at most: less in the middle between walls.
+    fn away_from_matter(&self, here: Place, step: f64) -> DVec3 {
+        let slope = |axis: DVec3| (self.at(here.point + axis * step).free - here.free) / step;
+        DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z)).clamp_length_max(1.0)
+    }
 }

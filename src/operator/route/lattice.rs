@@ -65,11 +65,11 @@ impl<'a> Lattice<'a> {
         if goals.is_empty() || starts.is_empty() {
             return Reached::Enclosed;
         }
-        // An end in a small enclosure is found out soonest from its own side.
-        if self.flood(&goals, &starts, MAX_PLACES / 10) == Some(false) {
-            return Reached::Enclosed;
+        match self.search(&starts, &goals, (start, goal)) {
+            // The goal may stand in an enclosure, which is found out soonest from its side.
+            Reached::GaveUp if self.flood(&goals, &starts, MAX_PLACES / 4) == Some(false) => Reached::Enclosed,
+            reached => reached,
         }
-        self.search(&starts, &goals, (start, goal))
     }
 
     /// Places next to a point that a camera can reach from it straight.
