@@ -124,7 +124,7 @@ fn bent(curve: Curve, duration_secs: f64, length: f64, ends: [Option<f64>; 2]) -
     let mut way = 0.0;
     let mut table = vec![(0.0, speed(0.0) * length / duration_secs)];
     for part in 0..NUM_PARTS {
-        way += part_integral(&speed, part) / total;
+        way += part_integral(speed, part) / total;
         let x = (part + 1) as f64 / NUM_PARTS as f64;
         table.push((way * length, speed(x) * length / duration_secs));
     }

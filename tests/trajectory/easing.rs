@@ -28,9 +28,12 @@ fn every_easing_goes_from_start_to_end_and_never_back() {
     }
 }
 
+/// Name of an easing and its curve.
+type Formula = (&'static str, fn(f64) -> f64);
+
 #[test]
 fn curves_are_those_of_their_formulas() {
-    let expected: [(&str, fn(f64) -> f64); 7] = [
+    let expected: [Formula; 7] = [
         ("sine-in", |t| 1.0 - (t * FRAC_PI_2).cos()),
         ("quad-in", |t| t * t),
         ("cubic-in", |t| t * t * t),

@@ -31,7 +31,7 @@ pub(super) struct Args {
 #[derive(Debug, clap::Subcommand)]
 enum Part {
     /// Exactness of the moves: radius, speed, continuity, dolly zooms, backtracking.
-    Moves(moves::Args),
+    Moves,
     /// Writes the camera path and the shot of every case.
     Films(films::Args),
     /// Share of the picture that no Gaussian covers, per film.
@@ -47,7 +47,7 @@ enum Part {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         match self.part {
-            Part::Moves(args) => args.run(),
+            Part::Moves => moves::run(),
             Part::Films(args) => args.run(),
             Part::Void(args) => args.run(),
             Part::Curve(args) => args.run(),

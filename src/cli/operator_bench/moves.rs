@@ -17,10 +17,6 @@ const ROOM: &str = "synth:room:7:0.2";
 /// Objects of the room about which each move is planned.
 const NUM_SUBJECTS: usize = 6;
 
-/// Nothing to choose.
-#[derive(Debug, clap::Args)]
-pub(super) struct Args {}
-
 /// Something measured: worst value over `cases`, and what it must stay under.
 struct Row {
     what: &'static str,
@@ -37,18 +33,17 @@ impl Row {
     }
 }
 
-impl Args {
-    pub(super) fn run(self) -> Result<(), Failure> {
-        let set = Set::open()?;
-        let mut rows = authored()?;
-        rows.extend(planned(&set)?);
-        console::data("what,cases,worst,limit,holds\n")?;
-        for row in rows {
-            let holds = row.worst <= row.limit;
-            console::data(&format!("{},{},{:.2e},{},{holds}\n", row.what, row.cases, row.worst, row.limit))?;
-        }
-        Ok(())
+/// Measures and prints.
+pub(super) fn run() -> Result<(), Failure> {
+    let set = Set::open()?;
+    let mut rows = authored()?;
+    rows.extend(planned(&set)?);
+    console::data("what,cases,worst,limit,holds\n")?;
+    for row in rows {
+        let holds = row.worst <= row.limit;
+        console::data(&format!("{},{},{:.2e},{},{holds}\n", row.what, row.cases, row.worst, row.limit))?;
     }
+    Ok(())
 }
 
 /// Keys as a person types them.
