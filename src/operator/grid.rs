@@ -306,7 +306,8 @@ mod tests {
             let t = f64::from(i);
             let eye =
                 DVec3::new((t * 0.31).sin() * 3.0 + 0.5, 3.0 + (t * 0.17).cos() * 2.0, 2.5 + (t * 0.73).sin() * 3.0);
-            let direction = DVec3::new((t * 1.3).sin(), (t * 0.7).cos() * 0.6, (t * 2.1).cos()).normalize();
+            let target = DVec3::new(0.85 + 1.5 * (t * 1.3).sin(), 2.8 + 0.7 * (t * 0.7).cos(), 1.8 + (t * 2.1).cos());
+            let direction = (target - eye).normalize();
             let (got, expected) =
                 (grid.hit_distance(eye, direction, 5.0), hit_by_brute_force(&grid, eye, direction, 5.0));
             assert_eq!(got.is_some(), expected.is_some(), "ray {i}: {got:?}, expected {expected:?}");

@@ -73,7 +73,7 @@ fn a_wall_is_passed_through_its_door() {
     }
     // It goes about as far as it has to, 5.6 by the door's edge, and does not jerk.
     let length: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    assert!(length < 7.2, "{length}");
+    assert!(length < 7.5, "{length}");
     assert_eq!(route(&world, &start, &goal).unwrap(), found, "the same once more");
 }
 
