@@ -113,6 +113,9 @@ fn opening_for_crane(scenario: &Scenario, upward: bool) -> crate::operator::Fram
     framing
 }
 
+/// Least change of the angle under which a crane sees its subject.
+const LEAST_CRANE_DEG: f64 = 14.0;
+
 /// The camera after the rise (or fall), aimed at the target.
 fn raised(scenario: &Scenario, first: &CameraState, target: &Target, upward: bool) -> CameraState {
     let frame = &scenario.world.frame;
@@ -121,7 +124,7 @@ fn raised(scenario: &Scenario, first: &CameraState, target: &Target, upward: boo
     let distance = away.length();
     let start = bearing_of(scenario.world, target.aim, first.pose.position).elevation_rad.to_degrees();
     let sign = if upward { 1.0 } else { -1.0 };
-    let elevation = match scenario.step.end.angle {
+    let asked = match scenario.step.end.angle {
         Some(ShotAngle::Overhead) => lerp((46.0, 66.0), scenario.genes[6]),
         Some(ShotAngle::High) => lerp((16.0, 36.0), scenario.genes[6]),
         Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), scenario.genes[6]),
@@ -129,6 +132,9 @@ fn raised(scenario: &Scenario, first: &CameraState, target: &Target, upward: boo
         Some(ShotAngle::Worm) => -45.0,
         None => start + sign * lerp((18.0, 38.0), scenario.genes[6]),
     };
+    // Whatever the angle at its end, a crane that does not rise (or sink) is none.
+    let least = start + sign * LEAST_CRANE_DEG;
+    let elevation = if upward { asked.max(least) } else { asked.min(least) };
     let rise = match scenario.step.amount {
         Some(Amount::Units(units)) => sign * units,
         Some(Amount::Slight) => sign * 0.22 * distance,
