@@ -1,4 +1,4 @@
-use super::super::{Accuracy, Instructions, Quality, RenderSettings};
+use super::super::{Accuracy, Instructions, Precision, Quality, RenderSettings};
 
 /// What a variant turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -11,13 +11,16 @@ pub enum Kind {
     TransmittanceStop,
     /// The size rendered before enlarging, all else as `final`.
     Resolution,
+    /// Precision of the blending loop, all else as `final`.
+    Precision,
     /// What must change no bit, all else as `standard`.
     Free,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Preset, Self::AlphaCut, Self::TransmittanceStop, Self::Resolution, Self::Free];
+    pub const ALL: [Self; 6] =
+        [Self::Preset, Self::AlphaCut, Self::TransmittanceStop, Self::Resolution, Self::Precision, Self::Free];
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
@@ -26,6 +29,7 @@ impl Kind {
             Self::AlphaCut => "alpha-cut",
             Self::TransmittanceStop => "transmittance-stop",
             Self::Resolution => "resolution",
+            Self::Precision => "precision",
             Self::Free => "free",
         }
     }
@@ -69,6 +73,7 @@ pub fn variants(base: &RenderSettings) -> Vec<Variant> {
         let accuracy = Accuracy { resolution_frac, ..Accuracy::SPEC };
         all.push(knob(Kind::Resolution, format!("{resolution_frac:.2}"), accuracy));
     }
+    all.push(knob(Kind::Precision, "quick".to_owned(), Accuracy { precision: Precision::Quick, ..Accuracy::SPEC }));
     all.extend(free(base));
     all
 }
@@ -82,7 +87,10 @@ fn free(base: &RenderSettings) -> Vec<Variant> {
         settings: RenderSettings { instructions, ..standard },
         num_threads,
     };
+    let mut anew = of("order anew", standard.instructions, None);
+    anew.settings.reuses_order = false;
     vec![
+        anew,
         of("1 thread", standard.instructions, Some(1)),
         of("2 threads", standard.instructions, Some(2)),
         of("3 threads", standard.instructions, Some(3)),
