@@ -49,7 +49,8 @@ pub(super) struct Panel {
 /// The panels in a grid under a title and a legend of the series' names.
 pub(super) fn figure(title: &str, names: &[&str], panels: &[Panel], num_columns: usize) -> String {
     let num_rows = panels.len().div_ceil(num_columns);
-    let (width, height) = (PANEL[0] * num_columns as f64, HEADER + PANEL[1] * num_rows as f64);
+    // Two panels wide at least: title and legend want that much.
+    let (width, height) = (PANEL[0] * num_columns.max(2) as f64, HEADER + PANEL[1] * num_rows as f64);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" font-size=\"11\" fill=\"#222222\">\n\
