@@ -16,7 +16,6 @@ mod info;
 mod interrupt;
 mod npy;
 mod objects;
-mod operator_bench;
 mod outputs;
 mod plan;
 mod progress;

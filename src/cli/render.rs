@@ -93,7 +93,7 @@ impl Args {
         let renderer = Renderer::new(&scene.gaussians);
         let render = self.picture.settings(&scene, Quality::Standard, None, None);
         let (render, predicted) = times.measure("predict", || self.predict(&renderer, &shot, render))?;
-        let report = self.film(&scene, &shot, render)?;
+        let report = self.film(&renderer, &shot, render)?;
         times.add("render", report.render_time);
         times.add("encode", report.encode_time);
         print_times(&times, &report, start.elapsed());
@@ -196,7 +196,7 @@ impl Args {
         console::data(&format!("{summary:#}\n"))
     }
 
-    fn film(&self, scene: &Scene, shot: &Shot, render: RenderSettings) -> Result<FilmReport, Failure> {
+    fn film(&self, renderer: &Renderer<'_>, shot: &Shot, render: RenderSettings) -> Result<FilmReport, Failure> {
         let settings =
             FilmSettings { render, video: self.video(shot)?, frames: self.frames, sheet: self.sheet.clone() };
         let interrupt = Interrupt::listen()?;
@@ -205,7 +205,7 @@ impl Args {
             bar.show(progress.done, progress.total);
             if interrupt.is_asked() { Flow::Stop } else { Flow::Continue }
         };
-        let report = pipeline::film(scene, shot, &self.output, &settings, &mut watch);
+        let report = pipeline::film(renderer, shot, &self.output, &settings, &mut watch);
         bar.finish();
         Ok(report?)
     }

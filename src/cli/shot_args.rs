@@ -37,9 +37,8 @@ pub(super) struct ShotArgs {
     /// Moves the inner keys in time so that the camera cruises at even speed
     #[arg(long)]
     retime: bool,
-    /// How well open choices are made, against time: off (the network's cameras as they are), fast or full
-    #[arg(long, value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
-    solve: SolveLevel,
+    #[command(flatten)]
+    solve: SolveArgs,
     /// Weights of the director from a folder, instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     model: Option<PathBuf>,
@@ -60,7 +59,7 @@ impl ShotArgs {
             rate_fps: self.fps.unwrap_or(30.0),
             duration_secs: self.duration,
             seed: self.seed.unwrap_or(0),
-            solve: self.solve,
+            solve: self.solve.level,
             effects: self.effects.clone(),
         };
         let mut directed = pipeline::direct(scene, objects, prompt, &director, &settings)?;
@@ -141,6 +140,14 @@ fn print_effects(decisions: &[Decision]) {
     for decision in decisions {
         console::note(&format!("effect: {}", decision.sentence()));
     }
+}
+
+/// How well the solver works.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(super) struct SolveArgs {
+    /// How well open choices are made, against time: off (the network's cameras as they are), fast or full
+    #[arg(long = "solve", value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
+    pub(super) level: SolveLevel,
 }
 
 /// A solve level by name.

@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 use super::{FrameRange, PipelineError};
 use crate::geometry::{Camera, Intrinsics};
 use crate::render::{RenderSettings, Renderer, Rgb8Frame};
-use crate::scene::Scene;
 use crate::trajectory::{CameraPath, Shot};
 use crate::video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
 
@@ -77,7 +76,7 @@ impl FilmReport {
 /// [`PipelineError`]: keyframes without a path, frames the film does not have, a picture that cannot be rendered, a
 /// file that cannot be written. Nothing half-done is left under the output's name.
 pub fn film(
-    scene: &Scene,
+    renderer: &Renderer<'_>,
     shot: &Shot,
     output: &Path,
     settings: &FilmSettings,
@@ -101,7 +100,6 @@ pub fn film(
     let (give_back, used) = channel();
     let encoder = Encoder { writer, sheet, busy: Duration::ZERO, give_back };
     let (mut frame, mut last_camera) = (Rgb8Frame::default(), None);
-    let renderer = Renderer::new(&scene.gaussians);
     let mut render_time = Duration::ZERO;
 
     let (rendered, encoded) = thread::scope(|scope| {

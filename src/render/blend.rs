@@ -1,8 +1,8 @@
 //! Tiles to pixels: front to back, a tile at a time, each 8 x 4 block with its own list of splats.
 //!
 //! Enters: the places of a tile's splats, nearest first. Leaves: its pixels. Splats are taken a few hundred at a time:
-//! first every splat is entered into the lists of the blocks it touches, then every block that is not yet opaque
-//! blends its list with all its pixels in registers. A block that has become opaque takes no more splats.
+//! first it is found for every block which of them touch it, then every block that is not yet opaque lists those and
+//! blends them with all its pixels in registers. A block that has become opaque takes no more splats.
 
 use std::marker::PhantomData;
 

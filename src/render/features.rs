@@ -1,3 +1,4 @@
+use super::bin::TILE_PX;
 use super::blend::TILE_LEN;
 use super::kernel::Record;
 use super::memory::Budget;
@@ -89,7 +90,7 @@ impl Renderer<'_> {
         check_len("channels of a feature", num_channels.min(1), 1)?;
         let view = View::new(camera, glam::DVec3::ZERO, settings)?;
         let num_pixels = view.width as usize * view.height as usize;
-        let num_tile_pixels = (view.width as usize + 64) * (view.height as usize + 64);
+        let num_tile_pixels = (view.width as usize + TILE_PX) * (view.height as usize + TILE_PX);
         let num_values = num_pixels * num_channels + num_tile_pixels * num_channels.min(CHANNELS_AT_ONCE);
         let mut budget = Budget::of_picture(&view, &settings.limits)?;
         budget.take("the feature map", (num_values * size_of::<f32>()) as u64)?;

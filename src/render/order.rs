@@ -26,9 +26,10 @@ const UNSEEN: u32 = u32::MAX;
 pub(super) struct DepthOrder {
     keys: Vec<DepthKey>,
     spare: Vec<DepthKey>,
-    /// Where each Gaussian stood in the last order; [`UNSEEN`] for those that did not.
+    /// Where each Gaussian stood in the last order; [`UNSEEN`] for those that did not. Empty unless the last two views had
+    /// one direction: a camera that turns never asks.
     rank: Vec<u32>,
-    /// Direction of the last view; zero where `rank` says nothing.
+    /// Direction of the last view; zero where its order says nothing about others.
     forward: DVec3,
     /// Length of the last order.
     last_len: usize,
@@ -47,13 +48,15 @@ impl DepthOrder {
         // Distances change by amounts of their own when the camera moves.
         let is_reusable = view.reuses_order && view.sort == SortMode::Z;
         let forward = view.camera_from_world.row(2);
-        let is_near = forward.dot(self.forward) >= LEAST_COSINE && self.rank.len() == gaussians.len();
-        if !(is_reusable && is_near && self.repair()) {
+        let keeps_direction = is_reusable && forward.dot(self.forward) >= LEAST_COSINE;
+        if !(keeps_direction && self.rank.len() == gaussians.len() && self.repair()) {
             sort::sort(&mut self.keys, &mut self.spare);
         }
-        if is_reusable {
-            self.remember(forward, gaussians.len());
+        self.rank.clear();
+        if keeps_direction {
+            self.remember(gaussians.len());
         }
+        self.forward = if is_reusable { forward } else { DVec3::ZERO };
         &self.keys
     }
 
@@ -63,15 +66,14 @@ impl DepthOrder {
     }
 
     /// Notes where every Gaussian stands.
-    fn remember(&mut self, forward: DVec3, num_gaussians: usize) {
-        self.rank.clear();
+    fn remember(&mut self, num_gaussians: usize) {
         self.rank.resize(num_gaussians, UNSEEN);
         for (rank, key) in (0..).zip(&self.keys) {
             if let Some(place) = self.rank.get_mut(key.gaussian_idx as usize) {
                 *place = rank;
             }
         }
-        (self.forward, self.last_len) = (forward, self.keys.len());
+        self.last_len = self.keys.len();
     }
 
     /// Puts the keys in order by way of the last one; false, with the keys in some order, where that takes too long.

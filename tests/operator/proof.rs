@@ -2,10 +2,11 @@
 
 use cinesplat::operator::prove_clear;
 use cinesplat::scene::Gaussians;
-use cinesplat::trajectory::{CameraPath, ClearanceProof, Easing, Intent, Keyframe, Move, SceneRef, Shot};
+use cinesplat::trajectory::{CameraPath, ClearanceProof, Easing, Intent, Keyframe, Move};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
 use super::{add, brute_force, wall};
+use crate::support::shot_over;
 use cinesplat::geometry::Pose;
 
 fn key(time_secs: f64, position: DVec3) -> Keyframe {
@@ -21,22 +22,7 @@ fn key(time_secs: f64, position: DVec3) -> Keyframe {
 }
 
 fn path(keyframes: Vec<Keyframe>) -> CameraPath {
-    let duration_secs = keyframes[keyframes.len() - 1].time_secs;
-    CameraPath::new(&Shot {
-        scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: 64,
-        height: 36,
-        fps: 10.0,
-        duration_secs,
-        keyframes,
-        effects: Vec::new(),
-        report: Vec::new(),
-        clearance: None,
-    })
-    .unwrap()
+    CameraPath::new(&shot_over(keyframes)).unwrap()
 }
 
 /// A scene of a given extent about the origin: specks at the corners of a box.

@@ -6,10 +6,11 @@ use cinesplat::geometry::Pose;
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{NoRoute, PairSettings, Route, World, route, try_pairs};
 use cinesplat::scene::Gaussians;
-use cinesplat::trajectory::{CameraPath, CameraState, SceneRef, Shot};
+use cinesplat::trajectory::{CameraPath, CameraState};
 use glam::DVec3;
 
 use super::{brute_force, room, wall};
+use crate::support::shot_over;
 
 /// Where the door is: in the plane x = 0, between these z, up to this height.
 const DOOR: (f64, f64, f64) = (1.2, 2.0, 2.0);
@@ -37,21 +38,7 @@ fn camera(x: f64, y: f64, z: f64) -> CameraState {
 
 /// Many positions of a route's film.
 fn positions(world: &World, route: &Route) -> Vec<DVec3> {
-    let shot = Shot {
-        scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: 64,
-        height: 36,
-        fps: 10.0,
-        duration_secs: 6.0,
-        keyframes: route.keyframes(world, 6.0),
-        effects: Vec::new(),
-        report: Vec::new(),
-        clearance: None,
-    };
-    let path = CameraPath::new(&shot).unwrap();
+    let path = CameraPath::new(&shot_over(route.keyframes(world, 6.0))).unwrap();
     (0..=1500).map(|i| path.sample(f64::from(i) * 0.004).pose.position).collect()
 }
 

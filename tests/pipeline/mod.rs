@@ -5,7 +5,7 @@ mod forecast;
 use std::path::Path;
 
 use cinesplat::pipeline::{FilmSettings, Flow, FrameRange, PipelineError, Progress, film, open_scene};
-use cinesplat::render::{Quality, RenderSettings};
+use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat::scene::{LoadOptions, Scene};
 use cinesplat::trajectory::Shot;
 use cinesplat::video::VideoSettings;
@@ -68,7 +68,7 @@ fn progress_comes_once_a_frame_and_counts_up() {
         Flow::Continue
     };
     let path = folder.path().join("film.mkv");
-    let report = film(&scene(), &shot(), &path, &settings(), &mut watch).unwrap();
+    let report = film(&Renderer::new(&scene().gaussians), &shot(), &path, &settings(), &mut watch).unwrap();
     assert_eq!(seen, (1..=10).map(|done| (done, 10)).collect::<Vec<_>>());
     assert_eq!((report.num_frames, report.is_partial(), report.path), (10, false, path));
 }
@@ -78,7 +78,7 @@ fn a_film_that_is_stopped_keeps_its_frames() {
     let folder = tempfile::tempdir().unwrap();
     let mut watch = |progress: Progress| if progress.done == 4 { Flow::Stop } else { Flow::Continue };
     let path = folder.path().join("film.mkv");
-    let report = film(&scene(), &shot(), &path, &settings(), &mut watch).unwrap();
+    let report = film(&Renderer::new(&scene().gaussians), &shot(), &path, &settings(), &mut watch).unwrap();
     assert_eq!((report.num_frames, report.num_wanted, report.is_partial()), (4, 10, true));
     assert_eq!(report.path, folder.path().join("film.partial.mkv"));
     assert!(!path.exists());
@@ -88,7 +88,9 @@ fn a_film_that_is_stopped_keeps_its_frames() {
 fn a_film_that_cannot_be_rendered_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let broken = FilmSettings { render: RenderSettings { near: f64::NAN, ..settings().render }, ..settings() };
-    let made = film(&scene(), &shot(), &folder.path().join("film.mp4"), &broken, &mut |_| Flow::Continue);
+    let made = film(&Renderer::new(&scene().gaussians), &shot(), &folder.path().join("film.mp4"), &broken, &mut |_| {
+        Flow::Continue
+    });
     assert!(matches!(made, Err(PipelineError::Render(_))), "{made:?}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
@@ -102,7 +104,13 @@ fn an_encoder_that_fails_says_why() {
         }
         Flow::Continue
     };
-    let made = film(&scene(), &shot(), &folder.path().join("frames/%02d.png"), &settings(), &mut appears);
+    let made = film(
+        &Renderer::new(&scene().gaussians),
+        &shot(),
+        &folder.path().join("frames/%02d.png"),
+        &settings(),
+        &mut appears,
+    );
     assert!(matches!(&made, Err(PipelineError::Video(error)) if error.code() == "OUTPUT-EXISTS"), "{made:?}");
     assert_eq!(std::fs::read(folder.path().join("frames/05.png")).unwrap(), b"mine");
 }

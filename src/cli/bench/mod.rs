@@ -1,7 +1,8 @@
+mod operator;
 mod render;
 mod scaling;
 
-use super::{console, failure, operator_bench, outputs, scene_args};
+use super::{console, failure, outputs, scene_args};
 use failure::Failure;
 
 /// Measures what accuracy costs in time, and how cost grows with the work.
@@ -23,7 +24,7 @@ enum What {
     /// Time and memory against Gaussians, pixels and layers.
     Scaling(scaling::Args),
     /// The operator: exactness of moves, films of cases, void, accuracy against time, stages.
-    Operator(operator_bench::Args),
+    Operator(operator::Args),
 }
 
 impl Args {

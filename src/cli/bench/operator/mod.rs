@@ -9,7 +9,7 @@ mod path_facts;
 mod stages;
 mod void;
 
-use super::failure::Failure;
+use crate::cli::failure::Failure;
 
 /// Measures the operator.
 #[derive(Debug, clap::Args)]
@@ -55,4 +55,11 @@ impl Args {
             Part::Pairs(args) => args.run(),
         }
     }
+}
+
+/// Median (of an even number the upper one) and largest of values; 0 of none.
+fn median_and_most(values: &[f64]) -> (f64, f64) {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    (sorted.get(sorted.len() / 2).copied().unwrap_or(0.0), sorted.last().copied().unwrap_or(0.0))
 }

@@ -2,19 +2,17 @@ use std::path::PathBuf;
 
 use super::cases::CaseArgs;
 use crate::cli::failure::Failure;
-use crate::cli::shot_args::parse_level;
+use crate::cli::shot_args::SolveArgs;
 use crate::cli::{console, outputs};
 use crate::export::{self, ExportSettings, Format, shot_json};
-use crate::operator::SolveLevel;
 
 /// Where the films go.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
     cases: CaseArgs,
-    /// How well open choices are made: off, fast or full
-    #[arg(long, value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
-    solve: SolveLevel,
+    #[command(flatten)]
+    solve: SolveArgs,
     /// Frames a second of the paths
     #[arg(long, value_name = "F", default_value_t = 10.0)]
     fps: f64,
@@ -29,7 +27,7 @@ impl Args {
             .map_err(|error| Failure::io(&self.output.display().to_string(), &error))?;
         let (cases, mut studio) = self.cases.open()?;
         for case in &cases {
-            let shot = studio.shoot(case, self.solve)?;
+            let shot = studio.shoot(case, self.solve.level)?;
             let path = self.output.join(format!("{}.path.json", case.id));
             let settings = ExportSettings { fps: Some(self.fps), ..ExportSettings::default() };
             export::write(&path, Format::Nerfstudio, &shot, &settings)?;

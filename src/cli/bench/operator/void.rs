@@ -1,11 +1,11 @@
 use std::fmt::Write as _;
 
 use super::cases::CaseArgs;
+use super::median_and_most;
 use crate::cli::console;
 use crate::cli::failure::Failure;
-use crate::cli::shot_args::parse_level;
+use crate::cli::shot_args::SolveArgs;
 use crate::geometry::{Camera, Intrinsics};
-use crate::operator::SolveLevel;
 use crate::render::{RenderSettings, Renderer};
 use crate::scene::Scene;
 use crate::trajectory::{CameraPath, Shot};
@@ -15,9 +15,8 @@ use crate::trajectory::{CameraPath, Shot};
 pub(super) struct Args {
     #[command(flatten)]
     cases: CaseArgs,
-    /// How well open choices are made: off, fast or full
-    #[arg(long, value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
-    solve: SolveLevel,
+    #[command(flatten)]
+    solve: SolveArgs,
     /// Height of the pictures in pixels
     #[arg(long, value_name = "N", default_value_t = 72, value_parser = clap::value_parser!(u32).range(16..=2160))]
     height: u32,
@@ -35,17 +34,15 @@ impl Args {
         console::data("film,mean_void_frac,worst_void_frac\n")?;
         let mut means = Vec::new();
         for case in &cases {
-            let shot = studio.shoot(case, self.solve)?;
+            let shot = studio.shoot(case, self.solve.level)?;
             let shares = self.void_fracs(&studio.place(case)?.scene, &shot)?;
             let (mean, worst) = summary(&shares);
             means.push(mean);
             console::data(&format!("{},{mean:.4},{worst:.4}\n", case.id))?;
         }
-        means.sort_by(f64::total_cmp);
-        let median = means.get(means.len() / 2).copied().unwrap_or(0.0);
-        let worst = means.last().copied().unwrap_or(0.0);
+        let (median, worst) = median_and_most(&means);
         let mut text = String::new();
-        let _ = write!(text, "{} films, solver {}: mean void per film ", means.len(), self.solve.name());
+        let _ = write!(text, "{} films, solver {}: mean void per film ", means.len(), self.solve.level.name());
         let _ = write!(text, "median {median:.4}, worst {worst:.4} (transmittance above {})", self.threshold);
         console::note(&text);
         Ok(())

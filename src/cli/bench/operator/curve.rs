@@ -2,6 +2,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::cases::CaseArgs;
+use super::median_and_most;
 use crate::cli::failure::Failure;
 use crate::cli::{console, outputs};
 use crate::evaluation::curve_svg;
@@ -52,13 +53,6 @@ impl Outcome {
         self.whole += usize::from(unmet == 0);
     }
 
-    /// Median and longest time, milliseconds.
-    fn times_ms(&self) -> (f64, f64) {
-        let mut sorted = self.ms.clone();
-        sorted.sort_by(f64::total_cmp);
-        (sorted.get(sorted.len() / 2).copied().unwrap_or(0.0), sorted.last().copied().unwrap_or(0.0))
-    }
-
     /// Share of the report's lines that are not met.
     fn violated_frac(&self) -> f64 {
         self.unmet as f64 / self.lines.max(1) as f64
@@ -81,14 +75,15 @@ impl Args {
         }
         console::data("level,tries_factor,ms_median,ms_most,violated_frac,unmet_lines,whole_films,films\n")?;
         for ((level, factor), outcome) in BUDGETS.iter().zip(&outcomes) {
-            let (median, most) = outcome.times_ms();
+            let (median, most) = median_and_most(&outcome.ms);
             let (violated, unmet, whole) = (outcome.violated_frac(), outcome.unmet, outcome.whole);
             let films = outcome.ms.len();
             let name = level.name();
             console::data(&format!("{name},{factor},{median:.1},{most:.1},{violated:.5},{unmet},{whole},{films}\n"))?;
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        let point = |outcome: &Outcome| (outcome.times_ms().0.max(1e-3).log10(), 100.0 * outcome.violated_frac());
+        let point =
+            |outcome: &Outcome| (median_and_most(&outcome.ms).0.max(1e-3).log10(), 100.0 * outcome.violated_frac());
         let points: Vec<(f64, f64)> = outcomes.iter().map(point).collect();
         let title = format!("what was asked for and not found, {} films", cases.len());
         let svg = curve_svg(&title, "log10 of the search's milliseconds (median)", "lines not met, %", &points);
