@@ -71,7 +71,7 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
         let Self { origin_px, places, splats, view, workspace, sink, .. } = self;
         workspace.clear(origin_px, view);
         let cutoffs = Cutoffs {
-            level: (view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32,
+            level: A::level((view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32),
             // A little less: behind two layers of the largest opacity the spec has exactly 1e-4 left, which is not
             // below its least; in `f32` it would be, and the second layer would be missing.
             transmittance: (view.transmittance_stop * (1.0 - 1e-5)) as f32,
@@ -120,7 +120,7 @@ impl Workspace {
     ) {
         let splats = &self.splats[..len.min(RECORDS_LEN)];
         for (position, (splat, record)) in splats.iter().zip(self.records.iter_mut()).enumerate() {
-            *record = relative(splat, corner_px);
+            *record = relative::<A>(splat, corner_px);
             self.touches.enter(position, splat, corner_px);
         }
         self.touches.find(len, &self.done);
@@ -133,7 +133,7 @@ impl Workspace {
     /// Blends into every block that still takes splats those that touch it.
     #[inline(always)]
     fn blend_blocks<S: Simd, A: Arithmetic, K: Sink>(&mut self, simd: S, constants: &Constants<S>, sink: &mut K) {
-        let mut list = List([0; RECORDS_LEN + 8]);
+        let mut list = List::default();
         for block in 0..NUM_BLOCKS {
             let (strip, bit) = (block / BLOCKS_ACROSS, 1 << (block % BLOCKS_ACROSS));
             if self.done[strip] & bit != 0 {
@@ -164,16 +164,16 @@ impl Workspace {
 
 /// A splat relative to the tile's corner.
 #[inline(always)]
-fn relative(splat: &Splat, corner_px: [f32; 2]) -> Record {
+fn relative<A: Arithmetic>(splat: &Splat, corner_px: [f32; 2]) -> Record {
     let (x, y) = (splat.mean_px[0] - corner_px[0], splat.mean_px[1] - corner_px[1]);
-    let [ux, uy, vy] = splat.whiten;
+    let [ux, uy, vy] = splat.whiten.map(|factor| factor * A::OFFSET_UNIT);
     Record {
         ux,
         uy,
         u0: -(ux * x + uy * y),
         vy,
         v0: -(vy * y),
-        level: splat.level,
+        level: A::level(splat.level),
         color: splat.color,
         depth: splat.depth,
         gaussian_idx: splat.gaussian_idx,

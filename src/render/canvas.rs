@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use pulp::{Simd, WithSimd};
 
 use super::bin::TILE_PX;
-use super::pixels::{LinearRow, Rgb8Row, TilePixels};
+use super::pixels::TilePixels;
 use super::{Frame, Rgb8Frame};
 
 /// Rows of a picture to be written to.
@@ -70,12 +70,12 @@ impl WithSimd for Finished<'_, '_> {
                 let rows = rgb.chunks_mut(width * 3).zip(transmittance.chunks_mut(width)).enumerate();
                 for (row, (rgb, transmittance)) in rows {
                     let (rgb, transmittance) = (&mut rgb[left * 3..right * 3], &mut transmittance[left..right]);
-                    pixels.write_row(row, background, LinearRow { rgb, transmittance });
+                    pixels.row(row, background).write_linear(rgb, transmittance);
                 }
             }
             Canvas::Rgb8(rgb8) => {
                 for (row, rgb8) in rgb8.chunks_mut(width * 3).enumerate() {
-                    pixels.write_row(row, background, Rgb8Row(&mut rgb8[left * 3..right * 3]));
+                    pixels.row(row, background).write_rgb8(&mut rgb8[left * 3..right * 3]);
                 }
             }
         }

@@ -91,54 +91,55 @@ impl TilePixels {
         store(simd, &mut to.transmittance, first_lane, pixels.transmittance);
     }
 
-    /// Writes the pixels of one row of the tile, from the left, as many as the output holds.
+    /// One row of the tile over a background.
     #[inline(always)]
-    pub(super) fn write_row<O: RowOutput>(&self, row: usize, background: [f32; 3], mut output: O) {
-        let halves = &self.0[row / BLOCK_HEIGHT * HALVES_ACROSS..];
-        for (column, half) in halves.iter().take(HALVES_ACROSS).enumerate() {
-            let (rgb, rest) = half.row(row, background);
-            output.write(column, rgb, rest);
+    pub(super) fn row(&self, row: usize, background: [f32; 3]) -> TileRow<'_> {
+        let first = row / BLOCK_HEIGHT * HALVES_ACROSS;
+        TileRow { halves: &self.0[first..first + HALVES_ACROSS], row, background }
+    }
+}
+
+/// The pixels of one row of a tile, four at a time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TileRow<'a> {
+    halves: &'a [HalfBlock],
+    row: usize,
+    background: [f32; 3],
+}
+
+impl TileRow<'_> {
+    /// Color and transmittance of four pixels.
+    #[inline(always)]
+    fn quad(&self, quad: usize) -> ([f32; 3 * HALF_WIDTH], [f32; HALF_WIDTH]) {
+        self.halves[quad % HALVES_ACROSS].row(self.row, self.background)
+    }
+
+    /// Writes color and transmittance from the left, as many as there is room for.
+    #[inline(always)]
+    pub(super) fn write_linear(&self, rgb: &mut [f32], transmittance: &mut [f32]) {
+        let (rgb, rgb_end) = rgb.as_chunks_mut();
+        let (rest, rest_end) = transmittance.as_chunks_mut();
+        for (quad, to) in rgb.iter_mut().zip(rest).enumerate() {
+            (*to.0, *to.1) = self.quad(quad);
+        }
+        if !rest_end.is_empty() {
+            let (colors, rests) = self.quad(rgb.len());
+            rgb_end.copy_from_slice(&colors[..rgb_end.len()]);
+            rest_end.copy_from_slice(&rests[..rest_end.len()]);
         }
     }
-}
 
-/// Where the pixels of one row of a tile go.
-pub(super) trait RowOutput {
-    /// Writes four pixels from column 4 `quad` on, those that the output holds.
-    fn write(&mut self, quad: usize, rgb: [f32; 3 * HALF_WIDTH], rest: [f32; HALF_WIDTH]);
-}
-
-/// Color and transmittance as they are.
-pub(super) struct LinearRow<'a> {
-    pub(super) rgb: &'a mut [f32],
-    pub(super) transmittance: &'a mut [f32],
-}
-
-impl RowOutput for LinearRow<'_> {
+    /// Writes color in eight bits from the left, as many pixels as there is room for.
     #[inline(always)]
-    fn write(&mut self, quad: usize, rgb: [f32; 3 * HALF_WIDTH], rest: [f32; HALF_WIDTH]) {
-        put(self.rgb, quad, rgb);
-        put(self.transmittance, quad, rest);
-    }
-}
-
-/// Color in eight bits.
-pub(super) struct Rgb8Row<'a>(pub(super) &'a mut [u8]);
-
-impl RowOutput for Rgb8Row<'_> {
-    #[inline(always)]
-    fn write(&mut self, quad: usize, rgb: [f32; 3 * HALF_WIDTH], _: [f32; HALF_WIDTH]) {
-        put(self.0, quad, rgb.map(super::frame::level));
-    }
-}
-
-/// Writes values to the place of a number of as many, those that there is room for.
-#[inline(always)]
-fn put<T: Copy, const N: usize>(to: &mut [T], place: usize, values: [T; N]) {
-    if let Some(whole) = to.get_mut(place * N..).and_then(|to| to.first_chunk_mut::<N>()) {
-        *whole = values;
-    } else if let Some(end) = to.get_mut(place * N..) {
-        end.copy_from_slice(&values[..end.len()]);
+    pub(super) fn write_rgb8(&self, rgb8: &mut [u8]) {
+        let (whole, end) = rgb8.as_chunks_mut();
+        for (quad, to) in whole.iter_mut().enumerate() {
+            *to = self.quad(quad).0.map(super::frame::level);
+        }
+        if !end.is_empty() {
+            let levels = self.quad(whole.len()).0.map(super::frame::level);
+            end.copy_from_slice(&levels[..end.len()]);
+        }
     }
 }
 
@@ -149,16 +150,25 @@ pub(super) fn position_in_tile(pixel: usize) -> [usize; 2] {
     [column, half / HALVES_ACROSS * BLOCK_HEIGHT + lane / HALF_WIDTH]
 }
 
-/// Pixel centers of the left half of a block relative to its tile, x and y, in the order of a half block.
-#[inline(always)]
-pub(super) fn half_block_centers(block: usize) -> ([f32; HALF_LEN], [f32; HALF_LEN]) {
-    let (left, top) = (block % BLOCKS_ACROSS * BLOCK_WIDTH, block / BLOCKS_ACROSS * BLOCK_HEIGHT);
-    let (mut x, mut y) = ([0.0; HALF_LEN], [0.0; HALF_LEN]);
-    for lane in 0..HALF_LEN {
-        x[lane] = (left + lane % HALF_WIDTH) as f32 + 0.5;
-        y[lane] = (top + lane / HALF_WIDTH) as f32 + 0.5;
+/// Pixel centers of a half block relative to its left and upper corner.
+const CENTERS: [[f32; HALF_LEN]; 2] = {
+    let mut centers = [[0.0; HALF_LEN]; 2];
+    let mut lane = 0;
+    while lane < HALF_LEN {
+        centers[0][lane] = (lane % HALF_WIDTH) as f32 + 0.5;
+        centers[1][lane] = (lane / HALF_WIDTH) as f32 + 0.5;
+        lane += 1;
     }
-    (x, y)
+    centers
+};
+
+/// Registers of pixel centers of both halves of a block relative to its tile, and of their rows.
+#[inline(always)]
+pub(super) fn centers<S: Simd>(simd: S, block: usize, first_lane: usize) -> ([S::f32s; 2], S::f32s) {
+    let (left, top) = (block % BLOCKS_ACROSS * BLOCK_WIDTH, block / BLOCKS_ACROSS * BLOCK_HEIGHT);
+    let (x, y) = (load(simd, &CENTERS[0], first_lane), load(simd, &CENTERS[1], first_lane));
+    let x = simd.add_f32s(x, simd.splat_f32s(left as f32));
+    ([x, simd.add_f32s(x, simd.splat_f32s(HALF_WIDTH as f32))], simd.add_f32s(y, simd.splat_f32s(top as f32)))
 }
 
 /// A register of numbers from a place on.

@@ -18,6 +18,8 @@ pub(super) const NUM_BLOCKS: usize = BLOCKS_ACROSS * NUM_STRIPS;
 /// One bit a block: `[strip]` counts block rows from the top, bit 0 is the leftmost block.
 pub(super) type StripMasks = [u8; NUM_STRIPS];
 
+const BLOCKS_A_PX: f32 = 1.0 / BLOCK_WIDTH as f32;
+
 /// Slack in pixels for rounding; a block too many costs a little time, one too few a wrong pixel.
 const SLACK_PX: f32 = 0.02;
 
@@ -30,12 +32,15 @@ const NUM_WORDS: usize = RECORDS_LEN / 8;
 /// One number for each of [`LANES`] splats.
 type Lane = [f32; LANES];
 
-/// The regions where splats count, relative to a tile's corner, one array an attribute.
+/// The regions where splats count, relative to a tile's corner, one array an attribute. Across in blocks, down in pixels.
 #[derive(Debug, Clone, Copy, Default)]
 struct Regions {
-    /// Center, pixels.
-    x: Lane,
+    /// Row of the center.
     y: Lane,
+    /// The center, moved so that rounding what lies half a width before it gives the first block.
+    left: Lane,
+    /// The center, moved so that rounding what lies half a width behind it gives the block behind the last.
+    right: Lane,
     /// How far the middle of a row moves to the right a pixel down, and half a row's width a unit of the root below.
     shift: Lane,
     width: Lane,
@@ -73,7 +78,7 @@ impl Touches {
         let to = &mut self.regions[position / LANES % (RECORDS_LEN / LANES)];
         let lane = position % LANES;
         let [ux, uy, vy] = splat.whiten;
-        (to.x[lane], to.y[lane]) = (splat.mean_px[0] - corner_px[0], splat.mean_px[1] - corner_px[1]);
+        (to.left[lane], to.y[lane]) = (splat.mean_px[0] - corner_px[0], splat.mean_px[1] - corner_px[1]);
         (to.shift[lane], to.width[lane]) = (uy, ux);
         (to.vy[lane], to.reach[lane]) = (vy, splat.reach);
         (to.half_y[lane], to.lean[lane]) = (splat.half_px[1] + SLACK_PX, splat.lean_px);
@@ -90,8 +95,12 @@ impl Touches {
         }
         for group in &mut self.regions[..num_groups] {
             for lane in 0..LANES {
-                let width = 1.0 / group.width[lane];
-                (group.shift[lane], group.width[lane]) = (-group.shift[lane] * width, width);
+                let (width, x) = (1.0 / group.width[lane], group.left[lane] * BLOCKS_A_PX);
+                (group.shift[lane], group.width[lane]) = (-group.shift[lane] * width * BLOCKS_A_PX, width * BLOCKS_A_PX);
+                // Pixel i has its center at i + 0.5. The first block with one not before `left` is ceil((left - 7.5) / 8),
+                // that behind the last with one not after `right` is ceil((right - 0.5) / 8). The half is for rounding.
+                group.left[lane] = x - (BLOCK_WIDTH as f32 - 0.5 + SLACK_PX) * BLOCKS_A_PX + 0.5;
+                group.right[lane] = x - (0.5 - SLACK_PX) * BLOCKS_A_PX + 0.5;
             }
         }
         for (strip, blocks) in self.masks.as_chunks_mut::<BLOCKS_ACROSS>().0.iter_mut().enumerate() {
@@ -114,19 +123,32 @@ impl Touches {
             return 0;
         }
         // Without branches: eight positions a byte, those that are too many are written over.
-        let mut len = 0;
-        for (first, mask) in (0..).step_by(8).zip(masks) {
-            let positions = SET_BITS[usize::from(*mask)] | (first * 0x0101_0101_0101_0101);
-            list.0[len..len + 8].copy_from_slice(&positions.to_le_bytes());
-            len += mask.count_ones() as usize;
+        let (mut len, mut first) = (0, 0_u64);
+        for word in masks.as_chunks::<8>().0 {
+            for mask in word {
+                let positions = (SET_BITS[usize::from(*mask)] | first).to_le_bytes();
+                // Never beyond; written so that it need not be asked.
+                let place = len % LIST_LEN;
+                list.0[place..place + 8].copy_from_slice(&positions);
+                (len, first) = (len + mask.count_ones() as usize, first + 0x0808_0808_0808_0808);
+            }
         }
         len
     }
 }
 
+/// Room for all positions, a power of two.
+const LIST_LEN: usize = (RECORDS_LEN + 1).next_power_of_two();
+
 /// Positions of splats, with room behind for what [`Touches::list`] writes too much.
 #[derive(Debug)]
-pub(super) struct List(pub(super) [u8; RECORDS_LEN + 8]);
+pub(super) struct List(pub(super) [u8; LIST_LEN + 8]);
+
+impl Default for List {
+    fn default() -> Self {
+        Self([0; LIST_LEN + 8])
+    }
+}
 
 /// For every byte the positions of its set bits, lowest first, a byte each.
 const SET_BITS: [u64; 256] = set_bits();
@@ -161,15 +183,10 @@ fn touched_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
         let (dy_right, dy_left) = (of.lean[lane].max(top).min(bottom), (-of.lean[lane]).max(top).min(bottom));
         let (v_right, v_left) = (of.vy[lane] * dy_right, of.vy[lane] * dy_left);
         let half_width = |v: f32| root(of.reach[lane] - v * v) * of.width[lane];
-        let right = of.x[lane] + of.shift[lane] * dy_right + half_width(v_right);
-        let left = of.x[lane] + of.shift[lane] * dy_left - half_width(v_left);
-        // Pixel i has its center at i + 0.5. Blocks `first..end`, both 0..=BLOCKS_ACROSS.
-        let first_px = (left - (0.5 + SLACK_PX)).ceil();
-        let end_px = right + (0.5 + SLACK_PX - 1.0 + BLOCK_WIDTH as f32);
-        let first = (first_px * (1.0 / BLOCK_WIDTH as f32)).max(0.0).min(BLOCKS_ACROSS as f32);
-        let end = (end_px * (1.0 / BLOCK_WIDTH as f32)).max(0.0).min(BLOCKS_ACROSS as f32);
+        let first = of.left[lane] + of.shift[lane] * dy_left - half_width(v_left);
+        let end = of.right[lane] + of.shift[lane] * dy_right + half_width(v_right);
         let is_touched = (top <= of.half_y[lane]) & (bottom >= -of.half_y[lane]);
-        let bits = (0xff_u32 << whole(first)) & !(0xff_u32 << whole(end));
+        let bits = (0xff_u32 << nearest(first)) & !(0xff_u32 << nearest(end));
         *mask = if is_touched { bits as u8 } else { 0 };
     }
     masks
@@ -185,11 +202,11 @@ fn root(number: f32) -> f32 {
     guess * (1.503 - 0.501 * number * guess * guess) * number
 }
 
-/// A number in 0..=8, rounded down. The sum has its whole part in the lowest bits; a cast would not vectorize.
+/// The whole number nearest to a number, brought to 0..=8. The sum has it in its lowest bits; a cast would not vectorize.
 #[inline(always)]
-fn whole(number: f32) -> u32 {
+fn nearest(number: f32) -> u32 {
     const SHIFT: f32 = 8_388_608.0;
-    (number.floor() + SHIFT).to_bits() & 31
+    (number.max(0.0).min(BLOCKS_ACROSS as f32) + SHIFT).to_bits() & 31
 }
 
 /// A strip's blocks of each splat to the splats of each block: the transpose of a matrix of bits.

@@ -97,15 +97,19 @@ impl Splats {
 
     /// Writes the depth and place of every splat over `keys`.
     pub(super) fn write_keys(&self, keys: &mut Vec<DepthKey>) {
-        keys.clear();
-        keys.reserve(self.len());
-        for (batch_idx, batch) in self.batches.iter().enumerate() {
-            let first = (batch_idx * BATCH_LEN) as u32;
-            keys.extend((first..).zip(&batch.touches).map(|(place, &Touch { depth, gaussian_idx, .. })| DepthKey {
-                depth_bits: depth.to_bits(),
-                gaussian_idx,
-                place,
-            }));
-        }
+        keys.resize(self.len(), DepthKey::default());
+        let mut left = keys.as_mut_slice();
+        let slots = self.batches.iter().map(|batch| left.split_off_mut(..batch.touches.len()).unwrap_or_default());
+        let work: Vec<(u32, &Batch, &mut [DepthKey])> = (0..)
+            .step_by(BATCH_LEN)
+            .zip(&self.batches)
+            .zip(slots)
+            .map(|((first, batch), keys)| (first, batch, keys))
+            .collect();
+        work.into_par_iter().with_min_len(4).for_each(|(first, batch, keys)| {
+            for ((place, key), touch) in (first..).zip(keys).zip(&batch.touches) {
+                *key = DepthKey { depth_bits: touch.depth.to_bits(), gaussian_idx: touch.gaussian_idx, place };
+            }
+        });
     }
 }
