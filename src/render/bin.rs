@@ -3,6 +3,9 @@
 //! The sorted splats are cut into runs of fixed length, each binned on its own; a tile's list is its part of every
 //! run, one after the other. So the order never depends on the number of threads.
 
+use std::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
 use super::memory::{Budget, bytes_of};
@@ -15,11 +18,13 @@ pub(super) const TILE_PX: usize = 64;
 /// Splats in a run.
 const RUN_LEN: usize = 8192;
 
-/// A picture cut into tiles.
+/// Rows of tiles of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct TileGrid {
     /// Tiles side by side.
     pub(super) across: usize,
+    /// The first row.
+    pub(super) first_row: usize,
     /// Tiles on top of each other.
     pub(super) down: usize,
 }
@@ -27,7 +32,13 @@ pub(super) struct TileGrid {
 impl TileGrid {
     /// The grid that covers a view.
     pub(super) fn of(view: &View) -> Self {
-        Self { across: (view.width as usize).div_ceil(TILE_PX), down: (view.height as usize).div_ceil(TILE_PX) }
+        let [across, down] = [view.width, view.height].map(|size| (size as usize).div_ceil(TILE_PX));
+        Self { across, first_row: 0, down }
+    }
+
+    /// Some of the rows.
+    pub(super) fn rows(self, rows: &Range<usize>) -> Self {
+        Self { first_row: rows.start, down: rows.len(), ..self }
     }
 
     /// Number of tiles.
@@ -36,11 +47,18 @@ impl TileGrid {
     }
 }
 
+/// A splat in the order of depth and the tiles that it touches: first and last column, first and last row. It takes the
+/// place of its key, which has done its work.
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Placed {
+    rect: [u16; 4],
+    place: u32,
+}
+
 /// The bins of one run of splats.
 #[derive(Debug, Default)]
 struct Run {
-    /// Tiles each splat touches: first and last column, first and last row.
-    rects: Vec<[u16; 4]>,
     /// Number of splats of each tile, and room for counts of 0 behind.
     counts: Vec<u32>,
     /// Where the next place of each tile goes; in the end one after its last.
@@ -57,34 +75,34 @@ pub(super) struct Bins {
 }
 
 impl Bins {
-    /// Bins splats given in depth order; returns the number of splat-tile pairs.
+    /// Bins splats given in depth order into the tiles of a grid; returns the number of splat-tile pairs. The keys are
+    /// written over.
     ///
     /// # Errors
     /// [`RenderError::Cost`] or [`RenderError::Memory`] before anything is allocated for the pairs.
     pub(super) fn fill(
         &mut self,
-        keys: &[DepthKey],
+        keys: &mut [DepthKey],
         splats: &Splats,
-        view: &View,
+        grid: TileGrid,
         budget: &mut Budget,
     ) -> Result<u64, RenderError> {
-        let grid = TileGrid::of(view);
         self.num_runs = keys.len().div_ceil(RUN_LEN);
         if self.runs.len() < self.num_runs {
             self.runs.resize_with(self.num_runs, Run::default);
         }
         let runs = &mut self.runs[..self.num_runs];
-        let num_pairs =
-            runs.par_iter_mut().zip(keys.par_chunks(RUN_LEN)).map(|(run, keys)| run.count(keys, splats, grid)).sum();
+        let placed: &mut [Placed] = bytemuck::cast_slice_mut(keys);
+        let counted = runs.par_iter_mut().zip(placed.par_chunks_mut(RUN_LEN));
+        let num_pairs = counted.map(|(run, placed)| run.count(placed, splats, grid)).sum();
         budget.take_pairs(num_pairs)?;
-        runs.par_iter_mut().zip(keys.par_chunks(RUN_LEN)).for_each(|(run, keys)| run.place(keys, grid));
+        runs.par_iter_mut().zip(placed.par_chunks(RUN_LEN)).for_each(|(run, placed)| run.place(placed, grid));
         Ok(num_pairs)
     }
 
     /// Bytes that the lists hold on to.
     pub(super) fn bytes(&self) -> u64 {
-        let lists =
-            |run: &Run| bytes_of(&run.rects) + bytes_of(&run.counts) + bytes_of(&run.ends) + bytes_of(&run.places);
+        let lists = |run: &Run| bytes_of(&run.counts) + bytes_of(&run.ends) + bytes_of(&run.places);
         self.runs.iter().map(lists).sum()
     }
 
@@ -99,19 +117,18 @@ impl Bins {
 
 impl Run {
     /// Finds the tiles that each splat touches and how many splats each tile gets; returns the number of pairs.
-    fn count(&mut self, keys: &[DepthKey], splats: &Splats, grid: TileGrid) -> u64 {
-        self.rects.clear();
-        self.rects.extend(keys.iter().map(|key| splats.rect(key.place)));
+    fn count(&mut self, placed: &mut [Placed], splats: &Splats, grid: TileGrid) -> u64 {
         self.counts.clear();
         self.counts.resize(grid.len() + grid.across + 2, 0);
-        for &rect in &self.rects {
-            for_each_tile(rect, grid, |tile_idx, is_touched| self.counts[tile_idx] += is_touched);
+        for splat in placed {
+            splat.rect = splats.rect(splat.place);
+            for_each_tile(splat.rect, grid, |tile_idx, is_touched| self.counts[tile_idx] += is_touched);
         }
         self.counts.iter().map(|&count| u64::from(count)).sum()
     }
 
     /// Writes every splat's place into the lists of its tiles.
-    fn place(&mut self, keys: &[DepthKey], grid: TileGrid) {
+    fn place(&mut self, placed: &[Placed], grid: TileGrid) {
         let mut next = 0;
         self.ends.clear();
         self.ends.extend(self.counts.iter().map(|count| {
@@ -121,10 +138,10 @@ impl Run {
         self.places.clear();
         self.places.resize(next as usize, 0);
         let (ends, places) = (&mut self.ends, &mut self.places);
-        for (key, &rect) in keys.iter().zip(&self.rects) {
+        for &Placed { rect, place } in placed {
             for_each_tile(rect, grid, |tile_idx, is_touched| {
                 // Where it does not belong it is written over, or stays in the slot to spare.
-                places[ends[tile_idx] as usize] = key.place;
+                places[ends[tile_idx] as usize] = place;
                 ends[tile_idx] += is_touched;
             });
         }
@@ -135,13 +152,13 @@ impl Run {
 /// for those that are not in it: whether they are cannot be foretold, and a wrong guess costs more than a visit.
 #[inline(always)]
 fn for_each_tile([left, right, top, bottom]: [u16; 4], grid: TileGrid, mut visit: impl FnMut(usize, u32)) {
-    let first = usize::from(top) * grid.across + usize::from(left);
+    let first = (usize::from(top) - grid.first_row) * grid.across + usize::from(left);
     let (columns, rows) = (u32::from(right + 1 - left), u32::from(bottom + 1 - top));
     if columns.max(rows) <= 2 {
-        let (is_first, is_wide, is_high) = (columns.min(1), columns / 2, rows - 1);
-        visit(first, is_first);
+        let (is_wide, is_high) = (columns - 1, rows - 1);
+        visit(first, 1);
         visit(first + 1, is_wide);
-        visit(first + grid.across, is_first * is_high);
+        visit(first + grid.across, is_high);
         visit(first + grid.across + 1, is_wide * is_high);
         return;
     }

@@ -1,6 +1,8 @@
-//! The `f32` path from Gaussians to a picture: the four stages one after the other.
+//! The `f32` path from Gaussians to a picture: the four stages one after the other, for the whole picture or, where that
+//! would take too much memory, for one band of it after the other. A picture is the same to the bit either way.
 
 use std::marker::PhantomData;
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -8,19 +10,22 @@ use rayon::prelude::*;
 
 use super::bin::{Bins, TILE_PX, TileGrid};
 use super::blend::{Tile, Workspace};
-use super::canvas::{Canvas, Finished};
-use super::groups::{Groups, LANES};
+use super::canvas::{Band, Canvas, Finished};
+use super::groups::Groups;
 use super::kernel::{Arithmetic, Exact, Quick};
 use super::memory::Budget;
 use super::order::DepthOrder;
 use super::payload::{Payload, TileArea};
+use super::project::Projection;
 use super::sort::DepthKey;
 use super::splats::{self, Splats};
-use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View, WorkCounts};
+use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View};
 use crate::scene::Gaussians;
 
-/// Most bytes that a splat takes until its pairs are listed: itself, two keys, the tiles that it touches.
-const BYTES_A_SPLAT: usize = splats::BYTES_A_SPLAT + 2 * size_of::<DepthKey>() + size_of::<[u16; 4]>();
+/// Most bytes that a splat takes until its pairs are listed: itself and two keys.
+const BYTES_A_SPLAT: u64 = (splats::BYTES_A_SPLAT + 2 * size_of::<DepthKey>()) as u64;
+/// Bytes of its pairs, in most scenes.
+const PAIR_BYTES_A_SPLAT: u64 = 8;
 
 /// Work lists of one picture, kept for the next.
 #[derive(Debug, Default)]
@@ -69,72 +74,132 @@ impl<T: Default> Pool<T> {
 /// # Errors
 /// [`RenderError::Cost`] and [`RenderError::Memory`] where the picture exceeds the limits.
 pub(super) fn render<P: Payload>(
-    (gaussians, groups): (&Gaussians, &Groups),
+    scene: (&Gaussians, &Groups),
     view: &View,
     settings: &RenderSettings,
     buffers: &mut Buffers,
     (canvas, payload): (Canvas<'_>, &P),
 ) -> Result<(RenderStats, Vec<P::Part>), RenderError> {
-    let Buffers { splats, order, bins, workspaces } = buffers;
+    let (gaussians, groups) = scene;
     let mut budget = Budget::of_picture(view, &settings.limits)?;
     budget.take("the renderer's copy of the Gaussians", groups.bytes())?;
+    if view.reuses_order {
+        budget.take("the depth order", gaussians.len() as u64 * size_of::<u32>() as u64)?;
+    }
+    let bytes_before_bands = budget.bytes_before_bands(gaussians.len(), u64::from(view.width) * u64::from(view.height));
     budget.take("buffers of the threads", (rayon::current_num_threads() * Workspace::BYTES) as u64)?;
-    budget.take("the splats", (groups.packs.len() * LANES * BYTES_A_SPLAT + gaussians.len() * 4) as u64)?;
-    let start = Instant::now();
-    let num_projected = splats.fill(gaussians, groups, view);
-    let projected = Instant::now();
-    let keys = order.of(splats, view, gaussians);
-    let sorted = Instant::now();
-    let num_pairs = bins.fill(keys, splats, view, &mut budget)?;
-    payload.allow(budget.left_bytes());
-    let binned = Instant::now();
-    let tiles = (&*splats, &*bins);
-    let precision =
-        if view.alpha_cut < 1.0 / 256.0 { Precision::Exact } else { settings.effective_accuracy().precision };
-    let (num_block_blends, parts) = match precision {
-        Precision::Exact => blend_tiles::<Exact, P>(tiles, view, settings, workspaces, (canvas, payload)),
-        Precision::Quick => blend_tiles::<Quick, P>(tiles, view, settings, workspaces, (canvas, payload)),
-    };
-    let stats = RenderStats {
-        times: StageTimes {
-            project: projected - start,
-            sort: sorted - projected,
-            bin: binned - sorted,
-            blend: binned.elapsed(),
-        },
-        counts: WorkCounts { num_projected, num_splats: keys.len() as u64, num_pairs, num_block_blends },
-    };
-    Ok((stats, parts))
+    let bands = &canvas.into_bands(view.width as usize);
+    let grid = TileGrid::of(view);
+    let stats = RenderStats::default();
+    let mut picture =
+        Picture { scene, view, settings, buffers, payload, bands, grid, budget, bytes_before_bands, stats };
+    let mut parts = Vec::with_capacity(grid.len());
+    picture.render_rows(0..grid.down, &mut parts)?;
+    Ok((picture.stats, parts))
 }
 
-/// Blends all tiles; returns the number of overlaps between splats and blocks, and what the payload leaves of each tile.
-fn blend_tiles<A: Arithmetic + Send, P: Payload>(
-    (splats, bins): (&Splats, &Bins),
-    view: &View,
-    settings: &RenderSettings,
-    workspaces: &Pool<Workspace>,
-    (canvas, payload): (Canvas<'_>, &P),
-) -> (u64, Vec<P::Part>) {
-    let width = view.width as usize;
-    let grid = TileGrid::of(view);
-    let bands = canvas.into_bands(width);
-    let blend = |tile_idx: usize| {
+/// A picture on its way, from the first row of tiles to the last.
+struct Picture<'a, P: Payload> {
+    scene: (&'a Gaussians, &'a Groups),
+    view: &'a View,
+    settings: &'a RenderSettings,
+    buffers: &'a mut Buffers,
+    payload: &'a P,
+    /// Where each row of tiles goes.
+    bands: &'a [Band<'a>],
+    grid: TileGrid,
+    /// What is left for the splats of a band.
+    budget: Budget,
+    /// How much of that makes it worth while to render bands.
+    bytes_before_bands: u64,
+    stats: RenderStats,
+}
+
+impl<P: Payload> Picture<'_, P> {
+    /// Renders some rows of tiles: at once, or each half by itself where that would take too much memory. Appends what
+    /// the payload leaves of each tile.
+    fn render_rows(&mut self, rows: Range<usize>, parts: &mut Vec<P::Part>) -> Result<(), RenderError> {
+        match self.render_at_once(&rows, parts) {
+            Err(RenderError::Memory { .. }) if rows.len() > 1 => {
+                let middle = usize::midpoint(rows.start, rows.end);
+                self.render_rows(rows.start..middle, parts)?;
+                self.render_rows(middle..rows.end, parts)
+            }
+            result => result,
+        }
+    }
+
+    /// Renders some rows of tiles.
+    ///
+    /// # Errors
+    /// [`RenderError::Memory`], with nothing rendered, also where several rows take more than is worth while.
+    fn render_at_once(&mut self, rows: &Range<usize>, parts: &mut Vec<P::Part>) -> Result<(), RenderError> {
+        let (gaussians, groups) = self.scene;
+        let Buffers { splats, order, bins, .. } = &mut *self.buffers;
+        let grid = self.grid.rows(rows);
+        let start = Instant::now();
+        let projection = Projection::new(self.view, grid);
+        let num_projected = splats.look(groups, &projection);
+        let mut budget = self.budget;
+        budget.take("the splats", num_projected * BYTES_A_SPLAT)?;
+        let (found_bytes, limit_bytes) =
+            (num_projected * (BYTES_A_SPLAT + PAIR_BYTES_A_SPLAT), self.bytes_before_bands);
+        if rows.len() > 1 && found_bytes > limit_bytes {
+            return Err(RenderError::Memory { what: "the splats", found_bytes, limit_bytes });
+        }
+        splats.fill(gaussians, groups, &projection);
+        let projected = Instant::now();
+        // Half a picture has half an order, which says little about that of the other half.
+        let reuses_order = self.view.reuses_order && rows.len() == self.grid.down;
+        let keys = order.of(splats, &View { reuses_order, ..*self.view }, gaussians);
+        let (sorted, num_splats) = (Instant::now(), keys.len() as u64);
+        let num_pairs = bins.fill(keys, splats, grid, &mut budget)?;
+        self.budget.count_pairs(num_pairs);
+        self.payload.allow(budget.left_bytes());
+        let binned = Instant::now();
+        let num_block_blends = self.blend(grid, parts);
+        let StageTimes { project, sort, bin, blend } = &mut self.stats.times;
+        *project += projected - start;
+        *sort += sorted - projected;
+        *bin += binned - sorted;
+        *blend += binned.elapsed();
+        let counts = &mut self.stats.counts;
+        counts.num_projected += num_projected;
+        counts.num_splats += num_splats;
+        counts.num_pairs += num_pairs;
+        counts.num_block_blends += num_block_blends;
+        Ok(())
+    }
+
+    /// Blends the binned tiles; returns the number of overlaps between splats and blocks.
+    fn blend(&self, grid: TileGrid, parts: &mut Vec<P::Part>) -> u64 {
+        let precision = self.settings.effective_accuracy().precision;
+        let tiles = (0..grid.len()).into_par_iter().with_max_len(1);
+        let (blends, new): (Vec<u64>, Vec<P::Part>) = match precision {
+            Precision::Exact => tiles.map(|tile_idx| self.blend_tile::<Exact>(grid, tile_idx)).unzip(),
+            Precision::Quick => tiles.map(|tile_idx| self.blend_tile::<Quick>(grid, tile_idx)).unzip(),
+        };
+        parts.extend(new);
+        blends.into_iter().sum()
+    }
+
+    /// Blends one tile and writes it into the picture.
+    fn blend_tile<A: Arithmetic>(&self, grid: TileGrid, tile_idx: usize) -> (u64, P::Part) {
+        let Buffers { splats, bins, workspaces, .. } = &*self.buffers;
+        let (view, width) = (self.view, self.view.width as usize);
+        let (column, row) = (tile_idx % grid.across, grid.first_row + tile_idx / grid.across);
+        let origin_px = [column * TILE_PX, row * TILE_PX];
+        let area = TileArea { origin_px, width, height: view.height as usize };
+        let mut sink = self.payload.sink(area);
         workspaces.with(|workspace| {
-            let (column, row) = (tile_idx % grid.across, tile_idx / grid.across);
-            let origin_px = [column * TILE_PX, row * TILE_PX];
-            let places = bins.of_tile(tile_idx);
-            let area = TileArea { origin_px, width, height: view.height as usize };
-            let mut sink = payload.sink(area);
-            let (workspace, arithmetic) = (&mut *workspace, PhantomData::<A>);
+            let (places, arithmetic) = (bins.of_tile(tile_idx), PhantomData::<A>);
             let tile =
                 Tile { origin_px, places, splats, view, workspace: &mut *workspace, sink: &mut sink, arithmetic };
             view.instructions.dispatch(tile);
-            let background = settings.background.to_array();
+            let background = self.settings.background.to_array();
             let pixels = workspace.pixels();
-            view.instructions.dispatch(Finished { pixels, band: &bands[row], column, width, background });
-            (workspace.num_block_blends(), payload.part(sink, area))
+            view.instructions.dispatch(Finished { pixels, band: &self.bands[row], column, width, background });
+            (workspace.num_block_blends(), self.payload.part(sink, area))
         })
-    };
-    let (blends, parts): (Vec<u64>, Vec<P::Part>) = (0..grid.len()).into_par_iter().with_max_len(1).map(blend).unzip();
-    (blends.into_iter().sum(), parts)
+    }
 }

@@ -68,6 +68,20 @@ impl Groups {
         Self { packs, groups }
     }
 
+    /// The attributes of a group's members.
+    pub(super) fn packs_of(&self, group: usize) -> &[Pack] {
+        let first = group * PACKS_IN_GROUP;
+        &self.packs[first..(first + PACKS_IN_GROUP).min(self.packs.len())]
+    }
+
+    /// Number of a group's members.
+    pub(super) fn len_of(&self, group: usize) -> usize {
+        if group + 1 < self.groups.len() {
+            return GROUP_LEN;
+        }
+        self.packs_of(group).iter().map(|pack| pack.len).sum()
+    }
+
     /// Bytes that they take.
     pub(super) fn bytes(&self) -> u64 {
         bytes_of(&self.packs) + bytes_of(&self.groups)

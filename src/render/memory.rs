@@ -4,11 +4,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{Limits, RenderError, View};
 
+/// What a picture is to take at most beyond the loaded scene, in bytes, where bands can help.
+const BYTES_A_GAUSSIAN: u64 = 100;
+const BYTES_A_PIXEL: u64 = 64;
+
 /// What is left of the caps of one picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Budget {
     limits: Limits,
     taken_bytes: u64,
+    num_pairs: u64,
 }
 
 impl Budget {
@@ -17,7 +22,7 @@ impl Budget {
     /// # Errors
     /// [`RenderError::Memory`].
     pub(super) fn of_picture(view: &View, limits: &Limits) -> Result<Self, RenderError> {
-        let mut budget = Self { limits: *limits, taken_bytes: 0 };
+        let mut budget = Self { limits: *limits, taken_bytes: 0, num_pairs: 0 };
         budget.take("the picture", u64::from(view.width) * u64::from(view.height) * 4 * size_of::<f32>() as u64)?;
         Ok(budget)
     }
@@ -40,10 +45,22 @@ impl Budget {
     /// # Errors
     /// [`RenderError::Cost`] or [`RenderError::Memory`].
     pub(super) fn take_pairs(&mut self, num_pairs: u64) -> Result<(), RenderError> {
-        if num_pairs > self.limits.max_pairs {
-            return Err(RenderError::Cost { found: num_pairs, limit: self.limits.max_pairs });
+        let (found, limit) = (self.num_pairs.saturating_add(num_pairs), self.limits.max_pairs);
+        if found > limit {
+            return Err(RenderError::Cost { found, limit });
         }
         self.take("the list of splat-tile pairs", num_pairs.saturating_mul(size_of::<u32>() as u64))
+    }
+
+    /// Counts pairs whose list has been given back.
+    pub(super) fn count_pairs(&mut self, num_pairs: u64) {
+        self.num_pairs += num_pairs;
+    }
+
+    /// Bytes that may be taken before the picture is better rendered in bands.
+    pub(super) fn bytes_before_bands(&self, num_gaussians: usize, num_pixels: u64) -> u64 {
+        let wanted = BYTES_A_GAUSSIAN * num_gaussians as u64 + BYTES_A_PIXEL * num_pixels;
+        wanted.min(self.limits.max_memory_bytes).saturating_sub(self.taken_bytes)
     }
 
     /// Bytes that may still be taken.

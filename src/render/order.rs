@@ -36,8 +36,8 @@ pub(super) struct DepthOrder {
 }
 
 impl DepthOrder {
-    /// The splats of a view, nearest first.
-    pub(super) fn of(&mut self, splats: &Splats, view: &View, gaussians: &Gaussians) -> &[DepthKey] {
+    /// The splats of a view, nearest first. What is written over them is not asked for again.
+    pub(super) fn of(&mut self, splats: &Splats, view: &View, gaussians: &Gaussians) -> &mut [DepthKey] {
         splats.write_keys(&mut self.keys);
         if view.sort == SortMode::Ray {
             self.keys.par_iter_mut().for_each(|key| {
@@ -57,7 +57,7 @@ impl DepthOrder {
             self.remember(gaussians.len());
         }
         self.forward = if is_reusable { forward } else { DVec3::ZERO };
-        &self.keys
+        &mut self.keys
     }
 
     /// Bytes that the lists hold on to.

@@ -9,7 +9,7 @@ use pulp::{Simd, WithSimd};
 
 use super::bin::{TILE_PX, TileGrid};
 use super::groups::{Group, LANES, Lane, Pack};
-use super::splat::{EXPONENT_DIVISOR, NO_TILE, Splat, whitening_unit};
+use super::splat::{EXPONENT_DIVISOR, Splat, whitening_unit};
 use super::splats::Batch;
 use super::{View, harmonics, reference};
 use crate::scene::Gaussians;
@@ -30,7 +30,7 @@ struct Outputs {
     reach: Lane,
     half_px: [Lane; 2],
     lean_px: Lane,
-    /// See [`Splat::tile_rect`]; the first column is behind the last where no tile is touched.
+    /// See [`Splat::tile_rect`].
     tile_rect: [[u16; LANES]; 4],
 }
 
@@ -68,15 +68,20 @@ pub(super) struct Projection {
     unit: f32,
     /// Width and height of the picture.
     size_px: [f32; 2],
-    /// Column and row of the last tile.
-    last_tile: [f32; 2],
+    /// The tiles to be rendered, their upper and lower end in pixels, and first and last column and row.
+    grid: TileGrid,
+    grid_px: [f32; 2],
+    columns: [f32; 2],
+    rows_of_tiles: [f32; 2],
+    /// Standard deviations from its center at which even an opacity of 1 no longer counts.
+    sigmas: f64,
 }
 
 impl Projection {
-    /// The projection of a view.
-    pub(super) fn new(view: &View) -> Self {
+    /// The projection of a view onto some of its tiles.
+    pub(super) fn new(view: &View, grid: TileGrid) -> Self {
         let rows = view.camera_from_world.transpose();
-        let grid = TileGrid::of(view);
+        let (top, bottom) = (grid.first_row, grid.first_row + grid.down);
         let narrow = |(low, high): (f64, f64)| (low as f32, high as f32);
         Self {
             view: *view,
@@ -89,12 +94,17 @@ impl Projection {
             cut_level: (view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32,
             unit: whitening_unit() as f32,
             size_px: [view.width, view.height].map(|size| size as f32),
-            last_tile: [grid.across, grid.down].map(|count| (count - 1) as f32),
+            grid,
+            grid_px: [top, bottom].map(|row| (row * TILE_PX) as f32),
+            columns: [0.0, (grid.across - 1) as f32],
+            rows_of_tiles: [top as f32, (bottom - 1) as f32],
+            sigmas: (-2.0 * view.alpha_cut.ln()).sqrt(),
         }
     }
 
-    /// Whether any member of a group may reach the picture. Its circles of three standard deviations are bounded by
-    /// `max_scale` times the largest stretch of the projection, which makes every test a plane in camera space.
+    /// Whether any member of a group may reach the picture, and the rows of tiles to be rendered. Its circles of three
+    /// standard deviations are bounded by `max_scale` times the largest stretch of the projection, which makes every test a
+    /// plane in camera space; rows are reached by as many deviations as count.
     pub(super) fn may_see(&self, group: &Group) -> bool {
         let view = &self.view;
         let center = view.camera_from_world * (group.center.as_dvec3() - view.center);
@@ -104,14 +114,19 @@ impl Projection {
         }
         let stretch = |focal: f64, bounds: (f64, f64)| focal * focal * (1.0 + bounds.0.abs().max(bounds.1).powi(2));
         let [fx, fy] = view.focal_px;
-        let reach = 3.0 * f64::from(group.max_scale) * (stretch(fx, view.slope_x) + stretch(fy, view.slope_y)).sqrt();
-        let is_outside = |focal: f64, center_px: f64, size: u32, along: f64| {
-            let before = (focal, center_px + MARGIN_PX);
-            let after = (-focal, f64::from(size.next_multiple_of(16)) - center_px + MARGIN_PX);
+        let sigma = f64::from(group.max_scale) * (stretch(fx, view.slope_x) + stretch(fy, view.slope_y)).sqrt();
+        // Beside what lies between two lines across the picture, with so many standard deviations of reach.
+        let is_outside = |(focal, along): (f64, f64), first_px: f64, last_px: f64, sigmas: f64| {
+            let (before, after) = ((focal, MARGIN_PX - first_px), (-focal, MARGIN_PX + last_px));
+            let reach = sigmas * sigma;
             [before, after].into_iter().any(|(a, b)| a * along + b * center.z + a.hypot(b) * radius + reach < 0.0)
         };
-        !is_outside(fx, view.principal_px[0], view.width, center.x)
-            && !is_outside(fy, view.principal_px[1], view.height, center.y)
+        let [px, py] = view.principal_px;
+        let [end_x, end_y] = self.end_px.map(f64::from);
+        let [top, bottom] = self.grid_px.map(f64::from);
+        !is_outside((fx, center.x), -px, end_x - px, 3.0)
+            && !is_outside((fy, center.y), -py, end_y - py, 3.0)
+            && !is_outside((fy, center.y), top - py, bottom - py, self.sigmas)
     }
 
     /// Appends the splats of a group's members.
@@ -215,17 +230,19 @@ impl Projection {
                 & (reach >= 0.0);
             let (half_x, half_y) = (out.half_px[0][lane], out.half_px[1][lane]);
             let (x_px, y_px) = (out.mean_px[0][lane], out.mean_px[1][lane]);
-            let ([width, height], [across, down]) = (self.size_px, self.last_tile);
+            let ([width, height], [top, bottom]) = (self.size_px, self.grid_px);
             let is_inside =
                 (x_px + half_x > 0.0) & (x_px - half_x < width) & (y_px + half_y > 0.0) & (y_px - half_y < height);
-            out.tile_rect[0][lane] = if is_inside { tile(x_px - half_x, across) } else { NO_TILE[0] };
-            out.tile_rect[1][lane] = if is_inside { tile(x_px + half_x, across) } else { NO_TILE[1] };
-            out.tile_rect[2][lane] = tile(y_px - half_y, down);
-            out.tile_rect[3][lane] = tile(y_px + half_y, down);
+            let is_in_grid = (y_px + half_y >= top) & (y_px - half_y < bottom);
+            out.tile_rect[0][lane] = tile(x_px - half_x, self.columns);
+            out.tile_rect[1][lane] = tile(x_px + half_x, self.columns);
+            out.tile_rect[2][lane] = tile(y_px - half_y, self.rows_of_tiles);
+            out.tile_rect[3][lane] = tile(y_px + half_y, self.rows_of_tiles);
             // Zero times anything finite is zero; what is not finite becomes NaN and is looked at in `f64`.
             let trouble = (det + ux + x + y + radius_px) * 0.0;
             let front = out.is_seen[lane];
-            out.is_seen[lane] = if front > 0.0 { if is_near { 1.0 + trouble } else { trouble } } else { 0.0 };
+            let is_seen = is_near & is_inside & is_in_grid;
+            out.is_seen[lane] = if front > 0.0 { if is_seen { 1.0 + trouble } else { trouble } } else { 0.0 };
         }
     }
 
@@ -248,7 +265,7 @@ impl Projection {
         } else {
             let exact = reference::project(gaussians, gaussian_idx as usize, &self.view)?;
             let splat = Splat::from_exact(&exact, &self.view);
-            (splat, splat.tile_rect(TILE_PX as f32, &self.view).unwrap_or(NO_TILE))
+            (splat, splat.tile_rect(self.grid, &self.view)?)
         };
         let sh_dc = Vec3::from(pack.sh_dc.map(|channel| channel[lane]));
         let color = if gaussians.sh_degree == 0 {
@@ -261,12 +278,12 @@ impl Projection {
     }
 }
 
-/// The tile that holds a position, or the nearest one. The sum has its whole part in the lowest bits; a cast would not
+/// The tile that holds a position, or the nearest between two. The sum has its whole part in the lowest bits; a cast would not
 /// vectorize.
 #[inline(always)]
-fn tile(position_px: f32, last: f32) -> u16 {
+fn tile(position_px: f32, [first, last]: [f32; 2]) -> u16 {
     const SHIFT: f32 = 8_388_608.0;
-    ((position_px * (1.0 / TILE_PX as f32)).max(0.0).min(last).floor() + SHIFT).to_bits() as u16
+    ((position_px * (1.0 / TILE_PX as f32)).max(first).min(last).floor() + SHIFT).to_bits() as u16
 }
 
 /// Binary logarithm of a positive normal number, absolute error below 1e-7; written so that it vectorizes.

@@ -73,8 +73,7 @@ pub struct Accuracy {
 pub enum Precision {
     /// Opacities within 2.5e-5 of themselves; each pixel stops on its own, as in the spec image.
     Exact,
-    /// Opacities within 0.0071 and 2.9 % of themselves; pixels stop in blocks of 8 x 4, when the last of them may. Where
-    /// opacities below 1/256 count, as [`Precision::Exact`].
+    /// Opacities within 0.8 % of themselves; pixels stop in blocks of 8 x 4, when the last of them may.
     Quick,
 }
 

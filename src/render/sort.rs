@@ -1,6 +1,8 @@
 //! Splats to depth order: runs are radix sorted side by side and merged. No two keys are equal, so the order does not
 //! depend on how many runs there were.
 
+use bytemuck::{Pod, Zeroable};
+
 /// Bits of a key looked at in one pass; with more, a pass writes to more places than the cache can follow.
 const DIGIT_BITS: u32 = 9;
 const NUM_DIGITS: usize = 1 << DIGIT_BITS;
@@ -9,7 +11,8 @@ const NUM_DIGITS: usize = 1 << DIGIT_BITS;
 const LEAST_LEN: usize = 4096;
 
 /// A splat's depth, the Gaussian that it shows, and where it is kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+#[repr(C)]
 pub(super) struct DepthKey {
     /// Bits of the depth, which is positive: they order as the numbers do.
     pub(super) depth_bits: u32,

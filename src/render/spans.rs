@@ -96,7 +96,8 @@ impl Touches {
         for group in &mut self.regions[..num_groups] {
             for lane in 0..LANES {
                 let (width, x) = (1.0 / group.width[lane], group.left[lane] * BLOCKS_A_PX);
-                (group.shift[lane], group.width[lane]) = (-group.shift[lane] * width * BLOCKS_A_PX, width * BLOCKS_A_PX);
+                (group.shift[lane], group.width[lane]) =
+                    (-group.shift[lane] * width * BLOCKS_A_PX, width * BLOCKS_A_PX);
                 // Pixel i has its center at i + 0.5. The first block with one not before `left` is ceil((left - 7.5) / 8),
                 // that behind the last with one not after `right` is ceil((right - 0.5) / 8). The half is for rounding.
                 group.left[lane] = x - (BLOCK_WIDTH as f32 - 0.5 + SLACK_PX) * BLOCKS_A_PX + 0.5;

@@ -1,13 +1,11 @@
 use glam::Vec3;
 
+use super::bin::{TILE_PX, TileGrid};
 use super::{View, reference::ExactSplat};
 
 /// The exponent that a splat stores is this many times smaller than the binary logarithm of the opacity, so that it
 /// lies in -1..=0 wherever the opacity counts; see [`super::exponential`].
 pub(super) const EXPONENT_DIVISOR: f64 = 8.0;
-
-/// The tiles of a splat that touches none: the first column behind the last.
-pub(super) const NO_TILE: [u16; 4] = [1, 0, 0, 0];
 
 /// Standard deviations to the units of [`Splat::whiten`]: an offset of w standard deviations costs (w k)^2 of exponent.
 pub(super) fn whitening_unit() -> f64 {
@@ -70,14 +68,16 @@ impl Splat {
         Self { color: color.to_array(), gaussian_idx, ..self }
     }
 
-    /// First and last tile that the splat may touch along each axis, x then y, or `None` beside the picture.
-    pub(super) fn tile_rect(&self, tile_px: f32, view: &View) -> Option<[u16; 4]> {
+    /// First and last tile of a grid that the splat may touch along each axis, x then y, or `None` beside it.
+    pub(super) fn tile_rect(&self, grid: TileGrid, view: &View) -> Option<[u16; 4]> {
         let [x, y] = self.mean_px;
         let [half_x, half_y] = self.half_px;
         let (width, height) = (view.width as f32, view.height as f32);
         let is_inside = x + half_x > 0.0 && x - half_x < width && y + half_y > 0.0 && y - half_y < height;
-        let first = |low: f32| (low.max(0.0) / tile_px) as u16;
-        let last = |high: f32, size: f32| (high.min(size - 1.0).max(0.0) / tile_px) as u16;
-        is_inside.then(|| [first(x - half_x), last(x + half_x, width), first(y - half_y), last(y + half_y, height)])
+        let tile = |position_px: f32, size_px: f32| (position_px.min(size_px - 1.0).max(0.0) / TILE_PX as f32) as u16;
+        let (first_row, last_row) = (grid.first_row as u16, (grid.first_row + grid.down - 1) as u16);
+        let (top, bottom) = (tile(y - half_y, height), tile(y + half_y, height));
+        (is_inside && bottom >= first_row && top <= last_row)
+            .then(|| [tile(x - half_x, width), tile(x + half_x, width), top.max(first_row), bottom.min(last_row)])
     }
 }

@@ -1,5 +1,6 @@
 //! Tests of the renderer: golden pictures, hard cases, equal results however the work is cut.
 
+mod bands;
 mod bench;
 mod goldens;
 mod hard_cases;
