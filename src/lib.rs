@@ -36,7 +36,7 @@
 //! | pictures | [`render`], [`video`] (the only one with ffmpeg) |
 //! | files | [`scene`], [`export`] |
 //! | paths | [`trajectory`] |
-//! | frames | [`geometry`] |
+//! | frames | [`geometry`]; charts: [`plot`] |
 //!
 //! # Invariants
 //!
@@ -58,6 +58,7 @@ pub mod lens;
 pub mod objects;
 pub mod operator;
 pub mod pipeline;
+pub mod plot;
 pub mod render;
 pub mod scene;
 pub mod trajectory;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Rows of the table from the bottom up. A folder of `src` may name folders of rows below its own, and itself.
 const ROWS: [&[&str]; 11] = [
-    &["geometry"],
+    &["geometry", "plot"],
     &["trajectory"],
     &["scene", "export"],
     &["render", "video"],

@@ -7,8 +7,10 @@ use super::console;
 /// How often a line is written where no terminal shows a bar.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
-/// Frames done of frames wanted: a bar with rate and time left on a terminal, a line every five seconds elsewhere.
+/// Frames or rows done of those wanted: a bar with rate and time left on a terminal, a line every five seconds elsewhere.
 pub(super) struct FrameProgress {
+    /// What is counted, and its rate's unit.
+    names: [&'static str; 2],
     bar: Option<ProgressBar>,
     start: Instant,
     last_line: Instant,
@@ -16,8 +18,17 @@ pub(super) struct FrameProgress {
 
 impl FrameProgress {
     pub(super) fn new() -> Self {
+        Self::of(["frame", "fps"])
+    }
+
+    /// Of the rows of a bench.
+    pub(super) fn of_rows() -> Self {
+        Self::of(["row", "rows/s"])
+    }
+
+    fn of(names: [&'static str; 2]) -> Self {
         let start = Instant::now();
-        Self { bar: console::is_watched().then(new_bar), start, last_line: start }
+        Self { names, bar: console::is_watched().then(|| new_bar(names)), start, last_line: start }
     }
 
     /// Shows that `done` of `total` frames are there.
@@ -27,7 +38,7 @@ impl FrameProgress {
             bar.set_position(done as u64);
         } else if self.last_line.elapsed() >= LINE_INTERVAL || done == total {
             self.last_line = Instant::now();
-            console::note(&line(done, total, self.start.elapsed()));
+            console::note(&line(self.names, (done, total), self.start.elapsed()));
         }
     }
 
@@ -39,23 +50,23 @@ impl FrameProgress {
     }
 }
 
-fn new_bar() -> ProgressBar {
+fn new_bar([name, unit]: [&'static str; 2]) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::stderr_with_hz(10));
-    let template = "frame {pos}/{len} {bar:30} {per_sec}, {eta} left";
-    match ProgressStyle::with_template(template) {
+    let template = format!("{name} {{pos}}/{{len}} {{bar:30}} {{per_sec}}, {{eta}} left");
+    match ProgressStyle::with_template(&template) {
         Ok(style) => bar.with_style(style.with_key(
             "per_sec",
-            |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
+            move |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
                 // A bar that cannot be drawn is no reason to stop a film.
-                let _ = write!(out, "{:.1} fps", state.per_sec());
+                let _ = write!(out, "{:.1} {unit}", state.per_sec());
             },
         )),
         Err(_) => bar,
     }
 }
 
-fn line(done: usize, total: usize, elapsed: Duration) -> String {
-    let rate_fps = done as f64 / elapsed.as_secs_f64().max(1e-9);
-    let left_secs = total.saturating_sub(done) as f64 / rate_fps.max(1e-9);
-    format!("frame {done}/{total}, {rate_fps:.1} fps, {left_secs:.0} s left")
+fn line([name, unit]: [&str; 2], (done, total): (usize, usize), elapsed: Duration) -> String {
+    let rate = done as f64 / elapsed.as_secs_f64().max(1e-9);
+    let left_secs = total.saturating_sub(done) as f64 / rate.max(1e-9);
+    format!("{name} {done}/{total}, {rate:.1} {unit}, {left_secs:.0} s left")
 }

@@ -35,7 +35,7 @@ pub use lens::{FocalError, focal_error};
 pub use motion::{motion_json, motion_text};
 pub use named_move::{NamedMove, name_move};
 pub use pairs::{Delta, PairSettings, pairs};
-pub use plot::{curve_svg, plot_svg};
+pub use plot::plot_svg;
 pub use relation::Relation;
 pub use smoothness::{Smoothness, smoothness};
 pub use statistics::Statistics;

@@ -1,7 +1,7 @@
 //! The bench of the renderer: rows for every camera and variant, knobs that must be free are free.
 
 use cinesplat::render::bench::{
-    Axis, BenchRow, BenchSettings, Kind, difference, measure, pareto_svg, scaling, to_csv, to_table, variants,
+    Axis, BenchRow, BenchSettings, Kind, Output, difference, measure, pareto_svg, scaling, to_csv, to_table, variants,
 };
 use cinesplat::render::{Frame, RenderSettings, Renderer};
 
@@ -11,7 +11,10 @@ fn rows() -> Vec<BenchRow> {
     let scene = crowd(2_000, 20);
     let variants = variants(&RenderSettings::default());
     let settings = BenchSettings { scene: "crowd".into(), variants, num_repeats: 2 };
-    measure(&Renderer::new(&scene), &[("c0".into(), camera(96, 54))], &settings, &mut |_| ()).unwrap()
+    let cameras = [("c0".into(), camera(96, 54)), ("c1".into(), camera(96, 54))];
+    let rows = measure(&Renderer::new(&scene), &cameras, &settings, &mut |_| ()).unwrap();
+    assert_eq!(rows.len(), settings.num_rows(2));
+    rows
 }
 
 #[test]
@@ -30,13 +33,34 @@ fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
     assert!(rows.iter().all(|row| row.timed.range[0] <= row.timed.median && row.timed.median <= row.timed.range[1]));
     let csv = to_csv(&rows);
     assert_eq!(csv.lines().count(), rows.len() + 1);
-    assert!(csv.lines().all(|line| line.split(',').count() == 21), "{csv}");
+    assert!(csv.lines().all(|line| line.split(',').count() == 22), "{csv}");
     let table = to_table(&rows);
-    assert!(table.contains("| crowd | 96x54 | draft |") && table.contains("7 of 7 pictures equal"), "{table}");
+    assert!(table.contains("| crowd | 96x54 | draft |") && table.contains("13 of 13 pictures equal"), "{table}");
+    // A slow variant is measured on the first camera alone.
+    assert_eq!(rows.iter().filter(|row| row.variant == "scalar").count(), 1);
+    let outputs: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == Kind::Output).collect();
+    assert_eq!(outputs.len(), 2 * Output::ALL.len());
+    assert!(outputs.iter().all(|row| row.times_color.is_some_and(|ratio| ratio > 0.0 && ratio.is_finite())));
+    assert!(outputs.iter().all(|row| row.difference.psnr_db.is_nan()) && !csv.contains("NaN"));
     for axis in Axis::ALL {
         let svg = pareto_svg(&rows, [96, 54], axis);
         assert!(svg.starts_with("<svg") && svg.contains("crowd") && !svg.contains("NaN") && !svg.contains("inf"));
     }
+}
+
+#[test]
+fn a_preset_that_another_beats_is_named() {
+    let mut rows: Vec<BenchRow> = rows().into_iter().filter(|row| row.kind == Kind::Preset).collect();
+    let at = |rows: &mut Vec<BenchRow>, variant: &str, ms: u64| {
+        let of_variant = rows.iter_mut().filter(|row| row.variant == variant);
+        of_variant.for_each(|row| row.timed.median = std::time::Duration::from_millis(ms));
+    };
+    at(&mut rows, "draft", 10);
+    at(&mut rows, "standard", 20);
+    at(&mut rows, "final", 30);
+    assert!(to_table(&rows).contains("beats in time and PSNR: none."), "{}", to_table(&rows));
+    at(&mut rows, "draft", 21);
+    assert!(to_table(&rows).contains("crowd at 96x54: draft by standard."), "{}", to_table(&rows));
 }
 
 /// A gray picture of 24 x 16 pixels.

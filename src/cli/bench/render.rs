@@ -6,20 +6,23 @@ use glam::DVec2;
 use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneOptions};
 use super::{console, outputs};
+use crate::cli::progress::FrameProgress;
 use crate::export::cameras_json::{self, StillCameras};
 use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
 use crate::render::bench::{self, Axis, BenchRow, BenchSettings};
-use crate::render::{Quality, Renderer};
+use crate::render::{Quality, RenderSettings, Renderer};
 use crate::scene::Scene;
 
-/// Measures scenes at every preset and every knob alone.
+/// Measures scenes at every preset, every knob alone and every output.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example:
   cinesplat bench render room.spz skull.sog --cameras room.cameras.json --cameras auto -o bench
 One line of CSV a scene, camera, size and variant on stdout: median and range of the runs and times of the stages in ms,
-work counts, PSNR, SSIM and worst pixel against `reference` (free knobs: against `standard`). -o keeps it with a table
-and plots.")]
+work counts, PSNR, SSIM and worst pixel against `reference` (free knobs: against `standard`). -o keeps it with tables and
+plots. Times are those of pictures in eight bits, as films take them; PSNR and the like are those of the same pictures as
+numbers. Outputs (depth, ids, features, weights, lift) are timed at `standard` in turn with color as numbers; times_color
+is the median ratio of the two. Knobs are measured at the first size alone, `scalar` there once on one camera.")]
 pub(in super::super) struct Args {
     /// Scenes, as for the other commands
     #[arg(value_name = "SCENE", required = true)]
@@ -30,7 +33,8 @@ pub(in super::super) struct Args {
     /// scene and from two sides
     #[arg(long, value_name = "CAMERAS.JSON", default_value = "auto")]
     cameras: Vec<PathBuf>,
-    /// Sizes of the pictures, or `given` for those of the cameras file
+    /// Sizes of the pictures, or `given` for those of the cameras file; all variants at the first, presets alone at the
+    /// others
     #[arg(long, value_name = "WxH,..", default_value = "1280x720", value_delimiter = ',', value_parser = parse_size)]
     sizes: Vec<Option<[u32; 2]>>,
     /// Most cameras of a scene
@@ -54,42 +58,64 @@ impl Args {
             fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))?;
         }
         self.picture.bound_threads()?;
-        let mut rows = Vec::new();
         console::data(&bench::to_csv(&[]))?;
+        let cameras_of = |idx: usize| files.get(idx.min(files.len() - 1)).and_then(Option::as_ref);
+        let num_rows: usize = (0..self.scenes.len()).map(|idx| self.num_rows(cameras_of(idx))).sum();
+        let mut log = RowLog { rows: Vec::new(), num_rows, progress: FrameProgress::of_rows() };
         for (idx, path) in self.scenes.iter().enumerate() {
-            let cameras = files.get(idx.min(files.len() - 1)).and_then(Option::as_ref);
-            rows.extend(self.bench_scene(path, cameras)?);
+            self.bench_scene(path, cameras_of(idx), &mut log)?;
         }
-        self.output.as_ref().map_or(Ok(()), |folder| write_all(folder, &rows))
+        log.progress.finish();
+        self.output.as_ref().map_or(Ok(()), |folder| write_all(folder, &log.rows))
     }
 
     /// All cameras and sizes of one scene.
-    fn bench_scene(&self, path: &Path, file: Option<&StillCameras>) -> Result<Vec<BenchRow>, Failure> {
+    fn bench_scene(&self, path: &Path, file: Option<&StillCameras>, log: &mut RowLog) -> Result<(), Failure> {
         let scene = self.options.open(path)?.scene;
         let (filter, near) = file.map_or((None, None), |file| (file.filter.as_deref(), file.near));
         let base = self.picture.settings(&scene, Quality::Final, filter, near);
-        let settings = BenchSettings {
-            scene: scene_name(path),
-            variants: bench::variants(&base),
-            num_repeats: usize::from(self.runs),
-        };
         let mut cameras = match file {
             Some(file) => file.cameras.iter().map(|named| (named.name.clone(), named.camera)).collect(),
             None => own_views(&scene)?,
         };
         cameras.truncate(usize::from(self.max_cameras));
         let renderer = Renderer::new(&scene.gaussians);
-        let mut rows = Vec::new();
-        for size in &self.sizes {
+        for (size_idx, size) in self.sizes.iter().enumerate() {
+            let settings = self.bench_settings(scene_name(path), size_idx, &base);
             let resized: Vec<_> = cameras.iter().map(|(name, camera)| (name.clone(), resized(camera, *size))).collect();
-            let mut tell = |row: &BenchRow| {
-                let line = bench::to_csv(std::slice::from_ref(row));
-                // A reader that has gone is told of at the end.
-                let _ = console::data(line.split_inclusive('\n').nth(1).unwrap_or_default());
-            };
-            rows.extend(bench::measure(&renderer, &resized, &settings, &mut tell)?);
+            bench::measure(&renderer, &resized, &settings, &mut |row| log.add(row))?;
         }
-        Ok(rows)
+        Ok(())
+    }
+
+    /// What is measured at one of the sizes.
+    fn bench_settings(&self, scene: String, size_idx: usize, base: &RenderSettings) -> BenchSettings {
+        let variants = if size_idx == 0 { bench::variants(base) } else { bench::presets(base) };
+        BenchSettings { scene, variants, num_repeats: usize::from(self.runs) }
+    }
+
+    /// Rows of a scene with these cameras.
+    fn num_rows(&self, file: Option<&StillCameras>) -> usize {
+        let num_cameras = file.map_or(NUM_OWN_VIEWS, |file| file.cameras.len()).min(usize::from(self.max_cameras));
+        let at = |size_idx| self.bench_settings(String::new(), size_idx, &RenderSettings::default());
+        (0..self.sizes.len()).map(|size_idx| at(size_idx).num_rows(num_cameras)).sum()
+    }
+}
+
+/// The rows so far; each is written as it comes.
+struct RowLog {
+    rows: Vec<BenchRow>,
+    num_rows: usize,
+    progress: FrameProgress,
+}
+
+impl RowLog {
+    fn add(&mut self, row: &BenchRow) {
+        let line = bench::to_csv(std::slice::from_ref(row));
+        // A reader that has gone is told of at the end.
+        let _ = console::data(line.split_inclusive('\n').nth(1).unwrap_or_default());
+        self.rows.push(row.clone());
+        self.progress.show(self.rows.len(), self.num_rows);
     }
 }
 
@@ -131,6 +157,9 @@ fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
     };
     Camera { pose: camera.pose, intrinsics }
 }
+
+/// Cameras that [`own_views`] makes.
+const NUM_OWN_VIEWS: usize = 3;
 
 /// One level view from the middle of the scene and two from outside, a quarter turn apart, 16:9 with 60 degrees.
 fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure> {

@@ -20,10 +20,15 @@ pub struct Difference {
     pub worst: f64,
 }
 
+impl Difference {
+    /// Of pictures that cannot be compared: all NaN.
+    pub const UNKNOWN: Self = Self { psnr_db: f64::NAN, ssim: f64::NAN, worst: f64::NAN };
+}
+
 /// The difference of two pictures; all NaN for different sizes.
 pub fn difference(picture: &Frame, spec: &Frame) -> Difference {
     if (picture.width, picture.height) != (spec.width, spec.height) {
-        return Difference { psnr_db: f64::NAN, ssim: f64::NAN, worst: f64::NAN };
+        return Difference::UNKNOWN;
     }
     let apart = picture.rgb.iter().zip(&spec.rgb).map(|(a, b)| (a.clamp(0.0, 1.0) - b.clamp(0.0, 1.0)).abs());
     let worst = f64::from(apart.fold(0.0, f32::max));

@@ -1,7 +1,8 @@
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Renderer};
-use super::{Difference, Kind, Variant, difference};
+use super::output::{Output, Outputs};
+use super::{Difference, Kind, Variant};
 use crate::geometry::Camera;
 
 /// What is measured and how often.
@@ -32,7 +33,10 @@ pub struct BenchRow {
     pub num_threads: usize,
     /// How long it took.
     pub timed: Timed,
-    /// Against the spec image; a free knob against the picture of `standard`.
+    /// Of an output: its time over that of color as numbers, the two in turn; the median of the pairs.
+    pub times_color: Option<f64>,
+    /// Of the picture as numbers against the spec image, of a free knob against the picture of `standard`; all NaN for an
+    /// output.
     pub difference: Difference,
 }
 
@@ -43,11 +47,25 @@ pub struct Timed {
     pub median: Duration,
     /// Shortest and longest wall time.
     pub range: [Duration; 2],
-    /// Stages and counts of the picture with the median time.
+    /// Stages and counts of the picture with the median time; zeros for outputs that do not tell.
     pub stats: RenderStats,
 }
 
-/// Measures every variant on every camera; `tell` hears of every row.
+impl BenchSettings {
+    /// Rows that [`measure`] leaves.
+    pub fn num_rows(&self, num_cameras: usize) -> usize {
+        let rows = |variant: &Variant| if variant.is_slow { num_cameras.min(1) } else { num_cameras };
+        self.variants.iter().map(rows).sum()
+    }
+}
+
+/// The pictures of one camera that others are held against.
+struct Against {
+    spec: Frame,
+    standard: Frame,
+}
+
+/// Measures every variant on every camera, slow ones once on the first; `tell` hears of every row.
 ///
 /// # Errors
 /// [`RenderError`] of the first picture that cannot be rendered.
@@ -58,30 +76,21 @@ pub fn measure(
     tell: &mut dyn FnMut(&BenchRow),
 ) -> Result<Vec<BenchRow>, RenderError> {
     let mut rows = Vec::new();
-    let mut frame = Frame::default();
-    for (name, camera) in cameras {
+    let mut outputs = Outputs::new(renderer.num_gaussians());
+    for (camera_idx, (name, camera)) in cameras.iter().enumerate() {
         let as_preset = |quality| {
             let first = settings.variants.first().map_or_else(RenderSettings::default, |variant| variant.settings);
             renderer.render(camera, &RenderSettings { quality, accuracy: None, ..first })
         };
-        let (spec, standard) = (as_preset(Quality::Reference)?, as_preset(Quality::Standard)?);
-        for variant in &settings.variants {
-            let mut work = || time(renderer, camera, (&variant.settings, settings.num_repeats), &mut frame);
-            let (timed, num_threads) = match variant.num_threads.and_then(pool_of) {
+        let against = Against { spec: as_preset(Quality::Reference)?, standard: as_preset(Quality::Standard)? };
+        for variant in settings.variants.iter().filter(|variant| camera_idx == 0 || !variant.is_slow) {
+            let num_repeats = if variant.is_slow { 1 } else { settings.num_repeats };
+            let mut work = || row(renderer, camera, (variant, num_repeats), &against, &mut outputs);
+            let (mut row, num_threads) = match variant.num_threads.and_then(pool_of) {
                 Some(pool) => (pool.install(work)?, pool.current_num_threads()),
                 None => (work()?, rayon::current_num_threads()),
             };
-            let against = if variant.kind == Kind::Free { &standard } else { &spec };
-            let row = BenchRow {
-                scene: settings.scene.clone(),
-                camera: name.clone(),
-                size_px: [frame.width, frame.height],
-                kind: variant.kind,
-                variant: variant.name.clone(),
-                num_threads,
-                timed,
-                difference: difference(&frame, against),
-            };
+            (row.scene, row.camera, row.num_threads) = (settings.scene.clone(), name.clone(), num_threads);
             tell(&row);
             rows.push(row);
         }
@@ -89,12 +98,69 @@ pub fn measure(
     Ok(rows)
 }
 
+/// The row of one variant, yet without names.
+fn row(
+    renderer: &Renderer<'_>,
+    camera: &Camera,
+    (variant, num_repeats): (&Variant, usize),
+    against: &Against,
+    outputs: &mut Outputs,
+) -> Result<BenchRow, RenderError> {
+    let settings = &variant.settings;
+    let mut difference = Difference::UNKNOWN;
+    if variant.kind != Kind::Output {
+        outputs.time(renderer, camera, settings, Output::Color)?;
+        let other = if variant.kind == Kind::Free { &against.standard } else { &against.spec };
+        difference = super::difference(&outputs.frame, other);
+    }
+    let (timed, times_color) = if variant.kind == Kind::Output {
+        let (timed, times_color) = time_beside_color(renderer, camera, (variant, num_repeats), outputs)?;
+        (timed, Some(times_color))
+    } else {
+        let mut work = || outputs.time(renderer, camera, settings, variant.output);
+        (time_runs(num_repeats, &mut work)?, None)
+    };
+    Ok(BenchRow {
+        scene: String::new(),
+        camera: String::new(),
+        size_px: [camera.intrinsics.width, camera.intrinsics.height],
+        kind: variant.kind,
+        variant: variant.name.clone(),
+        num_threads: 0,
+        timed,
+        times_color,
+        difference,
+    })
+}
+
 /// Threads of their own; `None` where the machine gives none, and the current ones do.
 fn pool_of(num_threads: usize) -> Option<rayon::ThreadPool> {
     rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().ok()
 }
 
-/// Renders once to warm up and then `num_repeats` times, at least once.
+/// Times an output and color as numbers in turn, so that whatever else the machine does meets both; also the median of
+/// the ratios of neighbors.
+fn time_beside_color(
+    renderer: &Renderer<'_>,
+    camera: &Camera,
+    (variant, num_repeats): (&Variant, usize),
+    outputs: &mut Outputs,
+) -> Result<(Timed, f64), RenderError> {
+    let mut ratios = Vec::new();
+    let mut work = || {
+        let (color_secs, _) = outputs.time(renderer, camera, &variant.settings, Output::Color)?;
+        let (secs, stats) = outputs.time(renderer, camera, &variant.settings, variant.output)?;
+        ratios.push(secs / color_secs);
+        Ok((secs, stats))
+    };
+    let timed = time_runs(num_repeats, &mut work)?;
+    // The first pair warmed up.
+    ratios.remove(0);
+    ratios.sort_by(f64::total_cmp);
+    Ok((timed, ratios[ratios.len() / 2]))
+}
+
+/// Renders once to warm up and then `num_repeats` times, at least once, color as numbers.
 ///
 /// # Errors
 /// As [`Renderer::render`].
@@ -102,14 +168,21 @@ pub fn time(
     renderer: &Renderer<'_>,
     camera: &Camera,
     (settings, num_repeats): (&RenderSettings, usize),
-    frame: &mut Frame,
 ) -> Result<Timed, RenderError> {
-    renderer.render_into(camera, settings, frame)?;
+    let mut outputs = Outputs::new(0);
+    time_runs(num_repeats, &mut || outputs.time(renderer, camera, settings, Output::Color))
+}
+
+/// Runs work once to warm up and then `num_repeats` times, at least once; it says how many seconds it took.
+fn time_runs(
+    num_repeats: usize,
+    work: &mut dyn FnMut() -> Result<(f64, RenderStats), RenderError>,
+) -> Result<Timed, RenderError> {
+    work()?;
     let mut timed = Vec::new();
     for _ in 0..num_repeats.max(1) {
-        let start = Instant::now();
-        renderer.render_into(camera, settings, frame)?;
-        timed.push((start.elapsed(), frame.stats));
+        let (secs, stats) = work()?;
+        timed.push((Duration::from_secs_f64(secs), stats));
     }
     timed.sort_by_key(|(elapsed, _)| *elapsed);
     let (median, stats) = timed[timed.len() / 2];

@@ -1,12 +1,14 @@
 //! Accuracy against time: scenes at several settings, each timed and held against the spec image.
 //!
 //! Enters: a renderer, cameras, [`Variant`]s. Leaves: [`BenchRow`]s, and of them a CSV, a table and Pareto plots.
+//! Times are those of color in eight bits, which films take; accuracy is that of the same picture as numbers. What other
+//! outputs cost is measured in turn with color alone ([`Output`]).
 //! [`scaling`] measures how cost grows with the work instead. The one invariant: a variant of [`Kind::Free`] is held
 //! against the picture of `standard` bit by bit, all others against `reference`.
 
-mod chart;
 mod difference;
 mod measure;
+mod output;
 mod pareto;
 mod report;
 pub mod scaling;
@@ -14,6 +16,7 @@ mod variants;
 
 pub use difference::{Difference, difference};
 pub use measure::{BenchRow, BenchSettings, Timed, measure, time};
+pub use output::Output;
 pub use pareto::{Axis, pareto_svg};
 pub use report::{to_csv, to_table};
-pub use variants::{Kind, Variant, variants};
+pub use variants::{Kind, Variant, presets, variants};

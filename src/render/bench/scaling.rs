@@ -7,11 +7,11 @@ use std::fmt::Write as _;
 
 use glam::{DQuat, DVec3, Quat, Vec3};
 
-use super::super::{Frame, RenderError, RenderSettings, Renderer};
-use super::chart::{Panel, Scale, Series, Spacing, figure};
+use super::super::{RenderError, RenderSettings, Renderer};
 use super::report::ms;
 use super::{Timed, time};
 use crate::geometry::{Camera, Intrinsics, Pose};
+use crate::plot::{Axis, COLORS, Chart, Entry, Mark, Series, Symbol, grid};
 use crate::scene::{Bounds, Gaussians, NUM_SH_REST};
 
 /// Gaussians of one tile of a tiled scene, at most.
@@ -108,10 +108,9 @@ pub fn measure(
     let (scene, camera) = case.scene(base);
     let before = process_memory::reset_peak();
     let renderer = Renderer::new(&scene);
-    let mut frame = Frame::default();
-    let timed = time(&renderer, &camera, (settings, num_repeats), &mut frame)?;
+    let timed = time(&renderer, &camera, (settings, num_repeats))?;
     let peak_bytes = before.and_then(|before| Some(process_memory::peak()?.saturating_sub(before)));
-    let num_pixels = u64::from(frame.width) * u64::from(frame.height);
+    let num_pixels = u64::from(camera.intrinsics.width) * u64::from(camera.intrinsics.height);
     Ok(ScalingRow {
         case,
         num_gaussians: scene.len() as u64,
@@ -211,37 +210,30 @@ pub fn scaling_svg(csv: &str) -> String {
     let column = |name: &str| CSV_HEADER.trim_end().split(',').position(|column| column == name).unwrap_or(0);
     let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let number = |row: &[&str], name: &str| row.get(column(name)).and_then(|cell| cell.parse::<f64>().ok());
-    let line = |growth: Growth, x: &str, y: &str, name_idx: usize| {
+    let line = |growth: Growth, x: &str, y: &str, color: &'static str| {
         let of_growth = rows.iter().filter(|row| row.first() == Some(&growth.name()));
-        let points = of_growth.filter_map(|row| Some((number(row, x)?, number(row, y)?))).collect();
-        Series { name_idx, is_line: true, points, words: Vec::new() }
+        let points: Vec<(f64, f64)> = of_growth.filter_map(|row| Some((number(row, x)?, number(row, y)?))).collect();
+        let marks = (0..points.len()).map(|idx| Mark::dot(idx, 2.2)).collect();
+        Series { points, color, line_px: 1.3, marks }
     };
-    let scale = |name: &str| Scale { name: name.to_owned(), spacing: Spacing::Logarithmic };
+    let chart = |title: &str, (growth, x): (Growth, &str), y: &str, lines: &[(&str, &'static str)]| Chart {
+        series: lines.iter().map(|(name, color)| line(growth, x, name, color)).collect(),
+        ..Chart::new(title, Axis::logarithmic(x), Axis::logarithmic(y))
+    };
     let stages = ["median_ms", "project_ms", "sort_ms", "bin_ms", "blend_ms"];
-    let of_time = |growth, x: &str, title: &str| Panel {
-        title: title.to_owned(),
-        x: scale(x),
-        y: scale("ms a frame"),
-        series: stages.iter().enumerate().map(|(name_idx, stage)| line(growth, x, stage, name_idx)).collect(),
-    };
-    let memory = Panel {
-        title: "Memory beyond the scene, bytes".to_owned(),
-        x: scale("gaussians"),
-        y: scale("bytes"),
-        series: ["held_bytes", "allowed_bytes"]
-            .iter()
-            .zip([5, 6])
-            .map(|(name, name_idx)| line(Growth::Gaussians, "gaussians", name, name_idx))
-            .collect(),
-    };
-    let panels = [
-        of_time(Growth::Gaussians, "gaussians", "Gaussians grow, 1280 x 720 pixels"),
-        of_time(Growth::Pixels, "pixels", "Pixels grow, 100,000 Gaussians"),
-        of_time(Growth::Overdraw, "block_blends", "Layers grow, 1280 x 720 pixels"),
-        memory,
+    let times: Vec<(&str, &'static str)> = stages.into_iter().zip([7, 1, 2, 3, 4].map(|idx| COLORS[idx])).collect();
+    let memory = [("held_bytes", COLORS[5]), ("allowed_bytes", COLORS[6])];
+    let charts = [
+        chart("Gaussians grow, 1280 x 720 pixels", (Growth::Gaussians, "gaussians"), "ms a frame", &times),
+        chart("Pixels grow, 100,000 Gaussians", (Growth::Pixels, "pixels"), "ms a frame", &times),
+        chart("Layers grow, 1280 x 720 pixels", (Growth::Overdraw, "block_blends"), "ms a frame", &times),
+        chart("Memory beyond the scene, bytes", (Growth::Gaussians, "gaussians"), "bytes", &memory),
     ];
     let names = ["whole frame", "project", "sort", "bin", "blend", "held", "allowed"];
-    figure("Time and memory against work", &names, &panels, 2)
+    let colors = times.iter().chain(&memory).map(|(_, color)| *color);
+    let entry = |(name, color): (&str, &'static str)| Entry { name: name.to_owned(), color, symbol: Symbol::Line };
+    let entries: Vec<Entry> = names.into_iter().zip(colors).map(entry).collect();
+    grid("Time and memory against work", &entries, &charts, 2, [420.0, 290.0])
 }
 
 /// The process's memory as Linux tells it.

@@ -1,4 +1,5 @@
 use super::super::{Accuracy, Instructions, Precision, Quality, RenderSettings};
+use super::Output;
 
 /// What a variant turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,14 +14,28 @@ pub enum Kind {
     Resolution,
     /// Precision of the blending loop, all else as `final`.
     Precision,
+    /// What a picture is asked for, all else as `standard`.
+    Output,
     /// What must change no bit, all else as `standard`.
     Free,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Preset, Self::AlphaCut, Self::TransmittanceStop, Self::Resolution, Self::Precision, Self::Free];
+    pub const ALL: [Self; 7] = [
+        Self::Preset,
+        Self::AlphaCut,
+        Self::TransmittanceStop,
+        Self::Resolution,
+        Self::Precision,
+        Self::Output,
+        Self::Free,
+    ];
+
+    /// Whether it trades accuracy for time.
+    pub fn costs_accuracy(self) -> bool {
+        !matches!(self, Self::Output | Self::Free)
+    }
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
@@ -30,6 +45,7 @@ impl Kind {
             Self::TransmittanceStop => "transmittance-stop",
             Self::Resolution => "resolution",
             Self::Precision => "precision",
+            Self::Output => "output",
             Self::Free => "free",
         }
     }
@@ -38,6 +54,8 @@ impl Kind {
 /// Settings to be measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
+    /// What the pictures are asked for.
+    pub output: Output,
     /// What it turns.
     pub kind: Kind,
     /// How far.
@@ -46,21 +64,22 @@ pub struct Variant {
     pub settings: RenderSettings,
     /// Threads, in place of those of the current pool.
     pub num_threads: Option<usize>,
+    /// Whether it takes so long that one run on the first camera has to do.
+    pub is_slow: bool,
 }
 
-/// All presets but `reference`, every knob alone, and the knobs that must be free; filter, near plane and the like as
-/// in `base`.
+/// A variant of color in eight bits on the threads there are.
+fn of(kind: Kind, name: String, settings: RenderSettings) -> Variant {
+    Variant { output: Output::Levels, kind, name, settings, num_threads: None, is_slow: false }
+}
+
+/// All presets but `reference`, every knob alone, the outputs, and the knobs that must be free; filter, near plane and
+/// the like as in `base`.
 pub fn variants(base: &RenderSettings) -> Vec<Variant> {
-    let of = |kind, name: String, quality, accuracy| Variant {
-        kind,
-        name,
-        settings: RenderSettings { quality, accuracy, ..*base },
-        num_threads: None,
+    let mut all = presets(base);
+    let knob = |kind, name, accuracy| {
+        of(kind, name, RenderSettings { quality: Quality::Final, accuracy: Some(accuracy), ..*base })
     };
-    let knob = |kind, name, accuracy| of(kind, name, Quality::Final, Some(accuracy));
-    let presets = [Quality::Draft, Quality::Standard, Quality::Final];
-    let mut all: Vec<Variant> =
-        presets.into_iter().map(|quality| of(Kind::Preset, quality.name().to_owned(), quality, None)).collect();
     for divisor in [1024, 512, 192, 128, 64, 32, 16] {
         let accuracy = Accuracy { alpha_cut: 1.0 / f64::from(divisor), ..Accuracy::SPEC };
         all.push(knob(Kind::AlphaCut, format!("1/{divisor}"), accuracy));
@@ -74,28 +93,45 @@ pub fn variants(base: &RenderSettings) -> Vec<Variant> {
         all.push(knob(Kind::Resolution, format!("{resolution_frac:.2}"), accuracy));
     }
     all.push(knob(Kind::Precision, "quick".to_owned(), Accuracy { precision: Precision::Quick, ..Accuracy::SPEC }));
+    all.extend(outputs(base));
     all.extend(free(base));
     all
+}
+
+/// All presets but `reference`.
+pub fn presets(base: &RenderSettings) -> Vec<Variant> {
+    let preset = |quality: Quality| {
+        of(Kind::Preset, quality.name().to_owned(), RenderSettings { quality, accuracy: None, ..*base })
+    };
+    [Quality::Draft, Quality::Standard, Quality::Final].map(preset).to_vec()
+}
+
+/// What a picture may be asked for.
+fn outputs(base: &RenderSettings) -> Vec<Variant> {
+    let settings = RenderSettings { quality: Quality::Standard, accuracy: None, ..*base };
+    let asked = |output: Output| Variant { output, ..of(Kind::Output, output.name().to_owned(), settings) };
+    Output::ALL.map(asked).to_vec()
 }
 
 /// What may change time and must change no bit.
 fn free(base: &RenderSettings) -> Vec<Variant> {
     let standard = RenderSettings { quality: Quality::Standard, accuracy: None, ..*base };
-    let of = |name: &str, instructions, num_threads| Variant {
-        kind: Kind::Free,
-        name: name.to_owned(),
-        settings: RenderSettings { instructions, ..standard },
-        num_threads,
-    };
-    let mut anew = of("order anew", standard.instructions, None);
+    let as_standard = |name: &str| of(Kind::Free, name.to_owned(), standard);
+    let mut anew = as_standard("order anew");
     anew.settings.reuses_order = false;
-    vec![
-        anew,
-        of("1 thread", standard.instructions, Some(1)),
-        of("2 threads", standard.instructions, Some(2)),
-        of("3 threads", standard.instructions, Some(3)),
-        of("widest", Instructions::Widest, None),
-        of("avx2", Instructions::Avx2, None),
-        of("scalar", Instructions::Scalar, None),
-    ]
+    let on_threads = |num_threads: usize| {
+        let plural = if num_threads == 1 { "" } else { "s" };
+        Variant { num_threads: Some(num_threads), ..as_standard(&format!("{num_threads} thread{plural}")) }
+    };
+    let with = |name: &str, instructions: Instructions| {
+        let mut variant = as_standard(name);
+        variant.settings.instructions = instructions;
+        variant
+    };
+    let mut scalar = with("scalar", Instructions::Scalar);
+    scalar.is_slow = true;
+    let mut all = vec![anew];
+    all.extend([1, 2, 3].map(on_threads));
+    all.extend([with("widest", Instructions::Widest), with("avx2", Instructions::Avx2), scalar]);
+    all
 }

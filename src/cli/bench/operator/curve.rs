@@ -5,8 +5,8 @@ use super::cases::CaseArgs;
 use super::median_and_most;
 use crate::cli::failure::Failure;
 use crate::cli::{console, outputs};
-use crate::evaluation::curve_svg;
 use crate::operator::{SolveLevel, SolveSettings};
+use crate::plot::{Axis, COLORS, Chart, Mark, Series, grid};
 use crate::trajectory::Shot;
 
 /// Search budgets: a level and the factor on its tries.
@@ -82,13 +82,25 @@ impl Args {
             console::data(&format!("{name},{factor},{median:.1},{most:.1},{violated:.5},{unmet},{whole},{films}\n"))?;
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        let point =
-            |outcome: &Outcome| (median_and_most(&outcome.ms).0.max(1e-3).log10(), 100.0 * outcome.violated_frac());
-        let points: Vec<(f64, f64)> = outcomes.iter().map(point).collect();
         let title = format!("what was asked for and not found, {} films", cases.len());
-        let svg = curve_svg(&title, "log10 of the search's milliseconds (median)", "lines not met, %", &points);
+        let svg = curve_svg(&title, &outcomes);
         outputs::write(plot, svg.as_bytes())?;
         console::note(&format!("{}: the curve", plot.display()));
         Ok(())
     }
+}
+
+/// Lines of the report that are not met against the time of the search, a dot a budget with its name.
+fn curve_svg(title: &str, outcomes: &[Outcome]) -> String {
+    let point = |outcome: &Outcome| (median_and_most(&outcome.ms).0.max(1e-3), 100.0 * outcome.violated_frac());
+    let name = |(level, factor): &(SolveLevel, f64)| format!("{} x {factor}", level.name());
+    let dot = |(idx, budget)| Mark { word: name(budget), ..Mark::dot(idx, 3.5) };
+    let mut chart = Chart::new("", Axis::logarithmic("ms of search, median"), Axis::even("lines not met, %"));
+    chart.series.push(Series {
+        points: outcomes.iter().map(point).collect(),
+        color: COLORS[2],
+        line_px: 1.5,
+        marks: BUDGETS.iter().enumerate().map(dot).collect(),
+    });
+    grid(title, &[], &[chart], 1, [740.0, 420.0])
 }

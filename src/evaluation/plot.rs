@@ -1,0 +1,118 @@
+//! A figure of paths as SVG: from above, from the side, and x y z roll pitch yaw over time.
+
+use glam::DVec3;
+
+use super::table::table_beside;
+use super::{TableRow, Trajectory};
+use crate::geometry::LevelFrame;
+use crate::plot::{Axis, COLORS, Chart, Entry, Figure, Mark, Series, Symbol};
+
+const WIDTH: f64 = 1240.0;
+const HEIGHT: f64 = 1010.0;
+const MARGIN: f64 = 16.0;
+const HEADER: f64 = 64.0;
+const VIEW_HEIGHT: f64 = 410.0;
+const GAP: f64 = 10.0;
+
+/// The figure as SVG text.
+///
+/// `paths` are drawn in this order with their labels; the first is the reference: its up and first heading give the side
+/// view and the angles. `key_times_secs` are marked on the first path.
+pub fn plot_svg(title: &str, paths: &[(&str, &Trajectory)], key_times_secs: &[f64]) -> String {
+    let mut figure = Figure::new([WIDTH, HEIGHT], title);
+    figure.legend(&legend(paths));
+    let Some((_, reference)) = paths.first() else { return figure.finish() };
+    let tables: Vec<Vec<TableRow>> = paths.iter().map(|(_, path)| table_beside(path, reference)).collect();
+    if let Ok(level) = LevelFrame::new(reference.up_or_mean()) {
+        views(&mut figure, &level, paths, key_times_secs);
+    }
+    time_charts(&mut figure, &tables, reference.times_secs.is_some(), key_times_secs);
+    figure.finish()
+}
+
+fn legend(paths: &[(&str, &Trajectory)]) -> Vec<Entry> {
+    let of_path = |((label, path), color): (&(&str, &Trajectory), &&'static str)| Entry {
+        name: format!("{label} ({} poses)", path.len()),
+        color,
+        symbol: Symbol::Line,
+    };
+    let start = Entry { name: "start".to_owned(), color: "#222222", symbol: Symbol::Ring };
+    paths.iter().zip(COLORS.iter().cycle()).map(of_path).chain([start]).collect()
+}
+
+/// The line of one path: the first, the reference, is broader, so that it shows under an estimate that covers it.
+fn path_series(path_idx: usize, points: Vec<(f64, f64)>, keys: &[usize]) -> Series {
+    let marks = if path_idx == 0 { keys.iter().map(|key| Mark::dot(*key, 3.2)).collect() } else { Vec::new() };
+    let line_px = if path_idx == 0 { 3.0 } else { 1.5 };
+    Series { points, color: COLORS[path_idx % COLORS.len()], line_px, marks }
+}
+
+/// From above and from the side, at one scale for both directions of each.
+fn views(figure: &mut Figure, level: &LevelFrame, paths: &[(&str, &Trajectory)], key_times_secs: &[f64]) {
+    let width = (WIDTH - 2.0 * MARGIN - GAP) / 2.0;
+    let first = paths.first().and_then(|(_, path)| path.rotations.first()).map_or(DVec3::Z, |rotation| rotation.z_axis);
+    let level = level.with_heading(first);
+    // The side view looks across the level direction in which the paths reach farthest.
+    let reach = |axis: DVec3| {
+        let along = paths.iter().flat_map(|(_, path)| path.positions.iter().map(move |p| p.dot(axis)));
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        high - low
+    };
+    let (side, side_name) = if reach(level.east) > reach(level.north) {
+        (level.east, "right of the first view")
+    } else {
+        (level.north, "ahead of the first view")
+    };
+    let above = ("seen from above", level.east, "right of the first view", level.north, "ahead of the first view");
+    let sideways = ("seen from the side", side, side_name, level.up, "height");
+    for (idx, (title, across, across_name, up, up_name)) in [above, sideways].into_iter().enumerate() {
+        let x = MARGIN + idx as f64 * (width + GAP);
+        let mut chart = Chart::new(title, Axis::even(across_name), Axis::even(up_name));
+        chart.has_equal_units = true;
+        for (path_idx, (_, path)) in paths.iter().enumerate() {
+            let points = path.positions.iter().map(|p| (p.dot(across), p.dot(up))).collect();
+            let keys = nearest(&path.times_or_indices(), key_times_secs);
+            let mut series = path_series(path_idx, points, &keys);
+            series.marks.push(Mark { is_hollow: true, ..Mark::dot(0, 4.5) });
+            chart.series.push(series);
+        }
+        figure.chart([x, HEADER, width, VIEW_HEIGHT], &chart);
+    }
+}
+
+/// Index of the pose nearest to each time.
+fn nearest(times: &[f64], wanted: &[f64]) -> Vec<usize> {
+    let closest =
+        |time: &f64| (0..times.len()).min_by(|a, b| (times[*a] - time).abs().total_cmp(&(times[*b] - time).abs()));
+    wanted.iter().filter_map(closest).collect()
+}
+
+/// Reads one value of a table row.
+type Column = fn(&TableRow) -> f64;
+
+fn time_charts(figure: &mut Figure, tables: &[Vec<TableRow>], timed: bool, key_times_secs: &[f64]) {
+    let columns: [(&str, Column); 6] = [
+        ("x, scene units", |row| row.position.x),
+        ("y, scene units", |row| row.position.y),
+        ("z, scene units", |row| row.position.z),
+        ("roll, degrees", |row| row.roll_deg),
+        ("pitch, degrees", |row| row.pitch_deg),
+        ("yaw, degrees", |row| row.yaw_deg),
+    ];
+    let start = tables.iter().filter_map(|table| table.first()).map(|row| row.time_secs).fold(f64::INFINITY, f64::min);
+    let width = (WIDTH - 2.0 * MARGIN - 2.0 * GAP) / 3.0;
+    let top = HEADER + VIEW_HEIGHT + GAP;
+    let height = (HEIGHT - top - GAP) / 2.0;
+    for (idx, (title, value)) in columns.into_iter().enumerate() {
+        let (column, row) = ((idx % 3) as f64, (idx / 3) as f64);
+        // Time begins and ends with the frame.
+        let time = Axis { room_frac: 0.0, ..Axis::even(if timed { "time, s" } else { "frame" }) };
+        let mut chart = Chart::new(title, time, Axis::even(""));
+        for (path_idx, table) in tables.iter().enumerate() {
+            let points = table.iter().map(|row| (row.time_secs - start, value(row))).collect();
+            let times: Vec<f64> = table.iter().map(|row| row.time_secs).collect();
+            chart.series.push(path_series(path_idx, points, &nearest(&times, key_times_secs)));
+        }
+        figure.chart([MARGIN + column * (width + GAP), top + row * height, width, height], &chart);
+    }
+}

@@ -1,0 +1,85 @@
+//! What is added up: opacity 1, colors below 0 and above 1, values as trained.
+
+use cinesplat::pipeline::{FilmSettings, Flow, FrameRange, film};
+use cinesplat::render::{Quality, Renderer};
+use cinesplat::scene::Gaussians;
+use cinesplat::video::VideoSettings;
+use glam::{Quat, Vec3};
+
+use super::{picture, settings};
+use crate::render::scenes::{camera, crowd, push, single};
+
+/// Walls across the whole picture, the first the nearest.
+fn walls(layers: &[(f32, Vec3)]) -> Gaussians {
+    let mut scene = Gaussians::default();
+    for (idx, layer) in layers.iter().enumerate() {
+        push(&mut scene, Vec3::Z * (2.0 + idx as f32), Vec3::new(5e3, 5e3, 0.01), Quat::IDENTITY, *layer);
+    }
+    scene
+}
+
+#[test]
+fn an_opaque_wall_lets_a_hundredth_through_and_two_a_ten_thousandth() {
+    for quality in [Quality::Final, Quality::Reference] {
+        let mut scene = single(Vec3::Z * 2.0, Vec3::new(50.0, 50.0, 0.01), Quat::IDENTITY, 1.0);
+        let view = camera(32, 32);
+        let one = picture(&scene, &view, quality).transmittance;
+        assert!(one.iter().all(|&rest| (rest - 0.01).abs() < 1e-6));
+        push(&mut scene, Vec3::Z * 3.0, Vec3::new(50.0, 50.0, 0.01), Quat::IDENTITY, (1.0, Vec3::ONE));
+        let two = picture(&scene, &view, quality).transmittance;
+        assert!(two.iter().all(|&rest| rest <= 1.001e-4), "{quality:?} {:?}", two[0]);
+    }
+}
+
+#[test]
+fn color_is_clamped_below_before_blending_and_above_after_it() {
+    // A splat twice as bright as white over one darker than black. Clamped to 0..=1 each, they would come to a half.
+    let bright = walls(&[(0.5, Vec3::new(2.0, 2.0, 0.4)), (0.8, Vec3::new(-3.0, 0.5, -3.0))]);
+    for quality in [Quality::Final, Quality::Reference] {
+        let frame = picture(&bright, &camera(24, 16), quality);
+        let expected = [0.5 * 2.0, 0.5 * 2.0 + 0.5 * 0.8 * 0.5, 0.5 * 0.4];
+        for rgb in frame.rgb.chunks(3) {
+            let off = rgb.iter().zip(expected).map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f32::max);
+            assert!(off < 1e-4, "{quality:?}: {rgb:?}, wanted {expected:?}");
+        }
+        // The one clamp from above is that of the levels.
+        assert_eq!(frame.to_rgb8()[..3], [255, 255, 51], "{quality:?}");
+    }
+}
+
+#[test]
+fn layers_blend_as_trained() {
+    // In linear light the sum of the first channel would be 0.66.
+    let (front, behind) = (Vec3::new(0.2, 0.9, 0.5), Vec3::new(0.9, 0.1, 0.5));
+    let scene = walls(&[(0.5, front), (0.9, behind)]);
+    let expected = front * 0.5 + behind * 0.5 * 0.9;
+    for quality in Quality::ALL {
+        let frame = picture(&scene, &camera(24, 16), quality);
+        for rgb in frame.rgb.chunks(3) {
+            // Quick opacities of `draft` and `standard` are within 0.0071.
+            assert!((Vec3::from_slice(rgb) - expected).abs().max_element() < 0.012, "{quality:?}: {rgb:?}");
+        }
+    }
+}
+
+#[test]
+fn a_film_without_blur_has_the_levels_of_the_composite() {
+    const SHOT: &str = r#"{"format":"cinesplat.shot","version":1,"width":64,"height":36,"fps":4,"duration_secs":0.5,"keyframes":[
+        {"time_secs":0,"position":[0,0,0],"rotation_xyzw":[0,0,0,1],"fov_y_deg":50,"easing":"smooth"}]}"#;
+    let shot = cinesplat::export::shot_json::read(SHOT).unwrap();
+    let scene = crowd(800, 42);
+    let renderer = Renderer::new(&scene);
+    let folder = tempfile::tempdir().unwrap();
+    for quality in [Quality::Draft, Quality::Standard, Quality::Final] {
+        let film_settings = FilmSettings {
+            render: settings(quality),
+            video: VideoSettings { overwrite: true, ..VideoSettings::default() },
+            frames: FrameRange::default(),
+            sheet: None,
+        };
+        let output = folder.path().join("%05d.png");
+        film(&renderer, &shot, &output, &film_settings, &mut |_| Flow::Continue).unwrap();
+        let written = image::open(folder.path().join("00000.png")).unwrap().to_rgb8().into_raw();
+        assert!(written == picture(&scene, &camera(64, 36), quality).to_rgb8(), "{quality:?}");
+    }
+}

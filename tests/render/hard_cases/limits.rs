@@ -1,0 +1,56 @@
+//! Work without bounds: splats larger than the picture, caps on memory and cost.
+
+use cinesplat::render::{Limits, Quality, RenderSettings, Renderer};
+use cinesplat::scene::Gaussians;
+use glam::{Quat, Vec3};
+
+use super::settings;
+use crate::render::scenes::{camera, push};
+
+/// Gray splats behind each other that each cover the picture.
+fn full_screen(num_splats: usize) -> Gaussians {
+    let mut scene = Gaussians::default();
+    for idx in 0..num_splats {
+        let mean = Vec3::new(0.0, 0.0, 2.0 + idx as f32 * 1e-5);
+        push(&mut scene, mean, Vec3::splat(50.0), Quat::IDENTITY, (0.05, Vec3::splat(0.5)));
+    }
+    scene
+}
+
+#[test]
+fn a_hundred_thousand_full_screen_splats_lose_no_tile_and_stay_under_the_cap() {
+    let scene = full_screen(100_000);
+    let renderer = Renderer::new(&scene);
+    let picture_bytes = 512 * 512 * 16;
+    for (quality, max_memory_bytes) in [(Quality::Standard, 64 << 20), (Quality::Final, 64 << 20)] {
+        let limits = Limits { max_memory_bytes, ..Limits::default() };
+        let frame = renderer.render(&camera(512, 512), &RenderSettings { limits, ..settings(quality) }).unwrap();
+        // Every pixel of every tile has the layers that its stop allows.
+        assert!(frame.transmittance.iter().all(|&rest| rest > 0.0 && rest < 2e-3), "{quality:?}");
+        assert!(frame.rgb.iter().all(|value| (value - 0.5).abs() < 1e-3), "{quality:?}");
+        let held = renderer.memory_bytes() + picture_bytes;
+        assert!(held <= max_memory_bytes, "{quality:?}: holds {held} of {max_memory_bytes} bytes");
+    }
+    for max_memory_bytes in [1 << 20, 8 << 20] {
+        let limits = Limits { max_memory_bytes, ..Limits::default() };
+        let over = renderer.render(&camera(512, 512), &RenderSettings { limits, ..settings(Quality::Final) });
+        let error = over.unwrap_err();
+        assert_eq!((error.code(), error.exit_code()), ("RENDER-MEMORY", 71));
+    }
+}
+
+#[test]
+fn too_much_work_ends_in_one_error_before_anything_is_allocated() {
+    let mut scene = Gaussians::default();
+    for _ in 0..2_000 {
+        push(&mut scene, Vec3::Z * 2.0, Vec3::splat(50.0), Quat::IDENTITY, (0.5, Vec3::ONE));
+    }
+    for quality in [Quality::Standard, Quality::Reference] {
+        let render =
+            |limits| Renderer::new(&scene).render(&camera(640, 360), &RenderSettings { limits, ..settings(quality) });
+        let cost = render(Limits { max_pairs: 1_000, ..Limits::default() }).unwrap_err();
+        assert_eq!((cost.code(), cost.exit_code()), ("RENDER-COST", 71));
+        let memory = render(Limits { max_memory_bytes: 10_000, ..Limits::default() }).unwrap_err();
+        assert_eq!((memory.code(), memory.exit_code()), ("RENDER-MEMORY", 71));
+    }
+}
