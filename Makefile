@@ -19,6 +19,9 @@ BENCH_FOUND := $(foreach scene,$(BENCH_REAL),$(if $(wildcard $(DATA)/$(firstword
 BENCH_SCENES := $(if $(BENCH_FOUND),$(foreach scene,$(BENCH_FOUND),$(DATA)/$(firstword $(subst @, ,$(scene)))@$(if \
 	$(word 2,$(subst @, ,$(scene))),$(DATA)/$(word 2,$(subst @, ,$(scene))),auto)),synth:demo@auto synth:tabletop:1@auto)
 
+FILM_SCENES := $(if $(wildcard $(DATA)/kitchen/scene.spz),$(DATA)/kitchen/scene.spz synth:demo \
+	--cameras $(DATA)/golden/kitchen.cameras.json --cameras auto,synth:demo)
+
 .DEFAULT_GOAL := help
 .PHONY: help deps build demo test train bench check-shots clean
 
@@ -64,12 +67,13 @@ train: build
 	$(BIN) dataset -o target/train/shots
 	$(BIN) train -o target/train/model --shots target/train/shots
 
-# Accuracy against time, and how cost grows: CSV, tables and plots in renders/bench. Real scenes where DATA has them.
+# Accuracy against time, how cost grows, films against forecasts: CSV, tables and plots in renders/bench. Real scenes where DATA has them.
 bench: build
 	$(BIN) bench render $(foreach scene,$(BENCH_SCENES),$(word 1,$(subst @, ,$(scene)))) \
 		$(foreach scene,$(BENCH_SCENES),--cameras $(word 2,$(subst @, ,$(scene)))) \
 		--sizes 1280x720,1920x1080 -o renders/bench > /dev/null
 	$(BIN) bench scaling synth:tabletop:1 -o renders/bench > /dev/null
+	$(BIN) bench films $(FILM_SCENES) -o renders/bench > /dev/null
 
 # Does the camera do what is asked? Films of cases of ../shared (not part of this repository) with solver off and full,
 # from the network's reading of the prompts and from programs written by hand, all held against the checker there.

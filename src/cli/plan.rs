@@ -1,14 +1,15 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, explain, outputs, reproduce};
 use crate::export::shot_json;
-use crate::pipeline;
+use crate::pipeline::{self, FilmSettings, FrameRange};
 use crate::render::{Quality, Renderer};
 use crate::scene::Scene;
 use crate::trajectory::Shot;
+use crate::video::VideoSettings;
 
 /// Makes a sentence into keyframes, without rendering.
 #[derive(Debug, clap::Args)]
@@ -67,12 +68,14 @@ impl Args {
         Ok(())
     }
 
-    /// What the film would cost on this machine, on stderr: it differs from run to run.
+    /// What the film would cost on this machine as H.264 with the settings that `render` has, on stderr: it differs from run to run.
     fn print_forecasts(&self, scene: &Scene, shot: &Shot) -> Result<(), Failure> {
-        let settings = self.picture.settings(scene, Quality::Standard, None, None);
+        let render = self.picture.settings(scene, Quality::Standard, None, None);
+        let settings =
+            FilmSettings { render, video: VideoSettings::default(), frames: FrameRange::default(), sheet: None };
         let renderer = Renderer::new(&scene.gaussians);
         let num_frames = shot.num_frames();
-        let forecasts = pipeline::forecast(&renderer, shot, &(0..num_frames), &settings, &Quality::ALL)?;
+        let forecasts = pipeline::forecast(&renderer, shot, Path::new("film.mp4"), &settings, &Quality::ALL)?;
         for forecast in forecasts {
             console::note(&format!("predicted for {num_frames} frames: {}", forecast.sentence()));
         }

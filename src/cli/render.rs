@@ -9,7 +9,7 @@ use super::shot_args::{ShotArgs, deciding};
 use super::{console, outputs, reproduce};
 use crate::export::shot_json;
 use crate::pipeline::{self, FilmReport, FilmSettings, Flow, Forecast, FrameRange, StageTimes, Wish};
-use crate::render::{Quality, RenderSettings, Renderer};
+use crate::render::{Quality, Renderer};
 use crate::scene::Scene;
 use crate::trajectory::Shot;
 use crate::video::{self, Preset, VideoSettings};
@@ -33,7 +33,7 @@ pub(super) struct Args {
     shot: ShotArgs,
     #[command(flatten)]
     picture: PictureArgs,
-    /// Longest time to render, such as 90s, 5m or 1h; chooses the quality
+    /// Longest time for the film, rendered and encoded, such as 90s, 5m or 1h; chooses the quality
     #[arg(long, value_name = "TIME", value_parser = parse_time, conflicts_with = "quality")]
     budget: Option<Duration>,
     /// Least PSNR of the worst frame against `reference`, dB; chooses the fastest quality that has it
@@ -92,18 +92,20 @@ impl Args {
         }
         let renderer = Renderer::new(&scene.gaussians);
         let render = self.picture.settings(&scene, Quality::Standard, None, None);
-        let (render, predicted) = times.measure("predict", || self.predict(&renderer, &shot, render))?;
-        let report = self.film(&renderer, &shot, render)?;
+        let video = self.video(&shot)?;
+        let mut settings = FilmSettings { render, video, frames: self.frames, sheet: self.sheet.clone() };
+        let predicted = times.measure("predict", || self.predict(&renderer, &shot, &settings))?;
+        settings.render.quality = predicted.quality;
+        let report = self.film(&renderer, &shot, &settings)?;
         times.add("render", report.render_time);
         times.add("encode", report.encode_time);
         print_times(&times, &report, start.elapsed());
-        let frames = self.frames.of_film(shot.num_frames())?;
-        let psnr_db = pipeline::checked_psnr_db(&renderer, &shot, &frames, &render)?;
+        let psnr_db = pipeline::checked_psnr_db(&renderer, &shot, &settings)?;
         self.print_comparison(&predicted, &report, psnr_db)?;
         let mut decided = deciding(&shot).to_vec();
         if self.wish() != Wish::default() {
             // On another machine, or another day, the same wish may choose another quality.
-            decided.push(("--quality", render.quality.name().to_owned()));
+            decided.push(("--quality", predicted.quality.name().to_owned()));
         }
         reproduce::print(&decided);
         finish(&report)
@@ -155,57 +157,63 @@ impl Args {
         Wish { budget: self.budget, min_psnr_db: self.min_psnr }
     }
 
-    /// What the film will cost, and the quality that holds what is wished for.
-    fn predict(
-        &self,
-        renderer: &Renderer<'_>,
-        shot: &Shot,
-        render: RenderSettings,
-    ) -> Result<(RenderSettings, Forecast), Failure> {
-        let frames = self.frames.of_film(shot.num_frames())?;
+    /// What the film will cost at the quality that holds what is wished for.
+    fn predict(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<Forecast, Failure> {
         let wish = self.wish();
-        let qualities = if wish == Wish::default() { vec![render.quality] } else { Quality::ALL.to_vec() };
-        let forecasts = pipeline::forecast(renderer, shot, &frames, &render, &qualities)?;
+        let forecast = |qualities: &[Quality]| pipeline::forecast(renderer, shot, &self.output, settings, qualities);
+        let forecasts = if wish == Wish::default() {
+            forecast(&[settings.render.quality])?
+        } else {
+            let mut forecasts = forecast(&[Quality::Draft, Quality::Standard, Quality::Final])?;
+            if wish.may_need_reference(&forecasts) {
+                forecasts.extend(forecast(&[Quality::Reference])?);
+            }
+            forecasts
+        };
         let quality = pipeline::choose(&forecasts, wish)?;
         let chosen = forecasts.iter().find(|forecast| forecast.quality == quality).copied();
         let predicted = chosen.ok_or_else(|| Failure::fault("a quality without a forecast"))?;
-        console::note(&format!("predicted for {} frames: {}", frames.len(), predicted.sentence()));
-        Ok((RenderSettings { quality, ..render }, predicted))
+        console::note(&format!("predicted for {} frames: {}", settings.video.num_frames, predicted.sentence()));
+        Ok(predicted)
     }
 
     /// Predicted and measured figures beside each other.
     fn print_comparison(&self, predicted: &Forecast, report: &FilmReport, psnr_db: f64) -> Result<(), Failure> {
-        let measured = report.render_time.as_secs_f64();
+        let measured = report.total_time.as_secs_f64();
         // A film that was stopped took its part of the time.
-        let expected = predicted.render_time.as_secs_f64() * report.num_frames as f64 / report.num_wanted as f64;
+        let share = report.num_frames as f64 / report.num_wanted as f64;
+        let expected = |time: Duration| time.as_secs_f64() * share;
+        let film_secs = expected(predicted.film_time);
+        let off_percent = (measured / film_secs.max(1e-9) - 1.0) * 100.0;
         let quality = predicted.quality.name();
         console::note(&format!(
-            "{quality}: rendered in {measured:.2} s (predicted {expected:.2} s), {psnr_db:.1} dB (predicted {:.1} dB)",
+            "{quality}: filmed in {measured:.2} s (predicted {film_secs:.2} s: {off_percent:+.0} %), {psnr_db:.1} dB \
+             (predicted {:.1} dB)",
             predicted.psnr_db
         ));
         if !self.json {
             return Ok(());
         }
-        // JSON has no infinity: null is exact.
+        // JSON has no infinity: null is exact. Predicted are the halves alone; measured are both side by side.
         let summary = serde_json::json!({
             "path": report.path.to_string_lossy(), "frames": report.num_frames, "quality": quality,
-            "predicted": {"render_secs": expected, "psnr_db": predicted.psnr_db, "worst_psnr_db": predicted.worst_psnr_db},
-            "measured": {"render_secs": measured, "psnr_db": psnr_db, "encode_secs": report.encode_time.as_secs_f64(),
-                "film_secs": report.total_time.as_secs_f64()},
+            "predicted": {"film_secs": film_secs, "render_secs": expected(predicted.render_time),
+                "encode_secs": expected(predicted.encode_time), "psnr_db": predicted.psnr_db,
+                "worst_psnr_db": predicted.worst_psnr_db, "memory_bytes": predicted.memory_bytes},
+            "measured": {"film_secs": measured, "render_secs": report.render_time.as_secs_f64(),
+                "encode_secs": report.encode_time.as_secs_f64(), "psnr_db": psnr_db},
         });
         console::data(&format!("{summary:#}\n"))
     }
 
-    fn film(&self, renderer: &Renderer<'_>, shot: &Shot, render: RenderSettings) -> Result<FilmReport, Failure> {
-        let settings =
-            FilmSettings { render, video: self.video(shot)?, frames: self.frames, sheet: self.sheet.clone() };
+    fn film(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<FilmReport, Failure> {
         let interrupt = Interrupt::listen()?;
         let mut bar = FrameProgress::new();
         let mut watch = |progress: pipeline::Progress| {
             bar.show(progress.done, progress.total);
             if interrupt.is_asked() { Flow::Stop } else { Flow::Continue }
         };
-        let report = pipeline::film(renderer, shot, &self.output, &settings, &mut watch);
+        let report = pipeline::film(renderer, shot, &self.output, settings, &mut watch);
         bar.finish();
         Ok(report?)
     }

@@ -144,7 +144,8 @@ fn parse_sort(name: &str) -> Result<SortMode, String> {
     SortMode::from_name(name).ok_or_else(|| "expected z or ray".to_owned())
 }
 
-fn parse_quality(name: &str) -> Result<Quality, String> {
+/// A quality by name.
+pub(super) fn parse_quality(name: &str) -> Result<Quality, String> {
     let names = Quality::ALL.map(Quality::name).join(", ");
     Quality::from_name(name).ok_or_else(|| format!("expected one of {names}"))
 }

@@ -1,4 +1,6 @@
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -10,7 +12,7 @@ use crate::trajectory::{CameraPath, Shot};
 use crate::video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
 
 /// Frames that may wait for the encoder: enough to ride out its slow ones, little memory.
-const QUEUE_FRAMES: usize = 4;
+pub(super) const QUEUE_FRAMES: usize = 4;
 
 /// How a shot becomes a film.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,20 +88,12 @@ pub fn film(
     let path = CameraPath::new(shot)?;
     let frames = settings.frames.of_film(shot.num_frames())?;
     let num_wanted = frames.len();
-    let video = VideoSettings {
-        width: shot.width,
-        height: shot.height,
-        rate_fps: shot.fps,
-        first_frame: frames.start,
-        num_frames: num_wanted,
-        ..settings.video.clone()
-    };
-    let writer = VideoWriter::create(output, &video)?;
+    let writer = VideoWriter::create(output, &video_of(shot, &frames, &settings.video))?;
     let sheet = settings.sheet.as_ref().map(|_| ContactSheet::new(shot.width, shot.height, num_wanted));
     let (sender, receiver) = sync_channel(QUEUE_FRAMES);
     let (give_back, used) = channel();
     let encoder = Encoder { writer, sheet, busy: Duration::ZERO, give_back };
-    let (mut frame, mut last_camera) = (Rgb8Frame::default(), None);
+    let (mut shown, mut last_camera): (Arc<Rgb8Frame>, _) = (Arc::default(), None);
     let mut render_time = Duration::ZERO;
 
     let (rendered, encoded) = thread::scope(|scope| {
@@ -111,14 +105,14 @@ pub fn film(
             let camera = camera_at(frame_idx);
             // A camera that stands still sees what it saw.
             if last_camera != Some(camera) {
+                // Let go first: then the memory of a frame that is written already is nobody's, and used again.
+                shown = Arc::default();
+                let mut frame = used.try_iter().find_map(Arc::into_inner).unwrap_or_default();
                 renderer.render_rgb8_into(&camera, &settings.render, &mut frame)?;
-                last_camera = Some(camera);
+                (shown, last_camera) = (Arc::new(frame), Some(camera));
             }
             render_time += start.elapsed();
-            // Memory of a frame that is written already, or new.
-            let mut rgb8 = used.try_recv().unwrap_or_default();
-            rgb8.clone_from(&frame.rgb8);
-            send(rgb8, &sender, done, &mut tell)
+            send(Arc::clone(&shown), &sender, done, &mut tell)
         });
         drop(sender);
         (rendered, encoding.join())
@@ -157,13 +151,13 @@ impl<E: Into<PipelineError>> From<E> for Break {
 
 /// Passes a picture on and asks whether to go on.
 fn send(
-    rgb8: Vec<u8>,
-    sender: &SyncSender<Vec<u8>>,
+    frame: Arc<Rgb8Frame>,
+    sender: &SyncSender<Arc<Rgb8Frame>>,
     num_before: usize,
     tell: &mut dyn FnMut(usize) -> Flow,
 ) -> Result<(), Break> {
     // The encoder hangs up when it fails; its own error says why.
-    sender.send(rgb8).map_err(|_| Break::Stopped)?;
+    sender.send(frame).map_err(|_| Break::Stopped)?;
     match tell(num_before + 1) {
         Flow::Continue => Ok(()),
         Flow::Stop => Err(Break::Stopped),
@@ -176,26 +170,45 @@ pub(super) fn camera_at(path: &CameraPath, shot: &Shot, frame_idx: usize) -> Cam
     Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(shot.width, shot.height, state.fov_y_rad) }
 }
 
+/// Cameras of the frames that a film renders: all but those that see what the frame before saw.
+pub(super) fn moving_cameras(path: &CameraPath, shot: &Shot, frames: Range<usize>) -> Vec<Camera> {
+    let mut cameras: Vec<Camera> = frames.map(|frame_idx| camera_at(path, shot, frame_idx)).collect();
+    cameras.dedup();
+    cameras
+}
+
+/// How these frames of a shot are written.
+pub(super) fn video_of(shot: &Shot, frames: &Range<usize>, video: &VideoSettings) -> VideoSettings {
+    VideoSettings {
+        width: shot.width,
+        height: shot.height,
+        rate_fps: shot.fps,
+        first_frame: frames.start,
+        num_frames: frames.len(),
+        ..video.clone()
+    }
+}
+
 /// The half of the work that runs beside the renderer.
 struct Encoder {
     writer: VideoWriter,
     sheet: Option<ContactSheet>,
     busy: Duration,
     /// Takes frames that are written back to the renderer, which uses their memory again.
-    give_back: Sender<Vec<u8>>,
+    give_back: Sender<Arc<Rgb8Frame>>,
 }
 
 impl Encoder {
-    fn run(mut self, frames: &Receiver<Vec<u8>>) -> Result<Self, VideoError> {
-        for (frame_idx, rgb8) in frames.iter().enumerate() {
+    fn run(mut self, frames: &Receiver<Arc<Rgb8Frame>>) -> Result<Self, VideoError> {
+        for (frame_idx, frame) in frames.iter().enumerate() {
             let start = Instant::now();
             if let Some(sheet) = &mut self.sheet {
-                sheet.offer(frame_idx, &rgb8);
+                sheet.offer(frame_idx, &frame.rgb8);
             }
-            self.writer.write_frame(&rgb8)?;
+            self.writer.write_frame(&frame.rgb8)?;
             self.busy += start.elapsed();
             // After its last frame the renderer wants no more.
-            let _ = self.give_back.send(rgb8);
+            let _ = self.give_back.send(frame);
         }
         Ok(self)
     }

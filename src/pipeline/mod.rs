@@ -17,7 +17,7 @@ pub use clearance::prove_clearance;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
 pub use film::{FilmReport, FilmSettings, Flow, Progress, film};
-pub use forecast::{Forecast, Wish, checked_psnr_db, choose, forecast};
+pub use forecast::{FilmCost, Forecast, Spent, Wish, checked_psnr_db, choose, forecast, num_cores};
 pub use frames::FrameRange;
 pub use source::{Source, open_scene};
 pub use stage_times::StageTimes;

@@ -25,19 +25,28 @@ pub struct Renderer<'scene> {
     groups: Groups,
     buffers: Pool<Buffers>,
     small_frames: Pool<Frame>,
+    /// Pictures that are made of wider numbers than they are handed out in.
+    linear_frames: Pool<Frame>,
 }
 
 impl<'scene> Renderer<'scene> {
     /// A renderer of these Gaussians. Those with numbers that are not finite, rotations of length zero or no opacity
     /// are never drawn.
     pub fn new(gaussians: &'scene Gaussians) -> Self {
-        Self { gaussians, groups: Groups::new(gaussians), buffers: Pool::default(), small_frames: Pool::default() }
+        Self {
+            gaussians,
+            groups: Groups::new(gaussians),
+            buffers: Pool::default(),
+            small_frames: Pool::default(),
+            linear_frames: Pool::default(),
+        }
     }
 
     /// Bytes that the renderer holds on to between pictures, beyond the scene and the pictures handed out.
     pub fn memory_bytes(&self) -> u64 {
-        let small = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
-        self.groups.bytes() + self.buffers.sum(Buffers::bytes) + self.small_frames.sum(small)
+        let picture = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
+        let pictures = self.small_frames.sum(picture) + self.linear_frames.sum(picture);
+        self.groups.bytes() + self.buffers.sum(Buffers::bytes) + pictures
     }
 
     /// Gaussians of the scene.
@@ -94,10 +103,12 @@ impl<'scene> Renderer<'scene> {
         let view = View::new(camera, self.gaussians.origin, settings)?;
         (frame.width, frame.height) = (view.width, view.height);
         if settings.quality == Quality::Reference || settings.effective_accuracy().resolution_frac < 1.0 {
-            let linear = self.render(camera, settings)?;
-            linear.write_rgb8(&mut frame.rgb8);
-            frame.stats = linear.stats;
-            return Ok(());
+            return self.linear_frames.with(|linear| {
+                self.render_into(camera, settings, linear)?;
+                linear.write_rgb8(&mut frame.rgb8);
+                frame.stats = linear.stats;
+                Ok(())
+            });
         }
         frame.rgb8.resize(view.width as usize * view.height as usize * 3, 0);
         frame.stats = self.render_payload(&view, settings, Canvas::from(&mut *frame), &ColorOnly)?.0;

@@ -7,6 +7,11 @@
 //! Chroma samples lie where MPEG-2, H.264 and VP9 have them by default: in line with the left one of two columns,
 //! halfway between two rows. Hence a 1 2 1 filter across and a mean down.
 
+#![allow(
+    clippy::inline_always,
+    reason = "what runs on an instruction set found at run time must be inlined into the function that enables it"
+)]
+
 /// Fraction bits of the fixed-point weights. With 16 the result is the rounded exact one, or next to it.
 const FRACTION_BITS: u32 = 16;
 
@@ -45,6 +50,7 @@ impl Weights {
         Self { rgb, offset: (base << shift) + (1 << (shift - 1)), shift }
     }
 
+    #[inline(always)]
     fn code(&self, rgb_sum: [i32; 3]) -> u8 {
         let dot = self.rgb[0] * rgb_sum[0] + self.rgb[1] * rgb_sum[1] + self.rgb[2] * rgb_sum[2];
         ((dot + self.offset) >> self.shift) as u8
@@ -56,39 +62,67 @@ impl Weights {
 ///
 /// `rgb8` has to hold `width * height * 3` bytes, both sizes above 0.
 pub fn planes_from_rgb8(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
+    // Whole numbers: the same planes on every instruction set.
+    pulp::Arch::new().dispatch(|| convert(rgb8, width, height))
+}
+
+#[inline(always)]
+fn convert(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
     let (even_width, even_height) = (width.next_multiple_of(2), height.next_multiple_of(2));
     let row = |y: usize| &rgb8[y.min(height - 1) * width * 3..][..width * 3];
-    let mut y = Vec::with_capacity(even_width * even_height);
-    let mut cb = Vec::with_capacity(even_width * even_height / 4);
-    let mut cr = Vec::with_capacity(even_width * even_height / 4);
-    for pair in 0..even_height / 2 {
-        let (upper, lower) = (row(2 * pair), row(2 * pair + 1));
-        push_luma(&mut y, upper, even_width);
-        push_luma(&mut y, lower, even_width);
-        push_chroma(&mut cb, &mut cr, upper, lower);
+    let luma = Weights::new([0.2126, 0.7152, 0.0722], 219.0, 16, 0);
+    let blue = Weights::new([-0.2126 / 1.8556, -0.7152 / 1.8556, 0.5], 224.0, 128, 3);
+    let red = Weights::new([0.5, -0.7152 / 1.5748, -0.0722 / 1.5748], 224.0, 128, 3);
+    let mut y = vec![0; even_width * even_height];
+    let mut cb = vec![0; even_width * even_height / 4];
+    let mut cr = vec![0; even_width * even_height / 4];
+    let mut channels: [Channels; 2] = Default::default();
+    let chroma_rows = cb.chunks_exact_mut(even_width / 2).zip(cr.chunks_exact_mut(even_width / 2));
+    for (pair, (luma_rows, (cb, cr))) in y.chunks_exact_mut(2 * even_width).zip(chroma_rows).enumerate() {
+        for (idx, codes) in luma_rows.chunks_exact_mut(even_width).enumerate() {
+            split(row(2 * pair + idx), even_width, &mut channels[idx]);
+            write_luma(codes, &channels[idx], &luma);
+        }
+        let [upper, lower] = &mut channels;
+        for (upper, lower) in upper.iter_mut().zip(lower) {
+            upper.iter_mut().zip(&*lower).for_each(|(sum, &value)| *sum += value);
+        }
+        write_chroma(cb, upper, &blue);
+        write_chroma(cr, upper, &red);
     }
     Planes420 { width: even_width, height: even_height, y, cb, cr }
 }
 
-fn push_luma(codes: &mut Vec<u8>, row: &[u8], even_width: usize) {
-    let luma = Weights::new([0.2126, 0.7152, 0.0722], 219.0, 16, 0);
-    let start = codes.len();
-    codes.extend(row.chunks_exact(3).map(|p| luma.code([i32::from(p[0]), i32::from(p[1]), i32::from(p[2])])));
-    if let Some(&last) = codes.last() {
-        codes.resize(start + even_width, last);
+/// Red, green and blue of one row, each with its first value repeated in front and its last behind.
+type Channels = [Vec<i32>; 3];
+
+#[inline(always)]
+fn split(row: &[u8], even_width: usize, channels: &mut Channels) {
+    for (channel, values) in channels.iter_mut().enumerate() {
+        values.resize(even_width + 2, 0);
+        values[0] = i32::from(row[channel]);
+        for (value, pixel) in values[1..].iter_mut().zip(row.chunks_exact(3)) {
+            *value = i32::from(pixel[channel]);
+        }
+        let width = row.len() / 3;
+        let last = values[width];
+        values[width + 1..].fill(last);
     }
 }
 
-/// One row of chroma from two rows of pixels: weights 1 2 1 across on each, 8 pixels in all.
-fn push_chroma(cb: &mut Vec<u8>, cr: &mut Vec<u8>, upper: &[u8], lower: &[u8]) {
-    let blue = Weights::new([-0.2126 / 1.8556, -0.7152 / 1.8556, 0.5], 224.0, 128, 3);
-    let red = Weights::new([0.5, -0.7152 / 1.5748, -0.0722 / 1.5748], 224.0, 128, 3);
-    let width = upper.len() / 3;
-    let column = |x: usize, channel: usize| i32::from(upper[3 * x + channel]) + i32::from(lower[3 * x + channel]);
-    for center in (0..width).step_by(2) {
-        let (left, right) = (center.saturating_sub(1), (center + 1).min(width - 1));
-        let sum = [0, 1, 2].map(|c| column(left, c) + 2 * column(center, c) + column(right, c));
-        cb.push(blue.code(sum));
-        cr.push(red.code(sum));
+#[inline(always)]
+fn write_luma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
+    for (((code, &r), &g), &b) in codes.iter_mut().zip(&r[1..]).zip(&g[1..]).zip(&b[1..]) {
+        *code = weights.code([r, g, b]);
+    }
+}
+
+/// One row of chroma from the sums of two rows of pixels: weights 1 2 1 across, 8 pixels in all.
+#[inline(always)]
+fn write_chroma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
+    let across = |sums: &[i32]| sums[0] + 2 * sums[1] + sums[2];
+    let triples = r.windows(3).zip(g.windows(3)).zip(b.windows(3)).step_by(2);
+    for (code, ((r, g), b)) in codes.iter_mut().zip(triples) {
+        *code = weights.code([across(r), across(g), across(b)]);
     }
 }

@@ -8,7 +8,7 @@ use super::part_file::{FirstError, PartFile, WatchedFile};
 use super::{VideoError, VideoFormat, VideoSettings, rate, read_back};
 
 /// Encoder threads. x264 writes the number into the file, so a fixed one keeps bytes the same on every machine.
-const NUM_THREADS: &str = "4";
+pub(super) const NUM_THREADS: usize = 4;
 /// Room in front of an MP4 for its index: a fixed part, and 8 bytes of sizes and times plus 16 of chunk tables for a
 /// frame, with a margin.
 const INDEX_BYTES: (usize, usize) = (8192, 48);
@@ -93,6 +93,31 @@ impl FilmEncoder {
     }
 }
 
+/// Encodes frames and drops what comes out.
+pub(super) fn encode_to_nothing(
+    path: &Path,
+    format: &VideoFormat,
+    settings: &VideoSettings,
+    frames: &[&[u8]],
+) -> Result<(), VideoError> {
+    let missing = || VideoError::Missing { missing: "encoder".to_owned(), path: path.to_owned() };
+    ffmpeg_next::log::set_level(ffmpeg_next::log::Level::Quiet);
+    let codec = format.ffmpeg_names().and_then(|(_, name)| encoder::find_by_name(name)).ok_or_else(missing)?;
+    let opened = open_encoder(codec, settings, rate::as_fraction(settings.rate_fps));
+    let mut encoder = opened.map_err(|e| failed("opening the encoder", e, path))?;
+    let mut packet = Packet::empty();
+    for (frame_idx, rgb8) in frames.iter().enumerate() {
+        let planes = bt709::planes_from_rgb8(rgb8, settings.width as usize, settings.height as usize);
+        let mut picture = picture_of(&planes);
+        picture.set_pts(Some(frame_idx as i64));
+        encoder.send_frame(&picture).map_err(|e| failed("encoding", e, path))?;
+        while encoder.receive_packet(&mut packet).is_ok() {}
+    }
+    encoder.send_eof().map_err(|e| failed("encoding", e, path))?;
+    while encoder.receive_packet(&mut packet).is_ok() {}
+    Ok(())
+}
+
 fn failed(action: &'static str, error: ffmpeg_next::Error, path: &Path) -> VideoError {
     VideoError::Ffmpeg { action, message: error.to_string(), path: path.to_owned() }
 }
@@ -120,7 +145,7 @@ fn open_encoder(
 
 fn encoder_options(codec_name: &str, settings: &VideoSettings) -> Dictionary<'static> {
     let mut options = Dictionary::new();
-    options.set("threads", NUM_THREADS);
+    options.set("threads", &NUM_THREADS.to_string());
     options.set("chroma_sample_location", "left");
     options.set("crf", &settings.crf.to_string());
     if codec_name == "libx264" {

@@ -46,6 +46,15 @@ impl SequenceWriter {
 /// # Errors
 /// [`VideoError::Create`] or [`VideoError::Io`] with the system's reason.
 pub fn write_png(path: &Path, rgb8: &[u8], width: u32, height: u32) -> Result<(), VideoError> {
+    let bytes = png_bytes(path, rgb8, width, height)?;
+    let (part, mut file) = PartFile::create(path)?;
+    std::io::Write::write_all(&mut file, &bytes).map_err(|source| writing(path, source))?;
+    part.keep_as(None)?;
+    Ok(())
+}
+
+/// One 8-bit RGB picture as the bytes of a PNG file; `path` is for messages.
+pub(super) fn png_bytes(path: &Path, rgb8: &[u8], width: u32, height: u32) -> Result<Vec<u8>, VideoError> {
     let expected = width as usize * height as usize * 3;
     if rgb8.len() != expected {
         return Err(VideoError::FrameSize { found: rgb8.len(), expected });
@@ -53,10 +62,10 @@ pub fn write_png(path: &Path, rgb8: &[u8], width: u32, height: u32) -> Result<()
     let mut bytes = Cursor::new(Vec::new());
     let encoder = png::PngEncoder::new_with_quality(&mut bytes, png::CompressionType::Fast, png::FilterType::Adaptive);
     let encoded = encoder.write_image(rgb8, width, height, ExtendedColorType::Rgb8);
-    let io = |source| VideoError::Io { action: "writing", path: path.to_owned(), source };
-    encoded.map_err(|e| io(std::io::Error::other(e)))?;
-    let (part, mut file) = PartFile::create(path)?;
-    std::io::Write::write_all(&mut file, bytes.get_ref()).map_err(io)?;
-    part.keep_as(None)?;
-    Ok(())
+    encoded.map_err(|error| writing(path, std::io::Error::other(error)))?;
+    Ok(bytes.into_inner())
+}
+
+fn writing(path: &Path, source: std::io::Error) -> VideoError {
+    VideoError::Io { action: "writing", path: path.to_owned(), source }
 }

@@ -188,6 +188,23 @@ fn bench_prints_rows_and_keeps_table_and_plots() {
 }
 
 #[test]
+fn bench_films_holds_films_against_stills_and_forecasts() {
+    let folder = tempfile::tempdir().unwrap();
+    let bench =
+        ["bench", "films", SMALL_SCENE, "--size", "64x36", "--frames", "8", "--qualities", "draft", "-o", "out"];
+    let csv = data(folder.path(), &bench);
+    assert_eq!(fs::read_to_string(folder.path().join("out/films.csv")).unwrap(), csv);
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let rows: Vec<_> = csv.lines().skip(1).map(cells).collect();
+    let secs = |measure: &str| rows.iter().find(|row| row[5] == measure).unwrap()[6].parse::<f64>().unwrap();
+    let off = 100.0 * (secs("predicted") / secs("film") - 1.0);
+    let stated: f64 = rows.iter().find(|row| row[5] == "predicted").unwrap()[10].parse().unwrap();
+    assert!((off - stated).abs() <= 0.1 + 0.2 * off.abs(), "{stated} % stated, {off} % of its figures");
+    assert!(rows.iter().all(|row| row.len() == 11 && row[3] == "8" && row[4] == "draft"), "{csv}");
+    assert_eq!(fs::read_to_string(folder.path().join("out/films.md")).unwrap().lines().count(), rows.len() + 2);
+}
+
+#[test]
 fn bench_scaling_measures_each_case_in_its_own_process() {
     let folder = tempfile::tempdir().unwrap();
     let csv = data(folder.path(), &["bench", "scaling", SMALL_SCENE, "--runs", "1", "--most", "200", "-o", "out"]);

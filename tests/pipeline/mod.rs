@@ -74,6 +74,25 @@ fn progress_comes_once_a_frame_and_counts_up() {
 }
 
 #[test]
+fn a_resting_camera_is_shown_again_and_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut resting = shot();
+    // Rests for the first half, then moves.
+    let mut middle = resting.keyframes[0].clone();
+    middle.time_secs = 0.5;
+    resting.keyframes.insert(1, middle);
+    let (scene, path) = (scene(), folder.path().join("%02d.png"));
+    film(&Renderer::new(&scene.gaussians), &resting, &path, &settings(), &mut |_| Flow::Continue).unwrap();
+    let frame = |idx: usize| std::fs::read(folder.path().join(format!("{idx:02}.png"))).unwrap();
+    for idx in 1..=4 {
+        assert_eq!(frame(idx), frame(0), "frame {idx}");
+    }
+    for idx in 6..10 {
+        assert_ne!(frame(idx), frame(idx - 1), "frame {idx}");
+    }
+}
+
+#[test]
 fn a_film_that_is_stopped_keeps_its_frames() {
     let folder = tempfile::tempdir().unwrap();
     let mut watch = |progress: Progress| if progress.done == 4 { Flow::Stop } else { Flow::Continue };

@@ -4,6 +4,7 @@ mod bt709;
 mod contact_sheet;
 mod film;
 mod pattern;
+mod rehearsal;
 mod sequence;
 
 /// A picture with smooth ramps, hard edges and saturated patches, moving with `frame_idx`.

@@ -1,3 +1,4 @@
+mod films;
 mod operator;
 mod render;
 mod scaling;
@@ -11,6 +12,7 @@ use failure::Failure;
 Examples:
   cinesplat bench render room.spz --cameras cameras.json -o bench
   cinesplat bench scaling room.spz -o bench
+  cinesplat bench films room.spz --cameras cameras.json -o bench
   cinesplat bench operator moves")]
 pub(super) struct Args {
     #[command(subcommand)]
@@ -23,6 +25,8 @@ enum What {
     Render(render::Args),
     /// Time and memory against Gaussians, pixels and layers.
     Scaling(scaling::Args),
+    /// Films against their frames one by one, rendering and encoding alone, and forecasts.
+    Films(films::Args),
     /// The operator: exactness of moves, films of cases, void, accuracy against time, stages.
     Operator(operator::Args),
 }
@@ -32,6 +36,7 @@ impl Args {
         match self.what {
             What::Render(args) => args.run(),
             What::Scaling(args) => args.run(),
+            What::Films(args) => args.run(),
             What::Operator(args) => args.run(),
         }
     }

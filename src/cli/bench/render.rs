@@ -119,7 +119,7 @@ impl RowLog {
     }
 }
 
-fn read_cameras(path: &Path) -> Result<Option<StillCameras>, Failure> {
+pub(super) fn read_cameras(path: &Path) -> Result<Option<StillCameras>, Failure> {
     if path == Path::new("auto") {
         return Ok(None);
     }
@@ -130,7 +130,7 @@ fn read_cameras(path: &Path) -> Result<Option<StillCameras>, Failure> {
 
 /// The scene's file name without its last extension; of `scene.spz` and `meta.json` the folder's, with the number of
 /// its level where it is only that.
-fn scene_name(path: &Path) -> String {
+pub(super) fn scene_name(path: &Path) -> String {
     let stem = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let parent = || path.parent().map(stem).filter(|name| !name.is_empty());
     let name = stem(path);
@@ -143,7 +143,7 @@ fn scene_name(path: &Path) -> String {
 }
 
 /// The picture of a camera at another size: its height decides the scale, the width is cut or widened evenly.
-fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
+pub(super) fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
     let Some([width, height]) = size else { return *camera };
     let given = camera.intrinsics;
     let scale = f64::from(height) / f64::from(given.height);
@@ -162,7 +162,7 @@ fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
 const NUM_OWN_VIEWS: usize = 3;
 
 /// One level view from the middle of the scene and two from outside, a quarter turn apart, 16:9 with 60 degrees.
-fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure> {
+pub(super) fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure> {
     let level = LevelFrame::new(scene.up)?;
     let intrinsics = Intrinsics::from_fov_y(1280, 720, 60_f64.to_radians());
     let bounds = scene.bounds();
@@ -188,7 +188,7 @@ fn write_all(folder: &Path, rows: &[BenchRow]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn parse_size(text: &str) -> Result<Option<[u32; 2]>, String> {
+pub(super) fn parse_size(text: &str) -> Result<Option<[u32; 2]>, String> {
     if text == "given" {
         return Ok(None);
     }

@@ -1,0 +1,172 @@
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::super::failure::Failure;
+use crate::geometry::{Camera, Intrinsics};
+use crate::pipeline::{self, FilmSettings, Flow, Spent};
+use crate::render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
+use crate::scene::Scene;
+use crate::trajectory::{CameraPath, Shot};
+use crate::video::{VideoError, VideoSettings, VideoWriter};
+
+/// What is filmed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Case<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) name: &'a str,
+    pub(super) shot: &'a Shot,
+}
+
+/// One measurement.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    pub(super) scene: String,
+    pub(super) size_px: [u32; 2],
+    pub(super) num_frames: usize,
+    pub(super) quality: &'static str,
+    pub(super) measure: &'static str,
+    pub(super) secs: f64,
+    /// Of all cores together, where that means something.
+    pub(super) busy_secs: Option<f64>,
+    /// What it is held against, and how much more it takes in percent.
+    pub(super) against: Option<(&'static str, f64)>,
+}
+
+impl Case<'_> {
+    /// The film's pictures by a renderer that keeps what it has, against the same pictures one by one.
+    pub(super) fn stills(&self, settings: &FilmSettings, tell: &mut dyn FnMut(Row)) -> Result<(), Failure> {
+        let cameras = self.cameras()?;
+        let quality = settings.render.quality.name();
+        let renderer = Renderer::new(&self.scene.gaussians);
+        let (_, kept) = render(&renderer, &cameras, &settings.render, false)?;
+        tell(self.row((quality, "pictures in a row"), kept, None));
+
+        let anew = RenderSettings { reuses_order: false, ..settings.render };
+        let (_, unordered) = render(&renderer, &cameras, &anew, false)?;
+        let more = |secs: f64| ("pictures in a row", (secs / kept.wall_secs - 1.0) * 100.0);
+        tell(self.row((quality, "order found anew"), unordered, Some(more(unordered.wall_secs))));
+
+        let (rendered, alone) = Spent::measure(|| {
+            cameras.iter().try_for_each(|camera| {
+                let renderer = Renderer::new(&self.scene.gaussians);
+                renderer.render_rgb8_into(camera, &settings.render, &mut Rgb8Frame::default())
+            })
+        });
+        rendered?;
+        tell(self.row((quality, "stills by a renderer each"), alone, Some(more(alone.wall_secs))));
+        Ok(())
+    }
+
+    /// The film against rendering and encoding alone, and against its forecast.
+    pub(super) fn film(&self, settings: &FilmSettings, tell: &mut dyn FnMut(Row)) -> Result<(), Failure> {
+        let quality = settings.render.quality;
+        let output = TemporaryFilm::new();
+        let renderer = Renderer::new(&self.scene.gaussians);
+        let start = Instant::now();
+        let forecasts = pipeline::forecast(&renderer, self.shot, &output.0, settings, &[quality])?;
+        let forecast_secs = start.elapsed().as_secs_f64();
+        let predicted = forecasts.first().map_or(f64::NAN, |forecast| forecast.film_time.as_secs_f64());
+
+        let (filmed, film) =
+            Spent::measure(|| pipeline::film(&renderer, self.shot, &output.0, settings, &mut |_| Flow::Continue));
+        filmed?;
+        let (pictures, rendered) = render(&renderer, &self.cameras()?, &settings.render, true)?;
+        let encoded = self.encode(&output.0, &pictures)?;
+        let slower = rendered.wall_secs.max(encoded.wall_secs);
+        let busy = rendered.plus(encoded).busy_secs;
+        let all_busy = Spent { wall_secs: busy / pipeline::num_cores() as f64, busy_secs: busy };
+        let percent = |secs: f64, of: f64| (secs / of - 1.0) * 100.0;
+        let only = |wall_secs: f64| Spent { wall_secs, busy_secs: f64::NAN };
+
+        let of = |measure: &'static str| (quality.name(), measure);
+        tell(self.row(of("rendered alone"), rendered, None));
+        tell(self.row(of("encoded alone"), encoded, None));
+        tell(self.row(of("both with every core busy"), all_busy, None));
+        tell(self.row(of("film"), film, Some(("the slower alone", percent(film.wall_secs, slower)))));
+        let over_busy = percent(film.wall_secs, all_busy.wall_secs);
+        tell(self.row(of("film"), film, Some(("every core busy", over_busy))));
+        tell(self.row(of("predicted"), only(predicted), Some(("film", percent(predicted, film.wall_secs)))));
+        tell(self.row(of("time to predict"), only(forecast_secs), None));
+        Ok(())
+    }
+
+    fn encode(&self, output: &Path, pictures: &[Rgb8Frame]) -> Result<Spent, VideoError> {
+        let video = VideoSettings {
+            width: self.shot.width,
+            height: self.shot.height,
+            rate_fps: self.shot.fps,
+            num_frames: pictures.len(),
+            overwrite: true,
+            ..VideoSettings::default()
+        };
+        let (written, spent) = Spent::measure(|| {
+            let mut writer = VideoWriter::create(output, &video)?;
+            pictures.iter().try_for_each(|picture| writer.write_frame(&picture.rgb8))?;
+            writer.finish()
+        });
+        written.map(|_path| spent)
+    }
+
+    fn cameras(&self) -> Result<Vec<Camera>, Failure> {
+        let path = CameraPath::new(self.shot)?;
+        let camera = |frame_idx| {
+            let state = path.sample(self.shot.frame_time_secs(frame_idx));
+            let intrinsics = Intrinsics::from_fov_y(self.shot.width, self.shot.height, state.fov_y_rad);
+            Camera { pose: state.pose, intrinsics }
+        };
+        Ok((0..self.shot.num_frames()).map(camera).collect())
+    }
+
+    fn row(
+        &self,
+        (quality, measure): (&'static str, &'static str),
+        spent: Spent,
+        against: Option<(&'static str, f64)>,
+    ) -> Row {
+        Row {
+            scene: self.name.to_owned(),
+            size_px: [self.shot.width, self.shot.height],
+            num_frames: self.shot.num_frames(),
+            quality,
+            measure,
+            secs: spent.wall_secs,
+            busy_secs: Some(spent.busy_secs).filter(|secs| secs.is_finite()),
+            against,
+        }
+    }
+}
+
+/// Renders all pictures in a row; without `keeps` into the memory of one.
+fn render(
+    renderer: &Renderer<'_>,
+    cameras: &[Camera],
+    settings: &RenderSettings,
+    keeps: bool,
+) -> Result<(Vec<Rgb8Frame>, Spent), RenderError> {
+    let (mut frame, mut pictures, mut sum) = (Rgb8Frame::default(), Vec::new(), Spent::default());
+    for camera in cameras {
+        let (rendered, spent) = Spent::measure(|| renderer.render_rgb8_into(camera, settings, &mut frame));
+        rendered?;
+        sum = sum.plus(spent);
+        if keeps {
+            pictures.push(frame.clone());
+        }
+    }
+    Ok((pictures, sum))
+}
+
+/// A film's name in the system's folder for passing files; what bears it is removed in the end.
+struct TemporaryFilm(PathBuf);
+
+impl TemporaryFilm {
+    fn new() -> Self {
+        Self(std::env::temp_dir().join(format!("cinesplat-bench-{}.mp4", std::process::id())))
+    }
+}
+
+impl Drop for TemporaryFilm {
+    fn drop(&mut self) {
+        // Nobody is left to tell.
+        let _ = std::fs::remove_file(&self.0);
+    }
+}

@@ -1,0 +1,140 @@
+mod measure;
+mod report;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use super::render::{own_views, parse_size, read_cameras, resized, scene_name};
+use super::scene_args::{PictureArgs, SceneOptions, parse_quality};
+use super::{console, outputs};
+use crate::geometry::Camera;
+use crate::pipeline::{FilmSettings, FrameRange};
+use crate::render::Quality;
+use crate::scene::Scene;
+use crate::trajectory::{Easing, Keyframe, SceneRef, Shot};
+use crate::video::VideoSettings;
+use measure::{Case, Row};
+
+/// Frames a second of the films.
+const RATE_FPS: f64 = 30.0;
+/// Way of a dolly over the size of the scene, unless told.
+const TRAVEL_FRAC: f64 = 0.05;
+
+/// Measures what a film costs against its frames one by one, beside its encoder, and against its forecast.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Example:
+  cinesplat bench films room.spz synth:demo --cameras room.cameras.json --cameras auto -o bench
+Films a dolly: a straight move along the view axis of the first camera. One line of CSV a measurement on stdout, with what
+it is held against and how much more it takes in percent. All pictures of a film are kept in memory to encode them alone.
+-o keeps films.csv and a table.")]
+pub(in super::super) struct Args {
+    /// Scenes, as for the other commands
+    #[arg(value_name = "SCENE", required = true)]
+    scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    options: SceneOptions,
+    /// Cameras of the scene at the same place in the line, the last for all further ones; auto: from the middle of the
+    /// scene
+    #[arg(long, value_name = "CAMERAS.JSON", default_value = "auto")]
+    cameras: Vec<PathBuf>,
+    /// Size of the pictures, or `given` for that of the cameras file
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Frames of a film
+    #[arg(long, value_name = "N", default_value_t = 240, value_parser = clap::value_parser!(u16).range(2..=10_000))]
+    frames: u16,
+    /// Way of the dolly in scene units, instead of a twentieth of the scene's size
+    #[arg(long, value_name = "D", value_parser = parse_way)]
+    travel: Option<f64>,
+    /// Qualities that are filmed; the first is compared with stills as well
+    #[arg(
+        long, value_name = "Q,..", default_value = "standard,draft,final", value_delimiter = ',',
+        value_parser = parse_quality
+    )]
+    qualities: Vec<Quality>,
+    /// Folder for films.csv and films.md
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    picture: PictureArgs,
+}
+
+impl Args {
+    pub(in super::super) fn run(self) -> Result<(), Failure> {
+        if let Some(folder) = &self.output {
+            fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))?;
+        }
+        self.picture.bound_threads()?;
+        console::data(report::CSV_HEADER)?;
+        let mut rows = Vec::new();
+        for (idx, path) in self.scenes.iter().enumerate() {
+            rows.extend(self.bench_scene(path, &self.cameras[idx.min(self.cameras.len() - 1)])?);
+        }
+        let Some(folder) = &self.output else { return Ok(()) };
+        outputs::write(&folder.join("films.csv"), report::to_csv(&rows).as_bytes())?;
+        outputs::write(&folder.join("films.md"), report::to_table(&rows).as_bytes())
+    }
+
+    fn bench_scene(&self, path: &Path, cameras: &Path) -> Result<Vec<Row>, Failure> {
+        let file = read_cameras(cameras)?;
+        let scene = self.options.open(path)?.scene;
+        let camera = match &file {
+            Some(file) => file.cameras.first().map(|named| named.camera),
+            None => own_views(&scene)?.last().map(|(_, camera)| *camera),
+        };
+        let camera = camera.ok_or_else(|| Failure::fault("cameras without a camera"))?;
+        let (filter, near) = file.as_ref().map_or((None, None), |file| (file.filter.as_deref(), file.near));
+        let render = self.picture.settings(&scene, Quality::Standard, filter, near);
+        let travel = self.travel.unwrap_or(TRAVEL_FRAC * scene.bounds().size());
+        let shot = dolly(&scene, &resized(&camera, self.size), travel, usize::from(self.frames));
+        let name = scene_name(path);
+        let case = Case { scene: &scene, name: &name, shot: &shot };
+        let mut rows = Vec::new();
+        let mut tell = |row: Row| {
+            // A reader that has gone is told of at the end.
+            let _ = console::data(&report::csv_line(&row));
+            rows.push(row);
+        };
+        for (idx, &quality) in self.qualities.iter().enumerate() {
+            let render = crate::render::RenderSettings { quality, ..render };
+            let (video, frames) = (VideoSettings::default(), FrameRange::default());
+            let settings = FilmSettings { render, video, frames, sheet: None };
+            if idx == 0 {
+                case.stills(&settings, &mut tell)?;
+            }
+            case.film(&settings, &mut tell)?;
+        }
+        Ok(rows)
+    }
+}
+
+/// A straight move at even speed along the view axis.
+fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot {
+    let duration_secs = num_frames as f64 / RATE_FPS;
+    let key = |time_secs: f64, way: f64| {
+        let mut pose = camera.pose;
+        pose.position += pose.forward() * way;
+        let (fov_y_rad, easing) = (camera.intrinsics.fov_y_rad(), Easing::Linear);
+        Keyframe { time_secs, pose, fov_y_rad, focus_distance: None, easing, cut: false, intent: None }
+    };
+    Shot {
+        scene: SceneRef { up: Some(scene.up), ..SceneRef::default() },
+        prompt: String::new(),
+        seed: 0,
+        model: None,
+        width: camera.intrinsics.width,
+        height: camera.intrinsics.height,
+        fps: RATE_FPS,
+        duration_secs,
+        keyframes: vec![key(0.0, 0.0), key(duration_secs, travel)],
+        effects: Vec::new(),
+        report: Vec::new(),
+        clearance: None,
+    }
+}
+
+fn parse_way(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|way: &f64| *way > 0.0 && way.is_finite()).ok_or("expected a length above 0".to_owned())
+}

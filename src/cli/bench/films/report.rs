@@ -1,0 +1,57 @@
+use std::fmt::Write as _;
+
+use super::measure::Row;
+
+/// First line of the CSV.
+pub(super) const CSV_HEADER: &str =
+    "scene,width,height,frames,quality,measure,secs,ms_a_frame,busy_secs,against,percent\n";
+
+/// The rows as CSV with a header.
+pub(super) fn to_csv(rows: &[Row]) -> String {
+    rows.iter().fold(CSV_HEADER.to_owned(), |csv, row| csv + &csv_line(row))
+}
+
+/// One row as a line of the CSV; cells that mean nothing are empty.
+pub(super) fn csv_line(row: &Row) -> String {
+    let busy = row.busy_secs.map_or(String::new(), |secs| format!("{secs:.2}"));
+    let (against, percent) = row.against.map_or_else(Default::default, |(what, p)| (what, format!("{p:.1}")));
+    format!(
+        "{},{},{},{},{},{},{:.3},{:.2},{busy},{against},{percent}\n",
+        row.scene,
+        row.size_px[0],
+        row.size_px[1],
+        row.num_frames,
+        row.quality,
+        row.measure,
+        row.secs,
+        ms_a_frame(row)
+    )
+}
+
+/// The rows as a Markdown table.
+pub(super) fn to_table(rows: &[Row]) -> String {
+    let mut table = String::from(
+        "| scene | size | frames | quality | measure | s | ms a frame | against |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    for row in rows {
+        let against = row.against.map_or(String::new(), |(what, percent)| format!("{what}: {percent:+.1} %"));
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            table,
+            "| {} | {}x{} | {} | {} | {} | {:.2} | {:.1} | {against} |",
+            row.scene,
+            row.size_px[0],
+            row.size_px[1],
+            row.num_frames,
+            row.quality,
+            row.measure,
+            row.secs,
+            ms_a_frame(row)
+        );
+    }
+    table
+}
+
+fn ms_a_frame(row: &Row) -> f64 {
+    row.secs * 1e3 / row.num_frames.max(1) as f64
+}

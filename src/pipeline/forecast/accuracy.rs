@@ -1,0 +1,78 @@
+use std::time::Instant;
+
+use crate::geometry::{Camera, Intrinsics};
+use crate::render::{Frame, Quality, RenderError, RenderSettings, Renderer};
+
+/// Size in pixels of the cut-out that `reference` renders.
+const CUTOUT_PX: [u32; 2] = [128, 72];
+/// Size of the cut-out that shows what `reference` takes whatever the size.
+const LEAST_PX: [u32; 2] = [8, 8];
+
+/// `final` held against `reference` on a cut-out from the middle of a picture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Exact {
+    /// PSNR of `final`, dB.
+    pub(super) final_db: f64,
+    /// Time that `reference` took.
+    secs: f64,
+    /// Blends that `final` counted.
+    num_blends: f64,
+}
+
+impl Exact {
+    pub(super) fn of(renderer: &Renderer<'_>, camera: &Camera, settings: &RenderSettings) -> Result<Self, RenderError> {
+        let cutout = middle(camera, CUTOUT_PX);
+        let best = renderer.render(&cutout, &at(settings, Quality::Final))?;
+        let start = Instant::now();
+        let exact = renderer.render(&cutout, &at(settings, Quality::Reference))?;
+        let secs = start.elapsed().as_secs_f64();
+        // Equal to the last bit of eight is as good as exact.
+        let final_db = best.psnr_db(&exact).min(150.0);
+        Ok(Self { final_db, secs, num_blends: best.stats.counts.num_block_blends as f64 })
+    }
+
+    /// Seconds that `reference` takes for the whole picture: those of the cut-out, grown with the work that `final`
+    /// counts.
+    pub(super) fn reference_secs(
+        &self,
+        renderer: &Renderer<'_>,
+        camera: &Camera,
+        settings: &RenderSettings,
+    ) -> Result<f64, RenderError> {
+        let start = Instant::now();
+        renderer.render(&middle(camera, LEAST_PX), &at(settings, Quality::Reference))?;
+        let fixed = start.elapsed().as_secs_f64();
+        let whole = renderer.render(camera, &at(settings, Quality::Final))?.stats.counts.num_block_blends as f64;
+        Ok(fixed + (self.secs - fixed).max(0.0) * whole / self.num_blends.max(1.0))
+    }
+}
+
+/// PSNR in dB of pictures `mean_squares` apart from `final` against the spec image, no better than that of `final`.
+pub(super) fn psnr_db(mean_squares: impl Iterator<Item = f64>, final_db: f64) -> f64 {
+    let (sum, num) = mean_squares.fold((0.0, 0), |(sum, num), square| (sum + square, num + 1));
+    -10.0 * (sum / f64::from(num.max(1)) + 10_f64.powf(-final_db / 10.0)).log10()
+}
+
+/// Mean square difference of color, clamped to 0..=1; 0 for equal pictures.
+pub(super) fn mean_square(a: &Frame, b: &Frame) -> f64 {
+    10_f64.powf(-a.psnr_db(b) / 10.0)
+}
+
+/// The settings at another quality, as its preset.
+pub(super) fn at(settings: &RenderSettings, quality: Quality) -> RenderSettings {
+    RenderSettings { quality, accuracy: None, ..*settings }
+}
+
+/// The middle of a picture, at most so many pixels.
+fn middle(camera: &Camera, size_px: [u32; 2]) -> Camera {
+    let whole = camera.intrinsics;
+    let (width, height) = (size_px[0].min(whole.width), size_px[1].min(whole.height));
+    let intrinsics = Intrinsics {
+        width,
+        height,
+        cx_px: whole.cx_px - f64::from(whole.width - width) / 2.0,
+        cy_px: whole.cy_px - f64::from(whole.height - height) / 2.0,
+        ..whole
+    };
+    Camera { pose: camera.pose, intrinsics }
+}

@@ -1,0 +1,207 @@
+//! A few frames rendered and encoded as the film will be, and work counted along all of it.
+
+use std::path::Path;
+use std::time::Instant;
+
+use super::accuracy::{at, mean_square};
+use super::cost::Spent;
+use crate::geometry::Camera;
+use crate::render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
+use crate::video::{VideoError, VideoSettings, rehearse};
+
+/// Places of the film whose work is counted on small pictures.
+const NUM_PLACES: usize = 9;
+/// Side of the small pictures over that of the film's.
+const SMALL_FRAC: f64 = 0.25;
+/// Frames of a run that are not timed: they make room, and the depth order is found again from the third frame on.
+const NUM_WARM: usize = 2;
+/// Pixels that are encoded to learn what that takes, in whole frames: five at 1280 x 720.
+const ENCODED_PX: usize = 5 * 1280 * 720;
+/// Least and most frames of the run that is encoded.
+const ENCODED_FRAMES: (usize, usize) = (3, 12);
+
+/// Work of the four stages: project, sort, bin, blend.
+pub(super) type Work = [f64; 4];
+
+/// Who renders what.
+pub(super) struct Sampler<'a> {
+    pub(super) renderer: &'a Renderer<'a>,
+    /// Cameras of the frames that are rendered, at least one.
+    pub(super) cameras: &'a [Camera],
+    pub(super) settings: &'a RenderSettings,
+}
+
+/// Frames rendered whole at one quality.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Samples {
+    /// Seconds by stage (project, sort, bin, blend, all else) of the median frame of each run, summed over runs.
+    secs: [f64; 5],
+    /// Work of these frames, as small pictures count it.
+    work: Work,
+    num_runs: usize,
+    /// What all timed frames took together.
+    spent: Spent,
+    num_timed: usize,
+    /// Mean square differences to `final`, a place each.
+    pub(super) mean_squares: Vec<f64>,
+}
+
+impl Sampler<'_> {
+    /// Frames of the run that is encoded: fewer of larger ones.
+    pub(super) fn num_encoded(&self) -> usize {
+        let intrinsics = self.cameras[0].intrinsics;
+        let num_pixels = intrinsics.width as usize * intrinsics.height as usize;
+        (ENCODED_PX / num_pixels.max(1)).clamp(ENCODED_FRAMES.0, ENCODED_FRAMES.1)
+    }
+
+    /// Up to `num` frames in a row around `frac` of the film.
+    pub(super) fn run(&self, frac: f64, num: usize) -> &[Camera] {
+        let num = num.min(self.cameras.len());
+        let middle = (self.cameras.len() as f64 * frac) as usize;
+        let start = middle.saturating_sub(num / 2).min(self.cameras.len() - num);
+        &self.cameras[start..start + num]
+    }
+
+    /// Work of a frame in the mean over the whole film.
+    pub(super) fn mean_work(&self) -> Result<Work, RenderError> {
+        let num = NUM_PLACES.min(self.cameras.len());
+        let place = |idx: usize| (self.cameras.len() - 1) * idx / (num - 1).max(1);
+        let mut sum = Work::default();
+        for idx in 0..num {
+            add(&mut sum, self.work_at(&self.cameras[place(idx)])?);
+        }
+        Ok(sum.map(|work| work / num as f64))
+    }
+
+    /// Work of one frame.
+    pub(super) fn work_at(&self, camera: &Camera) -> Result<Work, RenderError> {
+        let small = Camera { pose: camera.pose, intrinsics: camera.intrinsics.scaled(SMALL_FRAC) };
+        Ok(work(&self.renderer.render(&small, &at(self.settings, Quality::Standard))?.stats.counts))
+    }
+
+    /// Renders a run of frames as a film does, adds what its later ones took, and returns the pictures.
+    pub(super) fn render_run(
+        &self,
+        run: &[Camera],
+        quality: Quality,
+        samples: &mut Samples,
+    ) -> Result<Vec<Rgb8Frame>, RenderError> {
+        let settings = at(self.settings, quality);
+        let mut frames: Vec<Rgb8Frame> = vec![Rgb8Frame::default(); run.len()];
+        let num_warm = if run.len() > NUM_WARM { NUM_WARM } else { run.len() };
+        for (frame, camera) in frames.iter_mut().zip(&run[..num_warm]) {
+            self.renderer.render_rgb8_into(camera, &settings, frame)?;
+        }
+        // A film reuses its pictures' memory.
+        frames.iter_mut().for_each(|frame| frame.rgb8.resize(frame_bytes(&run[0]), 1));
+        // All of a run too short to leave any is timed the second time.
+        let timed = if run.len() > NUM_WARM { num_warm..run.len() } else { 0..run.len() };
+        let mut times = Vec::new();
+        for (frame, camera) in frames[timed.clone()].iter_mut().zip(&run[timed]) {
+            let (rendered, spent) = Spent::measure(|| self.renderer.render_rgb8_into(camera, &settings, frame));
+            rendered?;
+            times.push((spent, frame.stats.times));
+        }
+        samples.add(times, self.work_at(&run[run.len() / 2])?);
+        Ok(frames)
+    }
+
+    /// Notes how far each quality is from `final` at one frame.
+    pub(super) fn compare(
+        &self,
+        camera: &Camera,
+        qualities: &[Quality],
+        samples: &mut [Samples],
+    ) -> Result<(), RenderError> {
+        let mut frame = Frame::default();
+        let best = self.renderer.render(camera, &at(self.settings, Quality::Final))?;
+        for (samples, &quality) in samples.iter_mut().zip(qualities) {
+            if quality == Quality::Final {
+                samples.mean_squares.push(0.0);
+                continue;
+            }
+            self.renderer.render_into(camera, &at(self.settings, quality), &mut frame)?;
+            samples.mean_squares.push(mean_square(&frame, &best));
+        }
+        Ok(())
+    }
+}
+
+impl Samples {
+    /// Adds what the frames of a run took, at least one; a neighbor's burst in one of them does not count.
+    fn add(&mut self, mut times: Vec<(Spent, StageTimes)>, work: Work) {
+        self.spent = times.iter().fold(self.spent, |sum, (spent, _)| sum.plus(*spent));
+        self.num_timed += times.len();
+        times.sort_by(|(a, _), (b, _)| a.wall_secs.total_cmp(&b.wall_secs));
+        let (spent, stages) = times[(times.len() - 1) / 2];
+        let rest = spent.wall_secs - stages.total().as_secs_f64();
+        let stages = [stages.project, stages.sort, stages.bin, stages.blend].map(|stage| stage.as_secs_f64());
+        self.secs.iter_mut().zip(stages).for_each(|(sum, secs)| *sum += secs);
+        self.secs[4] += rest.max(0.0);
+        add(&mut self.work, work);
+        self.num_runs += 1;
+    }
+
+    /// Seconds of a frame by the clock, in the mean of those timed.
+    pub(super) fn mean_secs(&self) -> f64 {
+        self.spent.wall_secs / self.num_timed.max(1) as f64
+    }
+
+    /// What a frame of so much work takes: seconds a unit of work, stage by stage, times the work.
+    pub(super) fn frame(&self, work: Work) -> Spent {
+        let share = |stage: usize| if self.work[stage] > 0.0 { work[stage] / self.work[stage] } else { 0.0 };
+        let stages: f64 = (0..4).map(|stage| self.secs[stage] * share(stage)).sum();
+        let wall_secs = stages + self.secs[4] / self.num_runs.max(1) as f64;
+        let num_busy = if self.spent.wall_secs > 0.0 { self.spent.busy_secs / self.spent.wall_secs } else { 1.0 };
+        Spent { wall_secs, busy_secs: wall_secs * num_busy }
+    }
+}
+
+/// What encoding takes: the first frame, each further one, and one equal to the frame before.
+pub(super) fn encode_cost(
+    output: &Path,
+    video: &VideoSettings,
+    run: &[Rgb8Frame],
+    counts_still: bool,
+) -> Result<[Spent; 3], VideoError> {
+    let spent = |frames: &[&[u8]]| {
+        let (encoded, spent) = Spent::measure(|| rehearse(output, video, frames));
+        encoded.map(|()| spent)
+    };
+    let frames: Vec<&[u8]> = run.iter().map(|frame| frame.rgb8.as_slice()).collect();
+    let all = spent(&frames)?;
+    let first = if frames.len() > 1 { spent(&frames[..1])? } else { all };
+    // The first frame of a run, which nothing is predicted from, is another kind of work than those that follow.
+    let further = |all: Spent| all.beyond(first).times(1.0 / (frames.len().max(2) - 1) as f64);
+    let still = if counts_still { further(spent(&vec![frames[0]; frames.len().max(2)])?) } else { Spent::default() };
+    Ok([first, further(all), still])
+}
+
+fn frame_bytes(camera: &Camera) -> usize {
+    camera.intrinsics.width as usize * camera.intrinsics.height as usize * 3
+}
+
+fn work(counts: &WorkCounts) -> Work {
+    [counts.num_projected, counts.num_splats, counts.num_pairs, counts.num_block_blends].map(|count| count as f64)
+}
+
+fn add(sum: &mut Work, work: Work) {
+    sum.iter_mut().zip(work).for_each(|(sum, work)| *sum += work);
+}
+
+/// Time since a start, against what is left.
+pub(super) struct Patience {
+    start: Instant,
+    secs: f64,
+}
+
+impl Patience {
+    pub(super) fn new(secs: f64) -> Self {
+        Self { start: Instant::now(), secs }
+    }
+
+    /// Whether something that takes so long still fits.
+    pub(super) fn allows(&self, secs: f64) -> bool {
+        self.start.elapsed().as_secs_f64() + secs <= self.secs
+    }
+}
