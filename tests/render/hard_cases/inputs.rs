@@ -52,11 +52,11 @@ fn ply(names: &[String], rows: &[Vec<f64>], layout: Layout) -> Vec<u8> {
     if layout.has_extras {
         header += "element camera 2\nproperty uchar kind\n";
     }
-    header += &format!("element vertex {}\n", rows.len());
+    header.extend(["element vertex ", &rows.len().to_string(), "\n"]);
     if layout.has_extras {
         header += "property uchar confidence\n";
     }
-    names.iter().for_each(|name| header += &format!("property {scalar} {name}\n"));
+    header.extend(names.iter().flat_map(|name| ["property ", scalar, " ", name, "\n"]));
     header += if layout.has_extras { "element face 1\nproperty list uchar uchar corners\n" } else { "" };
     let mut bytes = (header + "end_header\n").into_bytes();
     bytes.extend(if layout.has_extras { &[7_u8, 8][..] } else { &[] });
