@@ -1,6 +1,6 @@
 use super::blend::TILE_LEN;
 use super::kernel::Record;
-use super::payload::{Payload, Sink, TileArea};
+use super::payload::{Payload, Sink, TileArea, TileRows};
 
 /// Depth along the view axis in each pixel, scene units: `[row * width + column]`, NaN where nothing is.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -26,22 +26,21 @@ pub(super) struct DepthSink {
     median: Vec<f32>,
 }
 
-/// One pixel of a tile: index in the picture, expected and median depth.
-pub(super) type DepthPixel = (usize, f32, f32);
+/// Expected and median depth of a tile.
+pub(super) type DepthTile = [TileRows<f32>; 2];
 
 impl Payload for DepthPayload {
     type Sink = DepthSink;
-    type Part = Vec<DepthPixel>;
+    type Part = DepthTile;
 
     fn sink(&self, _: TileArea) -> DepthSink {
         let zeros = vec![0.0; TILE_LEN];
         DepthSink { depths: Vec::new(), weight: zeros.clone(), weighted: zeros, median: vec![f32::NAN; TILE_LEN] }
     }
 
-    fn part(&self, sink: DepthSink, area: TileArea) -> Vec<DepthPixel> {
-        let expected = |pixel: usize| sink.weighted[pixel] / sink.weight[pixel];
-        let inside = (0..TILE_LEN).filter_map(|pixel| Some((area.picture_idx(pixel)?, pixel)));
-        inside.map(|(idx, pixel)| (idx, expected(pixel), sink.median[pixel])).collect()
+    fn part(&self, mut sink: DepthSink, area: TileArea) -> DepthTile {
+        sink.weighted.iter_mut().zip(&sink.weight).for_each(|(sum, weight)| *sum /= weight);
+        [area.in_rows(&sink.weighted, 1), area.in_rows(&sink.median, 1)]
     }
 }
 
@@ -53,27 +52,27 @@ impl Sink for DepthSink {
         self.depths.extend(records.iter().map(|record| record.depth));
     }
 
+    #[inline(always)]
     fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
-        let depth = self.depths[position];
-        for (pixel, &weight) in (first_pixel..).zip(weights) {
-            self.weighted[pixel] += weight * depth;
-            let before = self.weight[pixel];
-            self.weight[pixel] = before + weight;
-            if before < 0.5 && before + weight >= 0.5 {
-                self.median[pixel] = depth;
-            }
+        let (depth, num) = (self.depths[position], weights.len());
+        let sums = self.weight[first_pixel..][..num].iter_mut().zip(&mut self.weighted[first_pixel..][..num]);
+        for (((sum, weighted), median), &weight) in sums.zip(&mut self.median[first_pixel..][..num]).zip(weights) {
+            *weighted += weight * depth;
+            let before = *sum;
+            *sum = before + weight;
+            *median = if before < 0.5 && *sum >= 0.5 { depth } else { *median };
         }
     }
 }
 
 impl DepthMap {
     /// Puts the tiles together.
-    pub(super) fn assemble(width: u32, height: u32, parts: Vec<Vec<DepthPixel>>) -> Self {
+    pub(super) fn assemble(width: u32, height: u32, parts: Vec<DepthTile>) -> Self {
         let num_pixels = width as usize * height as usize;
         let mut map = Self { width, height, expected: vec![f32::NAN; num_pixels], median: vec![f32::NAN; num_pixels] };
-        for (idx, expected, median) in parts.into_iter().flatten() {
-            map.expected[idx] = expected;
-            map.median[idx] = median;
+        for [expected, median] in parts {
+            expected.write(&mut map.expected, 1, 0);
+            median.write(&mut map.median, 1, 0);
         }
         map
     }

@@ -2,7 +2,7 @@ use super::bin::TILE_PX;
 use super::blend::TILE_LEN;
 use super::kernel::Record;
 use super::memory::Budget;
-use super::payload::{Payload, Sink, TileArea};
+use super::payload::{Payload, Sink, TileArea, TileRows};
 use super::renderer::check_len;
 use super::{RenderError, RenderSettings, Renderer, View};
 use crate::geometry::Camera;
@@ -42,14 +42,14 @@ struct FeatureSink<'a> {
 
 impl<'a> Payload for &'a FeaturePayload<'a> {
     type Sink = FeatureSink<'a>;
-    type Part = (TileArea, Vec<f32>);
+    type Part = TileRows<f32>;
 
     fn sink(&self, _: TileArea) -> FeatureSink<'a> {
         FeatureSink { payload: self, rows: Vec::new(), sums: vec![0.0; TILE_LEN * self.num_channels] }
     }
 
-    fn part(&self, sink: FeatureSink<'a>, area: TileArea) -> (TileArea, Vec<f32>) {
-        (area, sink.sums)
+    fn part(&self, sink: FeatureSink<'a>, area: TileArea) -> TileRows<f32> {
+        area.in_rows(&sink.sums, self.num_channels)
     }
 }
 
@@ -63,9 +63,18 @@ impl Sink for FeatureSink<'_> {
         self.rows.extend(records.iter().map(row));
     }
 
+    #[inline(always)]
     fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         let (row, num_channels) = (self.rows[position], self.payload.num_channels);
-        let pixels = self.sums[first_pixel * num_channels..].chunks_exact_mut(num_channels);
+        let sums = &mut self.sums[first_pixel * num_channels..][..weights.len() * num_channels];
+        if let Ok(row) = <&[f32; CHANNELS_AT_ONCE]>::try_from(row) {
+            // A number of channels known beforehand is one register or two.
+            for (sums, &weight) in sums.as_chunks_mut::<CHANNELS_AT_ONCE>().0.iter_mut().zip(weights) {
+                sums.iter_mut().zip(row).for_each(|(sum, feature)| *sum += weight * feature);
+            }
+            return;
+        }
+        let pixels = sums.chunks_exact_mut(num_channels);
         for (sums, &weight) in pixels.zip(weights).filter(|(_, weight)| **weight > 0.0) {
             sums.iter_mut().zip(row).for_each(|(sum, feature)| *sum += weight * feature);
         }
@@ -107,19 +116,8 @@ impl Renderer<'_> {
             let num_some = CHANNELS_AT_ONCE.min(num_channels - first);
             let payload = FeaturePayload { features, stride: num_channels, first, num_channels: num_some };
             let (_, parts) = self.render_parts(camera, &settings, &&payload)?;
-            parts.into_iter().for_each(|part| map.fill(part, first, num_some));
+            parts.iter().for_each(|tile| tile.write(&mut map.values, num_channels, first));
         }
         Ok(map)
-    }
-}
-
-impl FeatureMap {
-    /// Puts some channels of a tile into place.
-    fn fill(&mut self, (area, sums): (TileArea, Vec<f32>), first: usize, num_some: usize) {
-        for (pixel, sums) in sums.chunks_exact(num_some).enumerate() {
-            if let Some(idx) = area.picture_idx(pixel) {
-                self.values[idx * self.num_channels + first..][..num_some].copy_from_slice(sums);
-            }
-        }
     }
 }

@@ -1,6 +1,6 @@
 use super::blend::TILE_LEN;
 use super::kernel::Record;
-use super::payload::{Payload, Sink, TileArea};
+use super::payload::{Payload, Sink, TileArea, TileRows};
 
 /// The object seen in each pixel: `[row * width + column]`, 0 = none.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -32,29 +32,29 @@ pub(super) struct IdSink<'a> {
 
 impl<'a> Payload for IdPayload<'a> {
     type Sink = IdSink<'a>;
-    type Part = Vec<(usize, u16)>;
+    type Part = TileRows<u16>;
 
     fn sink(&self, _: TileArea) -> IdSink<'a> {
         IdSink { labels: self.labels, plane_from_record: Vec::new(), label_from_plane: Vec::new(), weights: Vec::new() }
     }
 
-    fn part(&self, sink: IdSink<'a>, area: TileArea) -> Vec<(usize, u16)> {
-        let inside = (0..TILE_LEN).filter_map(|pixel| Some((area.picture_idx(pixel)?, pixel)));
-        inside.map(|(idx, pixel)| (idx, sink.strongest(pixel))).collect()
+    fn part(&self, sink: IdSink<'a>, area: TileArea) -> TileRows<u16> {
+        area.in_rows(&sink.strongest(), 1)
     }
 }
 
 impl IdSink<'_> {
-    /// The label with the largest weight in a pixel.
-    fn strongest(&self, pixel: usize) -> u16 {
-        let mut best = (0.0, 0);
-        for (plane, &label) in self.label_from_plane.iter().enumerate() {
-            let weight = self.weights[plane * TILE_LEN + pixel];
-            if weight > best.0 || (weight > 0.0 && weight >= best.0 && label < best.1) {
-                best = (weight, label);
+    /// The label with the largest weight in each pixel.
+    fn strongest(&self) -> Vec<u16> {
+        let (mut most, mut labels) = (vec![0.0_f32; TILE_LEN], vec![0_u16; TILE_LEN]);
+        for (plane, &label) in self.weights.chunks_exact(TILE_LEN).zip(&self.label_from_plane) {
+            for ((most, best), &weight) in most.iter_mut().zip(&mut labels).zip(plane) {
+                if weight > *most || (weight > 0.0 && weight >= *most && label < *best) {
+                    (*most, *best) = (weight, label);
+                }
             }
         }
-        best.1
+        labels
     }
 
     /// The plane of a label, made where there is none yet.
@@ -78,9 +78,10 @@ impl Sink for IdSink<'_> {
         }
     }
 
+    #[inline(always)]
     fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         let start = self.plane_from_record[position] * TILE_LEN + first_pixel;
-        for (sum, weight) in self.weights[start..].iter_mut().zip(weights) {
+        for (sum, weight) in self.weights[start..][..weights.len()].iter_mut().zip(weights) {
             *sum += weight;
         }
     }
@@ -88,11 +89,9 @@ impl Sink for IdSink<'_> {
 
 impl IdMap {
     /// Puts the tiles together.
-    pub(super) fn assemble(width: u32, height: u32, parts: Vec<Vec<(usize, u16)>>) -> Self {
+    pub(super) fn assemble(width: u32, height: u32, parts: &[TileRows<u16>]) -> Self {
         let mut map = Self { width, height, ids: vec![0; width as usize * height as usize] };
-        for (idx, id) in parts.into_iter().flatten() {
-            map.ids[idx] = id;
-        }
+        parts.iter().for_each(|tile| tile.write(&mut map.ids, 1, 0));
         map
     }
 }

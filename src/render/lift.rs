@@ -111,6 +111,7 @@ impl Sink for LiftSink<'_> {
         self.part.sums.resize(self.part.gaussians.len() * self.stride, 0.0);
     }
 
+    #[inline(always)]
     fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         if self.is_full {
             return;

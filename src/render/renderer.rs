@@ -25,27 +25,19 @@ pub struct Renderer<'scene> {
     groups: Groups,
     buffers: Pool<Buffers>,
     small_frames: Pool<Frame>,
-    /// Pictures that are made of wider numbers than they are handed out in.
-    linear_frames: Pool<Frame>,
 }
 
 impl<'scene> Renderer<'scene> {
     /// A renderer of these Gaussians. Those with numbers that are not finite, rotations of length zero or no opacity
     /// are never drawn.
     pub fn new(gaussians: &'scene Gaussians) -> Self {
-        Self {
-            gaussians,
-            groups: Groups::new(gaussians),
-            buffers: Pool::default(),
-            small_frames: Pool::default(),
-            linear_frames: Pool::default(),
-        }
+        Self { gaussians, groups: Groups::new(gaussians), buffers: Pool::default(), small_frames: Pool::default() }
     }
 
     /// Bytes that the renderer holds on to between pictures, beyond the scene and the pictures handed out.
     pub fn memory_bytes(&self) -> u64 {
         let picture = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
-        let pictures = self.small_frames.sum(picture) + self.linear_frames.sum(picture);
+        let pictures = self.small_frames.sum(picture);
         self.groups.bytes() + self.buffers.sum(Buffers::bytes) + pictures
     }
 
@@ -81,8 +73,8 @@ impl<'scene> Renderer<'scene> {
         }
         if settings.effective_accuracy().resolution_frac < 1.0 {
             return self.render_small(camera, settings, |small| {
-                upsample(small, frame);
                 frame.stats = small.stats;
+                upsample(small, Canvas::from(&mut *frame), [view.width, view.height], settings.instructions);
             });
         }
         frame.stats = self.render_payload(&view, settings, Canvas::from(&mut *frame), &ColorOnly)?.0;
@@ -102,15 +94,19 @@ impl<'scene> Renderer<'scene> {
     ) -> Result<(), RenderError> {
         let view = View::new(camera, self.gaussians.origin, settings)?;
         (frame.width, frame.height) = (view.width, view.height);
-        if settings.quality == Quality::Reference || settings.effective_accuracy().resolution_frac < 1.0 {
-            return self.linear_frames.with(|linear| {
-                self.render_into(camera, settings, linear)?;
-                linear.write_rgb8(&mut frame.rgb8);
-                frame.stats = linear.stats;
-                Ok(())
-            });
+        if settings.quality == Quality::Reference {
+            let linear = self.render(camera, settings)?;
+            linear.write_rgb8(&mut frame.rgb8);
+            frame.stats = linear.stats;
+            return Ok(());
         }
         frame.rgb8.resize(view.width as usize * view.height as usize * 3, 0);
+        if settings.effective_accuracy().resolution_frac < 1.0 {
+            return self.render_small(camera, settings, |small| {
+                frame.stats = small.stats;
+                upsample(small, Canvas::from(&mut *frame), [view.width, view.height], settings.instructions);
+            });
+        }
         frame.stats = self.render_payload(&view, settings, Canvas::from(&mut *frame), &ColorOnly)?.0;
         Ok(())
     }
@@ -152,7 +148,7 @@ impl<'scene> Renderer<'scene> {
     pub fn object_ids(&self, camera: &Camera, settings: &RenderSettings, labels: &[u16]) -> Result<IdMap, RenderError> {
         check_len("labels", labels.len(), self.gaussians.len())?;
         let (frame, parts) = self.render_parts(camera, settings, &IdPayload { labels })?;
-        Ok(IdMap::assemble(frame.width, frame.height, parts))
+        Ok(IdMap::assemble(frame.width, frame.height, &parts))
     }
 
     /// Carries values of pixels (`num_channels` each, row-major) back to the Gaussians seen in them and adds to

@@ -1,69 +1,156 @@
+use glam::Vec4;
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::Frame;
+use super::canvas::Canvas;
+use super::frame::level;
+use super::{Frame, Instructions};
 
 /// Source pixels that a pixel is made of along one axis.
 const NUM_TAPS: usize = 4;
+/// Copies of a border pixel that the taps of a picture's first and last pixels may reach.
+const PADDING: usize = 2;
 
-/// Writes a smaller picture into a larger frame by cubic convolution between pixel centers (Keys, Cubic Convolution
-/// Interpolation for Digital Image Processing, 1981, a = -1/2), borders repeated. Overshoot is cut off: color below 0,
-/// transmittance outside 0..=1. On pictures of splats a decibel or two nearer than bilinear, for little time.
-pub(super) fn upsample(from: &Frame, to: &mut Frame) {
-    let (columns, rows) = (taps(from.width, to.width), taps(from.height, to.height));
-    let (narrow, wide) = (from.width as usize, to.width as usize);
-    let output = to.rgb.par_chunks_mut(wide * 3).zip(to.transmittance.par_chunks_mut(wide)).zip(rows);
-    output.for_each_init(
-        || vec![[0.0; 4]; narrow],
-        |mixed, ((rgb, transmittance), row)| {
-            // Down the columns first: red, green, blue, transmittance of one row of source pixels.
-            for (x, mixed) in mixed.iter_mut().enumerate() {
-                *mixed = row.mix(|y| {
-                    let at = y * narrow + x;
-                    [from.rgb[at * 3], from.rgb[at * 3 + 1], from.rgb[at * 3 + 2], from.transmittance[at]]
-                });
-            }
-            for ((rgb, rest), column) in rgb.chunks_exact_mut(3).zip(transmittance).zip(&columns) {
-                let [r, g, b, t] = column.mix(|x| mixed[x]);
-                rgb.copy_from_slice(&[r.max(0.0), g.max(0.0), b.max(0.0)]);
-                *rest = t.clamp(0.0, 1.0);
-            }
-        },
-    );
+/// Writes a smaller picture onto a larger canvas of a width and height by cubic convolution between pixel centers (Keys,
+/// Cubic Convolution Interpolation for Digital Image Processing, 1981, a = -1/2), borders repeated. Overshoot is cut
+/// off: color below 0, transmittance outside 0..=1. On pictures of splats a decibel or two nearer than bilinear, for
+/// little time.
+pub(super) fn upsample(from: &Frame, canvas: Canvas<'_>, [width, height]: [u32; 2], instructions: Instructions) {
+    let (columns, rows) = (taps(from.width, width), taps(from.height, height));
+    let (narrow, wide) = (from.width as usize, width as usize);
+    let empty = || Mixed::of_width(narrow);
+    let draw = |mixed: &mut Mixed, row: &Taps, target| {
+        instructions.dispatch(EnlargedRow { from, row, columns: &columns, mixed, target });
+    };
+    match canvas {
+        Canvas::Linear { rgb, transmittance } => {
+            let targets = rgb.par_chunks_mut(wide * 3).zip(transmittance.par_chunks_mut(wide)).zip(&rows);
+            targets.for_each_init(empty, |mixed, ((rgb, rest), row)| draw(mixed, row, Target::Linear(rgb, rest)));
+        }
+        Canvas::Rgb8(rgb8) => {
+            let targets = rgb8.par_chunks_mut(wide * 3).zip(&rows);
+            targets.for_each_init(empty, |mixed, (rgb8, row)| draw(mixed, row, Target::Rgb8(rgb8)));
+        }
+    }
 }
 
-/// The source pixels that one pixel is made of along one axis, and how much of each.
+/// One row of the large picture.
+enum Target<'a> {
+    /// Color and transmittance.
+    Linear(&'a mut [f32], &'a mut [f32]),
+    /// Color in eight bits.
+    Rgb8(&'a mut [u8]),
+}
+
+/// The work on one row of the large picture, compiled for every instruction set.
+struct EnlargedRow<'a> {
+    from: &'a Frame,
+    row: &'a Taps,
+    columns: &'a [Taps],
+    mixed: &'a mut Mixed,
+    target: Target<'a>,
+}
+
+/// The small picture's columns, mixed at the height of a row.
+struct Mixed {
+    /// `[column * 3 + channel]`.
+    rgb: Vec<f32>,
+    transmittance: Vec<f32>,
+    /// Both together, with padding.
+    pixels: Vec<Vec4>,
+}
+
+impl WithSimd for EnlargedRow<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { from, row, columns, mixed, target } = self;
+        mixed.fill(from, row);
+        let pixels = columns.iter().map(|column| column.mix(&mixed.pixels[column.first..][..NUM_TAPS]));
+        match target {
+            Target::Linear(rgb, transmittance) => {
+                for ((pixel, rgb), rest) in pixels.zip(rgb.as_chunks_mut::<3>().0).zip(transmittance) {
+                    let [r, g, b, t] = pixel.max(Vec4::ZERO).to_array();
+                    *rgb = [r, g, b];
+                    *rest = t.min(1.0);
+                }
+            }
+            Target::Rgb8(rgb8) => {
+                for (pixel, rgb) in pixels.zip(rgb8.as_chunks_mut::<3>().0) {
+                    let [r, g, b, _] = pixel.to_array().map(level);
+                    *rgb = [r, g, b];
+                }
+            }
+        }
+    }
+}
+
+impl Mixed {
+    fn of_width(width: usize) -> Self {
+        let (rgb, transmittance) = (vec![0.0; width * 3], vec![0.0; width]);
+        Self { rgb, transmittance, pixels: vec![Vec4::ZERO; width + 2 * PADDING] }
+    }
+
+    /// Mixes rows of the small picture and repeats the ends into the padding.
+    #[inline(always)]
+    fn fill(&mut self, from: &Frame, row: &Taps) {
+        row.mix_rows(&from.rgb, &mut self.rgb, from.height);
+        row.mix_rows(&from.transmittance, &mut self.transmittance, from.height);
+        let colors = self.rgb.as_chunks::<3>().0.iter().zip(&self.transmittance);
+        for (pixel, (&[r, g, b], &rest)) in self.pixels[PADDING..].iter_mut().zip(colors) {
+            *pixel = Vec4::new(r, g, b, rest);
+        }
+        let end = self.pixels.len() - PADDING;
+        let (first, last) = (self.pixels[PADDING], self.pixels[end - 1]);
+        self.pixels[..PADDING].fill(first);
+        self.pixels[end..].fill(last);
+    }
+}
+
+/// The four neighbors that a pixel is made of along one axis, and how much of each.
 #[derive(Debug, Clone, Copy)]
 struct Taps {
-    places: [usize; NUM_TAPS],
+    /// The first of them, counted with [`PADDING`].
+    first: usize,
     weights: [f32; NUM_TAPS],
 }
 
 impl Taps {
-    /// The weighted sum of four numbers at each place: the nearest before, and parts of what the others differ from it by,
-    /// so that an even surface stays as it is to the bit.
-    #[inline]
-    fn mix(&self, at: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
-        let base = at(self.places[1]);
-        let mut sums = base;
-        for tap in [0, 2, 3] {
-            let (values, weight) = (at(self.places[tap]), self.weights[tap]);
-            for ((sum, value), base) in sums.iter_mut().zip(values).zip(base) {
-                *sum += weight * (value - base);
-            }
+    /// The weighted sum of four neighbors: the one before the pixel, and parts of what the others differ from it by, so
+    /// that an even surface stays as it is to the bit.
+    #[inline(always)]
+    fn mix(&self, neighbors: &[Vec4]) -> Vec4 {
+        let &[before, base, after, last] = neighbors else { return Vec4::ZERO };
+        let [w0, _, w2, w3] = self.weights;
+        base + (before - base) * w0 + (after - base) * w2 + (last - base) * w3
+    }
+
+    /// As [`Taps::mix`] for the rows of a picture of some height, number by number.
+    #[inline(always)]
+    fn mix_rows(&self, picture: &[f32], mixed: &mut [f32], height: u32) {
+        let (last_row, len) = ((height as usize).saturating_sub(1), mixed.len());
+        let row = |tap: usize| {
+            let place = (self.first + tap).saturating_sub(PADDING).min(last_row);
+            picture[place * len..][..len].iter()
+        };
+        let [w0, _, w2, w3] = self.weights;
+        let rows = row(0).zip(row(1)).zip(row(2)).zip(row(3));
+        for (mixed, (((before, base), after), last)) in mixed.iter_mut().zip(rows) {
+            *mixed = base + (before - base) * w0 + (after - base) * w2 + (last - base) * w3;
         }
-        sums
     }
 }
 
 fn taps(from: u32, to: u32) -> Vec<Taps> {
-    let last = i64::from(from.saturating_sub(1));
     let scale = f64::from(from) / f64::from(to);
     let at = |position: u32| {
         let center = (f64::from(position) + 0.5) * scale - 0.5;
         let before = center.floor();
-        let place = |tap: i64| (before as i64 + tap - 1).clamp(0, last) as usize;
         let weight = |tap: f64| kernel(center - before - (tap - 1.0)) as f32;
-        Taps { places: [0, 1, 2, 3].map(place), weights: [0.0, 1.0, 2.0, 3.0].map(weight) }
+        // `before` is -1 or more: the picture is not made smaller.
+        let first = (before as i64 - 1 + PADDING as i64).max(0) as usize;
+        Taps { first, weights: [0.0, 1.0, 2.0, 3.0].map(weight) }
     };
     (0..to).map(at).collect()
 }
