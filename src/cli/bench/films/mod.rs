@@ -21,6 +21,9 @@ const RATE_FPS: f64 = 30.0;
 /// Way of a dolly over the size of the scene, unless told.
 const TRAVEL_FRAC: f64 = 0.05;
 
+/// Width and height; `None` as given. An option under this name: one that is always there, unlike those that clap knows.
+type Size = Option<[u32; 2]>;
+
 /// Measures what a film costs against its frames one by one, beside its encoder, and against its forecast.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -41,7 +44,7 @@ pub(in super::super) struct Args {
     cameras: Vec<PathBuf>,
     /// Size of the pictures, or `given` for that of the cameras file
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
-    size: Option<[u32; 2]>,
+    size: Size,
     /// Frames of a film
     #[arg(long, value_name = "N", default_value_t = 240, value_parser = clap::value_parser!(u16).range(2..=10_000))]
     frames: u16,
