@@ -7,7 +7,7 @@ use super::console;
 use super::failure::Failure;
 use crate::objects::{self, FindSettings, ObjectSet};
 use crate::pipeline::{self, Source};
-use crate::render::{Quality, RenderSettings, SortMode};
+use crate::render::{ColorClamp, Quality, RenderSettings, SortMode};
 use crate::scene::{LoadOptions, Scene, SplatFilter, UpSource};
 
 /// Which scene, and what the caller knows better than its file.
@@ -103,6 +103,10 @@ pub(super) struct PictureArgs {
     /// Order of blending: z (depth, as scenes are trained) or ray (distance; nothing pops while the camera turns)
     #[arg(long, value_name = "ORDER", value_parser = parse_sort)]
     sort: Option<SortMode>,
+    /// Where colors are held to their range: trained (once, in the finished picture) or khr (in every Gaussian, as glTF's
+    /// KHR_gaussian_splatting has it)
+    #[arg(long, value_name = "MODE", value_parser = parse_color_clamp)]
+    color_clamp: Option<ColorClamp>,
     /// Near plane in scene units, instead of 0.01 of the scene size, at most 0.2
     #[arg(long, value_name = "D", value_parser = parse_distance)]
     near: Option<f64>,
@@ -136,8 +140,13 @@ impl PictureArgs {
         };
         let near = self.near.or(near).unwrap_or_else(|| scene.bounds().default_near());
         let (quality, sort) = (self.quality.unwrap_or(default), self.sort.unwrap_or_default());
-        RenderSettings { quality, filter, near, sort, ..RenderSettings::default() }
+        let color_clamp = self.color_clamp.unwrap_or_default();
+        RenderSettings { quality, filter, near, sort, color_clamp, ..RenderSettings::default() }
     }
+}
+
+fn parse_color_clamp(name: &str) -> Result<ColorClamp, String> {
+    ColorClamp::from_name(name).ok_or_else(|| "expected trained or khr".to_owned())
 }
 
 fn parse_sort(name: &str) -> Result<SortMode, String> {

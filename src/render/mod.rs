@@ -54,7 +54,7 @@ pub use ids::IdMap;
 pub use instructions::Instructions;
 pub use lift::Lifted;
 pub use renderer::Renderer;
-pub use settings::{Accuracy, Limits, Precision, Quality, RenderSettings, SortMode};
+pub use settings::{Accuracy, ColorClamp, Limits, Precision, Quality, RenderSettings, SortMode};
 pub use stats::{RenderStats, StageTimes, WorkCounts};
 pub use weights::Weight;
 

@@ -274,7 +274,7 @@ impl Projection {
             let mean = DVec3::from(pack.mean.map(|axis| f64::from(axis[lane])));
             harmonics::color_f32(mean - self.view.center, sh_dc, gaussians.sh_rest_of(gaussian_idx as usize))
         };
-        Some((splat.with_source(gaussian_idx, color), rect))
+        Some((splat.with_source(gaussian_idx, color.min(Vec3::splat(self.view.max_color))), rect))
     }
 }
 

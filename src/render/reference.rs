@@ -139,6 +139,7 @@ fn sorted_splats(gaussians: &Gaussians, usable: &[u32], view: &View) -> Vec<Colo
         let splat = project(gaussians, idx, view)?;
         let mean = gaussians.means[idx].as_dvec3();
         let color = harmonics::color(mean - view.center, gaussians.sh_dc[idx], gaussians.sh_rest_of(idx));
+        let color = color.min(DVec3::splat(view.max_color.into()));
         Some(Colored { splat, color, sort_distance: view.sort_distance(mean, splat.depth) })
     };
     let mut splats: Vec<Colored> = usable.par_iter().filter_map(colored).collect();

@@ -115,6 +115,43 @@ impl SortMode {
     }
 }
 
+/// Where colors are held to their range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColorClamp {
+    /// A Gaussian's color at 0 from below, the blended picture at 1 from above: as scenes are trained, and the spec image.
+    #[default]
+    Trained,
+    /// A Gaussian's color at both 0 and 1, as the glTF extension `KHR_gaussian_splatting` has it: one brighter than
+    /// white counts as white.
+    Khr,
+}
+
+impl ColorClamp {
+    /// All of them, the default first.
+    pub const ALL: [Self; 2] = [Self::Trained, Self::Khr];
+
+    /// The name in commands and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trained => "trained",
+            Self::Khr => "khr",
+        }
+    }
+
+    /// The clamp of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|clamp| clamp.name() == name)
+    }
+
+    /// The largest value that a Gaussian's color may have.
+    pub(super) fn max_color(self) -> f32 {
+        match self {
+            Self::Trained => f32::INFINITY,
+            Self::Khr => 1.0,
+        }
+    }
+}
+
 /// Bounds on what one picture may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
@@ -144,6 +181,8 @@ pub struct RenderSettings {
     pub background: Vec3,
     /// Order of blending.
     pub sort: SortMode,
+    /// Where colors are held to their range.
+    pub color_clamp: ColorClamp,
     /// Knobs in place of the preset's.
     pub accuracy: Option<Accuracy>,
     /// Caps on memory and work.
@@ -163,6 +202,7 @@ impl Default for RenderSettings {
             near: 0.2,
             background: Vec3::ZERO,
             sort: SortMode::default(),
+            color_clamp: ColorClamp::default(),
             accuracy: None,
             limits: Limits::default(),
             instructions: Instructions::default(),

@@ -34,6 +34,8 @@ pub(super) struct View {
     pub(super) transmittance_stop: f64,
     /// Order of blending.
     pub(super) sort: SortMode,
+    /// The largest value that a Gaussian's color may have.
+    pub(super) max_color: f32,
     /// The widest instructions that may be used.
     pub(super) instructions: Instructions,
     /// Whether the depth order of the picture before may help.
@@ -70,6 +72,7 @@ impl View {
             alpha_cut: accuracy.alpha_cut,
             transmittance_stop: accuracy.transmittance_stop,
             sort: settings.sort,
+            max_color: settings.color_clamp.max_color(),
             instructions: settings.instructions,
             reuses_order: settings.reuses_order,
         })

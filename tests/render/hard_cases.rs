@@ -18,7 +18,7 @@
 //! | 12 | popping | `popping::{by_depth_a_pan_pops_and_by_distance_it_does_not, a_crowd_pops_less_by_distance_than_by_depth}`, `sort_modes` |
 //! | 13 | large coordinates | `inputs::doubles_far_off_draw_the_picture_of_near_ones`, `repeatable::far_off_coordinates_give_the_picture_of_near_ones`, `scene::intake::single_precision_far_off_says_what_it_lost` |
 //! | 14 | half precision | `shapes::needles_survive_scales_and_rotations_in_half_precision` |
-//! | 15 | color below 0 and above 1 | `color::color_is_clamped_below_before_blending_and_above_after_it` |
+//! | 15 | color below 0 and above 1 | `color::{color_is_clamped_below_before_blending_and_above_after_it, color_clamped_in_every_gaussian_makes_bright_ones_white_before_blending}` |
 //! | 16 | color space | `color::{layers_blend_as_trained, a_film_without_blur_has_the_levels_of_the_composite}` |
 //! | 17 | filters | `shapes::mip_keeps_the_light_of_a_splat_that_moves_away` |
 //! | 18 | threads, instruction sets | `repeatable::{one_two_three_and_seven_threads_agree_to_the_bit, every_instruction_set_gives_the_same_picture_to_the_bit}` |
