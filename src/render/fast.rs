@@ -26,6 +26,8 @@ use crate::scene::Gaussians;
 const BYTES_A_SPLAT: u64 = (splats::BYTES_A_SPLAT + 2 * size_of::<DepthKey>()) as u64;
 /// Bytes of its pairs, in most scenes.
 const PAIR_BYTES_A_SPLAT: u64 = 8;
+/// How much more of the Gaussians projected may be seen than in the picture before.
+const SEEN_SLACK: f64 = 1.1;
 
 /// Work lists of one picture, kept for the next.
 #[derive(Debug, Default)]
@@ -34,6 +36,8 @@ pub(super) struct Buffers {
     order: DepthOrder,
     bins: Bins,
     workspaces: Pool<Workspace>,
+    /// Splats over Gaussians projected, in the last picture; none before the first.
+    seen_frac: Option<f64>,
 }
 
 impl Buffers {
@@ -135,19 +139,20 @@ impl<P: Payload> Picture<'_, P> {
     /// [`RenderError::Memory`], with nothing rendered, also where several rows take more than is worth while.
     fn render_at_once(&mut self, rows: &Range<usize>, parts: &mut Vec<P::Part>) -> Result<(), RenderError> {
         let (gaussians, groups) = self.scene;
-        let Buffers { splats, order, bins, .. } = &mut *self.buffers;
+        let Buffers { splats, order, bins, seen_frac, .. } = &mut *self.buffers;
         let grid = self.grid.rows(rows);
         let start = Instant::now();
         let projection = Projection::new(self.view, grid);
         let num_projected = splats.look(groups, &projection);
         let mut budget = self.budget;
         budget.take("the splats", num_projected * BYTES_A_SPLAT)?;
-        let (found_bytes, limit_bytes) =
-            (num_projected * (BYTES_A_SPLAT + PAIR_BYTES_A_SPLAT), self.bytes_before_bands);
+        let bytes_a_projected = seen_frac.unwrap_or(1.0) * (BYTES_A_SPLAT + PAIR_BYTES_A_SPLAT) as f64;
+        let (found_bytes, limit_bytes) = ((num_projected as f64 * bytes_a_projected) as u64, self.bytes_before_bands);
         if rows.len() > 1 && found_bytes > limit_bytes {
             return Err(RenderError::Memory { what: "the splats", found_bytes, limit_bytes });
         }
         splats.fill(gaussians, groups, &projection);
+        *seen_frac = Some((splats.len() as f64 / num_projected.max(1) as f64 * SEEN_SLACK).min(1.0));
         let projected = Instant::now();
         // Half a picture has half an order, which says little about that of the other half.
         let reuses_order = self.view.reuses_order && rows.len() == self.grid.down;

@@ -22,6 +22,8 @@ pub(super) struct Group {
     pub(super) radius: f32,
     /// Largest standard deviation among its members.
     pub(super) max_scale: f32,
+    /// Largest opacity among its members.
+    pub(super) max_opacity: f32,
 }
 
 /// Gaussians projected together: the width of the widest registers.
@@ -30,7 +32,7 @@ pub(super) const LANES: usize = 16;
 /// One number for each Gaussian projected together.
 pub(super) type Lane = [f32; LANES];
 
-/// The attributes of up to 16 neighbors, one array an attribute.
+/// The attributes of 16 neighbors, one array an attribute; where there are fewer, the lanes behind have opacity 0.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Pack {
@@ -40,17 +42,16 @@ pub(super) struct Pack {
     pub(super) opacity: Lane,
     pub(super) sh_dc: [Lane; 3],
     pub(super) gaussian_idx: [u32; LANES],
-    /// How many there are; the lanes behind have opacity 0.
-    pub(super) len: usize,
 }
 
-/// All usable Gaussians of a scene, ordered along a space-filling curve and cut into groups.
+/// All usable Gaussians of a scene, ordered by size and along a space-filling curve and cut into groups.
 #[derive(Debug)]
 pub(super) struct Groups {
     /// Attributes, group after group, [`PACKS_IN_GROUP`] each; all groups but the last are full.
     pub(super) packs: Vec<Pack>,
     /// The groups.
     pub(super) groups: Vec<Group>,
+    num_gaussians: usize,
 }
 
 impl Groups {
@@ -59,13 +60,17 @@ impl Groups {
         let usable = |idx: &u32| is_usable(gaussians, *idx as usize);
         let kept: Vec<u32> = (0..gaussians.len() as u32).into_par_iter().filter(usable).collect();
         let (low, span) = extent(gaussians, &kept);
-        let code = |idx: u32| morton((gaussians.means[idx as usize] - low) / span);
+        let usual = usual_scale(gaussians, &kept);
+        let code = |idx: u32| {
+            let size_class = size_class(gaussians.scales[idx as usize].max_element() / usual);
+            size_class << MORTON_BITS | morton((gaussians.means[idx as usize] - low) / span)
+        };
         let mut keyed: Vec<(u64, u32)> = kept.into_par_iter().map(|idx| (code(idx), idx)).collect();
         keyed.par_sort_unstable();
         let gaussian_from_slot: Vec<u32> = keyed.into_par_iter().map(|(_, idx)| idx).collect();
         let groups = gaussian_from_slot.par_chunks(GROUP_LEN).map(|members| group(gaussians, members)).collect();
         let packs = gaussian_from_slot.par_chunks(LANES).map(|members| Pack::of(gaussians, members)).collect();
-        Self { packs, groups }
+        Self { packs, groups, num_gaussians: gaussian_from_slot.len() }
     }
 
     /// The attributes of a group's members.
@@ -76,10 +81,7 @@ impl Groups {
 
     /// Number of a group's members.
     pub(super) fn len_of(&self, group: usize) -> usize {
-        if group + 1 < self.groups.len() {
-            return GROUP_LEN;
-        }
-        self.packs_of(group).iter().map(|pack| pack.len).sum()
+        (self.num_gaussians - group * GROUP_LEN).min(GROUP_LEN)
     }
 
     /// Bytes that they take.
@@ -89,7 +91,7 @@ impl Groups {
 
     /// Indices of all Gaussians that can be drawn, in the order of the file.
     pub(super) fn usable(&self) -> Vec<u32> {
-        let members = self.packs.iter().flat_map(|pack| &pack.gaussian_idx[..pack.len]);
+        let members = self.packs.iter().flat_map(|pack| &pack.gaussian_idx).take(self.num_gaussians);
         let mut usable: Vec<u32> = members.copied().collect();
         usable.sort_unstable();
         usable
@@ -105,7 +107,6 @@ impl Pack {
             opacity: [0.0; LANES],
             sh_dc: [[0.0; LANES]; 3],
             gaussian_idx: [0; LANES],
-            len: members.len(),
         };
         for (lane, &gaussian_idx) in members.iter().enumerate() {
             let idx = gaussian_idx as usize;
@@ -139,13 +140,30 @@ fn is_usable(gaussians: &Gaussians, idx: usize) -> bool {
         && gaussians.sh_rest_of(idx).iter().all(|coefficient| coefficient.is_finite())
 }
 
+/// Numbers of a sample of all usable Gaussians, ascending.
+fn sampled(kept: &[u32], number: impl Fn(usize) -> f32) -> Vec<f32> {
+    let step = (kept.len() / 4096).max(1);
+    let mut numbers: Vec<f32> = kept.iter().step_by(step).map(|&idx| number(idx as usize)).collect();
+    numbers.sort_unstable_by(f32::total_cmp);
+    numbers
+}
+
+/// Median of the largest standard deviations, estimated on a sample.
+fn usual_scale(gaussians: &Gaussians, kept: &[u32]) -> f32 {
+    let scales = sampled(kept, |idx| gaussians.scales[idx].max_element());
+    scales.get(scales.len() / 2).copied().unwrap_or_default().max(f32::MIN_POSITIVE)
+}
+
+/// Which Gaussians share groups: up to the usual size, up to four times as large, and so on. A single huge one would
+/// make a group be seen from everywhere.
+fn size_class(times_usual: f32) -> u64 {
+    (times_usual.max(1.0).log2() / 2.0).ceil().min(7.0) as u64
+}
+
 /// Lowest corner and side lengths of the box of the middle 98 % of the means along each axis, estimated on a sample.
 fn extent(gaussians: &Gaussians, kept: &[u32]) -> (Vec3, Vec3) {
-    let step = (kept.len() / 4096).max(1);
-    let sample = || kept.iter().step_by(step).map(|&idx| gaussians.means[idx as usize]);
     let axis = |axis: usize| {
-        let mut values: Vec<f32> = sample().map(|mean| mean[axis]).collect();
-        values.sort_unstable_by(f32::total_cmp);
+        let values = sampled(kept, |idx| gaussians.means[idx][axis]);
         let at = |frac: f64| values.get((frac * values.len() as f64) as usize).copied().unwrap_or_default();
         (at(0.01), at(0.99))
     };
@@ -153,6 +171,9 @@ fn extent(gaussians: &Gaussians, kept: &[u32]) -> (Vec3, Vec3) {
     let low = Vec3::new(x.0, y.0, z.0);
     (low, (Vec3::new(x.1, y.1, z.1) - low).max(Vec3::splat(f32::MIN_POSITIVE)))
 }
+
+/// Bits of a position along the z-order curve.
+const MORTON_BITS: u32 = 60;
 
 /// Position along the z-order curve of a point in the unit cube, 20 bits an axis; points outside are moved to its side.
 fn morton(position: Vec3) -> u64 {
@@ -173,5 +194,6 @@ fn group(gaussians: &Gaussians, members: &[u32]) -> Group {
     let high = means().fold(Vec3::NEG_INFINITY, Vec3::max);
     let center = low * 0.5 + high * 0.5;
     let max_scale = members.iter().map(|&idx| gaussians.scales[idx as usize].max_element()).fold(0.0, f32::max);
-    Group { center, radius: (high * 0.5 - low * 0.5).length() * 1.0001, max_scale }
+    let max_opacity = members.iter().map(|&idx| gaussians.opacities[idx as usize]).fold(0.0, f32::max);
+    Group { center, radius: (high * 0.5 - low * 0.5).length() * 1.0001, max_scale, max_opacity }
 }

@@ -14,9 +14,9 @@ use super::splats::Batch;
 use super::{View, harmonics, reference};
 use crate::scene::Gaussians;
 
-/// A circle of three standard deviations has at most the undilated radius plus this, in pixels: 3 sqrt(0.62) for
-/// dilation and the least spread, rounding up, half a pixel for the center, and slack.
-const MARGIN_PX: f64 = 6.0;
+/// What dilation adds to how far a splat counts, in pixels, with slack: 5.3 deviations of the root of 0.3, for the least
+/// alpha cut that there may be.
+const MARGIN_PX: f64 = 4.0;
 
 /// The splats of 16 Gaussians, one array an attribute. `is_seen` is 1 for those that are drawn, 0 for those that are
 /// not, NaN where `f32` did not suffice.
@@ -73,8 +73,6 @@ pub(super) struct Projection {
     grid_px: [f32; 2],
     columns: [f32; 2],
     rows_of_tiles: [f32; 2],
-    /// Standard deviations from its center at which even an opacity of 1 no longer counts.
-    sigmas: f64,
 }
 
 impl Projection {
@@ -98,35 +96,32 @@ impl Projection {
             grid_px: [top, bottom].map(|row| (row * TILE_PX) as f32),
             columns: [0.0, (grid.across - 1) as f32],
             rows_of_tiles: [top as f32, (bottom - 1) as f32],
-            sigmas: (-2.0 * view.alpha_cut.ln()).sqrt(),
         }
     }
 
-    /// Whether any member of a group may reach the picture, and the rows of tiles to be rendered. Its circles of three
-    /// standard deviations are bounded by `max_scale` times the largest stretch of the projection, which makes every test a
-    /// plane in camera space; rows are reached by as many deviations as count.
+    /// Whether any member of a group may reach the tiles to be rendered. Members reach as many standard deviations as
+    /// their largest opacity counts; those are bounded by `max_scale` times the largest stretch of the projection along
+    /// each axis, which makes every test a plane in camera space.
     pub(super) fn may_see(&self, group: &Group) -> bool {
         let view = &self.view;
         let center = view.camera_from_world * (group.center.as_dvec3() - view.center);
         let radius = f64::from(group.radius) * 1.001;
-        if center.z + radius <= view.near {
+        // NaN where even the center is too faint.
+        let sigmas = (2.0 * (f64::from(group.max_opacity) / view.alpha_cut).ln()).sqrt() * 1.001;
+        if center.z + radius <= view.near || sigmas.is_nan() {
             return false;
         }
-        let stretch = |focal: f64, bounds: (f64, f64)| focal * focal * (1.0 + bounds.0.abs().max(bounds.1).powi(2));
-        let [fx, fy] = view.focal_px;
-        let sigma = f64::from(group.max_scale) * (stretch(fx, view.slope_x) + stretch(fy, view.slope_y)).sqrt();
-        // Beside what lies between two lines across the picture, with so many standard deviations of reach.
-        let is_outside = |(focal, along): (f64, f64), first_px: f64, last_px: f64, sigmas: f64| {
+        // Beside what lies between two lines across the picture.
+        let is_beside = |focal: f64, bounds: (f64, f64), along: f64, [first_px, last_px]: [f64; 2]| {
+            let stretch = focal * (1.0 + bounds.0.abs().max(bounds.1).powi(2)).sqrt();
+            let reach = sigmas * f64::from(group.max_scale) * stretch;
             let (before, after) = ((focal, MARGIN_PX - first_px), (-focal, MARGIN_PX + last_px));
-            let reach = sigmas * sigma;
             [before, after].into_iter().any(|(a, b)| a * along + b * center.z + a.hypot(b) * radius + reach < 0.0)
         };
-        let [px, py] = view.principal_px;
-        let [end_x, end_y] = self.end_px.map(f64::from);
-        let [top, bottom] = self.grid_px.map(f64::from);
-        !is_outside((fx, center.x), -px, end_x - px, 3.0)
-            && !is_outside((fy, center.y), -py, end_y - py, 3.0)
-            && !is_outside((fy, center.y), top - py, bottom - py, self.sigmas)
+        let ([fx, fy], [px, py]) = (view.focal_px, view.principal_px);
+        let [top, bottom] = self.grid_px.map(|line| f64::from(line) - py);
+        !is_beside(fx, view.slope_x, center.x, [-px, f64::from(view.width) - px])
+            && !is_beside(fy, view.slope_y, center.y, [top, bottom])
     }
 
     /// Appends the splats of a group's members.
@@ -140,7 +135,7 @@ impl Projection {
         for pack in packs {
             self.centers(pack, &mut outputs);
             self.shapes(pack, &mut outputs);
-            for lane in 0..pack.len.min(LANES) {
+            for lane in 0..LANES {
                 if outputs.is_seen[lane] != 0.0
                     && let Some((splat, rect)) = self.finished(gaussians, pack, &outputs, lane)
                 {

@@ -4,9 +4,9 @@ use cinesplat::render::{Frame, Limits, Quality, RenderSettings, Renderer, Rgb8Fr
 
 use super::scenes::{camera, crowd};
 
-/// The widest caps, halving from 64 MiB, under which more is projected than without: groups seen in two bands count twice.
+/// Caps under which more is projected than without: groups seen in two bands count twice.
 fn with_bands(renderer: &Renderer<'_>, settings: &RenderSettings, whole: &Frame) -> Vec<(RenderSettings, Frame)> {
-    let caps = (0..40).map(|step| (f64::from(64 << 20) * 0.9_f64.powi(step)) as u64);
+    let caps = (0..60).map(|step| (f64::from(24 << 20) * 0.97_f64.powi(step)) as u64);
     let rendered = caps.filter_map(|max_memory_bytes| {
         let limits = Limits { max_memory_bytes, ..Limits::default() };
         let settings = RenderSettings { limits, ..*settings };
