@@ -26,8 +26,6 @@ use crate::scene::Gaussians;
 const BYTES_A_SPLAT: u64 = (splats::BYTES_A_SPLAT + 2 * size_of::<DepthKey>()) as u64;
 /// Bytes of its pairs, in most scenes.
 const PAIR_BYTES_A_SPLAT: u64 = 8;
-/// How much more of the Gaussians projected may be seen than in the picture before.
-const SEEN_SLACK: f64 = 1.1;
 
 /// Work lists of one picture, kept for the next.
 #[derive(Debug, Default)]
@@ -152,7 +150,7 @@ impl<P: Payload> Picture<'_, P> {
             return Err(RenderError::Memory { what: "the splats", found_bytes, limit_bytes });
         }
         splats.fill(gaussians, groups, &projection);
-        *seen_frac = Some((splats.len() as f64 / num_projected.max(1) as f64 * SEEN_SLACK).min(1.0));
+        *seen_frac = Some(splats.len() as f64 / num_projected.max(1) as f64);
         let projected = Instant::now();
         // Half a picture has half an order, which says little about that of the other half.
         let reuses_order = self.view.reuses_order && rows.len() == self.grid.down;

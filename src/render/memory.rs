@@ -7,8 +7,6 @@ use super::{Limits, RenderError, View};
 /// What a picture is to take at most beyond the loaded scene, in bytes, where bands can help.
 const BYTES_A_GAUSSIAN: u64 = 100;
 const BYTES_A_PIXEL: u64 = 64;
-/// Less than this is not worth bands.
-const LEAST_BYTES: u64 = 32 << 20;
 
 /// What is left of the caps of one picture.
 #[derive(Debug, Clone, Copy)]
@@ -62,7 +60,9 @@ impl Budget {
     /// Bytes that may be taken before the picture is better rendered in bands.
     pub(super) fn bytes_before_bands(&self, num_gaussians: usize, num_pixels: u64) -> u64 {
         let wanted = BYTES_A_GAUSSIAN * num_gaussians as u64 + BYTES_A_PIXEL * num_pixels;
-        wanted.max(LEAST_BYTES).min(self.limits.max_memory_bytes).saturating_sub(self.taken_bytes)
+        let wanted = wanted.min(self.limits.max_memory_bytes);
+        // A fiftieth for small lists that nobody counts.
+        (wanted - wanted / 50).saturating_sub(self.taken_bytes)
     }
 
     /// Bytes that may still be taken.

@@ -15,15 +15,23 @@ const BATCH_LEN: usize = GROUPS_IN_BATCH * GROUP_LEN;
 const GROUPS_LOOKED_AT: usize = 1024;
 
 /// Bytes that a splat takes here.
-pub(super) const BYTES_A_SPLAT: usize = size_of::<Splat>() + size_of::<[u16; 4]>();
+pub(super) const BYTES_A_SPLAT: usize = size_of::<Splat>() + size_of::<Touch>();
+
+/// Where a splat goes.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    /// Tiles that it touches: first and last column, first and last row.
+    rect: [u16; 4],
+    gaussian_idx: u32,
+    depth: f32,
+}
 
 /// The splats of one batch of groups.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     splats: Vec<Splat>,
-    /// Tiles that each touches: first and last column, first and last row. Apart from the rest because binning goes
-    /// through them in no order.
-    rects: Vec<[u16; 4]>,
+    /// What sorting and binning need of each splat, apart from the rest because they go through it in no order.
+    touches: Vec<Touch>,
 }
 
 /// The splats of a picture, in no order that matters; a splat's place is a number that finds it.
@@ -40,17 +48,17 @@ impl Batch {
     #[inline(always)]
     pub(super) fn push(&mut self, splat: Splat, rect: [u16; 4]) {
         self.splats.push(splat);
-        self.rects.push(rect);
+        self.touches.push(Touch { rect, gaussian_idx: splat.gaussian_idx, depth: splat.depth });
     }
 
     /// The splats of some groups in place of those before.
     fn fill(&mut self, seen: &[u32], projection: &Projection, (gaussians, groups): (&Gaussians, &Groups)) {
         self.splats.clear();
-        self.rects.clear();
+        self.touches.clear();
         for &group in seen {
             // No more than that: what doubles in good time is half empty on average.
             self.splats.reserve_exact(GROUP_LEN);
-            self.rects.reserve_exact(GROUP_LEN);
+            self.touches.reserve_exact(GROUP_LEN);
             projection.project_group(gaussians, groups.packs_of(group as usize), self);
         }
     }
@@ -86,7 +94,7 @@ impl Splats {
 
     /// Bytes that they hold on to.
     pub(super) fn bytes(&self) -> u64 {
-        self.batches.iter().map(|batch| bytes_of(&batch.splats) + bytes_of(&batch.rects)).sum::<u64>()
+        self.batches.iter().map(|batch| bytes_of(&batch.splats) + bytes_of(&batch.touches)).sum::<u64>()
             + bytes_of(&self.seen)
     }
 
@@ -101,7 +109,7 @@ impl Splats {
     #[inline(always)]
     pub(super) fn rect(&self, place: u32) -> [u16; 4] {
         let place = place as usize;
-        self.batches[place / BATCH_LEN].rects[place % BATCH_LEN]
+        self.batches[place / BATCH_LEN].touches[place % BATCH_LEN].rect
     }
 
     /// Writes the depth and place of every splat over `keys`.
@@ -113,8 +121,8 @@ impl Splats {
             work.push((first, batch, left.split_off_mut(..batch.splats.len()).unwrap_or_default()));
         }
         work.into_par_iter().with_min_len(4).for_each(|(first, batch, keys): (u32, &Batch, &mut [DepthKey])| {
-            for ((place, key), splat) in (first..).zip(keys).zip(&batch.splats) {
-                *key = DepthKey { depth_bits: splat.depth.to_bits(), gaussian_idx: splat.gaussian_idx, place };
+            for ((place, key), touch) in (first..).zip(keys).zip(&batch.touches) {
+                *key = DepthKey { depth_bits: touch.depth.to_bits(), gaussian_idx: touch.gaussian_idx, place };
             }
         });
     }
