@@ -80,11 +80,11 @@ pub fn variants(base: &RenderSettings) -> Vec<Variant> {
     let knob = |kind, name, accuracy| {
         of(kind, name, RenderSettings { quality: Quality::Final, accuracy: Some(accuracy), ..*base })
     };
-    for divisor in [1024, 512, 192, 128, 64, 32, 16] {
+    for divisor in [1024, 512, 192, 128, 64, 32] {
         let accuracy = Accuracy { alpha_cut: 1.0 / f64::from(divisor), ..Accuracy::SPEC };
         all.push(knob(Kind::AlphaCut, format!("1/{divisor}"), accuracy));
     }
-    for transmittance_stop in [3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1] {
+    for transmittance_stop in [3e-4, 1e-3, 3e-3, 1e-2, 3e-2] {
         let accuracy = Accuracy { transmittance_stop, ..Accuracy::SPEC };
         all.push(knob(Kind::TransmittanceStop, format!("{transmittance_stop}"), accuracy));
     }
@@ -92,7 +92,12 @@ pub fn variants(base: &RenderSettings) -> Vec<Variant> {
         let accuracy = Accuracy { resolution_frac, ..Accuracy::SPEC };
         all.push(knob(Kind::Resolution, format!("{resolution_frac:.2}"), accuracy));
     }
-    all.push(knob(Kind::Precision, "quick".to_owned(), Accuracy { precision: Precision::Quick, ..Accuracy::SPEC }));
+    let quick = Accuracy { precision: Precision::Quick, ..Accuracy::SPEC };
+    all.push(knob(Kind::Precision, "quick".to_owned(), quick));
+    for transmittance_stop in [1e-3, 4e-3, 1e-2, 3e-2] {
+        let accuracy = Accuracy { transmittance_stop, ..quick };
+        all.push(knob(Kind::Precision, format!("quick to {transmittance_stop}"), accuracy));
+    }
     all.extend(outputs(base));
     all.extend(free(base));
     all
