@@ -6,11 +6,11 @@ use super::scenes::{camera, crowd};
 
 /// Caps under which more is projected than without: groups seen in two bands count twice.
 fn with_bands(renderer: &Renderer<'_>, settings: &RenderSettings, whole: &Frame) -> Vec<(RenderSettings, Frame)> {
-    let caps = (0..60).map(|step| (f64::from(24 << 20) * 0.97_f64.powi(step)) as u64);
+    let caps = (0..60).map(|step| (f64::from(15 << 20) * 0.996_f64.powi(step)) as u64);
     let rendered = caps.filter_map(|max_memory_bytes| {
         let limits = Limits { max_memory_bytes, ..Limits::default() };
         let settings = RenderSettings { limits, ..*settings };
-        Some((settings, renderer.render(&camera(333, 201), &settings).ok()?))
+        Some((settings, renderer.render(&camera(640, 360), &settings).ok()?))
     });
     rendered.filter(|(_, frame)| frame.stats.counts.num_projected > whole.stats.counts.num_projected).collect()
 }
@@ -22,7 +22,7 @@ fn a_picture_in_bands_is_the_whole_picture_to_the_bit() {
     let labels: Vec<u16> = (0..scene.len()).map(|idx| (idx % 5) as u16).collect();
     for quality in [Quality::Standard, Quality::Final] {
         let settings = RenderSettings { quality, ..RenderSettings::default() };
-        let view = camera(333, 201);
+        let view = camera(640, 360);
         let whole = renderer.render(&view, &settings).unwrap();
         let (depth, ids) = (renderer.depth(&view, &settings).unwrap(), renderer.object_ids(&view, &settings, &labels));
         let banded = with_bands(&renderer, &settings, &whole);

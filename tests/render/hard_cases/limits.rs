@@ -26,8 +26,8 @@ fn a_hundred_thousand_full_screen_splats_lose_no_tile_and_stay_under_the_cap() {
         let limits = Limits { max_memory_bytes, ..Limits::default() };
         let frame = renderer.render(&camera(512, 512), &RenderSettings { limits, ..settings(quality) }).unwrap();
         // Every pixel of every tile has the layers that its stop allows.
-        assert!(frame.transmittance.iter().all(|&rest| rest > 0.0 && rest < 2e-3), "{quality:?}");
-        assert!(frame.rgb.iter().all(|value| (value - 0.5).abs() < 1e-3), "{quality:?}");
+        assert!(frame.transmittance.iter().all(|&rest| rest > 0.0 && rest < 4e-3), "{quality:?}");
+        assert!(frame.rgb.iter().all(|value| (value - 0.5).abs() < 2.5e-3), "{quality:?}");
         let held = renderer.memory_bytes() + picture_bytes;
         assert!(held <= max_memory_bytes, "{quality:?}: holds {held} of {max_memory_bytes} bytes");
     }
