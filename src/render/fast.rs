@@ -34,7 +34,7 @@ pub(super) struct Buffers {
     order: DepthOrder,
     bins: Bins,
     workspaces: Pool<Workspace>,
-    /// Splats over Gaussians projected, in the last picture; none before the first.
+    /// Splats of the last picture over the Gaussians of all groups that might have been seen; none before the first.
     seen_frac: Option<f64>,
 }
 
@@ -92,12 +92,25 @@ pub(super) fn render<P: Payload>(
     budget.take("buffers of the threads", (rayon::current_num_threads() * Workspace::BYTES) as u64)?;
     let bands = &canvas.into_bands(view.width as usize);
     let grid = TileGrid::of(view);
-    let stats = RenderStats::default();
-    let mut picture =
-        Picture { scene, view, settings, buffers, payload, bands, grid, budget, bytes_before_bands, stats };
+    let (stats, num_in_view) = (RenderStats::default(), 0);
+    let mut picture = Picture {
+        scene,
+        view,
+        settings,
+        buffers: &mut *buffers,
+        payload,
+        bands,
+        grid,
+        budget,
+        bytes_before_bands,
+        stats,
+        num_in_view,
+    };
     let mut parts = Vec::with_capacity(grid.len());
     picture.render_rows(0..grid.down, &mut parts)?;
-    Ok((picture.stats, parts))
+    let Picture { stats, num_in_view, .. } = picture;
+    buffers.seen_frac = Some((stats.counts.num_splats as f64 / num_in_view.max(1) as f64).min(1.0));
+    Ok((stats, parts))
 }
 
 /// A picture on its way, from the first row of tiles to the last.
@@ -115,6 +128,8 @@ struct Picture<'a, P: Payload> {
     /// How much of that makes it worth while to render bands.
     bytes_before_bands: u64,
     stats: RenderStats,
+    /// Gaussians of all groups that may be seen.
+    num_in_view: u64,
 }
 
 impl<P: Payload> Picture<'_, P> {
@@ -142,6 +157,7 @@ impl<P: Payload> Picture<'_, P> {
         let start = Instant::now();
         let projection = Projection::new(self.view, grid);
         let num_projected = splats.look(groups, &projection);
+        self.num_in_view = self.num_in_view.max(num_projected);
         let mut budget = self.budget;
         budget.take("the splats", num_projected * BYTES_A_SPLAT)?;
         let bytes_a_projected = seen_frac.unwrap_or(1.0) * (BYTES_A_SPLAT + PAIR_BYTES_A_SPLAT) as f64;
@@ -150,7 +166,6 @@ impl<P: Payload> Picture<'_, P> {
             return Err(RenderError::Memory { what: "the splats", found_bytes, limit_bytes });
         }
         splats.fill(gaussians, groups, &projection);
-        *seen_frac = Some(splats.len() as f64 / num_projected.max(1) as f64);
         let projected = Instant::now();
         // Half a picture has half an order, which says little about that of the other half.
         let reuses_order = self.view.reuses_order && rows.len() == self.grid.down;
