@@ -1,6 +1,6 @@
 //! Equal results however the work is cut: threads, order of the file, reused memory.
 
-use cinesplat::render::{Frame, Instructions, Quality, RenderSettings, Renderer};
+use cinesplat::render::{Accuracy, Frame, Instructions, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use glam::DVec3;
 
@@ -28,8 +28,10 @@ fn one_two_three_and_seven_threads_agree_to_the_bit() {
 #[test]
 fn every_instruction_set_gives_the_same_picture_to_the_bit() {
     let scene = crowd(1_500, 10);
-    for quality in [Quality::Draft, Quality::Standard, Quality::Final] {
-        let settings = |instructions| RenderSettings { quality, instructions, ..RenderSettings::default() };
+    let half = Accuracy { resolution_frac: 0.5, ..Accuracy::SPEC };
+    let all = [Quality::Draft, Quality::Standard, Quality::Final].map(|quality| (quality, None));
+    for (quality, accuracy) in all.into_iter().chain([(Quality::Final, Some(half))]) {
+        let settings = |instructions| RenderSettings { quality, accuracy, instructions, ..RenderSettings::default() };
         let scalar = on_threads(2, &scene, &settings(Instructions::Scalar));
         for wider in [Instructions::Avx2, Instructions::Widest] {
             let wide = on_threads(2, &scene, &settings(wider));
