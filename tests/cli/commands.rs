@@ -199,7 +199,9 @@ fn bench_films_holds_films_against_stills_and_forecasts() {
     let secs = |measure: &str| rows.iter().find(|row| row[5] == measure).unwrap()[6].parse::<f64>().unwrap();
     let off = 100.0 * (secs("predicted") / secs("film") - 1.0);
     let stated: f64 = rows.iter().find(|row| row[5] == "predicted").unwrap()[10].parse().unwrap();
-    assert!((off - stated).abs() <= 0.1 + 0.2 * off.abs(), "{stated} % stated, {off} % of its figures");
+    // So short a film takes few of the milliseconds that the figures are rounded to.
+    let rounding = 0.2 / secs("film");
+    assert!((off - stated).abs() <= 0.1 + rounding, "{stated} % stated, {off} % of its figures");
     assert!(rows.iter().all(|row| row.len() == 11 && row[3] == "8" && row[4] == "draft"), "{csv}");
     assert_eq!(fs::read_to_string(folder.path().join("out/films.md")).unwrap().lines().count(), rows.len() + 2);
 }
