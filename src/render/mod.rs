@@ -4,7 +4,8 @@
 //! depth, object ids and weights from the same blending loop. What a picture must look like is fixed in [`spec`];
 //! `reference` computes that in `f64` without shortcuts, every other quality in `f32` through `project` (splats, 16
 //! Gaussians at a time), `sort` (depth order), `bin` (64 px tiles) and `blend` (8 x 4 px blocks, their pixels in
-//! SIMD registers). The one invariant: a picture is the same to the bit whatever the number of threads.
+//! SIMD registers). The one invariant: a picture is the same to the bit whatever the number of threads, the instruction
+//! set, and the bands that it is cut into where memory is short.
 //!
 //! Reference: Kerbl et al., 3D Gaussian Splatting for Real-Time Radiance Field Rendering, 2023.
 
