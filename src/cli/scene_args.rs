@@ -103,8 +103,8 @@ pub(super) struct PictureArgs {
     /// Order of blending: z (depth, as scenes are trained) or ray (distance; nothing pops while the camera turns)
     #[arg(long, value_name = "ORDER", value_parser = parse_sort)]
     sort: Option<SortMode>,
-    /// Where colors are held to their range: trained (once, in the finished picture) or khr (in every Gaussian, as glTF's
-    /// KHR_gaussian_splatting has it)
+    /// Where colors are held to their range: trained (once, in the finished picture) or khr (in every Gaussian, as the glTF
+    /// extension for splats has it)
     #[arg(long, value_name = "MODE", value_parser = parse_color_clamp)]
     color_clamp: Option<ColorClamp>,
     /// Near plane in scene units, instead of 0.01 of the scene size, at most 0.2

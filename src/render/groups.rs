@@ -49,8 +49,8 @@ pub(super) struct Pack {
 pub(super) struct Groups {
     /// Attributes, group after group, [`PACKS_IN_GROUP`] each; all groups but the last are full.
     pub(super) packs: Vec<Pack>,
-    /// The groups.
-    pub(super) groups: Vec<Group>,
+    /// Where the members of each group are.
+    pub(super) bounds: Vec<Group>,
     num_gaussians: usize,
 }
 
@@ -68,9 +68,9 @@ impl Groups {
         let mut keyed: Vec<(u64, u32)> = kept.into_par_iter().map(|idx| (code(idx), idx)).collect();
         keyed.par_sort_unstable();
         let gaussian_from_slot: Vec<u32> = keyed.into_par_iter().map(|(_, idx)| idx).collect();
-        let groups = gaussian_from_slot.par_chunks(GROUP_LEN).map(|members| group(gaussians, members)).collect();
+        let bounds = gaussian_from_slot.par_chunks(GROUP_LEN).map(|members| group(gaussians, members)).collect();
         let packs = gaussian_from_slot.par_chunks(LANES).map(|members| Pack::of(gaussians, members)).collect();
-        Self { packs, groups, num_gaussians: gaussian_from_slot.len() }
+        Self { packs, bounds, num_gaussians: gaussian_from_slot.len() }
     }
 
     /// The attributes of a group's members.
@@ -86,7 +86,7 @@ impl Groups {
 
     /// Bytes that they take.
     pub(super) fn bytes(&self) -> u64 {
-        bytes_of(&self.packs) + bytes_of(&self.groups)
+        bytes_of(&self.packs) + bytes_of(&self.bounds)
     }
 
     /// Indices of all Gaussians that can be drawn, in the order of the file.

@@ -67,9 +67,9 @@ impl Batch {
 impl Splats {
     /// Finds the groups that may be seen; returns how many Gaussians they hold.
     pub(super) fn look(&mut self, groups: &Groups, projection: &Projection) -> u64 {
-        let all = (0..groups.groups.len() as u32).into_par_iter().with_min_len(GROUPS_LOOKED_AT);
+        let all = (0..groups.bounds.len() as u32).into_par_iter().with_min_len(GROUPS_LOOKED_AT);
         self.seen.clear();
-        self.seen.par_extend(all.filter(|&group| projection.may_see(&groups.groups[group as usize])));
+        self.seen.par_extend(all.filter(|&group| projection.may_see(&groups.bounds[group as usize])));
         self.seen.iter().map(|&group| groups.len_of(group as usize) as u64).sum()
     }
 
