@@ -41,8 +41,8 @@ impl Quality {
     /// precision pays best: `standard` takes a third less time than `final` at 68 dB, while a cut of 1/128 would leave 53
     /// dB and a stop at 3e-3, each pixel by itself, 47 dB for less time saved. Pixels that stop in blocks lose less: on
     /// fifteen golden cameras a stop at 4e-3 blends up to 5 % less than one at 1e-3 for at most 3 dB (none in the worst,
-    /// 62 dB); at 8e-3 it is 8 % and 8 dB. For `draft` a cut of 1/64 and a stop at 3e-2 save a third at 44 dB; half the size,
-    /// enlarged, saves little more at 37 dB, and in small scenes costs more than it saves.
+    /// 62 dB); at 8e-3 it is 8 % and 8 dB. For `draft` a cut of 1/64 and a stop at 3e-2 save a fifth to a third at 44 dB;
+    /// half the size, enlarged, saves little more at 37 dB, and in small scenes costs more than it saves.
     pub fn accuracy(self) -> Accuracy {
         match self {
             Self::Draft => Accuracy {
