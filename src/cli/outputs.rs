@@ -26,6 +26,11 @@ pub(super) fn check_new(path: &Path, overwrite: bool) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Makes a folder where it is missing, with those above it.
+pub(super) fn create_folder(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))
+}
+
 /// Writes a whole file under a passing name, then renames it.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let mut name = std::ffi::OsString::from(".");

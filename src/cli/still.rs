@@ -106,7 +106,7 @@ impl Args {
                 73,
             ));
         }
-        fs::create_dir_all(&self.output).map_err(|error| Failure::io(&place.to_string(), &error))?;
+        outputs::create_folder(&self.output)?;
         let mut names = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name));
         names.try_for_each(|path| outputs::check_new(&path, self.overwrite))
     }

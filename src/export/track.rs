@@ -132,21 +132,11 @@ impl PoseTrack {
             cut: frame.cut,
             intent: None,
         };
-        let shot = Shot {
-            scene: SceneRef { up: self.up, ..SceneRef::default() },
-            prompt: String::new(),
-            seed: 0,
-            model: None,
-            width,
-            height,
-            fps,
-            // The last frame is shown for a frame's time too.
-            duration_secs: last.time_secs - start + if self.is_sampled() { 1.0 / fps } else { 0.0 },
-            keyframes: self.frames.iter().map(keyframe).collect(),
-            effects: Vec::new(),
-            report: Vec::new(),
-            clearance: None,
-        };
+        // The last frame is shown for a frame's time too.
+        let duration_secs = last.time_secs - start + if self.is_sampled() { 1.0 / fps } else { 0.0 };
+        let keyframes = self.frames.iter().map(keyframe).collect();
+        let scene = SceneRef { up: self.up, ..SceneRef::default() };
+        let shot = Shot { scene, ..Shot::of_keyframes([width, height], fps, duration_secs, keyframes) };
         Ok((shot.validated()?, self.assumptions()))
     }
 

@@ -98,11 +98,10 @@ pub fn film(
 
     let (rendered, encoded) = thread::scope(|scope| {
         let encoding = scope.spawn(move || encoder.run(&receiver));
-        let camera_at = |frame_idx| camera_at(&path, shot, frame_idx);
         let mut tell = |done| watch(Progress { done, total: num_wanted });
         let rendered = frames.enumerate().try_for_each(|(done, frame_idx)| {
             let start = Instant::now();
-            let camera = camera_at(frame_idx);
+            let camera = camera_at(&path, shot, frame_idx);
             // A camera that stands still sees what it saw.
             if last_camera != Some(camera) {
                 // Let go first: then the memory of a frame that is written already is nobody's, and used again.
@@ -165,7 +164,7 @@ fn send(
 }
 
 /// The camera of one frame.
-pub(super) fn camera_at(path: &CameraPath, shot: &Shot, frame_idx: usize) -> Camera {
+pub fn camera_at(path: &CameraPath, shot: &Shot, frame_idx: usize) -> Camera {
     let state = path.sample(shot.frame_time_secs(frame_idx));
     Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(shot.width, shot.height, state.fov_y_rad) }
 }
@@ -178,7 +177,7 @@ pub(super) fn moving_cameras(path: &CameraPath, shot: &Shot, frames: Range<usize
 }
 
 /// How these frames of a shot are written.
-pub(super) fn video_of(shot: &Shot, frames: &Range<usize>, video: &VideoSettings) -> VideoSettings {
+pub fn video_of(shot: &Shot, frames: &Range<usize>, video: &VideoSettings) -> VideoSettings {
     VideoSettings {
         width: shot.width,
         height: shot.height,

@@ -16,7 +16,7 @@ mod stills;
 pub use clearance::prove_clearance;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
-pub use film::{FilmReport, FilmSettings, Flow, Progress, film};
+pub use film::{FilmReport, FilmSettings, Flow, Progress, camera_at, film, video_of};
 pub use forecast::{FilmCost, Forecast, Spent, Wish, checked_psnr_db, choose, forecast, num_cores};
 pub use frames::FrameRange;
 pub use source::{Source, open_scene};

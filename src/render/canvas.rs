@@ -35,13 +35,17 @@ pub(super) type Band<'a> = Mutex<Canvas<'a>>;
 impl<'a> Canvas<'a> {
     /// The picture as bands of one row of tiles each.
     pub(super) fn into_bands(self, width: usize) -> Vec<Band<'a>> {
-        let len = width * TILE_PX;
+        self.into_parts(width * TILE_PX).into_iter().map(Mutex::new).collect()
+    }
+
+    /// The picture in parts of so many pixels each, the last of what is left.
+    pub(super) fn into_parts(self, num_pixels: usize) -> Vec<Self> {
         match self {
             Self::Linear { rgb, transmittance } => {
-                let rows = rgb.chunks_mut(3 * len).zip(transmittance.chunks_mut(len));
-                rows.map(|(rgb, transmittance)| Mutex::new(Self::Linear { rgb, transmittance })).collect()
+                let parts = rgb.chunks_mut(3 * num_pixels).zip(transmittance.chunks_mut(num_pixels));
+                parts.map(|(rgb, transmittance)| Self::Linear { rgb, transmittance }).collect()
             }
-            Self::Rgb8(rgb8) => rgb8.chunks_mut(3 * len).map(|rgb8| Mutex::new(Self::Rgb8(rgb8))).collect(),
+            Self::Rgb8(rgb8) => rgb8.chunks_mut(3 * num_pixels).map(Self::Rgb8).collect(),
         }
     }
 }

@@ -92,7 +92,6 @@ pub(super) fn render<P: Payload>(
     budget.take("buffers of the threads", (rayon::current_num_threads() * Workspace::BYTES) as u64)?;
     let bands = &canvas.into_bands(view.width as usize);
     let grid = TileGrid::of(view);
-    let (stats, num_in_view) = (RenderStats::default(), 0);
     let mut picture = Picture {
         scene,
         view,
@@ -103,8 +102,8 @@ pub(super) fn render<P: Payload>(
         grid,
         budget,
         bytes_before_bands,
-        stats,
-        num_in_view,
+        stats: RenderStats::default(),
+        num_in_view: 0,
     };
     let mut parts = Vec::with_capacity(grid.len());
     picture.render_rows(0..grid.down, &mut parts)?;

@@ -273,8 +273,8 @@ impl Projection {
     }
 }
 
-/// The tile that holds a position, or the nearest between two. The sum has its whole part in the lowest bits; a cast would not
-/// vectorize.
+/// The tile that holds a position, or the nearest between two. The sum has its whole part in the lowest bits; a cast
+/// would not vectorize.
 #[inline(always)]
 fn tile(position_px: f32, [first, last]: [f32; 2]) -> u16 {
     const SHIFT: f32 = 8_388_608.0;

@@ -36,9 +36,8 @@ impl<'scene> Renderer<'scene> {
 
     /// Bytes that the renderer holds on to between pictures, beyond the scene and the pictures handed out.
     pub fn memory_bytes(&self) -> u64 {
-        let picture = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
-        let pictures = self.small_frames.sum(picture);
-        self.groups.bytes() + self.buffers.sum(Buffers::bytes) + pictures
+        let small = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
+        self.groups.bytes() + self.buffers.sum(Buffers::bytes) + self.small_frames.sum(small)
     }
 
     /// Gaussians of the scene.
@@ -71,13 +70,7 @@ impl<'scene> Renderer<'scene> {
         if settings.quality == Quality::Reference {
             return self.render_reference(&view, settings, frame);
         }
-        if settings.effective_accuracy().resolution_frac < 1.0 {
-            return self.render_small(camera, settings, |small| {
-                frame.stats = small.stats;
-                upsample(small, Canvas::from(&mut *frame), [view.width, view.height], settings.instructions);
-            });
-        }
-        frame.stats = self.render_payload(&view, settings, Canvas::from(&mut *frame), &ColorOnly)?.0;
+        frame.stats = self.render_onto(Canvas::from(&mut *frame), camera, &view, settings)?;
         Ok(())
     }
 
@@ -101,34 +94,32 @@ impl<'scene> Renderer<'scene> {
             return Ok(());
         }
         frame.rgb8.resize(view.width as usize * view.height as usize * 3, 0);
-        if settings.effective_accuracy().resolution_frac < 1.0 {
-            return self.render_small(camera, settings, |small| {
-                frame.stats = small.stats;
-                upsample(small, Canvas::from(&mut *frame), [view.width, view.height], settings.instructions);
-            });
-        }
-        frame.stats = self.render_payload(&view, settings, Canvas::from(&mut *frame), &ColorOnly)?.0;
+        frame.stats = self.render_onto(Canvas::from(&mut *frame), camera, &view, settings)?;
         Ok(())
     }
 
-    /// Renders at the resolution that the accuracy asks for.
-    fn render_small(
+    /// Renders onto a canvas of the view's size, at the resolution that the accuracy asks for.
+    fn render_onto(
         &self,
+        canvas: Canvas<'_>,
         camera: &Camera,
+        view: &View,
         settings: &RenderSettings,
-        mut take: impl FnMut(&Frame),
-    ) -> Result<(), RenderError> {
+    ) -> Result<RenderStats, RenderError> {
         let resolution_frac = settings.effective_accuracy().resolution_frac;
+        if resolution_frac >= 1.0 {
+            return Ok(self.render_payload(view, settings, canvas, &ColorOnly)?.0);
+        }
         let intrinsics = camera.intrinsics.scaled(resolution_frac);
-        let mut view = View::new(&Camera { pose: camera.pose, intrinsics }, self.gaussians.origin, settings)?;
+        let mut small_view = View::new(&Camera { pose: camera.pose, intrinsics }, self.gaussians.origin, settings)?;
         // As wide on the large picture as ever: then a small picture is made of values of the large one, and what
         // enlarging has to guess is only what lies between them.
-        view.dilation_px2 *= resolution_frac * resolution_frac;
+        small_view.dilation_px2 *= resolution_frac * resolution_frac;
         self.small_frames.with(|small| {
-            small.resize(view.width, view.height);
-            small.stats = self.render_payload(&view, settings, Canvas::from(&mut *small), &ColorOnly)?.0;
-            take(small);
-            Ok(())
+            small.resize(small_view.width, small_view.height);
+            let (stats, _) = self.render_payload(&small_view, settings, Canvas::from(&mut *small), &ColorOnly)?;
+            upsample(small, canvas, [view.width, view.height], settings.instructions);
+            Ok(stats)
         })
     }
 

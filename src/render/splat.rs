@@ -4,7 +4,7 @@ use super::bin::{TILE_PX, TileGrid};
 use super::{View, reference::ExactSplat};
 
 /// The exponent that a splat stores is this many times smaller than the binary logarithm of the opacity, so that it
-/// lies in -1..=0 wherever the opacity counts; see [`super::exponential`].
+/// lies in -1..=0 wherever the opacity counts; see [`super::kernel`].
 pub(super) const EXPONENT_DIVISOR: f64 = 8.0;
 
 /// Standard deviations to the units of [`Splat::whiten`]: an offset of w standard deviations costs (w k)^2 of exponent.

@@ -1,3 +1,5 @@
+use std::ops::{Add, Mul, Sub};
+
 use glam::Vec4;
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
@@ -17,29 +19,13 @@ const PADDING: usize = 2;
 /// little time.
 pub(super) fn upsample(from: &Frame, canvas: Canvas<'_>, [width, height]: [u32; 2], instructions: Instructions) {
     let (columns, rows) = (taps(from.width, width), taps(from.height, height));
-    let (narrow, wide) = (from.width as usize, width as usize);
-    let empty = || Mixed::of_width(narrow);
-    let draw = |mixed: &mut Mixed, row: &Taps, target| {
-        instructions.dispatch(EnlargedRow { from, row, columns: &columns, mixed, target });
-    };
-    match canvas {
-        Canvas::Linear { rgb, transmittance } => {
-            let targets = rgb.par_chunks_mut(wide * 3).zip(transmittance.par_chunks_mut(wide)).zip(&rows);
-            targets.for_each_init(empty, |mixed, ((rgb, rest), row)| draw(mixed, row, Target::Linear(rgb, rest)));
-        }
-        Canvas::Rgb8(rgb8) => {
-            let targets = rgb8.par_chunks_mut(wide * 3).zip(&rows);
-            targets.for_each_init(empty, |mixed, (rgb8, row)| draw(mixed, row, Target::Rgb8(rgb8)));
-        }
-    }
-}
-
-/// One row of the large picture.
-enum Target<'a> {
-    /// Color and transmittance.
-    Linear(&'a mut [f32], &'a mut [f32]),
-    /// Color in eight bits.
-    Rgb8(&'a mut [u8]),
+    let rows_and_targets = rows.par_iter().zip(canvas.into_parts(width as usize));
+    rows_and_targets.for_each_init(
+        || Mixed::of_width(from.width as usize),
+        |mixed, (row, target)| {
+            instructions.dispatch(EnlargedRow { from, row, columns: &columns, mixed, target });
+        },
+    );
 }
 
 /// The work on one row of the large picture, compiled for every instruction set.
@@ -48,7 +34,8 @@ struct EnlargedRow<'a> {
     row: &'a Taps,
     columns: &'a [Taps],
     mixed: &'a mut Mixed,
-    target: Target<'a>,
+    /// Where it goes.
+    target: Canvas<'a>,
 }
 
 /// The small picture's columns, mixed at the height of a row.
@@ -69,14 +56,14 @@ impl WithSimd for EnlargedRow<'_> {
         mixed.fill(from, row);
         let pixels = columns.iter().map(|column| column.mix(&mixed.pixels[column.first..][..NUM_TAPS]));
         match target {
-            Target::Linear(rgb, transmittance) => {
+            Canvas::Linear { rgb, transmittance } => {
                 for ((pixel, rgb), rest) in pixels.zip(rgb.as_chunks_mut::<3>().0).zip(transmittance) {
                     let [r, g, b, t] = pixel.max(Vec4::ZERO).to_array();
                     *rgb = [r, g, b];
                     *rest = t.min(1.0);
                 }
             }
-            Target::Rgb8(rgb8) => {
+            Canvas::Rgb8(rgb8) => {
                 for (pixel, rgb) in pixels.zip(rgb8.as_chunks_mut::<3>().0) {
                     let [r, g, b, _] = pixel.to_array().map(level);
                     *rgb = [r, g, b];
@@ -117,13 +104,10 @@ struct Taps {
 }
 
 impl Taps {
-    /// The weighted sum of four neighbors: the one before the pixel, and parts of what the others differ from it by, so
-    /// that an even surface stays as it is to the bit.
+    /// The pixel made of four neighbors.
     #[inline(always)]
     fn mix(&self, neighbors: &[Vec4]) -> Vec4 {
-        let &[before, base, after, last] = neighbors else { return Vec4::ZERO };
-        let [w0, _, w2, w3] = self.weights;
-        base + (before - base) * w0 + (after - base) * w2 + (last - base) * w3
+        neighbors.first_chunk().map_or(Vec4::ZERO, |neighbors| weighted(*neighbors, self.weights))
     }
 
     /// As [`Taps::mix`] for the rows of a picture of some height, number by number.
@@ -134,12 +118,21 @@ impl Taps {
             let place = (self.first + tap).saturating_sub(PADDING).min(last_row);
             picture[place * len..][..len].iter()
         };
-        let [w0, _, w2, w3] = self.weights;
         let rows = row(0).zip(row(1)).zip(row(2)).zip(row(3));
         for (mixed, (((before, base), after), last)) in mixed.iter_mut().zip(rows) {
-            *mixed = base + (before - base) * w0 + (after - base) * w2 + (last - base) * w3;
+            *mixed = weighted([*before, *base, *after, *last], self.weights);
         }
     }
+}
+
+/// The weighted sum of four neighbors: the one before the pixel, and parts of what the others differ from it by, so that
+/// an even surface stays as it is to the bit.
+#[inline(always)]
+fn weighted<T>([before, base, after, last]: [T; NUM_TAPS], [w0, _, w2, w3]: [f32; NUM_TAPS]) -> T
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
+{
+    base + (before - base) * w0 + (after - base) * w2 + (last - base) * w3
 }
 
 fn taps(from: u32, to: u32) -> Vec<Taps> {

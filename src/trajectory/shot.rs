@@ -116,6 +116,25 @@ pub struct ReportLine {
 }
 
 impl Shot {
+    /// A shot of keyframes alone: of no scene in particular, without a prompt, nothing decided or reported.
+    pub fn of_keyframes(size_px: [u32; 2], fps: f64, duration_secs: f64, keyframes: Vec<Keyframe>) -> Self {
+        let [width, height] = size_px;
+        Self {
+            scene: SceneRef::default(),
+            prompt: String::new(),
+            seed: 0,
+            model: None,
+            width,
+            height,
+            fps,
+            duration_secs,
+            keyframes,
+            effects: Vec::new(),
+            report: Vec::new(),
+            clearance: None,
+        }
+    }
+
     /// Number of frames of the film: duration times rate, at least one. Frame `k` is the camera at `k / fps`.
     pub fn num_frames(&self) -> usize {
         ((self.duration_secs * self.fps).round() as usize).max(1)

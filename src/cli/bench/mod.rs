@@ -2,6 +2,7 @@ mod films;
 mod operator;
 mod render;
 mod scaling;
+mod scenes;
 
 use super::{console, failure, outputs, scene_args};
 use failure::Failure;

@@ -1,17 +1,13 @@
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use glam::DVec2;
-
 use super::failure::Failure;
-use super::scene_args::{PictureArgs, SceneOptions};
+use super::scene_args::PictureArgs;
+use super::scenes::{NUM_OWN_VIEWS, ScenesArgs, own_views, parse_size, resized, scene_name, settings};
 use super::{console, outputs};
 use crate::cli::progress::FrameProgress;
-use crate::export::cameras_json::{self, StillCameras};
-use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
+use crate::export::cameras_json::StillCameras;
 use crate::render::bench::{self, Axis, BenchRow, BenchSettings};
 use crate::render::{Quality, RenderSettings, Renderer};
-use crate::scene::Scene;
 
 /// Measures scenes at every preset, every knob alone and every output.
 #[derive(Debug, clap::Args)]
@@ -24,15 +20,8 @@ plots. Times are those of pictures in eight bits, as films take them; PSNR and t
 numbers. Outputs (depth, ids, features, weights, lift) are timed at `standard` in turn with color as numbers; times_color
 is the median ratio of the two. Knobs are measured at the first size alone, `scalar` there once on one camera.")]
 pub(in super::super) struct Args {
-    /// Scenes, as for the other commands
-    #[arg(value_name = "SCENE", required = true)]
-    scenes: Vec<PathBuf>,
     #[command(flatten)]
-    options: SceneOptions,
-    /// Cameras of the scene at the same place in the line, the last for all further ones; auto: from the middle of the
-    /// scene and from two sides
-    #[arg(long, value_name = "CAMERAS.JSON", default_value = "auto")]
-    cameras: Vec<PathBuf>,
+    scenes: ScenesArgs,
     /// Sizes of the pictures, or `given` for those of the cameras file; all variants at the first, presets alone at the
     /// others
     #[arg(long, value_name = "WxH,..", default_value = "1280x720", value_delimiter = ',', value_parser = parse_size)]
@@ -52,18 +41,16 @@ pub(in super::super) struct Args {
 
 impl Args {
     pub(in super::super) fn run(self) -> Result<(), Failure> {
-        let files: Vec<Option<StillCameras>> =
-            self.cameras.iter().map(|path| read_cameras(path)).collect::<Result<_, _>>()?;
+        let scenes = self.scenes.read_cameras()?;
         if let Some(folder) = &self.output {
-            fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))?;
+            outputs::create_folder(folder)?;
         }
         self.picture.bound_threads()?;
         console::data(&bench::to_csv(&[]))?;
-        let cameras_of = |idx: usize| files.get(idx.min(files.len() - 1)).and_then(Option::as_ref);
-        let num_rows: usize = (0..self.scenes.len()).map(|idx| self.num_rows(cameras_of(idx))).sum();
+        let num_rows: usize = scenes.iter().map(|(_, file)| self.num_rows(file.as_ref())).sum();
         let mut log = RowLog { rows: Vec::new(), num_rows, progress: FrameProgress::of_rows() };
-        for (idx, path) in self.scenes.iter().enumerate() {
-            self.bench_scene(path, cameras_of(idx), &mut log)?;
+        for (path, file) in &scenes {
+            self.bench_scene(path, file.as_ref(), &mut log)?;
         }
         log.progress.finish();
         self.output.as_ref().map_or(Ok(()), |folder| write_all(folder, &log.rows))
@@ -71,9 +58,8 @@ impl Args {
 
     /// All cameras and sizes of one scene.
     fn bench_scene(&self, path: &Path, file: Option<&StillCameras>, log: &mut RowLog) -> Result<(), Failure> {
-        let scene = self.options.open(path)?.scene;
-        let (filter, near) = file.map_or((None, None), |file| (file.filter.as_deref(), file.near));
-        let base = self.picture.settings(&scene, Quality::Final, filter, near);
+        let scene = self.scenes.options.open(path)?.scene;
+        let base = settings(&self.picture, &scene, Quality::Final, file);
         let mut cameras = match file {
             Some(file) => file.cameras.iter().map(|named| (named.name.clone(), named.camera)).collect(),
             None => own_views(&scene)?,
@@ -119,63 +105,6 @@ impl RowLog {
     }
 }
 
-pub(super) fn read_cameras(path: &Path) -> Result<Option<StillCameras>, Failure> {
-    if path == Path::new("auto") {
-        return Ok(None);
-    }
-    let text = outputs::read_text(path)?;
-    let read = cameras_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
-    Ok(Some(read))
-}
-
-/// The scene's file name without its last extension; of `scene.spz` and `meta.json` the folder's, with the number of
-/// its level where it is only that.
-pub(super) fn scene_name(path: &Path) -> String {
-    let stem = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let parent = || path.parent().map(stem).filter(|name| !name.is_empty());
-    let name = stem(path);
-    let is_number = !name.is_empty() && name.chars().all(|c| c.is_ascii_digit() || c == '_');
-    match parent() {
-        Some(folder) if name == "scene" || name == "meta" => folder,
-        Some(folder) if is_number => format!("{folder} {name}"),
-        _ => name.replace(',', " "),
-    }
-}
-
-/// The picture of a camera at another size: its height decides the scale, the width is cut or widened evenly.
-pub(super) fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
-    let Some([width, height]) = size else { return *camera };
-    let given = camera.intrinsics;
-    let scale = f64::from(height) / f64::from(given.height);
-    let intrinsics = Intrinsics {
-        width,
-        height,
-        fx_px: given.fx_px * scale,
-        fy_px: given.fy_px * scale,
-        cx_px: (given.cx_px - f64::from(given.width) / 2.0) * scale + f64::from(width) / 2.0,
-        cy_px: given.cy_px * scale,
-    };
-    Camera { pose: camera.pose, intrinsics }
-}
-
-/// Cameras that [`own_views`] makes.
-const NUM_OWN_VIEWS: usize = 3;
-
-/// One level view from the middle of the scene and two from outside, a quarter turn apart, 16:9 with 60 degrees.
-pub(super) fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure> {
-    let level = LevelFrame::new(scene.up)?;
-    let intrinsics = Intrinsics::from_fov_y(1280, 720, 60_f64.to_radians());
-    let bounds = scene.bounds();
-    let axis = level.up.any_orthonormal_vector();
-    let view = |name: &str, heading: DVec2, distance: f64, rise: f64| {
-        let outward = axis * heading.x + level.up.cross(axis) * heading.y;
-        let eye = bounds.center() + (outward + level.up * rise) * distance * bounds.size();
-        let forward = if distance > 0.0 { bounds.center() - eye } else { outward };
-        (name.to_owned(), Camera { pose: Pose::facing(eye, forward, level.up, None), intrinsics })
-    };
-    Ok(vec![view("front", DVec2::X, 0.7, 0.2), view("side", DVec2::Y, 0.9, 0.4), view("middle", DVec2::X, 0.0, 0.0)])
-}
-
 fn write_all(folder: &Path, rows: &[BenchRow]) -> Result<(), Failure> {
     outputs::write(&folder.join("render.csv"), bench::to_csv(rows).as_bytes())?;
     outputs::write(&folder.join("render.md"), bench::to_table(rows).as_bytes())?;
@@ -186,13 +115,4 @@ fn write_all(folder: &Path, rows: &[BenchRow]) -> Result<(), Failure> {
     }
     console::note(&format!("{}: render.csv, render.md and plots of {} rows", folder.display(), rows.len()));
     Ok(())
-}
-
-pub(super) fn parse_size(text: &str) -> Result<Option<[u32; 2]>, String> {
-    if text == "given" {
-        return Ok(None);
-    }
-    let number = |digits: &str| digits.parse::<u32>().ok().filter(|n| (16..=16384).contains(n));
-    let size = text.split_once('x').and_then(|(width, height)| Some([number(width)?, number(height)?]));
-    size.map(Some).ok_or_else(|| "expected WIDTHxHEIGHT in pixels such as 1280x720, or given".to_owned())
 }

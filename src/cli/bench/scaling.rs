@@ -1,4 +1,3 @@
-use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -39,7 +38,7 @@ impl Args {
             return self.measure(case);
         }
         if let Some(folder) = &self.output {
-            fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))?;
+            outputs::create_folder(folder)?;
         }
         let mut csv = scaling::CSV_HEADER.to_owned();
         console::data(&csv)?;

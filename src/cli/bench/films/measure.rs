@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::super::failure::Failure;
-use crate::geometry::{Camera, Intrinsics};
+use crate::geometry::Camera;
 use crate::pipeline::{self, FilmSettings, Flow, Spent};
 use crate::render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
 use crate::scene::Scene;
@@ -71,7 +71,7 @@ impl Case<'_> {
             Spent::measure(|| pipeline::film(&renderer, self.shot, &output.0, settings, &mut |_| Flow::Continue));
         filmed?;
         let (pictures, rendered) = render(&renderer, &self.cameras()?, &settings.render, true)?;
-        let encoded = self.encode(&output.0, &pictures)?;
+        let encoded = self.encode(&output.0, &settings.video, &pictures)?;
         let slower = rendered.wall_secs.max(encoded.wall_secs);
         let busy = rendered.plus(encoded).busy_secs;
         let all_busy = Spent { wall_secs: busy / pipeline::num_cores() as f64, busy_secs: busy };
@@ -90,15 +90,9 @@ impl Case<'_> {
         Ok(())
     }
 
-    fn encode(&self, output: &Path, pictures: &[Rgb8Frame]) -> Result<Spent, VideoError> {
-        let video = VideoSettings {
-            width: self.shot.width,
-            height: self.shot.height,
-            rate_fps: self.shot.fps,
-            num_frames: pictures.len(),
-            overwrite: true,
-            ..VideoSettings::default()
-        };
+    fn encode(&self, output: &Path, video: &VideoSettings, pictures: &[Rgb8Frame]) -> Result<Spent, VideoError> {
+        let video = pipeline::video_of(self.shot, &(0..pictures.len()), video);
+        let video = VideoSettings { overwrite: true, ..video };
         let (written, spent) = Spent::measure(|| {
             let mut writer = VideoWriter::create(output, &video)?;
             pictures.iter().try_for_each(|picture| writer.write_frame(&picture.rgb8))?;
@@ -109,12 +103,7 @@ impl Case<'_> {
 
     fn cameras(&self) -> Result<Vec<Camera>, Failure> {
         let path = CameraPath::new(self.shot)?;
-        let camera = |frame_idx| {
-            let state = path.sample(self.shot.frame_time_secs(frame_idx));
-            let intrinsics = Intrinsics::from_fov_y(self.shot.width, self.shot.height, state.fov_y_rad);
-            Camera { pose: state.pose, intrinsics }
-        };
-        Ok((0..self.shot.num_frames()).map(camera).collect())
+        Ok((0..self.shot.num_frames()).map(|idx| pipeline::camera_at(&path, self.shot, idx)).collect())
     }
 
     fn row(

@@ -1,14 +1,14 @@
 mod measure;
 mod report;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::render::{own_views, parse_size, read_cameras, resized, scene_name};
-use super::scene_args::{PictureArgs, SceneOptions, parse_quality};
+use super::scene_args::{PictureArgs, parse_quality};
+use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
 use super::{console, outputs};
-use crate::geometry::Camera;
+use crate::export::cameras_json::StillCameras;
+use crate::geometry::{Camera, Intrinsics};
 use crate::pipeline::{FilmSettings, FrameRange};
 use crate::render::Quality;
 use crate::scene::Scene;
@@ -29,19 +29,12 @@ type Size = Option<[u32; 2]>;
 #[command(after_help = "\
 Example:
   cinesplat bench films room.spz synth:demo --cameras room.cameras.json --cameras auto -o bench
-Films a dolly: a straight move along the view axis of the first camera. One line of CSV a measurement on stdout, with what
-it is held against and how much more it takes in percent. All pictures of a film are kept in memory to encode them alone.
--o keeps films.csv and a table.")]
+Films a dolly: a straight move along the view axis of the first camera (auto: that in the middle). One line of CSV a
+measurement on stdout, with what it is held against and how much more it takes in percent. All pictures of a film are kept
+in memory to encode them alone. -o keeps films.csv and a table.")]
 pub(in super::super) struct Args {
-    /// Scenes, as for the other commands
-    #[arg(value_name = "SCENE", required = true)]
-    scenes: Vec<PathBuf>,
     #[command(flatten)]
-    options: SceneOptions,
-    /// Cameras of the scene at the same place in the line, the last for all further ones; auto: from the middle of the
-    /// scene
-    #[arg(long, value_name = "CAMERAS.JSON", default_value = "auto")]
-    cameras: Vec<PathBuf>,
+    scenes: ScenesArgs,
     /// Size of the pictures, or `given` for that of the cameras file
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     size: Size,
@@ -66,30 +59,29 @@ pub(in super::super) struct Args {
 
 impl Args {
     pub(in super::super) fn run(self) -> Result<(), Failure> {
+        let scenes = self.scenes.read_cameras()?;
         if let Some(folder) = &self.output {
-            fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))?;
+            outputs::create_folder(folder)?;
         }
         self.picture.bound_threads()?;
         console::data(report::CSV_HEADER)?;
         let mut rows = Vec::new();
-        for (idx, path) in self.scenes.iter().enumerate() {
-            rows.extend(self.bench_scene(path, &self.cameras[idx.min(self.cameras.len() - 1)])?);
+        for (path, file) in &scenes {
+            rows.extend(self.bench_scene(path, file.as_ref())?);
         }
         let Some(folder) = &self.output else { return Ok(()) };
         outputs::write(&folder.join("films.csv"), report::to_csv(&rows).as_bytes())?;
         outputs::write(&folder.join("films.md"), report::to_table(&rows).as_bytes())
     }
 
-    fn bench_scene(&self, path: &Path, cameras: &Path) -> Result<Vec<Row>, Failure> {
-        let file = read_cameras(cameras)?;
-        let scene = self.options.open(path)?.scene;
-        let camera = match &file {
+    fn bench_scene(&self, path: &Path, file: Option<&StillCameras>) -> Result<Vec<Row>, Failure> {
+        let scene = self.scenes.options.open(path)?.scene;
+        let camera = match file {
             Some(file) => file.cameras.first().map(|named| named.camera),
             None => own_views(&scene)?.last().map(|(_, camera)| *camera),
         };
         let camera = camera.ok_or_else(|| Failure::fault("cameras without a camera"))?;
-        let (filter, near) = file.as_ref().map_or((None, None), |file| (file.filter.as_deref(), file.near));
-        let render = self.picture.settings(&scene, Quality::Standard, filter, near);
+        let render = settings(&self.picture, &scene, Quality::Standard, file);
         let travel = self.travel.unwrap_or(TRAVEL_FRAC * scene.bounds().size());
         let shot = dolly(&scene, &resized(&camera, self.size), travel, usize::from(self.frames));
         let name = scene_name(path);
@@ -122,20 +114,10 @@ fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot
         let (fov_y_rad, easing) = (camera.intrinsics.fov_y_rad(), Easing::Linear);
         Keyframe { time_secs, pose, fov_y_rad, focus_distance: None, easing, cut: false, intent: None }
     };
-    Shot {
-        scene: SceneRef { up: Some(scene.up), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: camera.intrinsics.width,
-        height: camera.intrinsics.height,
-        fps: RATE_FPS,
-        duration_secs,
-        keyframes: vec![key(0.0, 0.0), key(duration_secs, travel)],
-        effects: Vec::new(),
-        report: Vec::new(),
-        clearance: None,
-    }
+    let Intrinsics { width, height, .. } = camera.intrinsics;
+    let keyframes = vec![key(0.0, 0.0), key(duration_secs, travel)];
+    let scene = SceneRef { up: Some(scene.up), ..SceneRef::default() };
+    Shot { scene, ..Shot::of_keyframes([width, height], RATE_FPS, duration_secs, keyframes) }
 }
 
 fn parse_way(text: &str) -> Result<f64, String> {

@@ -23,8 +23,7 @@ pub(super) struct Args {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        std::fs::create_dir_all(&self.output)
-            .map_err(|error| Failure::io(&self.output.display().to_string(), &error))?;
+        outputs::create_folder(&self.output)?;
         let (cases, mut studio) = self.cases.open()?;
         for case in &cases {
             let shot = studio.shoot(case, self.solve.level)?;

@@ -71,20 +71,8 @@ fn authored() -> Result<Vec<Row>, Failure> {
 }
 
 fn shot(up: DVec3, keyframes: Vec<Keyframe>, duration_secs: f64) -> Shot {
-    Shot {
-        scene: SceneRef { up: Some(up), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: 1280,
-        height: 720,
-        fps: 30.0,
-        duration_secs,
-        keyframes,
-        effects: Vec::new(),
-        report: Vec::new(),
-        clearance: None,
-    }
+    let scene = SceneRef { up: Some(up), ..SceneRef::default() };
+    Shot { scene, ..Shot::of_keyframes([1280, 720], 30.0, duration_secs, keyframes) }
 }
 
 fn key(time_secs: f64, pose: Pose, intent: Option<Intent>) -> Keyframe {

@@ -1,0 +1,113 @@
+//! Scenes of a bench, and the cameras that look at them.
+
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+
+use super::failure::Failure;
+use super::outputs;
+use super::scene_args::{PictureArgs, SceneOptions};
+use crate::export::cameras_json::{self, StillCameras};
+use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
+use crate::render::{Quality, RenderSettings};
+use crate::scene::Scene;
+
+/// Several scenes, each with a cameras file.
+#[derive(Debug, clap::Args)]
+pub(super) struct ScenesArgs {
+    /// Scenes, as for the other commands
+    #[arg(value_name = "SCENE", required = true)]
+    scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) options: SceneOptions,
+    /// Cameras of the scene at the same place in the line, the last for all further ones; auto: from two sides and from
+    /// the middle of the scene
+    #[arg(long, value_name = "CAMERAS.JSON", default_value = "auto")]
+    cameras: Vec<PathBuf>,
+}
+
+impl ScenesArgs {
+    /// Every scene with its cameras, `None` for those of its own; read before any work.
+    pub(super) fn read_cameras(&self) -> Result<Vec<(&Path, Option<StillCameras>)>, Failure> {
+        let files: Vec<_> = self.cameras.iter().map(|path| read_cameras(path)).collect::<Result<_, _>>()?;
+        let file_of = |idx: usize| files.get(idx).or(files.last()).cloned().flatten();
+        Ok(self.scenes.iter().enumerate().map(|(idx, scene)| (scene.as_path(), file_of(idx))).collect())
+    }
+}
+
+/// Settings for a scene and what its cameras file says.
+pub(super) fn settings(
+    picture: &PictureArgs,
+    scene: &Scene,
+    default: Quality,
+    file: Option<&StillCameras>,
+) -> RenderSettings {
+    let (filter, near) = file.map_or((None, None), |file| (file.filter.as_deref(), file.near));
+    picture.settings(scene, default, filter, near)
+}
+
+fn read_cameras(path: &Path) -> Result<Option<StillCameras>, Failure> {
+    if path == Path::new("auto") {
+        return Ok(None);
+    }
+    let text = outputs::read_text(path)?;
+    let read = cameras_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
+    Ok(Some(read))
+}
+
+/// The scene's file name without its last extension; of `scene.spz` and `meta.json` the folder's, with the number of
+/// its level where it is only that.
+pub(super) fn scene_name(path: &Path) -> String {
+    let stem = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let parent = || path.parent().map(stem).filter(|name| !name.is_empty());
+    let name = stem(path);
+    let is_number = !name.is_empty() && name.chars().all(|c| c.is_ascii_digit() || c == '_');
+    match parent() {
+        Some(folder) if name == "scene" || name == "meta" => folder,
+        Some(folder) if is_number => format!("{folder} {name}"),
+        _ => name.replace(',', " "),
+    }
+}
+
+/// The picture of a camera at another size: its height decides the scale, the width is cut or widened evenly.
+pub(super) fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
+    let Some([width, height]) = size else { return *camera };
+    let given = camera.intrinsics;
+    let scale = f64::from(height) / f64::from(given.height);
+    let intrinsics = Intrinsics {
+        width,
+        height,
+        fx_px: given.fx_px * scale,
+        fy_px: given.fy_px * scale,
+        cx_px: (given.cx_px - f64::from(given.width) / 2.0) * scale + f64::from(width) / 2.0,
+        cy_px: given.cy_px * scale,
+    };
+    Camera { pose: camera.pose, intrinsics }
+}
+
+/// Cameras that [`own_views`] makes.
+pub(super) const NUM_OWN_VIEWS: usize = 3;
+
+/// One level view from the middle of the scene and two from outside, a quarter turn apart, 16:9 with 60 degrees.
+pub(super) fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure> {
+    let level = LevelFrame::new(scene.up)?;
+    let intrinsics = Intrinsics::from_fov_y(1280, 720, 60_f64.to_radians());
+    let bounds = scene.bounds();
+    let axis = level.up.any_orthonormal_vector();
+    let view = |name: &str, heading: DVec2, distance: f64, rise: f64| {
+        let outward = axis * heading.x + level.up.cross(axis) * heading.y;
+        let eye = bounds.center() + (outward + level.up * rise) * distance * bounds.size();
+        let forward = if distance > 0.0 { bounds.center() - eye } else { outward };
+        (name.to_owned(), Camera { pose: Pose::facing(eye, forward, level.up, None), intrinsics })
+    };
+    Ok(vec![view("front", DVec2::X, 0.7, 0.2), view("side", DVec2::Y, 0.9, 0.4), view("middle", DVec2::X, 0.0, 0.0)])
+}
+
+pub(super) fn parse_size(text: &str) -> Result<Option<[u32; 2]>, String> {
+    if text == "given" {
+        return Ok(None);
+    }
+    let number = |digits: &str| digits.parse::<u32>().ok().filter(|n| (16..=16384).contains(n));
+    let size = text.split_once('x').and_then(|(width, height)| Some([number(width)?, number(height)?]));
+    size.map(Some).ok_or_else(|| "expected WIDTHxHEIGHT in pixels such as 1280x720, or given".to_owned())
+}
