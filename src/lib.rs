@@ -49,17 +49,22 @@
 //!   iteration over hash maps, every random number from a seed.
 //! - A shot is checked once, at the border ([`trajectory::Shot::validated`]).
 
-pub mod cli;
-pub mod director;
-pub mod evaluation;
-pub mod export;
-pub mod geometry;
-pub mod lens;
-pub mod objects;
-pub mod operator;
+pub use cinesplat_director as director;
+pub use cinesplat_evaluation as evaluation;
+pub use cinesplat_export as export;
+pub use cinesplat_geometry as geometry;
+pub use cinesplat_language as language;
+pub use cinesplat_lens as lens;
+pub use cinesplat_objects as objects;
+pub use cinesplat_operator as operator;
+pub use cinesplat_plot as plot;
+pub use cinesplat_render as render;
+pub use cinesplat_scene as scene;
+pub use cinesplat_synth as synth;
+#[cfg(feature = "training")]
+pub use cinesplat_training as training;
+pub use cinesplat_trajectory as trajectory;
+#[cfg(feature = "video")]
+pub use cinesplat_video as video;
+
 pub mod pipeline;
-pub mod plot;
-pub mod render;
-pub mod scene;
-pub mod trajectory;
-pub mod video;

@@ -1,4 +1,6 @@
-//! The `cinesplat` program; all of it is in the library's `cli`.
+//! The `cinesplat` program.
+
+mod cli;
 
 use std::process::ExitCode;
 
@@ -7,5 +9,5 @@ use std::process::ExitCode;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    cinesplat::cli::run(std::env::args_os())
+    cli::run(std::env::args_os())
 }

@@ -1,11 +1,11 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use super::choice::choice;
 use super::console;
 use super::failure::Failure;
-use super::shot_args::parse_level;
-use crate::director::{DatasetSettings, write_dataset};
-use crate::operator::SolveLevel;
+use cinesplat::operator::SolveLevel;
+use cinesplat::training::{DatasetSettings, write_dataset};
 
 /// Makes the director's training data.
 #[derive(Debug, clap::Args)]
@@ -28,7 +28,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FRAC", default_value_t = DatasetSettings::default().detail)]
     detail: f64,
     /// How long the operator looks for cameras
-    #[arg(long, value_name = "off|fast|full", default_value = "fast", value_parser = parse_level)]
+    #[arg(long, value_name = "off|fast|full", default_value = "fast", value_parser = choice::<SolveLevel>())]
     solve: SolveLevel,
     /// Seed of scenes and prompts
     #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().seed)]

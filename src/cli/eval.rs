@@ -1,16 +1,17 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use strum::VariantArray;
 
 use glam::DVec3;
 
-use super::export::parse_format;
+use super::choice::choice;
 use super::failure::Failure;
 use super::{console, eval_folders, outputs};
-use crate::evaluation::{
+use cinesplat::evaluation::{
     Align, Delta, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere, Trajectory,
     evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,
 };
-use crate::export::{self, Format, PoseTrack};
+use cinesplat::export::{self, Format, PoseTrack};
 
 /// Compares two trajectories: absolute and relative pose error.
 #[derive(Debug, clap::Args)]
@@ -31,13 +32,13 @@ pub(super) struct Args {
     #[arg(value_name = "EST")]
     estimate: PathBuf,
     /// Format of both files, instead of what their contents say
-    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
+    #[arg(long, value_name = "FORMAT", value_parser = choice::<Format>())]
     from: Option<Format>,
     /// What is aligned first: none, origin, yaw, se3, sim3 or scale
-    #[arg(long, value_name = "MODE", default_value = "none", value_parser = parse_align)]
+    #[arg(long, value_name = "MODE", default_value = "none", value_parser = choice::<Align>())]
     align: Align,
     /// What of the error is measured
-    #[arg(long, value_name = "R", default_value = "trans", value_parser = parse_relation)]
+    #[arg(long, value_name = "R", default_value = "trans", value_parser = choice::<Relation>())]
     relation: Relation,
     /// Relative error: of the motion between poses --delta apart
     #[arg(long)]
@@ -174,7 +175,7 @@ fn title(evaluation: &Evaluation) -> String {
         Metric::Ape => "absolute pose error",
         Metric::Rpe { .. } => "relative pose error",
     };
-    let (relation, align) = (settings.relation.name(), settings.align.name());
+    let (relation, align) = (settings.relation.as_ref(), settings.align.as_ref());
     format!("{metric}, {relation}, align {align}, {} errors", evaluation.errors.len())
 }
 
@@ -213,14 +214,4 @@ fn parse_subject(text: &str) -> Result<SubjectSphere, String> {
     let usable = sphere.filter(|sphere| sphere.center.is_finite() && sphere.radius > 0.0 && sphere.radius.is_finite());
     usable
         .ok_or_else(|| "expected x, y, z and a radius above 0 with commas between them, such as 0,1,-2,0.4".to_owned())
-}
-
-fn parse_align(name: &str) -> Result<Align, String> {
-    let names = || Align::ALL.iter().map(|mode| mode.name()).collect::<Vec<_>>().join(", ");
-    Align::from_name(name).ok_or_else(|| format!("expected one of {}", names()))
-}
-
-fn parse_relation(name: &str) -> Result<Relation, String> {
-    let names = || Relation::ALL.iter().map(|relation| relation.name()).collect::<Vec<_>>().join(", ");
-    Relation::from_name(name).ok_or_else(|| format!("expected one of {}", names()))
 }

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use super::console;
 use super::failure::Failure;
-use crate::evaluation::{BatchRow, EvalSettings, EvaluationError, Trajectory, evaluate};
+use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, Trajectory, evaluate};
 
 /// Compares the files of two folders that have the same name up to the first dot.
 pub(super) fn compare(

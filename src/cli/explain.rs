@@ -1,10 +1,11 @@
 use std::fmt::Write as _;
+use strum::VariantArray;
 
-use crate::lens::{Decision, Effect};
-use crate::objects::ObjectSet;
-use crate::operator::{Amount, Framing, Part, Pass, Speed, Step};
-use crate::pipeline::Directed;
-use crate::trajectory::ClearanceProof;
+use cinesplat::lens::{Decision, Effect};
+use cinesplat::objects::ObjectSet;
+use cinesplat::operator::{Amount, Framing, Part, Pass, Speed, Step};
+use cinesplat::pipeline::Directed;
+use cinesplat::trajectory::ClearanceProof;
 
 /// How a prompt was understood, clause by clause: its words, what they mean, what was wanted and got, and what each
 /// effect decided.
@@ -27,12 +28,12 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     text.push_str("\nclearance\n");
     text.extend(directed.shot.clearance.as_ref().map(clearance));
     text.push_str("\neffects\n");
-    for effect in Effect::ALL {
-        let decided = directed.effects.iter().find(|decision| decision.call.kind == effect.name());
-        let sentence = decided.map_or_else(|| format!("{}: not called for", effect.name()), Decision::sentence);
+    for effect in Effect::VARIANTS {
+        let decided = directed.effects.iter().find(|decision| decision.call.kind == effect.as_ref());
+        let sentence = decided.map_or_else(|| format!("{}: not called for", effect.as_ref()), Decision::sentence);
         let _ = writeln!(text, "  {sentence}");
     }
-    for decision in directed.effects.iter().filter(|decision| Effect::from_name(&decision.call.kind).is_none()) {
+    for decision in directed.effects.iter().filter(|decision| decision.call.kind.parse::<Effect>().is_err()) {
         let _ = writeln!(text, "  {}", decision.sentence());
     }
     text
@@ -55,7 +56,7 @@ fn clearance(proof: &ClearanceProof) -> String {
 
 /// A step in words.
 fn sentence(step: &Step, objects: &ObjectSet) -> String {
-    let mut parts = vec![step.movement.name().to_owned()];
+    let mut parts = vec![step.movement.as_ref().to_owned()];
     if step.either_way {
         parts.push("in either direction".to_owned());
     }
@@ -76,7 +77,7 @@ fn sentence(step: &Step, objects: &ObjectSet) -> String {
         Speed::Fast => parts.push("fast".to_owned()),
     }
     parts.extend(step.duration_secs.map(|secs| format!("{secs} s")));
-    parts.extend(step.easing.map(|easing| easing.name().to_owned()));
+    parts.extend(step.easing.map(|easing| easing.as_ref().to_owned()));
     if step.cut {
         parts.push("after a cut".to_owned());
     }
@@ -102,8 +103,8 @@ fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<
         return None;
     }
     let mut parts = Vec::new();
-    parts.extend(framing.angle.map(|angle| angle.name().to_owned()));
-    parts.extend(framing.size.map(|size| size.name().to_owned()));
+    parts.extend(framing.angle.map(|angle| angle.as_ref().to_owned()));
+    parts.extend(framing.size.map(|size| size.as_ref().to_owned()));
     let part = match framing.part {
         Part::Middle => "",
         Part::Top => "the top of ",

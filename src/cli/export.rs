@@ -1,9 +1,11 @@
+use super::choice::choice;
 use std::path::PathBuf;
+use strum::VariantNames;
 
 use super::failure::Failure;
 use super::{console, outputs};
-use crate::export::{self, Content, ExportSettings, Format, shot_json};
-use crate::trajectory::retimed;
+use cinesplat::export::{self, Content, ExportSettings, Format, shot_json};
+use cinesplat::trajectory::retimed;
 
 /// Writes a shot's camera path for other programs.
 #[derive(Debug, clap::Args)]
@@ -20,7 +22,7 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// The format
-    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
+    #[arg(long, value_name = "FORMAT", value_parser = choice::<Format>())]
     to: Option<Format>,
     /// Frames a second, instead of the shot's
     #[arg(long, value_name = "F")]
@@ -40,7 +42,7 @@ impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let format = self.to.or_else(|| Format::from_path(&self.output)).ok_or_else(|| {
             let found = format!("{}: the name leaves the format open, expected --to FORMAT", self.output.display());
-            Failure::usage(found, format!("add --to with one of {}", format_names()))
+            Failure::usage(found, format!("add --to with one of {}", <Format as VariantNames>::VARIANTS.join(" ")))
         })?;
         if !(format == Format::Colmap && (self.output.is_dir() || !self.output.exists())) {
             outputs::check_new(&self.output, self.overwrite)?;
@@ -55,15 +57,7 @@ impl Args {
         for line in &lost {
             console::note(&format!("warning: {line}"));
         }
-        console::note(&format!("{}: {}", self.output.display(), format.name()));
+        console::note(&format!("{}: {}", self.output.display(), format.as_ref()));
         Ok(())
     }
-}
-
-pub(super) fn parse_format(name: &str) -> Result<Format, String> {
-    Format::from_name(name).ok_or_else(|| format!("expected one of {}", format_names()))
-}
-
-fn format_names() -> String {
-    Format::ALL.iter().map(|format| format.name()).collect::<Vec<_>>().join(" ")
 }

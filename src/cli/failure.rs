@@ -2,17 +2,18 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-use crate::director::language::LanguageError;
-use crate::director::{DatasetError, DirectorError, TrainError};
-use crate::evaluation::EvaluationError;
-use crate::export::ExportError;
-use crate::geometry::GeometryError;
-use crate::objects::ObjectsError;
-use crate::pipeline::PipelineError;
-use crate::render::RenderError;
-use crate::scene::SceneError;
-use crate::trajectory::TrajectoryError;
-use crate::video::VideoError;
+use cinesplat::director::DirectorError;
+use cinesplat::evaluation::EvaluationError;
+use cinesplat::export::ExportError;
+use cinesplat::geometry::GeometryError;
+use cinesplat::language::LanguageError;
+use cinesplat::objects::ObjectsError;
+use cinesplat::pipeline::PipelineError;
+use cinesplat::render::RenderError;
+use cinesplat::scene::SceneError;
+use cinesplat::training::{DatasetError, TrainError};
+use cinesplat::trajectory::TrajectoryError;
+use cinesplat::video::VideoError;
 
 /// How a command ends badly: what a person reads and what a script sees.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
-use super::export::parse_format;
+use super::choice::choice;
 use super::failure::Failure;
 use super::{console, outputs};
-use crate::export::{self, Format, shot_json};
+use cinesplat::export::{self, Format, shot_json};
 
 /// Makes a shot of another program's camera path.
 #[derive(Debug, clap::Args)]
@@ -19,7 +19,7 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "SHOT.JSON")]
     output: PathBuf,
     /// The format, instead of what the content says
-    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
+    #[arg(long, value_name = "FORMAT", value_parser = choice::<Format>())]
     from: Option<Format>,
     /// Replaces a shot that is already there
     #[arg(long)]
@@ -31,7 +31,7 @@ impl Args {
         outputs::check_new(&self.output, self.overwrite)?;
         let in_file = |error| Failure::from(error).in_file(&self.file);
         let imported = export::read(&self.file, self.from).map_err(in_file)?;
-        let format = imported.format.name();
+        let format = imported.format;
         let (shot, assumed) = imported.into_shot().map_err(in_file)?;
         for line in &assumed {
             console::note(&format!("warning: {line}"));

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::console;
 use super::failure::Failure;
 use super::scene_args::SceneArgs;
-use crate::scene::SceneInfo;
+use cinesplat::scene::SceneInfo;
 
 /// Says what a scene is.
 #[derive(Debug, clap::Args)]

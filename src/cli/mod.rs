@@ -4,6 +4,7 @@
 //! `error[CODE]: FILE: what was found, what was expected` and a second line `help: ` with the fix.
 
 mod bench;
+mod choice;
 mod console;
 mod dataset;
 mod eval;

@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 use super::failure::Failure;
 use super::scene_args::{SceneArgs, print_up};
 use super::{console, outputs, reproduce};
-use crate::objects::{self, Object, ObjectSet, SheetSettings};
-use crate::{pipeline, video};
+use cinesplat::objects::{self, Object, ObjectSet, SheetSettings};
+use cinesplat::{pipeline, video};
 
 /// Finds or reads the objects of a scene.
 #[derive(Debug, clap::Args)]

@@ -1,15 +1,16 @@
 use std::path::{Path, PathBuf};
+use strum::VariantArray;
 
 use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, explain, outputs, reproduce};
-use crate::export::shot_json;
-use crate::pipeline::{self, FilmSettings, FrameRange};
-use crate::render::{Quality, Renderer};
-use crate::scene::Scene;
-use crate::trajectory::Shot;
-use crate::video::VideoSettings;
+use cinesplat::export::shot_json;
+use cinesplat::pipeline::{self, FilmSettings, FrameRange};
+use cinesplat::render::{Quality, Renderer};
+use cinesplat::scene::Scene;
+use cinesplat::trajectory::Shot;
+use cinesplat::video::VideoSettings;
 
 /// Makes a sentence into keyframes, without rendering.
 #[derive(Debug, clap::Args)]
@@ -75,7 +76,7 @@ impl Args {
             FilmSettings { render, video: VideoSettings::default(), frames: FrameRange::default(), sheet: None };
         let renderer = Renderer::new(&scene.gaussians);
         let num_frames = shot.num_frames();
-        let forecasts = pipeline::forecast(&renderer, shot, Path::new("film.mp4"), &settings, &Quality::ALL)?;
+        let forecasts = pipeline::forecast(&renderer, shot, Path::new("film.mp4"), &settings, &Quality::VARIANTS)?;
         for forecast in forecasts {
             console::note(&format!("predicted for {num_frames} frames: {}", forecast.sentence()));
         }

@@ -1,18 +1,19 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use super::choice::choice;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::progress::FrameProgress;
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, outputs, reproduce};
-use crate::export::shot_json;
-use crate::pipeline::{self, FilmReport, FilmSettings, Flow, Forecast, FrameRange, StageTimes, Wish};
-use crate::render::{Quality, Renderer};
-use crate::scene::Scene;
-use crate::trajectory::Shot;
-use crate::video::{self, Preset, VideoSettings};
+use cinesplat::export::shot_json;
+use cinesplat::pipeline::{self, FilmReport, FilmSettings, Flow, Forecast, FrameRange, StageTimes, Wish};
+use cinesplat::render::{Quality, Renderer};
+use cinesplat::scene::Scene;
+use cinesplat::trajectory::Shot;
+use cinesplat::video::{self, Preset, VideoSettings};
 
 /// Films a sentence or a shot.
 #[derive(Debug, clap::Args)]
@@ -49,7 +50,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 18)]
     crf: u8,
     /// Effort of the H.264 encoder: ultrafast, veryfast, fast, medium, slow or veryslow
-    #[arg(long, value_name = "PRESET", default_value = "medium", value_parser = parse_preset)]
+    #[arg(long, value_name = "PRESET", default_value = "medium", value_parser = choice::<Preset>())]
     preset: Preset,
     /// Writes the shot too
     #[arg(long, value_name = "SHOT.JSON")]
@@ -105,7 +106,7 @@ impl Args {
         let mut decided = deciding(&shot).to_vec();
         if self.wish() != Wish::default() {
             // On another machine, or another day, the same wish may choose another quality.
-            decided.push(("--quality", predicted.quality.name().to_owned()));
+            decided.push(("--quality", predicted.quality.as_ref().to_owned()));
         }
         reproduce::print(&decided);
         finish(&report)
@@ -185,7 +186,7 @@ impl Args {
         let expected = |time: Duration| time.as_secs_f64() * share;
         let film_secs = expected(predicted.film_time);
         let off_percent = (measured / film_secs.max(1e-9) - 1.0) * 100.0;
-        let quality = predicted.quality.name();
+        let quality = predicted.quality.as_ref();
         console::note(&format!(
             "{quality}: filmed in {measured:.2} s (predicted {film_secs:.2} s: {off_percent:+.0} %), {psnr_db:.1} dB \
              (predicted {:.1} dB)",
@@ -254,10 +255,4 @@ fn parse_time(text: &str) -> Result<Duration, String> {
 
 fn parse_decibels(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|db: &f64| (0.0..=300.0).contains(db)).ok_or("expected 0 to 300 dB".to_owned())
-}
-
-fn parse_preset(name: &str) -> Result<Preset, String> {
-    let all = [Preset::Ultrafast, Preset::Veryfast, Preset::Fast, Preset::Medium, Preset::Slow, Preset::Veryslow];
-    let found = all.into_iter().find(|preset| preset.name() == name);
-    found.ok_or_else(|| format!("expected one of {}", all.map(Preset::name).join(", ")))
 }

@@ -1,14 +1,16 @@
 use std::path::{Path, PathBuf};
+use strum::VariantArray;
 
 use clap::Args;
 use glam::DVec3;
 
+use super::choice::choice;
 use super::console;
 use super::failure::Failure;
-use crate::objects::{self, FindSettings, ObjectSet};
-use crate::pipeline::{self, Source};
-use crate::render::{ColorClamp, Quality, RenderSettings, SortMode};
-use crate::scene::{LoadOptions, Scene, SplatFilter, UpSource};
+use cinesplat::objects::{self, FindSettings, ObjectSet};
+use cinesplat::pipeline::{self, Source};
+use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
+use cinesplat::scene::{LoadOptions, Scene, SplatFilter, UpSource};
 
 /// Which scene, and what the caller knows better than its file.
 #[derive(Debug, Clone, Args)]
@@ -95,17 +97,17 @@ pub(super) fn print_up_of(up: DVec3, source: &str) {
 #[derive(Debug, Clone, Args)]
 pub(super) struct PictureArgs {
     /// Accuracy against time: draft, standard, final or reference
-    #[arg(long, value_name = "Q", value_parser = parse_quality)]
+    #[arg(long, value_name = "Q", value_parser = choice::<Quality>())]
     quality: Option<Quality>,
     /// Splat filter: auto (what the scene's file says), classic or mip
     #[arg(long, value_name = "FILTER", value_parser = ["auto", "classic", "mip"])]
     filter: Option<String>,
     /// Order of blending: z (depth, as scenes are trained) or ray (distance; nothing pops while the camera turns)
-    #[arg(long, value_name = "ORDER", value_parser = parse_sort)]
+    #[arg(long, value_name = "ORDER", value_parser = choice::<SortMode>())]
     sort: Option<SortMode>,
     /// Where colors are held to their range: trained (once, in the finished picture) or khr (in every Gaussian, as the glTF
     /// extension for splats has it)
-    #[arg(long, value_name = "MODE", value_parser = parse_color_clamp)]
+    #[arg(long, value_name = "MODE", value_parser = choice::<ColorClamp>())]
     color_clamp: Option<ColorClamp>,
     /// Near plane in scene units, instead of 0.01 of the scene size, at most 0.2
     #[arg(long, value_name = "D", value_parser = parse_distance)]
@@ -143,20 +145,6 @@ impl PictureArgs {
         let color_clamp = self.color_clamp.unwrap_or_default();
         RenderSettings { quality, filter, near, sort, color_clamp, ..RenderSettings::default() }
     }
-}
-
-fn parse_color_clamp(name: &str) -> Result<ColorClamp, String> {
-    ColorClamp::from_name(name).ok_or_else(|| "expected trained or khr".to_owned())
-}
-
-fn parse_sort(name: &str) -> Result<SortMode, String> {
-    SortMode::from_name(name).ok_or_else(|| "expected z or ray".to_owned())
-}
-
-/// A quality by name.
-pub(super) fn parse_quality(name: &str) -> Result<Quality, String> {
-    let names = Quality::ALL.map(Quality::name).join(", ");
-    Quality::from_name(name).ok_or_else(|| format!("expected one of {names}"))
 }
 
 fn parse_distance(text: &str) -> Result<f64, String> {

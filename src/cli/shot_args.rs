@@ -2,16 +2,17 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::choice::choice;
 use super::console;
 use super::failure::Failure;
 use super::outputs;
-use crate::director::Director;
-use crate::lens::{self, Call, Decision, EffectChoice};
-use crate::objects::ObjectSet;
-use crate::operator::SolveLevel;
-use crate::pipeline::{self, DirectSettings, Directed, StageTimes};
-use crate::scene::Scene;
-use crate::trajectory::{Shot, retimed};
+use cinesplat::director::Director;
+use cinesplat::lens::{self, Call, Decision, EffectChoice};
+use cinesplat::objects::ObjectSet;
+use cinesplat::operator::SolveLevel;
+use cinesplat::pipeline::{self, DirectSettings, Directed, StageTimes};
+use cinesplat::scene::Scene;
+use cinesplat::trajectory::{Shot, retimed};
 
 /// What a shot is to be like, for `plan` and `render`.
 #[derive(Debug, Clone, Args)]
@@ -76,7 +77,7 @@ impl ShotArgs {
     /// Reads a shot and lets the flags change it.
     pub(super) fn read_shot(&self, path: &Path, scene: &Scene) -> Result<Shot, Failure> {
         let text = outputs::read_text(path)?;
-        let shot = crate::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
+        let shot = cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
         let made_for_another = !shot.scene.sha256.is_empty() && shot.scene.sha256 != scene.sha256;
         if made_for_another {
             console::note(&format!("warning: {} was made for another scene ({})", path.display(), shot.scene.path));
@@ -146,13 +147,8 @@ fn print_effects(decisions: &[Decision]) {
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(super) struct SolveArgs {
     /// How well open choices are made, against time: off (the network's cameras as they are), fast or full
-    #[arg(long = "solve", value_name = "off|fast|full", default_value = "full", value_parser = parse_level)]
+    #[arg(long = "solve", value_name = "off|fast|full", default_value = "full", value_parser = choice::<SolveLevel>())]
     pub(super) level: SolveLevel,
-}
-
-/// A solve level by name.
-pub(super) fn parse_level(name: &str) -> Result<SolveLevel, String> {
-    SolveLevel::from_name(name).ok_or_else(|| "expected off, fast or full".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs, print_up};
 use super::{console, npy, outputs};
-use crate::export::cameras_json::{self, StillCameras};
-use crate::objects;
-use crate::pipeline::{self, Still, StillOutputs};
-use crate::render::{Quality, Weight};
-use crate::scene::Scene;
-use crate::video;
+use cinesplat::export::cameras_json::{self, StillCameras};
+use cinesplat::objects;
+use cinesplat::pipeline::{self, Still, StillOutputs};
+use cinesplat::render::{Quality, Weight};
+use cinesplat::scene::Scene;
+use cinesplat::video;
 
 /// Takes still pictures from given cameras.
 #[derive(Debug, clap::Args)]

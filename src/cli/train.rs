@@ -7,8 +7,9 @@ use std::time::Instant;
 use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
-use crate::director::language::program_to_notation;
-use crate::director::{Director, Marks, Paper, Progress, TrainSettings, examine, train};
+use cinesplat::director::Director;
+use cinesplat::language::program_to_notation;
+use cinesplat::training::{Marks, Paper, Progress, TrainSettings, examine, train};
 
 /// candle's matrix products run on rayon's pool, whose threads spin: two of our own threads with one each are faster.
 const THREADS_VARIABLE: &str = "RAYON_NUM_THREADS";

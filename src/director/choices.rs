@@ -14,18 +14,18 @@ const WORDS_WEIGHT: f64 = 0.3;
 
 /// How sure the network is of one key: the probability of each choice that it made.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct KeyCertainty {
+pub struct KeyCertainty {
     /// `(what, probability)`, only choices that apply.
-    pub(crate) choices: Vec<(&'static str, f64)>,
+    pub choices: Vec<(&'static str, f64)>,
 }
 
 /// What is known of the words before the network reads them.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct WordRules {
+pub struct WordRules {
     /// Quantities that are times.
-    pub(crate) is_time: Vec<bool>,
+    pub is_time: Vec<bool>,
     /// Tokens that surely tell of a move: `push`, `holding`.
-    pub(crate) is_move: Vec<bool>,
+    pub is_move: Vec<bool>,
 }
 
 /// A key that was chosen.

@@ -4,23 +4,24 @@
 //! the list of quantities and in the text. What does not apply (the move of a key that stops) is `None` and is neither
 //! trained nor read.
 
-use crate::operator::{Amount, Framing, Part, Pass, Speed, Via};
-use crate::trajectory::{Easing, Move, ShotAngle, ShotSize};
+use cinesplat_operator::{Amount, Framing, Part, Pass, Speed, Via};
+use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
+use strum::VariantArray;
 
 use super::keys::{Key, Next, Segment};
 
 /// Subjects that a framing can name, and objects that a step can pass.
-pub(crate) const PLACES: usize = 3;
+pub const PLACES: usize = 3;
 
 /// Pointers at objects that a key has: subjects on arrival, subjects on departure, objects on the way.
-pub(crate) const OBJECT_POINTERS: usize = 3 * PLACES;
+pub const OBJECT_POINTERS: usize = 3 * PLACES;
 
 /// Pointers at quantities that a key has: amount and duration.
-pub(crate) const QUANTITY_POINTERS: usize = 2;
+pub const QUANTITY_POINTERS: usize = 2;
 
 /// A choice among classes that a key makes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Field {
+pub enum Field {
     Next,
     Movement,
     With,
@@ -41,11 +42,11 @@ pub(crate) enum Field {
 }
 
 /// Number of fields.
-pub(crate) const NUM_FIELDS: usize = Field::ALL.len();
+pub const NUM_FIELDS: usize = Field::ALL.len();
 
 impl Field {
     /// Every field, in the order in which the network puts them out.
-    pub(crate) const ALL: [Self; 17] = [
+    pub const ALL: [Self; 17] = [
         Self::Next,
         Self::Movement,
         Self::With,
@@ -66,34 +67,34 @@ impl Field {
     ];
 
     /// Number of classes; class 0 of an optional field is "not said".
-    pub(crate) fn num_classes(self) -> usize {
+    pub fn num_classes(self) -> usize {
         match self {
             Self::Next => 3,
-            Self::Movement => Move::ALL.len(),
-            Self::With => 1 + Move::ALL.len(),
+            Self::Movement => Move::VARIANTS.len(),
+            Self::With => 1 + Move::VARIANTS.len(),
             Self::EitherWay | Self::Returns | Self::ArriveWhole | Self::DepartWhole => 2,
             Self::Via => 1 + Pass::ALL.len(),
             Self::Amount => 4,
             Self::Speed => Speed::ALL.len(),
             Self::Easing => 1 + Easing::SPOKEN.len(),
-            Self::ArriveSize | Self::DepartSize => 1 + ShotSize::ALL.len(),
-            Self::ArriveAngle | Self::DepartAngle => 1 + ShotAngle::ALL.len(),
+            Self::ArriveSize | Self::DepartSize => 1 + ShotSize::VARIANTS.len(),
+            Self::ArriveAngle | Self::DepartAngle => 1 + ShotAngle::VARIANTS.len(),
             Self::ArrivePart | Self::DepartPart => Part::ALL.len(),
         }
     }
 
     /// Where its classes begin among all classes.
-    pub(crate) fn offset(self) -> usize {
+    pub fn offset(self) -> usize {
         Self::ALL.iter().take_while(|field| **field != self).map(|field| field.num_classes()).sum()
     }
 
     /// Classes of all fields together.
-    pub(crate) fn total_classes() -> usize {
+    pub fn total_classes() -> usize {
         Self::ALL.iter().map(|field| field.num_classes()).sum()
     }
 
     /// Name in reports.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Next => "next",
             Self::Movement => "move",
@@ -116,7 +117,7 @@ impl Field {
     }
 
     /// When the field applies.
-    pub(crate) fn applies(self, next: u8, is_first: bool) -> bool {
+    pub fn applies(self, next: u8, is_first: bool) -> bool {
         match self {
             Self::Next => true,
             Self::ArriveSize | Self::ArriveAngle | Self::ArrivePart | Self::ArriveWhole => !is_first,
@@ -126,36 +127,36 @@ impl Field {
 }
 
 /// Class of [`Field::Next`]: a segment follows.
-pub(crate) const NEXT_SEGMENT: u8 = 0;
+pub const NEXT_SEGMENT: u8 = 0;
 /// Class of [`Field::Next`]: a cut follows.
-pub(crate) const NEXT_CUT: u8 = 1;
+pub const NEXT_CUT: u8 = 1;
 /// Class of [`Field::Next`]: the film ends.
-pub(crate) const NEXT_STOP: u8 = 2;
+pub const NEXT_STOP: u8 = 2;
 /// Class of [`Field::Amount`]: a quantity of the text.
-pub(crate) const AMOUNT_QUANTITY: u8 = 1;
+pub const AMOUNT_QUANTITY: u8 = 1;
 
 /// A key in numbers. Pointers count from 1; 0 points at nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct KeyCode {
+pub struct KeyCode {
     /// Class of each field of [`Field::ALL`]; `None` where it does not apply or is not known.
-    pub(crate) classes: [Option<u8>; NUM_FIELDS],
+    pub classes: [Option<u8>; NUM_FIELDS],
     /// Places in the list of objects: arrival, departure, on the way, [`PLACES`] each.
-    pub(crate) objects: [Option<u8>; OBJECT_POINTERS],
+    pub objects: [Option<u8>; OBJECT_POINTERS],
     /// Places in the list of quantities: amount, duration.
-    pub(crate) quantities: [Option<u8>; QUANTITY_POINTERS],
+    pub quantities: [Option<u8>; QUANTITY_POINTERS],
     /// First and last token of the words it comes from.
-    pub(crate) span: Option<[usize; 2]>,
+    pub span: Option<[usize; 2]>,
 }
 
 impl KeyCode {
     /// Class of a field; 0 where it does not apply.
-    pub(crate) fn class(&self, field: Field) -> u8 {
+    pub fn class(&self, field: Field) -> u8 {
         let field_idx = Field::ALL.iter().position(|other| *other == field);
         field_idx.and_then(|field_idx| self.classes[field_idx]).unwrap_or(0)
     }
 
     /// Place of the object that the key is about: first on departure, else first on arrival.
-    pub(crate) fn main_object(&self) -> Option<usize> {
+    pub fn main_object(&self) -> Option<usize> {
         let place =
             |pointer: usize| self.objects[pointer].filter(|place| *place > 0).map(|place| usize::from(place) - 1);
         place(PLACES).or_else(|| place(0))
@@ -163,7 +164,7 @@ impl KeyCode {
 }
 
 /// What the places of a [`KeyCode`] stand for in one prompt.
-pub(crate) trait Grounding {
+pub trait Grounding {
     /// Place (from 0) of an object in the list of objects.
     fn object_place(&self, id: u32) -> Option<usize>;
     /// Id of the object at a place.
@@ -183,7 +184,7 @@ pub(crate) trait Grounding {
 }
 
 /// The code of a key; `None` when it names an object that the list lacks or more objects than there are pointers.
-pub(crate) fn encode(key: &Key, is_first: bool, grounding: &impl Grounding) -> Option<KeyCode> {
+pub fn encode(key: &Key, is_first: bool, grounding: &impl Grounding) -> Option<KeyCode> {
     let mut code = KeyCode::default();
     let next = match &key.next {
         Next::Segment(segment) => {
@@ -212,8 +213,8 @@ fn set(code: &mut KeyCode, field: Field, class: u8) {
 /// Sets the four fields of a framing, of which `size_field` is the first.
 fn encode_framing(framing: &Framing, size_field: Field, code: &mut KeyCode) {
     let Some(first) = Field::ALL.iter().position(|field| *field == size_field) else { return };
-    code.classes[first] = Some(optional_class(ShotSize::ALL, framing.size));
-    code.classes[first + 1] = Some(optional_class(ShotAngle::ALL, framing.angle));
+    code.classes[first] = Some(optional_class(ShotSize::VARIANTS, framing.size));
+    code.classes[first + 1] = Some(optional_class(ShotAngle::VARIANTS, framing.angle));
     code.classes[first + 2] = Some(class_of(&Part::ALL, framing.part));
     code.classes[first + 3] = Some(u8::from(framing.whole));
 }
@@ -234,8 +235,8 @@ fn point_at(ids: &[u32], first: usize, grounding: &impl Grounding, code: &mut Ke
 
 fn encode_segment(segment: &Segment, grounding: &impl Grounding, code: &mut KeyCode) -> Option<()> {
     code.span = segment.words.and_then(|bytes| grounding.tokens(bytes));
-    set(code, Field::Movement, class_of(Move::ALL, segment.movement));
-    set(code, Field::With, optional_class(Move::ALL, segment.with));
+    set(code, Field::Movement, class_of(Move::VARIANTS, segment.movement));
+    set(code, Field::With, optional_class(Move::VARIANTS, segment.with));
     set(code, Field::EitherWay, u8::from(segment.either_way));
     set(code, Field::Via, segment.via.as_ref().map_or(0, |via| 1 + class_of(&Pass::ALL, via.how)));
     set(code, Field::Speed, class_of(&Speed::ALL, segment.speed));
@@ -285,7 +286,7 @@ fn optional<T: Copy>(all: &[T], class: u8) -> Option<T> {
 }
 
 /// The key of a code: total, a class that does not exist counts as the first.
-pub(crate) fn decode(code: &KeyCode, grounding: &impl Grounding) -> Key {
+pub fn decode(code: &KeyCode, grounding: &impl Grounding) -> Key {
     let next = match code.class(Field::Next) {
         NEXT_CUT => Next::Cut,
         NEXT_SEGMENT => Next::Segment(decode_segment(code, grounding)),
@@ -304,8 +305,8 @@ pub(crate) fn decode(code: &KeyCode, grounding: &impl Grounding) -> Key {
 fn decode_framing([size, angle, part, whole]: [u8; 4], subjects: Vec<u32>) -> Framing {
     Framing {
         subjects,
-        size: optional(ShotSize::ALL, size),
-        angle: optional(ShotAngle::ALL, angle),
+        size: optional(ShotSize::VARIANTS, size),
+        angle: optional(ShotAngle::VARIANTS, angle),
         part: Part::ALL.get(usize::from(part)).copied().unwrap_or_default(),
         whole: whole == 1,
     }
@@ -328,8 +329,8 @@ fn decode_segment(code: &KeyCode, grounding: &impl Grounding) -> Segment {
     let passed = ids_at(code, 2 * PLACES, grounding);
     let how = optional(&Pass::ALL, code.class(Field::Via));
     Segment {
-        movement: Move::ALL.get(usize::from(code.class(Field::Movement))).copied().unwrap_or(Move::Static),
-        with: optional(Move::ALL, code.class(Field::With)),
+        movement: Move::VARIANTS.get(usize::from(code.class(Field::Movement))).copied().unwrap_or(Move::Static),
+        with: optional(Move::VARIANTS, code.class(Field::With)),
         either_way: code.class(Field::EitherWay) == 1,
         via: how.filter(|_| !passed.is_empty()).map(|how| Via { how, objects: passed }),
         amount: match code.class(Field::Amount) {

@@ -24,13 +24,13 @@ const MOVE_COST: f64 = 2.0;
 
 /// What the network makes of a prompt.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Decoded {
-    pub(crate) keys: Vec<KeyCode>,
-    pub(crate) certainties: Vec<KeyCertainty>,
+pub struct Decoded {
+    pub keys: Vec<KeyCode>,
+    pub certainties: Vec<KeyCertainty>,
     /// One a key.
-    pub(crate) poses: Vec<PoseCode>,
+    pub poses: Vec<PoseCode>,
     /// Place of the film's length among the quantities.
-    pub(crate) film: Option<usize>,
+    pub film: Option<usize>,
 }
 
 impl Decoded {
@@ -57,7 +57,7 @@ struct Reading<'a> {
 }
 
 /// Decodes one prompt.
-pub(crate) fn decode(network: &Network, prompt: &Prompt, batch: &PromptBatch, rules: &WordRules) -> Result<Decoded> {
+pub fn decode(network: &Network, prompt: &Prompt, batch: &PromptBatch, rules: &WordRules) -> Result<Decoded> {
     let memory = network.remember(batch, &Dropout::off())?;
     let reading = Reading { network, prompt, batch, rules, memory };
     let mut decoded = reading.likeliest()?;
@@ -153,7 +153,7 @@ fn poses(
 }
 
 /// For each key whether there is a pose before it, and that pose: `keys * (POSE_WIDTH + 1)`.
-pub(crate) fn previous_poses(poses: &[PoseCode], num_keys: usize) -> Vec<f32> {
+pub fn previous_poses(poses: &[PoseCode], num_keys: usize) -> Vec<f32> {
     let mut out = vec![0.0; num_keys * (POSE_WIDTH + 1)];
     for (pose, row) in poses.iter().zip(out.chunks_exact_mut(POSE_WIDTH + 1).skip(1)) {
         row[0] = 1.0;
@@ -174,6 +174,6 @@ fn pose_code(out: &[f32], anchor: [f32; 3]) -> PoseCode {
 }
 
 /// Rotation to fall back to when the network's is degenerate: looking along -z of the frame, level.
-pub(crate) fn level_rotation() -> DQuat {
+pub fn level_rotation() -> DQuat {
     DQuat::from_rotation_x(std::f64::consts::PI)
 }

@@ -6,14 +6,14 @@ use super::decode::{Decoded, decode, level_rotation};
 use super::frame::SceneFrame;
 use super::ground::{Ground, ground, object_input, others, prompt};
 use super::keys::{boundaries_of, steps_of};
-use super::language::Linked;
 use super::model::{PoseCode, PromptBatch};
 use super::weights::{Model, ModelFiles, embedded};
 use super::{DirectorError, codes::Grounding};
-use crate::geometry::Pose;
-use crate::objects::Object;
-use crate::operator::Program;
-use crate::trajectory::ModelRef;
+use cinesplat_geometry::Pose;
+use cinesplat_language::Linked;
+use cinesplat_objects::Object;
+use cinesplat_operator::Program;
+use cinesplat_trajectory::ModelRef;
 use glam::DVec3;
 
 /// Field of view of pose code 0, rad.
@@ -92,7 +92,7 @@ impl Director {
     }
 
     /// A director from a model in memory.
-    pub(crate) fn of(model: Model) -> Self {
+    pub fn of(model: Model) -> Self {
         Self { model }
     }
 
@@ -168,7 +168,7 @@ fn fov_rad(log_fov: f32) -> f64 {
 }
 
 /// Code of a field of view.
-pub(crate) fn log_fov(fov_y_rad: f64) -> f32 {
+pub fn log_fov(fov_y_rad: f64) -> f32 {
     (fov_y_rad / BASE_FOV_RAD).ln() as f32
 }
 

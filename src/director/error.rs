@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::language::LanguageError;
+use cinesplat_language::LanguageError;
 
 /// What keeps the director from directing.
 #[derive(Debug, Error)]

@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::DirectorError;
-use crate::geometry::{LevelFrame, Pose, rotation};
+use cinesplat_geometry::{LevelFrame, Pose, rotation};
 
 /// A level frame: x to the right of its heading, y up, z against the heading; origin in the middle of the scene, unit =
 /// scene size. Everything that enters or leaves the network is in it.

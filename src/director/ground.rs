@@ -6,23 +6,23 @@ use super::DirectorError;
 use super::codes::Grounding;
 use super::coverage::tells_of_move;
 use super::frame::SceneFrame;
-use super::language::{Linked, Quantity, QuantityKind};
 use super::model::{ObjectInput, Prompt, TokenInput};
 use super::vocabulary::{BEGIN, Token, Vocabulary, object_token};
-use crate::objects::Object;
-use crate::operator::Amount;
+use cinesplat_language::{Linked, Quantity, QuantityKind};
+use cinesplat_objects::Object;
+use cinesplat_operator::Amount;
 
 /// Points of an object's cloud that the network sees.
-pub(crate) const MAX_POINTS: usize = 64;
+pub const MAX_POINTS: usize = 64;
 /// Objects beside those that the text names that the network sees.
-pub(crate) const MAX_OTHERS: usize = 12;
+pub const MAX_OTHERS: usize = 12;
 
 /// What the places of a prompt stand for.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Ground {
+pub struct Ground {
     /// Object ids by place: the slots, then the others.
-    pub(crate) ids: Vec<u32>,
-    pub(crate) quantities: Vec<Quantity>,
+    pub ids: Vec<u32>,
+    pub quantities: Vec<Quantity>,
     /// Byte range of the prompt and quantity for every token, the one that begins the text first.
     tokens: Vec<GroundToken>,
 }
@@ -36,7 +36,7 @@ struct GroundToken {
 }
 
 /// Reads a linked text: tokens as the network wants them (`others` are the ids of the objects that follow the slots).
-pub(crate) fn ground(
+pub fn ground(
     linked: &Linked,
     others: &[u32],
     vocabulary: &Vocabulary,
@@ -83,12 +83,12 @@ fn kind_number(kind: QuantityKind) -> u32 {
 
 impl Ground {
     /// For every quantity whether it is a time.
-    pub(crate) fn is_time(&self) -> Vec<bool> {
+    pub fn is_time(&self) -> Vec<bool> {
         self.quantities.iter().map(|quantity| quantity.kind == QuantityKind::Seconds).collect()
     }
 
     /// For every token whether it begins a word of `text` that surely tells of a move.
-    pub(crate) fn is_move(&self, text: &str) -> Vec<bool> {
+    pub fn is_move(&self, text: &str) -> Vec<bool> {
         let words: Vec<&str> = text.split(' ').collect();
         let mut last = None;
         let mut begins = |token: &GroundToken| {
@@ -163,12 +163,12 @@ impl Grounding for Ground {
 }
 
 /// A whole prompt: text and objects, of which the text names the first `num_named`.
-pub(crate) fn prompt(tokens: Vec<TokenInput>, objects: Vec<ObjectInput>, ground: &Ground, num_named: usize) -> Prompt {
+pub fn prompt(tokens: Vec<TokenInput>, objects: Vec<ObjectInput>, ground: &Ground, num_named: usize) -> Prompt {
     Prompt { tokens, num_quantities: ground.quantities.len(), objects, num_named }
 }
 
 /// An object in the scene's frame, with at most [`MAX_POINTS`] points of its cloud, called `<obj-slot>`.
-pub(crate) fn object_input(object: &Object, slot: usize, frame: &SceneFrame) -> ObjectInput {
+pub fn object_input(object: &Object, slot: usize, frame: &SceneFrame) -> ObjectInput {
     let half_extents = frame.half_extents(object.half_extents, object.rotation);
     let stride = object.points.len().div_ceil(MAX_POINTS).max(1);
     let points: Vec<DVec3> = object.points.iter().step_by(stride).map(|point| frame.point(*point)).collect();
@@ -186,7 +186,7 @@ pub(crate) fn object_input(object: &Object, slot: usize, frame: &SceneFrame) -> 
 }
 
 /// Ids of the objects that the network sees beside the named ones: the nearest to the first named, else the largest.
-pub(crate) fn others(objects: &[Object], named: &[u32]) -> Vec<u32> {
+pub fn others(objects: &[Object], named: &[u32]) -> Vec<u32> {
     let about = named.first().and_then(|id| objects.iter().find(|object| object.id == *id)).map(|object| object.center);
     let rank = |object: &Object| about.map_or(-object.radius(), |about| object.center.distance(about));
     let mut others: Vec<(f64, u32)> =

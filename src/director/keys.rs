@@ -4,8 +4,8 @@
 //! the camera arrives, what it shows when the camera departs, and what comes next. Nothing is lost either way, except
 //! a cut on the first step (there is nothing to cut from) and the words that nobody can do, which are not keys.
 
-use crate::operator::{Amount, Framing, Program, Speed, Step, Via};
-use crate::trajectory::{Easing, Move};
+use cinesplat_operator::{Amount, Framing, Program, Speed, Step, Via};
+use cinesplat_trajectory::{Easing, Move};
 
 /// Most keys that the decoder emits.
 pub const MAX_KEYS: usize = 12;

@@ -11,47 +11,47 @@ use tokenizers::Tokenizer;
 use super::{DirectorError, merges};
 
 /// Identifiers `<obj-0>`.. that a prompt's objects are mapped onto.
-pub(crate) const NUM_OBJECT_SLOTS: usize = super::language::MAX_SLOTS;
+pub const NUM_OBJECT_SLOTS: usize = cinesplat_language::MAX_SLOTS;
 /// Identifiers `<qty-0>`.. that a prompt's quantities are mapped onto.
-pub(crate) const NUM_QUANTITY_SLOTS: usize = super::language::MAX_QUANTITIES;
+pub const NUM_QUANTITY_SLOTS: usize = cinesplat_language::MAX_QUANTITIES;
 /// Most tokens of a prompt.
-pub(crate) const MAX_TOKENS: usize = 256;
+pub const MAX_TOKENS: usize = 256;
 /// Most bytes of a text that is given to the tokenizer at all.
-pub(crate) const MAX_TEXT_BYTES: usize = 8 * 1024;
+pub const MAX_TEXT_BYTES: usize = 8 * 1024;
 
 /// Fills up short texts of a batch.
-pub(crate) const PAD: u32 = 0;
+pub const PAD: u32 = 0;
 // Id 1 is the piece that the vocabulary lacks.
 /// Begins every text.
-pub(crate) const BEGIN: u32 = 2;
+pub const BEGIN: u32 = 2;
 const FIRST_OBJECT: u32 = 3;
 const FIRST_QUANTITY: u32 = FIRST_OBJECT + NUM_OBJECT_SLOTS as u32;
 /// The first id that is no special token.
-pub(crate) const FIRST_PIECE: u32 = FIRST_QUANTITY + NUM_QUANTITY_SLOTS as u32;
+pub const FIRST_PIECE: u32 = FIRST_QUANTITY + NUM_QUANTITY_SLOTS as u32;
 
 /// One token of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Token {
+pub struct Token {
     /// Row of the embedding table.
-    pub(crate) id: u32,
+    pub id: u32,
     /// Byte range of the text.
-    pub(crate) bytes: [usize; 2],
+    pub bytes: [usize; 2],
 }
 
 impl Token {
     /// The object slot that this token stands for.
-    pub(crate) fn object_slot(self) -> Option<usize> {
+    pub fn object_slot(self) -> Option<usize> {
         (FIRST_OBJECT..FIRST_QUANTITY).contains(&self.id).then(|| (self.id - FIRST_OBJECT) as usize)
     }
 
     /// The quantity slot that this token stands for.
-    pub(crate) fn quantity_slot(self) -> Option<usize> {
+    pub fn quantity_slot(self) -> Option<usize> {
         (FIRST_QUANTITY..FIRST_PIECE).contains(&self.id).then(|| (self.id - FIRST_QUANTITY) as usize)
     }
 }
 
 /// Token id of an object slot.
-pub(crate) fn object_token(slot: usize) -> u32 {
+pub fn object_token(slot: usize) -> u32 {
     FIRST_OBJECT + slot.min(NUM_OBJECT_SLOTS - 1) as u32
 }
 
@@ -130,7 +130,7 @@ impl Vocabulary {
     /// # Errors
     /// [`DirectorError::PromptTooLong`] beyond [`MAX_TEXT_BYTES`] or [`MAX_TOKENS`]; [`DirectorError::EmptyPrompt`]
     /// without any token.
-    pub(crate) fn encode(&self, text: &str) -> Result<Vec<Token>, DirectorError> {
+    pub fn encode(&self, text: &str) -> Result<Vec<Token>, DirectorError> {
         // Before the tokenizer sees it: byte-pair encoding of one endless word takes quadratic time.
         if text.len() > MAX_TEXT_BYTES {
             return Err(DirectorError::PromptTooLong { found: text.len() / 4, limit: MAX_TOKENS });

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use strum::VariantArray;
 
 use candle_core::{Device, Tensor};
 use half::f16;
@@ -15,15 +16,15 @@ use sha2::{Digest, Sha256};
 use super::DirectorError;
 use super::model::{ModelConfig, Network, Parameters};
 use super::vocabulary::Vocabulary;
-use crate::operator::{Part, Pass, Speed};
-use crate::trajectory::{Easing, Move, ShotAngle, ShotSize};
+use cinesplat_operator::{Part, Pass, Speed};
+use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 /// Name of the file that describes a model.
-pub(super) const MANIFEST_FILE: &str = "director.json";
+pub const MANIFEST_FILE: &str = "director.json";
 /// Name of the file with the numbers.
-pub(super) const WEIGHTS_FILE: &str = "director.safetensors";
+pub const WEIGHTS_FILE: &str = "director.safetensors";
 /// Name of the file with the vocabulary.
-pub(super) const TOKENIZER_FILE: &str = "director.tokenizer.json";
+pub const TOKENIZER_FILE: &str = "director.tokenizer.json";
 /// Version of the three files that this program reads and writes.
 const VERSION: u32 = 1;
 /// No file of a model is larger than this.
@@ -31,30 +32,30 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// What a model's files are.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Manifest {
+pub struct Manifest {
     format: String,
     version: u32,
     /// Name of the model, as shots carry it.
-    pub(crate) name: String,
+    pub name: String,
     /// Sizes of the network.
-    pub(crate) config: ModelConfig,
+    pub config: ModelConfig,
     /// Names of all classes in order, so that weights of other choices are refused.
     choices: Vec<String>,
     /// SHA-256 of the file with the numbers, hex.
-    pub(crate) weights_sha256: String,
+    pub weights_sha256: String,
     tokenizer_sha256: String,
 }
 
 /// The three files of a model in memory.
 #[derive(Debug, Clone)]
-pub(crate) struct ModelFiles<'a> {
-    pub(crate) manifest: std::borrow::Cow<'a, [u8]>,
-    pub(crate) weights: std::borrow::Cow<'a, [u8]>,
-    pub(crate) tokenizer: std::borrow::Cow<'a, [u8]>,
+pub struct ModelFiles<'a> {
+    pub manifest: std::borrow::Cow<'a, [u8]>,
+    pub weights: std::borrow::Cow<'a, [u8]>,
+    pub tokenizer: std::borrow::Cow<'a, [u8]>,
 }
 
 /// The model that is part of the program.
-pub(crate) fn embedded() -> ModelFiles<'static> {
+pub fn embedded() -> ModelFiles<'static> {
     ModelFiles {
         manifest: include_bytes!("../../models/director.json").into(),
         weights: include_bytes!("../../models/director.safetensors").into(),
@@ -64,7 +65,7 @@ pub(crate) fn embedded() -> ModelFiles<'static> {
 
 impl ModelFiles<'static> {
     /// Reads a model: `path` is its folder, or its `director.json`.
-    pub(crate) fn read(path: &Path) -> Result<Self, DirectorError> {
+    pub fn read(path: &Path) -> Result<Self, DirectorError> {
         let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
         let manifest = if path.is_dir() { path.join(MANIFEST_FILE) } else { path.to_owned() };
         Ok(Self {
@@ -86,16 +87,16 @@ fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {
 
 /// A network with its vocabulary and description.
 #[derive(Debug, Clone)]
-pub(crate) struct Model {
-    pub(crate) manifest: Manifest,
-    pub(crate) vocabulary: Vocabulary,
-    pub(crate) network: Network,
+pub struct Model {
+    pub manifest: Manifest,
+    pub vocabulary: Vocabulary,
+    pub network: Network,
 }
 
 impl Model {
     /// Builds the network that files describe, after checking all of them: format, version, hashes, choices, names,
     /// shapes, types and values of the tensors, and that no tensor is left over.
-    pub(crate) fn load(files: &ModelFiles<'_>) -> Result<Self, DirectorError> {
+    pub fn load(files: &ModelFiles<'_>) -> Result<Self, DirectorError> {
         let manifest: Manifest = serde_json::from_slice(&files.manifest)
             .map_err(|error| bad(&MANIFEST_FILE, error, "a description of version 1"))?;
         check_manifest(&manifest)?;
@@ -141,16 +142,16 @@ fn check_hash(part: &str, bytes: &[u8], expected: &str) -> Result<(), DirectorEr
 }
 
 /// SHA-256 of bytes in hex.
-pub(crate) fn sha256_hex(bytes: &[u8]) -> String {
+pub fn sha256_hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().fold(String::with_capacity(64), |hex, byte| hex + &format!("{byte:02x}"))
 }
 
 /// Names of all classes, in the order in which the heads put them out.
 fn choices() -> Vec<String> {
-    let moves = Move::ALL.iter().map(|choice| choice.name().to_owned());
-    let sizes = ShotSize::ALL.iter().map(|choice| choice.name().to_owned());
-    let angles = ShotAngle::ALL.iter().map(|choice| choice.name().to_owned());
-    let easings = Easing::SPOKEN.iter().map(|choice| choice.name().to_owned());
+    let moves = Move::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let sizes = ShotSize::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let angles = ShotAngle::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let easings = Easing::SPOKEN.iter().map(|choice| choice.as_ref().to_owned());
     let parts = Part::ALL.iter().map(|choice| format!("{choice:?}"));
     let passes = Pass::ALL.iter().map(|choice| format!("{choice:?}"));
     let speeds = Speed::ALL.iter().map(|choice| format!("{choice:?}"));
@@ -158,7 +159,7 @@ fn choices() -> Vec<String> {
 }
 
 /// The tensors of a model's files, after the checks of [`Model::load`].
-pub(crate) fn read_weights(files: &ModelFiles<'_>) -> Result<BTreeMap<String, Tensor>, DirectorError> {
+pub fn read_weights(files: &ModelFiles<'_>) -> Result<BTreeMap<String, Tensor>, DirectorError> {
     Model::load(files)?;
     read_tensors(&files.weights)
 }
@@ -187,7 +188,7 @@ fn bad(part: &dyn std::fmt::Display, found: impl ToString, expected: impl ToStri
 }
 
 /// The three files of a network, its numbers rounded to `f16`.
-pub(crate) fn pack(
+pub fn pack(
     name: &str,
     config: &ModelConfig,
     vocabulary: &Vocabulary,

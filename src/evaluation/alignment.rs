@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 
 use super::singular::{Singular, nearest_rotation, singular};
 use super::{EvaluationError, Trajectory};
-use crate::geometry::LevelFrame;
+use cinesplat_geometry::LevelFrame;
 
 /// Singular values of the covariance below this share of the largest count as none: lateral extents below 0.001 of the
 /// length. A looser bound takes real bends for straight lines, a tighter one lets noise choose the turn about the line.
@@ -17,7 +17,21 @@ const RANK_TOLERANCE: f64 = 1e-6;
 const STILL_TOLERANCE: f64 = 1e-9;
 
 /// What is aligned.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Align {
     /// Nothing.
     #[default]
@@ -32,28 +46,6 @@ pub enum Align {
     Sim3,
     /// Scale alone.
     Scale,
-}
-
-impl Align {
-    /// Every mode.
-    pub const ALL: &'static [Self] = &[Self::None, Self::Origin, Self::Yaw, Self::Se3, Self::Sim3, Self::Scale];
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Origin => "origin",
-            Self::Yaw => "yaw",
-            Self::Se3 => "se3",
-            Self::Sim3 => "sim3",
-            Self::Scale => "scale",
-        }
-    }
-
-    /// The mode with this name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|mode| mode.name() == name)
-    }
 }
 
 /// `p -> rotation * (scale * p) + translation`, and what should be known about it.

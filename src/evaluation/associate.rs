@@ -184,7 +184,7 @@ fn interpolated(
 impl Trajectory {
     /// Appends the pose a share `t` of the way from pose `a` to pose `b` of another path.
     fn push_between(&mut self, path: &Self, a: usize, b: usize, t: f64, time_secs: f64) {
-        use crate::geometry::rotation::slerp;
+        use cinesplat_geometry::rotation::slerp;
         use glam::{DMat3, DQuat};
         let turn = |idx: usize| DQuat::from_mat3(&path.rotations[idx]).normalize();
         let exact = if t <= 0.0 { Some(a) } else { (t >= 1.0).then_some(b) };

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Evaluation, EvaluationError};
-use crate::export::json_write::{Json, object};
+use cinesplat_export::json_write::{Json, object};
 
 /// One comparison of a batch.
 #[derive(Debug, Clone)]

@@ -145,7 +145,7 @@ fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {
         return bad("--diameter", settings.scene_diameter.unwrap_or(0.0), "above 0");
     }
     if settings.relation == Relation::PointDistanceRatio && settings.metric == Metric::Ape {
-        let (setting, found) = ("--relation", settings.relation.name().to_owned());
+        let (setting, found) = ("--relation", settings.relation.as_ref().to_owned());
         return Err(EvaluationError::BadSetting { setting, found, expected: "another one, or --rpe with it" });
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::table::{rows_json, table_text};
 use super::{Smoothness, Tagger, Trajectory, keyframe_table, smoothness};
-use crate::export::json_write::{Json, object};
+use cinesplat_export::json_write::{Json, object};
 
 /// The motion of a path: smoothness, motion tags of both taggers, and a table of its poses, as JSON text.
 pub fn motion_json(path: &Trajectory) -> String {

@@ -6,8 +6,8 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::Trajectory;
-use crate::geometry::{LevelAngles, LevelFrame};
-use crate::trajectory::Move;
+use cinesplat_geometry::{LevelAngles, LevelFrame};
+use cinesplat_trajectory::Move;
 
 /// Turns below are none, rad (1 degree).
 const TURN_RAD: f64 = 0.0175;

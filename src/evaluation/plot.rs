@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::table::table_beside;
 use super::{TableRow, Trajectory};
-use crate::geometry::LevelFrame;
-use crate::plot::{Axis, COLORS, Chart, Entry, Figure, Mark, Series, Symbol};
+use cinesplat_geometry::LevelFrame;
+use cinesplat_plot::{Axis, COLORS, Chart, Entry, Figure, Mark, Series, Symbol};
 
 const WIDTH: f64 = 1240.0;
 const HEIGHT: f64 = 1010.0;

@@ -5,14 +5,30 @@ use glam::{DMat3, DVec3};
 use super::singular::rotation_angle;
 
 /// The part of the error pose E = (R, t) that becomes a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "snake_case")]
 pub enum Relation {
     /// Frobenius norm of E - I, 4 x 4: mixes radians and scene units.
     Full,
     /// Length of t, scene units.
     #[default]
+    #[strum(to_string = "trans", serialize = "trans_part")]
     Trans,
     /// Frobenius norm of R - I, 3 x 3; about sqrt(2) times the angle.
+    #[strum(to_string = "rot", serialize = "rot_part")]
     Rot,
     /// Angle of R in degrees.
     AngleDeg,
@@ -21,44 +37,11 @@ pub enum Relation {
     /// Difference of the distances travelled between two poses, scene units; between single poses the same as `Trans`.
     PointDistance,
     /// The same over the reference's distance, in percent; relative errors only.
+    #[strum(to_string = "point_distance_ratio", serialize = "point_distance_error_ratio")]
     PointDistanceRatio,
 }
 
 impl Relation {
-    /// Every relation.
-    pub const ALL: &'static [Self] = &[
-        Self::Full,
-        Self::Trans,
-        Self::Rot,
-        Self::AngleDeg,
-        Self::AngleRad,
-        Self::PointDistance,
-        Self::PointDistanceRatio,
-    ];
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Full => "full",
-            Self::Trans => "trans",
-            Self::Rot => "rot",
-            Self::AngleDeg => "angle_deg",
-            Self::AngleRad => "angle_rad",
-            Self::PointDistance => "point_distance",
-            Self::PointDistanceRatio => "point_distance_ratio",
-        }
-    }
-
-    /// The relation with this name; evo's `trans_part`, `rot_part` and `point_distance_error_ratio` too.
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "trans_part" => Some(Self::Trans),
-            "rot_part" => Some(Self::Rot),
-            "point_distance_error_ratio" => Some(Self::PointDistanceRatio),
-            _ => Self::ALL.iter().copied().find(|relation| relation.name() == name),
-        }
-    }
-
     /// Unit of the errors; empty for norms of matrices.
     pub fn unit(self) -> &'static str {
         match self {

@@ -2,7 +2,7 @@
 
 use super::motion::motion_value;
 use super::{Evaluation, Metric};
-use crate::export::json_write::{Json, object};
+use cinesplat_export::json_write::{Json, object};
 
 impl Evaluation {
     /// The text of one JSON object. At its top level: `rmse mean median std min max sse` in the relation's unit, `pairs`
@@ -27,9 +27,9 @@ impl Evaluation {
             put(name, value.into());
         }
         put("pairs", self.errors.len().into());
-        put("relation", settings.relation.name().into());
+        put("relation", settings.relation.as_ref().into());
         put("unit", settings.relation.unit().into());
-        put("align", settings.align.name().into());
+        put("align", settings.align.as_ref().into());
         put("scale", self.alignment.scale.into());
         let rotation = self.alignment.rotation.transpose();
         put("rotation", Json::list([rotation.x_axis, rotation.y_axis, rotation.z_axis]));

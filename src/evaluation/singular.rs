@@ -66,5 +66,5 @@ pub(super) fn nearest_rotation(matrix: DMat3) -> DMat3 {
 
 /// Angle in 0..=pi of the rotation nearest to a matrix that is one but for rounding; exact near 0 and pi.
 pub(super) fn rotation_angle(matrix: DMat3) -> f64 {
-    crate::geometry::rotation::angle(glam::DQuat::from_mat3(&nearest_rotation(matrix)))
+    cinesplat_geometry::rotation::angle(glam::DQuat::from_mat3(&nearest_rotation(matrix)))
 }

@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3};
 
 use super::Trajectory;
 use super::fourier::magnitudes;
-use crate::geometry::rotation;
+use cinesplat_geometry::rotation;
 
 /// Frequencies above do not count in the spectral arc length, Hz.
 const MAX_FREQUENCY_HZ: f64 = 10.0;

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use glam::{DQuat, DVec3};
 
 use super::Trajectory;
-use crate::export::json_write::{Json, object};
-use crate::geometry::LevelFrame;
+use cinesplat_export::json_write::{Json, object};
+use cinesplat_geometry::LevelFrame;
 
 /// One pose of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]

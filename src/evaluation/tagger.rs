@@ -8,7 +8,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::Trajectory;
-use crate::geometry::rotation;
+use cinesplat_geometry::rotation;
 
 /// Speed above which an axis is active, units a second.
 const ACTIVE_SPEED: f64 = 0.02;

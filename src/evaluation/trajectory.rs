@@ -1,7 +1,7 @@
 use glam::{DMat3, DVec3};
 
-use crate::export::PoseTrack;
-use crate::geometry::Pose;
+use cinesplat_export::PoseTrack;
+use cinesplat_geometry::Pose;
 
 /// A camera path as error measures see it: poses with rotation matrices as they stood in their file.
 ///
@@ -23,7 +23,8 @@ pub struct Trajectory {
 
 impl From<&PoseTrack> for Trajectory {
     fn from(track: &PoseTrack) -> Self {
-        let rotation = |frame: &crate::export::PoseFrame| frame.matrix.unwrap_or(DMat3::from_quat(frame.pose.rotation));
+        let rotation =
+            |frame: &cinesplat_export::PoseFrame| frame.matrix.unwrap_or(DMat3::from_quat(frame.pose.rotation));
         Self {
             times_secs: track.timed.then(|| track.frames.iter().map(|frame| frame.time_secs).collect()),
             positions: track.frames.iter().map(|frame| frame.pose.position).collect(),

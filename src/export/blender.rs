@@ -9,8 +9,8 @@ use super::json_read::{self, Node};
 use super::json_write::Json;
 use super::opengl::{from_opengl_rotation, opengl_rotation};
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
-use crate::geometry::frames::z_up_from_world;
-use crate::trajectory::Easing;
+use cinesplat_geometry::frames::z_up_from_world;
+use cinesplat_trajectory::Easing;
 
 const DATA_START: &str = "DATA = ";
 const DATA_END: &str = "# end of DATA";
@@ -105,7 +105,7 @@ fn frame_json(time_secs: f64, frame: &PoseFrame) -> Json {
     ];
     fields.extend(frame.focus_distance.map(|distance| ("focus_distance", distance.into())));
     fields.extend(frame.cut.then(|| ("cut", 1_u32.into())));
-    fields.extend((frame.easing != Easing::Linear).then(|| ("easing", frame.easing.name().into())));
+    fields.extend((frame.easing != Easing::Linear).then(|| ("easing", frame.easing.as_ref().into())));
     Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
@@ -130,7 +130,7 @@ fn read_frame(node: &Node) -> Result<PoseFrame, ExportError> {
     let [w, x, y, z] = node.field("opengl_rotation_wxyz", "4 numbers")?.numbers()?;
     let position = node.field("position", "3 numbers")?.vector()?;
     let pose = from_opengl_rotation(position, glam::DQuat::from_xyzw(x, y, z, w));
-    let easing = node.optional("easing").map(|name| name.text()).transpose()?.and_then(Easing::from_name);
+    let easing = node.optional("easing").map(|name| name.text()).transpose()?.and_then(|name| name.parse().ok());
     Ok(PoseFrame {
         fov_y_rad: Some(node.field("fov_y_rad", "rad")?.number()?),
         focus_distance: node.optional("focus_distance").map(|distance| distance.number()).transpose()?,

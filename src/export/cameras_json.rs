@@ -2,7 +2,7 @@
 
 use super::ExportError;
 use super::json_read::{self, Node};
-use crate::geometry::{Camera, Intrinsics, Pose};
+use cinesplat_geometry::{Camera, Intrinsics, Pose};
 
 /// What a `cameras.json` says.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 use super::ExportError;
 use super::json_read::Node;
 use super::json_write::{Json, object};
-use crate::trajectory::{ClearanceFailure, ClearanceProof, Shot};
+use cinesplat_trajectory::{ClearanceFailure, ClearanceProof, Shot};
 
 /// The proof of a shot.
 pub(super) fn write(proof: &ClearanceProof, shot: &Shot) -> Json {
@@ -77,9 +77,9 @@ fn keys_sha256(shot: &Shot) -> String {
         numbers(&key.pose.position.to_array());
     }
     for key in &shot.keyframes {
-        digest.update(key.easing.name());
+        digest.update(key.easing.as_ref());
         let intent = key.intent.as_ref();
-        digest.update(intent.and_then(|intent| intent.movement).map_or("", |movement| movement.name()));
+        digest.update(intent.and_then(|intent| intent.movement).map_or("", <&str>::from));
         for value in intent.and_then(|intent| intent.pivot).map_or([f64::NAN; 3], |pivot| pivot.to_array()) {
             digest.update(value.to_bits().to_le_bytes());
         }

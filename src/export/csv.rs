@@ -11,8 +11,8 @@ use super::columns::{bad_line, joined, number};
 use super::shot_json::level_angles;
 use super::track::{PoseFrame, PoseTrack};
 use super::tum::unit_pose;
-use crate::geometry::LevelFrame;
-use crate::trajectory::Easing;
+use cinesplat_geometry::LevelFrame;
+use cinesplat_trajectory::Easing;
 
 const COLUMNS: &str = "time_secs,x,y,z,qx,qy,qz,qw,yaw_deg,pitch_deg,roll_deg,fov_y_deg,focus_distance,easing,cut\n";
 
@@ -28,7 +28,7 @@ pub(super) fn write(track: &PoseTrack) -> String {
         );
         let fov = frame.fov_y_rad.map(|rad| rad.to_degrees().to_string()).unwrap_or_default();
         let focus = frame.focus_distance.map(|d| d.to_string()).unwrap_or_default();
-        let (time_secs, pose, easing) = (frame.time_secs, joined(pose, ","), frame.easing.name());
+        let (time_secs, pose, easing) = (frame.time_secs, joined(pose, ","), frame.easing.as_ref());
         let _ = writeln!(out, "{time_secs},{pose},{euler},{fov},{focus},{easing},{}", u8::from(frame.cut));
     }
     out
@@ -64,7 +64,7 @@ fn read_row(
             number(line, cell(Some(*idx)).ok_or_else(|| bad_line(line, text, "as many cells as the first line"))?)?;
     }
     let pose = unit_pose(DVec3::new(v[1], v[2], v[3]), DQuat::from_xyzw(v[4], v[5], v[6], v[7]));
-    let easing = cell(easing).map(|name| Easing::from_name(name).ok_or_else(|| bad_line(line, name, "an easing")));
+    let easing = cell(easing).map(|name| name.parse::<Easing>().map_err(|_| bad_line(line, name, "an easing")));
     Ok(PoseFrame {
         fov_y_rad: cell(fov).map(|cell| number(line, cell)).transpose()?.map(f64::to_radians),
         focus_distance: cell(focus).map(|cell| number(line, cell)).transpose()?,

@@ -9,7 +9,7 @@ use super::{
     ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, redwood_log,
     shot_json, supersplat, transforms, tum, usd,
 };
-use crate::trajectory::Shot;
+use cinesplat_trajectory::Shot;
 
 /// What of a shot is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -49,7 +49,7 @@ pub fn write(path: &Path, format: Format, shot: &Shot, settings: &ExportSettings
     let mut warnings = write_poses(path, format, &track)?;
     if settings.content == Content::Keyframes && shot.keyframes.len() > 2 {
         let what = "joins the keys by a curve of its own: export without --keyframes for the film's path";
-        warnings.push(format!("{} {what}", format.name()));
+        warnings.push(format!("{} {what}", format.as_ref()));
     }
     Ok(warnings)
 }

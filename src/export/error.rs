@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::trajectory::TrajectoryError;
+use cinesplat_trajectory::TrajectoryError;
 
 /// What can go wrong between a shot and another program's file. Indices and lines: keyframes and frames count from 0,
 /// lines from 1.

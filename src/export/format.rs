@@ -3,7 +3,21 @@ use std::path::Path;
 use serde_json::Value;
 
 /// The file formats of camera paths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Format {
     /// TUM RGB-D: seconds, position, quaternion a line.
     Tum,
@@ -50,49 +64,6 @@ pub(super) struct Holds {
 }
 
 impl Format {
-    /// Every format, in the order of the help text.
-    pub const ALL: &'static [Self] = &[
-        Self::Tum,
-        Self::Kitti,
-        Self::Euroc,
-        Self::Nerfstudio,
-        Self::Transforms,
-        Self::Colmap,
-        Self::Supersplat,
-        Self::Lichtfeld,
-        Self::Gltf,
-        Self::Usd,
-        Self::Blender,
-        Self::Csv,
-        Self::Log,
-        Self::Shot,
-    ];
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tum => "tum",
-            Self::Kitti => "kitti",
-            Self::Euroc => "euroc",
-            Self::Nerfstudio => "nerfstudio",
-            Self::Transforms => "transforms",
-            Self::Colmap => "colmap",
-            Self::Supersplat => "supersplat",
-            Self::Lichtfeld => "lichtfeld",
-            Self::Gltf => "gltf",
-            Self::Usd => "usd",
-            Self::Blender => "blender",
-            Self::Csv => "csv",
-            Self::Log => "log",
-            Self::Shot => "shot",
-        }
-    }
-
-    /// The format with this name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|format| format.name() == name)
-    }
-
     /// The format that a path to be written stands for; `None` where the name leaves it open.
     ///
     /// Whole names first (`transforms.json`, `camera_path.json`, `images.bin`), then a part before the extension
@@ -110,7 +81,7 @@ impl Format {
         if stem.starts_with("transforms") && extension == "json" {
             return Some(Self::Transforms);
         }
-        let inner = stem.rsplit(['.', '_']).next().and_then(Self::from_name);
+        let inner = stem.rsplit(['.', '_']).next().and_then(|name| name.parse().ok());
         match extension {
             "json" | "txt" => match stem {
                 _ if stem == "shot" => Some(Self::Shot),

@@ -2,12 +2,13 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use strum::VariantArray;
 
 use super::{
     ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, redwood_log,
     shot_json, supersplat, transforms, tum, usd,
 };
-use crate::trajectory::Shot;
+use cinesplat_trajectory::Shot;
 
 /// Largest file that is read, bytes: camera paths are small, a scene given by mistake is not.
 const MAX_FILE_BYTES: u64 = 1 << 30;
@@ -98,7 +99,7 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
 }
 
 fn unknown_content() -> ExportError {
-    let names: Vec<&str> = Format::ALL.iter().map(|format| format.name()).collect();
+    let names: Vec<&str> = Format::VARIANTS.iter().map(|format| format.as_ref()).collect();
     ExportError::WrongFormat { found: "content of no format that is known".into(), expected: names.join(", ") }
 }
 

@@ -7,7 +7,7 @@ const MAX_LINE_CHARS: usize = 112;
 
 /// A JSON value to be written. Numbers that are not finite become `null`.
 #[derive(Debug, Clone)]
-pub(crate) enum Json {
+pub enum Json {
     /// A finished token: number, string, `true`, `null`.
     Token(String),
     /// A list.
@@ -17,19 +17,19 @@ pub(crate) enum Json {
 }
 
 /// An object from names and values.
-pub(crate) fn object<const N: usize>(fields: [(&str, Json); N]) -> Json {
+pub fn object<const N: usize>(fields: [(&str, Json); N]) -> Json {
     Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
 impl Json {
-    pub(crate) const NULL: fn() -> Json = || Json::Token("null".to_owned());
+    pub const NULL: fn() -> Json = || Json::Token("null".to_owned());
 
-    pub(crate) fn list(items: impl IntoIterator<Item = impl Into<Json>>) -> Self {
+    pub fn list(items: impl IntoIterator<Item = impl Into<Json>>) -> Self {
         Self::List(items.into_iter().map(Into::into).collect())
     }
 
     /// The value's text; ends with a line feed.
-    pub(crate) fn pretty(&self) -> String {
+    pub fn pretty(&self) -> String {
         let mut out = String::new();
         self.lay_out(0, &mut out);
         out.push('\n');
@@ -183,11 +183,11 @@ impl From<glam::DQuat> for Json {
 }
 
 /// A 4 x 4 matrix as nested rows.
-pub(crate) fn matrix_rows(matrix: glam::DMat4) -> Json {
+pub fn matrix_rows(matrix: glam::DMat4) -> Json {
     Json::list((0..4).map(|row| Json::list(matrix.row(row).to_array())))
 }
 
 /// The 16 numbers of a 4 x 4 matrix, row by row.
-pub(crate) fn matrix_flat(matrix: glam::DMat4) -> Json {
+pub fn matrix_flat(matrix: glam::DMat4) -> Json {
     Json::list(matrix.transpose().to_cols_array())
 }

@@ -5,7 +5,7 @@ use super::ExportError;
 use super::columns::{bad_line, data_lines, joined, numbers};
 use super::json_read::matrix_from_rows;
 use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack};
-use crate::geometry::Pose;
+use cinesplat_geometry::Pose;
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let mut out = String::new();

@@ -7,7 +7,7 @@ use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use super::opengl::{from_opengl_rotation, opengl_rotation};
 use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack, fov_y_or_default};
-use crate::trajectory::Easing;
+use cinesplat_trajectory::Easing;
 
 const VERSION: u32 = 4;
 /// Height of the frame that focal lengths refer to, mm.

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::format::Format;
 use super::track::{PoseFrame, PoseTrack};
 use super::{lichtfeld, opengl};
-use crate::geometry::LevelFrame;
-use crate::trajectory::Easing;
+use cinesplat_geometry::LevelFrame;
+use cinesplat_trajectory::Easing;
 
 /// Most keys of a camera animation that SuperSplat's authoring limits allow.
 const SUPERSPLAT_MAX_KEYS: usize = 1000;
@@ -19,7 +19,7 @@ pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
     let mut lines = Vec::new();
     let mut lost = |is_lost: bool, what: String| {
         if is_lost {
-            lines.push(format!("{} {what}", format.name()));
+            lines.push(format!("{} {what}", format.as_ref()));
         }
     };
     let any = |test: fn(&PoseFrame) -> bool| track.frames.iter().any(test);
@@ -57,7 +57,7 @@ fn out_of_range(format: Format, track: &PoseTrack) -> Option<String> {
         Format::Supersplat if track.frames.len() > SUPERSPLAT_MAX_KEYS => {
             Some(format!("supersplat's editor takes at most {SUPERSPLAT_MAX_KEYS} keys: lower --fps"))
         }
-        Format::Gltf | Format::Usd => opengl::unknown_up(format.name(), track.up),
+        Format::Gltf | Format::Usd => opengl::unknown_up(format.as_ref(), track.up),
         Format::Blender if track.up.is_none() => Some("blender takes +z as up: the scene's up is not known".into()),
         _ => None,
     }

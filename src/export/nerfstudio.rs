@@ -11,7 +11,7 @@ use super::ExportError;
 use super::json_read::{self, Node, matrix_from_rows};
 use super::json_write::{Json, matrix_flat, object};
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
-use crate::geometry::frames::{from_opengl, to_opengl};
+use cinesplat_geometry::frames::{from_opengl, to_opengl};
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);

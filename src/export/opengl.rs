@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::geometry::Pose;
+use cinesplat_geometry::Pose;
 
 /// Half a turn about x: OpenCV camera axes from OpenGL ones, and back.
 const HALF_TURN_X: DQuat = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);

@@ -5,14 +5,15 @@
 //! know and refuse another `format` or `version`.
 
 use glam::DQuat;
+use strum::VariantArray;
 
 use super::ExportError;
 use super::clearance_json;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
-use crate::geometry::{LevelAngles, LevelFrame, Pose};
-use crate::trajectory::{Easing, Move, ShotAngle, ShotSize};
-use crate::trajectory::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
+use cinesplat_geometry::{LevelAngles, LevelFrame, Pose};
+use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
+use cinesplat_trajectory::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
 
 /// Value of the `format` key.
 pub(super) const FORMAT: &str = "cinesplat.shot";
@@ -101,7 +102,7 @@ fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
         pose: Pose { position, rotation },
         fov_y_rad: node.field("fov_y_deg", "degrees")?.number()?.to_radians(),
         focus_distance: node.optional("focus_distance").map(|d| d.number()).transpose()?,
-        easing: named(node, "easing", Easing::ALL, Easing::name)?.unwrap_or(Easing::Smooth),
+        easing: named(node, "easing", Easing::VARIANTS, <&str>::from)?.unwrap_or(Easing::Smooth),
         cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
         intent: node.optional("intent").map(|intent| read_intent(&intent)).transpose()?,
     })
@@ -132,9 +133,9 @@ fn read_intent(node: &Node) -> Result<Intent, ExportError> {
     });
     Ok(Intent {
         subjects,
-        size: named(node, "size", ShotSize::ALL, ShotSize::name)?,
-        movement: named(node, "move", Move::ALL, Move::name)?,
-        angle: named(node, "angle", ShotAngle::ALL, ShotAngle::name)?,
+        size: named(node, "size", ShotSize::VARIANTS, <&str>::from)?,
+        movement: named(node, "move", Move::VARIANTS, <&str>::from)?,
+        angle: named(node, "angle", ShotAngle::VARIANTS, <&str>::from)?,
         words: words.transpose()?,
         pivot: node.optional("pivot").map(|pivot| pivot.vector()).transpose()?,
     })
@@ -227,7 +228,7 @@ fn keyframe_json(key: &Keyframe, euler: Option<LevelAngles>) -> Json {
     fields.extend([
         ("fov_y_deg", key.fov_y_rad.to_degrees().into()),
         ("focus_distance", key.focus_distance.into()),
-        ("easing", key.easing.name().into()),
+        ("easing", key.easing.as_ref().into()),
         ("cut", key.cut.into()),
     ]);
     if let Some(intent) = &key.intent {
@@ -239,9 +240,9 @@ fn keyframe_json(key: &Keyframe, euler: Option<LevelAngles>) -> Json {
 fn intent_json(intent: &Intent) -> Json {
     let mut fields = vec![("subjects".to_owned(), Json::list(intent.subjects.iter().copied()))];
     let names = [
-        ("size", intent.size.map(ShotSize::name)),
-        ("move", intent.movement.map(Move::name)),
-        ("angle", intent.angle.map(ShotAngle::name)),
+        ("size", intent.size.map(<&str>::from)),
+        ("move", intent.movement.map(<&str>::from)),
+        ("angle", intent.angle.map(<&str>::from)),
     ];
     fields.extend(names.into_iter().filter_map(|(field, name)| Some((field.to_owned(), name?.into()))));
     fields.extend(intent.words.map(|words| ("words".to_owned(), Json::list(words))));

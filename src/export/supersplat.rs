@@ -11,8 +11,8 @@ use super::ExportError;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
-use crate::geometry::Pose;
-use crate::trajectory::Easing;
+use cinesplat_geometry::Pose;
+use cinesplat_trajectory::Easing;
 
 /// Cap on the size of the document inside a project.
 const MAX_DOCUMENT_BYTES: u64 = 64 << 20;

@@ -1,8 +1,8 @@
 use glam::{DMat3, DVec3};
 
 use super::ExportError;
-use crate::geometry::Pose;
-use crate::trajectory::{CameraPath, Easing, Keyframe, SceneRef, Shot, TrajectoryError};
+use cinesplat_geometry::Pose;
+use cinesplat_trajectory::{CameraPath, Easing, Keyframe, SceneRef, Shot, TrajectoryError};
 
 /// Vertical field of view that a shot gets when its file holds none, in degrees.
 pub const DEFAULT_FOV_Y_DEG: f64 = 50.0;

@@ -10,7 +10,7 @@ use super::ExportError;
 use super::json_read::{self, Node};
 use super::json_write::{Json, matrix_rows, object};
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
-use crate::geometry::frames::{from_opengl, to_opengl};
+use cinesplat_geometry::frames::{from_opengl, to_opengl};
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use super::ExportError;
 use super::columns::{bad_line, data_lines, joined, numbers};
 use super::track::{PoseFrame, PoseTrack};
-use crate::geometry::Pose;
+use cinesplat_geometry::Pose;
 
 /// Rotations whose quaternion is off unit length by more are refused: they are likely other columns.
 const UNIT_TOLERANCE: f64 = 0.05;

@@ -1,5 +1,5 @@
 use super::{Effect, EffectChoice};
-use crate::trajectory::{EffectRequest, ReportLine};
+use cinesplat_trajectory::{EffectRequest, ReportLine};
 
 /// Something beside the camera's path that is called for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,7 +46,7 @@ pub fn decide(choice: &EffectChoice, calls: &[Call]) -> Vec<Decision> {
         EffectChoice::Auto | EffectChoice::Off => &[],
     };
     for call in calls {
-        let outcome = match (Effect::from_name(&call.kind), choice) {
+        let outcome = match (call.kind.parse::<Effect>().ok(), choice) {
             (None, _) => Outcome::NotOfTheLens,
             (Some(_), EffectChoice::Auto) => Outcome::NotBuilt,
             (Some(effect), _) if chosen.contains(&effect) => Outcome::NotBuilt,
@@ -55,8 +55,8 @@ pub fn decide(choice: &EffectChoice, calls: &[Call]) -> Vec<Decision> {
         decisions.push(Decision { call: call.clone(), outcome });
     }
     for effect in chosen {
-        if !decisions.iter().any(|decision| decision.call.kind == effect.name()) {
-            let call = Call { kind: effect.name().to_owned(), because: "--effects".to_owned() };
+        if !decisions.iter().any(|decision| decision.call.kind == effect.as_ref()) {
+            let call = Call { kind: effect.as_ref().to_owned(), because: "--effects".to_owned() };
             decisions.push(Decision { call, outcome: Outcome::NotBuilt });
         }
     }

@@ -3,7 +3,23 @@ use std::str::FromStr;
 use thiserror::Error;
 
 /// An effect of the lens or the film stock, by its name in `--effects` and in `shot.json`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    PartialOrd,
+    Ord,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Effect {
     /// What is out of focus blurs.
     DepthOfField,
@@ -39,55 +55,6 @@ pub enum Effect {
     ChromaticAberration,
 }
 
-impl Effect {
-    /// Every effect, in the order of the help text.
-    pub const ALL: [Self; 16] = [
-        Self::DepthOfField,
-        Self::RackFocus,
-        Self::MotionBlur,
-        Self::Handheld,
-        Self::RollingShutter,
-        Self::LensDistortion,
-        Self::Fisheye,
-        Self::Panorama,
-        Self::Anamorphic,
-        Self::TiltShift,
-        Self::Fog,
-        Self::FilmGrain,
-        Self::Vignette,
-        Self::LensFlare,
-        Self::Bloom,
-        Self::ChromaticAberration,
-    ];
-
-    /// The name in commands and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DepthOfField => "depth-of-field",
-            Self::RackFocus => "rack-focus",
-            Self::MotionBlur => "motion-blur",
-            Self::Handheld => "handheld",
-            Self::RollingShutter => "rolling-shutter",
-            Self::LensDistortion => "lens-distortion",
-            Self::Fisheye => "fisheye",
-            Self::Panorama => "panorama",
-            Self::Anamorphic => "anamorphic",
-            Self::TiltShift => "tilt-shift",
-            Self::Fog => "fog",
-            Self::FilmGrain => "film-grain",
-            Self::Vignette => "vignette",
-            Self::LensFlare => "lens-flare",
-            Self::Bloom => "bloom",
-            Self::ChromaticAberration => "chromatic-aberration",
-        }
-    }
-
-    /// The effect of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|effect| effect.name() == name)
-    }
-}
-
 /// Which effects a person wants.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum EffectChoice {
@@ -102,7 +69,7 @@ pub enum EffectChoice {
 
 /// A name in `--effects` that is no effect.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no effect is named {found:?}, expected auto, off, or a list of: {}", Effect::ALL.map(Effect::name).join(" "))]
+#[error("no effect is named {found:?}, expected auto, off, or a list of: {}", <Effect as strum::VariantNames>::VARIANTS.join(" "))]
 pub struct UnknownEffect {
     /// The name.
     pub found: String,
@@ -117,7 +84,7 @@ impl FromStr for EffectChoice {
             "auto" => Ok(Self::Auto),
             "off" => Ok(Self::Off),
             names => {
-                let named = |name: &str| Effect::from_name(name).ok_or(UnknownEffect { found: name.to_owned() });
+                let named = |name: &str| name.parse::<Effect>().ok().ok_or(UnknownEffect { found: name.to_owned() });
                 names.split(',').map(|name| named(name.trim())).collect::<Result<_, _>>().map(Self::These)
             }
         }

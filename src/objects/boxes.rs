@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{Object, ObjectSet};
-use crate::geometry::LevelFrame;
-use crate::scene::Gaussians;
+use cinesplat_geometry::LevelFrame;
+use cinesplat_scene::Gaussians;
 
 /// Opacity from which a Gaussian counts as solid.
 const SOLID_OPACITY: f32 = 0.5;

@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use super::alpha_shape::AlphaShapes;
 use super::sampling::{farthest_points, in_canonical_order};
 use super::{Object, ObjectSet, ObjectsError, boxes, radius_search, views};
-use crate::geometry::Camera;
-use crate::render::{Quality, RenderSettings, Renderer};
-use crate::scene::{Gaussians, Scene, SplatFilter};
+use cinesplat_geometry::Camera;
+use cinesplat_render::{Quality, RenderSettings, Renderer};
+use cinesplat_scene::{Gaussians, Scene, SplatFilter};
 
 /// Opacity from which a Gaussian may carry the border: fainter ones are haze about the surface.
 const SOLID_OPACITY: f32 = 0.5;

@@ -11,7 +11,7 @@ use glam::{DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
 use super::{Object, ObjectSet, ObjectsError, boxes, npy};
-use crate::scene::Scene;
+use cinesplat_scene::Scene;
 
 /// Value of the key `format`.
 const FORMAT: &str = "cinesplat.objects";

@@ -12,7 +12,7 @@ use super::planes::{PlaneKind, ScenePlane, find_planes};
 use super::segments::{components, split_by_color};
 use super::voxels::VoxelGrid;
 use super::{Object, ObjectSet, boxes, color, naming};
-use crate::scene::Scene;
+use cinesplat_scene::Scene;
 
 /// Knobs of the search for objects.
 #[derive(Debug, Clone, PartialEq)]

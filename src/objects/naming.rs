@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::boxes::UprightBox;
 use super::{Object, color};
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// A description such as `large turquoise object` or `tall brown panel`.
 ///

@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use super::drawing::{self, Ink};
 use super::viewpoints::{IdPicture, Surveyor};
 use super::{Object, ObjectSet, ObjectsError};
-use crate::geometry::{Camera, Intrinsics};
-use crate::render::{Quality, RenderSettings, Renderer};
-use crate::scene::{Scene, SplatFilter};
+use cinesplat_geometry::{Camera, Intrinsics};
+use cinesplat_render::{Quality, RenderSettings, Renderer};
+use cinesplat_scene::{Scene, SplatFilter};
 
 /// Size and layout of a sheet.
 #[derive(Debug, Clone, PartialEq)]

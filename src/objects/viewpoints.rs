@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::{Object, ObjectSet};
-use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
-use crate::scene::Scene;
+use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
+use cinesplat_scene::Scene;
 
 /// Opacity from which a Gaussian hides what is behind it.
 const SOLID_OPACITY: f32 = 0.3;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Object;
-use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
+use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
 
 /// Vertical field of view of the virtual cameras: narrow, so that a silhouette is nearly the object's outline.
 const FOV_Y_RAD: f64 = 0.5;

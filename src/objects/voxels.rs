@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3, IVec3, Mat3, Quat, Vec3};
 use rayon::prelude::*;
 
 use super::color;
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// Opacity below which a Gaussian fills nothing.
 const FAINT_OPACITY: f32 = 0.1;

@@ -10,7 +10,7 @@ use super::report::clause;
 use super::route::{NoRoute, Route, route};
 use super::world::World;
 use super::{OPACITY_FLOOR, Program, SIGMA_LEVEL};
-use crate::trajectory::{CameraPath, ClearanceProof, Keyframe, Move, ReportLine};
+use cinesplat_trajectory::{CameraPath, ClearanceProof, Keyframe, Move, ReportLine};
 
 /// How much longer a part may take for going around, over what it took.
 const LONGEST_DETOUR: f64 = 2.5;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::framing::Target;
-use crate::trajectory::{CameraState, Easing, Intent, Keyframe, Move, ShotAngle, ShotSize};
+use cinesplat_trajectory::{CameraState, Easing, Intent, Keyframe, Move, ShotAngle, ShotSize};
 
 /// Choices that a step leaves open, each 0..1; what each one means is up to the move.
 pub(super) type Genes = [f64; NUM_GENES];

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::draft::Part;
 use super::world::World;
-use crate::geometry::rotation;
-use crate::trajectory::{Keyframe, ReportLine};
+use cinesplat_geometry::rotation;
+use cinesplat_trajectory::{Keyframe, ReportLine};
 
 /// Roll that counts as a dutch angle, degrees either way.
 const BAND_DEG: (f64, f64) = (5.0, 35.0);

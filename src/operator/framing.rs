@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::world::{Subject, World};
 use super::{Framing, Part};
-use crate::geometry::Pose;
-use crate::trajectory::CameraState;
+use cinesplat_geometry::Pose;
+use cinesplat_trajectory::CameraState;
 
 /// Width over height of the frame that shots are planned for, when nothing else is asked.
 pub const DEFAULT_ASPECT: f64 = 16.0 / 9.0;

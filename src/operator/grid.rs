@@ -2,7 +2,7 @@
 
 use glam::{DVec3, IVec3, UVec3};
 
-use crate::scene::{Bounds, Gaussians};
+use cinesplat_scene::{Bounds, Gaussians};
 
 /// Cells along the scene's size. Finer cells see through narrower gaps and cost their cube in time and memory; at 110
 /// a room of 7 m has cells of 6 cm, which keeps table legs and bottles.

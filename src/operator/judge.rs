@@ -6,8 +6,8 @@ use super::clearance::{Search, least_clearance};
 use super::draft::{Axis, Goal, GoalKind, Part, StepLabels, When, keyframes};
 use super::framing::{DEFAULT_ASPECT, Target, extent_frac, in_frame_frac, off_center, unoccluded_frac};
 use super::world::World;
-use crate::geometry::Intrinsics;
-use crate::trajectory::{CameraPath, CameraState};
+use cinesplat_geometry::Intrinsics;
+use cinesplat_trajectory::{CameraPath, CameraState};
 
 /// Points of a subject that are looked for while searching; the report looks for all.
 const SEARCH_POINTS: usize = 14;
@@ -126,7 +126,7 @@ fn void_cost(world: &World, states: &[CameraState]) -> f64 {
 }
 
 fn picture_cost(world: &World, state: &CameraState) -> f64 {
-    let camera = crate::geometry::Camera {
+    let camera = cinesplat_geometry::Camera {
         pose: state.pose,
         intrinsics: Intrinsics::from_fov_y((9.0 * DEFAULT_ASPECT) as u32, 9, state.fov_y_rad),
     };

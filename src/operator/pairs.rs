@@ -13,9 +13,9 @@ use rand_pcg::Pcg64Mcg;
 use super::route::{NoRoute, Route, route};
 use super::world::World;
 use super::{OPACITY_FLOOR, SIGMA_LEVEL};
-use crate::geometry::Pose;
-use crate::scene::Gaussians;
-use crate::trajectory::{CameraPath, CameraState};
+use cinesplat_geometry::Pose;
+use cinesplat_scene::Gaussians;
+use cinesplat_trajectory::{CameraPath, CameraState};
 
 /// Least distance between the ends of a pair, over the scene size.
 const LEAST_APART_FRAC: f64 = 0.2;

@@ -1,6 +1,6 @@
 //! What a sentence asks for, as data: the language between the director, the dataset and the solver.
 
-use crate::trajectory::{Easing, Move, ShotAngle, ShotSize};
+use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 /// A whole request: steps one after the other.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -4,7 +4,7 @@ use super::Program;
 use super::draft::Part;
 use super::judge::{outcome, path_of, sampled, supported_frac, wording};
 use super::world::World;
-use crate::trajectory::ReportLine;
+use cinesplat_trajectory::ReportLine;
 
 /// Samples of a part that the report is measured on.
 const NUM_SAMPLES: usize = 49;
@@ -57,7 +57,7 @@ pub(super) fn report(world: &World, program: &Program, prompt: &str, parts: &[Pa
 /// The words of a part, or the name of its move.
 pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, part: &Part) -> String {
     let text = words.and_then(|[from, to]| prompt.get(from..to)).map(str::trim).unwrap_or_default();
-    if text.is_empty() { part.movement.name().to_owned() } else { text.to_owned() }
+    if text.is_empty() { part.movement.as_ref().to_owned() } else { text.to_owned() }
 }
 
 fn gave_way(has_words: bool) -> String {

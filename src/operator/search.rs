@@ -12,7 +12,7 @@ use super::judge::cost;
 use super::moves::{Scenario, build};
 use super::world::World;
 use super::{Program, SolveLevel, SolveSettings, Suggestion};
-use crate::trajectory::CameraState;
+use cinesplat_trajectory::CameraState;
 
 /// A film up to some step: the choices made, the parts they give and what they cost, step by step.
 #[derive(Debug, Clone, Default)]

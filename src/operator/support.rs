@@ -9,9 +9,9 @@ use rayon::prelude::*;
 
 use super::clearance::ClearanceIndex;
 use super::grid::OpacityGrid;
-use crate::geometry::LevelFrame;
-use crate::objects::Object;
-use crate::scene::Bounds;
+use cinesplat_geometry::LevelFrame;
+use cinesplat_objects::Object;
+use cinesplat_scene::Bounds;
 
 /// Share of all directions in which the best place must meet matter for the scene to count as a place one stands inside.
 const INDOOR_HIT_FRAC: f64 = 0.5;

@@ -8,8 +8,8 @@ use super::draft::Genes;
 use super::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use super::world::World;
 use super::{Framing, Part, Suggestion};
-use crate::geometry::{LevelFrame, Pose};
-use crate::trajectory::{CameraState, ShotAngle, ShotSize};
+use cinesplat_geometry::{LevelFrame, Pose};
+use cinesplat_trajectory::{CameraState, ShotAngle, ShotSize};
 
 /// Share of tries that start from a heading with a reason (the model's, across the line of two subjects, facing a broad
 /// side) instead of any heading.

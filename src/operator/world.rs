@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::clearance::{ClearanceIndex, OPACITY_FLOOR, SIGMA_LEVEL};
 use super::grid::{Grid, OpacityGrid, SOLID_OPACITY};
 use super::support::Support;
-use crate::geometry::{GeometryError, LevelFrame};
-use crate::objects::{Object, ObjectSet};
-use crate::scene::{Bounds, Gaussians};
+use cinesplat_geometry::{GeometryError, LevelFrame};
+use cinesplat_objects::{Object, ObjectSet};
+use cinesplat_scene::{Bounds, Gaussians};
 
 /// Least distance from the lens to solid matter, over the scene size, unless asked for otherwise.
 pub const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;

@@ -1,7 +1,7 @@
 use super::PipelineError;
-use crate::operator;
-use crate::scene::Scene;
-use crate::trajectory::{CameraPath, ClearanceProof, Shot};
+use cinesplat_operator;
+use cinesplat_scene::Scene;
+use cinesplat_trajectory::{CameraPath, ClearanceProof, Shot};
 
 /// What can be proved about the distance between a shot's whole path and the matter of a scene.
 ///
@@ -9,7 +9,7 @@ use crate::trajectory::{CameraPath, ClearanceProof, Shot};
 /// [`PipelineError::Trajectory`] for keys that cannot be used.
 pub fn prove_clearance(scene: &Scene, shot: &Shot) -> Result<ClearanceProof, PipelineError> {
     let path = CameraPath::new(shot)?;
-    Ok(in_file_order(scene, operator::prove_clear(&scene.gaussians, &path)))
+    Ok(in_file_order(scene, cinesplat_operator::prove_clear(&scene.gaussians, &path)))
 }
 
 /// The proof with Gaussians counted as in the scene's file, those that were dropped on reading included.

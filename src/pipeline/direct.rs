@@ -1,11 +1,11 @@
 use super::{PipelineError, StageTimes};
-use crate::director::language::{self, Linked, NamedObject};
-use crate::director::{Direction, Director, Stage, SuggestedCamera};
-use crate::lens::{self, Call, Decision, EffectChoice};
-use crate::objects::{self, CloudSettings, ObjectSet};
-use crate::operator::{self, Solution, SolveLevel, SolveSettings, Step, Suggestion, World};
-use crate::scene::Scene;
-use crate::trajectory::{CameraState, ReportLine, SceneRef, Shot};
+use cinesplat_director::{Direction, Director, Stage, SuggestedCamera};
+use cinesplat_language::{Linked, NamedObject};
+use cinesplat_lens::{Call, Decision, EffectChoice};
+use cinesplat_objects::{CloudSettings, ObjectSet};
+use cinesplat_operator::{Solution, SolveLevel, SolveSettings, Step, Suggestion, World};
+use cinesplat_scene::Scene;
+use cinesplat_trajectory::{CameraState, ReportLine, SceneRef, Shot};
 
 /// The name under which words ask for a slanted horizon, and the roll that it gets: in the middle of 5 to 35 degrees, what
 /// storyboards mean by it.
@@ -78,7 +78,7 @@ pub struct StepReading {
 /// # Errors
 /// [`PipelineError::Objects`].
 pub fn prepare_objects(scene: &Scene, set: &mut ObjectSet) -> Result<(), PipelineError> {
-    Ok(objects::fill_clouds(scene, set, &CloudSettings::default())?)
+    Ok(cinesplat_objects::fill_clouds(scene, set, &CloudSettings::default())?)
 }
 
 /// A sentence about a scene as a shot: words to a program, program to keyframes.
@@ -96,7 +96,7 @@ pub fn direct(
     settings: &DirectSettings,
 ) -> Result<Directed, PipelineError> {
     let mut times = StageTimes::default();
-    let linked = times.measure("direct", || language::link(prompt, &names(objects)))?;
+    let linked = times.measure("direct", || cinesplat_language::link(prompt, &names(objects)))?;
     let objects = times.measure("objects", || with_clouds(scene, objects, &linked))?;
     let bounds = scene.bounds();
     let stage = Stage { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
@@ -111,10 +111,11 @@ pub fn direct(
     let dutch_deg = dutch.map(|_| DUTCH_DEG);
     let (level, seed) = (settings.solve, settings.seed);
     let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
-    let solution = times
-        .measure("solve", || operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve));
+    let solution = times.measure("solve", || {
+        cinesplat_operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve)
+    });
     let mut shot = shot_of(scene, prompt, solution, settings);
-    let effects = lens::decide(&settings.effects, &calls);
+    let effects = cinesplat_lens::decide(&settings.effects, &calls);
     shot.model = Some(director.model_ref());
     shot.effects = effects.iter().filter_map(Decision::request).collect();
     shot.report.extend(effects.iter().filter_map(Decision::report_line));
@@ -172,11 +173,11 @@ fn suggestions(direction: &Direction) -> Vec<Suggestion> {
 }
 
 fn calls(linked: &Linked) -> Result<Vec<Call>, PipelineError> {
-    let called = language::effects_called_for(linked)?;
+    let called = cinesplat_language::effects_called_for(linked)?;
     Ok(called.into_iter().map(|call| Call { kind: call.kind, because: call.because }).collect())
 }
 
-fn unknown_name(unknown: &language::UnknownName) -> ReportLine {
+fn unknown_name(unknown: &cinesplat_language::UnknownName) -> ReportLine {
     let nearest = unknown.nearest.join(", ");
     ReportLine {
         clause: unknown.name.clone(),

@@ -1,14 +1,14 @@
 use thiserror::Error;
 
-use crate::director::DirectorError;
-use crate::director::language::LanguageError;
-use crate::export::ExportError;
-use crate::geometry::GeometryError;
-use crate::objects::ObjectsError;
-use crate::render::RenderError;
-use crate::scene::SceneError;
-use crate::trajectory::TrajectoryError;
-use crate::video::VideoError;
+use cinesplat_director::DirectorError;
+use cinesplat_export::ExportError;
+use cinesplat_geometry::GeometryError;
+use cinesplat_language::LanguageError;
+use cinesplat_objects::ObjectsError;
+use cinesplat_render::RenderError;
+use cinesplat_scene::SceneError;
+use cinesplat_trajectory::TrajectoryError;
+use cinesplat_video::VideoError;
 
 /// Why a stage of the pipeline stopped: the stage's own error, or settings that do not fit together.
 #[derive(Debug, Error)]

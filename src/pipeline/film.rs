@@ -6,10 +6,10 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{FrameRange, PipelineError};
-use crate::geometry::{Camera, Intrinsics};
-use crate::render::{RenderSettings, Renderer, Rgb8Frame};
-use crate::trajectory::{CameraPath, Shot};
-use crate::video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
+use cinesplat_geometry::{Camera, Intrinsics};
+use cinesplat_render::{RenderSettings, Renderer, Rgb8Frame};
+use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
 
 /// Frames that may wait for the encoder: enough to ride out its slow ones, little memory.
 pub(super) const QUEUE_FRAMES: usize = 4;

@@ -1,9 +1,9 @@
 use std::path::Path;
 
 use super::PipelineError;
-use crate::objects::{Object, ObjectSet};
-use crate::scene::synth::{self, SynthKind, SynthScene, SynthSettings};
-use crate::scene::{self, LoadOptions, Scene, UpSource};
+use cinesplat_objects::{Object, ObjectSet};
+use cinesplat_scene::{LoadOptions, Scene, UpSource};
+use cinesplat_synth::{SynthKind, SynthScene, SynthSettings};
 
 /// A scene, with its objects where they are known without a search.
 #[derive(Debug, Clone)]
@@ -26,7 +26,7 @@ pub fn open_scene(name: &Path, options: &LoadOptions) -> Result<Source, Pipeline
             let settings = synth_settings(spec).ok_or_else(|| unknown(name))?;
             Ok(generated(name, &settings, options))
         }
-        None => Ok(Source { scene: scene::load(name, options)?, objects: None }),
+        None => Ok(Source { scene: cinesplat_scene::load(name, options)?, objects: None }),
     }
 }
 
@@ -52,7 +52,7 @@ fn synth_settings(spec: &str) -> Option<SynthSettings> {
 }
 
 fn generated(name: &Path, settings: &SynthSettings, options: &LoadOptions) -> Source {
-    let SynthScene { gaussians, objects, labels, up, .. } = synth::generate(settings);
+    let SynthScene { gaussians, objects, labels, up, .. } = cinesplat_synth::generate(settings);
     let (up, up_source) = match options.up.and_then(glam::DVec3::try_normalize) {
         Some(given) => (given, UpSource::Flag),
         None => (up, UpSource::File("generated with y up".to_owned())),
@@ -63,7 +63,7 @@ fn generated(name: &Path, settings: &SynthSettings, options: &LoadOptions) -> So
             *count += 1;
         }
     }
-    let object = |made: synth::SynthObject| Object {
+    let object = |made: cinesplat_synth::SynthObject| Object {
         num_gaussians: counts.get(made.id as usize).copied().unwrap_or(0),
         id: made.id,
         label: made.label,

@@ -1,8 +1,8 @@
 use super::PipelineError;
-use crate::export::cameras_json::NamedCamera;
-use crate::geometry::Camera;
-use crate::render::{DepthMap, FeatureMap, Frame, IdMap, RenderError, RenderSettings, Renderer, Weight};
-use crate::scene::Scene;
+use cinesplat_export::cameras_json::NamedCamera;
+use cinesplat_geometry::Camera;
+use cinesplat_render::{DepthMap, FeatureMap, Frame, IdMap, RenderError, RenderSettings, Renderer, Weight};
+use cinesplat_scene::Scene;
 
 /// What a still holds beside color and transmittance, all from the same weights.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use crate::geometry::GeometryError;
+use cinesplat_geometry::GeometryError;
 
 /// Why a picture could not be rendered.
 #[derive(Debug, Clone, PartialEq, Error)]

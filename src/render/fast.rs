@@ -20,7 +20,7 @@ use super::project::Projection;
 use super::sort::DepthKey;
 use super::splats::{self, Splats};
 use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View};
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// Most bytes that a splat takes until its pairs are listed: itself and two keys.
 const BYTES_A_SPLAT: u64 = (splats::BYTES_A_SPLAT + 2 * size_of::<DepthKey>()) as u64;

@@ -5,7 +5,7 @@ use super::memory::Budget;
 use super::payload::{Payload, Sink, TileArea, TileRows};
 use super::renderer::check_len;
 use super::{RenderError, RenderSettings, Renderer, View};
-use crate::geometry::Camera;
+use cinesplat_geometry::Camera;
 
 /// Channels blended in one go; more take the blending loop once more for every so many.
 const CHANNELS_AT_ONCE: usize = 16;

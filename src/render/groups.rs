@@ -5,7 +5,7 @@ use glam::{Quat, Vec3};
 use rayon::prelude::*;
 
 use super::memory::bytes_of;
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// Gaussians in a group. Smaller groups rule out more and cost more tests; 64 and 1024 were both slower on the kitchen.
 pub(super) const GROUP_LEN: usize = 256;

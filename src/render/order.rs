@@ -12,7 +12,7 @@ use super::memory::bytes_of;
 use super::sort::{self, DepthKey};
 use super::splats::Splats;
 use super::{SortMode, View};
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// Least cosine between the directions of two pictures of which the second is worth trying in the order of the first;
 /// a hundredth of a degree. Farther apart, the repair costs more than the sort.

@@ -12,7 +12,7 @@ use super::groups::{Group, LANES, Lane, Pack};
 use super::splat::{EXPONENT_DIVISOR, Splat, whitening_unit};
 use super::splats::Batch;
 use super::{View, harmonics, reference};
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// What dilation adds to how far a splat counts, in pixels, with slack: 5.3 deviations of the root of 0.3, for the least
 /// alpha cut that there may be.

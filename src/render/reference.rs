@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::memory::Budget;
 use super::{Limits, RenderError, View, WorkCounts, harmonics, spec};
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// Edge of a tile in pixels.
 const TILE_PX: u32 = 16;

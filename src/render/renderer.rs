@@ -13,8 +13,8 @@ use super::payload::{ColorOnly, Payload};
 use super::upsample::upsample;
 use super::weights::{Weight, WeightPayload};
 use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Rgb8Frame, View, reference};
-use crate::geometry::Camera;
-use crate::scene::Gaussians;
+use cinesplat_geometry::Camera;
+use cinesplat_scene::Gaussians;
 
 /// Renders pictures of one scene. Work lists are kept from picture to picture; several threads may share it.
 ///

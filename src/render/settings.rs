@@ -1,10 +1,23 @@
 use glam::Vec3;
 
 use super::{Instructions, RenderError, spec};
-use crate::scene::SplatFilter;
+use cinesplat_scene::SplatFilter;
 
 /// How much accuracy is traded for time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Quality {
     /// A coarse alpha cut, blending stops early: for previews.
     Draft,
@@ -17,24 +30,6 @@ pub enum Quality {
 }
 
 impl Quality {
-    /// All of them, fastest first.
-    pub const ALL: [Self; 4] = [Self::Draft, Self::Standard, Self::Final, Self::Reference];
-
-    /// The name in commands and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Draft => "draft",
-            Self::Standard => "standard",
-            Self::Final => "final",
-            Self::Reference => "reference",
-        }
-    }
-
-    /// The quality of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|quality| quality.name() == name)
-    }
-
     /// What this preset sets.
     ///
     /// Chosen on the kitchen's golden cameras at 1280x720 (`bench render` measures all knobs alone). Of all knobs the
@@ -90,7 +85,21 @@ impl Accuracy {
 }
 
 /// What decides which of two splats is in front.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum SortMode {
     /// Depth along the view axis, as the spec image: turning the camera may exchange overlapping splats.
     #[default]
@@ -99,26 +108,22 @@ pub enum SortMode {
     Ray,
 }
 
-impl SortMode {
-    /// All of them, the default first.
-    pub const ALL: [Self; 2] = [Self::Z, Self::Ray];
-
-    /// The name in commands and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Z => "z",
-            Self::Ray => "ray",
-        }
-    }
-
-    /// The mode of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|mode| mode.name() == name)
-    }
-}
-
 /// Where colors are held to their range.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum ColorClamp {
     /// A Gaussian's color at 0 from below, the blended picture at 1 from above: as scenes are trained, and the spec image.
     #[default]
@@ -129,22 +134,6 @@ pub enum ColorClamp {
 }
 
 impl ColorClamp {
-    /// All of them, the default first.
-    pub const ALL: [Self; 2] = [Self::Trained, Self::Khr];
-
-    /// The name in commands and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Trained => "trained",
-            Self::Khr => "khr",
-        }
-    }
-
-    /// The clamp of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|clamp| clamp.name() == name)
-    }
-
     /// The largest value that a Gaussian's color may have.
     pub(super) fn max_color(self) -> f32 {
         match self {

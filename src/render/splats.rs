@@ -5,7 +5,7 @@ use super::memory::bytes_of;
 use super::project::Projection;
 use super::sort::DepthKey;
 use super::splat::Splat;
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// Groups whose splats are kept together.
 const GROUPS_IN_BATCH: usize = 16;

@@ -1,7 +1,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{Instructions, RenderError, RenderSettings, SortMode, spec};
-use crate::geometry::Camera;
+use cinesplat_geometry::Camera;
 
 /// A camera and the settings as the projection needs them, all `f64`.
 #[derive(Debug, Clone, Copy)]

@@ -47,23 +47,12 @@ impl Scene {
             sh_degree: self.gaussians.sh_degree,
             bounds,
             size: bounds.size(),
-            filter: self.filter.unwrap_or(SplatFilter::Classic).name(),
+            filter: self.filter.unwrap_or(SplatFilter::Classic).into(),
             filter_is_stated: self.filter.is_some(),
             up: self.up.to_array(),
             up_source: self.up_source.to_string(),
             num_objects: ids.len(),
             notes: self.notes.clone(),
-        }
-    }
-}
-
-impl SplatFilter {
-    /// Name as `--filter` and `info` use it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Classic => "classic",
-            Self::Mip => "mip",
-            Self::MipSmall => "mip-small",
         }
     }
 }

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use super::stray::sub_bezier;
 use super::track::Track;
 use super::{Keyframe, Move};
-use crate::geometry::{LevelAngles, LevelFrame, Pose, rotation};
+use cinesplat_geometry::{LevelAngles, LevelFrame, Pose, rotation};
 
 /// Beyond this pitch the heading of a camera means too little to interpolate yaw, pitch and roll one by one.
 const STEEP_PITCH_RAD: f64 = 1.48;

@@ -6,59 +6,72 @@
 
 use std::f64::consts::{FRAC_PI_2, LN_2};
 
-use super::vocabulary::named_choices;
-
-named_choices! {
-    /// How the camera's speed changes along the segment that starts at a key.
-    ///
-    /// `smooth`, `ease-in`, `ease-out` are a cruise at even speed with ramps, so that the middle of a move is steady.
-    /// The others follow one curve from key to key: `in` starts from rest, `out` comes to rest, `in-out` both.
-    Easing {
-        /// Ramp up, even cruise, ramp down: at rest at both ends.
-        Smooth = "smooth",
-        /// Even speed, passing through both ends.
-        Linear = "linear",
-        /// From rest up to even speed.
-        EaseIn = "ease-in",
-        /// From even speed down to rest.
-        EaseOut = "ease-out",
-        /// A quarter of a cosine, from rest.
-        SineIn = "sine-in",
-        /// A quarter of a sine, to rest.
-        SineOut = "sine-out",
-        /// Half a cosine.
-        SineInOut = "sine-in-out",
-        /// Square of the time, from rest.
-        QuadIn = "quad-in",
-        /// Square of the time left, to rest.
-        QuadOut = "quad-out",
-        /// Two halves of a square.
-        QuadInOut = "quad-in-out",
-        /// Third power, from rest.
-        CubicIn = "cubic-in",
-        /// Third power, to rest.
-        CubicOut = "cubic-out",
-        /// Third power, both.
-        CubicInOut = "cubic-in-out",
-        /// Fourth power, from rest.
-        QuartIn = "quart-in",
-        /// Fourth power, to rest.
-        QuartOut = "quart-out",
-        /// Fourth power, both.
-        QuartInOut = "quart-in-out",
-        /// Fifth power, from rest.
-        QuintIn = "quint-in",
-        /// Fifth power, to rest.
-        QuintOut = "quint-out",
-        /// Fifth power, both.
-        QuintInOut = "quint-in-out",
-        /// Ten doublings of speed, from rest.
-        ExpoIn = "expo-in",
-        /// Ten halvings of speed, to rest.
-        ExpoOut = "expo-out",
-        /// Ten doublings and ten halvings.
-        ExpoInOut = "expo-in-out",
-    }
+/// How the camera's speed changes along the segment that starts at a key.
+///
+/// `smooth`, `ease-in`, `ease-out` are a cruise at even speed with ramps, so that the middle of a move is steady.
+/// The others follow one curve from key to key: `in` starts from rest, `out` comes to rest, `in-out` both.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    PartialOrd,
+    Ord,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Easing {
+    /// Ramp up, even cruise, ramp down: at rest at both ends.
+    Smooth,
+    /// Even speed, passing through both ends.
+    Linear,
+    /// From rest up to even speed.
+    EaseIn,
+    /// From even speed down to rest.
+    EaseOut,
+    /// A quarter of a cosine, from rest.
+    SineIn,
+    /// A quarter of a sine, to rest.
+    SineOut,
+    /// Half a cosine.
+    SineInOut,
+    /// Square of the time, from rest.
+    QuadIn,
+    /// Square of the time left, to rest.
+    QuadOut,
+    /// Two halves of a square.
+    QuadInOut,
+    /// Third power, from rest.
+    CubicIn,
+    /// Third power, to rest.
+    CubicOut,
+    /// Third power, both.
+    CubicInOut,
+    /// Fourth power, from rest.
+    QuartIn,
+    /// Fourth power, to rest.
+    QuartOut,
+    /// Fourth power, both.
+    QuartInOut,
+    /// Fifth power, from rest.
+    QuintIn,
+    /// Fifth power, to rest.
+    QuintOut,
+    /// Fifth power, both.
+    QuintInOut,
+    /// Ten doublings of speed, from rest.
+    ExpoIn,
+    /// Ten halvings of speed, to rest.
+    ExpoOut,
+    /// Ten doublings and ten halvings.
+    ExpoInOut,
 }
 
 /// Growth of a curve from rest, before it is turned around for its `out` and `in-out`.

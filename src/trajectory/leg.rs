@@ -6,7 +6,7 @@ use super::curve::{PositionCurve, TurnCurve};
 use super::path::CameraState;
 use super::track::Track;
 use super::{Keyframe, Move};
-use crate::geometry::{LevelFrame, Pose, rotation};
+use cinesplat_geometry::{LevelFrame, Pose, rotation};
 
 /// Chords that measure the length of one segment of a film; the error falls with their square (4e-7 of a 45 degree arc).
 pub(super) const FINE_CHORDS: usize = 128;

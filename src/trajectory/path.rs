@@ -4,7 +4,7 @@ use super::leg::{COARSE_CHORDS, FINE_CHORDS, Kind, Leg};
 use super::profile::{SpeedProfile, natural_speeds, ramp_secs};
 use super::track::harmonic_mean;
 use super::{Easing, Keyframe, Shot, TrajectoryError};
-use crate::geometry::{LevelFrame, Pose};
+use cinesplat_geometry::{LevelFrame, Pose};
 
 /// Pose and lens at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,12 +79,12 @@ impl CameraPath {
     }
 
     /// The path through keys that are known to be valid.
-    pub(crate) fn fine(keys: Vec<Keyframe>, frame: LevelFrame) -> Self {
+    pub fn fine(keys: Vec<Keyframe>, frame: LevelFrame) -> Self {
         Self::through(keys, Some(frame), FINE_CHORDS)
     }
 
     /// As [`Self::fine`], for judging it: lengths are good to 2e-4.
-    pub(crate) fn coarse(keys: Vec<Keyframe>, frame: LevelFrame) -> Self {
+    pub fn coarse(keys: Vec<Keyframe>, frame: LevelFrame) -> Self {
         Self::through(keys, Some(frame), COARSE_CHORDS)
     }
 

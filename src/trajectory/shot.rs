@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::{ClearanceProof, Easing, Move, ShotAngle, ShotSize, TrajectoryError};
-use crate::geometry::Pose;
+use cinesplat_geometry::Pose;
 
 /// A shot: keyframes with what they are for. The in-memory twin of `shot.json`, version 1.
 #[derive(Debug, Clone, PartialEq)]

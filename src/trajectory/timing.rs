@@ -4,7 +4,7 @@ use super::leg::FINE_CHORDS;
 use super::path::{Stretch, stretches};
 use super::profile::ramp_secs;
 use super::{Keyframe, Shot};
-use crate::geometry::LevelFrame;
+use cinesplat_geometry::LevelFrame;
 
 /// The shot with the inner keys of every leg moved to times of even speed along the path. First and last keys, cuts and
 /// moments of rest keep their times, and so do legs with an easing that follows a curve.
@@ -17,7 +17,7 @@ pub fn retimed(shot: &Shot) -> Shot {
 }
 
 /// As [`retimed`], of bare keys.
-pub(crate) fn retime(keys: &mut [Keyframe], frame: Option<LevelFrame>) {
+pub fn retime(keys: &mut [Keyframe], frame: Option<LevelFrame>) {
     if keys.len() < 3 {
         return;
     }

@@ -149,7 +149,7 @@ fn encoder_options(codec_name: &str, settings: &VideoSettings) -> Dictionary<'st
     options.set("chroma_sample_location", "left");
     options.set("crf", &settings.crf.to_string());
     if codec_name == "libx264" {
-        options.set("preset", settings.preset.name());
+        options.set("preset", settings.preset.as_ref());
         // Without it x264 (r3095 with AVX-512) gives other bytes on every run, from the lookahead that weighs blocks.
         options.set("x264-params", "cpu-independent=1");
     } else {

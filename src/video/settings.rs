@@ -69,7 +69,21 @@ impl VideoSettings {
 }
 
 /// Effort of the H.264 encoder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Preset {
     /// Fastest that still looks right.
     Ultrafast,
@@ -84,20 +98,6 @@ pub enum Preset {
     Slow,
     /// Much effort.
     Veryslow,
-}
-
-impl Preset {
-    /// x264's name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ultrafast => "ultrafast",
-            Self::Veryfast => "veryfast",
-            Self::Fast => "fast",
-            Self::Medium => "medium",
-            Self::Slow => "slow",
-            Self::Veryslow => "veryslow",
-        }
-    }
 }
 
 /// What the name of an output asks for.

@@ -4,10 +4,12 @@ use std::collections::BTreeSet;
 use std::time::Instant;
 
 use cinesplat::director::keys::MAX_KEYS;
-use cinesplat::director::language::{Linked, NamedObject, exam, exam_objects, link};
-use cinesplat::director::{Direction, Director, Paper, Stage, examine};
+use cinesplat::director::{Direction, Director, Stage};
+use cinesplat::language::{Linked, NamedObject, link};
 use cinesplat::objects::Object;
 use cinesplat::operator::Program;
+use cinesplat::training::{Paper, examine};
+use cinesplat::training::{exam, exam_objects};
 use cinesplat::trajectory::Move;
 use glam::{DQuat, DVec3};
 

@@ -1,8 +1,9 @@
 //! Programs to keys and back.
 
 use cinesplat::director::keys::{MAX_KEYS, Next, boundaries_of, keys_of, steps_of};
-use cinesplat::director::language::{Phrasebook, program_from_notation};
+use cinesplat::language::program_from_notation;
 use cinesplat::operator::{Framing, Program, Step};
+use cinesplat::training::Phrasebook;
 use cinesplat::trajectory::Move;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;

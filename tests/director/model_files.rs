@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use cinesplat::director::{Director, TrainSettings, train};
+use cinesplat::director::Director;
+use cinesplat::training::{TrainSettings, train};
 
 /// A model trained for one step, and its folder.
 fn model() -> tempfile::TempDir {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use cinesplat::director::{Progress, TrainSettings, audit_gradients, train};
+use cinesplat::training::{Progress, TrainSettings, audit_gradients, train};
 
 /// candle drops the gradients of some of its operations silently; ours are written by hand.
 #[test]

@@ -69,7 +69,7 @@ fn pairs_and_errors_of_every_unit() {
         let pairs = PairSettings { delta, all_pairs, ..PairSettings::default() };
         let settings = EvalSettings {
             metric: Metric::Rpe { pairs, pairs_from_reference },
-            relation: Relation::from_name(relation).unwrap(),
+            relation: relation.parse().unwrap(),
             align: Align::Sim3,
             ..EvalSettings::default()
         };

@@ -34,8 +34,8 @@ fn every_statistic_relation_and_alignment() {
                 for (relation, expected) in relations.as_object().unwrap() {
                     let settings = EvalSettings {
                         metric,
-                        align: Align::from_name(align).unwrap(),
-                        relation: Relation::from_name(relation).unwrap(),
+                        align: align.parse().unwrap(),
+                        relation: relation.parse().unwrap(),
                         max_diff_secs: case["max_diff"].as_f64().unwrap(),
                         ..EvalSettings::default()
                     };
@@ -65,8 +65,8 @@ fn scales_of_the_alignment() {
         for align in [Align::Sim3, Align::Scale] {
             let settings = EvalSettings { align, ..EvalSettings::default() };
             let got = evaluate(&reference, &estimate, &settings).unwrap().alignment.scale;
-            let wanted = case["scale"][align.name()].as_f64().unwrap();
-            assert!((got / wanted - 1.0).abs() < TOLERANCE, "{} {}", case["name"], align.name());
+            let wanted = case["scale"][align.as_ref()].as_f64().unwrap();
+            assert!((got / wanted - 1.0).abs() < TOLERANCE, "{} {}", case["name"], align.as_ref());
         }
     }
 }

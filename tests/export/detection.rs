@@ -1,15 +1,16 @@
 use cinesplat::export::Format;
+use strum::VariantArray;
 
 #[test]
 fn names_come_back_as_formats() {
-    assert!(Format::ALL.iter().all(|format| Format::from_name(format.name()) == Some(*format)));
+    assert!(Format::VARIANTS.iter().all(|format| format.as_ref().parse() == Ok(*format)));
     let wanted = "tum kitti euroc nerfstudio transforms colmap supersplat lichtfeld gltf usd blender csv shot";
-    assert!(wanted.split(' ').all(|name| Format::from_name(name).is_some()));
+    assert!(wanted.split(' ').all(|name| name.parse::<Format>().is_ok()));
 }
 
 #[test]
 fn paths_that_say_their_format() {
-    let format = |path: &str| Format::from_path(path.as_ref()).map(Format::name);
+    let format = |path: &str| Format::from_path(path.as_ref()).map(<&str>::from);
     let said = [
         ("x/camera_path.json", "nerfstudio"),
         ("k01.path.json", "nerfstudio"),
@@ -32,7 +33,7 @@ fn paths_that_say_their_format() {
 
 #[test]
 fn content_decides_on_the_way_in() {
-    let name = |bytes: &[u8]| Format::detect(bytes).map(Format::name);
+    let name = |bytes: &[u8]| Format::detect(bytes).map(<&str>::from);
     assert_eq!(name(b"# c\n1 2 3 4 0 0 0 1\n"), Some("tum"));
     assert_eq!(name(b"1 0 0 0 0 1 0 0 0 0 1 0\n"), Some("kitti"));
     assert_eq!(name(b"#timestamp, p\n1403636579763555584,1,2,3,1,0,0,0,0\n"), Some("euroc"));

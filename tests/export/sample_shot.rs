@@ -62,7 +62,7 @@ pub(super) fn there_and_back(
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     let warnings = write(&path, format, shot, &ExportSettings { content, fps: None }).unwrap();
-    let imported = read(&path, None).unwrap_or_else(|error| panic!("{}: {error}", format.name()));
+    let imported = read(&path, None).unwrap_or_else(|error| panic!("{}: {error}", format.as_ref()));
     (imported, warnings, folder)
 }
 

@@ -1,4 +1,4 @@
-use cinesplat::director::language::{NamedObject, effects_called_for, link};
+use cinesplat::language::{NamedObject, effects_called_for, link};
 
 fn kinds(prompt: &str) -> Vec<String> {
     let objects = [NamedObject { id: 1, label: "vase".to_owned() }];

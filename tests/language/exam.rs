@@ -1,7 +1,9 @@
 use std::collections::BTreeSet;
+use strum::VariantArray;
 
-use cinesplat::director::language::{exam, exam_objects, link};
+use cinesplat::language::link;
 use cinesplat::operator::Amount;
+use cinesplat::training::{exam, exam_objects};
 use cinesplat::trajectory::Move;
 
 #[test]
@@ -10,7 +12,7 @@ fn the_exam_is_large_and_covers_every_move() {
     assert!(items.len() >= 220, "{}", items.len());
     let moves: BTreeSet<Move> =
         items.iter().flat_map(|item| item.program.steps.iter().map(|step| step.movement)).collect();
-    let missing: Vec<&Move> = Move::ALL.iter().filter(|m| !moves.contains(m)).collect();
+    let missing: Vec<&Move> = Move::VARIANTS.iter().filter(|m| !moves.contains(m)).collect();
     assert!(missing.is_empty(), "{missing:?}");
 }
 

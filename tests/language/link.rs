@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use cinesplat::director::language::{LanguageError, Linked, MAX_PROMPT_BYTES, NamedObject, link};
+use cinesplat::language::{LanguageError, Linked, MAX_PROMPT_BYTES, NamedObject, link};
 use proptest::prelude::*;
 
 use crate::support::shared;

@@ -1,4 +1,4 @@
-use cinesplat::director::language::{program_from_notation, program_to_notation};
+use cinesplat::language::{program_from_notation, program_to_notation};
 use cinesplat::operator::{Amount, Framing, Part, Pass, Program, Speed, Step, Via};
 use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 

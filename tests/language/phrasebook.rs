@@ -1,9 +1,9 @@
 use std::collections::BTreeSet;
+use strum::VariantArray;
 
-use cinesplat::director::language::{
-    NamedObject, Phrasebook, Sample, Split, exam, exam_objects, link, program_from_notation, program_to_notation,
-};
+use cinesplat::language::{NamedObject, link, program_from_notation, program_to_notation};
 use cinesplat::operator::{Amount, Program};
+use cinesplat::training::{Phrasebook, Sample, Split, exam, exam_objects};
 use cinesplat::trajectory::Move;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -127,7 +127,7 @@ fn every_move_is_spoken_of() {
         .iter()
         .flat_map(|(s, _)| s.program.steps.iter().map(|step| step.movement))
         .collect();
-    let missing: Vec<&Move> = Move::ALL.iter().filter(|m| !seen.contains(m)).collect();
+    let missing: Vec<&Move> = Move::VARIANTS.iter().filter(|m| !seen.contains(m)).collect();
     assert!(missing.is_empty(), "{missing:?}");
 }
 
@@ -150,7 +150,7 @@ fn direction_words_decide_directions() {
         {
             continue;
         }
-        let name = step.movement.name();
+        let name = step.movement.as_ref();
         let turns = name.starts_with("orbit") || name.starts_with("arc");
         if turns && text.contains("clockwise") {
             assert_eq!(name.ends_with("left"), !counter, "{}", sample.prompt);

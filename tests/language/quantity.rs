@@ -1,4 +1,4 @@
-use cinesplat::director::language::{NamedObject, QuantityKind, link};
+use cinesplat::language::{NamedObject, QuantityKind, link};
 
 /// The only quantity of a prompt; `skull` is object 1.
 fn only(prompt: &str) -> (QuantityKind, f64) {

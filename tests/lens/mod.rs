@@ -1,6 +1,7 @@
 //! Which effects are called for, and what is said about each.
 
 use cinesplat::lens::{Call, Decision, Effect, EffectChoice, Outcome, decide};
+use strum::VariantArray;
 
 fn call(kind: &str, because: &str) -> Call {
     Call { kind: kind.to_owned(), because: because.to_owned() }
@@ -15,7 +16,7 @@ fn choices_read_as_they_are_written() {
     for wrong in ["", "blur", "auto,fog", "fog,,fog", "Fog"] {
         assert!(wrong.parse::<EffectChoice>().is_err(), "{wrong:?}");
     }
-    assert!(Effect::ALL.iter().all(|&effect| Effect::from_name(effect.name()) == Some(effect)));
+    assert!(Effect::VARIANTS.iter().all(|&effect| effect.as_ref().parse() == Ok(effect)));
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use cinesplat::director::language::program_from_notation;
+use cinesplat::language::program_from_notation;
 use cinesplat::objects;
 use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
 use cinesplat::scene::{LoadOptions, load};

@@ -56,7 +56,7 @@ fn orbits_sweep_the_stated_angle_at_one_radius() {
                     - std::f64::consts::PI
             })
             .sum();
-        assert!((swept.to_degrees() - sign * 75.0).abs() < 0.5, "{}: {}", movement.name(), swept.to_degrees());
+        assert!((swept.to_degrees() - sign * 75.0).abs() < 0.5, "{}: {}", movement.as_ref(), swept.to_degrees());
         let radius = |s: &CameraState| (s.pose.position - CENTER).with_y(0.0).length();
         assert!(frames.iter().all(|s| (radius(s) / radius(&frames[0]) - 1.0).abs() < 1e-3));
     }
@@ -84,7 +84,7 @@ fn trucks_and_pedestals_do_not_turn() {
             _ => DVec3::NEG_Y,
         };
         let way = last.pose.position - first.pose.position;
-        assert!(way.dot(axis) > 0.99 * way.length() && way.length() > 0.2, "{}: {way}", movement.name());
+        assert!(way.dot(axis) > 0.99 * way.length() && way.length() > 0.2, "{}: {way}", movement.as_ref());
         assert!(frames.iter().all(|s| turn(first, s) < 1e-6));
     }
 }

@@ -28,7 +28,7 @@ fn a_picture_in_bands_is_the_whole_picture_to_the_bit() {
         let banded = with_bands(&renderer, &settings, &whole);
         assert!(!banded.is_empty(), "no cap led to bands");
         for (_, frame) in &banded {
-            assert!(frame.rgb == whole.rgb && frame.transmittance == whole.transmittance, "{}", quality.name());
+            assert!(frame.rgb == whole.rgb && frame.transmittance == whole.transmittance, "{}", quality.as_ref());
             assert_eq!(frame.stats.counts.num_pairs, whole.stats.counts.num_pairs);
             assert_eq!(frame.stats.counts.num_block_blends, whole.stats.counts.num_block_blends);
         }

@@ -1,9 +1,10 @@
 //! The bench of the renderer: rows for every camera and variant, knobs that must be free are free.
 
-use cinesplat::render::bench::{
+use cinesplat::render::{Frame, RenderSettings, Renderer};
+use cinesplat_bench::{
     Axis, BenchRow, BenchSettings, Kind, Output, difference, measure, pareto_svg, scaling, to_csv, to_table, variants,
 };
-use cinesplat::render::{Frame, RenderSettings, Renderer};
+use strum::VariantArray;
 
 use super::scenes::{camera, crowd};
 
@@ -39,10 +40,10 @@ fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
     // A slow variant is measured on the first camera alone.
     assert_eq!(rows.iter().filter(|row| row.variant == "scalar").count(), 1);
     let outputs: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == Kind::Output).collect();
-    assert_eq!(outputs.len(), 2 * Output::ALL.len());
+    assert_eq!(outputs.len(), 2 * Output::VARIANTS.len());
     assert!(outputs.iter().all(|row| row.times_color.is_some_and(|ratio| ratio > 0.0 && ratio.is_finite())));
     assert!(outputs.iter().all(|row| row.difference.psnr_db.is_nan()) && !csv.contains("NaN"));
-    for axis in Axis::ALL {
+    for &axis in Axis::VARIANTS {
         let svg = pareto_svg(&rows, [96, 54], axis);
         assert!(svg.starts_with("<svg") && svg.contains("crowd") && !svg.contains("NaN") && !svg.contains("inf"));
     }

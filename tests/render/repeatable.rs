@@ -3,6 +3,7 @@
 use cinesplat::render::{Accuracy, Frame, Instructions, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use glam::DVec3;
+use strum::VariantArray;
 
 use super::pictures::max_difference;
 use super::scenes::{camera, crowd, moved, reordered};
@@ -15,12 +16,16 @@ fn on_threads(num_threads: usize, scene: &Gaussians, settings: &RenderSettings) 
 #[test]
 fn one_two_three_and_seven_threads_agree_to_the_bit() {
     let scene = crowd(20_000, 5);
-    for quality in Quality::ALL {
+    for &quality in Quality::VARIANTS {
         let settings = RenderSettings { quality, ..RenderSettings::default() };
         let one = on_threads(1, &scene, &settings);
         for num_threads in [2, 3, 7] {
             let many = on_threads(num_threads, &scene, &settings);
-            assert!(one.rgb == many.rgb && one.transmittance == many.transmittance, "{} {num_threads}", quality.name());
+            assert!(
+                one.rgb == many.rgb && one.transmittance == many.transmittance,
+                "{} {num_threads}",
+                quality.as_ref()
+            );
         }
     }
 }
@@ -71,13 +76,13 @@ fn a_used_renderer_and_frame_give_the_picture_of_new_ones() {
     let scene = crowd(5_000, 8);
     let renderer = Renderer::new(&scene);
     let (near, far) = (camera(320, 180), moved(&camera(97, 211), DVec3::new(0.3, 0.0, -2.0)));
-    for quality in Quality::ALL {
+    for &quality in Quality::VARIANTS {
         let settings = RenderSettings { quality, ..RenderSettings::default() };
         let mut frame = Frame::default();
         renderer.render_into(&near, &settings, &mut frame).unwrap();
         renderer.render_into(&far, &settings, &mut frame).unwrap();
         let fresh = Renderer::new(&scene).render(&far, &settings).unwrap();
-        assert!(frame.rgb == fresh.rgb && frame.transmittance == fresh.transmittance, "{}", quality.name());
+        assert!(frame.rgb == fresh.rgb && frame.transmittance == fresh.transmittance, "{}", quality.as_ref());
         assert_eq!((frame.width, frame.height), (97, 211));
     }
 }
@@ -120,7 +125,7 @@ fn dollies_holds_and_pans_are_the_same_whether_the_last_order_helps_or_not() {
 fn eight_bit_frames_are_the_rounded_numbers() {
     let scene = crowd(3_000, 12);
     let renderer = Renderer::new(&scene);
-    for quality in Quality::ALL {
+    for &quality in Quality::VARIANTS {
         let settings =
             RenderSettings { quality, background: glam::Vec3::new(0.2, 0.5, 1.5), ..RenderSettings::default() };
         let linear = renderer.render(&camera(131, 77), &settings).unwrap();
@@ -129,6 +134,6 @@ fn eight_bit_frames_are_the_rounded_numbers() {
         assert_eq!((levels.width, levels.height), (131, 77));
         let rounded: Vec<u8> =
             linear.rgb.iter().map(|value| (value.clamp(0.0, 1.0) * 255.0).round_ties_even() as u8).collect();
-        assert!(levels.rgb8 == rounded, "{}", quality.name());
+        assert!(levels.rgb8 == rounded, "{}", quality.as_ref());
     }
 }

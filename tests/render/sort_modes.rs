@@ -4,6 +4,7 @@ use cinesplat::geometry::{Camera, Pose};
 use cinesplat::render::{Frame, Quality, RenderSettings, Renderer, SortMode};
 use cinesplat::scene::Gaussians;
 use glam::{DQuat, Quat, Vec3};
+use strum::VariantArray;
 
 use super::scenes::{camera, crowd, push};
 
@@ -57,7 +58,7 @@ fn a_pan_exchanges_overlapping_splats_by_depth_and_not_by_distance() {
 #[test]
 fn fast_and_exact_agree_in_either_order() {
     let scene = crowd(2_000, 31);
-    for sort in SortMode::ALL {
+    for &sort in SortMode::VARIANTS {
         let exact = picture(&scene, &panned(5.0), Quality::Reference, sort);
         let fast = picture(&scene, &panned(5.0), Quality::Final, sort);
         assert!(fast.psnr_db(&exact) > 60.0, "{sort:?}: {:.1} dB", fast.psnr_db(&exact));
@@ -67,6 +68,7 @@ fn fast_and_exact_agree_in_either_order() {
 #[test]
 fn the_order_is_a_choice_that_shows() {
     let scene = crowd(2_000, 32);
-    let [by_depth, by_distance] = SortMode::ALL.map(|sort| picture(&scene, &panned(0.0), Quality::Final, sort));
+    let [by_depth, by_distance] =
+        [SortMode::Z, SortMode::Ray].map(|sort| picture(&scene, &panned(0.0), Quality::Final, sort));
     assert!(by_depth.psnr_db(&by_distance) < 60.0);
 }

@@ -1,4 +1,4 @@
-use cinesplat::scene::synth::{SynthObject, SynthScene};
+use cinesplat::synth::{SynthObject, SynthScene};
 use glam::{DMat3, DVec3};
 
 use super::SCENES;

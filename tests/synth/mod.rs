@@ -6,7 +6,7 @@ mod surface;
 
 use std::sync::LazyLock;
 
-use cinesplat::scene::synth::{SynthKind, SynthScene, SynthSettings, generate};
+use cinesplat::synth::{SynthKind, SynthScene, SynthSettings, generate};
 use glam::{DMat3, DVec3};
 
 /// Sixteen rooms and eight still lifes, coarse enough to make in a second, shared by the tests.

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use cinesplat::scene::synth::{SynthKind, SynthSettings, generate};
+use cinesplat::synth::{SynthKind, SynthSettings, generate};
 
 use super::{SCENES, in_box, spread_in_box};
 

@@ -1,4 +1,4 @@
-use cinesplat::scene::synth::{SynthKind, SynthScene, SynthSettings, generate};
+use cinesplat::synth::{SynthKind, SynthScene, SynthSettings, generate};
 use glam::{DMat3, DVec3};
 
 use super::SCENES;

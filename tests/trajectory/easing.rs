@@ -1,6 +1,7 @@
 //! Easings by their published formulas, and what they do where segments meet.
 
 use std::f64::consts::FRAC_PI_2;
+use strum::VariantArray;
 
 use cinesplat::trajectory::{CameraPath, Easing, Keyframe};
 use glam::DVec3;
@@ -15,16 +16,16 @@ fn progress(easing: Easing, count: usize) -> Vec<f64> {
 }
 
 fn named(name: &str) -> Easing {
-    Easing::from_name(name).unwrap()
+    name.parse().unwrap()
 }
 
 #[test]
 fn every_easing_goes_from_start_to_end_and_never_back() {
-    assert!(Easing::ALL.len() >= 20);
-    for &easing in Easing::ALL {
+    assert!(Easing::VARIANTS.len() >= 20);
+    for &easing in Easing::VARIANTS {
         let way = progress(easing, 1000);
-        assert_eq!((way[0], way[1000]), (0.0, 1.0), "{}", easing.name());
-        assert!(way.windows(2).all(|p| p[1] >= p[0]), "{} runs backward", easing.name());
+        assert_eq!((way[0], way[1000]), (0.0, 1.0), "{}", easing.as_ref());
+        assert!(way.windows(2).all(|p| p[1] >= p[0]), "{} runs backward", easing.as_ref());
     }
 }
 
@@ -60,7 +61,7 @@ fn in_and_out_mirror_each_other_and_in_out_mirrors_itself() {
         for i in 0..=100 {
             assert!((rise[i] - (1.0 - fall[100 - i])).abs() < 1e-9, "{family} at {i}");
         }
-        let Some(both) = Easing::from_name(&format!("{family}-in-out")) else { continue };
+        let Some(both) = format!("{family}-in-out").parse::<Easing>().ok() else { continue };
         let both = progress(both, 100);
         assert!((0..=100).all(|i| (both[i] + both[100 - i] - 1.0).abs() < 1e-9), "{family}-in-out");
     }
@@ -68,18 +69,18 @@ fn in_and_out_mirror_each_other_and_in_out_mirrors_itself() {
 
 #[test]
 fn rests_are_where_the_names_say() {
-    for &easing in Easing::ALL {
+    for &easing in Easing::VARIANTS {
         let way = progress(easing, 20_000);
         let (start, end) = ((way[1] - way[0]) * 20_000.0, (way[20_000] - way[19_999]) * 20_000.0);
-        assert_eq!(start < 0.02, easing.rests_at_start(), "{} starts with speed {start}", easing.name());
-        assert_eq!(end < 0.02, easing.rests_at_end(), "{} ends with speed {end}", easing.name());
+        assert_eq!(start < 0.02, easing.rests_at_start(), "{} starts with speed {start}", easing.as_ref());
+        assert_eq!(end < 0.02, easing.rests_at_end(), "{} ends with speed {end}", easing.as_ref());
     }
 }
 
 #[test]
 fn any_two_easings_meet_at_one_speed() {
-    for &first in Easing::ALL {
-        for &second in Easing::ALL {
+    for &first in Easing::VARIANTS {
+        for &second in Easing::VARIANTS {
             let mut keys = vec![key(0.0, DVec3::ZERO), key(1.5, DVec3::X), key(2.0, DVec3::X * 3.0)];
             (keys[0].easing, keys[1].easing) = (first, second);
             let path = CameraPath::new(&shot(keys)).unwrap();
@@ -87,7 +88,7 @@ fn any_two_easings_meet_at_one_speed() {
             let speed = |t: f64| (x(t + 1e-6) - x(t)) / 1e-6;
             let (before, after) = (speed(1.5 - 1e-6), speed(1.5));
             let peak = (0..200).map(|i| speed(f64::from(i) * 0.01)).fold(0.0, f64::max);
-            let names = (first.name(), second.name());
+            let names = (first.as_ref(), second.as_ref());
             assert!((before - after).abs() < 0.01 * peak, "{names:?}: {before} then {after}, peak {peak}");
             assert!(
                 (0..400).all(|i| x(f64::from(i + 1) * 0.005) >= x(f64::from(i) * 0.005)),

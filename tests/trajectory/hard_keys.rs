@@ -3,6 +3,7 @@
 use cinesplat::geometry::{LevelAngles, LevelFrame, Pose, rotation};
 use cinesplat::trajectory::{CameraPath, Easing, TrajectoryError, retimed};
 use glam::{DQuat, DVec3};
+use strum::VariantArray;
 
 use super::{key, positions, shot};
 
@@ -136,7 +137,7 @@ fn random_shots() -> impl Iterator<Item = cinesplat::trajectory::Shot> {
             let turn = rotation::exp(DVec3::new(unit(), unit(), unit()) * 1.5);
             let stays = i > 0 && unit() > 0.6;
             let fov_y_rad = 0.9 + 0.4 * unit();
-            let easing = Easing::ALL[((unit() + 1.0) * 0.499 * Easing::ALL.len() as f64) as usize];
+            let easing = Easing::VARIANTS[((unit() + 1.0) * 0.499 * Easing::VARIANTS.len() as f64) as usize];
             let mut next = cinesplat::trajectory::Keyframe { fov_y_rad, easing, ..key(time_secs, place) };
             next.pose.rotation *= turn;
             if stays {

@@ -2,16 +2,17 @@
 
 use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 use glam::DVec3;
+use strum::VariantArray;
 
 use super::{key, shot};
 
 #[test]
 fn names_round_trip() {
-    assert!(Move::ALL.iter().all(|&m| Move::from_name(m.name()) == Some(m)));
-    assert!(ShotSize::ALL.iter().all(|&s| ShotSize::from_name(s.name()) == Some(s)));
-    assert!(ShotAngle::ALL.iter().all(|&a| ShotAngle::from_name(a.name()) == Some(a)));
-    assert!(Easing::ALL.iter().all(|&e| Easing::from_name(e.name()) == Some(e)));
-    assert_eq!(Move::from_name("teleport"), None);
+    assert!(Move::VARIANTS.iter().all(|&m| m.as_ref().parse() == Ok(m)));
+    assert!(ShotSize::VARIANTS.iter().all(|&s| s.as_ref().parse() == Ok(s)));
+    assert!(ShotAngle::VARIANTS.iter().all(|&a| a.as_ref().parse() == Ok(a)));
+    assert!(Easing::VARIANTS.iter().all(|&e| e.as_ref().parse() == Ok(e)));
+    assert_eq!("teleport".parse::<Move>().ok(), None);
 }
 
 #[test]

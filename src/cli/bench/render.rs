@@ -1,13 +1,14 @@
 use std::path::{Path, PathBuf};
+use strum::VariantArray;
 
 use super::failure::Failure;
 use super::scene_args::PictureArgs;
 use super::scenes::{NUM_OWN_VIEWS, ScenesArgs, own_views, parse_size, resized, scene_name, settings};
 use super::{console, outputs};
 use crate::cli::progress::FrameProgress;
-use crate::export::cameras_json::StillCameras;
-use crate::render::bench::{self, Axis, BenchRow, BenchSettings};
-use crate::render::{Quality, RenderSettings, Renderer};
+use cinesplat::export::cameras_json::StillCameras;
+use cinesplat::render::{Quality, RenderSettings, Renderer};
+use cinesplat_bench::{Axis, BenchRow, BenchSettings};
 
 /// Measures scenes at every preset, every knob alone and every output.
 #[derive(Debug, clap::Args)]
@@ -46,7 +47,7 @@ impl Args {
             outputs::create_folder(folder)?;
         }
         self.picture.bound_threads()?;
-        console::data(&bench::to_csv(&[]))?;
+        console::data(&cinesplat_bench::to_csv(&[]))?;
         let num_rows: usize = scenes.iter().map(|(_, file)| self.num_rows(file.as_ref())).sum();
         let mut log = RowLog { rows: Vec::new(), num_rows, progress: FrameProgress::of_rows() };
         for (path, file) in &scenes {
@@ -69,14 +70,14 @@ impl Args {
         for (size_idx, size) in self.sizes.iter().enumerate() {
             let settings = self.bench_settings(scene_name(path), size_idx, &base);
             let resized: Vec<_> = cameras.iter().map(|(name, camera)| (name.clone(), resized(camera, *size))).collect();
-            bench::measure(&renderer, &resized, &settings, &mut |row| log.add(row))?;
+            cinesplat_bench::measure(&renderer, &resized, &settings, &mut |row| log.add(row))?;
         }
         Ok(())
     }
 
     /// What is measured at one of the sizes.
     fn bench_settings(&self, scene: String, size_idx: usize, base: &RenderSettings) -> BenchSettings {
-        let variants = if size_idx == 0 { bench::variants(base) } else { bench::presets(base) };
+        let variants = if size_idx == 0 { cinesplat_bench::variants(base) } else { cinesplat_bench::presets(base) };
         BenchSettings { scene, variants, num_repeats: usize::from(self.runs) }
     }
 
@@ -97,7 +98,7 @@ struct RowLog {
 
 impl RowLog {
     fn add(&mut self, row: &BenchRow) {
-        let line = bench::to_csv(std::slice::from_ref(row));
+        let line = cinesplat_bench::to_csv(std::slice::from_ref(row));
         // A reader that has gone is told of at the end.
         let _ = console::data(line.split_inclusive('\n').nth(1).unwrap_or_default());
         self.rows.push(row.clone());
@@ -106,12 +107,12 @@ impl RowLog {
 }
 
 fn write_all(folder: &Path, rows: &[BenchRow]) -> Result<(), Failure> {
-    outputs::write(&folder.join("render.csv"), bench::to_csv(rows).as_bytes())?;
-    outputs::write(&folder.join("render.md"), bench::to_table(rows).as_bytes())?;
+    outputs::write(&folder.join("render.csv"), cinesplat_bench::to_csv(rows).as_bytes())?;
+    outputs::write(&folder.join("render.md"), cinesplat_bench::to_table(rows).as_bytes())?;
     let Some(size_px) = rows.first().map(|row| row.size_px) else { return Ok(()) };
-    for axis in Axis::ALL {
-        let svg = bench::pareto_svg(rows, size_px, axis);
-        outputs::write(&folder.join(format!("render.{}.svg", axis.name())), svg.as_bytes())?;
+    for axis in Axis::VARIANTS {
+        let svg = cinesplat_bench::pareto_svg(rows, size_px, *axis);
+        outputs::write(&folder.join(format!("render.{}.svg", axis.as_ref())), svg.as_bytes())?;
     }
     console::note(&format!("{}: render.csv, render.md and plots of {} rows", folder.display(), rows.len()));
     Ok(())

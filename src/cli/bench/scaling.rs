@@ -1,11 +1,12 @@
 use std::path::PathBuf;
 use std::process::Command;
+use strum::VariantArray;
 
 use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::{console, outputs};
-use crate::render::Quality;
-use crate::render::bench::scaling::{self, Case, Growth};
+use cinesplat::render::Quality;
+use cinesplat_bench::scaling::{self, Case, Growth};
 
 /// Measures how time and memory grow with Gaussians, pixels and layers.
 #[derive(Debug, clap::Args)]
@@ -42,7 +43,7 @@ impl Args {
         }
         let mut csv = scaling::CSV_HEADER.to_owned();
         console::data(&csv)?;
-        for growth in Growth::ALL {
+        for &growth in Growth::VARIANTS {
             for value in growth.values().iter().filter(|value| **value <= self.most) {
                 let line = in_own_process(growth, *value)?;
                 console::data(&line)?;
@@ -66,7 +67,7 @@ impl Args {
 /// The line of one case, measured by this program started anew with the same arguments.
 fn in_own_process(growth: Growth, value: u64) -> Result<String, Failure> {
     let program = std::env::current_exe().map_err(|error| Failure::io("cinesplat", &error))?;
-    let case = format!("--case={}:{value}", growth.name());
+    let case = format!("--case={}:{value}", growth.as_ref());
     let ran = Command::new(program).args(std::env::args_os().skip(1)).arg(case).output();
     let ran = ran.map_err(|error| Failure::io("cinesplat", &error))?;
     if ran.status.success() {
@@ -74,12 +75,12 @@ fn in_own_process(growth: Growth, value: u64) -> Result<String, Failure> {
     }
     let said = String::from_utf8_lossy(&ran.stderr).trim().replace('\n', "; ");
     let exit_code = ran.status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(70);
-    Err(Failure::new("BENCH-CASE", format!("{} {value}: {said}", growth.name()), "see its error", exit_code))
+    Err(Failure::new("BENCH-CASE", format!("{} {value}: {said}", growth.as_ref()), "see its error", exit_code))
 }
 
 fn parse_case(text: &str) -> Result<Case, String> {
     let read = text.split_once(':').and_then(|(name, value)| {
-        let growth = Growth::ALL.into_iter().find(|growth| growth.name() == name)?;
+        let growth = name.parse().ok()?;
         Some(Case { growth, value: value.parse().ok()? })
     });
     read.ok_or_else(|| "expected GROWTH:VALUE".to_owned())

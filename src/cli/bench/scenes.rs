@@ -7,10 +7,10 @@ use glam::DVec2;
 use super::failure::Failure;
 use super::outputs;
 use super::scene_args::{PictureArgs, SceneOptions};
-use crate::export::cameras_json::{self, StillCameras};
-use crate::geometry::{Camera, Intrinsics, LevelFrame, Pose};
-use crate::render::{Quality, RenderSettings};
-use crate::scene::Scene;
+use cinesplat::export::cameras_json::{self, StillCameras};
+use cinesplat::geometry::{Camera, Intrinsics, LevelFrame, Pose};
+use cinesplat::render::{Quality, RenderSettings};
+use cinesplat::scene::Scene;
 
 /// Several scenes, each with a cameras file.
 #[derive(Debug, clap::Args)]

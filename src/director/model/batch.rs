@@ -11,48 +11,48 @@ use super::config::ModelConfig;
 
 /// One prompt with its objects, in the scene's frame.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Prompt {
+pub struct Prompt {
     /// Its tokens, the beginning first.
-    pub(crate) tokens: Vec<TokenInput>,
+    pub tokens: Vec<TokenInput>,
     /// Number of quantities that its tokens point at.
-    pub(crate) num_quantities: usize,
+    pub num_quantities: usize,
     /// The objects: those that the text names in order of their places, then others.
-    pub(crate) objects: Vec<ObjectInput>,
+    pub objects: Vec<ObjectInput>,
     /// How many of them the text names.
-    pub(crate) num_named: usize,
+    pub num_named: usize,
 }
 
 /// One token as the network reads it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct TokenInput {
+pub struct TokenInput {
     /// Row of the embedding table.
-    pub(crate) id: u32,
+    pub id: u32,
     /// Place of the object that it names.
-    pub(crate) object: Option<usize>,
+    pub object: Option<usize>,
     /// Place of the quantity that it names.
-    pub(crate) quantity: Option<usize>,
+    pub quantity: Option<usize>,
     /// Kind of that quantity, from 1; 0 for other tokens.
-    pub(crate) kind: u32,
+    pub kind: u32,
     /// Logarithm of that quantity, about -1..=1.
-    pub(crate) value: f32,
+    pub value: f32,
 }
 
 /// One object as the network sees it.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct ObjectInput {
+pub struct ObjectInput {
     /// Token id of its slot.
-    pub(crate) slot_token: u32,
+    pub slot_token: u32,
     /// Middle of its box, in the scene's frame.
-    pub(crate) center: DVec3,
+    pub center: DVec3,
     /// Half of its extent along the frame's axes.
-    pub(crate) half_extents: DVec3,
+    pub half_extents: DVec3,
     /// Its cloud about its centroid, in units of its box's half diagonal.
-    pub(crate) points: Vec<[f32; 3]>,
+    pub points: Vec<[f32; 3]>,
 }
 
 /// Prompts side by side.
 #[derive(Debug, Clone)]
-pub(crate) struct PromptBatch {
+pub struct PromptBatch {
     pub(super) size: usize,
     pub(super) num_tokens: usize,
     pub(super) num_objects: usize,
@@ -80,7 +80,7 @@ pub(crate) struct PromptBatch {
 
 impl PromptBatch {
     /// Pads prompts to the longest of them.
-    pub(crate) fn new(prompts: &[&Prompt], config: &ModelConfig) -> Result<Self> {
+    pub fn new(prompts: &[&Prompt], config: &ModelConfig) -> Result<Self> {
         let longest = |count: &dyn Fn(&Prompt) -> usize| prompts.iter().map(|p| count(p)).max().unwrap_or(0).max(1);
         let num_tokens = longest(&|p| p.tokens.len());
         let num_objects = longest(&|p| p.objects.len());
@@ -190,25 +190,25 @@ fn encode_points<'a>(
 
 /// A camera in the scene's frame, as the pose heads put it out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct PoseCode {
+pub struct PoseCode {
     /// Camera center in scene sizes.
-    pub(crate) position: [f32; 3],
+    pub position: [f32; 3],
     /// First two columns of the rotation.
-    pub(crate) rotation_6d: [f32; 6],
+    pub rotation_6d: [f32; 6],
     /// Vertical field of view over 50 degrees, logarithm.
-    pub(crate) log_fov: f32,
+    pub log_fov: f32,
     /// Logarithm of 1 + the seconds since the key before.
-    pub(crate) log_wait: f32,
+    pub log_wait: f32,
 }
 
 /// Numbers of a [`PoseCode`].
-pub(crate) const POSE_WIDTH: usize = 11;
+pub const POSE_WIDTH: usize = 11;
 /// Numbers that say where the object that a key is about stands: whether there is one, center, half extents.
-pub(crate) const ANCHOR_WIDTH: usize = 7;
+pub const ANCHOR_WIDTH: usize = 7;
 
 impl PoseCode {
     /// All numbers in order.
-    pub(crate) fn to_array(self) -> [f32; POSE_WIDTH] {
+    pub fn to_array(self) -> [f32; POSE_WIDTH] {
         let mut out = [0.0; POSE_WIDTH];
         out[..3].copy_from_slice(&self.position);
         out[3..9].copy_from_slice(&self.rotation_6d);
@@ -220,7 +220,7 @@ impl PoseCode {
 
 /// Keys that were emitted (or, in training, should be), as the decoder reads them back.
 #[derive(Debug, Clone)]
-pub(crate) struct KeyBatch {
+pub struct KeyBatch {
     /// One-hot classes of all fields: `[batch, keys, classes]`
     pub(super) classes: Tensor,
     /// Weights on the objects of arrival, departure and way, the first the most: 3 x `[batch, keys, objects]`
@@ -236,7 +236,7 @@ pub(crate) struct KeyBatch {
 
 impl KeyBatch {
     /// Pads lists of keys to the longest of them; `prompts` are those of the batch.
-    pub(crate) fn new(keys: &[&[KeyCode]], prompts: &[&Prompt], batch: &PromptBatch) -> Result<Self> {
+    pub fn new(keys: &[&[KeyCode]], prompts: &[&Prompt], batch: &PromptBatch) -> Result<Self> {
         let num_keys = keys.iter().map(|keys| keys.len()).max().unwrap_or(0).max(1);
         let all = || keys.iter().flat_map(|keys| padded(keys, num_keys));
         let role = |role: usize| {
@@ -307,7 +307,7 @@ fn one_hot(key: &KeyCode, row: &mut [f32]) {
 }
 
 /// The box of the object that each key is about: its own, else that of the nearest key before, else none.
-pub(crate) fn anchor_places(keys: &[KeyCode]) -> Vec<Option<usize>> {
+pub fn anchor_places(keys: &[KeyCode]) -> Vec<Option<usize>> {
     let mut last = None;
     let own = keys.iter().map(|key| {
         last = key.main_object().or(last);

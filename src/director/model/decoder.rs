@@ -11,12 +11,12 @@ use super::batch::{ANCHOR_WIDTH, KeyBatch, POSE_WIDTH};
 use super::config::ModelConfig;
 use super::layers::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Sight};
 use super::parameters::{Parameters, Start};
-use crate::director::codes::Field;
-use crate::director::keys::MAX_KEYS;
+use crate::codes::Field;
+use crate::keys::MAX_KEYS;
 
 /// What the decoders look at.
 #[derive(Debug, Clone)]
-pub(crate) struct Memory {
+pub struct Memory {
     /// States of the text tokens: `[batch, tokens, width]`
     pub(super) text: Tensor,
     /// One vector an object: `[batch, objects, width]`

@@ -10,24 +10,24 @@ use super::config::ModelConfig;
 use super::decoder::Memory;
 use super::layers::Linear;
 use super::parameters::{Parameters, Start};
-use crate::director::codes::{Field, OBJECT_POINTERS, QUANTITY_POINTERS};
+use crate::codes::{Field, OBJECT_POINTERS, QUANTITY_POINTERS};
 
 /// Score of a place that does not exist: no probability, no infinity.
 const ABSENT: f32 = -1e9;
 
 /// Scores (before softmax) of every choice of every key.
 #[derive(Debug, Clone)]
-pub(crate) struct Scores {
+pub struct Scores {
     /// Classes of all fields side by side: `[batch, keys, classes]`
-    pub(crate) classes: Tensor,
+    pub classes: Tensor,
     /// Nothing, then each object: `[batch, keys, OBJECT_POINTERS, 1 + objects]`
-    pub(crate) objects: Tensor,
+    pub objects: Tensor,
     /// Nothing, then each quantity: `[batch, keys, QUANTITY_POINTERS, 1 + quantities]`
-    pub(crate) quantities: Tensor,
+    pub quantities: Tensor,
     /// First and last token: `[batch, keys, 2, tokens]`
-    pub(crate) words: Tensor,
+    pub words: Tensor,
     /// The film's length: nothing, then each quantity: `[batch, 1, 1, 1 + quantities]`
-    pub(crate) film: Tensor,
+    pub film: Tensor,
 }
 
 #[derive(Debug, Clone)]

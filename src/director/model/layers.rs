@@ -16,19 +16,19 @@ const REACH: usize = 24;
 
 /// Drops numbers at random while training; does nothing otherwise.
 #[derive(Debug)]
-pub(crate) struct Dropout {
+pub struct Dropout {
     rate: f32,
     rng: Option<RefCell<Pcg64Mcg>>,
 }
 
 impl Dropout {
     /// Drops nothing.
-    pub(crate) fn off() -> Self {
+    pub fn off() -> Self {
         Self { rate: 0.0, rng: None }
     }
 
     /// Drops a share `rate` of the numbers, drawn from `rng`.
-    pub(crate) fn new(rate: f32, rng: Pcg64Mcg) -> Self {
+    pub fn new(rate: f32, rng: Pcg64Mcg) -> Self {
         Self { rate, rng: (rate > 0.0).then(|| RefCell::new(rng)) }
     }
 

@@ -15,18 +15,18 @@ mod parameters;
 mod slices;
 mod text;
 
-pub(crate) use batch::{KeyBatch, ObjectInput, POSE_WIDTH, PoseCode, Prompt, PromptBatch, TokenInput, anchor_places};
+pub use batch::{KeyBatch, ObjectInput, POSE_WIDTH, PoseCode, Prompt, PromptBatch, TokenInput, anchor_places};
 pub use config::ModelConfig;
-pub(crate) use decoder::Memory;
-pub(crate) use heads::Scores;
-pub(crate) use layers::Dropout;
-pub(crate) use parameters::Parameters;
+pub use decoder::Memory;
+pub use heads::Scores;
+pub use layers::Dropout;
+pub use parameters::Parameters;
 
 use candle_core::{Result, Tensor};
 
 /// The whole network.
 #[derive(Debug, Clone)]
-pub(crate) struct Network {
+pub struct Network {
     text: text::TextEncoder,
     objects: objects::ObjectEncoder,
     intent: decoder::IntentDecoder,
@@ -36,7 +36,7 @@ pub(crate) struct Network {
 
 impl Network {
     /// Puts the network together from fresh or stored parameters.
-    pub(crate) fn new(parameters: &mut Parameters, config: &ModelConfig) -> Result<Self> {
+    pub fn new(parameters: &mut Parameters, config: &ModelConfig) -> Result<Self> {
         Ok(Self {
             text: text::TextEncoder::new(parameters, config)?,
             objects: objects::ObjectEncoder::new(parameters, config)?,
@@ -47,7 +47,7 @@ impl Network {
     }
 
     /// Reads prompts and objects.
-    pub(crate) fn remember(&self, batch: &PromptBatch, dropout: &Dropout) -> Result<Memory> {
+    pub fn remember(&self, batch: &PromptBatch, dropout: &Dropout) -> Result<Memory> {
         let text = self.text.apply(batch, dropout)?; // [batch, tokens, width]
         let slots = self.text.rows(&batch.slots)?; // [batch * objects, width]
         let tokens = self.objects.apply(batch, &slots, dropout)?; // [batch * objects, queries, width]
@@ -73,17 +73,17 @@ impl Network {
     }
 
     /// States that predict the keys and the one after them: `[batch, keys + 1, width]`.
-    pub(crate) fn states(&self, keys: Option<&KeyBatch>, memory: &Memory, dropout: &Dropout) -> Result<Tensor> {
+    pub fn states(&self, keys: Option<&KeyBatch>, memory: &Memory, dropout: &Dropout) -> Result<Tensor> {
         self.intent.apply(keys, memory, dropout)
     }
 
     /// Scores of the keys that states predict.
-    pub(crate) fn scores(&self, states: &Tensor, memory: &Memory, batch: &PromptBatch) -> Result<Scores> {
+    pub fn scores(&self, states: &Tensor, memory: &Memory, batch: &PromptBatch) -> Result<Scores> {
         self.heads.apply(states, memory, batch)
     }
 
     /// Poses of keys from the states that predicted them and the poses before: `[batch, keys, POSE_WIDTH]`.
-    pub(crate) fn poses(
+    pub fn poses(
         &self,
         keys: &KeyBatch,
         states: &Tensor,

@@ -17,7 +17,7 @@ pub(super) enum Start {
 
 /// The named parameters of a network while it is put together: drawn from a seed, or taken from stored tensors.
 #[derive(Debug)]
-pub(crate) enum Parameters {
+pub enum Parameters {
     /// Trainable ones, drawn in the order in which they are asked for.
     Fresh {
         /// Source of the draws (candle's own cannot be seeded on the CPU).
@@ -34,7 +34,7 @@ pub(crate) enum Parameters {
 
 impl Parameters {
     /// Trainable parameters from a seed.
-    pub(crate) fn seeded(seed: u64) -> Self {
+    pub fn seeded(seed: u64) -> Self {
         Self::Fresh { rng: Pcg64Mcg::seed_from_u64(seed), vars: BTreeMap::new() }
     }
 

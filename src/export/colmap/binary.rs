@@ -6,7 +6,7 @@ use super::super::ExportError;
 use super::super::track::PoseTrack;
 use super::{Image, Lens, MODELS, ModelFiles, PINHOLE, model, non_empty, track};
 
-pub(in crate::export) fn write(track: &PoseTrack) -> ModelFiles {
+pub(crate) fn write(track: &PoseTrack) -> ModelFiles {
     let (lenses, images) = model(track);
     let mut cameras = (lenses.len() as u64).to_le_bytes().to_vec();
     for lens in &lenses {
@@ -30,7 +30,7 @@ pub(in crate::export) fn write(track: &PoseTrack) -> ModelFiles {
 }
 
 /// The track of `images.bin` and `cameras.bin`; without the latter, fields of view stay unknown.
-pub(in crate::export) fn read(images: &[u8], cameras: Option<&[u8]>) -> Result<PoseTrack, ExportError> {
+pub(crate) fn read(images: &[u8], cameras: Option<&[u8]>) -> Result<PoseTrack, ExportError> {
     let lenses = cameras.map(read_lenses).transpose()?.unwrap_or_default();
     let mut bytes = Bytes { bytes: images, offset: 0 };
     let num_images = bytes.u64("a number of images")?;

@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 
 use super::ExportError;
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
-use crate::geometry::Pose;
+use cinesplat_geometry::Pose;
 
 pub(super) use binary::{read as read_binary, write as write_binary};
 pub(super) use text::{read as read_text, write as write_text};

@@ -9,7 +9,7 @@ use super::super::columns::{bad_line, data_lines, joined, number};
 use super::super::track::PoseTrack;
 use super::{Image, Lens, MODELS, ModelFiles, PINHOLE, model, model_number, non_empty, track};
 
-pub(in crate::export) fn write(track: &PoseTrack) -> ModelFiles {
+pub(crate) fn write(track: &PoseTrack) -> ModelFiles {
     let (lenses, images) = model(track);
     let mut cameras = String::from("# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n");
     for lens in &lenses {
@@ -31,7 +31,7 @@ pub(in crate::export) fn write(track: &PoseTrack) -> ModelFiles {
 }
 
 /// The track of `images.txt` and `cameras.txt`; without the latter, fields of view stay unknown.
-pub(in crate::export) fn read(images: &str, cameras: Option<&str>) -> Result<PoseTrack, ExportError> {
+pub(crate) fn read(images: &str, cameras: Option<&str>) -> Result<PoseTrack, ExportError> {
     let lenses = cameras.map(read_lenses).transpose()?.unwrap_or_default();
     let mut lines = images.lines().enumerate().map(|(idx, line)| (idx + 1, line.trim()));
     let mut list = Vec::new();

@@ -6,13 +6,13 @@ use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{DEFAULT_SIZE_PX, PoseFrame, PoseTrack};
 use super::accessor::{item, size, values};
 use super::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER, base64};
-use crate::geometry::{Pose, rotation};
+use cinesplat_geometry::{Pose, rotation};
 
 /// Deepest chain of nodes above a camera.
 const MAX_DEPTH: usize = 64;
 
 /// The track of the first camera in a `.gltf` or `.glb`; `resolve` gives the bytes of a file beside it.
-pub(in crate::export) fn read(
+pub(crate) fn read(
     bytes: &[u8],
     resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>,
 ) -> Result<PoseTrack, ExportError> {

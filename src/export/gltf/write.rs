@@ -5,13 +5,13 @@ use super::super::opengl::{opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack, fov_y_or_default};
 use super::accessor::FLOAT;
 use super::{BINARY_CHUNK, GLB_MAGIC, JSON_CHUNK, POINTER, base64};
-use crate::geometry::rotation;
+use cinesplat_geometry::rotation;
 
 /// Nearest and farthest distance that a viewer should draw, over the extent of the path.
 const CLIP_FACTORS: (f64, f64) = (1e-3, 1e3);
 
 /// The `.gltf` text, its numbers inside as a data URI.
-pub(in crate::export) fn write_text(track: &PoseTrack) -> String {
+pub(crate) fn write_text(track: &PoseTrack) -> String {
     let (document, bytes) =
         document(track, |bytes| Some(format!("data:application/octet-stream;base64,{}", base64::encode(bytes))));
     let _ = bytes;
@@ -19,7 +19,7 @@ pub(in crate::export) fn write_text(track: &PoseTrack) -> String {
 }
 
 /// The `.glb` bytes.
-pub(in crate::export) fn write_binary(track: &PoseTrack) -> Vec<u8> {
+pub(crate) fn write_binary(track: &PoseTrack) -> Vec<u8> {
     let (document, bytes) = document(track, |_| None);
     let mut json = document.into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');

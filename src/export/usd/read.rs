@@ -5,14 +5,14 @@ use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
 use super::HOLD_CODES;
 use super::parse::{Prim, Value, parse};
-use crate::geometry::rotation;
+use cinesplat_geometry::rotation;
 
 /// USD's defaults where a camera says nothing, tenths of a unit.
 const DEFAULT_FOCAL: f64 = 50.0;
 const DEFAULT_FILM_HEIGHT: f64 = 15.2908;
 const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
 
-pub(in crate::export) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let not_readable = |reason: &str| ExportError::NotReadable { format: "usd", reason: reason.to_owned() };
     if !bytes.starts_with(b"#usda") {
         return Err(not_readable("only the text form .usda is read: convert with usdcat"));

@@ -6,12 +6,12 @@ use super::super::columns::joined;
 use super::super::opengl::{opengl_rotation, y_up_from_world};
 use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use super::{FILM_HEIGHT, HOLD_CODES};
-use crate::geometry::rotation;
+use cinesplat_geometry::rotation;
 
 /// Frames and their time codes.
 type Samples<'a> = Vec<(f64, &'a PoseFrame)>;
 
-pub(in crate::export) fn write(track: &PoseTrack) -> String {
+pub(crate) fn write(track: &PoseTrack) -> String {
     let fps = track.fps.unwrap_or(DEFAULT_FPS);
     let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
     let samples = held(track, fps);

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::{ClearanceIndex, Nearest, OPACITY_FLOOR, SIGMA_LEVEL};
-use crate::trajectory::{CameraPath, ClearanceFailure, ClearanceProof, PathPart};
+use cinesplat_trajectory::{CameraPath, ClearanceFailure, ClearanceProof, PathPart};
 
 /// How close the proved bound comes to the least distance found on the path, over the camera's radius.
 const TOLERANCE_FRAC: f64 = 0.01;
@@ -21,24 +21,24 @@ const ROUNDING_FRAC: f64 = 1e-9;
 
 /// How far to look for the least clearance of a path.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::operator) struct Search {
+pub(crate) struct Search {
     /// A clearance that is good enough: nothing is asked of what is known to have it.
-    pub(in crate::operator) enough: f64,
+    pub(crate) enough: f64,
     /// How close the bound has to come to the least distance found.
-    pub(in crate::operator) tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Parts looked at, at most.
-    pub(in crate::operator) max_parts: usize,
+    pub(crate) max_parts: usize,
 }
 
 /// What is known about the clearance of a path.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::operator) struct LeastClearance {
+pub(crate) struct LeastClearance {
     /// No point of the path is nearer to matter than this; at most [`Search::enough`].
-    pub(in crate::operator) bound: f64,
+    pub(crate) bound: f64,
     /// The nearest that was met at the middle of a part: where, and what. `None` where all is at least `enough` away.
-    pub(in crate::operator) witness: Option<(PathPart, Nearest)>,
+    pub(crate) witness: Option<(PathPart, Nearest)>,
     /// Parts looked at.
-    pub(in crate::operator) num_parts: usize,
+    pub(crate) num_parts: usize,
 }
 
 /// A part that may come nearer than what has been met.
@@ -100,11 +100,7 @@ impl Hunt<'_> {
 }
 
 /// A lower bound of the distance between a path and matter, as far as the search asks.
-pub(in crate::operator) fn least_clearance(
-    index: &ClearanceIndex,
-    path: &CameraPath,
-    search: &Search,
-) -> LeastClearance {
+pub(crate) fn least_clearance(index: &ClearanceIndex, path: &CameraPath, search: &Search) -> LeastClearance {
     let mut hunt = Hunt { index, path, open: BinaryHeap::new(), met: search.enough, witness: None, num_parts: 0 };
     path.parts().into_iter().for_each(|part| hunt.look(part, 0.0));
     let mut bound = None;
@@ -121,7 +117,7 @@ pub(in crate::operator) fn least_clearance(
 }
 
 /// What can be proved about a camera ball of `radius` on a path.
-pub(in crate::operator) fn prove(index: &ClearanceIndex, path: &CameraPath, radius: f64) -> ClearanceProof {
+pub(crate) fn prove(index: &ClearanceIndex, path: &CameraPath, radius: f64) -> ClearanceProof {
     let search = Search { enough: f64::INFINITY, tolerance: TOLERANCE_FRAC * radius, max_parts: MAX_PARTS };
     let found = least_clearance(index, path, &search);
     let least = (found.bound * (1.0 - ROUNDING_FRAC) - radius * ROUNDING_FRAC).max(0.0);

@@ -8,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::ellipsoid::Ellipsoid;
-use crate::scene::Gaussians;
+use cinesplat_scene::Gaussians;
 
 /// Children of a node.
 const WIDTH: usize = 8;

@@ -1,7 +1,7 @@
 //! How far the camera is from matter, and proofs about it for whole paths.
 //!
-//! Enters: the Gaussians of a scene and a [`CameraPath`](crate::trajectory::CameraPath). Leaves: distances to matter,
-//! and a [`ClearanceProof`](crate::trajectory::ClearanceProof) for every moment of the path, not for samples of it.
+//! Enters: the Gaussians of a scene and a [`CameraPath`](cinesplat_trajectory::CameraPath). Leaves: distances to matter,
+//! and a [`ClearanceProof`](cinesplat_trajectory::ClearanceProof) for every moment of the path, not for samples of it.
 //!
 //! *Matter* is the set of ellipsoids of all Gaussians of at least [`OPACITY_FLOOR`], out to [`SIGMA_LEVEL`] standard
 //! deviations. The camera is a ball; it is clear of matter where no ellipsoid comes nearer to its center than its

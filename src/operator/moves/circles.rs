@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::Scenario;
-use crate::operator::Amount;
-use crate::operator::draft::{GoalKind, Part, When};
-use crate::operator::framing::{Target, bearing_of};
-use crate::operator::view::{aimed, lerp, moved};
-use crate::trajectory::{CameraState, Move, ShotAngle};
+use crate::Amount;
+use crate::draft::{GoalKind, Part, When};
+use crate::framing::{Target, bearing_of};
+use crate::view::{aimed, lerp, moved};
+use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
 /// Most degrees of an orbit between two keys, so that a person sees its shape in the keys.
 const DEG_PER_KEY: f64 = 30.0;
@@ -86,7 +86,7 @@ pub(super) fn crane(scenario: &Scenario) -> Vec<Part> {
     };
     let last = raised(scenario, &first, &target, upward);
     let middle = CameraState {
-        pose: crate::geometry::Pose { position: first.pose.position.lerp(last.pose.position, 0.5), ..first.pose },
+        pose: cinesplat_geometry::Pose { position: first.pose.position.lerp(last.pose.position, 0.5), ..first.pose },
         ..first
     };
     let states = vec![first, aimed(scenario.world, &middle, target.aim), last];
@@ -107,7 +107,7 @@ pub(super) fn crane(scenario: &Scenario) -> Vec<Part> {
 }
 
 /// Framing of a crane's open start: low enough to rise, or high enough to sink.
-fn opening_for_crane(scenario: &Scenario, upward: bool) -> crate::operator::Framing {
+fn opening_for_crane(scenario: &Scenario, upward: bool) -> crate::Framing {
     let mut framing = scenario.opening_framing();
     framing.angle = if upward { None } else { Some(ShotAngle::High) };
     framing

@@ -1,11 +1,11 @@
 //! Moves of the lens: zoom, dolly zoom, rack focus.
 
 use super::Scenario;
-use crate::operator::Amount;
-use crate::operator::draft::{GoalKind, Part, When};
-use crate::operator::framing::{Fill, Target, extent_frac, in_frame_frac};
-use crate::operator::view::{lerp, moved, size_fill, with_fov};
-use crate::trajectory::{CameraState, Move};
+use crate::Amount;
+use crate::draft::{GoalKind, Part, When};
+use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
+use crate::view::{lerp, moved, size_fill, with_fov};
+use cinesplat_trajectory::{CameraState, Move};
 
 /// Narrowest and widest vertical field of view that a move goes to by itself, degrees.
 const LENS_LIMITS_DEG: (f64, f64) = (9.0, 84.0);
@@ -35,7 +35,7 @@ pub(super) fn zoom(scenario: &Scenario) -> Vec<Part> {
 
 impl Scenario<'_> {
     /// How a zoom's first view is framed: an end size belongs to the end.
-    fn opening_framing_for_zoom(&self, inward: bool) -> crate::operator::Framing {
+    fn opening_framing_for_zoom(&self, inward: bool) -> crate::Framing {
         let mut framing = self.opening_framing();
         if !inward && self.start.is_none() {
             framing.size = None;

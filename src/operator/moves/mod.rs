@@ -16,8 +16,8 @@ use super::framing::{Target, off_center};
 use super::view::{ViewRange, across, aimed, broad_sides, first_view};
 use super::world::World;
 use super::{Framing, Pass, Program, Speed, Step, Suggestion};
-use crate::geometry::rotation;
-use crate::trajectory::{CameraState, Easing, Move};
+use cinesplat_geometry::rotation;
+use cinesplat_trajectory::{CameraState, Easing, Move};
 
 /// Share of a subject's framed points that has to be seen; the film's report calls less than this hidden.
 const SEEN_FRAC: f64 = 0.6;

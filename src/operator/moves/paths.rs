@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::{NORMAL_LENS_DEG, Scenario};
-use crate::geometry::rotation;
-use crate::operator::draft::{GoalKind, Part, When};
-use crate::operator::framing::{Fill, Target, bearing_of, distance_for, off_center, view_at};
-use crate::operator::view::{aimed, lerp, moved};
-use crate::operator::{Pass, Via};
-use crate::trajectory::{CameraState, Move};
+use crate::draft::{GoalKind, Part, When};
+use crate::framing::{Fill, Target, bearing_of, distance_for, off_center, view_at};
+use crate::view::{aimed, lerp, moved};
+use crate::{Pass, Via};
+use cinesplat_geometry::rotation;
+use cinesplat_trajectory::{CameraState, Move};
 
 /// From the view before (or of what it starts on) to a view of what it ends on.
 pub(super) fn follow(scenario: &Scenario) -> Vec<Part> {
@@ -41,12 +41,12 @@ fn end_view(scenario: &Scenario, end: &Target, first: &CameraState) -> CameraSta
         Some(band) => lerp(band, genes[7]),
         None => (near.elevation_rad.to_degrees() * 0.5 + lerp((-6.0, 20.0), genes[7]) * 0.7).clamp(-12.0, 40.0),
     };
-    let bearing = crate::operator::framing::Bearing {
+    let bearing = crate::framing::Bearing {
         azimuth_rad: near.azimuth_rad + spread(genes[5]) * 2.4,
         elevation_rad: elevation_deg.to_radians(),
     };
     let fill = match scenario.step.end.size {
-        Some(size) => crate::operator::view::size_fill(size, genes[6]),
+        Some(size) => crate::view::size_fill(size, genes[6]),
         None => Fill::Fit(lerp((0.35, 0.7), genes[6])),
     };
     let fill = if scenario.step.end.whole { Fill::Fit(lerp((0.5, 0.85), genes[6])) } else { fill };
@@ -77,13 +77,13 @@ fn halfway(scenario: &Scenario, first: &CameraState, last: &CameraState, offset:
     let frame = &scenario.world.frame;
     let (a, b) = (frame.angles(first.pose.rotation), frame.angles(last.pose.rotation));
     let turn = (b.yaw_rad - a.yaw_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
-    let middle = crate::geometry::LevelAngles {
+    let middle = cinesplat_geometry::LevelAngles {
         yaw_rad: a.yaw_rad + turn / 2.0,
         pitch_rad: a.pitch_rad.midpoint(b.pitch_rad),
         roll_rad: a.roll_rad.midpoint(b.roll_rad),
     };
     let position = first.pose.position.lerp(last.pose.position, 0.5) + offset;
-    let pose = crate::geometry::Pose { position, rotation: frame.rotation(middle) };
+    let pose = cinesplat_geometry::Pose { position, rotation: frame.rotation(middle) };
     CameraState { pose, fov_y_rad: first.fov_y_rad.midpoint(last.fov_y_rad), focus_distance: None }
 }
 
@@ -174,7 +174,7 @@ fn before_gate(scenario: &Scenario, gate: DVec3, goal: Option<&Target>) -> Camer
     let position = gate - frame.direction(heading) * back + frame.up * rise;
     let fov_y_rad = lerp((40.0, 58.0), scenario.genes[5]).to_radians();
     let state = CameraState {
-        pose: crate::geometry::Pose { position, rotation: glam::DQuat::IDENTITY },
+        pose: cinesplat_geometry::Pose { position, rotation: glam::DQuat::IDENTITY },
         fov_y_rad,
         focus_distance: None,
     };
@@ -204,7 +204,7 @@ pub(super) fn reveal(scenario: &Scenario) -> Vec<Part> {
 fn out_of_frame(scenario: &Scenario, last: &CameraState, target: &Target) -> DVec3 {
     let distance = last.pose.position.distance(target.aim);
     let half_height = (last.fov_y_rad / 2.0).tan() * distance;
-    let half_width = half_height * crate::operator::framing::DEFAULT_ASPECT;
+    let half_width = half_height * crate::framing::DEFAULT_ASPECT;
     let (right, up) = (last.pose.right(), scenario.world.frame.up);
     let aside = right * (half_width * 1.05 + target.radius);
     let aloft = up * (half_height * 1.05 + target.radius);

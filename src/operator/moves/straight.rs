@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::{NORMAL_LENS_DEG, Scenario};
-use crate::operator::draft::{Axis, GoalKind, Part, When};
-use crate::operator::framing::{Fill, Target, bearing_of, distance_for, frame_position, in_frame_frac};
-use crate::operator::view::{lerp, moved, size_fill};
-use crate::operator::{Amount, Framing, Part as ObjectPart, Pass};
-use crate::trajectory::{CameraState, Move, ShotSize};
+use crate::draft::{Axis, GoalKind, Part, When};
+use crate::framing::{Fill, Target, bearing_of, distance_for, frame_position, in_frame_frac};
+use crate::view::{lerp, moved, size_fill};
+use crate::{Amount, Framing, Part as ObjectPart, Pass};
+use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Seconds for a change of distance by a factor of two.
 const SECS_PER_DOUBLING: f64 = 3.4;
@@ -234,7 +234,7 @@ fn leveled(scenario: &Scenario, state: &CameraState, target: &Target) -> CameraS
     let frame = &scenario.world.frame;
     let fall = frame.height(state.pose.position - target.aim) * lerp((1.0, 0.4), scenario.genes[7]);
     let lowered = moved(state, -frame.up * fall);
-    crate::operator::view::aimed(scenario.world, &lowered, target.aim)
+    crate::view::aimed(scenario.world, &lowered, target.aim)
 }
 
 /// Length of a slide whose end the words leave open.

@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::{Scenario, TURN_DEG_PER_SEC};
-use crate::geometry::{LevelAngles, Pose, rotation};
-use crate::operator::draft::{GoalKind, Part, When};
-use crate::operator::framing::{DEFAULT_ASPECT, Target, extent_frac, frame_position, off_center};
-use crate::operator::view::{aimed, aimed_at_side, lerp};
-use crate::operator::{Amount, Part as ObjectPart};
-use crate::trajectory::{CameraState, Easing, Move};
+use crate::draft::{GoalKind, Part, When};
+use crate::framing::{DEFAULT_ASPECT, Target, extent_frac, frame_position, off_center};
+use crate::view::{aimed, aimed_at_side, lerp};
+use crate::{Amount, Part as ObjectPart};
+use cinesplat_geometry::{LevelAngles, Pose, rotation};
+use cinesplat_trajectory::{CameraState, Easing, Move};
 
 /// Turn of a pan or tilt that the words give no end for, degrees.
 const OPEN_TURN_DEG: (f64, f64) = (24.0, 42.0);
@@ -49,7 +49,7 @@ const MOST_WIDTH: f64 = 0.5;
 
 /// Whether words leave the composition of a held view open: one subject, nothing said of its size, place or angle, and no
 /// later step that needs it in the middle.
-fn is_free(scenario: &Scenario, framing: &crate::operator::Framing) -> bool {
+fn is_free(scenario: &Scenario, framing: &crate::Framing) -> bool {
     let alone = framing.subjects.len() <= 1 && !framing.whole && framing.part == ObjectPart::Middle;
     alone && framing.size.is_none() && framing.angle.is_none() && scenario.is_last
 }
@@ -192,7 +192,7 @@ fn turn(
     let (along, across) = goals(sign);
     if !(whip && scenario.step.either_way) {
         let along = if angle_rad < 0.3 && stated_rad.is_some() { None } else { Some(along) };
-        part.goals.extend(along.map(|kind| crate::operator::draft::Goal { kind, when: When::All }));
+        part.goals.extend(along.map(|kind| crate::draft::Goal { kind, when: When::All }));
         part = part.keeping(When::All, across);
     }
     part = scenario.ending(scenario.beginning(part));

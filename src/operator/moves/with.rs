@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::Scenario;
-use crate::geometry::{LevelAngles, Pose};
-use crate::operator::draft::{Goal, GoalKind, Part};
-use crate::operator::view::{aimed, lerp, moved, with_fov};
-use crate::trajectory::{CameraState, Move};
+use crate::draft::{Goal, GoalKind, Part};
+use crate::view::{aimed, lerp, moved, with_fov};
+use cinesplat_geometry::{LevelAngles, Pose};
+use cinesplat_trajectory::{CameraState, Move};
 
 /// Keys of a mixed move at least: its path bends.
 const NUM_KEYS: usize = 5;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::straight::{end_room, free_around};
-use crate::operator::world::World;
+use crate::world::World;
 
 /// Points of the band over a way as long as the scene's size, and at least and at most.
 const POINTS_PER_SIZE: f64 = 48.0;

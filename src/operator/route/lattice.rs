@@ -7,8 +7,8 @@ use std::collections::BinaryHeap;
 use glam::{DVec3, IVec3};
 
 use super::straight::{free_around, is_clear};
-use crate::operator::grid::Grid;
-use crate::operator::world::World;
+use crate::grid::Grid;
+use crate::world::World;
 
 /// Places that one search goes on from, at most.
 const MAX_PLACES: usize = 80_000;

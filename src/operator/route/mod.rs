@@ -15,8 +15,8 @@ use self::lattice::{Lattice, Reached};
 use super::clearance::prove;
 use super::draft::{Part, StepLabels, keyframes};
 use super::world::World;
-use crate::geometry::{LevelAngles, Pose};
-use crate::trajectory::{CameraPath, CameraState, ClearanceProof, Easing, Keyframe, Move, retime};
+use cinesplat_geometry::{LevelAngles, Pose};
+use cinesplat_trajectory::{CameraPath, CameraState, ClearanceProof, Easing, Keyframe, Move, retime};
 
 /// Lattices to try: edge of a cell over the scene size, and room beyond the camera's radius over that radius. Wide ways
 /// first; the last finds gaps a few percent wider than the camera.

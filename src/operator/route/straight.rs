@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::operator::world::World;
+use crate::world::World;
 
 /// Steps along one straight way at most.
 const MAX_STEPS: usize = 400;

@@ -1,7 +1,7 @@
 use std::time::Instant;
 
-use crate::geometry::{Camera, Intrinsics};
-use crate::render::{Frame, Quality, RenderError, RenderSettings, Renderer};
+use cinesplat_geometry::{Camera, Intrinsics};
+use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer};
 
 /// Size in pixels of the cut-out that `reference` renders.
 const CUTOUT_PX: [u32; 2] = [128, 72];

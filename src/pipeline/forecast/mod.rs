@@ -11,16 +11,17 @@ mod sample;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
+use strum::VariantArray;
 
 pub use cost::{FilmCost, Spent, num_cores};
 
 use super::PipelineError;
 use super::film::{self, FilmSettings, camera_at};
-use crate::geometry::Camera;
-use crate::render::{Quality, RenderError, RenderSettings, Renderer};
-use crate::trajectory::{CameraPath, Shot};
-use crate::video::{VideoFormat, VideoSettings, num_ahead};
 use accuracy::{Exact, mean_square, psnr_db};
+use cinesplat_geometry::Camera;
+use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
+use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_video::{VideoFormat, VideoSettings, num_ahead};
 use sample::{Patience, Sampler, Samples};
 
 /// After this long nothing further is looked at.
@@ -170,7 +171,7 @@ pub fn choose(forecasts: &[Forecast], wish: Wish) -> Result<Quality, PipelineErr
     let chosen = if wish.min_psnr_db.is_some() {
         fitting.min_by_key(|forecast| forecast.film_time)
     } else {
-        // Ascending accuracy, as `Quality::ALL`.
+        // Ascending accuracy, as `Quality::VARIANTS`.
         fitting.next_back()
     };
     chosen.map(|forecast| forecast.quality).ok_or_else(|| PipelineError::Unreachable {
@@ -194,7 +195,7 @@ impl Forecast {
 
     /// Such as `standard 23.1 s, 55.2 dB (worst 54.8), 0.31 GB`.
     pub fn sentence(&self) -> String {
-        let (secs, name) = (self.film_time.as_secs_f64(), self.quality.name());
+        let (secs, name) = (self.film_time.as_secs_f64(), self.quality.as_ref());
         let gigabytes = self.memory_bytes as f64 / 1e9;
         if self.psnr_db == f64::INFINITY {
             return format!("{name} {secs:.1} s, exact, {gigabytes:.2} GB");
@@ -226,7 +227,7 @@ impl Wish {
 /// The qualities whose frames are timed whole: those wanted but `reference`; `standard` where that alone is.
 fn timed_qualities(wanted: &[Quality]) -> Vec<Quality> {
     let is_timed = |quality: &Quality| *quality != Quality::Reference && wanted.contains(quality);
-    let timed: Vec<Quality> = Quality::ALL.into_iter().filter(is_timed).collect();
+    let timed: Vec<Quality> = Quality::VARIANTS.iter().copied().filter(is_timed).collect();
     if timed.is_empty() { vec![Quality::Standard] } else { timed }
 }
 

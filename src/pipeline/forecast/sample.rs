@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use super::accuracy::{at, mean_square};
 use super::cost::Spent;
-use crate::geometry::Camera;
-use crate::render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
-use crate::video::{VideoError, VideoSettings, rehearse};
+use cinesplat_geometry::Camera;
+use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
+use cinesplat_video::{VideoError, VideoSettings, rehearse};
 
 /// Places of the film whose work is counted on small pictures.
 const NUM_PLACES: usize = 9;

@@ -5,10 +5,10 @@ use glam::{DVec3, Vec3};
 use super::comments;
 use super::header::{Element, Header};
 use super::rows::Rows;
-use crate::scene::intake::{Intake, RawGaussian, SH_C0};
-use crate::scene::load::{Decoded, Source};
-use crate::scene::up::UpPrior;
-use crate::scene::{NUM_SH_REST, SceneError};
+use crate::intake::{Intake, RawGaussian, SH_C0};
+use crate::load::{Decoded, Source};
+use crate::up::UpPrior;
+use crate::{NUM_SH_REST, SceneError};
 
 /// Gaussians that share a chunk.
 const CHUNK: usize = 256;

@@ -1,5 +1,5 @@
-use crate::scene::SceneError;
-use crate::scene::load::Source;
+use crate::SceneError;
+use crate::load::Source;
 
 /// Longest header that is read.
 const MAX_HEADER_BYTES: usize = 64 << 10;

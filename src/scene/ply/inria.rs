@@ -5,10 +5,10 @@ use glam::{DVec3, Vec3};
 use super::comments;
 use super::header::{Element, Encoding, Header, Scalar};
 use super::rows::Rows;
-use crate::scene::intake::{Intake, RawGaussian, SH_C0};
-use crate::scene::load::{Decoded, Source};
-use crate::scene::up::UpPrior;
-use crate::scene::{NUM_SH_REST, SceneError, SplatFilter};
+use crate::intake::{Intake, RawGaussian, SH_C0};
+use crate::load::{Decoded, Source};
+use crate::up::UpPrior;
+use crate::{NUM_SH_REST, SceneError, SplatFilter};
 
 /// Names under which programs keep an object id, the most telling first.
 const ID_NAMES: [&str; 9] =

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::header::{Element, Encoding, Header, Scalar};
-use crate::scene::SceneError;
-use crate::scene::load::Source;
+use crate::SceneError;
+use crate::load::Source;
 
 /// Walks the rows of a PLY body, element by element, front to back.
 pub(super) struct Rows<'a> {

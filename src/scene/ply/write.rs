@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{Gaussians, NUM_SH_REST, SceneError};
+use crate::{Gaussians, NUM_SH_REST, SceneError};
 
 /// Writes Gaussians in INRIA's layout: binary little-endian, one property a number, normals 0, logarithmic scales,
 /// opacity logits, quaternions w first.

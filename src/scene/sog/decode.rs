@@ -2,9 +2,9 @@ use glam::{DVec3, Vec3};
 
 use super::meta::{Codes, Meta, Palette};
 use super::pictures::{Files, Picture};
-use crate::scene::intake::{Collected, Intake, RawGaussian};
-use crate::scene::load::Source;
-use crate::scene::{NUM_SH_REST, SceneError};
+use crate::intake::{Collected, Intake, RawGaussian};
+use crate::load::Source;
+use crate::{NUM_SH_REST, SceneError};
 
 /// Entries in a row of the palette picture.
 const ENTRIES_A_ROW: usize = 64;

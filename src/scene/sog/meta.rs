@@ -2,8 +2,8 @@ use glam::DVec3;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::scene::load::Source;
-use crate::scene::{SceneError, SplatFilter};
+use crate::load::Source;
+use crate::{SceneError, SplatFilter};
 
 /// How a byte becomes a value.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use image::{ImageReader, Limits};
 use zip::ZipArchive;
 
-use crate::scene::SceneError;
-use crate::scene::load::{Source, read_file};
+use crate::SceneError;
+use crate::load::{Source, read_file};
 
 /// Longest `meta.json` in a bundle.
 const MAX_META_BYTES: u64 = 4 << 20;

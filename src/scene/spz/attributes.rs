@@ -2,9 +2,9 @@ use glam::{DVec3, Vec3};
 use half::f16;
 
 use super::container::{Container, SpzHeader};
-use crate::scene::intake::{Collected, Intake, RawGaussian};
-use crate::scene::load::Source;
-use crate::scene::{NUM_SH_REST, SceneError};
+use crate::intake::{Collected, Intake, RawGaussian};
+use crate::load::Source;
+use crate::{NUM_SH_REST, SceneError};
 
 /// Range of the degree-0 coefficients: a byte holds 0.5 + 0.15 * `f_dc`.
 const COLOR_SCALE: f64 = 0.15;

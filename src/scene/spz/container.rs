@@ -7,8 +7,8 @@ use flate2::bufread::GzDecoder;
 use ruzstd::decoding::StreamingDecoder;
 
 use super::{HAS_EXTENSIONS, LOD_TREE};
-use crate::scene::SceneError;
-use crate::scene::load::Source;
+use crate::SceneError;
+use crate::load::Source;
 
 /// Header of versions 1-3, and of version 4.
 const SHORT_HEADER: usize = 16;

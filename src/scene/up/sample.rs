@@ -1,6 +1,6 @@
 use glam::{DMat3, DVec3};
 
-use crate::scene::{Bounds, Gaussians};
+use crate::{Bounds, Gaussians};
 
 /// Most points looked at; more of them change the answer by less than the answer is good to.
 const MAX_POINTS: usize = 40_000;

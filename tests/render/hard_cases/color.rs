@@ -5,6 +5,7 @@ use cinesplat::render::{ColorClamp, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use cinesplat::video::VideoSettings;
 use glam::{Quat, Vec3};
+use strum::VariantArray;
 
 use super::{picture, settings};
 use crate::render::scenes::{camera, crowd, push, single};
@@ -66,7 +67,7 @@ fn layers_blend_as_trained() {
     let (front, behind) = (Vec3::new(0.2, 0.9, 0.5), Vec3::new(0.9, 0.1, 0.5));
     let scene = walls(&[(0.5, front), (0.9, behind)]);
     let expected = front * 0.5 + behind * 0.5 * 0.9;
-    for quality in Quality::ALL {
+    for &quality in Quality::VARIANTS {
         let frame = picture(&scene, &camera(24, 16), quality);
         for rgb in frame.rgb.chunks(3) {
             // Quick opacities of `draft` and `standard` are within 0.8 %.

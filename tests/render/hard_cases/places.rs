@@ -3,6 +3,7 @@
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat::scene::SplatFilter;
 use glam::{DVec3, Quat, Vec3};
+use strum::VariantArray;
 
 use super::{picture, settings};
 use crate::render::oracle;
@@ -58,7 +59,7 @@ fn what_is_behind_the_camera_leaves_no_ghost() {
     scene.means.iter_mut().for_each(|mean| mean.z = -mean.z);
     scene.scales.iter_mut().for_each(|scale| *scale *= 30.0);
     let background = Vec3::new(0.2, 0.4, 0.6);
-    for quality in Quality::ALL {
+    for &quality in Quality::VARIANTS {
         let settings = RenderSettings { background, ..settings(quality) };
         let frame = Renderer::new(&scene).render(&camera(100, 60), &settings).unwrap();
         assert!(frame.rgb.chunks(3).all(|rgb| rgb == background.to_array()), "{quality:?}");
@@ -107,7 +108,7 @@ fn a_splat_a_million_units_away_changes_no_level() {
     push(&mut with_far, Vec3::new(0.0, 0.0, 1e6), Vec3::splat(1e5), Quat::IDENTITY, (1.0, Vec3::ONE));
     with_far.sh_rest.extend([Vec3::ZERO; 15]);
     let view = camera(160, 90);
-    for quality in Quality::ALL {
+    for &quality in Quality::VARIANTS {
         let (without, with) = (picture(&scene, &view, quality), picture(&with_far, &view, quality));
         if quality != Quality::Reference {
             assert_eq!(with.stats.counts.num_splats, without.stats.counts.num_splats + 1, "it is not drawn");

@@ -2,12 +2,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::super::failure::Failure;
-use crate::geometry::Camera;
-use crate::pipeline::{self, FilmSettings, Flow, Spent};
-use crate::render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
-use crate::scene::Scene;
-use crate::trajectory::{CameraPath, Shot};
-use crate::video::{VideoError, VideoSettings, VideoWriter};
+use cinesplat::geometry::Camera;
+use cinesplat::pipeline::{self, FilmSettings, Flow, Spent};
+use cinesplat::render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
+use cinesplat::scene::Scene;
+use cinesplat::trajectory::{CameraPath, Shot};
+use cinesplat::video::{VideoError, VideoSettings, VideoWriter};
 
 /// What is filmed.
 #[derive(Debug, Clone, Copy)]
@@ -36,7 +36,7 @@ impl Case<'_> {
     /// The film's pictures by a renderer that keeps what it has, against the same pictures one by one.
     pub(super) fn stills(&self, settings: &FilmSettings, tell: &mut dyn FnMut(Row)) -> Result<(), Failure> {
         let cameras = self.cameras()?;
-        let quality = settings.render.quality.name();
+        let quality = settings.render.quality.into();
         let renderer = Renderer::new(&self.scene.gaussians);
         let (_, kept) = render(&renderer, &cameras, &settings.render, false)?;
         tell(self.row((quality, "pictures in a row"), kept, None));
@@ -78,7 +78,7 @@ impl Case<'_> {
         let percent = |secs: f64, of: f64| (secs / of - 1.0) * 100.0;
         let only = |wall_secs: f64| Spent { wall_secs, busy_secs: f64::NAN };
 
-        let of = |measure: &'static str| (quality.name(), measure);
+        let of = |measure: &'static str| (quality.into(), measure);
         tell(self.row(of("rendered alone"), rendered, None));
         tell(self.row(of("encoded alone"), encoded, None));
         tell(self.row(of("both with every core busy"), all_busy, None));

@@ -4,16 +4,17 @@ mod report;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::scene_args::{PictureArgs, parse_quality};
+use super::scene_args::PictureArgs;
 use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
 use super::{console, outputs};
-use crate::export::cameras_json::StillCameras;
-use crate::geometry::{Camera, Intrinsics};
-use crate::pipeline::{FilmSettings, FrameRange};
-use crate::render::Quality;
-use crate::scene::Scene;
-use crate::trajectory::{Easing, Keyframe, SceneRef, Shot};
-use crate::video::VideoSettings;
+use crate::cli::choice::choice;
+use cinesplat::export::cameras_json::StillCameras;
+use cinesplat::geometry::{Camera, Intrinsics};
+use cinesplat::pipeline::{FilmSettings, FrameRange};
+use cinesplat::render::Quality;
+use cinesplat::scene::Scene;
+use cinesplat::trajectory::{Easing, Keyframe, SceneRef, Shot};
+use cinesplat::video::VideoSettings;
 use measure::{Case, Row};
 
 /// Frames a second of the films.
@@ -47,7 +48,7 @@ pub(in super::super) struct Args {
     /// Qualities that are filmed; the first is compared with stills as well
     #[arg(
         long, value_name = "Q,..", default_value = "standard,draft,final", value_delimiter = ',',
-        value_parser = parse_quality
+        value_parser = choice::<Quality>()
     )]
     qualities: Vec<Quality>,
     /// Folder for films.csv and films.md
@@ -93,7 +94,7 @@ impl Args {
             rows.push(row);
         };
         for (idx, &quality) in self.qualities.iter().enumerate() {
-            let render = crate::render::RenderSettings { quality, ..render };
+            let render = cinesplat::render::RenderSettings { quality, ..render };
             let (video, frames) = (VideoSettings::default(), FrameRange::default());
             let settings = FilmSettings { render, video, frames, sheet: None };
             if idx == 0 {

@@ -6,13 +6,13 @@ use serde::Deserialize;
 
 use crate::cli::failure::Failure;
 use crate::cli::outputs;
-use crate::director::Director;
-use crate::director::language::program_from_notation;
-use crate::objects::{self, ObjectSet};
-use crate::operator::{Program, SolveLevel, SolveSettings, World, realize};
-use crate::pipeline::{self, DirectSettings};
-use crate::scene::{LoadOptions, Scene};
-use crate::trajectory::Shot;
+use cinesplat::director::Director;
+use cinesplat::language::program_from_notation;
+use cinesplat::objects::{self, ObjectSet};
+use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
+use cinesplat::pipeline::{self, DirectSettings};
+use cinesplat::scene::{LoadOptions, Scene};
+use cinesplat::trajectory::Shot;
 
 /// Which prompts are solved, on which scenes.
 #[derive(Debug, Clone, clap::Args)]

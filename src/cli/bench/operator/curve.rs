@@ -5,9 +5,9 @@ use super::cases::CaseArgs;
 use super::median_and_most;
 use crate::cli::failure::Failure;
 use crate::cli::{console, outputs};
-use crate::operator::{SolveLevel, SolveSettings};
-use crate::plot::{Axis, COLORS, Chart, Mark, Series, grid};
-use crate::trajectory::Shot;
+use cinesplat::operator::{SolveLevel, SolveSettings};
+use cinesplat::plot::{Axis, COLORS, Chart, Mark, Series, grid};
+use cinesplat::trajectory::Shot;
 
 /// Search budgets: a level and the factor on its tries.
 const BUDGETS: [(SolveLevel, f64); 9] = [
@@ -78,7 +78,7 @@ impl Args {
             let (median, most) = median_and_most(&outcome.ms);
             let (violated, unmet, whole) = (outcome.violated_frac(), outcome.unmet, outcome.whole);
             let films = outcome.ms.len();
-            let name = level.name();
+            let name = level.as_ref();
             console::data(&format!("{name},{factor},{median:.1},{most:.1},{violated:.5},{unmet},{whole},{films}\n"))?;
         }
         let Some(plot) = &self.plot else { return Ok(()) };
@@ -93,7 +93,7 @@ impl Args {
 /// Lines of the report that are not met against the time of the search, a dot a budget with its name.
 fn curve_svg(title: &str, outcomes: &[Outcome]) -> String {
     let point = |outcome: &Outcome| (median_and_most(&outcome.ms).0.max(1e-3), 100.0 * outcome.violated_frac());
-    let name = |(level, factor): &(SolveLevel, f64)| format!("{} x {factor}", level.name());
+    let name = |(level, factor): &(SolveLevel, f64)| format!("{} x {factor}", level.as_ref());
     let dot = |(idx, budget)| Mark { word: name(budget), ..Mark::dot(idx, 3.5) };
     let mut chart = Chart::new("", Axis::logarithmic("ms of search, median"), Axis::even("lines not met, %"));
     chart.series.push(Series {

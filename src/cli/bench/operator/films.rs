@@ -4,7 +4,7 @@ use super::cases::CaseArgs;
 use crate::cli::failure::Failure;
 use crate::cli::shot_args::SolveArgs;
 use crate::cli::{console, outputs};
-use crate::export::{self, ExportSettings, Format, shot_json};
+use cinesplat::export::{self, ExportSettings, Format, shot_json};
 
 /// Where the films go.
 #[derive(Debug, clap::Args)]

@@ -5,12 +5,12 @@ use glam::DVec3;
 use super::path_facts::{Sampled, height_frac};
 use crate::cli::console;
 use crate::cli::failure::Failure;
-use crate::geometry::{LevelFrame, Pose};
-use crate::objects::{Object, ObjectSet};
-use crate::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, Via, World, realize};
-use crate::pipeline::{self, DirectSettings, Source};
-use crate::scene::{LoadOptions, Scene};
-use crate::trajectory::{Easing, Intent, Keyframe, Move, SceneRef, Shot, retimed};
+use cinesplat::geometry::{LevelFrame, Pose};
+use cinesplat::objects::{Object, ObjectSet};
+use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, Via, World, realize};
+use cinesplat::pipeline::{self, DirectSettings, Source};
+use cinesplat::scene::{LoadOptions, Scene};
+use cinesplat::trajectory::{Easing, Intent, Keyframe, Move, SceneRef, Shot, retimed};
 
 /// The generated room in which moves are planned.
 const ROOM: &str = "synth:room:7:0.2";
@@ -152,7 +152,7 @@ fn planned(set: &Set) -> Result<Vec<Row>, Failure> {
             let film = set.plan(Step { start: about(object), ..Step::of(movement) });
             let path = Sampled::new(&film)?;
             let corners = object.corners();
-            let distance = |s: &crate::trajectory::CameraState| s.pose.position.distance(object.center);
+            let distance = |s: &cinesplat::trajectory::CameraState| s.pose.position.distance(object.center);
             plane.push(path.drift(|s| distance(s) * (s.fov_y_rad / 2.0).tan()));
             boxes.push(path.drift(|s| height_frac(s, &corners)));
             back.push(path.num_reversals() as f64);
@@ -182,7 +182,7 @@ fn cruises(set: &Set) -> Vec<Shot> {
     let pairs = set.subjects.windows(2);
     let follow = |pair: &[Object]| {
         let easing = Some(Easing::Linear);
-        let via = Some(Via { how: crate::operator::Pass::Over, objects: vec![pair[0].id] });
+        let via = Some(Via { how: cinesplat::operator::Pass::Over, objects: vec![pair[0].id] });
         [
             set.plan(Step { start: about(&pair[0]), end: about(&pair[1]), easing, ..Step::of(Move::Follow) }),
             set.plan(Step { via, end: about(&pair[1]), easing, ..Step::of(Move::FlyThrough) }),

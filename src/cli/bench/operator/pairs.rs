@@ -8,10 +8,12 @@ use glam::DVec3;
 use super::median_and_most;
 use crate::cli::console;
 use crate::cli::failure::Failure;
-use crate::objects::ObjectSet;
-use crate::operator::{ClearanceIndex, OPACITY_FLOOR, PairResult, PairSettings, Route, SIGMA_LEVEL, World, try_pairs};
-use crate::pipeline;
-use crate::scene::{LoadOptions, Scene};
+use cinesplat::objects::ObjectSet;
+use cinesplat::operator::{
+    ClearanceIndex, OPACITY_FLOOR, PairResult, PairSettings, Route, SIGMA_LEVEL, World, try_pairs,
+};
+use cinesplat::pipeline;
+use cinesplat::scene::{LoadOptions, Scene};
 
 /// Ways between random places of scenes: are they clear of matter, and how long do they take to find?
 #[derive(Debug, clap::Args)]

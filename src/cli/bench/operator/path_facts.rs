@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::geometry::{LevelFrame, rotation};
-use crate::trajectory::{CameraPath, CameraState, Shot};
+use cinesplat::geometry::{LevelFrame, rotation};
+use cinesplat::trajectory::{CameraPath, CameraState, Shot};
 
 /// Samples of a path.
 const NUM_SAMPLES: usize = 20_001;
@@ -18,7 +18,7 @@ pub(super) struct Sampled<'a> {
 }
 
 impl<'a> Sampled<'a> {
-    pub(super) fn new(shot: &'a Shot) -> Result<Self, crate::trajectory::TrajectoryError> {
+    pub(super) fn new(shot: &'a Shot) -> Result<Self, cinesplat::trajectory::TrajectoryError> {
         let path = CameraPath::new(shot)?;
         let at = |i: usize| path.sample(shot.duration_secs * i as f64 / (NUM_SAMPLES - 1) as f64);
         let states = (0..NUM_SAMPLES).map(at).collect();

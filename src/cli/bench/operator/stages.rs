@@ -3,9 +3,9 @@ use std::path::PathBuf;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::scene_args::SceneArgs;
-use crate::director::language::program_from_notation;
-use crate::operator::{Program, SolveLevel, SolveSettings, World, realize};
-use crate::pipeline::StageTimes;
+use cinesplat::language::program_from_notation;
+use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
+use cinesplat::pipeline::StageTimes;
 
 /// Which scene, which program.
 #[derive(Debug, clap::Args)]

@@ -5,10 +5,10 @@ use super::median_and_most;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::shot_args::SolveArgs;
-use crate::geometry::{Camera, Intrinsics};
-use crate::render::{RenderSettings, Renderer};
-use crate::scene::Scene;
-use crate::trajectory::{CameraPath, Shot};
+use cinesplat::geometry::{Camera, Intrinsics};
+use cinesplat::render::{RenderSettings, Renderer};
+use cinesplat::scene::Scene;
+use cinesplat::trajectory::{CameraPath, Shot};
 
 /// How pictures are looked at.
 #[derive(Debug, clap::Args)]
@@ -42,7 +42,7 @@ impl Args {
         }
         let (median, worst) = median_and_most(&means);
         let mut text = String::new();
-        let _ = write!(text, "{} films, solver {}: mean void per film ", means.len(), self.solve.level.name());
+        let _ = write!(text, "{} films, solver {}: mean void per film ", means.len(), self.solve.level.as_ref());
         let _ = write!(text, "median {median:.4}, worst {worst:.4} (transmittance above {})", self.threshold);
         console::note(&text);
         Ok(())

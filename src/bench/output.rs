@@ -1,0 +1,115 @@
+use std::time::Instant;
+
+use cinesplat_geometry::Camera;
+use cinesplat_render::{Frame, Lifted, RenderError, RenderSettings, RenderStats, Renderer, Rgb8Frame};
+
+/// Channels of the features that are blended.
+const NUM_CHANNELS: usize = 16;
+/// Objects that the Gaussians are shared out among.
+const NUM_OBJECTS: usize = 64;
+
+/// What a picture is asked for. Whatever is not color is made in the blending loop of a color picture.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Output {
+    /// Color as numbers.
+    #[strum(serialize = "color f32")]
+    Color,
+    /// Color in eight bits, as films take it.
+    #[strum(serialize = "color 8 bit")]
+    Levels,
+    /// Color and depth, expected and median.
+    #[strum(serialize = "color+depth")]
+    Depth,
+    /// Color and the object in each pixel, of 64 in the order of the file.
+    #[strum(serialize = "color+ids")]
+    Ids,
+    /// Color and 16 blended features.
+    #[strum(serialize = "color+16 features")]
+    Features,
+    /// Color and every weight of every splat.
+    #[strum(serialize = "color+weights")]
+    Weights,
+    /// Color, and a mask carried back to the Gaussians.
+    #[strum(serialize = "color+lift")]
+    Lift,
+}
+
+/// What outputs are made of and into, kept from run to run.
+pub(super) struct Outputs {
+    labels: Vec<u16>,
+    features: Vec<f32>,
+    mask: Vec<f32>,
+    lifted: Lifted,
+    pub(super) frame: Frame,
+    levels: Rgb8Frame,
+}
+
+impl Outputs {
+    pub(super) fn new(num_gaussians: usize) -> Self {
+        let object = |idx: usize| (1 + idx * NUM_OBJECTS / num_gaussians.max(1)) as u16;
+        Self {
+            labels: (0..num_gaussians).map(object).collect(),
+            features: (0..num_gaussians * NUM_CHANNELS).map(|idx| (idx % 251) as f32 / 250.0).collect(),
+            mask: Vec::new(),
+            lifted: Lifted::new(num_gaussians, 1),
+            frame: Frame::default(),
+            levels: Rgb8Frame::default(),
+        }
+    }
+
+    /// Renders an output once; its wall time in seconds, and what it cost where the output says so.
+    pub(super) fn time(
+        &mut self,
+        renderer: &Renderer<'_>,
+        camera: &Camera,
+        settings: &RenderSettings,
+        output: Output,
+    ) -> Result<(f64, RenderStats), RenderError> {
+        // A mask of stripes, made before the clock starts.
+        let num_pixels = camera.intrinsics.width as usize * camera.intrinsics.height as usize;
+        self.mask.resize(num_pixels, 0.0);
+        self.mask.iter_mut().enumerate().for_each(|(idx, value)| *value = (idx / 64 % 2) as f32);
+        let start = Instant::now();
+        let stats = self.render(renderer, camera, settings, output)?;
+        Ok((start.elapsed().as_secs_f64(), stats))
+    }
+
+    fn render(
+        &mut self,
+        renderer: &Renderer<'_>,
+        camera: &Camera,
+        settings: &RenderSettings,
+        output: Output,
+    ) -> Result<RenderStats, RenderError> {
+        let unsaid = |()| RenderStats::default();
+        match output {
+            Output::Color => {
+                renderer.render_into(camera, settings, &mut self.frame)?;
+                return Ok(self.frame.stats);
+            }
+            Output::Levels => {
+                renderer.render_rgb8_into(camera, settings, &mut self.levels)?;
+                return Ok(self.levels.stats);
+            }
+            Output::Depth => renderer.depth(camera, settings).map(drop),
+            Output::Ids => renderer.object_ids(camera, settings, &self.labels).map(drop),
+            Output::Features => renderer.features(camera, settings, &self.features, NUM_CHANNELS).map(drop),
+            Output::Weights => renderer.weights(camera, settings).map(drop),
+            Output::Lift => renderer.lift(camera, settings, &self.mask, &mut self.lifted),
+        }
+        .map(unsaid)
+    }
+}

@@ -1,0 +1,193 @@
+use super::report::ms;
+use super::{BenchRow, Kind};
+use cinesplat_plot::{Axis as PlotAxis, COLORS, Chart, Entry, Mark, Series, Symbol, grid};
+use strum::VariantArray;
+
+/// Plotted in place of infinity: pictures that are equal or nearly so.
+const MOST_DB: f64 = 120.0;
+const PANEL_PX: [f64; 2] = [410.0, 300.0];
+
+/// What a Pareto plot shows against time.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Axis {
+    /// Peak signal-to-noise ratio, dB.
+    Psnr,
+    /// One less the structural similarity.
+    Ssim,
+    /// Largest difference of a pixel.
+    Worst,
+}
+
+/// A variant on one scene: means over its cameras.
+#[derive(Debug, Clone, PartialEq)]
+struct Point {
+    kind: Kind,
+    variant: String,
+    /// Geometric mean, ms.
+    ms: f64,
+    value: f64,
+    /// Whether another takes no longer and is no farther off, and one of the two is better.
+    is_dominated: bool,
+}
+
+impl Axis {
+    fn of_plot(self) -> PlotAxis {
+        match self {
+            Self::Psnr => PlotAxis::even("PSNR, dB"),
+            Self::Ssim => PlotAxis::logarithmic("1 - SSIM"),
+            Self::Worst => PlotAxis::logarithmic("worst pixel"),
+        }
+    }
+
+    fn of(self, row: &BenchRow) -> f64 {
+        match self {
+            Self::Psnr => row.difference.psnr_db.min(MOST_DB),
+            Self::Ssim => (1.0 - row.difference.ssim).max(1e-8),
+            Self::Worst => row.difference.worst.max(1e-6),
+        }
+    }
+
+    /// How far off a value is: more is worse.
+    fn loss(self, value: f64) -> f64 {
+        if self == Self::Psnr { -value } else { value }
+    }
+}
+
+/// A panel a scene: time against accuracy of presets, which have their names, and of each knob alone, for the pictures
+/// of one size. What another setting of the same scene beats in both is faint. Scenes that are levels of detail of one
+/// (named `NAME LEVEL`) share a panel, a line through the presets of each.
+pub fn pareto_svg(rows: &[BenchRow], size_px: [u32; 2], axis: Axis) -> String {
+    let shown: Vec<&BenchRow> = rows.iter().filter(|row| row.size_px == size_px && row.kind.costs_accuracy()).collect();
+    let mut panels: Vec<(&str, Vec<&str>)> = Vec::new();
+    for row in &shown {
+        let (name, scene) = (panel_of(&row.scene), row.scene.as_str());
+        match panels.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, scenes)) if scenes.contains(&scene) => {}
+            Some((_, scenes)) => scenes.push(scene),
+            None => panels.push((name, vec![scene])),
+        }
+    }
+    let chart = |(name, scenes): &(&str, Vec<&str>)| match scenes.as_slice() {
+        [scene] => knobs_chart(scene, &points(&shown, scene, axis), axis),
+        _ => levels_chart(name, scenes, &shown, axis),
+    };
+    let charts: Vec<Chart> = panels.iter().map(chart).collect();
+    let title = format!("Accuracy against time, {} x {} pixels, against the spec image", size_px[0], size_px[1]);
+    grid(&title, &legend(), &charts, 3.min(charts.len().max(1)), PANEL_PX)
+}
+
+/// The scene of which a scene is a level of detail, or the scene.
+fn panel_of(scene: &str) -> &str {
+    match scene.rsplit_once(' ') {
+        Some((name, level)) if level.starts_with(|c: char| c.is_ascii_digit()) => name,
+        _ => scene,
+    }
+}
+
+fn color(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Preset => COLORS[7],
+        Kind::AlphaCut => COLORS[1],
+        Kind::TransmittanceStop => COLORS[2],
+        Kind::Resolution => COLORS[3],
+        _ => COLORS[4],
+    }
+}
+
+fn legend() -> Vec<Entry> {
+    let entry = |kind: Kind| Entry {
+        name: if kind == Kind::Preset { "preset".to_owned() } else { format!("{} alone", kind.as_ref()) },
+        color: color(kind),
+        symbol: Symbol::Dot,
+    };
+    let mut entries: Vec<Entry> =
+        Kind::VARIANTS.iter().copied().filter(|kind| kind.costs_accuracy()).map(entry).collect();
+    entries.push(Entry { name: "faint: beaten in both".to_owned(), color: "#dddddd", symbol: Symbol::Dot });
+    entries
+}
+
+/// The variants of a scene in the order of their rows.
+fn points(rows: &[&BenchRow], scene: &str, axis: Axis) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::new();
+    for row in rows.iter().filter(|row| row.scene == scene) {
+        if points.iter().any(|point| point.kind == row.kind && point.variant == row.variant) {
+            continue;
+        }
+        let of_variant =
+            |other: &&&BenchRow| other.scene == scene && other.kind == row.kind && other.variant == row.variant;
+        let cameras: Vec<&&BenchRow> = rows.iter().filter(of_variant).collect();
+        let mean =
+            |value: &dyn Fn(&BenchRow) -> f64| cameras.iter().map(|row| value(row)).sum::<f64>() / cameras.len() as f64;
+        let (ms, value) = (mean(&|row| ms(row.timed.median).ln()).exp(), mean(&|row| axis.of(row)));
+        points.push(Point { kind: row.kind, variant: row.variant.clone(), ms, value, is_dominated: false });
+    }
+    let beats = |a: &Point, b: &Point| {
+        let (a_loss, b_loss) = (axis.loss(a.value), axis.loss(b.value));
+        a.ms <= b.ms && a_loss <= b_loss && (a.ms < b.ms || a_loss < b_loss)
+    };
+    let dominated: Vec<bool> = points.iter().map(|point| points.iter().any(|other| beats(other, point))).collect();
+    points.iter_mut().zip(dominated).for_each(|(point, is_dominated)| point.is_dominated = is_dominated);
+    points
+}
+
+/// Presets and knobs of one scene.
+fn knobs_chart(title: &str, points: &[Point], axis: Axis) -> Chart {
+    let mut chart = Chart::new(title, PlotAxis::logarithmic("ms a frame"), axis.of_plot());
+    for &kind in Kind::VARIANTS.iter().rev() {
+        let of_kind: Vec<&Point> = points.iter().filter(|point| point.kind == kind).collect();
+        let mark = |(idx, point): (usize, &&Point)| match kind {
+            Kind::Preset => Mark { word: point.variant.clone(), ..Mark::dot(idx, 5.0) },
+            _ => Mark { is_muted: point.is_dominated, ..Mark::dot(idx, 3.0) },
+        };
+        if !of_kind.is_empty() {
+            chart.series.push(Series {
+                points: of_kind.iter().map(|point| (point.ms, point.value)).collect(),
+                color: color(kind),
+                line_px: if kind == Kind::Preset { 1.0 } else { 0.0 },
+                marks: of_kind.iter().enumerate().map(mark).collect(),
+            });
+        }
+    }
+    chart
+}
+
+/// A line through the presets of each level of detail; the first level's presets and all levels have their names.
+fn levels_chart(name: &str, scenes: &[&str], rows: &[&BenchRow], axis: Axis) -> Chart {
+    let title = format!("{name}, {} levels of detail", scenes.len());
+    let mut chart = Chart::new(&title, PlotAxis::logarithmic("ms a frame"), axis.of_plot());
+    for (level_idx, scene) in scenes.iter().enumerate() {
+        let presets: Vec<Point> =
+            points(rows, scene, axis).into_iter().filter(|point| point.kind == Kind::Preset).collect();
+        let level = scene[panel_of(scene).len()..].trim();
+        let mark = |(idx, point): (usize, &Point)| {
+            let is_last = idx + 1 == presets.len();
+            let word = match (level_idx == 0, is_last) {
+                (true, true) => format!("{level} {}", point.variant),
+                (true, false) => point.variant.clone(),
+                (false, true) => level.to_owned(),
+                (false, false) => String::new(),
+            };
+            Mark { word, ..Mark::dot(idx, 4.0) }
+        };
+        chart.series.push(Series {
+            points: presets.iter().map(|point| (point.ms, point.value)).collect(),
+            color: COLORS[(level_idx + 7) % COLORS.len()],
+            line_px: 1.0,
+            marks: presets.iter().enumerate().map(mark).collect(),
+        });
+    }
+    chart
+}

@@ -1,0 +1,85 @@
+//! English word forms: verbs of the phrasebook, singulars of names.
+
+/// Form that a sentence asks of its verb.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tense {
+    /// `push`.
+    Base,
+    /// `pushes`.
+    Third,
+    /// `pushing`.
+    Gerund,
+}
+
+/// Verbs that double their last letter before `-ing`.
+const DOUBLED: [&str; 22] = [
+    "pan", "zip", "whip", "cut", "get", "begin", "stop", "drop", "dip", "spin", "put", "sit", "run", "step", "slip",
+    "snap", "tip", "skim", "jog", "let", "nod", "set",
+];
+
+/// `verb` in a form; a hyphenated verb inflects at its end (`dolly-zoom`).
+pub fn inflect(verb: &str, tense: Tense) -> String {
+    let (front, last) = verb.rsplit_once('-').map_or(("", verb), |(front, last)| (front, last));
+    let dash = if front.is_empty() { "" } else { "-" };
+    let form = match tense {
+        Tense::Base => last.to_owned(),
+        Tense::Third => third(last),
+        Tense::Gerund => gerund(last),
+    };
+    format!("{front}{dash}{form}")
+}
+
+fn third(verb: &str) -> String {
+    match verb {
+        "have" => return "has".to_owned(),
+        "be" => return "is".to_owned(),
+        _ => {}
+    }
+    let sibilant = ["s", "x", "z", "ch", "sh", "o"].iter().any(|ending| verb.ends_with(ending));
+    if sibilant {
+        return format!("{verb}es");
+    }
+    match verb.strip_suffix('y') {
+        Some(base) if !base.ends_with(['a', 'e', 'o', 'u']) => format!("{base}ies"),
+        _ => format!("{verb}s"),
+    }
+}
+
+fn gerund(verb: &str) -> String {
+    if DOUBLED.contains(&verb) {
+        let last = verb.chars().last().unwrap_or_default();
+        return format!("{verb}{last}ing");
+    }
+    match verb.strip_suffix('e') {
+        Some(base) if !base.ends_with(['e', 'o', 'y']) && base.len() > 1 => format!("{base}ing"),
+        _ => format!("{verb}ing"),
+    }
+}
+
+/// The other forms of a word, were it a verb.
+pub fn forms(word: &str) -> [String; 2] {
+    [inflect(word, Tense::Third), inflect(word, Tense::Gerund)]
+}
+
+/// The singular of an English noun, by its ending; other words come out changed but always in the same way.
+pub fn stem(word: &str) -> String {
+    let count = word.chars().count();
+    if let Some(base) = word.strip_suffix("ies").filter(|_| count > 4) {
+        return format!("{base}y");
+    }
+    if let Some(base) = word.strip_suffix("lves") {
+        return format!("{base}lf");
+    }
+    if word == "knives" || word == "knife" {
+        return "knife".to_owned();
+    }
+    for ending in ["sses", "xes", "ches", "shes"] {
+        if word.ends_with(ending) {
+            return word.strip_suffix("es").unwrap_or(word).to_owned();
+        }
+    }
+    match word.strip_suffix('s') {
+        Some(base) if count > 3 && !base.ends_with('s') && !base.ends_with('u') => base.to_owned(),
+        _ => word.to_owned(),
+    }
+}

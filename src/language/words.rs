@@ -1,0 +1,171 @@
+//! A prompt as plain lower-case words, each with its bytes.
+//!
+//! Enters: any UTF-8 text. Leaves: words of one script run each, punctuation as words of one character. Case, accents,
+//! typographic quotes and dashes, full-width forms, joiners and direction marks make no difference; hyphens split words
+//! (`push-in` = `push in`), digits and letters split (`2.5s` = `2.5 s`). One pass over the text.
+
+use super::inflection::stem;
+
+/// One word and the bytes of the prompt it was made from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Word {
+    pub text: String,
+    /// The word as a singular noun, to compare names by.
+    pub stem: String,
+    pub span: [usize; 2],
+}
+
+impl Word {
+    /// Whether it begins with a letter.
+    pub fn is_alphabetic(&self) -> bool {
+        self.text.starts_with(char::is_alphabetic)
+    }
+}
+
+/// What a character is for the tokenizer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Glyph {
+    Letter(char),
+    Digit(char),
+    Mark(char),
+    Apostrophe,
+    Hyphen,
+    Space,
+    Nothing,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Run {
+    Letters,
+    Digits,
+}
+
+/// The words of `prompt`, in order.
+pub fn words(prompt: &str) -> Vec<Word> {
+    let glyphs: Vec<(usize, usize, Glyph)> =
+        prompt.char_indices().map(|(at, c)| (at, at + c.len_utf8(), glyph(c))).collect();
+    let mut splitter = Splitter::default();
+    for (index, &(start, end, glyph)) in glyphs.iter().enumerate() {
+        let before = index.checked_sub(1).and_then(|i| glyphs.get(i)).map(|g| g.2);
+        let after = glyphs.get(index + 1).map(|g| g.2);
+        splitter.take([start, end], glyph, [before, after]);
+    }
+    splitter.flush();
+    for word in &mut splitter.words {
+        word.stem = stem(&word.text);
+    }
+    splitter.words
+}
+
+#[derive(Default)]
+struct Splitter {
+    words: Vec<Word>,
+    current: Option<(Run, Word)>,
+}
+
+impl Splitter {
+    fn flush(&mut self) {
+        self.words.extend(self.current.take().map(|(_, word)| word));
+    }
+
+    fn grow(&mut self, run: Run, c: char, span: [usize; 2]) {
+        match &mut self.current {
+            Some((same, word)) if *same == run => {
+                word.text.push(c);
+                word.span[1] = span[1];
+            }
+            _ => {
+                self.flush();
+                self.current = Some((run, Word { text: c.to_string(), stem: String::new(), span }));
+            }
+        }
+    }
+
+    fn mark(&mut self, text: &str, span: [usize; 2]) {
+        self.flush();
+        self.words.push(Word { text: text.to_owned(), stem: String::new(), span });
+    }
+
+    fn take(&mut self, span: [usize; 2], glyph: Glyph, [before, after]: [Option<Glyph>; 2]) {
+        let next_is_digit = matches!(after, Some(Glyph::Digit(_)));
+        let in_digits = matches!(self.current, Some((Run::Digits, _)));
+        let next_is_letter = matches!(after, Some(Glyph::Letter(_)));
+        match glyph {
+            Glyph::Letter(c) => self.grow(Run::Letters, c, span),
+            Glyph::Digit(c) => self.grow(Run::Digits, c, span),
+            Glyph::Mark('.') if next_is_digit && in_digits && !self.has_point() => self.grow(Run::Digits, '.', span),
+            Glyph::Mark('.') if next_is_digit && !matches!(before, Some(Glyph::Digit(_) | Glyph::Letter(_))) => {
+                self.flush();
+                self.grow(Run::Digits, '.', span);
+            }
+            Glyph::Mark('&') => self.mark("and", span),
+            Glyph::Mark(c) => self.mark(c.encode_utf8(&mut [0; 4]), span),
+            // `skull's` and `it's`: the ending is a word of its own; quotation marks vanish.
+            Glyph::Apostrophe
+                if next_is_letter && matches!(before, Some(Glyph::Letter(_) | Glyph::Digit(_) | Glyph::Mark('>'))) =>
+            {
+                self.flush();
+                self.grow(Run::Letters, '\'', span);
+            }
+            // A dash between spaces parts clauses like a comma.
+            Glyph::Hyphen if matches!(before, Some(Glyph::Space)) && matches!(after, Some(Glyph::Space)) => {
+                self.mark(",", span);
+            }
+            Glyph::Apostrophe | Glyph::Hyphen | Glyph::Space => self.flush(),
+            Glyph::Nothing => {}
+        }
+    }
+
+    fn has_point(&self) -> bool {
+        self.current.as_ref().is_some_and(|(_, word)| word.text.contains('.'))
+    }
+}
+
+fn glyph(c: char) -> Glyph {
+    let c = narrow(c);
+    match c {
+        '\'' | '\u{2018}' | '\u{2019}' | '\u{201B}' | '\u{2032}' | '`' | '\u{B4}' => Glyph::Apostrophe,
+        '-' | '_' | '\u{2010}' | '\u{2011}' | '\u{2012}' | '\u{2212}' | '\u{AD}' => Glyph::Hyphen,
+        '\u{2013}' | '\u{2014}' | '\u{2015}' | '\u{2192}' | '\u{2794}' | '\u{21D2}' => Glyph::Mark(','),
+        '\u{2026}' => Glyph::Mark('.'),
+        '\u{B0}' | '\u{BA}' => Glyph::Mark('\u{B0}'),
+        '\u{D7}' => Glyph::Letter('x'),
+        ',' | '.' | ';' | ':' | '!' | '?' | '(' | ')' | '/' | '<' | '>' | '#' | '%' | '&' | '+' => Glyph::Mark(c),
+        '[' => Glyph::Mark('('),
+        ']' => Glyph::Mark(')'),
+        _ if is_invisible(c) => Glyph::Nothing,
+        _ if c.is_ascii_digit() => Glyph::Digit(c),
+        _ if c.is_alphabetic() => Glyph::Letter(plain(c)),
+        _ => Glyph::Space,
+    }
+}
+
+/// Full-width forms as the ASCII they stand for.
+fn narrow(c: char) -> char {
+    let code = u32::from(c);
+    if (0xFF01..=0xFF5E).contains(&code) { char::from_u32(code - 0xFEE0).unwrap_or(c) } else { c }
+}
+
+/// Combining marks, joiners, direction marks, variation selectors, byte order marks: they change no word.
+fn is_invisible(c: char) -> bool {
+    matches!(u32::from(c), 0x300..=0x36F | 0x1AB0..=0x1AFF | 0x20D0..=0x20FF | 0x200B..=0x200F | 0x202A..=0x202E
+        | 0x2060..=0x2069 | 0xFE00..=0xFE0F | 0xFE20..=0xFE2F | 0xFEFF | 0x61C)
+}
+
+/// Lower case without Latin accents.
+fn plain(c: char) -> char {
+    let c = c.to_lowercase().next().unwrap_or(c);
+    match c {
+        'à'..='å' | 'ā' | 'ă' | 'ą' => 'a',
+        'ç' | 'ć' | 'č' => 'c',
+        'è'..='ë' | 'ē' | 'ę' | 'ě' => 'e',
+        'ì'..='ï' | 'ī' | 'ı' => 'i',
+        'ñ' | 'ń' | 'ň' => 'n',
+        'ò'..='ö' | 'ø' | 'ō' => 'o',
+        'ù'..='ü' | 'ū' | 'ů' => 'u',
+        'ý' | 'ÿ' => 'y',
+        'ś' | 'š' => 's',
+        'ź' | 'ž' | 'ż' => 'z',
+        _ => c,
+    }
+}

@@ -1,0 +1,83 @@
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use cinesplat_director::{DirectorError, FileError};
+use cinesplat_geometry::GeometryError;
+use cinesplat_language::LanguageError;
+use cinesplat_objects::ObjectsError;
+
+/// What keeps a dataset from being written or read.
+#[derive(Debug, Error)]
+pub enum DatasetError {
+    /// The phrasebook or a stored prompt.
+    #[error(transparent)]
+    Language(#[from] LanguageError),
+    /// A scene that no frame fits.
+    #[error(transparent)]
+    Director(#[from] Box<DirectorError>),
+    /// A scene that the operator cannot work in.
+    #[error("the generated scene of seed {seed} cannot be planned in: {source}")]
+    Scene {
+        /// Seed of the scene.
+        seed: u64,
+        /// Why.
+        source: GeometryError,
+    },
+    /// A generated scene whose objects get no clouds.
+    #[error(transparent)]
+    Objects(#[from] Box<ObjectsError>),
+    /// A line of a shard is not what it should be.
+    #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
+    BadLine {
+        /// The shard.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl DatasetError {
+    /// Stable code for people and scripts.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Language(error) => error.code(),
+            Self::Director(error) => error.code(),
+            Self::Objects(error) => error.code(),
+            Self::File(error) => error.code(),
+            Self::Scene { .. } => "DATASET-SCENE",
+            Self::BadLine { .. } => "DATASET-LINE",
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            Self::Language(error) => error.help(),
+            Self::Director(error) => error.help(),
+            Self::Objects(error) => error.help(),
+            Self::File(error) => error.help(),
+            Self::Scene { .. } => "this is a fault of the scene generator: report it with the seed".into(),
+            Self::BadLine { .. } => "write the shards again with `cinesplat dataset`".into(),
+        }
+    }
+
+    /// Exit code of the command that meets it.
+    pub fn exit_code(&self) -> i32 {
+        match self {
+            Self::Language(error) => error.exit_code(),
+            Self::Director(error) => error.exit_code(),
+            Self::Objects(error) => error.exit_code(),
+            Self::File(error) => error.exit_code(),
+            Self::Scene { .. } => 70,
+            Self::BadLine { .. } => 65,
+        }
+    }
+}

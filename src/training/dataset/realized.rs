@@ -1,0 +1,169 @@
+//! Shots out of shards, as lessons want them.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3, Vec3};
+use rand::RngExt;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
+
+use super::DatasetError;
+use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, VERSION};
+use cinesplat_director::FileError;
+use cinesplat_director::directing::log_fov;
+use cinesplat_director::frame::SceneFrame;
+use cinesplat_director::ground::{MAX_OTHERS, object_input};
+use cinesplat_director::model::{ObjectInput, PoseCode};
+use cinesplat_geometry::Pose;
+use cinesplat_language::{Linked, NamedObject, link, program_from_notation};
+use cinesplat_objects::Object;
+use cinesplat_operator::Program;
+
+/// A scene of a shard.
+#[derive(Debug, Clone)]
+struct Set {
+    up: DVec3,
+    center: DVec3,
+    size: f64,
+    objects: Vec<Object>,
+}
+
+/// One shot that the operator realized.
+#[derive(Debug, Clone)]
+pub(crate) struct RealizedShot {
+    set: Arc<Set>,
+    prompt: String,
+    /// What the prompt means.
+    pub(crate) program: Program,
+    cameras: Vec<CameraRecord>,
+}
+
+/// A shot as the network sees it.
+pub(crate) struct View {
+    /// Ids of the objects beside the named ones.
+    pub(crate) others: Vec<u32>,
+    /// The named objects, then the others.
+    pub(crate) objects: Vec<ObjectInput>,
+    /// One a key.
+    pub(crate) poses: Vec<PoseCode>,
+}
+
+impl RealizedShot {
+    /// Its prompt, linked.
+    pub(crate) fn linked(&self) -> Result<Linked, DatasetError> {
+        let named = |object: &Object| NamedObject { id: object.id, label: object.label.clone() };
+        Ok(link(&self.prompt, &self.set.objects.iter().map(named).collect::<Vec<_>>())?)
+    }
+
+    /// Its objects and cameras in the scene's frame, with some of the unnamed objects. A prompt that names nothing gets
+    /// a heading at random, since nothing decides it.
+    pub(crate) fn view(&self, linked: &Linked, rng: &mut Pcg64) -> Result<View, DatasetError> {
+        let set = &*self.set;
+        let find = |id: u32| set.objects.iter().find(|object| object.id == id);
+        let anywhere =
+            DVec3::new(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
+        let first = linked.slots.first().and_then(|id| find(*id)).map(|object| object.center);
+        let toward = first.unwrap_or(set.center + anywhere * set.size);
+        let frame = SceneFrame::new(set.up, set.center, set.size, Some(toward)).map_err(Box::new)?;
+        let mut others: Vec<u32> = set.objects.iter().map(|o| o.id).filter(|id| !linked.slots.contains(id)).collect();
+        others.shuffle(rng);
+        others.truncate(rng.random_range(0..=MAX_OTHERS));
+        let ids = linked.slots.iter().chain(&others);
+        let objects = ids
+            .enumerate()
+            .map(|(place, id)| find(*id).map_or_else(ObjectInput::default, |o| object_input(o, place, &frame)));
+        Ok(View { objects: objects.collect(), others, poses: self.poses(&frame) })
+    }
+
+    fn poses(&self, frame: &SceneFrame) -> Vec<PoseCode> {
+        let mut last_secs = 0.0;
+        let code = |camera: &CameraRecord| {
+            let rotation = DQuat::from_array(camera.rotation_xyzw.map(f64::from));
+            let (position, rotation_6d) = frame.pose(&Pose::new(Vec3::from(camera.position).as_dvec3(), rotation));
+            let wait_secs = (camera.time_secs - last_secs).max(0.0);
+            last_secs = camera.time_secs;
+            PoseCode {
+                position: position.as_vec3().to_array(),
+                rotation_6d: rotation_6d.map(|value| value as f32),
+                log_fov: log_fov(f64::from(camera.fov_y_rad)),
+                log_wait: wait_secs.ln_1p(),
+            }
+        };
+        self.cameras.iter().map(code).collect()
+    }
+}
+
+/// All shots of the shards (`*.jsonl`) of a folder, in order of file names.
+///
+/// # Errors
+/// [`FileError::Read`] · [`DatasetError::BadLine`] naming the first line that is not understood.
+pub(crate) fn read_shards(folder: &Path) -> Result<Vec<RealizedShot>, DatasetError> {
+    let failed = |source| FileError::Read { path: folder.to_owned(), source };
+    let entries = std::fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
+    let mut paths: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "jsonl"));
+    paths.sort();
+    let mut shots = Vec::new();
+    for path in paths {
+        read_shard(&path, &mut shots)?;
+    }
+    Ok(shots)
+}
+
+fn read_shard(path: &Path, shots: &mut Vec<RealizedShot>) -> Result<(), DatasetError> {
+    let failed = |source| FileError::Read { path: path.to_owned(), source };
+    let file = std::fs::File::open(path).map_err(failed)?;
+    for (line_idx, line) in BufReader::new(file).lines().enumerate() {
+        let line = line.map_err(failed)?;
+        let bad = |found: String, expected| DatasetError::BadLine {
+            path: path.to_owned(),
+            line: line_idx + 1,
+            found,
+            expected,
+        };
+        if line_idx == 0 {
+            let header: Header = serde_json::from_str(&line).map_err(|error| bad(error.to_string(), "a header"))?;
+            if header.format != FORMAT || header.version != VERSION {
+                return Err(bad(format!("{} {}", header.format, header.version), "cinesplat.shots version 1"));
+            }
+            continue;
+        }
+        let scene: SceneRecord = serde_json::from_str(&line).map_err(|error| bad(error.to_string(), "a scene"))?;
+        shots.extend(shots_of(scene).map_err(|found| bad(found, "a program in the phrasebook's notation"))?);
+    }
+    Ok(())
+}
+
+fn shots_of(scene: SceneRecord) -> Result<Vec<RealizedShot>, String> {
+    let set = Arc::new(Set {
+        up: DVec3::from(scene.up),
+        center: DVec3::from(scene.center),
+        size: scene.size,
+        objects: scene.objects.into_iter().map(object_of).collect(),
+    });
+    let shot = |record: super::record::ShotRecord| {
+        let mut program = program_from_notation(&record.program)?;
+        for (step, words) in program.steps.iter_mut().zip(&record.words) {
+            step.words = *words;
+        }
+        Ok(RealizedShot { set: set.clone(), prompt: record.prompt, program, cameras: record.cameras })
+    };
+    scene.shots.into_iter().map(shot).collect()
+}
+
+fn object_of(record: ObjectRecord) -> Object {
+    let [x, y, z, w] = record.rotation_xyzw.map(f64::from);
+    Object {
+        id: record.id,
+        label: record.label,
+        center: Vec3::from(record.center).as_dvec3(),
+        half_extents: Vec3::from(record.half_extents).as_dvec3(),
+        rotation: DQuat::from_xyzw(x, y, z, w).normalize(),
+        num_gaussians: 0,
+        points: record.points.into_iter().map(|point| Vec3::from(point).as_dvec3()).collect(),
+        shape_radius: 0.0,
+        mask_iou: 0.0,
+    }
+}

@@ -1,0 +1,53 @@
+//! The exam: sentences that people wrote, with what they mean, never used for training.
+
+use cinesplat_language::NamedObject;
+use cinesplat_language::{LanguageError, program_from_notation};
+use cinesplat_operator::Program;
+
+const FILE: &str = "prompts/heldout.txt";
+static TEXT: &str = include_str!("../../../prompts/heldout.txt");
+
+/// A sentence of the exam and what it means.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExamItem {
+    /// The sentence.
+    pub prompt: String,
+    /// Its meaning, in ids of [`exam_objects`].
+    pub program: Program,
+}
+
+/// The objects that the exam speaks of.
+///
+/// # Errors
+/// [`LanguageError::BadData`] when the embedded file is damaged.
+pub fn exam_objects() -> Result<Vec<NamedObject>, LanguageError> {
+    lines()
+        .filter_map(|(line, text)| text.strip_prefix("object ").map(|rest| (line, rest)))
+        .map(|(line, rest)| {
+            let bad = || LanguageError::BadData { file: FILE, line, what: format!("object \"{rest}\"") };
+            let (id, label) = rest.split_once(' ').unwrap_or((rest, ""));
+            Ok(NamedObject { id: id.parse().map_err(|_| bad())?, label: label.to_owned() })
+        })
+        .collect()
+}
+
+/// All sentences of the exam.
+///
+/// # Errors
+/// [`LanguageError::BadData`] naming the first line that is not `prompt => program`.
+pub fn exam() -> Result<Vec<ExamItem>, LanguageError> {
+    lines()
+        .filter(|(_, text)| !text.starts_with("object "))
+        .map(|(line, text)| {
+            let bad = |what: String| LanguageError::BadData { file: FILE, line, what };
+            let (prompt, program) = text.rsplit_once(" => ").ok_or_else(|| bad("no => in the line".to_owned()))?;
+            let program = program_from_notation(program.trim()).map_err(bad)?;
+            Ok(ExamItem { prompt: prompt.trim().to_owned(), program })
+        })
+        .collect()
+}
+
+fn lines() -> impl Iterator<Item = (usize, &'static str)> {
+    let numbered = TEXT.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
+    numbered.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+}
