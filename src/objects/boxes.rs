@@ -8,10 +8,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{Object, ObjectSet};
 use cinesplat_geometry::LevelFrame;
-use cinesplat_scene::Gaussians;
-
-/// Opacity from which a Gaussian counts as solid.
-const SOLID_OPACITY: f32 = 0.5;
+use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
 /// Share of an object's solid Gaussians cut off at either end of each axis: floaters must not stretch a box.
 const TRIM_FRAC: f64 = 0.005;

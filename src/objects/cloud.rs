@@ -11,10 +11,7 @@ use super::sampling::{farthest_points, in_canonical_order};
 use super::{Object, ObjectSet, ObjectsError, boxes, radius_search, views};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Quality, RenderSettings, Renderer};
-use cinesplat_scene::{Gaussians, Scene, SplatFilter};
-
-/// Opacity from which a Gaussian may carry the border: fainter ones are haze about the surface.
-const SOLID_OPACITY: f32 = 0.5;
+use cinesplat_scene::{Gaussians, SOLID_OPACITY, Scene, SplatFilter};
 
 /// Gaussians farther out of the box than this share of its radius are floaters and left out.
 const FLOATER_FRAC: f64 = 0.1;

@@ -10,7 +10,7 @@ use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
 use cinesplat_scene::Scene;
 
 /// Opacity from which a Gaussian hides what is behind it.
-const SOLID_OPACITY: f32 = 0.3;
+const OCCLUDER_OPACITY: f32 = 0.3;
 
 /// Most Gaussians drawn into a coarse picture.
 const MAX_POINTS: usize = 40_000;
@@ -47,7 +47,7 @@ impl<'a> Surveyor<'a> {
     pub(crate) fn new(scene: &Scene, set: &'a ObjectSet) -> Option<Self> {
         let bounds = scene.bounds();
         let gaussians = &scene.gaussians;
-        let solid: Vec<usize> = (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY).collect();
+        let solid: Vec<usize> = (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= OCCLUDER_OPACITY).collect();
         let stride = solid.len().div_ceil(MAX_POINTS).max(1);
         // Fewer points have to cover more each.
         let growth = (stride as f64).sqrt();

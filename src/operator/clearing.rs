@@ -9,7 +9,8 @@ use super::judge::{cost, path_of};
 use super::report::clause;
 use super::route::{NoRoute, Route, route};
 use super::world::World;
-use super::{OPACITY_FLOOR, Program, SIGMA_LEVEL};
+use super::{Program, SIGMA_LEVEL};
+use cinesplat_scene::SOLID_OPACITY;
 use cinesplat_trajectory::{CameraPath, ClearanceProof, Keyframe, Move, ReportLine};
 
 /// How much longer a part may take for going around, over what it took.
@@ -111,7 +112,7 @@ pub(super) fn clearance_lines(
     lines.push(ReportLine {
         clause: "clear of matter".to_owned(),
         wanted: format!(
-            "at every moment at least {:.4} scene units from all Gaussians of opacity {OPACITY_FLOOR} and more, out to \
+            "at every moment at least {:.4} scene units from all Gaussians of opacity {SOLID_OPACITY} and more, out to \
              {SIGMA_LEVEL} standard deviations",
             proof.camera_radius
         ),

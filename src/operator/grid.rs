@@ -2,15 +2,13 @@
 
 use glam::{DVec3, IVec3, UVec3};
 
-use cinesplat_scene::{Bounds, Gaussians};
+use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
 
 /// Cells along the scene's size. Finer cells see through narrower gaps and cost their cube in time and memory; at 110
 /// a room of 7 m has cells of 6 cm, which keeps table legs and bottles.
 const CELLS_ALONG_SIZE: f64 = 110.0;
 /// Room for the camera around the box of the middle 96 % of the solid Gaussians, in scene sizes: sideways, and along up.
 const MARGIN_FRAC: (f64, f64) = (0.55, 0.3);
-/// Opacity from which a Gaussian counts as solid.
-pub(super) const SOLID_OPACITY: f32 = 0.5;
 /// Most cells in one grid; above it the cells grow.
 const MAX_CELLS: f64 = 6e6;
 

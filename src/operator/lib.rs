@@ -24,14 +24,14 @@ mod support;
 mod view;
 mod world;
 
-pub use clearance::{ClearanceIndex, Nearest, OPACITY_FLOOR, SIGMA_LEVEL};
+pub use clearance::{ClearanceIndex, Nearest, SIGMA_LEVEL};
 pub use framing::DEFAULT_ASPECT;
 pub use pairs::{PairResult, PairSettings, try_pairs};
 pub use program::{Amount, Framing, Part, Pass, Program, Speed, Step, Via};
 pub use route::{NoRoute, Route, route};
 pub use world::{DEFAULT_CAMERA_RADIUS_FRAC, Subject, World, default_camera_radius};
 
-use cinesplat_scene::{Bounds, Gaussians};
+use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
 use cinesplat_trajectory::{CameraPath, CameraState, ClearanceProof, Keyframe, ReportLine, retime};
 use draft::{StepLabels, keyframes};
 
@@ -162,7 +162,7 @@ pub fn realize(
 
 /// What can be proved about the distance between a path and the matter of a scene, for a camera of the default radius.
 pub fn prove_clear(gaussians: &Gaussians, path: &CameraPath) -> ClearanceProof {
-    let index = ClearanceIndex::new(gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(gaussians, SOLID_OPACITY, SIGMA_LEVEL);
     clearance::prove(&index, path, default_camera_radius(&Bounds::of(gaussians)))
 }
 

@@ -10,11 +10,11 @@ use glam::DVec3;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::SIGMA_LEVEL;
 use super::route::{NoRoute, Route, route};
 use super::world::World;
-use super::{OPACITY_FLOOR, SIGMA_LEVEL};
 use cinesplat_geometry::Pose;
-use cinesplat_scene::Gaussians;
+use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 use cinesplat_trajectory::{CameraPath, CameraState};
 
 /// Least distance between the ends of a pair, over the scene size.
@@ -135,7 +135,7 @@ fn scan(gaussians: &Gaussians, samples: &[DVec3], radius: f64) -> (usize, f64) {
     };
     let balls: Vec<(DVec3, f64)> = samples.chunks(CHUNK).map(ball).collect();
     let mut near = vec![reach; samples.len()];
-    for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= OPACITY_FLOOR) {
+    for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY) {
         let mean = gaussians.mean_world(i);
         let semi_axes = gaussians.scales[i].as_dvec3() * SIGMA_LEVEL;
         let far = reach + semi_axes.max_element();

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::clearance::{ClearanceIndex, OPACITY_FLOOR, SIGMA_LEVEL};
-use super::grid::{Grid, OpacityGrid, SOLID_OPACITY};
+use super::clearance::{ClearanceIndex, SIGMA_LEVEL};
+use super::grid::{Grid, OpacityGrid};
 use super::support::Support;
 use cinesplat_geometry::{GeometryError, LevelFrame};
 use cinesplat_objects::{Object, ObjectSet};
-use cinesplat_scene::{Bounds, Gaussians};
+use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
 
 /// Least distance from the lens to solid matter, over the scene size, unless asked for otherwise.
 pub const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;
@@ -59,7 +59,7 @@ impl World {
         let frame = LevelFrame::new(up)?;
         let bounds = Bounds::of(gaussians);
         let matter = OpacityGrid::of(Grid::around(&bounds, frame.up), gaussians, |_| true);
-        let clearance = ClearanceIndex::new(gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+        let clearance = ClearanceIndex::new(gaussians, SOLID_OPACITY, SIGMA_LEVEL);
         let support = Support::of(&matter, &clearance, &bounds, &frame, &objects.objects);
         let subjects = objects
             .objects

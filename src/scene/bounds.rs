@@ -1,9 +1,6 @@
 use glam::DVec3;
 
-use super::Gaussians;
-
-/// Opacity from which a Gaussian counts as solid.
-const SOLID_OPACITY: f32 = 0.5;
+use super::gaussians::{Gaussians, SOLID_OPACITY};
 
 /// Axis-aligned extent of a scene, world.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,6 +3,11 @@ use glam::{DVec3, Quat, Vec3};
 /// Number of spherical-harmonic coefficients a color channel has above degree 0, for degrees 0..=3.
 pub const NUM_SH_REST: [usize; 4] = [0, 3, 8, 15];
 
+/// Lowest opacity at which a Gaussian counts as solid.
+///
+/// Bounds, the up axis, boxes of objects and the camera's clearance ignore Gaussians below it.
+pub const SOLID_OPACITY: f32 = 0.5;
+
 /// A scene as 3D Gaussians, decoded: linear scales, opacities in 0..=1, unit rotations.
 ///
 /// Positions are `f32` offsets from `origin` (f64, world), so that far-off scenes keep their precision. All columns

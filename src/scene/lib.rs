@@ -19,7 +19,7 @@ mod up;
 
 pub use bounds::Bounds;
 pub use error::SceneError;
-pub use gaussians::{Gaussians, NUM_SH_REST};
+pub use gaussians::{Gaussians, NUM_SH_REST, SOLID_OPACITY};
 pub use info::SceneInfo;
 pub use load::{LoadOptions, load, load_bytes};
 pub use ply::write_ply;

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+use cinesplat_scene::SOLID_OPACITY;
 use glam::{DQuat, DVec2, DVec3};
 
 use super::paint::{Paint, Texel};
@@ -112,7 +113,7 @@ impl Part {
 
     /// Solids that stop light in its place.
     pub(super) fn blockers(&self, world_from_object: &Place, owner: (u16, u32), out: &mut Vec<Blocker>) {
-        if !self.solid || self.paint.glow > 0.0 || self.paint.opacity < 0.5 {
+        if !self.solid || self.paint.glow > 0.0 || self.paint.opacity < SOLID_OPACITY {
             return;
         }
         let place = world_from_object.after(&self.place);

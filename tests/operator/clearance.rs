@@ -1,7 +1,7 @@
 //! Distances to matter, against surfaces sampled and scanned without any index.
 
-use cinesplat::operator::{ClearanceIndex, OPACITY_FLOOR, SIGMA_LEVEL};
-use cinesplat::scene::Gaussians;
+use cinesplat::operator::{ClearanceIndex, SIGMA_LEVEL};
+use cinesplat::scene::{Gaussians, SOLID_OPACITY};
 use glam::{DVec3, Quat, Vec3};
 
 use super::{add, bisected, brute_force};
@@ -57,7 +57,7 @@ fn distances_are_those_to_the_surface_for_needles_flats_and_all_between() {
             let mut gaussians = Gaussians::default();
             let scales = Vec3::from_array(shape.map(|s: f64| s as f32));
             add(&mut gaussians, dice.vector(), scales, dice.rotation(), 0.9);
-            let index = ClearanceIndex::new(&gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+            let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
             let point = gaussians.mean_world(0) + dice.vector() * 3.0;
             let got = index.nearest_within(point, f64::INFINITY).unwrap().distance;
             if bisected(&gaussians, 0, point) == 0.0 {
@@ -77,13 +77,13 @@ fn distances_are_those_to_the_surface_for_needles_flats_and_all_between() {
 fn a_gaussian_without_extent_is_a_point_and_a_flat_one_is_a_disk() {
     let mut gaussians = Gaussians::default();
     add(&mut gaussians, DVec3::new(1.0, 2.0, 3.0), Vec3::ZERO, Quat::IDENTITY, 1.0);
-    let index = ClearanceIndex::new(&gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
     let nearest = index.nearest_within(DVec3::new(1.0, 2.0, 7.0), f64::INFINITY).unwrap();
     assert!((nearest.distance - 4.0).abs() < 1e-9);
 
     let mut gaussians = Gaussians::default();
     add(&mut gaussians, DVec3::ZERO, Vec3::new(2.0, 2.0, 0.0), Quat::IDENTITY, 1.0);
-    let index = ClearanceIndex::new(&gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
     let distance = |p: DVec3| index.nearest_within(p, f64::INFINITY).unwrap().distance;
     assert!((distance(DVec3::new(0.5, 0.5, 0.7)) - 0.7).abs() < 1e-6, "above the disk");
     assert!((distance(DVec3::new(4.0, 0.0, 0.0)) - 1.0).abs() < 1e-6, "beside the disk");
@@ -103,8 +103,8 @@ fn the_nearest_of_many_is_that_of_a_scan() {
     // One as large as the scene, and one far from it.
     add(&mut gaussians, DVec3::new(0.0, -6.0, 0.0), Vec3::new(4.0, 0.1, 4.0), Quat::IDENTITY, 0.9);
     add(&mut gaussians, DVec3::new(4000.0, 0.0, 0.0), Vec3::splat(0.5), Quat::IDENTITY, 0.9);
-    let index = ClearanceIndex::new(&gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
-    let solid = gaussians.opacities.iter().filter(|&&opacity| opacity >= 0.5).count();
+    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
+    let solid = gaussians.opacities.iter().filter(|&&opacity| opacity >= SOLID_OPACITY).count();
     assert_eq!(index.len(), solid);
     for i in 0..300 {
         let reach = if i % 10 == 0 { 60.0 } else { 5.0 };
@@ -122,7 +122,7 @@ fn the_nearest_of_many_is_that_of_a_scan() {
 fn faint_gaussians_are_no_matter_and_nothing_is_infinitely_far() {
     let mut gaussians = Gaussians::default();
     add(&mut gaussians, DVec3::ZERO, Vec3::ONE, Quat::IDENTITY, 0.49);
-    let index = ClearanceIndex::new(&gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
     assert!(index.is_empty());
     assert_eq!(index.nearest_within(DVec3::ZERO, f64::INFINITY), None);
 }

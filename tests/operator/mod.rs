@@ -9,7 +9,7 @@ mod route;
 
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Program, SIGMA_LEVEL, Solution, SolveLevel, SolveSettings, Step, World, realize};
-use cinesplat::scene::Gaussians;
+use cinesplat::scene::{Gaussians, SOLID_OPACITY};
 use cinesplat::trajectory::{CameraPath, CameraState, Shot};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
@@ -90,7 +90,7 @@ pub fn bisected(gaussians: &Gaussians, i: usize, point: DVec3) -> f64 {
 /// Distance from a point to the nearest ellipsoid of opacity 0.5 and more, and its Gaussian, one after the other.
 pub fn brute_force(gaussians: &Gaussians, point: DVec3) -> (f64, usize) {
     let mut best = (f64::INFINITY, 0);
-    for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= 0.5) {
+    for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY) {
         let reach = SIGMA_LEVEL * f64::from(gaussians.scales[i].max_element());
         if gaussians.mean_world(i).distance(point) - reach < best.0 {
             let distance = bisected(gaussians, i, point);

@@ -9,7 +9,8 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::{ClearanceIndex, Nearest, OPACITY_FLOOR, SIGMA_LEVEL};
+use super::{ClearanceIndex, Nearest, SIGMA_LEVEL};
+use cinesplat_scene::SOLID_OPACITY;
 use cinesplat_trajectory::{CameraPath, ClearanceFailure, ClearanceProof, PathPart};
 
 /// How close the proved bound comes to the least distance found on the path, over the camera's radius.
@@ -126,7 +127,7 @@ pub(crate) fn prove(index: &ClearanceIndex, path: &CameraPath, radius: f64) -> C
     let least = if failure.is_none() { least.max(radius) } else { least };
     ClearanceProof {
         camera_radius: radius,
-        opacity_floor: f64::from(OPACITY_FLOOR),
+        opacity_floor: f64::from(SOLID_OPACITY),
         sigma_level: SIGMA_LEVEL,
         least,
         at_secs: found.witness.map_or(0.0, |(part, _)| path.time_at(part.key_idx, part.middle())),

@@ -1,12 +1,9 @@
 use glam::{DMat3, DVec3};
 
-use crate::{Bounds, Gaussians};
+use crate::{Bounds, Gaussians, SOLID_OPACITY};
 
 /// Most points looked at; more of them change the answer by less than the answer is good to.
 const MAX_POINTS: usize = 40_000;
-
-/// Opacity from which a Gaussian is taken for matter.
-const SOLID_OPACITY: f32 = 0.5;
 
 /// Thinnest over middle standard deviation below which a Gaussian is a piece of surface with a normal.
 const FLAT: f32 = 0.4;

@@ -9,11 +9,9 @@ use super::median_and_most;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use cinesplat::objects::ObjectSet;
-use cinesplat::operator::{
-    ClearanceIndex, OPACITY_FLOOR, PairResult, PairSettings, Route, SIGMA_LEVEL, World, try_pairs,
-};
+use cinesplat::operator::{ClearanceIndex, PairResult, PairSettings, Route, SIGMA_LEVEL, World, try_pairs};
 use cinesplat::pipeline;
-use cinesplat::scene::{LoadOptions, Scene};
+use cinesplat::scene::{LoadOptions, SOLID_OPACITY, Scene};
 
 /// Ways between random places of scenes: are they clear of matter, and how long do they take to find?
 #[derive(Debug, clap::Args)]
@@ -59,7 +57,7 @@ impl Args {
 
 fn on_scene(scene: &Scene, settings: &PairSettings) -> Result<Vec<PairResult>, Failure> {
     let begun = busy_time();
-    let index = ClearanceIndex::new(&scene.gaussians, OPACITY_FLOOR, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&scene.gaussians, SOLID_OPACITY, SIGMA_LEVEL);
     let index_ms = milliseconds(busy_time().saturating_sub(begun));
     let num_solid = index.len();
     drop(index);
