@@ -3,7 +3,7 @@
 use cinesplat::director::keys::{MAX_KEYS, Next, boundaries_of, keys_of, steps_of};
 use cinesplat::language::program_from_notation;
 use cinesplat::operator::{Framing, Program, Step};
-use cinesplat::training::Phrasebook;
+use cinesplat::training::PromptSampler;
 use cinesplat::trajectory::Move;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -34,7 +34,7 @@ fn framings_of_neighbors_stay_apart() {
 
 #[test]
 fn every_program_of_the_phrasebook_survives_the_way_through_keys() {
-    let phrasebook = Phrasebook::embedded().unwrap();
+    let phrasebook = PromptSampler::embedded().unwrap();
     let mut rng = Pcg64::seed_from_u64(3);
     for _ in 0..500 {
         let cast = phrasebook.invent_objects(6, &mut rng);

@@ -6,5 +6,5 @@ mod effects;
 mod exam;
 mod link;
 mod notation;
-mod phrasebook;
+mod prompt_sampler;
 mod quantity;

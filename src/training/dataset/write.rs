@@ -10,7 +10,7 @@ use rand_pcg::Pcg64;
 
 use super::DatasetError;
 use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, ShotRecord, VERSION};
-use crate::sampler::{Phrasebook, Sample};
+use crate::sampler::{LabeledPrompt, PromptSampler};
 use cinesplat_director::files::{FileError, write_whole};
 use cinesplat_director::ground::MAX_POINTS;
 use cinesplat_director::keys::{MAX_KEYS, Next, keys_of};
@@ -138,13 +138,13 @@ fn shoot_scene(settings: &DatasetSettings, scene_idx: u64) -> Result<SceneRecord
     let ids: Vec<u32> = objects.objects.iter().map(|object| object.id).collect();
     let world = World::new(&scene.gaussians, scene.up, &objects, &ids)
         .map_err(|source| DatasetError::Scene { seed, source })?;
-    let phrasebook = Phrasebook::embedded()?;
+    let phrasebook = PromptSampler::embedded()?;
     let mut rng = Pcg64::seed_from_u64(seed);
     let named: Vec<NamedObject> =
         objects.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
     let mut shots = Vec::new();
     for _ in 0..settings.shots {
-        let Sample { prompt, program } = phrasebook.sample(&named, &mut rng);
+        let LabeledPrompt { prompt, program } = phrasebook.sample(&named, &mut rng);
         let solve = SolveSettings { level: settings.solve, seed: rng.random(), ..SolveSettings::default() };
         let solution = realize(&world, &program, &prompt, &[], &solve);
         shots.extend(shot_record(prompt, &program, &solution));

@@ -1,20 +1,11 @@
 //! The exam: sentences that people wrote, with what they mean, never used for training.
 
+use super::prompt_sampler::LabeledPrompt;
 use cinesplat_language::NamedObject;
 use cinesplat_language::{LanguageError, program_from_notation};
-use cinesplat_operator::Program;
 
 const FILE: &str = "prompts/heldout.txt";
 static TEXT: &str = include_str!("../../../prompts/heldout.txt");
-
-/// A sentence of the exam and what it means.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ExamItem {
-    /// The sentence.
-    pub prompt: String,
-    /// Its meaning, in ids of [`exam_objects`].
-    pub program: Program,
-}
 
 /// The objects that the exam speaks of.
 ///
@@ -35,14 +26,14 @@ pub fn exam_objects() -> Result<Vec<NamedObject>, LanguageError> {
 ///
 /// # Errors
 /// [`LanguageError::BadData`] naming the first line that is not `prompt => program`.
-pub fn exam() -> Result<Vec<ExamItem>, LanguageError> {
+pub fn exam() -> Result<Vec<LabeledPrompt>, LanguageError> {
     lines()
         .filter(|(_, text)| !text.starts_with("object "))
         .map(|(line, text)| {
             let bad = |what: String| LanguageError::BadData { file: FILE, line, what };
             let (prompt, program) = text.rsplit_once(" => ").ok_or_else(|| bad("no => in the line".to_owned()))?;
             let program = program_from_notation(program.trim()).map_err(bad)?;
-            Ok(ExamItem { prompt: prompt.trim().to_owned(), program })
+            Ok(LabeledPrompt { prompt: prompt.trim().to_owned(), program })
         })
         .collect()
 }

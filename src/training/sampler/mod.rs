@@ -3,9 +3,9 @@
 mod compose;
 mod exam;
 mod figures;
-mod phrasebook;
+mod prompt_sampler;
 mod surface;
 mod wording;
 
-pub use exam::{ExamItem, exam, exam_objects};
-pub use phrasebook::{Phrasebook, Sample, Split};
+pub use exam::{exam, exam_objects};
+pub use prompt_sampler::{LabeledPrompt, PromptSampler, TemplateSplit};

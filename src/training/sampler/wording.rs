@@ -6,7 +6,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 use super::figures::figure;
-use super::phrasebook::Split;
+use super::prompt_sampler::TemplateSplit;
 use cinesplat_language::grammar::{Grammar, Part, Wording, is_figure};
 
 /// A piece of a clause before it is written out.
@@ -47,7 +47,7 @@ pub(crate) struct Drawn {
 /// Draws from lists, keeping to one side of the split.
 pub(crate) struct Drawer<'a> {
     pub(crate) grammar: &'a Grammar,
-    pub(crate) split: Split,
+    pub(crate) split: TemplateSplit,
     /// The writer says no more than is needed: wordings that say nothing come far more often.
     pub(crate) terse: bool,
 }
@@ -60,8 +60,8 @@ impl Drawer<'_> {
         rng: &mut Pcg64,
     ) -> Option<&'w Wording> {
         let weight = |wording: &Wording| match (self.split, wording.held_out) {
-            (Split::Train, true) => 0.0,
-            (Split::HeldOut, true) => wording.weight * 12.0,
+            (TemplateSplit::Train, true) => 0.0,
+            (TemplateSplit::HeldOut, true) => wording.weight * 12.0,
             (_, false) if self.terse && wording.parts.is_empty() => wording.weight * 8.0,
             (_, false) => wording.weight,
         };

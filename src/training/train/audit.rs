@@ -12,7 +12,7 @@ use rand_pcg::Pcg64;
 use super::TrainError;
 use super::lesson::{Damage, Lesson, School};
 use super::shards::{BatchSettings, Trainee};
-use crate::sampler::Phrasebook;
+use crate::sampler::PromptSampler;
 use cinesplat_director::model::{Dropout, ModelConfig, Network, Parameters, PoseCode};
 use cinesplat_director::vocabulary::Vocabulary;
 use cinesplat_language::link;
@@ -99,7 +99,7 @@ fn slope(
 }
 
 fn small_vocabulary(seed: u64) -> Result<Vocabulary, TrainError> {
-    let phrasebook = Phrasebook::embedded()?;
+    let phrasebook = PromptSampler::embedded()?;
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut lines = Vec::new();
     for _ in 0..200 {
@@ -111,7 +111,7 @@ fn small_vocabulary(seed: u64) -> Result<Vocabulary, TrainError> {
 
 /// Lessons whose keys have poses from anywhere.
 fn posed_lessons(seed: u64, count: u64, vocabulary: &Vocabulary) -> Result<Vec<Lesson>, TrainError> {
-    let phrasebook = Phrasebook::embedded()?;
+    let phrasebook = PromptSampler::embedded()?;
     let school = School { phrasebook, vocabulary, words: &[], shots: &[], shots_frac: 0.0, damage: Damage::NONE };
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut lessons = (0..count).map(|number| school.lesson(seed, number)).collect::<Result<Vec<_>, _>>()?;

@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::TrainError;
-use crate::sampler::{ExamItem, Phrasebook, Split, exam, exam_objects};
+use crate::sampler::{LabeledPrompt, PromptSampler, TemplateSplit, exam, exam_objects};
 use cinesplat_director::{Director, Stage};
 use cinesplat_language::{NamedObject, link};
 use cinesplat_objects::Object;
@@ -68,21 +68,21 @@ pub fn examine(director: &Director, paper: Paper) -> Result<Marks, TrainError> {
     Ok(marks)
 }
 
-fn items(paper: Paper) -> Result<Vec<(ExamItem, Vec<NamedObject>)>, TrainError> {
+fn items(paper: Paper) -> Result<Vec<(LabeledPrompt, Vec<NamedObject>)>, TrainError> {
     let (count, split) = match paper {
         Paper::Exam => {
             let cast = exam_objects()?;
             return Ok(exam()?.into_iter().map(|item| (item, cast.clone())).collect());
         }
-        Paper::HeldOut { count } => (count, Split::HeldOut),
-        Paper::Seen { count } => (count, Split::Train),
+        Paper::HeldOut { count } => (count, TemplateSplit::HeldOut),
+        Paper::Seen { count } => (count, TemplateSplit::Train),
     };
-    let phrasebook = Phrasebook::embedded()?.with_split(split);
+    let phrasebook = PromptSampler::embedded()?.with_split(split);
     let mut rng = Pcg64::seed_from_u64(0x00e8_a3c5);
     let draw = |_| {
         let cast = phrasebook.invent_objects(8, &mut rng);
         let sample = phrasebook.sample(&cast, &mut rng);
-        (ExamItem { prompt: sample.prompt, program: sample.program }, cast)
+        (sample, cast)
     };
     Ok((0..count).map(draw).collect())
 }
@@ -141,7 +141,7 @@ fn opposite(a: &Step, b: &Step) -> bool {
     stem(a).is_some() && stem(a) == stem(b)
 }
 
-fn mark(marks: &mut Marks, item: ExamItem, understood: Program) {
+fn mark(marks: &mut Marks, item: LabeledPrompt, understood: Program) {
     let meant = &item.program;
     let mut wrong: Vec<&'static str> = Vec::new();
     if meant.steps.len() != understood.steps.len() {

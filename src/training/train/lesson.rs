@@ -9,7 +9,7 @@ use rand_pcg::Pcg64;
 
 use super::TrainError;
 use crate::dataset::RealizedShot;
-use crate::sampler::{Phrasebook, Sample};
+use crate::sampler::{LabeledPrompt, PromptSampler};
 use cinesplat_director::codes::Grounding;
 use cinesplat_director::codes::{self, KeyCode};
 use cinesplat_director::ground::{Ground, ground, prompt};
@@ -58,7 +58,7 @@ impl Default for Damage {
 /// Where lessons come from.
 #[derive(Debug, Clone)]
 pub(crate) struct School<'a> {
-    pub(crate) phrasebook: Phrasebook,
+    pub(crate) phrasebook: PromptSampler,
     pub(crate) vocabulary: &'a Vocabulary,
     /// Words that stand in for others.
     pub(crate) words: &'a [String],
@@ -88,7 +88,7 @@ impl School<'_> {
             return self.of_shot(shot, rng);
         }
         let objects = self.phrasebook.invent_objects(rng.random_range(3..=12), rng);
-        let Sample { prompt, program } = self.phrasebook.sample(&objects, rng);
+        let LabeledPrompt { prompt, program } = self.phrasebook.sample(&objects, rng);
         let linked = link(&prompt, &objects)?;
         let others = other_ids(&objects, &linked, rng);
         let Some((tokens, ground, keys, film)) = self.encode(&linked, &program, &others, rng)? else { return Ok(None) };

@@ -27,7 +27,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use crate::dataset::{RealizedShot, read_shards};
-use crate::sampler::Phrasebook;
+use crate::sampler::PromptSampler;
 use cinesplat_director::Director;
 use cinesplat_director::files::{FileError, write_whole};
 use cinesplat_director::model::{Dropout, ModelConfig, Network, Parameters};
@@ -94,7 +94,7 @@ pub struct TrainSummary {
 /// [`TrainError`]: files that cannot be read or written, a checkpoint of other settings, a loss that is no number;
 /// [`TrainError::Stopped`] when `report` says so: a checkpoint is there then.
 pub fn train(settings: &TrainSettings, report: &mut Report<'_>) -> Result<TrainSummary, TrainError> {
-    let phrasebook = Phrasebook::embedded()?;
+    let phrasebook = PromptSampler::embedded()?;
     std::fs::create_dir_all(&settings.out).map_err(|source| FileError::Write { path: settings.out.clone(), source })?;
     let shots = settings.shots.as_deref().map(read_shards).transpose()?.unwrap_or_default();
     let held_out: Vec<RealizedShot> = shots.iter().step_by(HELD_OUT_EVERY).cloned().collect();
@@ -122,7 +122,7 @@ pub fn train(settings: &TrainSettings, report: &mut Report<'_>) -> Result<TrainS
 /// Words of the phrasebook, vocabulary, sizes, and parameters to build the network from.
 fn beginning(
     settings: &TrainSettings,
-    phrasebook: Phrasebook,
+    phrasebook: PromptSampler,
 ) -> Result<(Vec<String>, Vocabulary, ModelConfig, Parameters), TrainError> {
     let corpus = corpus(settings, phrasebook)?;
     let words: BTreeSet<&str> = corpus.iter().flat_map(|line| line.split(' ')).collect();
@@ -136,7 +136,7 @@ fn beginning(
 }
 
 /// Linked texts of the phrasebook.
-fn corpus(settings: &TrainSettings, phrasebook: Phrasebook) -> Result<Vec<String>, TrainError> {
+fn corpus(settings: &TrainSettings, phrasebook: PromptSampler) -> Result<Vec<String>, TrainError> {
     let mut rng = Pcg64::seed_from_u64(settings.seed ^ 0x000c_0de5);
     let mut line = |_| {
         let cast = phrasebook.invent_objects(8, &mut rng);

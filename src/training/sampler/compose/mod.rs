@@ -15,7 +15,7 @@ use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 
 use self::sense::settle_durations;
-use super::phrasebook::{Sample, Split};
+use super::prompt_sampler::{LabeledPrompt, TemplateSplit};
 use super::surface::{Hand, Page};
 use super::wording::Drawer;
 use cinesplat_language::NamedObject;
@@ -126,7 +126,7 @@ pub(crate) struct Composer<'a> {
 
 /// A finished prompt with what the linker has to find in it.
 pub(crate) struct Composed {
-    pub(crate) sample: Sample,
+    pub(crate) sample: LabeledPrompt,
     /// Object ids in order of first mention.
     pub(crate) mentioned: Vec<u32>,
     /// How often objects are named, pronouns aside.
@@ -135,7 +135,12 @@ pub(crate) struct Composed {
 }
 
 impl<'a> Composer<'a> {
-    pub(crate) fn new(grammar: &'a Grammar, split: Split, objects: &'a [NamedObject], rng: &'a mut Pcg64) -> Self {
+    pub(crate) fn new(
+        grammar: &'a Grammar,
+        split: TemplateSplit,
+        objects: &'a [NamedObject],
+        rng: &'a mut Pcg64,
+    ) -> Self {
         let voice = weighted(&VOICES, rng).unwrap_or(Voice::Imperative);
         let style = weighted(&STYLES, rng).unwrap_or(Style::Mixed);
         let numbered = [1.0, 0.0, 0.0, 0.5].choose(rng).copied().unwrap_or(0.0);
@@ -234,7 +239,7 @@ impl<'a> Composer<'a> {
         for (step, clause) in self.program.steps.iter_mut().zip(&self.clause_of_step) {
             step.words = spans.get(*clause).copied().flatten();
         }
-        let sample = Sample { prompt, program: self.program };
+        let sample = LabeledPrompt { prompt, program: self.program };
         let Self { mentioned, num_mentions, held_out, .. } = self;
         Some(Composed { sample, mentioned, num_mentions, held_out })
     }

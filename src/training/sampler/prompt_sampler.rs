@@ -17,7 +17,7 @@ use cinesplat_trajectory::Move;
 
 /// A prompt and what it means.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
+pub struct LabeledPrompt {
     /// The sentence.
     pub prompt: String,
     /// Its meaning, with the objects' ids and every step's bytes of the prompt.
@@ -26,7 +26,7 @@ pub struct Sample {
 
 /// Which wordings a phrasebook uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Split {
+pub enum TemplateSplit {
     /// Without those that the grammar reserves.
     #[default]
     Train,
@@ -36,24 +36,24 @@ pub enum Split {
 
 /// Invents prompts with their meaning.
 #[derive(Debug, Clone, Copy)]
-pub struct Phrasebook {
+pub struct PromptSampler {
     grammar: &'static Grammar,
     lexicon: &'static Lexicon,
-    split: Split,
+    split: TemplateSplit,
 }
 
-impl Phrasebook {
+impl PromptSampler {
     /// The phrasebook that the program ships, for training.
     ///
     /// # Errors
     /// [`LanguageError::BadData`] when an embedded file is damaged.
     pub fn embedded() -> Result<Self, LanguageError> {
-        Ok(Self { grammar: Grammar::embedded()?, lexicon: Lexicon::embedded()?, split: Split::Train })
+        Ok(Self { grammar: Grammar::embedded()?, lexicon: Lexicon::embedded()?, split: TemplateSplit::Train })
     }
 
     /// The same phrasebook on another side of the split.
     #[must_use]
-    pub fn with_split(self, split: Split) -> Self {
+    pub fn with_split(self, split: TemplateSplit) -> Self {
         Self { split, ..self }
     }
 
@@ -61,10 +61,10 @@ impl Phrasebook {
     ///
     /// Never a sentence of the [`exam()`], whatever its objects. The prompt links to exactly the program's objects and quantities: draws whose words could be taken otherwise are
     /// thrown away.
-    pub fn sample(&self, objects: &[NamedObject], rng: &mut Pcg64) -> Sample {
+    pub fn sample(&self, objects: &[NamedObject], rng: &mut Pcg64) -> LabeledPrompt {
         for attempt in 0..400 {
             let Some(composed) = Composer::new(self.grammar, self.split, objects, rng).compose() else { continue };
-            let reserved = self.split == Split::Train || composed.held_out || attempt > 300;
+            let reserved = self.split == TemplateSplit::Train || composed.held_out || attempt > 300;
             let Ok(linked) = link(&composed.sample.prompt, objects) else { continue };
             if reserved && is_as_meant(&linked, &composed) && !exam_sentences().contains(bare(&linked)) {
                 return composed.sample;
@@ -142,7 +142,7 @@ fn quantities_of(program: &Program) -> Vec<f64> {
 }
 
 /// What is left when nothing else could be said: `orbit <obj-7>.` or `pan left.`
-fn plain_sample(objects: &[NamedObject], rng: &mut Pcg64) -> Sample {
+fn plain_sample(objects: &[NamedObject], rng: &mut Pcg64) -> LabeledPrompt {
     let (prompt, mut step) = match objects.choose(rng) {
         Some(object) => {
             let end = Framing { subjects: vec![object.id], ..Framing::default() };
@@ -151,5 +151,5 @@ fn plain_sample(objects: &[NamedObject], rng: &mut Pcg64) -> Sample {
         None => ("Pan left.".to_owned(), Step::of(Move::PanLeft)),
     };
     step.words = Some([0, prompt.len()]);
-    Sample { prompt, program: Program { steps: vec![step], ..Program::default() } }
+    LabeledPrompt { prompt, program: Program { steps: vec![step], ..Program::default() } }
 }

@@ -3,15 +3,15 @@ use strum::VariantArray;
 
 use cinesplat::language::{NamedObject, link, program_from_notation, program_to_notation};
 use cinesplat::operator::{Amount, Program};
-use cinesplat::training::{Phrasebook, Sample, Split, exam, exam_objects};
+use cinesplat::training::{LabeledPrompt, PromptSampler, TemplateSplit, exam, exam_objects};
 use cinesplat::trajectory::Move;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 const NUM_SAMPLES: usize = 1500;
 
-fn samples(split: Split, seed: u64, count: usize) -> Vec<(Sample, Vec<NamedObject>)> {
-    let book = Phrasebook::embedded().unwrap().with_split(split);
+fn samples(split: TemplateSplit, seed: u64, count: usize) -> Vec<(LabeledPrompt, Vec<NamedObject>)> {
+    let book = PromptSampler::embedded().unwrap().with_split(split);
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut draw = |nth: usize| {
         let objects = book.invent_objects(1 + nth % 8, &mut rng);
@@ -28,13 +28,13 @@ fn ids(program: &Program) -> BTreeSet<u32> {
 
 #[test]
 fn the_same_seed_says_the_same() {
-    assert_eq!(samples(Split::Train, 5, 50), samples(Split::Train, 5, 50));
-    assert_ne!(samples(Split::Train, 5, 50), samples(Split::Train, 6, 50));
+    assert_eq!(samples(TemplateSplit::Train, 5, 50), samples(TemplateSplit::Train, 5, 50));
+    assert_ne!(samples(TemplateSplit::Train, 5, 50), samples(TemplateSplit::Train, 6, 50));
 }
 
 #[test]
 fn prompts_link_to_the_objects_and_quantities_of_their_programs() {
-    for (sample, objects) in samples(Split::Train, 1, NUM_SAMPLES) {
+    for (sample, objects) in samples(TemplateSplit::Train, 1, NUM_SAMPLES) {
         let linked = link(&sample.prompt, &objects).unwrap();
         let slots: BTreeSet<u32> = linked.slots.iter().copied().collect();
         assert_eq!(slots, ids(&sample.program), "{}", sample.prompt);
@@ -65,7 +65,7 @@ fn prompts_link_to_the_objects_and_quantities_of_their_programs() {
 
 #[test]
 fn programs_are_well_formed_and_their_words_lie_in_the_prompt() {
-    for (sample, _) in samples(Split::Train, 2, NUM_SAMPLES) {
+    for (sample, _) in samples(TemplateSplit::Train, 2, NUM_SAMPLES) {
         assert!((1..=8).contains(&sample.program.steps.len()), "{}", sample.prompt);
         for step in &sample.program.steps {
             let [start, end] = step.words.unwrap();
@@ -91,7 +91,7 @@ fn programs_are_well_formed_and_their_words_lie_in_the_prompt() {
 #[test]
 fn before_turns_two_clauses_around() {
     let mut turned = 0;
-    for (sample, objects) in samples(Split::Train, 12, NUM_SAMPLES) {
+    for (sample, objects) in samples(TemplateSplit::Train, 12, NUM_SAMPLES) {
         let starts: Vec<usize> = sample.program.steps.iter().map(|step| step.words.unwrap()[0]).collect();
         let text = link(&sample.prompt, &objects).unwrap().tokens_text;
         if starts.is_sorted() {
@@ -108,7 +108,7 @@ fn before_turns_two_clauses_around() {
 #[test]
 fn holds_have_times_of_their_own() {
     let mut holds = 0;
-    for (sample, _) in samples(Split::Train, 13, NUM_SAMPLES) {
+    for (sample, _) in samples(TemplateSplit::Train, 13, NUM_SAMPLES) {
         for pair in sample.program.steps.windows(2) {
             let [before, hold] = pair else { continue };
             if hold.movement == Move::Static && !hold.cut && hold.words == before.words {
@@ -123,7 +123,7 @@ fn holds_have_times_of_their_own() {
 
 #[test]
 fn every_move_is_spoken_of() {
-    let seen: BTreeSet<Move> = samples(Split::Train, 3, 4000)
+    let seen: BTreeSet<Move> = samples(TemplateSplit::Train, 3, 4000)
         .iter()
         .flat_map(|(s, _)| s.program.steps.iter().map(|step| step.movement))
         .collect();
@@ -136,7 +136,7 @@ fn every_move_is_spoken_of() {
 #[test]
 fn direction_words_decide_directions() {
     let mut checked = 0;
-    for (sample, objects) in samples(Split::Train, 4, 2 * NUM_SAMPLES) {
+    for (sample, objects) in samples(TemplateSplit::Train, 4, 2 * NUM_SAMPLES) {
         let [step] = sample.program.steps.as_slice() else { continue };
         let text = format!(" {} ", link(&sample.prompt, &objects).unwrap().tokens_text);
         let (left, right) = (text.matches(" left").count(), text.matches(" right").count());
@@ -169,10 +169,14 @@ fn direction_words_decide_directions() {
 
 #[test]
 fn held_out_wordings_stay_out_of_training() {
-    let train: String =
-        samples(Split::Train, 7, NUM_SAMPLES).into_iter().map(|(s, _)| s.prompt.to_lowercase() + "\n").collect();
-    let held: String =
-        samples(Split::HeldOut, 7, NUM_SAMPLES).into_iter().map(|(s, _)| s.prompt.to_lowercase() + "\n").collect();
+    let train: String = samples(TemplateSplit::Train, 7, NUM_SAMPLES)
+        .into_iter()
+        .map(|(s, _)| s.prompt.to_lowercase() + "\n")
+        .collect();
+    let held: String = samples(TemplateSplit::HeldOut, 7, NUM_SAMPLES)
+        .into_iter()
+        .map(|(s, _)| s.prompt.to_lowercase() + "\n")
+        .collect();
     for wording in [
         "a smidge",
         "a tad",
@@ -196,14 +200,14 @@ fn exam_sentences_are_never_sampled() {
         link(prompt, objects).map(|l| l.tokens_text.trim_end_matches([' ', '.', '!']).to_owned()).unwrap()
     };
     let exam: BTreeSet<String> = exam().unwrap().iter().map(|item| bare(&item.prompt, &objects)).collect();
-    for (sample, cast) in samples(Split::Train, 8, NUM_SAMPLES) {
+    for (sample, cast) in samples(TemplateSplit::Train, 8, NUM_SAMPLES) {
         assert!(!exam.contains(&bare(&sample.prompt, &cast)), "{}", sample.prompt);
     }
 }
 
 #[test]
 fn any_list_of_objects_will_do() {
-    let book = Phrasebook::embedded().unwrap();
+    let book = PromptSampler::embedded().unwrap();
     let mut rng = Pcg64::seed_from_u64(9);
     let odd = [
         vec![],
