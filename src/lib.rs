@@ -52,6 +52,7 @@
 pub use cinesplat_director as director;
 pub use cinesplat_evaluation as evaluation;
 pub use cinesplat_export as export;
+pub use cinesplat_files as files;
 pub use cinesplat_geometry as geometry;
 pub use cinesplat_language as language;
 pub use cinesplat_lens as lens;
@@ -64,7 +65,6 @@ pub use cinesplat_synth as synth;
 #[cfg(feature = "training")]
 pub use cinesplat_training as training;
 pub use cinesplat_trajectory as trajectory;
-#[cfg(feature = "video")]
 pub use cinesplat_video as video;
 
 pub mod pipeline;

@@ -14,6 +14,7 @@ mod cli;
 mod director;
 mod evaluation;
 mod export;
+mod files;
 mod geometry;
 mod language;
 mod lens;

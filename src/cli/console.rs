@@ -4,8 +4,13 @@ use super::failure::Failure;
 
 /// Writes data to stdout. A reader that stops early (`| head`) is no error.
 pub(super) fn data(text: &str) -> Result<(), Failure> {
+    data_bytes(text.as_bytes())
+}
+
+/// As [`data`], for bytes of any kind.
+pub(super) fn data_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::io("stdout", &error)),
         _ => Ok(()),

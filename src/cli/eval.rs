@@ -1,3 +1,4 @@
+use super::outputs::Overwrite;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use strum::VariantArray;
@@ -85,15 +86,14 @@ pub(super) struct Args {
     /// Writes both paths and their x y z roll pitch yaw as a picture
     #[arg(long, value_name = "OUT.SVG")]
     plot: Option<PathBuf>,
-    /// Replaces a plot that is already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         if let Some(plot) = &self.plot {
-            outputs::check_new(plot, self.overwrite)?;
+            self.overwrite.check(plot)?;
         }
         let settings = self.settings()?;
         if self.reference.is_dir() && self.estimate.is_dir() {
@@ -103,7 +103,7 @@ impl Args {
         let evaluation = evaluate(&reference, &estimate, &settings)?;
         if let Some(plot) = &self.plot {
             let paths = [("reference", &evaluation.matches.reference), ("estimate", &evaluation.matches.estimate)];
-            outputs::write(plot, plot_svg(&title(&evaluation), &paths, &[]).as_bytes())?;
+            self.overwrite.write(plot, plot_svg(&title(&evaluation), &paths, &[]).as_bytes())?;
             console::note(&format!("{}: both paths", plot.display()));
         }
         if self.json {

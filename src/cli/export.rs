@@ -1,10 +1,11 @@
 use super::choice::choice;
+use super::outputs::Overwrite;
 use std::path::PathBuf;
 use strum::VariantNames;
 
 use super::failure::Failure;
 use super::{console, outputs};
-use cinesplat::export::{self, Content, ExportSettings, Format, shot_json};
+use cinesplat::export::{self, Content, ExportSettings, Format, Layout, shot_json};
 use cinesplat::trajectory::retimed;
 
 /// Writes a shot's camera path for other programs.
@@ -33,9 +34,8 @@ pub(super) struct Args {
     /// Moves the inner keys in time so that the camera cruises at even speed
     #[arg(long)]
     retime: bool,
-    /// Replaces a file that is already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 impl Args {
@@ -44,20 +44,28 @@ impl Args {
             let found = format!("{}: the name leaves the format open, expected --to FORMAT", self.output.display());
             Failure::usage(found, format!("add --to with one of {}", <Format as VariantNames>::VARIANTS.join(" ")))
         })?;
-        if !(format == Format::Colmap && (self.output.is_dir() || !self.output.exists())) {
-            outputs::check_new(&self.output, self.overwrite)?;
+        let layout = Layout::of_path(&self.output);
+        let files = export::output_files(&self.output, format, layout);
+        if outputs::is_stdout(&self.output) && files.len() > 1 {
+            let help = "name a folder, or choose another format with --to";
+            return Err(Failure::usage(format!("{format} is {} files, standard output is one", files.len()), help));
         }
+        files.iter().try_for_each(|file| self.overwrite.check(file))?;
         let text = outputs::read_text(&self.shot)?;
         let shot = shot_json::read(&text).map_err(|error| Failure::from(error).in_file(&self.shot))?;
         let shot = if self.retime { retimed(&shot) } else { shot };
         let content = if self.keyframes { Content::Keyframes } else { Content::Sampled };
-        let settings = ExportSettings { content, fps: self.fps };
-        let lost = export::write(&self.output, format, &shot, &settings);
-        let lost = lost.map_err(|error| Failure::from(error).in_file(&self.shot))?;
-        for line in &lost {
+        let settings = ExportSettings { content, fps: self.fps, layout };
+        let encoded = export::encode(format, &shot, &settings);
+        let encoded = encoded.map_err(|error| Failure::from(error).in_file(&self.shot))?;
+        match encoded.files.as_slice() {
+            [(_, bytes)] => self.overwrite.write(&self.output, bytes)?,
+            _ => encoded.write(&self.output, self.overwrite.existing())?,
+        }
+        for line in &encoded.losses {
             console::note(&format!("warning: {line}"));
         }
-        console::note(&format!("{}: {}", self.output.display(), format.as_ref()));
+        console::note(&format!("{}: {}", self.output.display(), format));
         Ok(())
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use cinesplat::director::DirectorError;
 use cinesplat::evaluation::EvaluationError;
 use cinesplat::export::ExportError;
+use cinesplat::files::FileError;
 use cinesplat::geometry::GeometryError;
 use cinesplat::language::LanguageError;
 use cinesplat::objects::ObjectsError;
@@ -87,7 +88,7 @@ macro_rules! from_stages {
 }
 
 from_stages! {
-    SceneError ObjectsError LanguageError DirectorError TrainError DatasetError ExportError RenderError VideoError
+    FileError SceneError ObjectsError LanguageError DirectorError TrainError DatasetError ExportError RenderError VideoError
     PipelineError EvaluationError
 }
 

@@ -1,3 +1,4 @@
+use super::outputs::Overwrite;
 use std::path::PathBuf;
 
 use super::choice::choice;
@@ -21,14 +22,13 @@ pub(super) struct Args {
     /// The format, instead of what the content says
     #[arg(long, value_name = "FORMAT", value_parser = choice::<Format>())]
     from: Option<Format>,
-    /// Replaces a shot that is already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        outputs::check_new(&self.output, self.overwrite)?;
+        self.overwrite.check(&self.output)?;
         let in_file = |error| Failure::from(error).in_file(&self.file);
         let imported = export::read(&self.file, self.from).map_err(in_file)?;
         let format = imported.format;
@@ -36,7 +36,7 @@ impl Args {
         for line in &assumed {
             console::note(&format!("warning: {line}"));
         }
-        outputs::write(&self.output, shot_json::write(&shot).as_bytes())?;
+        self.overwrite.write(&self.output, shot_json::write(&shot).as_bytes())?;
         let (keys, secs) = (shot.keyframes.len(), shot.duration_secs);
         console::note(&format!("{}: {keys} keys, {secs:.2} s, from {format}", self.output.display()));
         Ok(())

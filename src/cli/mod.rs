@@ -15,7 +15,6 @@ mod failure;
 mod import;
 mod info;
 mod interrupt;
-mod npy;
 mod objects;
 mod outputs;
 mod plan;

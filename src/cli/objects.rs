@@ -1,3 +1,4 @@
+use super::outputs::Overwrite;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -34,15 +35,17 @@ pub(super) struct Args {
     /// One JSON list instead of a table
     #[arg(long)]
     json: bool,
-    /// Replaces files that are already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         for path in self.output.iter().chain(&self.sheet) {
-            outputs::check_new(path, self.overwrite)?;
+            self.overwrite.check(path)?;
+        }
+        if let Some(path) = self.output.as_ref().filter(|path| !outputs::is_stdout(path)) {
+            self.overwrite.check(&objects::labels_path(path))?;
         }
         let (scene, mut set) = match &self.labels {
             Some(labels) => {
@@ -55,13 +58,20 @@ impl Args {
         };
         if let Some(path) = &self.sheet {
             let picture = objects::sheet(&scene, &set, &SheetSettings::default())?;
-            video::write_png(path, &picture, picture.width(), picture.height())?;
+            video::write_png(path, &picture, [picture.width(), picture.height()], self.overwrite.existing())?;
             console::note(&format!("{}: a view of every object", path.display()));
         }
         if let Some(path) = &self.output {
             pipeline::prepare_objects(&scene, &mut set)?;
-            objects::write(path, &set, &scene)?;
+            if outputs::is_stdout(path) {
+                console::data(&objects::to_json(path, &set, &scene, None))?;
+            } else {
+                objects::write(path, &set, &scene, self.overwrite.existing())?;
+            }
             console::note(&format!("{}: {} objects", path.display(), set.objects.len()));
+        }
+        if self.output.as_deref().is_some_and(outputs::is_stdout) {
+            return Ok(());
         }
         console::data(&if self.json { format!("{:#}\n", as_json(&set)) } else { table(&set) })?;
         reproduce::print(&[]);

@@ -1,68 +1,73 @@
-use std::fs;
-use std::io;
+//! Outputs of commands: checked before any work, whole or absent, `-` for standard output.
+
 use std::path::{Path, PathBuf};
 
+use cinesplat::files::{self, Existing};
+
+use super::console;
 use super::failure::Failure;
 
-/// Checks before any work that a file can be made: its folder is there, its name is free or may be overwritten.
-pub(super) fn check_new(path: &Path, overwrite: bool) -> Result<(), Failure> {
-    let refuse = |found: &str, help: &str| {
-        let code = if found.starts_with("already") { "OUTPUT-EXISTS" } else { "OUTPUT-CREATE" };
-        Err(Failure::new(code, format!("{}: {found}", path.display()), help, 73))
-    };
-    if path.is_dir() {
-        return refuse("is a folder, expected a file name", "name a file in it");
-    }
-    if path.exists() && !overwrite {
-        return refuse("already there, expected a new name", "choose another name, or pass --overwrite");
-    }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return refuse("its folder does not exist", &format!("mkdir -p {}", folder.display()));
-    }
-    if fs::metadata(folder).is_ok_and(|metadata| metadata.permissions().readonly()) {
-        return Err(Failure::io(&path.display().to_string(), &io::ErrorKind::PermissionDenied.into()));
-    }
-    Ok(())
+pub(super) use cinesplat::files::{create_folder, relative_to};
+
+/// The flag that lets a command replace files.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(super) struct Overwrite {
+    /// Overwrite files that exist already
+    #[arg(long)]
+    overwrite: bool,
 }
 
-/// Makes a folder where it is missing, with those above it.
-pub(super) fn create_folder(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| Failure::io(&folder.display().to_string(), &error))
+impl Overwrite {
+    pub(super) fn existing(self) -> Existing {
+        Existing::replace_if(self.overwrite)
+    }
+
+    /// Checks before any work that a file can be created.
+    pub(super) fn check(self, path: &Path) -> Result<(), Failure> {
+        if is_stdout(path) { Ok(()) } else { Ok(files::check_free(path, self.existing())?) }
+    }
+
+    /// Writes a whole file, or data to standard output.
+    pub(super) fn write(self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+        if is_stdout(path) { console::data_bytes(bytes) } else { Ok(files::write(path, bytes, self.existing())?) }
+    }
 }
 
-/// Writes a whole file under a passing name, then renames it.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let mut name = std::ffi::OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    let written = fs::write(&part, bytes).and_then(|()| fs::rename(&part, path));
-    written.map_err(|error| {
-        // The first error is the one to tell.
-        let _ = fs::remove_file(&part);
-        Failure::io(&path.display().to_string(), &error)
-    })
+/// The folder in which a bench leaves its figures.
+#[derive(Debug, Clone, clap::Args)]
+pub(super) struct BenchFolder {
+    /// Folder for CSV, tables and plots, created where it is missing; without it only the CSV on stdout
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+}
+
+impl BenchFolder {
+    /// Creates the folder and checks before any work that these files can be created in it.
+    pub(super) fn prepare(&self, names: &[&str]) -> Result<(), Failure> {
+        let Some(folder) = &self.output else { return Ok(()) };
+        create_folder(folder)?;
+        names.iter().try_for_each(|name| self.overwrite.check(&folder.join(name)))
+    }
+
+    /// Writes a file of the folder, where there is one.
+    pub(super) fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
+        let Some(folder) = &self.output else { return Ok(()) };
+        self.overwrite.write(&folder.join(name), text.as_bytes())
+    }
+}
+
+/// Whether a path stands for standard output.
+pub(super) fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-")
 }
 
 /// All of a text file.
 pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
-    let bytes = fs::read(path).map_err(|error| Failure::io(&path.display().to_string(), &error))?;
-    String::from_utf8(bytes).map_err(|error| {
+    String::from_utf8(files::read(path)?).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let found = format!("{}: byte {at} is not UTF-8, expected text", path.display());
         Failure::new("NOT-TEXT", found, "is this the right file?", 65)
     })
-}
-
-/// `target` as it is named inside the file at `base`: relative to its folder where both can be found, else as it is.
-pub(super) fn relative_to(base: &Path, target: &Path) -> String {
-    let folder = base.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let (Ok(folder), Ok(target)) = (folder.canonicalize(), target.canonicalize()) else {
-        return target.to_string_lossy().into_owned();
-    };
-    let shared = folder.components().zip(target.components()).take_while(|(a, b)| a == b).count();
-    let climb = folder.components().skip(shared).map(|_| "..".into());
-    let descend = target.components().skip(shared).map(|part| part.as_os_str().to_owned());
-    climb.chain(descend).collect::<PathBuf>().to_string_lossy().into_owned()
 }

@@ -1,3 +1,4 @@
+use super::outputs::Overwrite;
 use std::path::{Path, PathBuf};
 use strum::VariantArray;
 
@@ -38,22 +39,21 @@ pub(super) struct Args {
     explain: bool,
     #[command(flatten)]
     picture: PictureArgs,
-    /// Replaces a shot that is already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         if let Some(output) = &self.output {
-            outputs::check_new(output, self.overwrite)?;
+            self.overwrite.check(output)?;
         }
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
         let mut directed = self.shot.direct(&scene, &objects, &self.prompt)?;
         if let Some(output) = &self.output {
             directed.shot.scene.path = outputs::relative_to(output, &scene.path);
-            outputs::write(output, shot_json::write(&directed.shot).as_bytes())?;
+            self.overwrite.write(output, shot_json::write(&directed.shot).as_bytes())?;
             let (keys, secs) = (directed.shot.keyframes.len(), directed.shot.duration_secs);
             console::note(&format!("{}: {keys} keys, {secs:.2} s", output.display()));
         }

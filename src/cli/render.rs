@@ -1,3 +1,4 @@
+use super::outputs::Overwrite;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -58,9 +59,8 @@ pub(super) struct Args {
     /// Writes a contact sheet too: twelve small frames of the film
     #[arg(long, value_name = "SHEET.PNG")]
     sheet: Option<PathBuf>,
-    /// Replaces what is already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 #[derive(Debug, clap::Args)]
@@ -89,7 +89,7 @@ impl Args {
         if let Some(path) = &self.save_shot {
             let mut saved = shot.clone();
             saved.scene.path = outputs::relative_to(path, &scene.path);
-            outputs::write(path, shot_json::write(&saved).as_bytes())?;
+            self.overwrite.write(path, shot_json::write(&saved).as_bytes())?;
         }
         let renderer = Renderer::new(&scene.gaussians);
         let render = self.picture.settings(&scene, Quality::Standard, None, None);
@@ -114,11 +114,15 @@ impl Args {
 
     /// Everything that can be refused before the scene is read.
     fn check_outputs(&self) -> Result<(), Failure> {
-        let video =
-            VideoSettings { crf: self.crf, preset: self.preset, overwrite: self.overwrite, ..Default::default() };
+        let video = VideoSettings {
+            crf: self.crf,
+            preset: self.preset,
+            existing: self.overwrite.existing(),
+            ..Default::default()
+        };
         video::check_output(&self.output, &video)?;
         for path in self.save_shot.iter().chain(&self.sheet) {
-            outputs::check_new(path, self.overwrite)?;
+            self.overwrite.check(path)?;
         }
         Ok(())
     }
@@ -150,7 +154,7 @@ impl Args {
             preset: self.preset,
             first_frame: frames.start,
             num_frames: frames.len(),
-            overwrite: self.overwrite,
+            existing: self.overwrite.existing(),
         })
     }
 

@@ -1,10 +1,12 @@
+use super::outputs::Overwrite;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs, print_up};
-use super::{console, npy, outputs};
+use super::{console, outputs};
 use cinesplat::export::cameras_json::{self, StillCameras};
+use cinesplat::files::npy;
 use cinesplat::objects;
 use cinesplat::pipeline::{self, Still, StillOutputs};
 use cinesplat::render::{Quality, Weight};
@@ -46,9 +48,8 @@ pub(super) struct Args {
     /// Writes NAME.weights.npy too: (pixel, gaussian, weight) of every splat in every pixel; large
     #[arg(long)]
     weights: bool,
-    /// Replaces pictures that are already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 impl Args {
@@ -83,9 +84,13 @@ impl Args {
             Some(Some(path)) => Some(objects::read_labels(path, scene)?),
         };
         let rows = |path: &PathBuf| {
-            let (values, num_channels) =
-                npy::decode_rows(&read(path)?).map_err(|found| bad(path, found, "float32 of two axes"))?;
-            let num_rows = values.len() / num_channels.max(1);
+            let not_rows = |found: String| bad(path, found, "float32 of two axes");
+            let bytes = read(path)?;
+            let array = npy::Array::parse(&bytes).map_err(|error| not_rows(error.to_string()))?;
+            let &[num_rows, num_channels] = array.shape.as_slice() else {
+                return Err(not_rows(format!("an array of shape {:?}", array.shape)));
+            };
+            let values = array.to_f32().map_err(|error| not_rows(error.to_string()))?;
             // Rows of Gaussians that were dropped on reading are dropped too.
             let kept = scene.kept(&(0..num_rows).collect::<Vec<_>>());
             let kept = kept.ok_or_else(|| bad(path, format!("{num_rows} rows"), "one a Gaussian of the file"))?;
@@ -108,7 +113,7 @@ impl Args {
         }
         outputs::create_folder(&self.output)?;
         let mut names = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name));
-        names.try_for_each(|path| outputs::check_new(&path, self.overwrite))
+        names.try_for_each(|path| self.overwrite.check(&path))
     }
 
     fn files(&self, name: &str) -> Vec<PathBuf> {
@@ -133,19 +138,23 @@ impl Args {
     fn write(&self, still: &Still) -> Result<(), Failure> {
         let (name, frame) = (still.name, &still.frame);
         let (width, height) = (frame.width, frame.height);
-        video::write_png(&self.file(name, "png"), &frame.to_rgb8(), width, height)?;
+        video::write_png(&self.file(name, "png"), &frame.to_rgb8(), [width, height], self.overwrite.existing())?;
         if self.npy {
-            outputs::write(&self.file(name, "npy"), &npy::encode_f32(&[height, width, 3], &frame.rgb))?;
-            outputs::write(&self.file(name, "T.npy"), &npy::encode_f32(&[height, width], &frame.transmittance))?;
+            self.overwrite
+                .write(&self.file(name, "npy"), &npy::encode_f32(&[height as usize, width as usize, 3], &frame.rgb))?;
+            self.overwrite.write(
+                &self.file(name, "T.npy"),
+                &npy::encode_f32(&[height as usize, width as usize], &frame.transmittance),
+            )?;
         }
-        self.write_outputs(still, [height, width])?;
+        self.write_outputs(still, [height as usize, width as usize])?;
         let milliseconds = frame.stats.times.total().as_secs_f64() * 1e3;
         console::note(&format!("{}: {width}x{height}, {milliseconds:.0} ms", self.file(name, "png").display()));
         Ok(())
     }
 
-    fn write_outputs(&self, still: &Still, shape: [u32; 2]) -> Result<(), Failure> {
-        let write = |ending: &str, bytes: Vec<u8>| outputs::write(&self.file(still.name, ending), &bytes);
+    fn write_outputs(&self, still: &Still, shape: [usize; 2]) -> Result<(), Failure> {
+        let write = |ending: &str, bytes: Vec<u8>| self.overwrite.write(&self.file(still.name, ending), &bytes);
         if let Some(depth) = &still.depth {
             write("depth.npy", npy::encode_f32(&shape, &depth.expected))?;
             write("median.npy", npy::encode_f32(&shape, &depth.median))?;
@@ -154,14 +163,14 @@ impl Args {
             write("ids.npy", npy::encode_u16(&shape, &ids.ids))?;
         }
         if let Some(map) = &still.features {
-            let shape = [shape[0], shape[1], map.num_channels as u32];
+            let shape = [shape[0], shape[1], map.num_channels];
             write("features.npy", npy::encode_f32(&shape, &map.values))?;
         }
         if let Some(weights) = &still.weights {
             let descr = "[('pixel', '<u4'), ('gaussian', '<u4'), ('weight', '<f4')]";
             let bytes = |w: &Weight| [w.pixel_idx.to_le_bytes(), w.gaussian_idx.to_le_bytes(), w.weight.to_le_bytes()];
             let data = weights.iter().flat_map(bytes).flatten();
-            write("weights.npy", npy::encode(descr, &[weights.len() as u32], data))?;
+            write("weights.npy", npy::encode(descr, &[weights.len()], data))?;
         }
         Ok(())
     }

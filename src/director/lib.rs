@@ -11,7 +11,6 @@ mod coverage;
 pub mod decode;
 pub mod directing;
 mod error;
-pub mod files;
 pub mod frame;
 pub mod ground;
 pub mod keys;
@@ -22,7 +21,6 @@ pub mod weights;
 
 pub use directing::{Direction, Director, Stage, StepCertainty, SuggestedCamera};
 pub use error::DirectorError;
-pub use files::FileError;
 pub use frame::SceneFrame;
 pub use model::ModelConfig;
 pub use vocabulary::Vocabulary;

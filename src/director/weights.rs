@@ -8,10 +8,10 @@ use std::path::Path;
 use strum::VariantArray;
 
 use candle_core::{Device, Tensor};
+use cinesplat_files::sha256_hex;
 use half::f16;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 use super::DirectorError;
 use super::model::{ModelConfig, Network, Parameters};
@@ -139,11 +139,6 @@ fn check_manifest(manifest: &Manifest) -> Result<(), DirectorError> {
 fn check_hash(part: &str, bytes: &[u8], expected: &str) -> Result<(), DirectorError> {
     let found = sha256_hex(bytes);
     if found == expected { Ok(()) } else { Err(bad(&part, format!("SHA-256 {found}"), expected)) }
-}
-
-/// SHA-256 of bytes in hex.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::with_capacity(64), |hex, byte| hex + &format!("{byte:02x}"))
 }
 
 /// Names of all classes, in the order in which the heads put them out.

@@ -1,8 +1,8 @@
 //! Shots and tracks into files of any format.
 
-use std::ffi::OsString;
-use std::fs;
 use std::path::{Path, PathBuf};
+
+use cinesplat_files::{Existing, FileError};
 
 use super::losses::losses;
 use super::{
@@ -26,58 +26,82 @@ pub enum Content {
 pub struct ExportSettings {
     /// Frames or keys.
     pub content: Content,
-    /// Frames a second of sampled content; `None` takes the shot's.
+    /// Frames per second of sampled content; `None` takes the shot's.
     pub fps: Option<f64>,
+    /// Layout, for formats that have two.
+    pub layout: Layout,
 }
 
-/// Writes `shot` to `path` and returns a line for everything the format cannot hold.
-///
-/// A COLMAP model is a folder: `path` names it, or `images.txt` or `images.bin` inside it, whose ending picks text (also
-/// the default) or binary. glTF is binary where the path ends in `.glb`. Existing files are replaced, each at once.
+/// Text or binary, for the two formats that have both: glTF and COLMAP.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Layout {
+    /// Text.
+    #[default]
+    Text,
+    /// Binary.
+    Binary,
+}
+
+impl Layout {
+    /// The layout that a path asks for: binary for `.glb` and `.bin`, else text.
+    pub fn of_path(path: &Path) -> Self {
+        if has_extension(path, "glb") || has_extension(path, "bin") { Self::Binary } else { Self::Text }
+    }
+}
+
+/// A shot in a format, before it is a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Encoded {
+    /// Name and bytes of every file: one without a name, or the named files of a folder.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// One line for everything that the format cannot hold.
+    pub losses: Vec<String>,
+}
+
+/// Encodes `shot`.
 ///
 /// # Errors
-/// [`ExportError::BadShot`] when the shot is not usable, [`ExportError::Io`] when a file cannot be written.
-pub fn write(path: &Path, format: Format, shot: &Shot, settings: &ExportSettings) -> Result<Vec<String>, ExportError> {
+/// [`ExportError::BadShot`] when the shot is not usable.
+pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<Encoded, ExportError> {
     let track = match settings.content {
         Content::Sampled => PoseTrack::sampled(shot, settings.fps)?,
         Content::Keyframes => PoseTrack::keyframes(shot),
     };
     if format == Format::Shot && settings.content == Content::Keyframes {
-        write_file(path, shot_json::write(shot).as_bytes())?;
-        return Ok(Vec::new());
+        return Ok(Encoded { files: vec![("", shot_json::write(shot).into_bytes())], losses: Vec::new() });
     }
-    let mut warnings = write_poses(path, format, &track)?;
+    let mut encoded = encode_poses(format, &track, settings.layout)?;
     if settings.content == Content::Keyframes && shot.keyframes.len() > 2 {
         let what = "joins the keys by a curve of its own: export without --keyframes for the film's path";
-        warnings.push(format!("{} {what}", format.as_ref()));
+        encoded.losses.push(format!("{format} {what}"));
     }
-    Ok(warnings)
+    Ok(encoded)
 }
 
-/// Writes timed poses to `path`, as [`write()`] does.
+/// Encodes timed poses, as [`encode()`] does.
 ///
 /// # Errors
 /// [`ExportError::NoPoses`] for a track without frames, [`ExportError::BadShot`] where it makes no shot and the format is
-/// `shot`, [`ExportError::Io`] when a file cannot be written.
-pub fn write_poses(path: &Path, format: Format, track: &PoseTrack) -> Result<Vec<String>, ExportError> {
+/// `shot`.
+pub fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Encoded, ExportError> {
     if track.frames.is_empty() {
         return Err(ExportError::NoPoses);
     }
-    let mut warnings = losses(format, track);
+    let mut losses = losses(format, track);
     let text = match format {
         Format::Colmap => {
-            let (folder, binary) = colmap_target(path);
-            let files = if binary { colmap::write_binary(track) } else { colmap::write_text(track) };
-            write_folder(&folder, &files)?;
-            return Ok(warnings);
+            let files = match layout {
+                Layout::Binary => colmap::write_binary(track),
+                Layout::Text => colmap::write_text(track),
+            };
+            return Ok(Encoded { files: files.into(), losses });
         }
-        Format::Gltf if has_extension(path, "glb") => {
-            write_file(path, &gltf::write_binary(track))?;
-            return Ok(warnings);
+        Format::Gltf if layout == Layout::Binary => {
+            return Ok(Encoded { files: vec![("", gltf::write_binary(track))], losses });
         }
         Format::Shot => {
             let (shot, assumptions) = track.to_shot()?;
-            warnings.extend(assumptions);
+            losses.extend(assumptions);
             shot_json::write(&shot)
         }
         Format::Tum => tum::write(track),
@@ -93,35 +117,64 @@ pub fn write_poses(path: &Path, format: Format, track: &PoseTrack) -> Result<Vec
         Format::Csv => csv::write(track),
         Format::Log => redwood_log::write(track),
     };
-    write_file(path, text.as_bytes())?;
-    Ok(warnings)
+    Ok(Encoded { files: vec![("", text.into_bytes())], losses })
+}
+
+/// The files that an export to `path` creates.
+///
+/// A COLMAP model is a folder: `path` names it, or `images.txt` or `images.bin` in it. Every other format is one file.
+pub fn output_files(path: &Path, format: Format, layout: Layout) -> Vec<PathBuf> {
+    if format != Format::Colmap {
+        return vec![path.to_owned()];
+    }
+    let folder = colmap_folder(path);
+    let extension = if layout == Layout::Binary { "bin" } else { "txt" };
+    ["cameras", "images", "points3D"].map(|name| folder.join(format!("{name}.{extension}"))).to_vec()
+}
+
+/// Writes `shot` to `path` and returns a line for everything the format cannot hold.
+///
+/// [`output_files`] says which files are created. Nothing is written if one of them exists and may not be replaced.
+///
+/// # Errors
+/// [`ExportError::BadShot`] when the shot is not usable, [`ExportError::File`] when a file exists already or cannot be
+/// written.
+pub fn write(
+    path: &Path,
+    format: Format,
+    shot: &Shot,
+    settings: &ExportSettings,
+    existing: Existing,
+) -> Result<Vec<String>, ExportError> {
+    let encoded = encode(format, shot, settings)?;
+    encoded.write(path, existing)?;
+    Ok(encoded.losses)
+}
+
+impl Encoded {
+    /// Writes the files to `path`, each whole or not at all.
+    ///
+    /// # Errors
+    /// [`FileError`] of the first file that cannot be created or written.
+    pub fn write(&self, path: &Path, existing: Existing) -> Result<(), FileError> {
+        if let [("", bytes)] = self.files.as_slice() {
+            return cinesplat_files::write(path, bytes, existing);
+        }
+        let folder = colmap_folder(path);
+        cinesplat_files::create_folder(&folder)?;
+        let paths: Vec<_> = self.files.iter().map(|(name, bytes)| (folder.join(name), bytes)).collect();
+        paths.iter().try_for_each(|(path, _)| cinesplat_files::check_free(path, existing))?;
+        paths.iter().try_for_each(|(path, bytes)| cinesplat_files::write(path, bytes, existing))
+    }
 }
 
 fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }
 
-/// The folder of a COLMAP model and whether it is to be binary.
-fn colmap_target(path: &Path) -> (PathBuf, bool) {
+/// The folder of a COLMAP model.
+fn colmap_folder(path: &Path) -> PathBuf {
     let in_file = has_extension(path, "bin") || has_extension(path, "txt");
     let folder = if in_file { path.parent().unwrap_or(Path::new("")) } else { path };
-    (folder.to_owned(), has_extension(path, "bin"))
-}
-
-fn write_folder(folder: &Path, files: &colmap::ModelFiles) -> Result<(), ExportError> {
-    let io = |source| ExportError::Io { doing: "creating", source, path: folder.to_owned() };
-    if !folder.as_os_str().is_empty() {
-        fs::create_dir_all(folder).map_err(io)?;
-    }
-    files.iter().try_for_each(|(name, bytes)| write_file(&folder.join(name), bytes))
-}
-
-/// Writes beside the target and renames, so that no reader ever sees half a file.
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let mut name = path.file_name().map_or_else(OsString::new, OsString::from);
-    name.push(".part");
-    let part = path.with_file_name(name);
-    let io = |doing| move |source| ExportError::Io { doing, source, path: path.to_owned() };
-    fs::write(&part, bytes).map_err(io("creating"))?;
-    fs::rename(&part, path).map_err(io("creating"))
+    if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() }
 }

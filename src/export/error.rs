@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use cinesplat_files::FileError;
 use thiserror::Error;
 
 use cinesplat_trajectory::TrajectoryError;
@@ -8,16 +9,9 @@ use cinesplat_trajectory::TrajectoryError;
 /// lines from 1.
 #[derive(Debug, Error)]
 pub enum ExportError {
-    /// The file cannot be opened, read or written.
-    #[error("{path}: {doing} failed: {source}")]
-    Io {
-        /// "reading", "writing" and the like.
-        doing: &'static str,
-        /// The operating system's reason.
-        source: std::io::Error,
-        /// The file.
-        path: PathBuf,
-    },
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A file over the cap on what is read into memory.
     #[error("{path}: the file has {found} bytes, expected at most {expected}")]
     TooLarge {
@@ -102,7 +96,7 @@ impl ExportError {
     /// A short stable name of the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Io { .. } => "EXCHANGE-IO",
+            Self::File(error) => error.code(),
             Self::TooLarge { .. } => "EXCHANGE-SIZE",
             Self::NotJson { .. } => "EXCHANGE-JSON",
             Self::WrongFormat { .. } => "EXCHANGE-FORMAT",
@@ -119,7 +113,7 @@ impl ExportError {
     /// What the user can do about it.
     pub fn help(&self) -> String {
         match self {
-            Self::Io { path, .. } => format!("check that {} exists and may be accessed", path.display()),
+            Self::File(error) => error.help(),
             Self::TooLarge { .. } => "is this the camera file, and not the scene?".into(),
             Self::NotJson { .. } => "check the file with a JSON validator; it may be cut off".into(),
             Self::WrongFormat { .. } => "name the format with --from or --to".into(),
@@ -136,12 +130,7 @@ impl ExportError {
     /// Exit code of a program that ends with this error.
     pub fn exit_code(&self) -> i32 {
         match self {
-            Self::Io { source, doing, .. } => match source.kind() {
-                std::io::ErrorKind::NotFound if *doing == "reading" => 66,
-                std::io::ErrorKind::PermissionDenied => 77,
-                _ if *doing == "creating" => 73,
-                _ => 74,
-            },
+            Self::File(error) => error.exit_code(),
             Self::TooLarge { .. } => 71,
             _ => 65,
         }

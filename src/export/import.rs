@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use strum::VariantArray;
 
+use cinesplat_files::FileError;
+
 use super::{
     ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, redwood_log,
     shot_json, supersplat, transforms, tum, usd,
@@ -57,7 +59,7 @@ impl Imported {
 /// The format is found from the content unless it is given.
 ///
 /// # Errors
-/// [`ExportError::Io`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is none
+/// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is none
 /// of the formats, and what each format's reader finds wrong.
 pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError> {
     let path = &file_of(path)?;
@@ -124,12 +126,11 @@ fn file_of(path: &Path) -> Result<PathBuf, ExportError> {
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, ExportError> {
-    let io = |source| ExportError::Io { doing: "reading", source, path: path.to_owned() };
-    let found = fs::metadata(path).map_err(io)?.len();
+    let found = fs::metadata(path).map_err(|source| FileError::Read { path: path.to_owned(), source })?.len();
     if found > MAX_FILE_BYTES {
         return Err(ExportError::TooLarge { found, expected: MAX_FILE_BYTES, path: path.to_owned() });
     }
-    fs::read(path).map_err(io)
+    Ok(cinesplat_files::read(path)?)
 }
 
 /// A file that another one names: only in the same folder, so that a file cannot reach elsewhere.

@@ -22,8 +22,10 @@ pub fn object<const N: usize>(fields: [(&str, Json); N]) -> Json {
 }
 
 impl Json {
+    /// Makes `null`.
     pub const NULL: fn() -> Json = || Json::Token("null".to_owned());
 
+    /// A list of values.
     pub fn list(items: impl IntoIterator<Item = impl Into<Json>>) -> Self {
         Self::List(items.into_iter().map(Into::into).collect())
     }

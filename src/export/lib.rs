@@ -32,7 +32,7 @@ mod transforms;
 mod tum;
 mod usd;
 
-pub use encode::{Content, ExportSettings, write, write_poses};
+pub use encode::{Content, Encoded, ExportSettings, Layout, encode, encode_poses, output_files, write};
 pub use error::ExportError;
 pub use format::Format;
 pub use import::{Imported, read};

@@ -1,21 +1,14 @@
-use std::io::ErrorKind;
 use std::path::PathBuf;
 
+use cinesplat_files::FileError;
 use thiserror::Error;
 
 /// What can go wrong with an objects file, its labels, or the pictures of objects. `Display` begins with the file.
 #[derive(Debug, Error)]
 pub enum ObjectsError {
     /// A file cannot be read or written.
-    #[error("{}: {action} failed: {source}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What was tried, such as `reading`.
-        action: &'static str,
-        /// What the system said.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The file is not JSON at all.
     #[error("{}: not JSON: {reason}, expected an objects file", path.display())]
     NotJson {
@@ -84,7 +77,7 @@ impl ObjectsError {
     /// Stable name for scripts.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Io { .. } => "OBJ-IO",
+            Self::File(error) => error.code(),
             Self::NotJson { .. } => "OBJ-JSON",
             Self::WrongKind { .. } => "OBJ-VERSION",
             Self::BadField { .. } => "OBJ-FIELD",
@@ -97,7 +90,7 @@ impl ObjectsError {
     /// How to mend it, one line.
     pub fn help(&self) -> String {
         match self {
-            Self::Io { path, .. } => format!("check that {} exists and may be used", path.display()),
+            Self::File(error) => error.help(),
             Self::NotJson { .. } | Self::WrongKind { .. } => {
                 "`cinesplat objects SCENE -o objects.json` writes a file to start from".to_owned()
             }
@@ -116,9 +109,7 @@ impl ObjectsError {
     /// Exit code of the program: 65 bad data, 66 no such input, 70 a fault of ours, 74 I/O, 77 permission.
     pub fn exit_code(&self) -> i32 {
         match self {
-            Self::Io { source, .. } if source.kind() == ErrorKind::NotFound => 66,
-            Self::Io { source, .. } if source.kind() == ErrorKind::PermissionDenied => 77,
-            Self::Io { .. } => 74,
+            Self::File(error) => error.exit_code(),
             Self::Picture { .. } => 70,
             _ => 65,
         }

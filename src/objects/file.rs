@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use glam::{DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
-use super::{Object, ObjectSet, ObjectsError, boxes, npy};
+use super::{Object, ObjectSet, ObjectsError, boxes};
+use cinesplat_files::{Existing, FileError, beside, check_free, npy, relative_to};
 use cinesplat_scene::Scene;
 
 /// Value of the key `format`.
@@ -37,8 +38,7 @@ pub struct ObjectsFile {
 /// # Errors
 /// Any [`ObjectsError`] except `Picture`; each names the file, the entry and the field.
 pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
-    let io = |source| ObjectsError::Io { path: path.to_owned(), action: "reading", source };
-    let bytes = std::fs::read(path).map_err(io)?;
+    let bytes = cinesplat_files::read(path)?;
     let root: Value = serde_json::from_slice(&bytes)
         .map_err(|error| ObjectsError::NotJson { path: path.to_owned(), reason: error.to_string() })?;
     let top = Entry { path, name: "file".to_owned(), fields: object_of(path, "file", &root)? };
@@ -58,13 +58,23 @@ pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
 /// reading the scene are dropped too.
 ///
 /// # Errors
-/// [`ObjectsError::Io`] or [`ObjectsError::BadLabels`] for another type or shape, or a count that is not the file's.
+/// [`ObjectsError::File`], or [`ObjectsError::BadLabels`] for another type or shape, or a count that is not the file's.
 pub fn read_labels(path: &Path, scene: &Scene) -> Result<Vec<u16>, ObjectsError> {
-    let io = |source| ObjectsError::Io { path: path.to_owned(), action: "reading", source };
     let expected = format!("one u8, u16 or u32 id (at most 65535) for each of {} Gaussians", scene.num_in_file());
     let bad = |found: String| ObjectsError::BadLabels { path: path.to_owned(), found, expected: expected.clone() };
-    let ids = npy::decode_ids(&std::fs::read(path).map_err(io)?).map_err(bad)?;
+    let ids = decode_ids(&cinesplat_files::read(path)?).map_err(bad)?;
     scene.kept(&ids).ok_or_else(|| bad(format!("{} ids", ids.len())))
+}
+
+/// The ids of a vector: an array of one axis, or of two of which one has length 1.
+fn decode_ids(bytes: &[u8]) -> Result<Vec<u16>, String> {
+    let array = npy::Array::parse(bytes).map_err(|error| error.to_string())?;
+    if !matches!(array.shape.as_slice(), [_] | [_, 1] | [1, _]) {
+        return Err(format!("an array of shape {:?}", array.shape));
+    }
+    let values = array.to_u32().map_err(|error| error.to_string())?;
+    let narrow = |(idx, value)| u16::try_from(value).map_err(|_| format!("id {value} at index {idx}"));
+    values.into_iter().enumerate().map(narrow).collect()
 }
 
 /// The ids with a 0 for every Gaussian of the file that was dropped on reading.
@@ -77,28 +87,40 @@ fn in_file_order(labels: &[u16], scene: &Scene) -> Vec<u16> {
     (0..scene.num_in_file()).map(id).collect()
 }
 
-/// Writes an objects file, and its labels beside it as `NAME.labels.npy` where there are some.
-///
-/// Each file is written under a temporary name first and renamed, so that a reader never sees half of one.
-///
-/// # Errors
-/// [`ObjectsError::Io`].
-pub fn write(path: &Path, set: &ObjectSet, scene: &Scene) -> Result<(), ObjectsError> {
+/// The text of an objects file that will lie at `path`, with the name of its label array where it has one.
+pub fn to_json(path: &Path, set: &ObjectSet, scene: &Scene, labels: Option<&str>) -> String {
     let mut root = json!({
         "format": FORMAT,
         "version": VERSION,
-        "scene": { "path": from_file(path, &scene.path), "sha256": scene.sha256 },
+        "scene": { "path": relative_to(path, &scene.path), "sha256": scene.sha256 },
         "up": scene.up.to_array(),
         "objects": set.objects.iter().map(entry_json).collect::<Vec<_>>(),
     });
-    if !set.labels.is_empty() {
-        let labels = path.with_extension("labels.npy");
-        replace_file(&labels, &npy::encode_ids(&in_file_order(&set.labels, scene)))?;
-        root["labels"] = json!(labels.file_name().map(|name| name.to_string_lossy()));
+    if let Some(labels) = labels {
+        root["labels"] = json!(labels);
     }
-    let mut text = format!("{root:#}");
-    text.push('\n');
-    replace_file(path, text.as_bytes())
+    format!("{root:#}\n")
+}
+
+/// The label array that [`write()`] puts beside an objects file: `NAME.labels.npy`.
+pub fn labels_path(path: &Path) -> PathBuf {
+    path.with_extension("labels.npy")
+}
+
+/// Writes an objects file, and its labels to [`labels_path`] where there are some. Nothing is written if one of the two
+/// exists and may not be replaced.
+///
+/// # Errors
+/// [`FileError`] of the file that exists already or cannot be written.
+pub fn write(path: &Path, set: &ObjectSet, scene: &Scene, existing: Existing) -> Result<(), FileError> {
+    let labels = (!set.labels.is_empty()).then(|| labels_path(path));
+    std::iter::once(path).chain(labels.as_deref()).try_for_each(|path| check_free(path, existing))?;
+    if let Some(labels) = &labels {
+        let ids = in_file_order(&set.labels, scene);
+        cinesplat_files::write(labels, &npy::encode_u16(&[ids.len()], &ids), existing)?;
+    }
+    let name = labels.as_ref().and_then(|labels| labels.file_name()).map(|name| name.to_string_lossy());
+    cinesplat_files::write(path, to_json(path, set, scene, name.as_deref()).as_bytes(), existing)
 }
 
 fn entry_json(object: &Object) -> Value {
@@ -113,31 +135,6 @@ fn entry_json(object: &Object) -> Value {
         "shape_radius": object.shape_radius,
         "mask_iou": object.mask_iou,
     })
-}
-
-fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), ObjectsError> {
-    let io = |source| ObjectsError::Io { path: path.to_owned(), action: "writing", source };
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path)).map_err(io)
-}
-
-/// A path named inside the file at `base`.
-fn beside(base: &Path, name: &str) -> PathBuf {
-    base.parent().map_or_else(|| PathBuf::from(name), |folder| folder.join(name))
-}
-
-/// `target` as it is named inside the file at `base`: relative to its folder, absolute where that is impossible.
-fn from_file(base: &Path, target: &Path) -> String {
-    let folder = base.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let (Ok(folder), Ok(target)) = (folder.canonicalize(), target.canonicalize()) else {
-        return target.to_string_lossy().into_owned();
-    };
-    let shared = folder.components().zip(target.components()).take_while(|(a, b)| a == b).count();
-    let climb = folder.components().skip(shared).map(|_| "..".into());
-    let descend = target.components().skip(shared).map(|part| part.as_os_str().to_owned());
-    climb.chain(descend).collect::<PathBuf>().to_string_lossy().into_owned()
 }
 
 /// One JSON object of the file and where it stands.

@@ -12,7 +12,6 @@ mod error;
 mod file;
 mod find;
 mod naming;
-mod npy;
 mod object;
 mod planes;
 pub mod radius_search;
@@ -25,7 +24,7 @@ mod voxels;
 
 pub use cloud::{CloudSettings, fill_clouds};
 pub use error::ObjectsError;
-pub use file::{ObjectsFile, read, read_labels, write};
+pub use file::{ObjectsFile, labels_path, read, read_labels, to_json, write};
 pub use find::{FindSettings, find, from_labels};
 pub use naming::nearest_labels;
 pub use object::{Object, ObjectSet};

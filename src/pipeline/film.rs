@@ -124,7 +124,7 @@ pub fn film(
         Ok(()) | Err(Break::Stopped) => {}
         Err(Break::Failed(error)) => return Err(error),
     }
-    encoder.finish(output, settings.sheet.as_deref(), num_wanted).map(|(path, num_frames, encode_time)| FilmReport {
+    encoder.finish(output, settings, num_wanted).map(|(path, num_frames, encode_time)| FilmReport {
         path,
         num_frames,
         num_wanted,
@@ -216,13 +216,13 @@ impl Encoder {
     fn finish(
         self,
         output: &Path,
-        sheet_path: Option<&Path>,
+        settings: &FilmSettings,
         num_wanted: usize,
     ) -> Result<(PathBuf, usize, Duration), PipelineError> {
         let start = Instant::now();
         let num_frames = self.writer.num_written();
-        if let (Some(sheet), Some(path)) = (&self.sheet, sheet_path) {
-            sheet.write(path)?;
+        if let (Some(sheet), Some(path)) = (&self.sheet, &settings.sheet) {
+            sheet.write(path, settings.video.existing)?;
         }
         let path = if num_frames < num_wanted { self.writer.finish_partial(output)? } else { self.writer.finish()? };
         Ok((path, num_frames, self.busy + start.elapsed()))

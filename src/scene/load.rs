@@ -3,7 +3,6 @@ use std::io::Read;
 use std::path::Path;
 
 use glam::DVec3;
-use sha2::{Digest, Sha256};
 
 use super::intake::Collected;
 use super::sniff::{self, SceneFormat};
@@ -103,7 +102,7 @@ pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
     let (up, up_source) = settle_up(path, &decoded, options)?;
     Ok(Scene {
         path: path.to_path_buf(),
-        sha256: hex(&Sha256::digest(bytes)),
+        sha256: cinesplat_files::sha256_hex(bytes),
         format: decoded.format,
         gaussians: decoded.collected.gaussians,
         dropped: decoded.collected.dropped,
@@ -152,13 +151,4 @@ pub(super) fn read_file(path: &Path, cap: u64) -> Result<Vec<u8>, SceneError> {
     let file = File::open(path).map_err(failed)?;
     file.take(cap.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > cap { Err(too_many(bytes.len() as u64)) } else { Ok(bytes) }
-}
-
-/// Lower-case hexadecimal.
-fn hex(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .flat_map(|byte| [byte >> 4, byte & 15])
-        .map(|digit| char::from(b"0123456789abcdef"[usize::from(digit)]))
-        .collect()
 }

@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use cinesplat_files::Existing;
+
 use super::{VideoError, write_png};
 
 /// Columns and rows of a sheet.
@@ -56,9 +58,9 @@ impl ContactSheet {
     ///
     /// # Errors
     /// As [`write_png`].
-    pub fn write(&self, path: &Path) -> Result<(), VideoError> {
+    pub fn write(&self, path: &Path, existing: Existing) -> Result<(), VideoError> {
         let (width, height) = self.sheet_size();
-        write_png(path, &self.rgb8, width as u32, height as u32)
+        write_png(path, &self.rgb8, [width as u32, height as u32], existing)
     }
 
     fn sheet_size(&self) -> (usize, usize) {

@@ -1,6 +1,6 @@
-use std::io;
 use std::path::PathBuf;
 
+use cinesplat_files::FileError;
 use thiserror::Error;
 
 /// Why frames do not become a file. `Display` is `FILE: what was found, what was expected`.
@@ -40,30 +40,9 @@ pub enum VideoError {
         /// The output.
         path: PathBuf,
     },
-    /// The output is already there.
-    #[error("{}: the file is already there, expected a new name", path.display())]
-    Exists {
-        /// What is there.
-        path: PathBuf,
-    },
-    /// The output cannot be created.
-    #[error("{}: cannot create the file: {source}", path.display())]
-    Create {
-        /// The output.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// Writing, renaming or reading back failed.
-    #[error("{}: {action} failed: {source}", path.display())]
-    Io {
-        /// What was being done.
-        action: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    /// A file cannot be created, written, named or read back.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// FFmpeg refused a step that it should take.
     #[error("{}: {action} failed: {message}", path.display())]
     Ffmpeg {
@@ -102,9 +81,7 @@ impl VideoError {
             Self::BadPattern { .. } => "VIDEO-PATTERN",
             Self::BadSetting { .. } => "VIDEO-SETTING",
             Self::Missing { .. } => "VIDEO-ENCODER",
-            Self::Exists { .. } => "OUTPUT-EXISTS",
-            Self::Create { .. } => "OUTPUT-CREATE",
-            Self::Io { .. } => "VIDEO-IO",
+            Self::File(error) => error.code(),
             Self::Ffmpeg { .. } => "VIDEO-FFMPEG",
             Self::FrameSize { .. } => "VIDEO-FRAME",
             Self::ReadBack { .. } => "VIDEO-READBACK",
@@ -118,9 +95,7 @@ impl VideoError {
             Self::BadPattern { .. } => "write one %05d in the file name, such as frames/%05d.png; %% is a percent sign",
             Self::BadSetting { .. } => "give a value in that range",
             Self::Missing { .. } => "install FFmpeg with x264 and VP9 (Debian's has both), or write frames/%05d.png",
-            Self::Exists { .. } => "choose another name, or pass --overwrite",
-            Self::Create { .. } => "create the folder, or choose one that you may write to",
-            Self::Io { .. } => "check free space and permissions of the folder",
+            Self::File(error) => return error.help(),
             Self::Ffmpeg { .. } => "try another size or container, or write frames/%05d.png",
             Self::FrameSize { .. } => "this is a fault of the caller: one frame is width x height x 3 bytes",
             Self::ReadBack { .. } => "the disk or FFmpeg lost frames: render again, or write frames/%05d.png",
@@ -133,13 +108,8 @@ impl VideoError {
         match self {
             Self::UnknownFormat { .. } | Self::BadPattern { .. } | Self::BadSetting { .. } => 2,
             Self::Missing { .. } => 69,
-            Self::Create { source, .. } | Self::Io { source, .. }
-                if source.kind() == io::ErrorKind::PermissionDenied =>
-            {
-                77
-            }
-            Self::Exists { .. } | Self::Create { .. } => 73,
-            Self::Io { .. } | Self::ReadBack { .. } => 74,
+            Self::File(error) => error.exit_code(),
+            Self::ReadBack { .. } => 74,
             Self::Ffmpeg { .. } | Self::FrameSize { .. } => 70,
         }
     }
@@ -150,11 +120,9 @@ impl VideoError {
             Self::UnknownFormat { path, .. }
             | Self::BadPattern { path, .. }
             | Self::Missing { path, .. }
-            | Self::Exists { path }
-            | Self::Create { path, .. }
-            | Self::Io { path, .. }
             | Self::Ffmpeg { path, .. }
             | Self::ReadBack { path, .. } => Some(path),
+            Self::File(error) => Some(error.path()),
             Self::BadSetting { .. } | Self::FrameSize { .. } => None,
         }
     }

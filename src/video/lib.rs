@@ -1,16 +1,17 @@
-//! Frames to a film file or a sequence of pictures: the only folder that knows FFmpeg.
+//! Frames to a film file or a sequence of pictures: films need the feature `ffmpeg`, which is on by default.
 //!
 //! Enters: 8-bit RGB frames, in order. Leaves: H.264 (MP4, Matroska, QuickTime), VP9 (WebM) or PNG files with exact
 //! times and BT.709 color tags. The invariant: a file that bears its name is whole and was read back.
 
 mod bt709;
 mod contact_sheet;
-mod encoder;
 mod error;
-mod part_file;
+#[cfg(feature = "ffmpeg")]
+mod film;
+#[cfg(not(feature = "ffmpeg"))]
+#[path = "no_film.rs"]
+mod film;
 mod pattern;
-mod rate;
-mod read_back;
 mod rehearsal;
 mod sequence;
 mod settings;

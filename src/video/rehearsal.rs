@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::encoder::{self, NUM_THREADS};
+use super::film;
 use super::sequence::png_bytes;
+use super::settings::NUM_THREADS;
 use super::{Preset, VideoError, VideoFormat, VideoSettings};
 
 /// Frames that libvpx looks ahead unless told otherwise (`lag-in-frames`).
@@ -23,7 +24,7 @@ pub fn rehearse(path: &Path, settings: &VideoSettings, frames: &[&[u8]]) -> Resu
         VideoFormat::Sequence(_) => {
             frames.iter().try_for_each(|rgb8| png_bytes(path, rgb8, settings.width, settings.height).map(|_bytes| ()))
         }
-        format => encoder::encode_to_nothing(path, &format, settings, frames),
+        format => film::encode_to_nothing(path, &format, settings, frames),
     }
 }
 

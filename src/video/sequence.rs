@@ -1,10 +1,9 @@
-use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+use cinesplat_files::{Existing, FileError, create_folder};
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 
-use super::part_file::PartFile;
 use super::{FramePattern, VideoError, VideoSettings};
 
 /// One PNG a frame, each whole or absent.
@@ -19,18 +18,14 @@ impl SequenceWriter {
     pub(super) fn create(pattern: &FramePattern, settings: &VideoSettings) -> Result<Self, VideoError> {
         let folder = pattern.folder();
         if !folder.as_os_str().is_empty() {
-            let created = fs::create_dir_all(folder);
-            created.map_err(|source| VideoError::Create { path: folder.to_owned(), source })?;
+            create_folder(folder)?;
         }
         Ok(Self { pattern: pattern.clone(), settings: settings.clone(), next_frame: settings.first_frame })
     }
 
     pub(super) fn write_frame(&mut self, rgb8: &[u8]) -> Result<(), VideoError> {
         let path = self.pattern.path(self.next_frame);
-        if !self.settings.overwrite && path.exists() {
-            return Err(VideoError::Exists { path });
-        }
-        write_png(&path, rgb8, self.settings.width, self.settings.height)?;
+        write_png(&path, rgb8, [self.settings.width, self.settings.height], self.settings.existing)?;
         self.next_frame += 1;
         Ok(())
     }
@@ -41,16 +36,13 @@ impl SequenceWriter {
     }
 }
 
-/// Writes one 8-bit RGB picture, under a passing name until it is whole.
+/// Writes one 8-bit RGB picture of `[width, height]` pixels. The file is whole or absent.
 ///
 /// # Errors
-/// [`VideoError::Create`] or [`VideoError::Io`] with the system's reason.
-pub fn write_png(path: &Path, rgb8: &[u8], width: u32, height: u32) -> Result<(), VideoError> {
-    let bytes = png_bytes(path, rgb8, width, height)?;
-    let (part, mut file) = PartFile::create(path)?;
-    std::io::Write::write_all(&mut file, &bytes).map_err(|source| writing(path, source))?;
-    part.keep_as(None)?;
-    Ok(())
+/// [`VideoError::File`] with the system's reason, [`VideoError::FrameSize`] for another number of bytes.
+pub fn write_png(path: &Path, rgb8: &[u8], size_px: [u32; 2], existing: Existing) -> Result<(), VideoError> {
+    let bytes = png_bytes(path, rgb8, size_px[0], size_px[1])?;
+    Ok(cinesplat_files::write(path, &bytes, existing)?)
 }
 
 /// One 8-bit RGB picture as the bytes of a PNG file; `path` is for messages.
@@ -67,5 +59,5 @@ pub(super) fn png_bytes(path: &Path, rgb8: &[u8], width: u32, height: u32) -> Re
 }
 
 fn writing(path: &Path, source: std::io::Error) -> VideoError {
-    VideoError::Io { action: "writing", path: path.to_owned(), source }
+    FileError::Write { path: path.to_owned(), source }.into()
 }

@@ -1,6 +1,11 @@
 use std::path::Path;
 
+use cinesplat_files::Existing;
+
 use super::{FramePattern, VideoError};
+
+/// Encoder threads. x264 writes the number into the file, so a fixed one keeps bytes the same on every machine.
+pub(super) const NUM_THREADS: usize = 4;
 
 /// How frames become a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +26,8 @@ pub struct VideoSettings {
     /// Frames to expect, 0 = unknown. With it, an MP4 reserves room for its index at its front, so that it plays while
     /// it still loads.
     pub num_frames: usize,
-    /// Whether a file that is already there may be replaced.
-    pub overwrite: bool,
+    /// What happens to files that have the output's name already.
+    pub existing: Existing,
 }
 
 impl Default for VideoSettings {
@@ -35,7 +40,7 @@ impl Default for VideoSettings {
             preset: Preset::Medium,
             first_frame: 0,
             num_frames: 0,
-            overwrite: false,
+            existing: Existing::Keep,
         }
     }
 }

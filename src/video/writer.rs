@@ -1,7 +1,8 @@
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use super::encoder::FilmEncoder;
+use cinesplat_files::check_free;
+
+use super::film::{self, FilmEncoder};
 use super::sequence::SequenceWriter;
 use super::{VideoError, VideoFormat, VideoSettings};
 
@@ -89,39 +90,21 @@ pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat
     let format = VideoFormat::from_path(path)?;
     settings.clone().validated(&format)?;
     if let Some((_, codec_name)) = format.ffmpeg_names()
-        && ffmpeg_next::encoder::find_by_name(codec_name).is_none()
+        && !film::has_encoder(codec_name)
     {
         return Err(VideoError::Missing { missing: codec_name.to_owned(), path: path.to_owned() });
     }
-    if !settings.overwrite {
-        let frames = settings.first_frame..settings.first_frame + settings.num_frames.max(1);
-        let found = match &format {
-            VideoFormat::Sequence(pattern) => frames.map(|frame_idx| pattern.path(frame_idx)).find(|p| p.exists()),
-            _ => path.exists().then(|| path.to_owned()),
-        };
-        if let Some(path) = found {
-            return Err(VideoError::Exists { path });
+    match &format {
+        VideoFormat::Sequence(pattern) if !pattern.folder().exists() => {}
+        VideoFormat::Sequence(pattern) => {
+            let frames = settings.first_frame..settings.first_frame + settings.num_frames.max(1);
+            frames
+                .map(|frame_idx| pattern.path(frame_idx))
+                .try_for_each(|path| check_free(&path, settings.existing))?;
         }
+        _ => check_free(path, settings.existing)?,
     }
-    check_folder(path, &format)?;
     Ok(format)
-}
-
-/// A film's folder has to be there; a sequence's may still be created.
-fn check_folder(path: &Path, format: &VideoFormat) -> Result<(), VideoError> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let refuse = |kind: ErrorKind, reason: &str| {
-        Err(VideoError::Create { path: path.to_owned(), source: std::io::Error::new(kind, reason) })
-    };
-    if path.is_dir() {
-        return refuse(ErrorKind::IsADirectory, "it is a folder");
-    }
-    match (folder.is_dir(), format) {
-        (true, _) => Ok(()),
-        (false, VideoFormat::Sequence(_)) if !folder.exists() => Ok(()),
-        (false, _) if folder.exists() => refuse(ErrorKind::NotADirectory, "its folder is a file"),
-        (false, _) => refuse(ErrorKind::NotFound, "its folder does not exist"),
-    }
 }
 
 fn partial_name(path: &Path) -> PathBuf {

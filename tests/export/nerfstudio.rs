@@ -1,4 +1,5 @@
 use cinesplat::export::{Content, ExportSettings, Format, read, write};
+use cinesplat::files::Existing;
 use cinesplat::geometry::Pose;
 use glam::{DMat4, DVec3};
 use serde_json::Value;
@@ -8,7 +9,7 @@ use super::sample_shot::{file, key, shot, with_cut};
 fn exported(settings: ExportSettings) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.json");
-    write(&path, Format::Nerfstudio, &with_cut(), &settings).unwrap();
+    write(&path, Format::Nerfstudio, &with_cut(), &settings, Existing::Keep).unwrap();
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
@@ -43,7 +44,14 @@ fn cameras_look_along_minus_z_with_y_up() {
     let shot = shot(vec![key(0.0, looking.position, looking.rotation, 50.0)], DVec3::Y);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.json");
-    write(&path, Format::Nerfstudio, &shot, &ExportSettings { content: Content::Keyframes, fps: None }).unwrap();
+    write(
+        &path,
+        Format::Nerfstudio,
+        &shot,
+        &ExportSettings { content: Content::Keyframes, ..ExportSettings::default() },
+        Existing::Keep,
+    )
+    .unwrap();
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let rows: Vec<f64> =
         file["camera_path"][0]["camera_to_world"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();

@@ -1,8 +1,9 @@
 //! Shots that the tests of this folder share.
 
+use cinesplat::files::Existing;
 use std::path::{Path, PathBuf};
 
-use cinesplat::export::{Content, ExportSettings, Format, Imported, read, write};
+use cinesplat::export::{Content, ExportSettings, Format, Imported, Layout, read, write};
 use cinesplat::geometry::{Pose, rotation};
 use cinesplat::trajectory::{Easing, Keyframe, SceneRef, Shot};
 use glam::{DQuat, DVec3};
@@ -61,7 +62,14 @@ pub(super) fn there_and_back(
 ) -> (Imported, Vec<String>, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
-    let warnings = write(&path, format, shot, &ExportSettings { content, fps: None }).unwrap();
+    let warnings = write(
+        &path,
+        format,
+        shot,
+        &ExportSettings { content, layout: Layout::of_path(&path), fps: None },
+        Existing::Replace,
+    )
+    .unwrap();
     let imported = read(&path, None).unwrap_or_else(|error| panic!("{}: {error}", format.as_ref()));
     (imported, warnings, folder)
 }

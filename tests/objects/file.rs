@@ -1,5 +1,6 @@
 //! Oracles: NumPy's own bytes, and a person's idea of what an error has to say.
 
+use cinesplat::files::Existing;
 use std::path::Path;
 
 use cinesplat::objects::{self, ObjectSet, ObjectsError};
@@ -123,7 +124,7 @@ fn labels_count_the_gaussians_that_were_dropped_on_reading() {
     assert_eq!(objects::read_labels(&path, &scene).unwrap(), [7, 8, 6]);
     let set = ObjectSet { objects: Vec::new(), labels: vec![7, 8, 6] };
     let json = folder.path().join("o.json");
-    objects::write(&json, &set, &scene).unwrap();
+    objects::write(&json, &set, &scene, Existing::Keep).unwrap();
     assert_eq!(
         std::fs::read(folder.path().join("o.labels.npy")).unwrap(),
         numpy_bytes("<u2", &[7, 0, 0, 0, 8, 0, 6, 0])
@@ -144,7 +145,7 @@ fn what_is_written_is_read_again() {
     set.objects[0].mask_iou = 0.75;
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("set.objects.json");
-    objects::write(&path, &set, &scene).unwrap();
+    objects::write(&path, &set, &scene, Existing::Keep).unwrap();
     let again = objects::read(&path, &scene).unwrap();
     assert_eq!(again.up, Some(DVec3::Y));
     assert_eq!(again.set.labels, set.labels);

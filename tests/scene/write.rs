@@ -1,3 +1,4 @@
+use cinesplat::files::Existing;
 use cinesplat::scene::{Gaussians, LoadOptions, load, write_ply};
 use glam::{DVec3, Quat, Vec3};
 
@@ -23,7 +24,7 @@ fn what_is_written_is_read_back() {
     let path = folder.path().join("out.ply");
     for origin in [DVec3::ZERO, DVec3::new(5e5, 5e6, 128.0)] {
         let wanted = some(origin);
-        write_ply(&path, &wanted, &["Vertical Axis: z".to_owned(), "two\nlines".to_owned()]).unwrap();
+        write_ply(&path, &wanted, &["Vertical Axis: z".to_owned(), "two\nlines".to_owned()], Existing::Keep).unwrap();
         let scene = load(&path, &LoadOptions::default()).unwrap();
         let found = &scene.gaussians;
         assert_eq!(
@@ -43,6 +44,6 @@ fn what_is_written_is_read_back() {
 #[test]
 fn a_place_that_cannot_be_written_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
-    let error = write_ply(&folder.path().join("no/such/out.ply"), &some(DVec3::ZERO), &[]).unwrap_err();
-    assert_eq!((error.code(), error.exit_code()), ("SCENE-NOT-FOUND", 66));
+    let error = write_ply(&folder.path().join("no/such/out.ply"), &some(DVec3::ZERO), &[], Existing::Keep).unwrap_err();
+    assert_eq!(error.code(), "OUTPUT-CREATE");
 }

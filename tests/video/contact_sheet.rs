@@ -1,3 +1,4 @@
+use cinesplat::files::Existing;
 use cinesplat::video::ContactSheet;
 
 #[test]
@@ -8,7 +9,7 @@ fn a_sheet_shows_first_and_last_frame_and_ten_between() {
     for frame_idx in 0..111 {
         sheet.offer(frame_idx, &vec![frame_idx as u8 * 2; 640 * 360 * 3]);
     }
-    sheet.write(&path).unwrap();
+    sheet.write(&path, Existing::Keep).unwrap();
     let picture = image::open(&path).unwrap().into_rgb8();
     assert_eq!(picture.dimensions(), (4 * 324 + 4, 3 * 184 + 4));
     let gray = |column: u32, row: u32| picture.get_pixel(4 + column * 324 + 160, 4 + row * 184 + 90).0[0];
@@ -24,6 +25,6 @@ fn small_and_short_films_have_sheets_too() {
             sheet.offer(frame_idx, &vec![200; (width * height * 3) as usize]);
         }
         let folder = tempfile::tempdir().unwrap();
-        sheet.write(&folder.path().join("sheet.png")).unwrap();
+        sheet.write(&folder.path().join("sheet.png"), Existing::Replace).unwrap();
     }
 }

@@ -1,3 +1,4 @@
+use cinesplat::files::Existing;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -224,7 +225,7 @@ fn outputs_that_cannot_be_are_refused_before_any_frame() {
         (error.code(), error.exit_code())
     };
     assert_eq!(refused("there.mp4", settings(1)), ("OUTPUT-EXISTS", 73));
-    assert_eq!(refused("dir.mp4", VideoSettings { overwrite: true, ..settings(1) }), ("OUTPUT-CREATE", 73));
+    assert_eq!(refused("dir.mp4", VideoSettings { existing: Existing::Replace, ..settings(1) }), ("OUTPUT-CREATE", 73));
     assert_eq!(refused("no/such/folder.mp4", settings(1)), ("OUTPUT-CREATE", 73));
     assert_eq!(refused("film.avi", settings(1)), ("VIDEO-FORMAT", 2));
     assert_eq!(refused("film", settings(1)), ("VIDEO-FORMAT", 2));
@@ -233,7 +234,8 @@ fn outputs_that_cannot_be_are_refused_before_any_frame() {
     assert_eq!(refused("a.mp4", VideoSettings { crf: 52, ..settings(1) }), ("VIDEO-SETTING", 2));
     assert_eq!(fs::read(folder.path().join("there.mp4")).unwrap(), b"mine");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing was left behind");
-    write_film(&folder.path().join("there.mp4"), &VideoSettings { overwrite: true, ..settings(2) }, 2).unwrap();
+    write_film(&folder.path().join("there.mp4"), &VideoSettings { existing: Existing::Replace, ..settings(2) }, 2)
+        .unwrap();
     assert_eq!(decode(&folder.path().join("there.mp4")).pictures.len(), 2);
 }
 

@@ -1,3 +1,4 @@
+use crate::cli::outputs::BenchFolder;
 use std::path::{Path, PathBuf};
 use strum::VariantArray;
 
@@ -33,9 +34,8 @@ pub(in super::super) struct Args {
     /// Runs of every picture, after one that is not counted
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    /// Folder for render.csv, render.md and render.psnr.svg, .ssim.svg, .worst.svg
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    folder: BenchFolder,
     #[command(flatten)]
     picture: PictureArgs,
 }
@@ -43,9 +43,10 @@ pub(in super::super) struct Args {
 impl Args {
     pub(in super::super) fn run(self) -> Result<(), Failure> {
         let scenes = self.scenes.read_cameras()?;
-        if let Some(folder) = &self.output {
-            outputs::create_folder(folder)?;
-        }
+        let plots: Vec<String> = Axis::VARIANTS.iter().map(|axis| plot_name(*axis)).collect();
+        let names: Vec<&str> =
+            ["render.csv", "render.md"].into_iter().chain(plots.iter().map(String::as_str)).collect();
+        self.folder.prepare(&names)?;
         self.picture.bound_threads()?;
         console::data(&cinesplat_bench::to_csv(&[]))?;
         let num_rows: usize = scenes.iter().map(|(_, file)| self.num_rows(file.as_ref())).sum();
@@ -54,7 +55,7 @@ impl Args {
             self.bench_scene(path, file.as_ref(), &mut log)?;
         }
         log.progress.finish();
-        self.output.as_ref().map_or(Ok(()), |folder| write_all(folder, &log.rows))
+        write_all(&self.folder, &log.rows)
     }
 
     /// All cameras and sizes of one scene.
@@ -106,14 +107,17 @@ impl RowLog {
     }
 }
 
-fn write_all(folder: &Path, rows: &[BenchRow]) -> Result<(), Failure> {
-    outputs::write(&folder.join("render.csv"), cinesplat_bench::to_csv(rows).as_bytes())?;
-    outputs::write(&folder.join("render.md"), cinesplat_bench::to_table(rows).as_bytes())?;
+fn write_all(folder: &BenchFolder, rows: &[BenchRow]) -> Result<(), Failure> {
+    folder.write("render.csv", &cinesplat_bench::to_csv(rows))?;
+    folder.write("render.md", &cinesplat_bench::to_table(rows))?;
     let Some(size_px) = rows.first().map(|row| row.size_px) else { return Ok(()) };
-    for axis in Axis::VARIANTS {
-        let svg = cinesplat_bench::pareto_svg(rows, size_px, *axis);
-        outputs::write(&folder.join(format!("render.{}.svg", axis.as_ref())), svg.as_bytes())?;
+    for &axis in Axis::VARIANTS {
+        folder.write(&plot_name(axis), &cinesplat_bench::pareto_svg(rows, size_px, axis))?;
     }
-    console::note(&format!("{}: render.csv, render.md and plots of {} rows", folder.display(), rows.len()));
+    console::note(&format!("render.csv, render.md and plots: {} rows", rows.len()));
     Ok(())
+}
+
+fn plot_name(axis: Axis) -> String {
+    format!("render.{axis}.svg")
 }

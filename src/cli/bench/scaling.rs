@@ -1,3 +1,4 @@
+use crate::cli::outputs::BenchFolder;
 use std::path::PathBuf;
 use std::process::Command;
 use strum::VariantArray;
@@ -23,9 +24,8 @@ pub(in super::super) struct Args {
     /// Leaves out cases above so many Gaussians, rows of pixels or layers
     #[arg(long, value_name = "N", default_value_t = u64::MAX)]
     most: u64,
-    /// Folder for scaling.csv and scaling.svg
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    folder: BenchFolder,
     /// One case alone, in this process
     #[arg(long, value_name = "GROWTH:VALUE", hide = true, value_parser = parse_case)]
     case: Option<Case>,
@@ -38,9 +38,7 @@ impl Args {
         if let Some(case) = self.case {
             return self.measure(case);
         }
-        if let Some(folder) = &self.output {
-            outputs::create_folder(folder)?;
-        }
+        self.folder.prepare(&["scaling.csv", "scaling.svg"])?;
         let mut csv = scaling::CSV_HEADER.to_owned();
         console::data(&csv)?;
         for &growth in Growth::VARIANTS {
@@ -50,9 +48,8 @@ impl Args {
                 csv.push_str(&line);
             }
         }
-        let Some(folder) = &self.output else { return Ok(()) };
-        outputs::write(&folder.join("scaling.csv"), csv.as_bytes())?;
-        outputs::write(&folder.join("scaling.svg"), scaling::scaling_svg(&csv).as_bytes())
+        self.folder.write("scaling.csv", &csv)?;
+        self.folder.write("scaling.svg", &scaling::scaling_svg(&csv))
     }
 
     fn measure(&self, case: Case) -> Result<(), Failure> {

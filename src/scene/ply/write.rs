@@ -1,10 +1,11 @@
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use cinesplat_files::{Existing, FileError, NewFile};
 use glam::{DVec3, Vec3};
 
-use crate::{Gaussians, NUM_SH_REST, SceneError};
+use crate::{Gaussians, NUM_SH_REST};
 
 /// Writes Gaussians in INRIA's layout: binary little-endian, one property a number, normals 0, logarithmic scales,
 /// opacity logits, quaternions w first.
@@ -14,26 +15,15 @@ use crate::{Gaussians, NUM_SH_REST, SceneError};
 /// when it is whole.
 ///
 /// # Errors
-/// [`SceneError::Permission`], [`SceneError::NotFound`] or [`SceneError::Io`].
-pub fn write_ply(path: &Path, gaussians: &Gaussians, comments: &[String]) -> Result<(), SceneError> {
-    let temporary = temporary_name(path);
-    let written = write_whole(&temporary, gaussians, comments).and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|source| {
-        // The first fault is the one to report; that the leftover cannot be removed either adds nothing.
-        let _ = fs::remove_file(&temporary);
-        SceneError::from_io(path, source)
-    })
+/// [`FileError`] when the file exists already and may not be replaced, or cannot be written.
+pub fn write_ply(path: &Path, gaussians: &Gaussians, comments: &[String], existing: Existing) -> Result<(), FileError> {
+    let new = NewFile::create(path, existing)?;
+    write_rows(new.file(), gaussians, comments).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
+    new.commit()
 }
 
-/// A name beside `path` that no other process uses.
-fn temporary_name(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.tmp", std::process::id()));
-    path.with_file_name(name)
-}
-
-fn write_whole(path: &Path, gaussians: &Gaussians, comments: &[String]) -> std::io::Result<()> {
-    let mut out = BufWriter::with_capacity(1 << 20, File::create(path)?);
+fn write_rows(file: &File, gaussians: &Gaussians, comments: &[String]) -> std::io::Result<()> {
+    let mut out = BufWriter::with_capacity(1 << 20, file);
     out.write_all(header(gaussians, comments).as_bytes())?;
     let mut row = Vec::new();
     for idx in 0..gaussians.len() {
@@ -41,8 +31,7 @@ fn write_whole(path: &Path, gaussians: &Gaussians, comments: &[String]) -> std::
         push_row(&mut row, gaussians, idx);
         out.write_all(&row)?;
     }
-    let file = out.into_inner().map_err(std::io::IntoInnerError::into_error)?;
-    file.sync_all()
+    out.flush()
 }
 
 fn header(gaussians: &Gaussians, comments: &[String]) -> String {

@@ -2,7 +2,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use cinesplat_director::{DirectorError, FileError};
+use cinesplat_director::DirectorError;
+use cinesplat_files::FileError;
 use cinesplat_geometry::GeometryError;
 use cinesplat_language::LanguageError;
 use cinesplat_objects::ObjectsError;

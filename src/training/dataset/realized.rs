@@ -11,11 +11,11 @@ use rand_pcg::Pcg64;
 
 use super::DatasetError;
 use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, VERSION};
-use cinesplat_director::FileError;
 use cinesplat_director::directing::log_fov;
 use cinesplat_director::frame::SceneFrame;
 use cinesplat_director::ground::{MAX_OTHERS, object_input};
 use cinesplat_director::model::{ObjectInput, PoseCode};
+use cinesplat_files::FileError;
 use cinesplat_geometry::Pose;
 use cinesplat_language::{Linked, NamedObject, link, program_from_notation};
 use cinesplat_objects::Object;

@@ -11,9 +11,9 @@ use rand_pcg::Pcg64;
 use super::DatasetError;
 use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, ShotRecord, VERSION};
 use crate::sampler::{LabeledPrompt, PromptSampler};
-use cinesplat_director::files::{FileError, write_whole};
 use cinesplat_director::ground::MAX_POINTS;
 use cinesplat_director::keys::{MAX_KEYS, Next, keys_of};
+use cinesplat_files::{Existing, FileError, create_folder, write};
 use cinesplat_language::{NamedObject, program_to_notation};
 use cinesplat_objects::{CloudSettings, Object, ObjectSet, fill_clouds};
 use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, World, realize};
@@ -73,7 +73,7 @@ pub fn write_dataset(
     settings: &DatasetSettings,
     report: &(dyn Fn(u64, u64) + Sync),
 ) -> Result<DatasetSummary, DatasetError> {
-    std::fs::create_dir_all(&settings.out).map_err(|source| FileError::Write { path: settings.out.clone(), source })?;
+    create_folder(&settings.out)?;
     let next = AtomicU64::new(0);
     let done = AtomicU64::new(0);
     let total = Mutex::new(DatasetSummary::default());
@@ -124,7 +124,7 @@ fn write_shard(settings: &DatasetSettings, shard: u64, scene_done: &dyn Fn()) ->
         text += &(serde_json::to_string(&scene).map_err(bad)? + "\n");
         scene_done();
     }
-    write_whole(&path, text.as_bytes())?;
+    write(&path, text.as_bytes(), Existing::Replace)?;
     Ok(summary)
 }
 

@@ -8,7 +8,7 @@ use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
 use super::TrainError;
 use super::optimizer::{AdamW, Moments};
-use cinesplat_director::files::{FileError, write_whole};
+use cinesplat_files::{Existing, FileError};
 
 /// Key of the step count in a checkpoint's metadata.
 const STEPS: &str = "steps";
@@ -41,7 +41,7 @@ pub(super) fn write(
     let metadata = [(STEPS, optimizer.steps.to_string()), (SETTINGS, settings.to_owned())];
     let metadata = metadata.map(|(key, value)| (key.to_owned(), value)).into_iter().collect();
     let bytes = safetensors::serialize(views, Some(metadata)).map_err(bad)?;
-    Ok(write_whole(path, &bytes)?)
+    Ok(cinesplat_files::write(path, &bytes, Existing::Replace)?)
 }
 
 /// Puts a checkpoint's numbers into `vars` and returns the optimizer's state.

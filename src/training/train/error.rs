@@ -3,7 +3,8 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::dataset::DatasetError;
-use cinesplat_director::{DirectorError, FileError};
+use cinesplat_director::DirectorError;
+use cinesplat_files::FileError;
 use cinesplat_language::LanguageError;
 
 /// What keeps the network from being trained.

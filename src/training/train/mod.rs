@@ -29,10 +29,10 @@ use rand_pcg::Pcg64;
 use crate::dataset::{RealizedShot, read_shards};
 use crate::sampler::PromptSampler;
 use cinesplat_director::Director;
-use cinesplat_director::files::{FileError, write_whole};
 use cinesplat_director::model::{Dropout, ModelConfig, Network, Parameters};
 use cinesplat_director::vocabulary::Vocabulary;
 use cinesplat_director::weights::{MANIFEST_FILE, Model, ModelFiles, TOKENIZER_FILE, WEIGHTS_FILE, pack};
+use cinesplat_files::{Existing, create_folder, write};
 use cinesplat_language::link;
 use lesson::{Damage, Lesson, School};
 use optimizer::{AdamSettings, AdamW, rate};
@@ -95,7 +95,7 @@ pub struct TrainSummary {
 /// [`TrainError::Stopped`] when `report` says so: a checkpoint is there then.
 pub fn train(settings: &TrainSettings, report: &mut Report<'_>) -> Result<TrainSummary, TrainError> {
     let phrasebook = PromptSampler::embedded()?;
-    std::fs::create_dir_all(&settings.out).map_err(|source| FileError::Write { path: settings.out.clone(), source })?;
+    create_folder(&settings.out)?;
     let shots = settings.shots.as_deref().map(read_shards).transpose()?.unwrap_or_default();
     let held_out: Vec<RealizedShot> = shots.iter().step_by(HELD_OUT_EVERY).cloned().collect();
     let learned: Vec<RealizedShot> =
@@ -271,9 +271,9 @@ impl Training<'_> {
         checkpoint::write(&self.checkpoint_path(), &self.vars, &self.optimizer, &self.fingerprint())?;
         let files = self.files()?;
         let folder = &self.settings.out;
-        write_whole(&folder.join(WEIGHTS_FILE), &files.weights)?;
-        write_whole(&folder.join(TOKENIZER_FILE), &files.tokenizer)?;
-        write_whole(&folder.join(MANIFEST_FILE), &files.manifest)?;
+        write(&folder.join(WEIGHTS_FILE), &files.weights, Existing::Replace)?;
+        write(&folder.join(TOKENIZER_FILE), &files.tokenizer, Existing::Replace)?;
+        write(&folder.join(MANIFEST_FILE), &files.manifest, Existing::Replace)?;
         let director = Director::of(Model::load(&files)?);
         let count = self.settings.exam_prompts;
         let exam = if count == 0 { Marks::default() } else { examine(&director, Paper::Exam)? };
@@ -318,7 +318,7 @@ impl Training<'_> {
             num_parameters: self.vars.values().map(|var| var.elem_count()).sum(),
             vocabulary: self.school.vocabulary.size(),
             num_shots: self.school.shots.len(),
-            sha256: cinesplat_director::weights::sha256_hex(&self.files()?.weights),
+            sha256: cinesplat_files::sha256_hex(&self.files()?.weights),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! What is added up: opacity 1, colors below 0 and above 1, values as trained.
 
+use cinesplat::files::Existing;
 use cinesplat::pipeline::{FilmSettings, Flow, FrameRange, film};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
@@ -87,7 +88,7 @@ fn a_film_without_blur_has_the_levels_of_the_composite() {
     for quality in [Quality::Draft, Quality::Standard, Quality::Final] {
         let film_settings = FilmSettings {
             render: settings(quality),
-            video: VideoSettings { overwrite: true, ..VideoSettings::default() },
+            video: VideoSettings { existing: Existing::Replace, ..VideoSettings::default() },
             frames: FrameRange::default(),
             sheet: None,
         };

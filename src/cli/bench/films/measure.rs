@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::super::failure::Failure;
+use cinesplat::files::Existing;
 use cinesplat::geometry::Camera;
 use cinesplat::pipeline::{self, FilmSettings, Flow, Spent};
 use cinesplat::render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
@@ -92,7 +93,7 @@ impl Case<'_> {
 
     fn encode(&self, output: &Path, video: &VideoSettings, pictures: &[Rgb8Frame]) -> Result<Spent, VideoError> {
         let video = pipeline::video_of(self.shot, &(0..pictures.len()), video);
-        let video = VideoSettings { overwrite: true, ..video };
+        let video = VideoSettings { existing: Existing::Replace, ..video };
         let (written, spent) = Spent::measure(|| {
             let mut writer = VideoWriter::create(output, &video)?;
             pictures.iter().try_for_each(|picture| writer.write_frame(&picture.rgb8))?;

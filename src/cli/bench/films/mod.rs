@@ -1,3 +1,4 @@
+use crate::cli::outputs::BenchFolder;
 mod measure;
 mod report;
 
@@ -51,9 +52,8 @@ pub(in super::super) struct Args {
         value_parser = choice::<Quality>()
     )]
     qualities: Vec<Quality>,
-    /// Folder for films.csv and films.md
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    folder: BenchFolder,
     #[command(flatten)]
     picture: PictureArgs,
 }
@@ -61,18 +61,15 @@ pub(in super::super) struct Args {
 impl Args {
     pub(in super::super) fn run(self) -> Result<(), Failure> {
         let scenes = self.scenes.read_cameras()?;
-        if let Some(folder) = &self.output {
-            outputs::create_folder(folder)?;
-        }
+        self.folder.prepare(&["films.csv", "films.md"])?;
         self.picture.bound_threads()?;
         console::data(report::CSV_HEADER)?;
         let mut rows = Vec::new();
         for (path, file) in &scenes {
             rows.extend(self.bench_scene(path, file.as_ref())?);
         }
-        let Some(folder) = &self.output else { return Ok(()) };
-        outputs::write(&folder.join("films.csv"), report::to_csv(&rows).as_bytes())?;
-        outputs::write(&folder.join("films.md"), report::to_table(&rows).as_bytes())
+        self.folder.write("films.csv", &report::to_csv(&rows))?;
+        self.folder.write("films.md", &report::to_table(&rows))
     }
 
     fn bench_scene(&self, path: &Path, file: Option<&StillCameras>) -> Result<Vec<Row>, Failure> {

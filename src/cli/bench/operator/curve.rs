@@ -1,3 +1,4 @@
+use crate::cli::outputs::Overwrite;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -30,9 +31,8 @@ pub(super) struct Args {
     /// Writes the curve as a picture
     #[arg(long, value_name = "OUT.SVG")]
     plot: Option<PathBuf>,
-    /// Replaces a plot that is already there
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 /// All films of one budget.
@@ -62,7 +62,7 @@ impl Outcome {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         if let Some(plot) = &self.plot {
-            outputs::check_new(plot, self.overwrite)?;
+            self.overwrite.check(plot)?;
         }
         let (cases, mut studio) = self.cases.open()?;
         let tries =
@@ -84,7 +84,7 @@ impl Args {
         let Some(plot) = &self.plot else { return Ok(()) };
         let title = format!("what was asked for and not found, {} films", cases.len());
         let svg = curve_svg(&title, &outcomes);
-        outputs::write(plot, svg.as_bytes())?;
+        self.overwrite.write(plot, svg.as_bytes())?;
         console::note(&format!("{}: the curve", plot.display()));
         Ok(())
     }

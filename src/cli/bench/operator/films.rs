@@ -1,9 +1,10 @@
 use std::path::PathBuf;
 
 use super::cases::CaseArgs;
+use crate::cli::console;
 use crate::cli::failure::Failure;
+use crate::cli::outputs::{self, Overwrite};
 use crate::cli::shot_args::SolveArgs;
-use crate::cli::{console, outputs};
 use cinesplat::export::{self, ExportSettings, Format, shot_json};
 
 /// Where the films go.
@@ -19,6 +20,8 @@ pub(super) struct Args {
     /// Folder for ID.path.json (nerfstudio) and ID.shot.json, made where it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 impl Args {
@@ -29,9 +32,9 @@ impl Args {
             let shot = studio.shoot(case, self.solve.level)?;
             let path = self.output.join(format!("{}.path.json", case.id));
             let settings = ExportSettings { fps: Some(self.fps), ..ExportSettings::default() };
-            export::write(&path, Format::Nerfstudio, &shot, &settings)?;
+            export::write(&path, Format::Nerfstudio, &shot, &settings, self.overwrite.existing())?;
             let file = self.output.join(format!("{}.shot.json", case.id));
-            outputs::write(&file, shot_json::write(&shot).as_bytes())?;
+            self.overwrite.write(&file, shot_json::write(&shot).as_bytes())?;
             let unmet = shot.report.iter().filter(|line| !line.met).count();
             console::note(&format!("{}: {:.1} s, {unmet} lines of the report not met", case.id, shot.duration_secs));
         }

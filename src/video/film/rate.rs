@@ -10,7 +10,7 @@ const MAX_DENOMINATOR: i32 = 1001;
 ///
 /// `rate_fps` has to be in 0.01..=1000. A file's clock follows the fraction, the camera follows `rate_fps`: for 29.97
 /// they drift apart by a millisecond in a quarter of an hour.
-pub(super) fn as_fraction(rate_fps: f64) -> Rational {
+pub(crate) fn as_fraction(rate_fps: f64) -> Rational {
     let nearest = |denominator: i32| (rate_fps * f64::from(denominator)).round().max(1.0) as i32;
     if rate_fps.fract() == 0.0 {
         return Rational::new(nearest(1), 1);

@@ -1,24 +1,25 @@
+use cinesplat_files::FileError;
 use std::fs::File;
 use std::path::Path;
 
 use ffmpeg_next::format::context::StreamIo;
 use ffmpeg_next::{Rational, format, media};
 
-use super::VideoError;
+use crate::VideoError;
 
 /// Opens a finished file and counts its frames.
 ///
 /// # Errors
 /// [`VideoError::ReadBack`] unless `part` (called `path` in messages) holds one video stream of `num_frames` frames
 /// that lasts `num_frames` ticks, to within one tick.
-pub(super) fn check(part: &Path, path: &Path, num_frames: usize, tick: Rational) -> Result<(), VideoError> {
+pub(crate) fn check(part: &Path, path: &Path, num_frames: usize, tick: Rational) -> Result<(), VideoError> {
     let fault = |found: String| VideoError::ReadBack {
         found,
         expected: format!("{num_frames} frames, {:.3} s", num_frames as f64 * f64::from(tick)),
         path: path.to_owned(),
     };
     let opened = File::open(part);
-    let file = opened.map_err(|source| VideoError::Io { action: "reading back", path: path.to_owned(), source })?;
+    let file = opened.map_err(|source| FileError::Read { path: path.to_owned(), source })?;
     let io = StreamIo::from_read_seek(file).map_err(|e| fault(format!("no file ({e})")))?;
     let mut input = format::input_from_stream(io, None, None).map_err(|e| fault(format!("no film ({e})")))?;
     let stream = input.streams().best(media::Type::Video).ok_or_else(|| fault("no video stream".to_owned()))?;

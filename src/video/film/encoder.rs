@@ -1,24 +1,25 @@
 use std::path::{Path, PathBuf};
 
+use cinesplat_files::{FileError, NewFile};
 use ffmpeg_next::format::context::{Output, StreamIo};
 use ffmpeg_next::{Dictionary, Packet, Rational, codec, color, encoder, format, frame};
 
-use super::bt709::{self, Planes420};
-use super::part_file::{FirstError, PartFile, WatchedFile};
-use super::{VideoError, VideoFormat, VideoSettings, rate, read_back};
+use super::watched_file::{FirstError, WatchedFile};
+use super::{rate, read_back};
+use crate::bt709::{self, Planes420};
+use crate::settings::NUM_THREADS;
+use crate::{VideoError, VideoFormat, VideoSettings};
 
-/// Encoder threads. x264 writes the number into the file, so a fixed one keeps bytes the same on every machine.
-pub(super) const NUM_THREADS: usize = 4;
 /// Room in front of an MP4 for its index: a fixed part, and 8 bytes of sizes and times plus 16 of chunk tables for a
 /// frame, with a margin.
 const INDEX_BYTES: (usize, usize) = (8192, 48);
 
 /// One video stream on its way into a container file.
-pub(super) struct FilmEncoder {
+pub(crate) struct FilmEncoder {
     encoder: encoder::Video,
     muxer: Output,
     first_error: FirstError,
-    part: PartFile,
+    file: NewFile,
     settings: VideoSettings,
     tick: Rational,
     stream_tick: Rational,
@@ -28,7 +29,7 @@ pub(super) struct FilmEncoder {
 
 impl FilmEncoder {
     /// Opens encoder, then file, then container, in this order: a missing encoder leaves no file behind.
-    pub(super) fn create(path: &Path, format: &VideoFormat, settings: &VideoSettings) -> Result<Self, VideoError> {
+    pub(crate) fn create(path: &Path, format: &VideoFormat, settings: &VideoSettings) -> Result<Self, VideoError> {
         let missing = |name: &str| VideoError::Missing { missing: name.to_owned(), path: path.to_owned() };
         let (container, codec_name) = format.ffmpeg_names().ok_or(missing("container of that name"))?;
         // Errors come back as values; FFmpeg's own lines on stderr would break a progress bar.
@@ -37,18 +38,19 @@ impl FilmEncoder {
         let rate = rate::as_fraction(settings.rate_fps);
         let encoder = open_encoder(codec, settings, rate).map_err(|e| failed("opening the encoder", e, path))?;
 
-        let (part, file) = PartFile::create(path)?;
+        let file = NewFile::create(path, settings.existing)?;
         let first_error = FirstError::default();
-        let watched = WatchedFile { file, first_error: first_error.clone() };
+        let handle = file.file().try_clone().map_err(|source| FileError::Create { path: path.to_owned(), source })?;
+        let watched = WatchedFile { file: handle, first_error: first_error.clone() };
         let io = StreamIo::from_write_seek(watched).map_err(|e| failed("opening the file", e, path))?;
         let mut muxer = format::output_to_stream(io, None, Some(container)).map_err(|_| missing(container))?;
         let stream_tick = write_header(&mut muxer, &encoder, rate, header_options(format, settings))
             .map_err(|e| failed("starting the file", e, path))?;
         let (tick, settings, path) = (rate.invert(), settings.clone(), path.to_owned());
-        Ok(Self { encoder, muxer, first_error, part, settings, tick, stream_tick, num_sent: 0, path })
+        Ok(Self { encoder, muxer, first_error, file, settings, tick, stream_tick, num_sent: 0, path })
     }
 
-    pub(super) fn write_frame(&mut self, rgb8: &[u8]) -> Result<(), VideoError> {
+    pub(crate) fn write_frame(&mut self, rgb8: &[u8]) -> Result<(), VideoError> {
         let (width, height) = (self.settings.width as usize, self.settings.height as usize);
         let mut picture = picture_of(&bt709::planes_from_rgb8(rgb8, width, height));
         picture.set_pts(Some(self.num_sent as i64));
@@ -58,17 +60,19 @@ impl FilmEncoder {
     }
 
     /// Ends the file, reads it back, and gives it its name (`target` in place of the one it was created for).
-    pub(super) fn finish(mut self, target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
+    pub(crate) fn finish(mut self, target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
         self.encoder.send_eof().map_err(|e| self.fault("encoding", e))?;
         self.drain()?;
         self.muxer.write_trailer().map_err(|e| self.fault("ending the file", e))?;
         // Dropping the muxer flushes and closes the file.
         drop(self.muxer);
         if let Some(source) = self.first_error.lock().ok().and_then(|mut first| first.take()) {
-            return Err(VideoError::Io { action: "writing", path: self.path, source });
+            return Err(FileError::Write { path: self.path, source }.into());
         }
-        read_back::check(self.part.path(), &self.path, self.num_sent, self.tick)?;
-        self.part.keep_as(target)
+        read_back::check(self.file.path(), &self.path, self.num_sent, self.tick)?;
+        let target = target.unwrap_or(self.path);
+        self.file.commit_as(&target)?;
+        Ok(target)
     }
 
     /// Moves what the encoder has ready into the file.
@@ -87,14 +91,14 @@ impl FilmEncoder {
     /// The system's own error where the file had one, else FFmpeg's.
     fn fault(&self, action: &'static str, error: ffmpeg_next::Error) -> VideoError {
         match self.first_error.lock().ok().and_then(|mut first| first.take()) {
-            Some(source) => VideoError::Io { action, path: self.path.clone(), source },
+            Some(source) => FileError::Write { path: self.path.clone(), source }.into(),
             None => failed(action, error, &self.path),
         }
     }
 }
 
 /// Encodes frames and drops what comes out.
-pub(super) fn encode_to_nothing(
+pub(crate) fn encode_to_nothing(
     path: &Path,
     format: &VideoFormat,
     settings: &VideoSettings,

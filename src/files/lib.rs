@@ -1,0 +1,26 @@
+//! The one home of what every stage needs of the file system and of plain file formats.
+//!
+//! Enters: bytes and paths. Leaves: files that are whole or absent ([`NewFile`], [`write`]), arrays for `NumPy`
+//! ([`npy`]), hashes and relative paths. The one invariant: nothing here
+//! replaces a file unless the caller says [`Existing::Replace`].
+
+mod error;
+mod hash;
+mod new_file;
+pub mod npy;
+mod paths;
+
+pub use error::FileError;
+pub use hash::sha256_hex;
+pub use new_file::{Existing, NewFile, check_free, create_folder, write};
+pub use paths::{beside, relative_to};
+
+use std::path::Path;
+
+/// All bytes of a file.
+///
+/// # Errors
+/// [`FileError::Read`].
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    std::fs::read(path).map_err(|source| FileError::Read { path: path.to_owned(), source })
+}

@@ -1,0 +1,159 @@
+use std::fs::{self, File, Permissions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+
+use crate::FileError;
+use crate::paths::folder_of;
+
+/// What happens to a file that has the output's name already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Existing {
+    /// It stays, and writing fails.
+    #[default]
+    Keep,
+    /// It is replaced once the new file is whole.
+    Replace,
+}
+
+impl Existing {
+    /// The choice behind a flag such as `--overwrite`.
+    pub fn replace_if(overwrite: bool) -> Self {
+        if overwrite { Self::Replace } else { Self::Keep }
+    }
+}
+
+/// A file under a temporary name in the folder of its target. It takes the target's name when it is committed; dropped
+/// before that, it is removed.
+///
+/// A target that is no regular file (`/dev/stdout`, a FIFO) is written directly.
+#[derive(Debug)]
+pub struct NewFile {
+    target: PathBuf,
+    existing: Existing,
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
+    Temporary(NamedTempFile),
+    Special(File),
+}
+
+impl NewFile {
+    /// Creates the temporary file `.NAME.RANDOM.part`, empty.
+    ///
+    /// # Errors
+    /// [`FileError::Exists`], [`FileError::Create`].
+    pub fn create(target: &Path, existing: Existing) -> Result<Self, FileError> {
+        let failed = |source| FileError::Create { path: target.to_owned(), source };
+        let found = fs::metadata(target).ok();
+        let content = if found.as_ref().is_some_and(|found| !found.is_file() && !found.is_dir()) {
+            Content::Special(File::options().write(true).open(target).map_err(failed)?)
+        } else {
+            check_free(target, existing)?;
+            Content::Temporary(temporary(target).map_err(failed)?)
+        };
+        Ok(Self { target: target.to_owned(), existing, content })
+    }
+
+    /// The file, open for reading and writing.
+    pub fn file(&self) -> &File {
+        match &self.content {
+            Content::Temporary(temporary) => temporary.as_file(),
+            Content::Special(file) => file,
+        }
+    }
+
+    /// The temporary path; that of the target where it is a special file.
+    pub fn path(&self) -> &Path {
+        match &self.content {
+            Content::Temporary(temporary) => temporary.path(),
+            Content::Special(_) => &self.target,
+        }
+    }
+
+    /// Writes the file's data to the disk, then gives the file its name in one step.
+    ///
+    /// # Errors
+    /// [`FileError::Exists`] if another program took the name meanwhile, [`FileError::Write`].
+    pub fn commit(self) -> Result<(), FileError> {
+        let target = self.target.clone();
+        self.commit_as(&target)
+    }
+
+    /// As [`NewFile::commit`], under another name in the same folder.
+    ///
+    /// # Errors
+    /// As [`NewFile::commit`].
+    pub fn commit_as(self, target: &Path) -> Result<(), FileError> {
+        let failed = |source| FileError::Write { path: target.to_owned(), source };
+        let Content::Temporary(temporary) = self.content else { return Ok(()) };
+        temporary.as_file().sync_all().map_err(failed)?;
+        let named = match self.existing {
+            Existing::Replace => temporary.persist(target),
+            Existing::Keep => temporary.persist_noclobber(target),
+        };
+        named.map(drop).map_err(|error| match error.error.kind() {
+            ErrorKind::AlreadyExists => FileError::Exists { path: target.to_owned() },
+            _ => failed(error.error),
+        })
+    }
+}
+
+/// Writes a whole file: it appears under its name with all its bytes or not at all.
+///
+/// # Errors
+/// [`FileError::Exists`], [`FileError::Create`], [`FileError::Write`].
+pub fn write(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), FileError> {
+    let new = NewFile::create(path, existing)?;
+    new.file().write_all(bytes).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
+    new.commit()
+}
+
+/// Creates a folder and those above it where they are missing.
+///
+/// # Errors
+/// [`FileError::Create`].
+pub fn create_folder(folder: &Path) -> Result<(), FileError> {
+    fs::create_dir_all(folder).map_err(|source| FileError::Create { path: folder.to_owned(), source })
+}
+
+/// Checks before any work that a file can be created: its folder exists, its name is free or may be replaced.
+///
+/// # Errors
+/// [`FileError::Exists`], [`FileError::Create`].
+pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
+    let refuse =
+        |kind, reason: &str| Err(FileError::Create { path: path.to_owned(), source: io::Error::new(kind, reason) });
+    if path.is_dir() {
+        return refuse(ErrorKind::IsADirectory, "it is a folder, expected a file name");
+    }
+    match fs::symlink_metadata(path) {
+        Ok(found) if existing == Existing::Keep && (found.is_file() || found.is_symlink()) => {
+            if !fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+                return Err(FileError::Exists { path: path.to_owned() });
+            }
+        }
+        _ => {}
+    }
+    match fs::metadata(folder_of(path)) {
+        Ok(folder) if !folder.is_dir() => refuse(ErrorKind::NotADirectory, "its folder is a file"),
+        Ok(folder) if folder.permissions().readonly() => refuse(ErrorKind::PermissionDenied, "its folder is read-only"),
+        Ok(_) => Ok(()),
+        Err(_) => refuse(ErrorKind::NotFound, "its folder does not exist"),
+    }
+}
+
+/// A new file in the target's folder whose name no other process has, with the permissions that any new file gets.
+fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+    let mut prefix = std::ffi::OsString::from(".");
+    prefix.push(target.file_name().unwrap_or_default());
+    prefix.push(".");
+    let mut builder = Builder::new();
+    builder.prefix(&prefix).suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(<Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
+    builder.tempfile_in(folder_of(target))
+}

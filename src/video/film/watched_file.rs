@@ -1,0 +1,39 @@
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom, Write};
+use std::sync::{Arc, Mutex};
+
+/// The first error of a file that FFmpeg writes to: FFmpeg itself passes on only `EIO`.
+pub(crate) type FirstError = Arc<Mutex<Option<io::Error>>>;
+
+/// A file that remembers its first error.
+pub(crate) struct WatchedFile {
+    pub(crate) file: File,
+    pub(crate) first_error: FirstError,
+}
+
+impl WatchedFile {
+    fn watch<T>(&mut self, action: impl FnOnce(&mut File) -> io::Result<T>) -> io::Result<T> {
+        action(&mut self.file).inspect_err(|error| {
+            if let Ok(mut first) = self.first_error.lock() {
+                let copy = error.raw_os_error().map_or_else(|| error.kind().into(), io::Error::from_raw_os_error);
+                first.get_or_insert(copy);
+            }
+        })
+    }
+}
+
+impl Write for WatchedFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.watch(|file| file.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.watch(File::flush)
+    }
+}
+
+impl Seek for WatchedFile {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.watch(|file| file.seek(to))
+    }
+}

@@ -1,0 +1,39 @@
+//! Stands in for `film` where this crate is built without FFmpeg: every film file is refused.
+
+use std::path::{Path, PathBuf};
+
+use super::{VideoError, VideoFormat, VideoSettings};
+
+/// No encoder, so no value.
+pub(crate) enum FilmEncoder {}
+
+impl FilmEncoder {
+    pub(crate) fn create(path: &Path, _format: &VideoFormat, _settings: &VideoSettings) -> Result<Self, VideoError> {
+        Err(no_ffmpeg(path))
+    }
+
+    pub(crate) fn write_frame(&mut self, _rgb8: &[u8]) -> Result<(), VideoError> {
+        match *self {}
+    }
+
+    pub(crate) fn finish(self, _target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
+        match self {}
+    }
+}
+
+pub(crate) fn encode_to_nothing(
+    path: &Path,
+    _format: &VideoFormat,
+    _settings: &VideoSettings,
+    _frames: &[&[u8]],
+) -> Result<(), VideoError> {
+    Err(no_ffmpeg(path))
+}
+
+pub(crate) fn has_encoder(_name: &str) -> bool {
+    false
+}
+
+fn no_ffmpeg(path: &Path) -> VideoError {
+    VideoError::Missing { missing: "encoder: this program was built without it".to_owned(), path: path.to_owned() }
+}

@@ -1,0 +1,126 @@
+//! The crate `files`: what is whole or absent, what is never replaced, arrays as numpy writes them, relative paths.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use cinesplat::files::{Existing, FileError, NewFile, beside, check_free, npy, relative_to, sha256_hex, write};
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_file_is_replaced_only_where_the_caller_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    write(&path, b"first", Existing::Keep).unwrap();
+    assert!(matches!(write(&path, b"second", Existing::Keep), Err(FileError::Exists { .. })));
+    assert_eq!(fs::read(&path).unwrap(), b"first");
+    write(&path, b"second", Existing::Replace).unwrap();
+    assert_eq!(fs::read(&path).unwrap(), b"second");
+    assert_eq!(names(folder.path()), ["a.txt"]);
+}
+
+#[test]
+fn a_file_that_appears_while_the_new_one_is_written_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    let new = NewFile::create(&path, Existing::Keep).unwrap();
+    new.file().write_all(b"ours").unwrap();
+    fs::write(&path, b"theirs").unwrap();
+    assert!(matches!(new.commit(), Err(FileError::Exists { .. })));
+    assert_eq!(fs::read(&path).unwrap(), b"theirs");
+    assert_eq!(names(folder.path()), ["a.txt"], "the temporary file is removed");
+}
+
+#[test]
+fn a_dropped_file_leaves_nothing_and_two_writers_never_share_a_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    let one = NewFile::create(&path, Existing::Keep).unwrap();
+    let other = NewFile::create(&path, Existing::Keep).unwrap();
+    assert_ne!(one.path(), other.path());
+    drop((one, other));
+    assert!(names(folder.path()).is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn new_files_have_the_permissions_of_any_new_file_and_special_files_are_written_directly() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
+    write(&ours, b"x", Existing::Keep).unwrap();
+    fs::write(&plain, b"x").unwrap();
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(&ours), mode(&plain));
+    write(Path::new("/dev/null"), b"x", Existing::Keep).unwrap();
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+}
+
+#[test]
+fn outputs_that_cannot_be_are_refused_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let create = |path: &Path| matches!(check_free(path, Existing::Replace), Err(FileError::Create { .. }));
+    assert!(create(folder.path()));
+    assert!(create(&folder.path().join("no/such/folder.txt")));
+    let file = folder.path().join("file");
+    fs::write(&file, b"x").unwrap();
+    assert!(create(&file.join("below.txt")));
+    assert!(check_free(&folder.path().join("new.txt"), Existing::Keep).is_ok());
+}
+
+#[test]
+fn arrays_read_back_and_look_as_numpy_writes_them() {
+    // numpy.save of numpy.array([1, 2, 300], dtype="<u2"), numpy 1.26.
+    let mut expected = b"\x93NUMPY\x01\x00v\x00{'descr': '<u2', 'fortran_order': False, 'shape': (3,), }".to_vec();
+    expected.resize(127, b' ');
+    expected.extend(b"\n\x01\x00\x02\x00\x2c\x01");
+    assert_eq!(npy::encode_u16(&[3], &[1, 2, 300]), expected);
+    let array = npy::Array::parse(&expected).unwrap();
+    assert_eq!((array.shape.as_slice(), array.to_u32().unwrap()), (&[3][..], vec![1, 2, 300]));
+
+    let values = [0.5_f32, -1.0, f32::MAX, 1e-40, 0.0, 7.25];
+    let bytes = npy::encode_f32(&[2, 3], &values);
+    let array = npy::Array::parse(&bytes).unwrap();
+    assert_eq!((array.shape.as_slice(), array.to_f32().unwrap()), (&[2, 3][..], values.to_vec()));
+    assert!(array.to_u32().unwrap_err().to_string().contains("<f4"));
+}
+
+#[test]
+fn damaged_arrays_are_refused_whatever_the_byte() {
+    let bytes = npy::encode_u16(&[4], &[1, 2, 3, 4]);
+    for len in 0..bytes.len() {
+        assert!(npy::Array::parse(&bytes[..len]).and_then(|array| array.to_u32()).is_err(), "{len} bytes");
+    }
+    for at in 0..bytes.len() {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 0x55;
+        // Any answer will do as long as it is one.
+        let _ = npy::Array::parse(&damaged).and_then(|array| array.to_u32());
+    }
+    let huge = npy::encode("'<f4'", &[usize::MAX, 2], std::iter::empty());
+    assert!(npy::Array::parse(&huge).unwrap().to_f32().is_err());
+}
+
+#[test]
+fn paths_inside_a_file_are_relative_to_it() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("shots/a")).unwrap();
+    fs::write(folder.path().join("room.spz"), b"x").unwrap();
+    let shot = folder.path().join("shots/a/shot.json");
+    let name = relative_to(&shot, &folder.path().join("room.spz"));
+    assert_eq!(name, "../../room.spz");
+    assert_eq!(beside(&shot, &name).canonicalize().unwrap(), folder.path().join("room.spz").canonicalize().unwrap());
+    assert_eq!(relative_to(&shot, Path::new("synth:demo")), "synth:demo");
+}
+
+#[test]
+fn hashes_are_those_of_the_standard() {
+    // FIPS 180-2, appendix B.1.
+    assert_eq!(sha256_hex(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
