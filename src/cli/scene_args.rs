@@ -133,17 +133,17 @@ impl PictureArgs {
         filter: Option<&str>,
         near: Option<f64>,
     ) -> RenderSettings {
-        let stated = scene.filter.unwrap_or(SplatFilter::Classic);
+        let defaults = RenderSettings::for_scene(scene);
         let filter = match self.filter.as_deref().or(filter) {
             Some("classic") => SplatFilter::Classic,
-            Some("mip") if stated == SplatFilter::MipSmall => SplatFilter::MipSmall,
+            Some("mip") if defaults.filter == SplatFilter::MipSmall => SplatFilter::MipSmall,
             Some("mip") => SplatFilter::Mip,
-            _ => stated,
+            _ => defaults.filter,
         };
-        let near = self.near.or(near).unwrap_or_else(|| scene.bounds().default_near());
-        let (quality, sort) = (self.quality.unwrap_or(default), self.sort.unwrap_or_default());
-        let color_clamp = self.color_clamp.unwrap_or_default();
-        RenderSettings { quality, filter, near, sort, color_clamp, ..RenderSettings::default() }
+        let near = self.near.or(near).unwrap_or(defaults.near);
+        let (quality, sort) = (self.quality.unwrap_or(default), self.sort.unwrap_or(defaults.sort));
+        let color_clamp = self.color_clamp.unwrap_or(defaults.color_clamp);
+        RenderSettings { quality, filter, near, sort, color_clamp, ..defaults }
     }
 }
 

@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::{Instructions, RenderError, spec};
-use cinesplat_scene::SplatFilter;
+use cinesplat_scene::{Scene, SplatFilter};
 
 /// How much accuracy is traded for time.
 #[derive(
@@ -203,6 +203,17 @@ impl Default for RenderSettings {
 }
 
 impl RenderSettings {
+    /// The defaults for a scene: the filter that its file states (else [`SplatFilter::Classic`]) and a near plane that
+    /// suits its size ([`cinesplat_scene::Bounds::default_near`]). All other fields are those of
+    /// [`RenderSettings::default`].
+    pub fn for_scene(scene: &Scene) -> Self {
+        Self {
+            filter: scene.filter.unwrap_or(SplatFilter::Classic),
+            near: scene.bounds().default_near(),
+            ..Self::default()
+        }
+    }
+
     /// The knobs in force.
     pub fn effective_accuracy(&self) -> Accuracy {
         self.accuracy.unwrap_or_else(|| self.quality.accuracy())
