@@ -1,18 +1,18 @@
 use std::time::Duration;
 
-use super::output::{Output, Outputs};
-use super::{Difference, Kind, Variant};
+use super::output::{OutputBuffers, RenderOutput};
+use super::{Difference, KnobKind, Variant};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, RenderStats, Renderer};
 
 /// What is measured and how often.
 #[derive(Debug, Clone)]
-pub struct BenchSettings {
+pub struct BenchPlan {
     /// Name of the scene in the rows.
     pub scene: String,
     /// What is measured.
     pub variants: Vec<Variant>,
-    /// Timed pictures a row, after one that warms up.
+    /// Timing pictures a row, after one that warms up.
     pub num_repeats: usize,
 }
 
@@ -26,13 +26,13 @@ pub struct BenchRow {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
     /// What the variant turns.
-    pub kind: Kind,
+    pub kind: KnobKind,
     /// How far.
     pub variant: String,
     /// Threads it ran on.
     pub num_threads: usize,
     /// How long it took.
-    pub timed: Timed,
+    pub timed: Timing,
     /// Of an output: its time over that of color as numbers, the two in turn; the median of the pairs.
     pub times_color: Option<f64>,
     /// Of the picture as numbers against the spec image, of a free knob against the picture of `standard`; all NaN for an
@@ -42,7 +42,7 @@ pub struct BenchRow {
 
 /// Times of the same picture, several times.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Timed {
+pub struct Timing {
     /// Median wall time.
     pub median: Duration,
     /// Shortest and longest wall time.
@@ -51,7 +51,7 @@ pub struct Timed {
     pub stats: RenderStats,
 }
 
-impl BenchSettings {
+impl BenchPlan {
     /// Rows that [`measure`] leaves.
     pub fn num_rows(&self, num_cameras: usize) -> usize {
         let rows = |variant: &Variant| if variant.is_slow { num_cameras.min(1) } else { num_cameras };
@@ -72,25 +72,25 @@ struct Against {
 pub fn measure(
     renderer: &Renderer<'_>,
     cameras: &[(String, Camera)],
-    settings: &BenchSettings,
+    plan: &BenchPlan,
     tell: &mut dyn FnMut(&BenchRow),
 ) -> Result<Vec<BenchRow>, RenderError> {
     let mut rows = Vec::new();
-    let mut outputs = Outputs::new(renderer.num_gaussians());
+    let mut outputs = OutputBuffers::new(renderer.num_gaussians());
     for (camera_idx, (name, camera)) in cameras.iter().enumerate() {
         let as_preset = |quality| {
-            let first = settings.variants.first().map_or_else(RenderSettings::default, |variant| variant.settings);
+            let first = plan.variants.first().map_or_else(RenderSettings::default, |variant| variant.settings);
             renderer.render(camera, &RenderSettings { quality, accuracy: None, ..first })
         };
         let against = Against { spec: as_preset(Quality::Reference)?, standard: as_preset(Quality::Standard)? };
-        for variant in settings.variants.iter().filter(|variant| camera_idx == 0 || !variant.is_slow) {
-            let num_repeats = if variant.is_slow { 1 } else { settings.num_repeats };
+        for variant in plan.variants.iter().filter(|variant| camera_idx == 0 || !variant.is_slow) {
+            let num_repeats = if variant.is_slow { 1 } else { plan.num_repeats };
             let mut work = || row(renderer, camera, (variant, num_repeats), &against, &mut outputs);
             let (mut row, num_threads) = match variant.num_threads.and_then(pool_of) {
                 Some(pool) => (pool.install(work)?, pool.current_num_threads()),
                 None => (work()?, rayon::current_num_threads()),
             };
-            (row.scene, row.camera, row.num_threads) = (settings.scene.clone(), name.clone(), num_threads);
+            (row.scene, row.camera, row.num_threads) = (plan.scene.clone(), name.clone(), num_threads);
             tell(&row);
             rows.push(row);
         }
@@ -104,16 +104,16 @@ fn row(
     camera: &Camera,
     (variant, num_repeats): (&Variant, usize),
     against: &Against,
-    outputs: &mut Outputs,
+    outputs: &mut OutputBuffers,
 ) -> Result<BenchRow, RenderError> {
     let settings = &variant.settings;
     let mut difference = Difference::UNKNOWN;
-    if variant.kind != Kind::Output {
-        outputs.time(renderer, camera, settings, Output::Color)?;
-        let other = if variant.kind == Kind::Free { &against.standard } else { &against.spec };
+    if variant.kind != KnobKind::Output {
+        outputs.time(renderer, camera, settings, RenderOutput::Color)?;
+        let other = if variant.kind == KnobKind::Free { &against.standard } else { &against.spec };
         difference = super::difference(&outputs.frame, other);
     }
-    let (timed, times_color) = if variant.kind == Kind::Output {
+    let (timed, times_color) = if variant.kind == KnobKind::Output {
         let (timed, times_color) = time_beside_color(renderer, camera, (variant, num_repeats), outputs)?;
         (timed, Some(times_color))
     } else {
@@ -144,11 +144,11 @@ fn time_beside_color(
     renderer: &Renderer<'_>,
     camera: &Camera,
     (variant, num_repeats): (&Variant, usize),
-    outputs: &mut Outputs,
-) -> Result<(Timed, f64), RenderError> {
+    outputs: &mut OutputBuffers,
+) -> Result<(Timing, f64), RenderError> {
     let mut ratios = Vec::new();
     let mut work = || {
-        let (color_secs, _) = outputs.time(renderer, camera, &variant.settings, Output::Color)?;
+        let (color_secs, _) = outputs.time(renderer, camera, &variant.settings, RenderOutput::Color)?;
         let (secs, stats) = outputs.time(renderer, camera, &variant.settings, variant.output)?;
         ratios.push(secs / color_secs);
         Ok((secs, stats))
@@ -168,16 +168,16 @@ pub fn time(
     renderer: &Renderer<'_>,
     camera: &Camera,
     (settings, num_repeats): (&RenderSettings, usize),
-) -> Result<Timed, RenderError> {
-    let mut outputs = Outputs::new(0);
-    time_runs(num_repeats, &mut || outputs.time(renderer, camera, settings, Output::Color))
+) -> Result<Timing, RenderError> {
+    let mut outputs = OutputBuffers::new(0);
+    time_runs(num_repeats, &mut || outputs.time(renderer, camera, settings, RenderOutput::Color))
 }
 
 /// Runs work once to warm up and then `num_repeats` times, at least once; it says how many seconds it took.
 fn time_runs(
     num_repeats: usize,
     work: &mut dyn FnMut() -> Result<(f64, RenderStats), RenderError>,
-) -> Result<Timed, RenderError> {
+) -> Result<Timing, RenderError> {
     work()?;
     let mut timed = Vec::new();
     for _ in 0..num_repeats.max(1) {
@@ -186,5 +186,5 @@ fn time_runs(
     }
     timed.sort_by_key(|(elapsed, _)| *elapsed);
     let (median, stats) = timed[timed.len() / 2];
-    Ok(Timed { median, range: [timed[0].0, timed[timed.len() - 1].0], stats })
+    Ok(Timing { median, range: [timed[0].0, timed[timed.len() - 1].0], stats })
 }

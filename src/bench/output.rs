@@ -1,7 +1,7 @@
 use std::time::Instant;
 
 use cinesplat_geometry::Camera;
-use cinesplat_render::{Frame, Lifted, RenderError, RenderSettings, RenderStats, Renderer, Rgb8Frame};
+use cinesplat_render::{Frame, LiftedValues, RenderError, RenderSettings, RenderStats, Renderer, Rgb8Frame};
 
 /// Channels of the features that are blended.
 const NUM_CHANNELS: usize = 16;
@@ -23,7 +23,7 @@ const NUM_OBJECTS: usize = 64;
     strum::VariantNames,
 )]
 #[strum(serialize_all = "kebab-case")]
-pub enum Output {
+pub enum RenderOutput {
     /// Color as numbers.
     #[strum(serialize = "color f32")]
     Color,
@@ -48,23 +48,23 @@ pub enum Output {
 }
 
 /// What outputs are made of and into, kept from run to run.
-pub(super) struct Outputs {
+pub(super) struct OutputBuffers {
     labels: Vec<u16>,
     features: Vec<f32>,
     mask: Vec<f32>,
-    lifted: Lifted,
+    lifted: LiftedValues,
     pub(super) frame: Frame,
     levels: Rgb8Frame,
 }
 
-impl Outputs {
+impl OutputBuffers {
     pub(super) fn new(num_gaussians: usize) -> Self {
         let object = |idx: usize| (1 + idx * NUM_OBJECTS / num_gaussians.max(1)) as u16;
         Self {
             labels: (0..num_gaussians).map(object).collect(),
             features: (0..num_gaussians * NUM_CHANNELS).map(|idx| (idx % 251) as f32 / 250.0).collect(),
             mask: Vec::new(),
-            lifted: Lifted::new(num_gaussians, 1),
+            lifted: LiftedValues::new(num_gaussians, 1),
             frame: Frame::default(),
             levels: Rgb8Frame::default(),
         }
@@ -76,7 +76,7 @@ impl Outputs {
         renderer: &Renderer<'_>,
         camera: &Camera,
         settings: &RenderSettings,
-        output: Output,
+        output: RenderOutput,
     ) -> Result<(f64, RenderStats), RenderError> {
         // A mask of stripes, made before the clock starts.
         let num_pixels = camera.intrinsics.width as usize * camera.intrinsics.height as usize;
@@ -92,23 +92,23 @@ impl Outputs {
         renderer: &Renderer<'_>,
         camera: &Camera,
         settings: &RenderSettings,
-        output: Output,
+        output: RenderOutput,
     ) -> Result<RenderStats, RenderError> {
         let unsaid = |()| RenderStats::default();
         match output {
-            Output::Color => {
+            RenderOutput::Color => {
                 renderer.render_into(camera, settings, &mut self.frame)?;
                 return Ok(self.frame.stats);
             }
-            Output::Levels => {
+            RenderOutput::Levels => {
                 renderer.render_rgb8_into(camera, settings, &mut self.levels)?;
                 return Ok(self.levels.stats);
             }
-            Output::Depth => renderer.depth(camera, settings).map(drop),
-            Output::Ids => renderer.object_ids(camera, settings, &self.labels).map(drop),
-            Output::Features => renderer.features(camera, settings, &self.features, NUM_CHANNELS).map(drop),
-            Output::Weights => renderer.weights(camera, settings).map(drop),
-            Output::Lift => renderer.lift(camera, settings, &self.mask, &mut self.lifted),
+            RenderOutput::Depth => renderer.depth(camera, settings).map(drop),
+            RenderOutput::Ids => renderer.object_ids(camera, settings, &self.labels).map(drop),
+            RenderOutput::Features => renderer.features(camera, settings, &self.features, NUM_CHANNELS).map(drop),
+            RenderOutput::Weights => renderer.weights(camera, settings).map(drop),
+            RenderOutput::Lift => renderer.lift(camera, settings, &self.mask, &mut self.lifted),
         }
         .map(unsaid)
     }

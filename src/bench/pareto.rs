@@ -1,6 +1,6 @@
 use super::report::ms;
-use super::{BenchRow, Kind};
-use cinesplat_plot::{Axis as PlotAxis, COLORS, Chart, Entry, Mark, Series, Symbol, grid};
+use super::{BenchRow, KnobKind};
+use cinesplat_plot::{Axis, COLORS, Chart, Entry, Mark, Series, Symbol, grid};
 use strum::VariantArray;
 
 /// Plotted in place of infinity: pictures that are equal or nearly so.
@@ -22,7 +22,7 @@ const PANEL_PX: [f64; 2] = [410.0, 300.0];
     strum::VariantNames,
 )]
 #[strum(serialize_all = "kebab-case")]
-pub enum Axis {
+pub enum AccuracyAxis {
     /// Peak signal-to-noise ratio, dB.
     Psnr,
     /// One less the structural similarity.
@@ -34,7 +34,7 @@ pub enum Axis {
 /// A variant on one scene: means over its cameras.
 #[derive(Debug, Clone, PartialEq)]
 struct Point {
-    kind: Kind,
+    kind: KnobKind,
     variant: String,
     /// Geometric mean, ms.
     ms: f64,
@@ -43,12 +43,12 @@ struct Point {
     is_dominated: bool,
 }
 
-impl Axis {
-    fn of_plot(self) -> PlotAxis {
+impl AccuracyAxis {
+    fn of_plot(self) -> Axis {
         match self {
-            Self::Psnr => PlotAxis::even("PSNR, dB"),
-            Self::Ssim => PlotAxis::logarithmic("1 - SSIM"),
-            Self::Worst => PlotAxis::logarithmic("worst pixel"),
+            Self::Psnr => Axis::even("PSNR, dB"),
+            Self::Ssim => Axis::logarithmic("1 - SSIM"),
+            Self::Worst => Axis::logarithmic("worst pixel"),
         }
     }
 
@@ -69,7 +69,7 @@ impl Axis {
 /// A panel a scene: time against accuracy of presets, which have their names, and of each knob alone, for the pictures
 /// of one size. What another setting of the same scene beats in both is faint. Scenes that are levels of detail of one
 /// (named `NAME LEVEL`) share a panel, a line through the presets of each.
-pub fn pareto_svg(rows: &[BenchRow], size_px: [u32; 2], axis: Axis) -> String {
+pub fn pareto_svg(rows: &[BenchRow], size_px: [u32; 2], axis: AccuracyAxis) -> String {
     let shown: Vec<&BenchRow> = rows.iter().filter(|row| row.size_px == size_px && row.kind.costs_accuracy()).collect();
     let mut panels: Vec<(&str, Vec<&str>)> = Vec::new();
     for row in &shown {
@@ -97,30 +97,30 @@ fn panel_of(scene: &str) -> &str {
     }
 }
 
-fn color(kind: Kind) -> &'static str {
+fn color(kind: KnobKind) -> &'static str {
     match kind {
-        Kind::Preset => COLORS[7],
-        Kind::AlphaCut => COLORS[1],
-        Kind::TransmittanceStop => COLORS[2],
-        Kind::Resolution => COLORS[3],
+        KnobKind::Preset => COLORS[7],
+        KnobKind::AlphaCut => COLORS[1],
+        KnobKind::TransmittanceStop => COLORS[2],
+        KnobKind::Resolution => COLORS[3],
         _ => COLORS[4],
     }
 }
 
 fn legend() -> Vec<Entry> {
-    let entry = |kind: Kind| Entry {
-        name: if kind == Kind::Preset { "preset".to_owned() } else { format!("{} alone", kind.as_ref()) },
+    let entry = |kind: KnobKind| Entry {
+        name: if kind == KnobKind::Preset { "preset".to_owned() } else { format!("{} alone", kind.as_ref()) },
         color: color(kind),
         symbol: Symbol::Dot,
     };
     let mut entries: Vec<Entry> =
-        Kind::VARIANTS.iter().copied().filter(|kind| kind.costs_accuracy()).map(entry).collect();
+        KnobKind::VARIANTS.iter().copied().filter(|kind| kind.costs_accuracy()).map(entry).collect();
     entries.push(Entry { name: "faint: beaten in both".to_owned(), color: "#dddddd", symbol: Symbol::Dot });
     entries
 }
 
 /// The variants of a scene in the order of their rows.
-fn points(rows: &[&BenchRow], scene: &str, axis: Axis) -> Vec<Point> {
+fn points(rows: &[&BenchRow], scene: &str, axis: AccuracyAxis) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::new();
     for row in rows.iter().filter(|row| row.scene == scene) {
         if points.iter().any(|point| point.kind == row.kind && point.variant == row.variant) {
@@ -144,19 +144,19 @@ fn points(rows: &[&BenchRow], scene: &str, axis: Axis) -> Vec<Point> {
 }
 
 /// Presets and knobs of one scene.
-fn knobs_chart(title: &str, points: &[Point], axis: Axis) -> Chart {
-    let mut chart = Chart::new(title, PlotAxis::logarithmic("ms a frame"), axis.of_plot());
-    for &kind in Kind::VARIANTS.iter().rev() {
+fn knobs_chart(title: &str, points: &[Point], axis: AccuracyAxis) -> Chart {
+    let mut chart = Chart::new(title, Axis::logarithmic("ms a frame"), axis.of_plot());
+    for &kind in KnobKind::VARIANTS.iter().rev() {
         let of_kind: Vec<&Point> = points.iter().filter(|point| point.kind == kind).collect();
         let mark = |(idx, point): (usize, &&Point)| match kind {
-            Kind::Preset => Mark { word: point.variant.clone(), ..Mark::dot(idx, 5.0) },
+            KnobKind::Preset => Mark { word: point.variant.clone(), ..Mark::dot(idx, 5.0) },
             _ => Mark { is_muted: point.is_dominated, ..Mark::dot(idx, 3.0) },
         };
         if !of_kind.is_empty() {
             chart.series.push(Series {
                 points: of_kind.iter().map(|point| (point.ms, point.value)).collect(),
                 color: color(kind),
-                line_px: if kind == Kind::Preset { 1.0 } else { 0.0 },
+                line_px: if kind == KnobKind::Preset { 1.0 } else { 0.0 },
                 marks: of_kind.iter().enumerate().map(mark).collect(),
             });
         }
@@ -165,12 +165,12 @@ fn knobs_chart(title: &str, points: &[Point], axis: Axis) -> Chart {
 }
 
 /// A line through the presets of each level of detail; the first level's presets and all levels have their names.
-fn levels_chart(name: &str, scenes: &[&str], rows: &[&BenchRow], axis: Axis) -> Chart {
+fn levels_chart(name: &str, scenes: &[&str], rows: &[&BenchRow], axis: AccuracyAxis) -> Chart {
     let title = format!("{name}, {} levels of detail", scenes.len());
-    let mut chart = Chart::new(&title, PlotAxis::logarithmic("ms a frame"), axis.of_plot());
+    let mut chart = Chart::new(&title, Axis::logarithmic("ms a frame"), axis.of_plot());
     for (level_idx, scene) in scenes.iter().enumerate() {
         let presets: Vec<Point> =
-            points(rows, scene, axis).into_iter().filter(|point| point.kind == Kind::Preset).collect();
+            points(rows, scene, axis).into_iter().filter(|point| point.kind == KnobKind::Preset).collect();
         let level = scene[panel_of(scene).len()..].trim();
         let mark = |(idx, point): (usize, &Point)| {
             let is_last = idx + 1 == presets.len();

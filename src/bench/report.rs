@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use super::{BenchRow, Kind};
+use super::{BenchRow, KnobKind};
 
 /// The rows as CSV with a header; times in ms, `times_color` of outputs alone, `psnr_db` against the spec image or, for
 /// free knobs, against `standard`.
@@ -46,8 +46,8 @@ fn line(row: &BenchRow) -> String {
 /// Markdown: a table of the presets, one line a scene and size with the median time over the cameras and the worst
 /// camera's figures; presets that another beats; a table of the outputs; and what the free knobs lost.
 pub fn to_table(rows: &[BenchRow]) -> String {
-    let of_kind = |kind: Kind| rows.iter().filter(|row| row.kind == kind).collect::<Vec<&BenchRow>>();
-    let (presets, outputs, free) = (of_kind(Kind::Preset), of_kind(Kind::Output), of_kind(Kind::Free));
+    let of_kind = |kind: KnobKind| rows.iter().filter(|row| row.kind == kind).collect::<Vec<&BenchRow>>();
+    let (presets, outputs, free) = (of_kind(KnobKind::Preset), of_kind(KnobKind::Output), of_kind(KnobKind::Free));
     let mut table = presets_table(&presets);
     let dominated = dominated(&presets);
     let found = if dominated.is_empty() { "none".to_owned() } else { dominated.join("; ") };

@@ -1,6 +1,6 @@
 //! How cost grows with the work: Gaussians, pixels, layers of splats over each other, one growing while the others stay.
 //!
-//! Enters: a scene to tile and one [`Case`]. Leaves: a [`ScalingRow`] with time, counts and memory. A case should have a
+//! Enters: a scene to tile and one [`ScalingCase`]. Leaves: a [`ScalingRow`] with time, counts and memory. A case should have a
 //! process of its own: what an earlier one gave back would hide what this one takes.
 
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use glam::{DQuat, DVec3, Quat, Vec3};
 
 use super::report::ms;
-use super::{Timed, time};
+use super::{Timing, time};
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 use cinesplat_plot::{Axis, COLORS, Chart, Entry, Mark, Series, Symbol, grid};
 use cinesplat_render::{RenderError, RenderSettings, Renderer};
@@ -49,7 +49,7 @@ pub enum Growth {
 
 /// One size of the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Case {
+pub struct ScalingCase {
     /// What grows.
     pub growth: Growth,
     /// To how many Gaussians, rows of pixels or layers.
@@ -60,13 +60,13 @@ pub struct Case {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScalingRow {
     /// Which.
-    pub case: Case,
+    pub case: ScalingCase,
     /// Gaussians in the scene.
     pub num_gaussians: u64,
     /// Pixels of the picture.
     pub num_pixels: u64,
     /// Time and work.
-    pub timed: Timed,
+    pub timed: Timing,
     /// Bytes of the renderer's buffers and the picture, counted.
     pub held_bytes: u64,
     /// Growth of the process's peak memory while renderer and pictures were made; `None` where the system does not say.
@@ -84,7 +84,7 @@ impl Growth {
     }
 }
 
-impl Case {
+impl ScalingCase {
     /// The scene of this case, made of copies of `base`, and the camera that sees all of it.
     fn scene(self, base: &Gaussians) -> (Gaussians, Camera) {
         let [width, height] = SIZE_PX;
@@ -101,7 +101,7 @@ impl Case {
 /// # Errors
 /// As [`Renderer::render`].
 pub fn measure(
-    case: Case,
+    case: ScalingCase,
     base: &Gaussians,
     settings: &RenderSettings,
     num_repeats: usize,

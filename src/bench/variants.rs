@@ -1,5 +1,5 @@
-use super::Output;
-use cinesplat_render::{Accuracy, Instructions, Precision, Quality, RenderSettings};
+use super::RenderOutput;
+use cinesplat_render::{Accuracy, InstructionSet, Precision, Quality, RenderSettings};
 use strum::VariantArray;
 
 /// What a variant turns.
@@ -19,7 +19,7 @@ use strum::VariantArray;
     strum::VariantNames,
 )]
 #[strum(serialize_all = "kebab-case")]
-pub enum Kind {
+pub enum KnobKind {
     /// A preset.
     Preset,
     /// The least opacity that counts, all else as `final`.
@@ -36,7 +36,7 @@ pub enum Kind {
     Free,
 }
 
-impl Kind {
+impl KnobKind {
     /// Whether it trades accuracy for time.
     pub fn costs_accuracy(self) -> bool {
         !matches!(self, Self::Output | Self::Free)
@@ -47,9 +47,9 @@ impl Kind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
     /// What the pictures are asked for.
-    pub output: Output,
+    pub output: RenderOutput,
     /// What it turns.
-    pub kind: Kind,
+    pub kind: KnobKind,
     /// How far.
     pub name: String,
     /// The settings.
@@ -61,8 +61,8 @@ pub struct Variant {
 }
 
 /// A variant of color in eight bits on the threads there are.
-fn of(kind: Kind, name: String, settings: RenderSettings) -> Variant {
-    Variant { output: Output::Levels, kind, name, settings, num_threads: None, is_slow: false }
+fn of(kind: KnobKind, name: String, settings: RenderSettings) -> Variant {
+    Variant { output: RenderOutput::Levels, kind, name, settings, num_threads: None, is_slow: false }
 }
 
 /// All presets but `reference`, every knob alone, the outputs, and the knobs that must be free; filter, near plane and
@@ -74,21 +74,21 @@ pub fn variants(base: &RenderSettings) -> Vec<Variant> {
     };
     for divisor in [1024, 512, 192, 128, 64, 32] {
         let accuracy = Accuracy { alpha_cut: 1.0 / f64::from(divisor), ..Accuracy::SPEC };
-        all.push(knob(Kind::AlphaCut, format!("1/{divisor}"), accuracy));
+        all.push(knob(KnobKind::AlphaCut, format!("1/{divisor}"), accuracy));
     }
     for transmittance_stop in [3e-4, 1e-3, 3e-3, 1e-2, 3e-2] {
         let accuracy = Accuracy { transmittance_stop, ..Accuracy::SPEC };
-        all.push(knob(Kind::TransmittanceStop, format!("{transmittance_stop}"), accuracy));
+        all.push(knob(KnobKind::TransmittanceStop, format!("{transmittance_stop}"), accuracy));
     }
     for resolution_frac in [0.9, 0.75, 2.0 / 3.0, 0.5, 1.0 / 3.0] {
         let accuracy = Accuracy { resolution_frac, ..Accuracy::SPEC };
-        all.push(knob(Kind::Resolution, format!("{resolution_frac:.2}"), accuracy));
+        all.push(knob(KnobKind::Resolution, format!("{resolution_frac:.2}"), accuracy));
     }
     let quick = Accuracy { precision: Precision::Quick, ..Accuracy::SPEC };
-    all.push(knob(Kind::Precision, "quick".to_owned(), quick));
+    all.push(knob(KnobKind::Precision, quick.precision.to_string(), quick));
     for transmittance_stop in [1e-3, 4e-3, 1e-2, 3e-2] {
         let accuracy = Accuracy { transmittance_stop, ..quick };
-        all.push(knob(Kind::Precision, format!("quick to {transmittance_stop}"), accuracy));
+        all.push(knob(KnobKind::Precision, format!("{} to {transmittance_stop}", quick.precision), accuracy));
     }
     all.extend(outputs(base));
     all.extend(free(base));
@@ -98,7 +98,7 @@ pub fn variants(base: &RenderSettings) -> Vec<Variant> {
 /// All presets but `reference`.
 pub fn presets(base: &RenderSettings) -> Vec<Variant> {
     let preset = |quality: Quality| {
-        of(Kind::Preset, quality.as_ref().to_owned(), RenderSettings { quality, accuracy: None, ..*base })
+        of(KnobKind::Preset, quality.as_ref().to_owned(), RenderSettings { quality, accuracy: None, ..*base })
     };
     [Quality::Draft, Quality::Standard, Quality::Final].map(preset).to_vec()
 }
@@ -106,29 +106,29 @@ pub fn presets(base: &RenderSettings) -> Vec<Variant> {
 /// What a picture may be asked for.
 fn outputs(base: &RenderSettings) -> Vec<Variant> {
     let settings = RenderSettings { quality: Quality::Standard, accuracy: None, ..*base };
-    let asked = |output: Output| Variant { output, ..of(Kind::Output, output.as_ref().to_owned(), settings) };
-    Output::VARIANTS.iter().copied().map(asked).collect()
+    let asked = |output: RenderOutput| Variant { output, ..of(KnobKind::Output, output.as_ref().to_owned(), settings) };
+    RenderOutput::VARIANTS.iter().copied().map(asked).collect()
 }
 
 /// What may change time and must change no bit.
 fn free(base: &RenderSettings) -> Vec<Variant> {
     let standard = RenderSettings { quality: Quality::Standard, accuracy: None, ..*base };
-    let as_standard = |name: &str| of(Kind::Free, name.to_owned(), standard);
+    let as_standard = |name: &str| of(KnobKind::Free, name.to_owned(), standard);
     let mut anew = as_standard("order anew");
     anew.settings.reuses_order = false;
     let on_threads = |num_threads: usize| {
         let plural = if num_threads == 1 { "" } else { "s" };
         Variant { num_threads: Some(num_threads), ..as_standard(&format!("{num_threads} thread{plural}")) }
     };
-    let with = |name: &str, instructions: Instructions| {
-        let mut variant = as_standard(name);
+    let with = |instructions: InstructionSet| {
+        let mut variant = as_standard(instructions.as_ref());
         variant.settings.instructions = instructions;
         variant
     };
-    let mut scalar = with("scalar", Instructions::Scalar);
+    let mut scalar = with(InstructionSet::Scalar);
     scalar.is_slow = true;
     let mut all = vec![anew];
     all.extend([1, 2, 3].map(on_threads));
-    all.extend([with("widest", Instructions::Widest), with("avx2", Instructions::Avx2), scalar]);
+    all.extend([with(InstructionSet::Widest), with(InstructionSet::Avx2), scalar]);
     all
 }

@@ -9,7 +9,7 @@ use cinesplat::export::cameras_json::{self, StillCameras};
 use cinesplat::files::npy;
 use cinesplat::objects;
 use cinesplat::pipeline::{self, Still, StillOutputs};
-use cinesplat::render::{Quality, Weight};
+use cinesplat::render::{PixelWeight, Quality};
 use cinesplat::scene::Scene;
 use cinesplat::video;
 
@@ -168,7 +168,8 @@ impl Args {
         }
         if let Some(weights) = &still.weights {
             let descr = "[('pixel', '<u4'), ('gaussian', '<u4'), ('weight', '<f4')]";
-            let bytes = |w: &Weight| [w.pixel_idx.to_le_bytes(), w.gaussian_idx.to_le_bytes(), w.weight.to_le_bytes()];
+            let bytes =
+                |w: &PixelWeight| [w.pixel_idx.to_le_bytes(), w.gaussian_idx.to_le_bytes(), w.weight.to_le_bytes()];
             let data = weights.iter().flat_map(bytes).flatten();
             write("weights.npy", npy::encode(descr, &[weights.len()], data))?;
         }

@@ -1,7 +1,7 @@
 use super::PipelineError;
 use cinesplat_export::cameras_json::NamedCamera;
 use cinesplat_geometry::Camera;
-use cinesplat_render::{DepthMap, FeatureMap, Frame, IdMap, RenderError, RenderSettings, Renderer, Weight};
+use cinesplat_render::{DepthMap, FeatureMap, Frame, IdMap, PixelWeight, RenderError, RenderSettings, Renderer};
 use cinesplat_scene::Scene;
 
 /// What a still holds beside color and transmittance, all from the same weights.
@@ -31,7 +31,7 @@ pub struct Still<'a> {
     /// Features, where asked for.
     pub features: Option<FeatureMap>,
     /// Weights, where asked for.
-    pub weights: Option<Vec<Weight>>,
+    pub weights: Option<Vec<PixelWeight>>,
 }
 
 /// Takes one picture a camera, in order, and hands each to `take`, which may stop with an error of its own.

@@ -3,49 +3,17 @@
 //! The sorted splats are cut into runs of fixed length, each binned on its own; a tile's list is its part of every
 //! run, one after the other. So the order never depends on the number of threads.
 
-use std::ops::Range;
-
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
+use super::RenderError;
 use super::memory::{Budget, bytes_of};
 use super::sort::DepthKey;
 use super::splats::Splats;
-use super::{RenderError, View};
+use super::tiles::TileGrid;
 
-/// Edge of a tile in pixels.
-pub(super) const TILE_PX: usize = 64;
 /// Splats in a run.
 const RUN_LEN: usize = 8192;
-
-/// Rows of tiles of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct TileGrid {
-    /// Tiles side by side.
-    pub(super) across: usize,
-    /// The first row.
-    pub(super) first_row: usize,
-    /// Tiles on top of each other.
-    pub(super) down: usize,
-}
-
-impl TileGrid {
-    /// The grid that covers a view.
-    pub(super) fn of(view: &View) -> Self {
-        let [across, down] = [view.width, view.height].map(|size| (size as usize).div_ceil(TILE_PX));
-        Self { across, first_row: 0, down }
-    }
-
-    /// Some of the rows.
-    pub(super) fn rows(self, rows: &Range<usize>) -> Self {
-        Self { first_row: rows.start, down: rows.len(), ..self }
-    }
-
-    /// Number of tiles.
-    pub(super) fn len(self) -> usize {
-        self.across * self.down
-    }
-}
 
 /// A splat in the order of depth and the tiles that it touches: first and last column, first and last row. It takes the
 /// place of its key, which has done its work.
@@ -122,7 +90,7 @@ impl Run {
         self.counts.resize(grid.len() + grid.across + 2, 0);
         for splat in placed {
             splat.rect = splats.rect(splat.place);
-            for_each_tile(splat.rect, grid, |tile_idx, is_touched| self.counts[tile_idx] += is_touched);
+            for_each_tile(splat.rect, grid, |tile_idx, is_covered| self.counts[tile_idx] += is_covered);
         }
         self.counts.iter().map(|&count| u64::from(count)).sum()
     }
@@ -139,10 +107,10 @@ impl Run {
         self.places.resize(next as usize, 0);
         let (ends, places) = (&mut self.ends, &mut self.places);
         for &Placed { rect, place } in placed {
-            for_each_tile(rect, grid, |tile_idx, is_touched| {
+            for_each_tile(rect, grid, |tile_idx, is_covered| {
                 // Where it does not belong it is written over, or stays in the slot to spare.
                 places[ends[tile_idx] as usize] = place;
-                ends[tile_idx] += is_touched;
+                ends[tile_idx] += is_covered;
             });
         }
     }

@@ -9,23 +9,21 @@ use std::marker::PhantomData;
 use pulp::{Simd, WithSimd};
 
 use super::View;
-use super::bin::TILE_PX;
-use super::kernel::{Arithmetic, Blender, Constants, Cutoffs, RECORDS_LEN, Record};
+use super::coverage::{Coverage, PositionList};
+use super::kernel::{Arithmetic, Blender, Constants, Cutoffs};
 use super::payload::Sink;
 use super::pixels::TilePixels;
-use super::spans::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, List, NUM_BLOCKS, NUM_STRIPS, StripMasks, Touches};
+use super::record::{RECORDS_LEN, Record};
 use super::splat::{EXPONENT_DIVISOR, Splat};
 use super::splats::Splats;
-
-/// Pixels of a tile.
-pub(super) const TILE_LEN: usize = TILE_PX * TILE_PX;
+use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_BLOCKS, NUM_STRIPS, StripMasks};
 
 /// The memory that one tile at a time needs; used for one tile after another.
 #[derive(Debug)]
 pub(super) struct Workspace {
     splats: Box<[Splat; RECORDS_LEN]>,
     records: Box<[Record; RECORDS_LEN]>,
-    touches: Touches,
+    coverage: Coverage,
     /// Blocks that take no more splats.
     done: StripMasks,
     pixels: TilePixels,
@@ -37,7 +35,7 @@ impl Default for Workspace {
         Self {
             splats: Box::new([Splat::default(); RECORDS_LEN]),
             records: Box::new([Record::default(); RECORDS_LEN]),
-            touches: Touches::default(),
+            coverage: Coverage::default(),
             done: [0; NUM_STRIPS],
             pixels: TilePixels::default(),
             num_block_blends: 0,
@@ -97,7 +95,7 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
 impl Workspace {
     /// Bytes that it takes.
     pub(super) const BYTES: usize =
-        RECORDS_LEN * (size_of::<Splat>() + size_of::<Record>()) + Touches::BYTES + TilePixels::BYTES;
+        RECORDS_LEN * (size_of::<Splat>() + size_of::<Record>()) + Coverage::BYTES + TilePixels::BYTES;
 
     /// Starts a tile: nothing blended, blocks beyond the picture done with.
     fn clear(&mut self, origin_px: [usize; 2], view: &View) {
@@ -121,11 +119,11 @@ impl Workspace {
         let splats = &self.splats[..len.min(RECORDS_LEN)];
         for (position, (splat, record)) in splats.iter().zip(self.records.iter_mut()).enumerate() {
             *record = relative::<A>(splat, corner_px);
-            self.touches.enter(position, splat, corner_px);
+            self.coverage.set_splat(position, splat, corner_px);
         }
-        self.touches.find(len, &self.done);
+        self.coverage.compute(len, &self.done);
         if K::IS_ACTIVE {
-            sink.begin(&self.records[..len]);
+            sink.begin_chunk(&self.records[..len]);
         }
         self.blend_blocks::<S, A, K>(simd, constants, sink);
     }
@@ -133,13 +131,13 @@ impl Workspace {
     /// Blends into every block that still takes splats those that touch it.
     #[inline(always)]
     fn blend_blocks<S: Simd, A: Arithmetic, K: Sink>(&mut self, simd: S, constants: &Constants<S>, sink: &mut K) {
-        let mut list = List::default();
+        let mut list = PositionList::default();
         for block in 0..NUM_BLOCKS {
             let (strip, bit) = (block / BLOCKS_ACROSS, 1 << (block % BLOCKS_ACROSS));
             if self.done[strip] & bit != 0 {
                 continue;
             }
-            let len = self.touches.list(block, &mut list);
+            let len = self.coverage.list(block, &mut list);
             if len > 0 {
                 self.num_block_blends += len as u64;
                 let (records, pixels) = (&self.records, &mut self.pixels);

@@ -4,8 +4,8 @@ use std::sync::{Mutex, PoisonError};
 
 use pulp::{Simd, WithSimd};
 
-use super::bin::TILE_PX;
 use super::pixels::TilePixels;
+use super::tiles::TILE_PX;
 use super::{Frame, Rgb8Frame};
 
 /// Rows of a picture to be written to.
@@ -51,7 +51,7 @@ impl<'a> Canvas<'a> {
 }
 
 /// A finished tile on its way into the picture, compiled for every instruction set.
-pub(super) struct Finished<'a, 'frame> {
+pub(super) struct FinishedTile<'a, 'frame> {
     pub(super) pixels: &'a TilePixels,
     pub(super) band: &'a Band<'frame>,
     /// The tile's place in the band.
@@ -62,7 +62,7 @@ pub(super) struct Finished<'a, 'frame> {
     pub(super) background: [f32; 3],
 }
 
-impl WithSimd for Finished<'_, '_> {
+impl WithSimd for FinishedTile<'_, '_> {
     type Output = ();
 
     #[inline(always)]

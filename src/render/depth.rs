@@ -1,6 +1,6 @@
-use super::blend::TILE_LEN;
-use super::kernel::Record;
 use super::payload::{Payload, Sink, TileArea, TileRows};
+use super::record::Record;
+use super::tiles::TILE_LEN;
 
 /// Depth along the view axis in each pixel, scene units: `[row * width + column]`, NaN where nothing is.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -31,14 +31,14 @@ pub(super) type DepthTile = [TileRows<f32>; 2];
 
 impl Payload for DepthPayload {
     type Sink = DepthSink;
-    type Part = DepthTile;
+    type TileOutput = DepthTile;
 
     fn sink(&self, _: TileArea) -> DepthSink {
         let zeros = vec![0.0; TILE_LEN];
         DepthSink { depths: Vec::new(), weight: zeros.clone(), weighted: zeros, median: vec![f32::NAN; TILE_LEN] }
     }
 
-    fn part(&self, mut sink: DepthSink, area: TileArea) -> DepthTile {
+    fn finish(&self, mut sink: DepthSink, area: TileArea) -> DepthTile {
         sink.weighted.iter_mut().zip(&sink.weight).for_each(|(sum, weight)| *sum /= weight);
         [area.in_rows(&sink.weighted, 1), area.in_rows(&sink.median, 1)]
     }
@@ -47,13 +47,13 @@ impl Payload for DepthPayload {
 impl Sink for DepthSink {
     const IS_ACTIVE: bool = true;
 
-    fn begin(&mut self, records: &[Record]) {
+    fn begin_chunk(&mut self, records: &[Record]) {
         self.depths.clear();
         self.depths.extend(records.iter().map(|record| record.depth));
     }
 
     #[inline(always)]
-    fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
+    fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         let (depth, num) = (self.depths[position], weights.len());
         let sums = self.weight[first_pixel..][..num].iter_mut().zip(&mut self.weighted[first_pixel..][..num]);
         for (((sum, weighted), median), &weight) in sums.zip(&mut self.median[first_pixel..][..num]).zip(weights) {
@@ -67,10 +67,10 @@ impl Sink for DepthSink {
 
 impl DepthMap {
     /// Puts the tiles together.
-    pub(super) fn assemble(width: u32, height: u32, parts: Vec<DepthTile>) -> Self {
+    pub(super) fn assemble(width: u32, height: u32, tiles: Vec<DepthTile>) -> Self {
         let num_pixels = width as usize * height as usize;
         let mut map = Self { width, height, expected: vec![f32::NAN; num_pixels], median: vec![f32::NAN; num_pixels] };
-        for [expected, median] in parts {
+        for [expected, median] in tiles {
             expected.write(&mut map.expected, 1, 0);
             median.write(&mut map.median, 1, 0);
         }

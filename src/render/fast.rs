@@ -8,9 +8,10 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::bin::{Bins, TILE_PX, TileGrid};
+use super::batch;
+use super::bin::Bins;
 use super::blend::{Tile, Workspace};
-use super::canvas::{Band, Canvas, Finished};
+use super::canvas::{Band, Canvas, FinishedTile};
 use super::groups::Groups;
 use super::kernel::{Arithmetic, Exact, Quick};
 use super::memory::Budget;
@@ -18,14 +19,15 @@ use super::order::DepthOrder;
 use super::payload::{Payload, TileArea};
 use super::project::Projection;
 use super::sort::DepthKey;
-use super::splats::{self, Splats};
+use super::splats::Splats;
+use super::tiles::{TILE_PX, TileGrid};
 use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View};
 use cinesplat_scene::Gaussians;
 
 /// Most bytes that a splat takes until its pairs are listed: itself and two keys.
-const BYTES_A_SPLAT: u64 = (splats::BYTES_A_SPLAT + 2 * size_of::<DepthKey>()) as u64;
+const BYTES_PER_SPLAT: u64 = (batch::BYTES_PER_SPLAT + 2 * size_of::<DepthKey>()) as u64;
 /// Bytes of its pairs, in most scenes.
-const PAIR_BYTES_A_SPLAT: u64 = 8;
+const PAIR_BYTES_PER_SPLAT: u64 = 8;
 
 /// Work lists of one picture, kept for the next.
 #[derive(Debug, Default)]
@@ -35,7 +37,7 @@ pub(super) struct Buffers {
     bins: Bins,
     workspaces: Pool<Workspace>,
     /// Splats of the last picture over the Gaussians of all groups that might have been seen; none before the first.
-    seen_frac: Option<f64>,
+    visible_frac: Option<f64>,
 }
 
 impl Buffers {
@@ -81,7 +83,7 @@ pub(super) fn render<P: Payload>(
     settings: &RenderSettings,
     buffers: &mut Buffers,
     (canvas, payload): (Canvas<'_>, &P),
-) -> Result<(RenderStats, Vec<P::Part>), RenderError> {
+) -> Result<(RenderStats, Vec<P::TileOutput>), RenderError> {
     let (gaussians, groups) = scene;
     let mut budget = Budget::of_picture(view, &settings.limits)?;
     budget.take("the renderer's copy of the Gaussians", groups.bytes())?;
@@ -105,11 +107,11 @@ pub(super) fn render<P: Payload>(
         stats: RenderStats::default(),
         num_in_view: 0,
     };
-    let mut parts = Vec::with_capacity(grid.len());
-    picture.render_rows(0..grid.down, &mut parts)?;
+    let mut outputs = Vec::with_capacity(grid.len());
+    picture.render_rows(0..grid.down, &mut outputs)?;
     let Picture { stats, num_in_view, .. } = picture;
-    buffers.seen_frac = Some((stats.counts.num_splats as f64 / num_in_view.max(1) as f64).min(1.0));
-    Ok((stats, parts))
+    buffers.visible_frac = Some((stats.counts.num_splats as f64 / num_in_view.max(1) as f64).min(1.0));
+    Ok((stats, outputs))
 }
 
 /// A picture on its way, from the first row of tiles to the last.
@@ -134,12 +136,12 @@ struct Picture<'a, P: Payload> {
 impl<P: Payload> Picture<'_, P> {
     /// Renders some rows of tiles: at once, or each half by itself where that would take too much memory. Appends what
     /// the payload leaves of each tile.
-    fn render_rows(&mut self, rows: Range<usize>, parts: &mut Vec<P::Part>) -> Result<(), RenderError> {
-        match self.render_at_once(&rows, parts) {
+    fn render_rows(&mut self, rows: Range<usize>, outputs: &mut Vec<P::TileOutput>) -> Result<(), RenderError> {
+        match self.render_at_once(&rows, outputs) {
             Err(RenderError::Memory { .. }) if rows.len() > 1 => {
                 let middle = usize::midpoint(rows.start, rows.end);
-                self.render_rows(rows.start..middle, parts)?;
-                self.render_rows(middle..rows.end, parts)
+                self.render_rows(rows.start..middle, outputs)?;
+                self.render_rows(middle..rows.end, outputs)
             }
             result => result,
         }
@@ -149,18 +151,18 @@ impl<P: Payload> Picture<'_, P> {
     ///
     /// # Errors
     /// [`RenderError::Memory`], with nothing rendered, also where several rows take more than is worth while.
-    fn render_at_once(&mut self, rows: &Range<usize>, parts: &mut Vec<P::Part>) -> Result<(), RenderError> {
+    fn render_at_once(&mut self, rows: &Range<usize>, outputs: &mut Vec<P::TileOutput>) -> Result<(), RenderError> {
         let (gaussians, groups) = self.scene;
-        let Buffers { splats, order, bins, seen_frac, .. } = &mut *self.buffers;
+        let Buffers { splats, order, bins, visible_frac, .. } = &mut *self.buffers;
         let grid = self.grid.rows(rows);
         let start = Instant::now();
         let projection = Projection::new(self.view, grid);
-        let num_projected = splats.look(groups, &projection);
+        let num_projected = splats.find_visible_groups(groups, &projection);
         self.num_in_view = self.num_in_view.max(num_projected);
         let mut budget = self.budget;
-        budget.take("the splats", num_projected * BYTES_A_SPLAT)?;
-        let bytes_a_projected = seen_frac.unwrap_or(1.0) * (BYTES_A_SPLAT + PAIR_BYTES_A_SPLAT) as f64;
-        let (found_bytes, limit_bytes) = ((num_projected as f64 * bytes_a_projected) as u64, self.bytes_before_bands);
+        budget.take("the splats", num_projected * BYTES_PER_SPLAT)?;
+        let bytes_per_projected = visible_frac.unwrap_or(1.0) * (BYTES_PER_SPLAT + PAIR_BYTES_PER_SPLAT) as f64;
+        let (found_bytes, limit_bytes) = ((num_projected as f64 * bytes_per_projected) as u64, self.bytes_before_bands);
         if rows.len() > 1 && found_bytes > limit_bytes {
             return Err(RenderError::Memory { what: "the splats", found_bytes, limit_bytes });
         }
@@ -172,9 +174,9 @@ impl<P: Payload> Picture<'_, P> {
         let (sorted, num_splats) = (Instant::now(), keys.len() as u64);
         let num_pairs = bins.fill(keys, splats, grid, &mut budget)?;
         self.budget.count_pairs(num_pairs);
-        self.payload.allow(budget.left_bytes());
+        self.payload.set_limit(budget.left_bytes());
         let binned = Instant::now();
-        let num_block_blends = self.blend(grid, parts);
+        let num_block_blends = self.blend(grid, outputs);
         let StageTimes { project, sort, bin, blend } = &mut self.stats.times;
         *project += projected - start;
         *sort += sorted - projected;
@@ -189,19 +191,19 @@ impl<P: Payload> Picture<'_, P> {
     }
 
     /// Blends the binned tiles; returns the number of overlaps between splats and blocks.
-    fn blend(&self, grid: TileGrid, parts: &mut Vec<P::Part>) -> u64 {
+    fn blend(&self, grid: TileGrid, outputs: &mut Vec<P::TileOutput>) -> u64 {
         let precision = self.settings.effective_accuracy().precision;
         let tiles = (0..grid.len()).into_par_iter().with_max_len(1);
-        let (blends, new): (Vec<u64>, Vec<P::Part>) = match precision {
+        let (blends, new): (Vec<u64>, Vec<P::TileOutput>) = match precision {
             Precision::Exact => tiles.map(|tile_idx| self.blend_tile::<Exact>(grid, tile_idx)).unzip(),
             Precision::Quick => tiles.map(|tile_idx| self.blend_tile::<Quick>(grid, tile_idx)).unzip(),
         };
-        parts.extend(new);
+        outputs.extend(new);
         blends.into_iter().sum()
     }
 
     /// Blends one tile and writes it into the picture.
-    fn blend_tile<A: Arithmetic>(&self, grid: TileGrid, tile_idx: usize) -> (u64, P::Part) {
+    fn blend_tile<A: Arithmetic>(&self, grid: TileGrid, tile_idx: usize) -> (u64, P::TileOutput) {
         let Buffers { splats, bins, workspaces, .. } = &*self.buffers;
         let (view, width) = (self.view, self.view.width as usize);
         let (column, row) = (tile_idx % grid.across, grid.first_row + tile_idx / grid.across);
@@ -215,8 +217,8 @@ impl<P: Payload> Picture<'_, P> {
             view.instructions.dispatch(tile);
             let background = self.settings.background.to_array();
             let pixels = workspace.pixels();
-            view.instructions.dispatch(Finished { pixels, band: &self.bands[row], column, width, background });
-            (workspace.num_block_blends(), self.payload.part(sink, area))
+            view.instructions.dispatch(FinishedTile { pixels, band: &self.bands[row], column, width, background });
+            (workspace.num_block_blends(), self.payload.finish(sink, area))
         })
     }
 }

@@ -1,9 +1,8 @@
-use super::bin::TILE_PX;
-use super::blend::TILE_LEN;
-use super::kernel::Record;
 use super::memory::Budget;
 use super::payload::{Payload, Sink, TileArea, TileRows};
+use super::record::Record;
 use super::renderer::check_len;
+use super::tiles::{TILE_LEN, TILE_PX};
 use super::{RenderError, RenderSettings, Renderer, View};
 use cinesplat_geometry::Camera;
 
@@ -42,13 +41,13 @@ struct FeatureSink<'a> {
 
 impl<'a> Payload for &'a FeaturePayload<'a> {
     type Sink = FeatureSink<'a>;
-    type Part = TileRows<f32>;
+    type TileOutput = TileRows<f32>;
 
     fn sink(&self, _: TileArea) -> FeatureSink<'a> {
         FeatureSink { payload: self, rows: Vec::new(), sums: vec![0.0; TILE_LEN * self.num_channels] }
     }
 
-    fn part(&self, sink: FeatureSink<'a>, area: TileArea) -> TileRows<f32> {
+    fn finish(&self, sink: FeatureSink<'a>, area: TileArea) -> TileRows<f32> {
         area.in_rows(&sink.sums, self.num_channels)
     }
 }
@@ -56,7 +55,7 @@ impl<'a> Payload for &'a FeaturePayload<'a> {
 impl Sink for FeatureSink<'_> {
     const IS_ACTIVE: bool = true;
 
-    fn begin(&mut self, records: &[Record]) {
+    fn begin_chunk(&mut self, records: &[Record]) {
         let FeaturePayload { features, stride, first, num_channels } = *self.payload;
         let row = |record: &Record| &features[record.gaussian_idx as usize * stride + first..][..num_channels];
         self.rows.clear();
@@ -64,7 +63,7 @@ impl Sink for FeatureSink<'_> {
     }
 
     #[inline(always)]
-    fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
+    fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         let (row, num_channels) = (self.rows[position], self.payload.num_channels);
         let sums = &mut self.sums[first_pixel * num_channels..][..weights.len() * num_channels];
         if let Ok(row) = <&[f32; CHANNELS_AT_ONCE]>::try_from(row) {
@@ -115,8 +114,8 @@ impl Renderer<'_> {
         for first in (0..num_channels).step_by(CHANNELS_AT_ONCE) {
             let num_some = CHANNELS_AT_ONCE.min(num_channels - first);
             let payload = FeaturePayload { features, stride: num_channels, first, num_channels: num_some };
-            let (_, parts) = self.render_parts(camera, &settings, &&payload)?;
-            parts.iter().for_each(|tile| tile.write(&mut map.values, num_channels, first));
+            let (_, tiles) = self.render_with_payload(camera, &settings, &&payload)?;
+            tiles.iter().for_each(|tile| tile.write(&mut map.values, num_channels, first));
         }
         Ok(map)
     }

@@ -32,7 +32,7 @@ impl Frame {
     }
 
     /// Writes eight-bit color over `rgb8`, which is made to fit.
-    pub fn write_rgb8(&self, rgb8: &mut Vec<u8>) {
+    pub(super) fn write_rgb8(&self, rgb8: &mut Vec<u8>) {
         const VALUES_AT_ONCE: usize = 1 << 16;
         rgb8.resize(self.rgb.len(), 0);
         rgb8.par_chunks_mut(VALUES_AT_ONCE).zip(self.rgb.par_chunks(VALUES_AT_ONCE)).for_each(|(levels, values)| {

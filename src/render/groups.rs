@@ -11,7 +11,7 @@ use cinesplat_scene::Gaussians;
 pub(super) const GROUP_LEN: usize = 256;
 
 /// Packs in a group.
-pub(super) const PACKS_IN_GROUP: usize = GROUP_LEN / LANES;
+pub(super) const PACKS_PER_GROUP: usize = GROUP_LEN / LANES;
 
 /// Neighbors in space and a sphere about their means.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ pub(super) struct Pack {
 /// All usable Gaussians of a scene, ordered by size and along a space-filling curve and cut into groups.
 #[derive(Debug)]
 pub(super) struct Groups {
-    /// Attributes, group after group, [`PACKS_IN_GROUP`] each; all groups but the last are full.
+    /// Attributes, group after group, [`PACKS_PER_GROUP`] each; all groups but the last are full.
     pub(super) packs: Vec<Pack>,
     /// Where the members of each group are.
     pub(super) bounds: Vec<Group>,
@@ -60,7 +60,7 @@ impl Groups {
         let usable = |idx: &u32| is_usable(gaussians, *idx as usize);
         let kept: Vec<u32> = (0..gaussians.len() as u32).into_par_iter().filter(usable).collect();
         let (low, span) = extent(gaussians, &kept);
-        let usual = usual_scale(gaussians, &kept);
+        let usual = median_scale(gaussians, &kept);
         let code = |idx: u32| {
             let size_class = size_class(gaussians.scales[idx as usize].max_element() / usual);
             size_class << MORTON_BITS | morton((gaussians.means[idx as usize] - low) / span)
@@ -75,8 +75,8 @@ impl Groups {
 
     /// The attributes of a group's members.
     pub(super) fn packs_of(&self, group: usize) -> &[Pack] {
-        let first = group * PACKS_IN_GROUP;
-        &self.packs[first..(first + PACKS_IN_GROUP).min(self.packs.len())]
+        let first = group * PACKS_PER_GROUP;
+        &self.packs[first..(first + PACKS_PER_GROUP).min(self.packs.len())]
     }
 
     /// Number of a group's members.
@@ -149,7 +149,7 @@ fn sampled(kept: &[u32], number: impl Fn(usize) -> f32) -> Vec<f32> {
 }
 
 /// Median of the largest standard deviations, estimated on a sample.
-fn usual_scale(gaussians: &Gaussians, kept: &[u32]) -> f32 {
+fn median_scale(gaussians: &Gaussians, kept: &[u32]) -> f32 {
     let scales = sampled(kept, |idx| gaussians.scales[idx].max_element());
     scales.get(scales.len() / 2).copied().unwrap_or_default().max(f32::MIN_POSITIVE)
 }

@@ -1,6 +1,6 @@
-use super::blend::TILE_LEN;
-use super::kernel::Record;
 use super::payload::{Payload, Sink, TileArea, TileRows};
+use super::record::Record;
+use super::tiles::TILE_LEN;
 
 /// The object seen in each pixel: `[row * width + column]`, 0 = none.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -32,13 +32,13 @@ pub(super) struct IdSink<'a> {
 
 impl<'a> Payload for IdPayload<'a> {
     type Sink = IdSink<'a>;
-    type Part = TileRows<u16>;
+    type TileOutput = TileRows<u16>;
 
     fn sink(&self, _: TileArea) -> IdSink<'a> {
         IdSink { labels: self.labels, plane_from_record: Vec::new(), label_from_plane: Vec::new(), weights: Vec::new() }
     }
 
-    fn part(&self, sink: IdSink<'a>, area: TileArea) -> TileRows<u16> {
+    fn finish(&self, sink: IdSink<'a>, area: TileArea) -> TileRows<u16> {
         area.in_rows(&sink.strongest(), 1)
     }
 }
@@ -70,7 +70,7 @@ impl IdSink<'_> {
 impl Sink for IdSink<'_> {
     const IS_ACTIVE: bool = true;
 
-    fn begin(&mut self, records: &[Record]) {
+    fn begin_chunk(&mut self, records: &[Record]) {
         self.plane_from_record.clear();
         for record in records {
             let plane = self.plane_of(self.labels[record.gaussian_idx as usize]);
@@ -79,7 +79,7 @@ impl Sink for IdSink<'_> {
     }
 
     #[inline(always)]
-    fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
+    fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         let start = self.plane_from_record[position] * TILE_LEN + first_pixel;
         for (sum, weight) in self.weights[start..][..weights.len()].iter_mut().zip(weights) {
             *sum += weight;
@@ -89,9 +89,9 @@ impl Sink for IdSink<'_> {
 
 impl IdMap {
     /// Puts the tiles together.
-    pub(super) fn assemble(width: u32, height: u32, parts: &[TileRows<u16>]) -> Self {
+    pub(super) fn assemble(width: u32, height: u32, tiles: &[TileRows<u16>]) -> Self {
         let mut map = Self { width, height, ids: vec![0; width as usize * height as usize] };
-        parts.iter().for_each(|tile| tile.write(&mut map.ids, 1, 0));
+        tiles.iter().for_each(|tile| tile.write(&mut map.ids, 1, 0));
         map
     }
 }

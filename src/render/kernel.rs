@@ -6,29 +6,12 @@
 use pulp::Simd;
 
 use super::payload::Sink;
-use super::pixels::{HALF_LEN, TilePixels, centers};
+use super::pixels::{HALF_LEN, Pixels, TilePixels, centers};
+use super::record::{RECORDS_LEN, Record};
 use super::spec;
 
-/// A splat relative to a tile's corner: u = `ux` x + `uy` y + `u0`, v = `vy` y + `v0` at pixel (x, y) of the tile, all in
-/// the units of an [`Arithmetic`].
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Record {
-    pub(super) ux: f32,
-    pub(super) uy: f32,
-    pub(super) u0: f32,
-    pub(super) vy: f32,
-    pub(super) v0: f32,
-    pub(super) level: f32,
-    pub(super) color: [f32; 3],
-    pub(super) depth: f32,
-    pub(super) gaussian_idx: u32,
-}
-
-/// Splats that a tile looks at together: as many as a byte can number.
-pub(super) const RECORDS_LEN: usize = 256;
-
 /// Splats blended between two looks at the transmittance; 8 and 24 took as long.
-const LOOK_LEN: usize = 16;
+const CHECK_INTERVAL: usize = 16;
 
 /// The two cutoffs as the kernel needs them.
 #[derive(Debug, Clone, Copy)]
@@ -37,20 +20,6 @@ pub(super) struct Cutoffs {
     pub(super) level: f32,
     /// Least transmittance that blending may leave.
     pub(super) transmittance: f32,
-}
-
-/// Pixels blended together.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pixels<S: Simd> {
-    pub(super) red: S::f32s,
-    pub(super) green: S::f32s,
-    pub(super) blue: S::f32s,
-    /// Of all splats so far; below the least allowed where a pixel takes no more.
-    pub(super) transmittance: S::f32s,
-    /// Of the splats that the pixel took; kept only where each pixel stops on its own.
-    pub(super) rest: S::f32s,
-    /// The first one's number in the tile.
-    pub(super) first: usize,
 }
 
 /// Constants of the kernel in registers.
@@ -180,17 +149,17 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
     #[inline(always)]
     pub(super) fn blend<A: Arithmetic>(&mut self, block: usize, list: &[u8]) -> bool {
         if S::F32_LANES == HALF_LEN {
-            let mut run = self.run::<A>(block, 0);
-            let is_done = list.chunks(LOOK_LEN).any(|some| !self.add_all::<A>(some, &mut run));
-            self.keep::<A>(&run);
+            let mut registers = self.load::<A>(block, 0);
+            let is_done = list.chunks(CHECK_INTERVAL).any(|chunk| !self.blend_all::<A>(chunk, &mut registers));
+            self.store::<A>(&registers);
             return is_done;
         }
-        for some in list.chunks(LOOK_LEN) {
+        for chunk in list.chunks(CHECK_INTERVAL) {
             let mut is_open = false;
             for first_lane in (0..HALF_LEN).step_by(S::F32_LANES) {
-                let mut run = self.run::<A>(block, first_lane);
-                is_open |= self.add_all::<A>(some, &mut run);
-                self.keep::<A>(&run);
+                let mut registers = self.load::<A>(block, first_lane);
+                is_open |= self.blend_all::<A>(chunk, &mut registers);
+                self.store::<A>(&registers);
             }
             if !is_open {
                 return true;
@@ -201,7 +170,7 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
 
     /// Pixels of both halves of a block.
     #[inline(always)]
-    fn run<A: Arithmetic>(&self, block: usize, first_lane: usize) -> Run<S> {
+    fn load<A: Arithmetic>(&self, block: usize, first_lane: usize) -> BlockRegisters<S> {
         let simd = self.simd;
         let pixels = [0, 1].map(|half| {
             let pixels = self.pixels.load(simd, 2 * block + half, first_lane);
@@ -213,14 +182,14 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
             Pixels { rest: simd.abs_f32s(pixels.transmittance), transmittance, ..pixels }
         });
         let (x, y) = centers(simd, block, first_lane);
-        Run { x, y, pixels }
+        BlockRegisters { x, y, pixels }
     }
 
     /// Writes pixels back.
     #[inline(always)]
-    fn keep<A: Arithmetic>(&mut self, run: &Run<S>) {
+    fn store<A: Arithmetic>(&mut self, registers: &BlockRegisters<S>) {
         let simd = self.simd;
-        for pixels in &run.pixels {
+        for pixels in &registers.pixels {
             let mut pixels = *pixels;
             if A::STOPS_EACH_PIXEL {
                 let is_open = simd.greater_than_or_equal_f32s(pixels.transmittance, self.constants.stop);
@@ -236,32 +205,32 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
     /// Opacities are computed for two splats and both halves side by side: each is a chain of twenty operations that
     /// wait for one another, and the processor looks ahead only so far. Sixteen registers are too few for that.
     #[inline(always)]
-    fn add_all<A: Arithmetic>(&mut self, list: &[u8], run: &mut Run<S>) -> bool {
+    fn blend_all<A: Arithmetic>(&mut self, list: &[u8], registers: &mut BlockRegisters<S>) -> bool {
         let simd = self.simd;
         let (pairs, last) = if S::REGISTER_COUNT < 32 { (&[][..], list) } else { list.as_chunks::<2>() };
         for &[first, second] in pairs {
             let (first, second) = (usize::from(first) % RECORDS_LEN, usize::from(second) % RECORDS_LEN);
-            let [a, b] = self.exponents(first, run);
-            let [c, d] = self.exponents(second, run);
+            let [a, b] = self.exponents(first, registers);
+            let [c, d] = self.exponents(second, registers);
             let [a, b, c, d] = self.alphas::<A, 4>([a, b, c, d]);
-            self.add::<A>(first, a, &mut run.pixels[0]);
-            self.add::<A>(first, b, &mut run.pixels[1]);
-            self.add::<A>(second, c, &mut run.pixels[0]);
-            self.add::<A>(second, d, &mut run.pixels[1]);
+            self.add::<A>(first, a, &mut registers.pixels[0]);
+            self.add::<A>(first, b, &mut registers.pixels[1]);
+            self.add::<A>(second, c, &mut registers.pixels[0]);
+            self.add::<A>(second, d, &mut registers.pixels[1]);
         }
         for &position in last {
             let position = usize::from(position) % RECORDS_LEN;
-            let [a, b] = self.alphas::<A, 2>(self.exponents(position, run));
-            self.add::<A>(position, a, &mut run.pixels[0]);
-            self.add::<A>(position, b, &mut run.pixels[1]);
+            let [a, b] = self.alphas::<A, 2>(self.exponents(position, registers));
+            self.add::<A>(position, a, &mut registers.pixels[0]);
+            self.add::<A>(position, b, &mut registers.pixels[1]);
         }
-        let most = simd.max_f32s(run.pixels[0].transmittance, run.pixels[1].transmittance);
+        let most = simd.max_f32s(registers.pixels[0].transmittance, registers.pixels[1].transmittance);
         any::<S>(simd.greater_than_or_equal_f32s(most, self.constants.stop))
     }
 
     /// Exponents of a splat in both halves.
     #[inline(always)]
-    fn exponents(&self, position: usize, Run { x, y, .. }: &Run<S>) -> [S::f32s; 2] {
+    fn exponents(&self, position: usize, BlockRegisters { x, y, .. }: &BlockRegisters<S>) -> [S::f32s; 2] {
         let (simd, record) = (self.simd, &self.records[position]);
         let ux = simd.splat_f32s(record.ux);
         let along = simd.mul_add_f32s(simd.splat_f32s(record.uy), *y, simd.splat_f32s(record.u0));
@@ -301,13 +270,13 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         pixels.green = simd.mul_add_f32s(weight, simd.splat_f32s(green), pixels.green);
         pixels.blue = simd.mul_add_f32s(weight, simd.splat_f32s(blue), pixels.blue);
         if K::IS_ACTIVE {
-            self.sink.take(position, pixels.first, bytemuck::cast_slice(std::slice::from_ref(&weight)));
+            self.sink.add(position, pixels.first, bytemuck::cast_slice(std::slice::from_ref(&weight)));
         }
     }
 }
 
 /// Registers of pixels of the left and right half of a block, which share what depends on y alone.
-struct Run<S: Simd> {
+struct BlockRegisters<S: Simd> {
     x: [S::f32s; 2],
     y: S::f32s,
     pixels: [Pixels<S>; 2],

@@ -14,9 +14,11 @@
     reason = "what runs on an instruction set found at run time must be inlined into the function that enables it"
 )]
 
+mod batch;
 mod bin;
 mod blend;
 mod canvas;
+mod coverage;
 mod depth;
 mod error;
 mod fast;
@@ -25,7 +27,7 @@ mod frame;
 mod groups;
 mod harmonics;
 mod ids;
-mod instructions;
+mod instruction_set;
 mod kernel;
 mod lift;
 mod memory;
@@ -33,15 +35,17 @@ mod order;
 mod payload;
 mod pixels;
 mod project;
+mod record;
 mod reference;
 mod renderer;
 mod settings;
 mod sort;
-mod spans;
-pub mod spec;
+
+mod spec;
 mod splat;
 mod splats;
 mod stats;
+mod tiles;
 mod upsample;
 mod view;
 mod weights;
@@ -51,11 +55,11 @@ pub use error::RenderError;
 pub use features::FeatureMap;
 pub use frame::{Frame, Rgb8Frame};
 pub use ids::IdMap;
-pub use instructions::Instructions;
-pub use lift::Lifted;
+pub use instruction_set::InstructionSet;
+pub use lift::LiftedValues;
 pub use renderer::Renderer;
 pub use settings::{Accuracy, ColorClamp, Limits, Precision, Quality, RenderSettings, SortMode};
 pub use stats::{RenderStats, StageTimes, WorkCounts};
-pub use weights::Weight;
+pub use weights::PixelWeight;
 
 use view::View;

@@ -1,11 +1,11 @@
-use super::blend::TILE_LEN;
-use super::kernel::Record;
-use super::memory::Allowance;
+use super::memory::SharedBudget;
 use super::payload::{Payload, Sink, TileArea};
+use super::record::Record;
+use super::tiles::TILE_LEN;
 
 /// What the pixels of a picture say about each Gaussian.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Lifted {
+pub struct LiftedValues {
     /// Sum over all pixels of the Gaussian's weight times the pixel's value: `[gaussian * num_channels + channel]`.
     pub sums: Vec<f64>,
     /// Sum over all pixels of the Gaussian's weight: `[gaussian]`.
@@ -14,7 +14,7 @@ pub struct Lifted {
     pub num_channels: usize,
 }
 
-impl Lifted {
+impl LiftedValues {
     /// Nothing seen of this many Gaussians.
     pub fn new(num_gaussians: usize, num_channels: usize) -> Self {
         Self { sums: vec![0.0; num_gaussians * num_channels], weights: vec![0.0; num_gaussians], num_channels }
@@ -27,12 +27,12 @@ impl Lifted {
     }
 
     /// Adds the sums of the tiles in their order, so that the result does not depend on threads.
-    pub(super) fn add(&mut self, parts: Vec<LiftPart>) {
+    pub(super) fn add(&mut self, tiles: Vec<LiftTile>) {
         let num_channels = self.num_channels;
-        for part in parts {
-            for (entry, &gaussian_idx) in part.gaussians.iter().enumerate() {
+        for tile in tiles {
+            for (entry, &gaussian_idx) in tile.gaussians.iter().enumerate() {
                 let idx = gaussian_idx as usize;
-                let [sums @ .., weight] = &part.sums[entry * (num_channels + 1)..][..=num_channels] else { continue };
+                let [sums @ .., weight] = &tile.sums[entry * (num_channels + 1)..][..=num_channels] else { continue };
                 self.weights[idx] += f64::from(*weight);
                 for (total, sum) in self.sums[idx * num_channels..].iter_mut().zip(sums) {
                     *total += f64::from(*sum);
@@ -42,41 +42,41 @@ impl Lifted {
     }
 }
 
-/// The payload of [`Lifted`].
+/// The payload of [`LiftedValues`].
 pub(super) struct LiftPayload<'a> {
     /// `num_channels` values a pixel, row-major.
     pub(super) values: &'a [f32],
     pub(super) num_channels: usize,
     /// Bytes that the rows may take.
-    pub(super) allowance: Allowance,
+    pub(super) budget: SharedBudget,
 }
 
 /// What one tile says: a row of sums for each splat it looked at, the last of them the weight alone.
 #[derive(Default)]
-pub(super) struct LiftPart {
+pub(super) struct LiftTile {
     gaussians: Vec<u32>,
     sums: Vec<f32>,
 }
 
 /// Sums of one tile.
 pub(super) struct LiftSink<'a> {
-    allowance: &'a Allowance,
+    budget: &'a SharedBudget,
     is_full: bool,
     /// Values of the tile's pixels, the last of each 1: `[pixel * (num_channels + 1) + channel]`.
     values: Vec<f32>,
     stride: usize,
-    part: LiftPart,
+    tile: LiftTile,
     /// First row of the present records.
     first: usize,
 }
 
 impl<'a> Payload for &'a LiftPayload<'_> {
     type Sink = LiftSink<'a>;
-    type Part = LiftPart;
+    type TileOutput = LiftTile;
 
-    fn allow(&self, max_bytes: u64) {
+    fn set_limit(&self, max_bytes: u64) {
         // Lists grow by doubling.
-        self.allowance.allow(max_bytes / 2);
+        self.budget.set_limit(max_bytes / 2);
     }
 
     fn sink(&self, area: TileArea) -> LiftSink<'a> {
@@ -88,35 +88,35 @@ impl<'a> Payload for &'a LiftPayload<'_> {
                 row[self.num_channels] = 1.0;
             }
         }
-        let allowance = &self.allowance;
-        LiftSink { allowance, is_full: false, values, stride, part: LiftPart::default(), first: 0 }
+        let budget = &self.budget;
+        LiftSink { budget, is_full: false, values, stride, tile: LiftTile::default(), first: 0 }
     }
 
-    fn part(&self, sink: LiftSink<'a>, _: TileArea) -> LiftPart {
-        sink.part
+    fn finish(&self, sink: LiftSink<'a>, _: TileArea) -> LiftTile {
+        sink.tile
     }
 }
 
 impl Sink for LiftSink<'_> {
     const IS_ACTIVE: bool = true;
 
-    fn begin(&mut self, records: &[Record]) {
+    fn begin_chunk(&mut self, records: &[Record]) {
         let row_bytes = size_of::<u32>() + self.stride * size_of::<f32>();
-        self.is_full |= !self.allowance.take((records.len() * row_bytes) as u64);
+        self.is_full |= !self.budget.take((records.len() * row_bytes) as u64);
         if self.is_full {
             return;
         }
-        self.first = self.part.gaussians.len();
-        self.part.gaussians.extend(records.iter().map(|record| record.gaussian_idx));
-        self.part.sums.resize(self.part.gaussians.len() * self.stride, 0.0);
+        self.first = self.tile.gaussians.len();
+        self.tile.gaussians.extend(records.iter().map(|record| record.gaussian_idx));
+        self.tile.sums.resize(self.tile.gaussians.len() * self.stride, 0.0);
     }
 
     #[inline(always)]
-    fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
+    fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         if self.is_full {
             return;
         }
-        let sums = &mut self.part.sums[(self.first + position) * self.stride..][..self.stride];
+        let sums = &mut self.tile.sums[(self.first + position) * self.stride..][..self.stride];
         let values = self.values[first_pixel * self.stride..].chunks_exact(self.stride);
         for (values, &weight) in values.zip(weights).filter(|(_, weight)| **weight > 0.0) {
             for (sum, value) in sums.iter_mut().zip(values) {

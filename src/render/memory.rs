@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::{Limits, RenderError, View};
 
 /// What a picture is to take at most beyond the loaded scene, in bytes, where bands can help.
-const BYTES_A_GAUSSIAN: u64 = 100;
-const BYTES_A_PIXEL: u64 = 64;
+const BYTES_PER_GAUSSIAN: u64 = 100;
+const BYTES_PER_PIXEL: u64 = 64;
 
 /// What is left of the caps of one picture.
 #[derive(Debug, Clone, Copy)]
@@ -59,7 +59,7 @@ impl Budget {
 
     /// Bytes that may be taken before the picture is better rendered in bands.
     pub(super) fn bytes_before_bands(&self, num_gaussians: usize, num_pixels: u64) -> u64 {
-        let wanted = BYTES_A_GAUSSIAN * num_gaussians as u64 + BYTES_A_PIXEL * num_pixels;
+        let wanted = BYTES_PER_GAUSSIAN * num_gaussians as u64 + BYTES_PER_PIXEL * num_pixels;
         let wanted = wanted.min(self.limits.max_memory_bytes);
         // A fiftieth for small lists that nobody counts.
         (wanted - wanted / 50).saturating_sub(self.taken_bytes)
@@ -74,14 +74,14 @@ impl Budget {
 /// Memory that the sinks of a payload share while they grow on several threads. Whether it suffices does not depend on
 /// the threads: what would go beyond it is counted as well, and never allocated.
 #[derive(Debug, Default)]
-pub(super) struct Allowance {
+pub(super) struct SharedBudget {
     limit_bytes: AtomicU64,
     wanted_bytes: AtomicU64,
 }
 
-impl Allowance {
+impl SharedBudget {
     /// Sets what is allowed.
-    pub(super) fn allow(&self, limit_bytes: u64) {
+    pub(super) fn set_limit(&self, limit_bytes: u64) {
         self.limit_bytes.store(limit_bytes, Ordering::Relaxed);
     }
 

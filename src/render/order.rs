@@ -16,17 +16,17 @@ use cinesplat_scene::Gaussians;
 
 /// Least cosine between the directions of two pictures of which the second is worth trying in the order of the first;
 /// a hundredth of a degree. Farther apart, the repair costs more than the sort.
-const LEAST_COSINE: f64 = 1.0 - 1.5e-8;
+const MIN_COSINE: f64 = 1.0 - 1.5e-8;
 
 /// No place in the order before.
-const UNSEEN: u32 = u32::MAX;
+const NO_RANK: u32 = u32::MAX;
 
 /// Splats in depth order, and memory to find it in. Kept from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct DepthOrder {
     keys: Vec<DepthKey>,
     spare: Vec<DepthKey>,
-    /// Where each Gaussian stood in the last order; [`UNSEEN`] for those that did not. Empty unless the last two views had
+    /// Where each Gaussian stood in the last order; [`NO_RANK`] for those that did not. Empty unless the last two views had
     /// one direction: a camera that turns never asks.
     rank: Vec<u32>,
     /// Direction of the last view; zero where its order says nothing about others.
@@ -48,13 +48,13 @@ impl DepthOrder {
         // Distances change by amounts of their own when the camera moves.
         let is_reusable = view.reuses_order && view.sort == SortMode::Z;
         let forward = view.camera_from_world.row(2);
-        let keeps_direction = is_reusable && forward.dot(self.forward) >= LEAST_COSINE;
+        let keeps_direction = is_reusable && forward.dot(self.forward) >= MIN_COSINE;
         if !(keeps_direction && self.rank.len() == gaussians.len() && self.repair()) {
             sort::sort(&mut self.keys, &mut self.spare);
         }
         self.rank.clear();
         if keeps_direction {
-            self.remember(gaussians.len());
+            self.store_ranks(gaussians.len());
         }
         self.forward = if is_reusable { forward } else { DVec3::ZERO };
         &mut self.keys
@@ -66,8 +66,8 @@ impl DepthOrder {
     }
 
     /// Notes where every Gaussian stands.
-    fn remember(&mut self, num_gaussians: usize) {
-        self.rank.resize(num_gaussians, UNSEEN);
+    fn store_ranks(&mut self, num_gaussians: usize) {
+        self.rank.resize(num_gaussians, NO_RANK);
         for (rank, key) in (0..).zip(&self.keys) {
             if let Some(place) = self.rank.get_mut(key.gaussian_idx as usize) {
                 *place = rank;
@@ -78,7 +78,7 @@ impl DepthOrder {
 
     /// Puts the keys in order by way of the last one; false, with the keys in some order, where that takes too long.
     fn repair(&mut self) -> bool {
-        let absent = DepthKey { place: UNSEEN, ..DepthKey::default() };
+        let absent = DepthKey { place: NO_RANK, ..DepthKey::default() };
         self.spare.clear();
         self.spare.resize(self.last_len, absent);
         let mut new = Vec::new();
@@ -88,8 +88,8 @@ impl DepthOrder {
                 None => new.push(*key),
             }
         }
-        self.spare.retain(|key| key.place != UNSEEN);
-        let is_sorted = insert_all(&mut self.spare);
+        self.spare.retain(|key| key.place != NO_RANK);
+        let is_sorted = insertion_sort(&mut self.spare);
         if new.is_empty() {
             std::mem::swap(&mut self.keys, &mut self.spare);
         } else {
@@ -101,7 +101,7 @@ impl DepthOrder {
 }
 
 /// Sorts keys that are nearly sorted; false where it takes more moves than there are keys.
-fn insert_all(keys: &mut [DepthKey]) -> bool {
+fn insertion_sort(keys: &mut [DepthKey]) -> bool {
     let mut num_moves = 0;
     for idx in 1..keys.len() {
         let mut place = idx;

@@ -1,10 +1,9 @@
 //! What a picture gives besides color: anything made of the weights (opacity times transmittance) with which splats
 //! enter pixels. The blending loop is generic over it, so that color alone pays nothing.
 
-use super::bin::TILE_PX;
-use super::blend::TILE_LEN;
-use super::kernel::Record;
 use super::pixels::position_in_tile;
+use super::record::Record;
+use super::tiles::{TILE_LEN, TILE_PX};
 
 /// Takes the weights of one tile.
 pub(super) trait Sink {
@@ -12,11 +11,11 @@ pub(super) trait Sink {
     const IS_ACTIVE: bool;
 
     /// The splats that the positions of the next weights refer to.
-    fn begin(&mut self, records: &[Record]);
+    fn begin_chunk(&mut self, records: &[Record]);
 
     /// The weights of the splat at a position in the pixels from `first_pixel` of the tile on; see
     /// [`position_in_tile`]. Nearest splats come first in every pixel.
-    fn take(&mut self, position: usize, first_pixel: usize, weights: &[f32]);
+    fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]);
 }
 
 /// A tile's place in the picture.
@@ -83,16 +82,16 @@ pub(super) trait Payload: Sync {
     /// Takes a tile's weights.
     type Sink: Sink;
     /// What a tile leaves.
-    type Part: Send;
+    type TileOutput: Send;
 
     /// Hears how many bytes all sinks and parts together may take.
-    fn allow(&self, _max_bytes: u64) {}
+    fn set_limit(&self, _max_bytes: u64) {}
 
     /// An empty sink.
     fn sink(&self, area: TileArea) -> Self::Sink;
 
     /// What the sink of a finished tile has come to.
-    fn part(&self, sink: Self::Sink, area: TileArea) -> Self::Part;
+    fn finish(&self, sink: Self::Sink, area: TileArea) -> Self::TileOutput;
 }
 
 /// Color alone.
@@ -101,18 +100,18 @@ pub(super) struct ColorOnly;
 impl Sink for ColorOnly {
     const IS_ACTIVE: bool = false;
 
-    fn begin(&mut self, _: &[Record]) {}
+    fn begin_chunk(&mut self, _: &[Record]) {}
 
-    fn take(&mut self, _: usize, _: usize, _: &[f32]) {}
+    fn add(&mut self, _: usize, _: usize, _: &[f32]) {}
 }
 
 impl Payload for ColorOnly {
     type Sink = Self;
-    type Part = ();
+    type TileOutput = ();
 
     fn sink(&self, _: TileArea) -> Self {
         Self
     }
 
-    fn part(&self, _: Self, _: TileArea) {}
+    fn finish(&self, _: Self, _: TileArea) {}
 }

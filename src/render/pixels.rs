@@ -5,8 +5,7 @@
 
 use pulp::Simd;
 
-use super::kernel::Pixels;
-use super::spans::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_STRIPS};
+use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_STRIPS};
 
 /// A block's left and right half are blended side by side.
 pub(super) const HALF_WIDTH: usize = BLOCK_WIDTH / 2;
@@ -44,6 +43,20 @@ impl HalfBlock {
         }
         (rgb, rest)
     }
+}
+
+/// Pixels blended together.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pixels<S: Simd> {
+    pub(super) red: S::f32s,
+    pub(super) green: S::f32s,
+    pub(super) blue: S::f32s,
+    /// Of all splats so far; below the least allowed where a pixel takes no more.
+    pub(super) transmittance: S::f32s,
+    /// Of the splats that the pixel took; kept only where each pixel stops on its own.
+    pub(super) rest: S::f32s,
+    /// The first one's number in the tile.
+    pub(super) first: usize,
 }
 
 /// The pixels of one tile. A pixel's number is `half block * 16 + row in block * 4 + column in half block`.

@@ -7,10 +7,10 @@
 use glam::{DVec3, Vec3};
 use pulp::{Simd, WithSimd};
 
-use super::bin::{TILE_PX, TileGrid};
+use super::batch::Batch;
 use super::groups::{Group, LANES, Lane, Pack};
 use super::splat::{EXPONENT_DIVISOR, Splat, whitening_unit};
-use super::splats::Batch;
+use super::tiles::{TILE_PX, TileGrid};
 use super::{View, harmonics, reference};
 use cinesplat_scene::Gaussians;
 
@@ -18,18 +18,18 @@ use cinesplat_scene::Gaussians;
 /// alpha cut that there may be.
 const MARGIN_PX: f64 = 4.0;
 
-/// The splats of 16 Gaussians, one array an attribute. `is_seen` is 1 for those that are drawn, 0 for those that are
+/// The splats of 16 Gaussians, one array an attribute. `visibility` is 1 for those that are drawn, 0 for those that are
 /// not, NaN where `f32` did not suffice.
 #[derive(Default)]
 struct Outputs {
-    is_seen: Lane,
+    visibility: Lane,
     depth: Lane,
     mean_px: [Lane; 2],
     whiten: [Lane; 3],
     level: Lane,
     reach: Lane,
     half_px: [Lane; 2],
-    lean_px: Lane,
+    skew_px: Lane,
     /// See [`Splat::tile_rect`].
     tile_rect: [[u16; LANES]; 4],
 }
@@ -102,7 +102,7 @@ impl Projection {
     /// Whether any member of a group may reach the tiles to be rendered. Members reach as many standard deviations as
     /// their largest opacity counts; those are bounded by `max_scale` times the largest stretch of the projection along
     /// each axis, which makes every test a plane in camera space.
-    pub(super) fn may_see(&self, group: &Group) -> bool {
+    pub(super) fn may_be_visible(&self, group: &Group) -> bool {
         let view = &self.view;
         let center = view.camera_from_world * (group.center.as_dvec3() - view.center);
         let radius = f64::from(group.radius) * 1.001;
@@ -136,7 +136,7 @@ impl Projection {
             self.centers(pack, &mut outputs);
             self.shapes(pack, &mut outputs);
             for lane in 0..LANES {
-                if outputs.is_seen[lane] != 0.0
+                if outputs.visibility[lane] != 0.0
                     && let Some((splat, rect)) = self.finished(gaussians, pack, &outputs, lane)
                 {
                     batch.push(splat, rect);
@@ -145,7 +145,7 @@ impl Projection {
         }
     }
 
-    /// Depth and center in pixels; `is_seen` says whether the Gaussian is in front.
+    /// Depth and center in pixels; `visibility` says whether the Gaussian is in front.
     #[inline(always)]
     fn centers(&self, inputs: &Pack, outputs: &mut Outputs) {
         let m = self.view.camera_from_world;
@@ -165,11 +165,11 @@ impl Projection {
             // Kept for `shapes`, which turns them into slopes.
             outputs.half_px[0][lane] = right as f32;
             outputs.half_px[1][lane] = down as f32;
-            outputs.is_seen[lane] = if depth > near { 1.0 } else { 0.0 };
+            outputs.visibility[lane] = if depth > near { 1.0 } else { 0.0 };
         }
     }
 
-    /// Shape and opacity; clears `is_seen` where the splat is too faint or beside the picture.
+    /// Shape and opacity; clears `visibility` where the splat is too faint or beside the picture.
     #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, and the loop would not vectorize")]
     #[inline(always)]
     fn shapes(&self, inputs: &Pack, out: &mut Outputs) {
@@ -215,7 +215,7 @@ impl Projection {
             out.reach[lane] = reach;
             out.half_px[0][lane] = sigmas * sd_x;
             out.half_px[1][lane] = sigmas * sd_y;
-            out.lean_px[lane] = sigmas * sd_x * b / a;
+            out.skew_px[lane] = sigmas * sd_x * b / a;
 
             let (x, y) = (out.mean_px[0][lane] - 0.5, out.mean_px[1][lane] - 0.5);
             let is_near = (x + radius_px >= 1.0)
@@ -235,23 +235,23 @@ impl Projection {
             out.tile_rect[3][lane] = tile(y_px + half_y, self.rows_of_tiles);
             // Zero times anything finite is zero; what is not finite becomes NaN and is looked at in `f64`.
             let trouble = (det + ux + x + y + radius_px) * 0.0;
-            let front = out.is_seen[lane];
-            let is_seen = is_near & is_inside & is_in_grid;
-            out.is_seen[lane] = if front > 0.0 { if is_seen { 1.0 + trouble } else { trouble } } else { 0.0 };
+            let front = out.visibility[lane];
+            let is_visible = is_near & is_inside & is_in_grid;
+            out.visibility[lane] = if front > 0.0 { if is_visible { 1.0 + trouble } else { trouble } } else { 0.0 };
         }
     }
 
     /// The finished splat of one lane with its color; in `f64` where `f32` did not suffice.
     fn finished(&self, gaussians: &Gaussians, pack: &Pack, out: &Outputs, lane: usize) -> Option<(Splat, [u16; 4])> {
         let gaussian_idx = pack.gaussian_idx[lane];
-        let (splat, rect) = if out.is_seen[lane] > 0.5 {
+        let (splat, rect) = if out.visibility[lane] > 0.5 {
             let splat = Splat {
                 mean_px: [out.mean_px[0][lane], out.mean_px[1][lane]],
                 whiten: [out.whiten[0][lane], out.whiten[1][lane], out.whiten[2][lane]],
                 level: out.level[lane],
                 reach: out.reach[lane],
                 half_px: [out.half_px[0][lane], out.half_px[1][lane]],
-                lean_px: out.lean_px[lane],
+                skew_px: out.skew_px[lane],
                 depth: out.depth[lane],
                 color: [0.0; 3],
                 gaussian_idx,

@@ -7,11 +7,11 @@ use super::depth::{DepthMap, DepthPayload};
 use super::fast::{self, Buffers, Pool};
 use super::groups::Groups;
 use super::ids::{IdMap, IdPayload};
-use super::lift::{LiftPayload, Lifted};
-use super::memory::{Allowance, bytes_of};
+use super::lift::{LiftPayload, LiftedValues};
+use super::memory::{SharedBudget, bytes_of};
 use super::payload::{ColorOnly, Payload};
 use super::upsample::upsample;
-use super::weights::{Weight, WeightPayload};
+use super::weights::{PixelWeight, WeightPayload};
 use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Rgb8Frame, View, reference};
 use cinesplat_geometry::Camera;
 use cinesplat_scene::Gaussians;
@@ -128,8 +128,8 @@ impl<'scene> Renderer<'scene> {
     /// # Errors
     /// As [`Renderer::render`].
     pub fn depth(&self, camera: &Camera, settings: &RenderSettings) -> Result<DepthMap, RenderError> {
-        let (frame, parts) = self.render_parts(camera, settings, &DepthPayload)?;
-        Ok(DepthMap::assemble(frame.width, frame.height, parts))
+        let (frame, tiles) = self.render_with_payload(camera, settings, &DepthPayload)?;
+        Ok(DepthMap::assemble(frame.width, frame.height, tiles))
     }
 
     /// The object seen in each pixel: of the labels (one a Gaussian, 0 = none) that with the largest summed weight.
@@ -138,8 +138,8 @@ impl<'scene> Renderer<'scene> {
     /// As [`Renderer::render`]; [`RenderError::Length`] unless there is one label a Gaussian.
     pub fn object_ids(&self, camera: &Camera, settings: &RenderSettings, labels: &[u16]) -> Result<IdMap, RenderError> {
         check_len("labels", labels.len(), self.gaussians.len())?;
-        let (frame, parts) = self.render_parts(camera, settings, &IdPayload { labels })?;
-        Ok(IdMap::assemble(frame.width, frame.height, &parts))
+        let (frame, tiles) = self.render_with_payload(camera, settings, &IdPayload { labels })?;
+        Ok(IdMap::assemble(frame.width, frame.height, &tiles))
     }
 
     /// Carries values of pixels (`num_channels` each, row-major) back to the Gaussians seen in them and adds to
@@ -152,16 +152,16 @@ impl<'scene> Renderer<'scene> {
         camera: &Camera,
         settings: &RenderSettings,
         values: &[f32],
-        lifted: &mut Lifted,
+        lifted: &mut LiftedValues,
     ) -> Result<(), RenderError> {
         let num_channels = lifted.num_channels;
         let num_pixels = camera.intrinsics.width as usize * camera.intrinsics.height as usize;
         check_len("pixel values", values.len(), num_pixels * num_channels)?;
         check_len("lifted weights", lifted.weights.len(), self.gaussians.len())?;
-        let payload = &LiftPayload { values, num_channels, allowance: Allowance::default() };
-        let (_, parts) = self.render_parts(camera, settings, &payload)?;
-        payload.allowance.check("the rows of lifted sums")?;
-        lifted.add(parts);
+        let payload = &LiftPayload { values, num_channels, budget: SharedBudget::default() };
+        let (_, tiles) = self.render_with_payload(camera, settings, &payload)?;
+        payload.budget.check("the rows of lifted sums")?;
+        lifted.add(tiles);
         Ok(())
     }
 
@@ -170,26 +170,26 @@ impl<'scene> Renderer<'scene> {
     ///
     /// # Errors
     /// As [`Renderer::render`]; [`RenderError::Memory`] where the list would not fit under the cap.
-    pub fn weights(&self, camera: &Camera, settings: &RenderSettings) -> Result<Vec<Weight>, RenderError> {
+    pub fn weights(&self, camera: &Camera, settings: &RenderSettings) -> Result<Vec<PixelWeight>, RenderError> {
         let payload = &WeightPayload::default();
-        let (_, parts) = self.render_parts(camera, settings, &payload)?;
-        payload.allowance.check("the list of weights")?;
-        Ok(parts.into_iter().flatten().collect())
+        let (_, tiles) = self.render_with_payload(camera, settings, &payload)?;
+        payload.budget.check("the list of weights")?;
+        Ok(tiles.into_iter().flatten().collect())
     }
 
-    /// A picture at full resolution in `f32` with the parts of a payload.
-    pub(super) fn render_parts<P: Payload>(
+    /// A picture at full resolution in `f32` with the tiles of a payload.
+    pub(super) fn render_with_payload<P: Payload>(
         &self,
         camera: &Camera,
         settings: &RenderSettings,
         payload: &P,
-    ) -> Result<(Frame, Vec<P::Part>), RenderError> {
+    ) -> Result<(Frame, Vec<P::TileOutput>), RenderError> {
         let view = View::new(camera, self.gaussians.origin, settings)?;
         let mut frame = Frame::default();
         frame.resize(view.width, view.height);
-        let (stats, parts) = self.render_payload(&view, settings, Canvas::from(&mut frame), payload)?;
+        let (stats, tiles) = self.render_payload(&view, settings, Canvas::from(&mut frame), payload)?;
         frame.stats = stats;
-        Ok((frame, parts))
+        Ok((frame, tiles))
     }
 
     fn render_payload<P: Payload>(
@@ -198,7 +198,7 @@ impl<'scene> Renderer<'scene> {
         settings: &RenderSettings,
         canvas: Canvas<'_>,
         payload: &P,
-    ) -> Result<(RenderStats, Vec<P::Part>), RenderError> {
+    ) -> Result<(RenderStats, Vec<P::TileOutput>), RenderError> {
         let scene = (self.gaussians, &self.groups);
         self.buffers.with(|buffers| fast::render(scene, view, settings, buffers, (canvas, payload)))
     }

@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{Instructions, RenderError, spec};
+use super::{InstructionSet, RenderError, spec};
 use cinesplat_scene::{Scene, SplatFilter};
 
 /// How much accuracy is traded for time.
@@ -66,7 +66,20 @@ pub struct Accuracy {
 }
 
 /// Precision of the blending loop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Precision {
     /// Opacities within 2.5e-5 of themselves; each pixel stops on its own, as in the spec image.
     Exact,
@@ -179,7 +192,7 @@ pub struct RenderSettings {
     /// Caps on memory and work.
     pub limits: Limits,
     /// The widest instructions that may be used; changes no picture.
-    pub instructions: Instructions,
+    pub instructions: InstructionSet,
     /// Whether the depth order of the picture before may help, as it does while the camera keeps its direction; changes
     /// no picture.
     pub reuses_order: bool,
@@ -196,7 +209,7 @@ impl Default for RenderSettings {
             color_clamp: ColorClamp::default(),
             accuracy: None,
             limits: Limits::default(),
-            instructions: Instructions::default(),
+            instructions: InstructionSet::default(),
             reuses_order: true,
         }
     }
@@ -215,12 +228,12 @@ impl RenderSettings {
     }
 
     /// The knobs in force.
-    pub fn effective_accuracy(&self) -> Accuracy {
+    pub(super) fn effective_accuracy(&self) -> Accuracy {
         self.accuracy.unwrap_or_else(|| self.quality.accuracy())
     }
 
     /// Pixels squared added to both diagonal entries of a splat's covariance.
-    pub fn dilation_px2(&self) -> f64 {
+    pub(super) fn dilation_px2(&self) -> f64 {
         match self.filter {
             SplatFilter::Classic | SplatFilter::Mip => 0.3,
             SplatFilter::MipSmall => 0.1,
@@ -228,7 +241,7 @@ impl RenderSettings {
     }
 
     /// Whether the opacity makes up for the dilation.
-    pub fn is_compensated(&self) -> bool {
+    pub(super) fn is_compensated(&self) -> bool {
         self.filter != SplatFilter::Classic
     }
 

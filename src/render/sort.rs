@@ -8,7 +8,7 @@ const DIGIT_BITS: u32 = 9;
 const NUM_DIGITS: usize = 1 << DIGIT_BITS;
 
 /// Below this length a run is neither divided nor merged by several threads.
-const LEAST_LEN: usize = 4096;
+const MIN_PARALLEL_LEN: usize = 4096;
 
 /// A splat's depth, the Gaussian that it shows, and where it is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
@@ -38,7 +38,7 @@ pub(super) fn sort(keys: &mut [DepthKey], spare: &mut Vec<DepthKey>) {
 
 /// Sorts `keys`; the result is in `spare` if asked for, else in `keys`.
 fn sort_runs(keys: &mut [DepthKey], spare: &mut [DepthKey], num_levels: u32, into_spare: bool) {
-    if num_levels == 0 || keys.len() < LEAST_LEN {
+    if num_levels == 0 || keys.len() < MIN_PARALLEL_LEN {
         radix_sort(keys, spare);
         if into_spare {
             spare.copy_from_slice(keys);
@@ -60,7 +60,7 @@ fn sort_runs(keys: &mut [DepthKey], spare: &mut [DepthKey], num_levels: u32, int
 
 /// Merges two sorted runs, with two to the power of `num_levels` threads.
 fn merge(left: &[DepthKey], right: &[DepthKey], to: &mut [DepthKey], num_levels: u32) {
-    if num_levels == 0 || to.len() < LEAST_LEN {
+    if num_levels == 0 || to.len() < MIN_PARALLEL_LEN {
         return merge_run(left, right, to);
     }
     let middle = to.len() / 2;

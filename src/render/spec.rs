@@ -1,13 +1,13 @@
 //! The constants of the spec image: the contract "Rendering, exactly".
 
 /// Largest opacity that one splat adds to a pixel.
-pub const ALPHA_MAX: f64 = 0.99;
+pub(super) const ALPHA_MAX: f64 = 0.99;
 /// Below this opacity a splat leaves a pixel alone.
-pub const ALPHA_CUT: f64 = 1.0 / 255.0;
+pub(super) const ALPHA_CUT: f64 = 1.0 / 255.0;
 /// Blending stops before the transmittance of a pixel would fall below this.
-pub const TRANSMITTANCE_STOP: f64 = 1e-4;
+pub(super) const TRANSMITTANCE_STOP: f64 = 1e-4;
 /// The local affine approximation is taken at most this many times tan(fov / 2) away from the view axis.
-pub const TAN_FOV_CLAMP: f64 = 1.3;
+pub(super) const TAN_FOV_CLAMP: f64 = 1.3;
 
 /// Lower and upper bounds of x / z (or y / z) at which the projection is linearized, from the image's size, focal
 /// length and principal point along that axis, all in px. Symmetric where the principal point is in the middle.

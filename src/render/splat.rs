@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::bin::{TILE_PX, TileGrid};
+use super::tiles::{TILE_PX, TileGrid};
 use super::{View, reference::ExactSplat};
 
 /// The exponent that a splat stores is this many times smaller than the binary logarithm of the opacity, so that it
@@ -32,7 +32,7 @@ pub(super) struct Splat {
     /// Half the width and height of the region where it counts, pixels.
     pub(super) half_px: [f32; 2],
     /// How far below the center its rightmost point lies, pixels.
-    pub(super) lean_px: f32,
+    pub(super) skew_px: f32,
     /// Red, green, blue.
     pub(super) color: [f32; 3],
     /// Depth along the view axis.
@@ -56,7 +56,7 @@ impl Splat {
             level: level as f32,
             reach: reach as f32,
             half_px: half.as_vec2().to_array(),
-            lean_px: (exact.covariance / exact.variance_x * half.x) as f32,
+            skew_px: (exact.covariance / exact.variance_x * half.x) as f32,
             color: [0.0; 3],
             depth: exact.depth as f32,
             gaussian_idx: 0,

@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use super::batch::Batch;
 use super::groups::{GROUP_LEN, Groups};
 use super::memory::bytes_of;
 use super::project::Projection;
@@ -8,79 +9,50 @@ use super::splat::Splat;
 use cinesplat_scene::Gaussians;
 
 /// Groups whose splats are kept together.
-const GROUPS_IN_BATCH: usize = 16;
+const GROUPS_PER_BATCH: usize = 16;
 /// Room for a batch in the numbering of places.
-const BATCH_LEN: usize = GROUPS_IN_BATCH * GROUP_LEN;
+const BATCH_LEN: usize = GROUPS_PER_BATCH * GROUP_LEN;
 /// Groups that one thread looks at together.
-const GROUPS_LOOKED_AT: usize = 1024;
-
-/// Bytes that a splat takes here.
-pub(super) const BYTES_A_SPLAT: usize = size_of::<Splat>() + size_of::<Touch>();
-
-/// Where a splat goes.
-#[derive(Debug, Clone, Copy)]
-struct Touch {
-    /// Tiles that it touches: first and last column, first and last row.
-    rect: [u16; 4],
-    gaussian_idx: u32,
-    depth: f32,
-}
-
-/// The splats of one batch of groups.
-#[derive(Debug, Default)]
-pub(super) struct Batch {
-    splats: Vec<Splat>,
-    /// What sorting and binning need of each splat, apart from the rest because they go through it in no order.
-    touches: Vec<Touch>,
-}
+const GROUPS_PER_JOB: usize = 1024;
 
 /// The splats of a picture, in no order that matters; a splat's place is a number that finds it.
 #[derive(Debug, Default)]
 pub(super) struct Splats {
-    /// Groups that may be seen.
-    seen: Vec<u32>,
+    /// Groups that may be visible.
+    visible_groups: Vec<u32>,
     batches: Vec<Batch>,
     num_batches: usize,
 }
 
-impl Batch {
-    /// Adds a splat and the tiles that it touches; see [`Splat::tile_rect`].
-    #[inline(always)]
-    pub(super) fn push(&mut self, splat: Splat, rect: [u16; 4]) {
-        self.splats.push(splat);
-        self.touches.push(Touch { rect, gaussian_idx: splat.gaussian_idx, depth: splat.depth });
-    }
-
-    /// The splats of some groups in place of those before.
-    fn fill(&mut self, seen: &[u32], projection: &Projection, (gaussians, groups): (&Gaussians, &Groups)) {
-        self.splats.clear();
-        self.touches.clear();
-        for &group in seen {
-            // No more than that: what doubles in good time is half empty on average.
-            self.splats.reserve_exact(GROUP_LEN);
-            self.touches.reserve_exact(GROUP_LEN);
-            projection.project_group(gaussians, groups.packs_of(group as usize), self);
-        }
+/// Projects some groups into a batch, in place of its former splats.
+fn fill_batch(batch: &mut Batch, visible: &[u32], projection: &Projection, (gaussians, groups): (&Gaussians, &Groups)) {
+    batch.splats.clear();
+    batch.hot_fields.clear();
+    for &group in visible {
+        // Exactly one group more: a vector that doubles is half empty on average.
+        batch.splats.reserve_exact(GROUP_LEN);
+        batch.hot_fields.reserve_exact(GROUP_LEN);
+        projection.project_group(gaussians, groups.packs_of(group as usize), batch);
     }
 }
 
 impl Splats {
-    /// Finds the groups that may be seen; returns how many Gaussians they hold.
-    pub(super) fn look(&mut self, groups: &Groups, projection: &Projection) -> u64 {
-        let all = (0..groups.bounds.len() as u32).into_par_iter().with_min_len(GROUPS_LOOKED_AT);
-        self.seen.clear();
-        self.seen.par_extend(all.filter(|&group| projection.may_see(&groups.bounds[group as usize])));
-        self.seen.iter().map(|&group| groups.len_of(group as usize) as u64).sum()
+    /// Finds the groups that may be visible; returns how many Gaussians they hold.
+    pub(super) fn find_visible_groups(&mut self, groups: &Groups, projection: &Projection) -> u64 {
+        let all = (0..groups.bounds.len() as u32).into_par_iter().with_min_len(GROUPS_PER_JOB);
+        self.visible_groups.clear();
+        self.visible_groups.par_extend(all.filter(|&group| projection.may_be_visible(&groups.bounds[group as usize])));
+        self.visible_groups.iter().map(|&group| groups.len_of(group as usize) as u64).sum()
     }
 
     /// Projects all groups found.
     pub(super) fn fill(&mut self, gaussians: &Gaussians, groups: &Groups, projection: &Projection) {
-        self.num_batches = self.seen.len().div_ceil(GROUPS_IN_BATCH);
+        self.num_batches = self.visible_groups.len().div_ceil(GROUPS_PER_BATCH);
         if self.batches.len() < self.num_batches {
             self.batches.resize_with(self.num_batches, Batch::default);
         }
-        let work = self.batches.par_iter_mut().zip(self.seen.par_chunks(GROUPS_IN_BATCH));
-        work.for_each(|(batch, seen)| batch.fill(seen, projection, (gaussians, groups)));
+        let work = self.batches.par_iter_mut().zip(self.visible_groups.par_chunks(GROUPS_PER_BATCH));
+        work.for_each(|(batch, visible)| fill_batch(batch, visible, projection, (gaussians, groups)));
     }
 
     fn batches(&self) -> &[Batch] {
@@ -94,8 +66,8 @@ impl Splats {
 
     /// Bytes that they hold on to.
     pub(super) fn bytes(&self) -> u64 {
-        self.batches.iter().map(|batch| bytes_of(&batch.splats) + bytes_of(&batch.touches)).sum::<u64>()
-            + bytes_of(&self.seen)
+        self.batches.iter().map(|batch| bytes_of(&batch.splats) + bytes_of(&batch.hot_fields)).sum::<u64>()
+            + bytes_of(&self.visible_groups)
     }
 
     /// The splat at a place.
@@ -109,7 +81,7 @@ impl Splats {
     #[inline(always)]
     pub(super) fn rect(&self, place: u32) -> [u16; 4] {
         let place = place as usize;
-        self.batches[place / BATCH_LEN].touches[place % BATCH_LEN].rect
+        self.batches[place / BATCH_LEN].hot_fields[place % BATCH_LEN].rect
     }
 
     /// Writes the depth and place of every splat over `keys`.
@@ -121,8 +93,8 @@ impl Splats {
             work.push((first, batch, left.split_off_mut(..batch.splats.len()).unwrap_or_default()));
         }
         work.into_par_iter().with_min_len(4).for_each(|(first, batch, keys): (u32, &Batch, &mut [DepthKey])| {
-            for ((place, key), touch) in (first..).zip(keys).zip(&batch.touches) {
-                *key = DepthKey { depth_bits: touch.depth.to_bits(), gaussian_idx: touch.gaussian_idx, place };
+            for ((place, key), hot) in (first..).zip(keys).zip(&batch.hot_fields) {
+                *key = DepthKey { depth_bits: hot.depth.to_bits(), gaussian_idx: hot.gaussian_idx, place };
             }
         });
     }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::canvas::Canvas;
 use super::frame::level;
-use super::{Frame, Instructions};
+use super::{Frame, InstructionSet};
 
 /// Source pixels that a pixel is made of along one axis.
 const NUM_TAPS: usize = 4;
@@ -17,11 +17,11 @@ const PADDING: usize = 2;
 /// Cubic Convolution Interpolation for Digital Image Processing, 1981, a = -1/2), borders repeated. Overshoot is cut
 /// off: color below 0, transmittance outside 0..=1. On pictures of splats a decibel or two nearer than bilinear, for
 /// little time.
-pub(super) fn upsample(from: &Frame, canvas: Canvas<'_>, [width, height]: [u32; 2], instructions: Instructions) {
+pub(super) fn upsample(from: &Frame, canvas: Canvas<'_>, [width, height]: [u32; 2], instructions: InstructionSet) {
     let (columns, rows) = (taps(from.width, width), taps(from.height, height));
     let rows_and_targets = rows.par_iter().zip(canvas.into_parts(width as usize));
     rows_and_targets.for_each_init(
-        || Mixed::of_width(from.width as usize),
+        || MixedRow::of_width(from.width as usize),
         |mixed, (row, target)| {
             instructions.dispatch(EnlargedRow { from, row, columns: &columns, mixed, target });
         },
@@ -33,13 +33,13 @@ struct EnlargedRow<'a> {
     from: &'a Frame,
     row: &'a Taps,
     columns: &'a [Taps],
-    mixed: &'a mut Mixed,
+    mixed: &'a mut MixedRow,
     /// Where it goes.
     target: Canvas<'a>,
 }
 
 /// The small picture's columns, mixed at the height of a row.
-struct Mixed {
+struct MixedRow {
     /// `[column * 3 + channel]`.
     rgb: Vec<f32>,
     transmittance: Vec<f32>,
@@ -73,7 +73,7 @@ impl WithSimd for EnlargedRow<'_> {
     }
 }
 
-impl Mixed {
+impl MixedRow {
     fn of_width(width: usize) -> Self {
         let (rgb, transmittance) = (vec![0.0; width * 3], vec![0.0; width]);
         Self { rgb, transmittance, pixels: vec![Vec4::ZERO; width + 2 * PADDING] }

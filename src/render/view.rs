@@ -1,6 +1,6 @@
 use glam::{DMat3, DVec3};
 
-use super::{Instructions, RenderError, RenderSettings, SortMode, spec};
+use super::{InstructionSet, RenderError, RenderSettings, SortMode, spec};
 use cinesplat_geometry::Camera;
 
 /// A camera and the settings as the projection needs them, all `f64`.
@@ -37,7 +37,7 @@ pub(super) struct View {
     /// The largest value that a Gaussian's color may have.
     pub(super) max_color: f32,
     /// The widest instructions that may be used.
-    pub(super) instructions: Instructions,
+    pub(super) instructions: InstructionSet,
     /// Whether the depth order of the picture before may help.
     pub(super) reuses_order: bool,
 }

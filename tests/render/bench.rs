@@ -2,7 +2,8 @@
 
 use cinesplat::render::{Frame, RenderSettings, Renderer};
 use cinesplat_bench::{
-    Axis, BenchRow, BenchSettings, Kind, Output, difference, measure, pareto_svg, scaling, to_csv, to_table, variants,
+    AccuracyAxis, BenchPlan, BenchRow, KnobKind, RenderOutput, difference, measure, pareto_svg, scaling, to_csv,
+    to_table, variants,
 };
 use strum::VariantArray;
 
@@ -11,10 +12,10 @@ use super::scenes::{camera, crowd};
 fn rows() -> Vec<BenchRow> {
     let scene = crowd(2_000, 20);
     let variants = variants(&RenderSettings::default());
-    let settings = BenchSettings { scene: "crowd".into(), variants, num_repeats: 2 };
+    let plan = BenchPlan { scene: "crowd".into(), variants, num_repeats: 2 };
     let cameras = [("c0".into(), camera(96, 54)), ("c1".into(), camera(96, 54))];
-    let rows = measure(&Renderer::new(&scene), &cameras, &settings, &mut |_| ()).unwrap();
-    assert_eq!(rows.len(), settings.num_rows(2));
+    let rows = measure(&Renderer::new(&scene), &cameras, &plan, &mut |_| ()).unwrap();
+    assert_eq!(rows.len(), plan.num_rows(2));
     rows
 }
 
@@ -25,7 +26,7 @@ fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
     assert!(db("final") > 60.0 && db("final") > db("standard") && db("standard") > db("draft"));
     assert!(db("1/512") > db("1/64") && db("1/64") > db("1/32"));
     assert!(db("0.001") > db("0.03") && db("0.90") > db("0.33"));
-    let free: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == Kind::Free).collect();
+    let free: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == KnobKind::Free).collect();
     assert!(free.len() >= 6);
     for row in free {
         assert_eq!(row.difference.psnr_db, f64::INFINITY, "{}", row.variant);
@@ -39,11 +40,11 @@ fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
     assert!(table.contains("| crowd | 96x54 | draft |") && table.contains("13 of 13 pictures equal"), "{table}");
     // A slow variant is measured on the first camera alone.
     assert_eq!(rows.iter().filter(|row| row.variant == "scalar").count(), 1);
-    let outputs: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == Kind::Output).collect();
-    assert_eq!(outputs.len(), 2 * Output::VARIANTS.len());
+    let outputs: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == KnobKind::Output).collect();
+    assert_eq!(outputs.len(), 2 * RenderOutput::VARIANTS.len());
     assert!(outputs.iter().all(|row| row.times_color.is_some_and(|ratio| ratio > 0.0 && ratio.is_finite())));
     assert!(outputs.iter().all(|row| row.difference.psnr_db.is_nan()) && !csv.contains("NaN"));
-    for &axis in Axis::VARIANTS {
+    for &axis in AccuracyAxis::VARIANTS {
         let svg = pareto_svg(&rows, [96, 54], axis);
         assert!(svg.starts_with("<svg") && svg.contains("crowd") && !svg.contains("NaN") && !svg.contains("inf"));
     }
@@ -51,7 +52,7 @@ fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
 
 #[test]
 fn a_preset_that_another_beats_is_named() {
-    let mut rows: Vec<BenchRow> = rows().into_iter().filter(|row| row.kind == Kind::Preset).collect();
+    let mut rows: Vec<BenchRow> = rows().into_iter().filter(|row| row.kind == KnobKind::Preset).collect();
     let at = |rows: &mut Vec<BenchRow>, variant: &str, ms: u64| {
         let of_variant = rows.iter_mut().filter(|row| row.variant == variant);
         of_variant.for_each(|row| row.timed.median = std::time::Duration::from_millis(ms));
@@ -107,7 +108,7 @@ fn similarity_is_that_of_a_sum_over_the_window_written_out() {
 fn scaling_counts_what_it_renders() {
     let base = crowd(500, 21);
     let settings = RenderSettings { near: 0.01, ..RenderSettings::default() };
-    let case = |growth, value| scaling::measure(scaling::Case { growth, value }, &base, &settings, 1).unwrap();
+    let case = |growth, value| scaling::measure(scaling::ScalingCase { growth, value }, &base, &settings, 1).unwrap();
     let few = case(scaling::Growth::Gaussians, 1_000);
     let many = case(scaling::Growth::Gaussians, 8_000);
     assert_eq!((few.num_gaussians, many.num_gaussians), (1_000, 8_000));

@@ -2,7 +2,7 @@
 
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::objects;
-use cinesplat::render::{Frame, Lifted, Limits, Quality, RenderSettings, Renderer};
+use cinesplat::render::{Frame, LiftedValues, Limits, Quality, RenderSettings, Renderer};
 use cinesplat::scene::{self, Gaussians, LoadOptions};
 use glam::{DVec3, Quat, Vec3};
 
@@ -71,7 +71,7 @@ fn lifting_a_picture_of_ids_gives_each_gaussian_its_own() {
     let view = camera(200, 100);
     let ids = renderer.object_ids(&view, &SETTINGS(), &[3, 8]).unwrap();
     let mask: Vec<f32> = ids.ids.iter().map(|&id| f32::from(u8::from(id == 8))).collect();
-    let mut lifted = Lifted::new(2, 1);
+    let mut lifted = LiftedValues::new(2, 1);
     renderer.lift(&view, &SETTINGS(), &mask, &mut lifted).unwrap();
     assert!(lifted.mean(0, 0).unwrap() < 0.02, "{lifted:?}");
     assert!(lifted.mean(1, 0).unwrap() > 0.98, "{lifted:?}");
@@ -82,10 +82,10 @@ fn lifted_weights_are_the_sums_of_the_listed_ones() {
     let scene = crowd(2_000, 13);
     let renderer = Renderer::new(&scene);
     let view = camera(140, 80);
-    let mut lifted = Lifted::new(scene.len(), 2);
+    let mut lifted = LiftedValues::new(scene.len(), 2);
     let values: Vec<f32> = (0..140 * 80 * 2).map(|position| (position % 17) as f32).collect();
     renderer.lift(&view, &SETTINGS(), &values, &mut lifted).unwrap();
-    let mut expected = Lifted::new(scene.len(), 2);
+    let mut expected = LiftedValues::new(scene.len(), 2);
     for weight in renderer.weights(&view, &SETTINGS()).unwrap() {
         let (gaussian, pixel) = (weight.gaussian_idx as usize, weight.pixel_idx as usize);
         expected.weights[gaussian] += f64::from(weight.weight);
@@ -103,7 +103,7 @@ fn labels_and_values_of_the_wrong_length_are_refused() {
     let renderer = Renderer::new(&scene);
     let wrong = renderer.object_ids(&camera(20, 10), &SETTINGS(), &[1]).unwrap_err();
     assert_eq!((wrong.code(), wrong.exit_code()), ("RENDER-LENGTH", 65));
-    assert!(renderer.lift(&camera(20, 10), &SETTINGS(), &[0.0; 3], &mut Lifted::new(2, 1)).is_err());
+    assert!(renderer.lift(&camera(20, 10), &SETTINGS(), &[0.0; 3], &mut LiftedValues::new(2, 1)).is_err());
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn a_mask_of_the_guitar_lifted_from_24_views_is_its_label() {
     let settings = RenderSettings { near: 0.02, ..RenderSettings::default() };
     // The middle of the guitar's box, from the file beside the scene.
     let views = ring(DVec3::new(0.7708, 0.75, -0.376), 1.35, 24);
-    let mut lifted = Lifted::new(gaussians.len(), 1);
+    let mut lifted = LiftedValues::new(gaussians.len(), 1);
     for view in &views {
         let ids = renderer.object_ids(view, &settings, &labels).unwrap();
         let mask: Vec<f32> = ids.ids.iter().map(|&id| f32::from(u8::from(id == 1))).collect();

@@ -1,6 +1,6 @@
 //! Equal results however the work is cut: threads, order of the file, reused memory.
 
-use cinesplat::render::{Accuracy, Frame, Instructions, Quality, RenderSettings, Renderer};
+use cinesplat::render::{Accuracy, Frame, InstructionSet, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use glam::DVec3;
 use strum::VariantArray;
@@ -37,8 +37,8 @@ fn every_instruction_set_gives_the_same_picture_to_the_bit() {
     let all = [Quality::Draft, Quality::Standard, Quality::Final].map(|quality| (quality, None));
     for (quality, accuracy) in all.into_iter().chain([(Quality::Final, Some(half))]) {
         let settings = |instructions| RenderSettings { quality, accuracy, instructions, ..RenderSettings::default() };
-        let scalar = on_threads(2, &scene, &settings(Instructions::Scalar));
-        for wider in [Instructions::Avx2, Instructions::Widest] {
+        let scalar = on_threads(2, &scene, &settings(InstructionSet::Scalar));
+        for wider in [InstructionSet::Avx2, InstructionSet::Widest] {
             let wide = on_threads(2, &scene, &settings(wider));
             assert!(scalar.rgb == wide.rgb && scalar.transmittance == wide.transmittance, "{quality:?} {wider:?}");
         }

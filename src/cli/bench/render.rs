@@ -9,7 +9,7 @@ use super::{console, outputs};
 use crate::cli::progress::FrameProgress;
 use cinesplat::export::cameras_json::StillCameras;
 use cinesplat::render::{Quality, RenderSettings, Renderer};
-use cinesplat_bench::{Axis, BenchRow, BenchSettings};
+use cinesplat_bench::{AccuracyAxis, BenchPlan, BenchRow};
 
 /// Measures scenes at every preset, every knob alone and every output.
 #[derive(Debug, clap::Args)]
@@ -43,7 +43,7 @@ pub(in super::super) struct Args {
 impl Args {
     pub(in super::super) fn run(self) -> Result<(), Failure> {
         let scenes = self.scenes.read_cameras()?;
-        let plots: Vec<String> = Axis::VARIANTS.iter().map(|axis| plot_name(*axis)).collect();
+        let plots: Vec<String> = AccuracyAxis::VARIANTS.iter().map(|axis| plot_name(*axis)).collect();
         let names: Vec<&str> =
             ["render.csv", "render.md"].into_iter().chain(plots.iter().map(String::as_str)).collect();
         self.folder.prepare(&names)?;
@@ -69,23 +69,23 @@ impl Args {
         cameras.truncate(usize::from(self.max_cameras));
         let renderer = Renderer::new(&scene.gaussians);
         for (size_idx, size) in self.sizes.iter().enumerate() {
-            let settings = self.bench_settings(scene_name(path), size_idx, &base);
+            let plan = self.plan(scene_name(path), size_idx, &base);
             let resized: Vec<_> = cameras.iter().map(|(name, camera)| (name.clone(), resized(camera, *size))).collect();
-            cinesplat_bench::measure(&renderer, &resized, &settings, &mut |row| log.add(row))?;
+            cinesplat_bench::measure(&renderer, &resized, &plan, &mut |row| log.add(row))?;
         }
         Ok(())
     }
 
     /// What is measured at one of the sizes.
-    fn bench_settings(&self, scene: String, size_idx: usize, base: &RenderSettings) -> BenchSettings {
+    fn plan(&self, scene: String, size_idx: usize, base: &RenderSettings) -> BenchPlan {
         let variants = if size_idx == 0 { cinesplat_bench::variants(base) } else { cinesplat_bench::presets(base) };
-        BenchSettings { scene, variants, num_repeats: usize::from(self.runs) }
+        BenchPlan { scene, variants, num_repeats: usize::from(self.runs) }
     }
 
     /// Rows of a scene with these cameras.
     fn num_rows(&self, file: Option<&StillCameras>) -> usize {
         let num_cameras = file.map_or(NUM_OWN_VIEWS, |file| file.cameras.len()).min(usize::from(self.max_cameras));
-        let at = |size_idx| self.bench_settings(String::new(), size_idx, &RenderSettings::default());
+        let at = |size_idx| self.plan(String::new(), size_idx, &RenderSettings::default());
         (0..self.sizes.len()).map(|size_idx| at(size_idx).num_rows(num_cameras)).sum()
     }
 }
@@ -111,13 +111,13 @@ fn write_all(folder: &BenchFolder, rows: &[BenchRow]) -> Result<(), Failure> {
     folder.write("render.csv", &cinesplat_bench::to_csv(rows))?;
     folder.write("render.md", &cinesplat_bench::to_table(rows))?;
     let Some(size_px) = rows.first().map(|row| row.size_px) else { return Ok(()) };
-    for &axis in Axis::VARIANTS {
+    for &axis in AccuracyAxis::VARIANTS {
         folder.write(&plot_name(axis), &cinesplat_bench::pareto_svg(rows, size_px, axis))?;
     }
     console::note(&format!("render.csv, render.md and plots: {} rows", rows.len()));
     Ok(())
 }
 
-fn plot_name(axis: Axis) -> String {
+fn plot_name(axis: AccuracyAxis) -> String {
     format!("render.{axis}.svg")
 }

@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::{console, outputs};
 use cinesplat::render::Quality;
-use cinesplat_bench::scaling::{self, Case, Growth};
+use cinesplat_bench::scaling::{self, Growth, ScalingCase};
 
 /// Measures how time and memory grow with Gaussians, pixels and layers.
 #[derive(Debug, clap::Args)]
@@ -28,7 +28,7 @@ pub(in super::super) struct Args {
     folder: BenchFolder,
     /// One case alone, in this process
     #[arg(long, value_name = "GROWTH:VALUE", hide = true, value_parser = parse_case)]
-    case: Option<Case>,
+    case: Option<ScalingCase>,
     #[command(flatten)]
     picture: PictureArgs,
 }
@@ -52,7 +52,7 @@ impl Args {
         self.folder.write("scaling.svg", &scaling::scaling_svg(&csv))
     }
 
-    fn measure(&self, case: Case) -> Result<(), Failure> {
+    fn measure(&self, case: ScalingCase) -> Result<(), Failure> {
         self.picture.bound_threads()?;
         let scene = self.scene.open()?.scene;
         let settings = self.picture.settings(&scene, Quality::Standard, None, None);
@@ -75,10 +75,10 @@ fn in_own_process(growth: Growth, value: u64) -> Result<String, Failure> {
     Err(Failure::new("BENCH-CASE", format!("{} {value}: {said}", growth.as_ref()), "see its error", exit_code))
 }
 
-fn parse_case(text: &str) -> Result<Case, String> {
+fn parse_case(text: &str) -> Result<ScalingCase, String> {
     let read = text.split_once(':').and_then(|(name, value)| {
         let growth = name.parse().ok()?;
-        Some(Case { growth, value: value.parse().ok()? })
+        Some(ScalingCase { growth, value: value.parse().ok()? })
     });
     read.ok_or_else(|| "expected GROWTH:VALUE".to_owned())
 }

@@ -1,24 +1,10 @@
 //! Which 8 x 4 pixel blocks of a tile the ellipses of a few hundred splats touch, found for many splats at once.
 
-use super::bin::TILE_PX;
-use super::kernel::RECORDS_LEN;
+use super::record::RECORDS_LEN;
 use super::splat::Splat;
+use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_BLOCKS, NUM_STRIPS, StripMasks};
 
-/// Width of a block in pixels.
-pub(super) const BLOCK_WIDTH: usize = 8;
-/// Height of a block in pixels.
-pub(super) const BLOCK_HEIGHT: usize = 4;
-/// Blocks side by side in a tile; as many as there are bits in a byte.
-pub(super) const BLOCKS_ACROSS: usize = TILE_PX / BLOCK_WIDTH;
-/// Strips of blocks on top of each other in a tile.
-pub(super) const NUM_STRIPS: usize = TILE_PX / BLOCK_HEIGHT;
-/// Blocks of a tile, numbered row by row.
-pub(super) const NUM_BLOCKS: usize = BLOCKS_ACROSS * NUM_STRIPS;
-
-/// One bit a block: `[strip]` counts block rows from the top, bit 0 is the leftmost block.
-pub(super) type StripMasks = [u8; NUM_STRIPS];
-
-const BLOCKS_A_PX: f32 = 1.0 / BLOCK_WIDTH as f32;
+const BLOCKS_PER_PX: f32 = 1.0 / BLOCK_WIDTH as f32;
 
 /// Slack in pixels for rounding; a block too many costs a little time, one too few a wrong pixel.
 const SLACK_PX: f32 = 0.02;
@@ -48,18 +34,18 @@ struct Regions {
     vy: Lane,
     reach: Lane,
     half_y: Lane,
-    lean: Lane,
+    skew: Lane,
 }
 
 /// For every block of a tile, the splats that touch it.
 #[derive(Debug)]
-pub(super) struct Touches {
+pub(super) struct Coverage {
     regions: Box<[Regions; RECORDS_LEN / LANES]>,
     /// `[block][position / 8]`, bit `position % 8`.
     masks: Box<[[u8; NUM_WORDS]; NUM_BLOCKS]>,
 }
 
-impl Default for Touches {
+impl Default for Coverage {
     fn default() -> Self {
         Self {
             regions: Box::new([Regions::default(); RECORDS_LEN / LANES]),
@@ -68,25 +54,25 @@ impl Default for Touches {
     }
 }
 
-impl Touches {
+impl Coverage {
     /// Bytes that it takes.
     pub(super) const BYTES: usize = (RECORDS_LEN / LANES) * size_of::<Regions>() + NUM_BLOCKS * NUM_WORDS;
 
     /// Notes the region of a splat.
     #[inline(always)]
-    pub(super) fn enter(&mut self, position: usize, splat: &Splat, corner_px: [f32; 2]) {
+    pub(super) fn set_splat(&mut self, position: usize, splat: &Splat, corner_px: [f32; 2]) {
         let to = &mut self.regions[position / LANES % (RECORDS_LEN / LANES)];
         let lane = position % LANES;
         let [ux, uy, vy] = splat.whiten;
         (to.left[lane], to.y[lane]) = (splat.mean_px[0] - corner_px[0], splat.mean_px[1] - corner_px[1]);
         (to.shift[lane], to.width[lane]) = (uy, ux);
         (to.vy[lane], to.reach[lane]) = (vy, splat.reach);
-        (to.half_y[lane], to.lean[lane]) = (splat.half_px[1] + SLACK_PX, splat.lean_px);
+        (to.half_y[lane], to.skew[lane]) = (splat.half_px[1] + SLACK_PX, splat.skew_px);
     }
 
     /// Finds the blocks that the first splats touch, in strips that are not wholly done.
     #[inline(always)]
-    pub(super) fn find(&mut self, num_splats: usize, done: &StripMasks) {
+    pub(super) fn compute(&mut self, num_splats: usize, done: &StripMasks) {
         let num_groups = num_splats.div_ceil(LANES).min(RECORDS_LEN / LANES);
         if let Some(last) = self.regions[..num_groups].last_mut() {
             // Nothing is that low: the lanes behind the last splat touch no block.
@@ -95,13 +81,13 @@ impl Touches {
         }
         for group in &mut self.regions[..num_groups] {
             for lane in 0..LANES {
-                let (width, x) = (1.0 / group.width[lane], group.left[lane] * BLOCKS_A_PX);
+                let (width, x) = (1.0 / group.width[lane], group.left[lane] * BLOCKS_PER_PX);
                 (group.shift[lane], group.width[lane]) =
-                    (-group.shift[lane] * width * BLOCKS_A_PX, width * BLOCKS_A_PX);
+                    (-group.shift[lane] * width * BLOCKS_PER_PX, width * BLOCKS_PER_PX);
                 // Pixel i has its center at i + 0.5. The first block with one not before `left` is ceil((left - 7.5) / 8),
                 // that behind the last with one not after `right` is ceil((right - 0.5) / 8). The half is for rounding.
-                group.left[lane] = x - (BLOCK_WIDTH as f32 - 0.5 + SLACK_PX) * BLOCKS_A_PX + 0.5;
-                group.right[lane] = x - (0.5 - SLACK_PX) * BLOCKS_A_PX + 0.5;
+                group.left[lane] = x - (BLOCK_WIDTH as f32 - 0.5 + SLACK_PX) * BLOCKS_PER_PX + 0.5;
+                group.right[lane] = x - (0.5 - SLACK_PX) * BLOCKS_PER_PX + 0.5;
             }
         }
         for (strip, blocks) in self.masks.as_chunks_mut::<BLOCKS_ACROSS>().0.iter_mut().enumerate() {
@@ -110,7 +96,7 @@ impl Touches {
             }
             let mut masks = [[0_u8; LANES]; RECORDS_LEN / LANES];
             for (masks, group) in masks.iter_mut().zip(&self.regions[..num_groups]) {
-                *masks = touched_blocks(group, strip);
+                *masks = covered_blocks(group, strip);
             }
             by_block(&masks, blocks);
         }
@@ -118,7 +104,7 @@ impl Touches {
 
     /// Writes the positions of the splats that touch a block to the front of `list`, in order; returns their number.
     #[inline(always)]
-    pub(super) fn list(&self, block: usize, list: &mut List) -> usize {
+    pub(super) fn list(&self, block: usize, list: &mut PositionList) -> usize {
         let masks = &self.masks[block % NUM_BLOCKS];
         if masks.as_chunks::<8>().0.iter().all(|word| *word == [0; 8]) {
             return 0;
@@ -141,11 +127,11 @@ impl Touches {
 /// Room for all positions, a power of two.
 const LIST_LEN: usize = (RECORDS_LEN + 1).next_power_of_two();
 
-/// Positions of splats, with room behind for what [`Touches::list`] writes too much.
+/// Positions of splats, with room behind for what [`Coverage::list`] writes too much.
 #[derive(Debug)]
-pub(super) struct List(pub(super) [u8; LIST_LEN + 8]);
+pub(super) struct PositionList(pub(super) [u8; LIST_LEN + 8]);
 
-impl Default for List {
+impl Default for PositionList {
     fn default() -> Self {
         Self([0; LIST_LEN + 8])
     }
@@ -172,23 +158,23 @@ const fn set_bits() -> [u64; 256] {
 /// For each splat the blocks of one strip that hold a pixel center inside the region where it counts, or a few more.
 ///
 /// At dy below the center the region reaches from `shift dy - w` to `shift dy + w`, w = sqrt(reach - (vy dy)^2) / ux.
-/// Both ends are monotone on either side of the outermost point, which lies `lean` below (right end) or above (left
+/// Both ends are monotone on either side of the outermost point, which lies `skew` below (right end) or above (left
 /// end) the center, so within a strip the extreme is at the dy nearest to that point.
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, and the loop would not vectorize")]
 #[inline(always)]
-fn touched_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
+fn covered_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
     let mut masks = [0; LANES];
     for (lane, mask) in masks.iter_mut().enumerate() {
         let top = (strip * BLOCK_HEIGHT) as f32 + 0.5 - of.y[lane];
         let bottom = top + (BLOCK_HEIGHT - 1) as f32;
-        let (dy_right, dy_left) = (of.lean[lane].max(top).min(bottom), (-of.lean[lane]).max(top).min(bottom));
+        let (dy_right, dy_left) = (of.skew[lane].max(top).min(bottom), (-of.skew[lane]).max(top).min(bottom));
         let (v_right, v_left) = (of.vy[lane] * dy_right, of.vy[lane] * dy_left);
         let half_width = |v: f32| root(of.reach[lane] - v * v) * of.width[lane];
         let first = of.left[lane] + of.shift[lane] * dy_left - half_width(v_left);
         let end = of.right[lane] + of.shift[lane] * dy_right + half_width(v_right);
-        let is_touched = (top <= of.half_y[lane]) & (bottom >= -of.half_y[lane]);
+        let is_covered = (top <= of.half_y[lane]) & (bottom >= -of.half_y[lane]);
         let bits = (0xff_u32 << nearest(first)) & !(0xff_u32 << nearest(end));
-        *mask = if is_touched { bits as u8 } else { 0 };
+        *mask = if is_covered { bits as u8 } else { 0 };
     }
     masks
 }

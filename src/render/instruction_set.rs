@@ -1,8 +1,22 @@
 use pulp::{Arch, Simd, WithSimd};
 
 /// The widest instructions that may be used. Pictures are the same to the bit for all of them; time is not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Instructions {
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum InstructionSet {
     /// The widest that this machine has: AVX-512, AVX2, NEON.
     #[default]
     Widest,
@@ -12,7 +26,7 @@ pub enum Instructions {
     Scalar,
 }
 
-impl Instructions {
+impl InstructionSet {
     /// Runs `work` with these instructions.
     #[inline]
     pub(super) fn dispatch<W: WithSimd>(self, work: W) -> W::Output {
