@@ -39,10 +39,10 @@ fn as_json(file: &str, info: &SceneInfo) -> Value {
         "bounds": { "min": bounds.min.to_array(), "max": bounds.max.to_array() },
         "core": { "min": bounds.core_min.to_array(), "max": bounds.core_max.to_array() },
         "size": info.size,
-        "filter": info.filter,
+        "filter": info.filter.as_ref(),
         "filter_is_stated": info.filter_is_stated,
         "up": info.up,
-        "up_source": info.up_source,
+        "up_source": info.up_source.to_string(),
         "num_objects": info.num_objects,
         "notes": info.notes,
     })

@@ -1,4 +1,6 @@
-use super::{Bounds, Scene, SplatFilter, UpSource};
+use super::bounds::Bounds;
+use super::filter::SplatFilter;
+use super::scene::{Scene, UpSource};
 
 /// What `info` prints about a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,14 +19,14 @@ pub struct SceneInfo {
     pub bounds: Bounds,
     /// Scene size: diagonal of the core, scene units.
     pub size: f64,
-    /// `classic`, `mip` or `mip-small`: what `auto` picks.
-    pub filter: &'static str,
+    /// Filter that `auto` picks.
+    pub filter: SplatFilter,
     /// Whether the file itself asks for that filter.
     pub filter_is_stated: bool,
     /// World up, unit.
     pub up: [f64; 3],
-    /// Where it comes from, in words.
-    pub up_source: String,
+    /// SourceFile of the up direction.
+    pub up_source: UpSource,
     /// Object ids in the file, 0 not counted.
     pub num_objects: usize,
     /// What was dropped or repaired and why, one line each.
@@ -47,23 +49,12 @@ impl Scene {
             sh_degree: self.gaussians.sh_degree,
             bounds,
             size: bounds.size(),
-            filter: self.filter.unwrap_or(SplatFilter::Classic).into(),
+            filter: self.filter.unwrap_or(SplatFilter::Classic),
             filter_is_stated: self.filter.is_some(),
             up: self.up.to_array(),
-            up_source: self.up_source.to_string(),
+            up_source: self.up_source.clone(),
             num_objects: ids.len(),
             notes: self.notes.clone(),
-        }
-    }
-}
-
-impl std::fmt::Display for UpSource {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Flag => write!(f, "--up"),
-            Self::ObjectsFile => write!(f, "the objects file"),
-            Self::File(words) => write!(f, "the scene file: {words}"),
-            Self::Estimated(percent) => write!(f, "estimated, {percent} % sure"),
         }
     }
 }

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use glam::{DQuat, DVec3, Vec3};
 
-use super::{Gaussians, NUM_SH_REST, SceneError};
+use super::error::SceneError;
+use super::gaussians::{Gaussians, NUM_SH_REST};
 
 /// Y(0,0) = 1 / (2 sqrt(pi)): color = 0.5 + `SH_C0` * `f_dc`.
 pub(super) const SH_C0: f64 = 0.282_094_791_773_878_14;

@@ -5,110 +5,30 @@
 //! that a file claims is believed before the bytes for it are seen.
 
 mod bounds;
+mod decoded;
 mod error;
+mod filter;
 mod gaussians;
 mod info;
 mod intake;
 mod load;
+mod options;
 mod ply;
+mod scene;
 mod sniff;
 mod sog;
+mod source_file;
 mod splat;
 mod spz;
 mod up;
 
 pub use bounds::Bounds;
 pub use error::SceneError;
+pub use filter::SplatFilter;
 pub use gaussians::{Gaussians, NUM_SH_REST, SOLID_OPACITY};
 pub use info::SceneInfo;
-pub use load::{LoadOptions, load, load_bytes};
+pub use load::{load, load_bytes};
+pub use options::LoadOptions;
 pub use ply::write_ply;
+pub use scene::{Scene, UpSource};
 pub use up::{UpEstimate, UpPrior, estimate as estimate_up};
-
-use std::path::PathBuf;
-
-use glam::DVec3;
-
-/// How the opacity of a Gaussian makes up for the dilation of its splat; see the contract "Rendering, exactly".
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "kebab-case")]
-pub enum SplatFilter {
-    /// 0.3 px dilation, opacity unchanged.
-    Classic,
-    /// 0.3 px dilation, opacity times sqrt(det before / det after).
-    Mip,
-    /// As `Mip` with 0.1 px: for files with Mip-Splatting's own `filter_3D` property.
-    MipSmall,
-}
-
-/// Where the up direction of a scene comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum UpSource {
-    /// Given on the command line.
-    Flag,
-    /// Said by the objects file.
-    ObjectsFile,
-    /// Said by the scene file: the words it used.
-    File(String),
-    /// Estimated from floor and upright planes; 0..=100 how sure.
-    Estimated(u8),
-}
-
-/// A scene with what its file says about itself.
-#[derive(Debug, Clone)]
-pub struct Scene {
-    /// Where it was read from; empty for a generated one.
-    pub path: PathBuf,
-    /// SHA-256 of the file (of `meta.json` for unbundled SOG) in hex; empty for a generated one.
-    pub sha256: String,
-    /// Human name of the format, such as `spz v2`.
-    pub format: String,
-    /// The Gaussians.
-    pub gaussians: Gaussians,
-    /// Positions in the file of the Gaussians that were dropped on reading, ascending.
-    pub dropped: Vec<u32>,
-    /// Filter that the file asks for; `None` when it does not say.
-    pub filter: Option<SplatFilter>,
-    /// World up, unit.
-    pub up: DVec3,
-    /// Where `up` comes from.
-    pub up_source: UpSource,
-    /// What was dropped or repaired on reading and why, one line each, such as `3 dropped: position is not finite`.
-    pub notes: Vec<String>,
-}
-
-impl Scene {
-    /// Bounds of the solid Gaussians.
-    pub fn bounds(&self) -> Bounds {
-        Bounds::of(&self.gaussians)
-    }
-
-    /// Number of Gaussians in the file, those that were dropped included.
-    pub fn num_in_file(&self) -> usize {
-        self.gaussians.len() + self.dropped.len()
-    }
-
-    /// The entries of a column in file order (one a Gaussian of the file, such as labels) that belong to the Gaussians
-    /// that were kept; `None` when the column has another length than the file.
-    pub fn kept<T: Copy>(&self, file_order: &[T]) -> Option<Vec<T>> {
-        if file_order.len() != self.num_in_file() {
-            return None;
-        }
-        let mut dropped = self.dropped.iter().peekable();
-        let is_kept = |file_idx: usize| dropped.next_if(|idx| **idx as usize == file_idx).is_none();
-        let kept: Vec<bool> = (0..file_order.len()).map(is_kept).collect();
-        Some(file_order.iter().zip(kept).filter_map(|(value, kept)| kept.then_some(*value)).collect())
-    }
-}

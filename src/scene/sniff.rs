@@ -1,7 +1,7 @@
 //! Which format a file has, by its content.
 
-use super::SceneError;
-use super::load::Source;
+use super::error::SceneError;
+use super::source_file::SourceFile;
 
 /// Name of the multi-level SOG in errors.
 pub(super) const STREAMED_SOG: &str = "a streamed SOG (lod-meta.json with levels of detail)";
@@ -26,7 +26,7 @@ pub(super) enum SceneFormat {
 /// # Errors
 /// [`SceneError::NotReadYet`] for formats that are known, [`SceneError::UnknownFormat`] for all else,
 /// [`SceneError::SplatSize`] for a `.splat` that is not whole records.
-pub(super) fn format_of(source: &Source) -> Result<SceneFormat, SceneError> {
+pub(super) fn format_of(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes;
     let not_yet = |format| Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
     let is_named_splat = source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("splat"));
@@ -49,7 +49,7 @@ pub(super) fn format_of(source: &Source) -> Result<SceneFormat, SceneError> {
 }
 
 /// The error for content of no known kind, with the first bytes.
-fn unknown(source: &Source) -> SceneError {
+fn unknown(source: &SourceFile) -> SceneError {
     let first: Vec<String> = source.bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
     let found = if first.is_empty() { "an empty file".to_owned() } else { format!("begins with {}", first.join(" ")) };
     SceneError::UnknownFormat { path: source.path.to_path_buf(), found }
@@ -78,7 +78,7 @@ fn starts_json(bytes: &[u8]) -> bool {
     text.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{')
 }
 
-fn json_format(source: &Source) -> Result<SceneFormat, SceneError> {
+fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(source.bytes);
     // Binary data may begin like JSON; a .splat does so once in 2^8 files.
     let Ok(value) = serde_json::from_slice::<serde_json::Value>(bytes) else {

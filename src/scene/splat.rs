@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::SceneError;
+use super::decoded::DecodedScene;
+use super::error::SceneError;
 use super::intake::{Intake, RawGaussian, SH_C0};
-use super::load::{Decoded, Source};
+use super::source_file::SourceFile;
 use super::up::UpPrior;
 
 /// Bytes of a record: position 3 x f32, scale 3 x f32 (linear), rgba 4 x u8, rotation w x y z 4 x u8.
@@ -14,7 +15,7 @@ const RECORD: usize = 32;
 ///
 /// # Errors
 /// [`SceneError::SplatSize`], [`SceneError::TooManyGaussians`], [`SceneError::Empty`].
-pub(super) fn read(source: &Source) -> Result<Decoded, SceneError> {
+pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let (records, cut) = source.bytes.as_chunks::<RECORD>();
     if records.is_empty() || !cut.is_empty() {
         return Err(SceneError::SplatSize { path: source.path.to_path_buf(), found: source.bytes.len() as u64 });
@@ -24,7 +25,7 @@ pub(super) fn read(source: &Source) -> Result<Decoded, SceneError> {
     for record in records {
         intake.push(&gaussian(record), &[]);
     }
-    Ok(Decoded {
+    Ok(DecodedScene {
         format: "splat".to_owned(),
         collected: intake.finish(source.path)?,
         filter: None,

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::SplatFilter;
+use crate::filter::SplatFilter;
 
 /// The filter that the comments ask for; the last one that says so counts.
 pub(super) fn filter(comments: &[String]) -> Option<SplatFilter> {

@@ -5,10 +5,12 @@ use glam::{DVec3, Vec3};
 use super::comments;
 use super::header::{Element, Header};
 use super::rows::Rows;
+use crate::decoded::DecodedScene;
+use crate::error::SceneError;
+use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian, SH_C0};
-use crate::load::{Decoded, Source};
+use crate::source_file::SourceFile;
 use crate::up::UpPrior;
-use crate::{NUM_SH_REST, SceneError};
 
 /// Gaussians that share a chunk.
 const CHUNK: usize = 256;
@@ -56,7 +58,7 @@ pub(super) fn is_compressed(header: &Header) -> bool {
 ///
 /// # Errors
 /// [`SceneError`] of the `PLY-*` kinds, and `SCENE-EMPTY`.
-pub(super) fn read(source: &Source, header: &Header) -> Result<Decoded, SceneError> {
+pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene, SceneError> {
     let fault = |reason: String| header.fault(source, reason);
     let (mut chunks, mut packed, mut rest): (Vec<Chunk>, Vec<[u32; 4]>, Vec<u8>) = (Vec::new(), Vec::new(), Vec::new());
     let mut num_rest = 0;
@@ -103,7 +105,7 @@ pub(super) fn read(source: &Source, header: &Header) -> Result<Decoded, SceneErr
     if left > 0 {
         collected.notes.push(format!("{left} bytes after the last element are not read"));
     }
-    Ok(Decoded {
+    Ok(DecodedScene {
         format: "compressed ply".to_owned(),
         collected,
         filter: comments::filter(&header.comments),

@@ -1,5 +1,5 @@
-use crate::SceneError;
-use crate::load::Source;
+use crate::error::SceneError;
+use crate::source_file::SourceFile;
 
 /// Longest header that is read.
 const MAX_HEADER_BYTES: usize = 64 << 10;
@@ -129,7 +129,7 @@ impl Header {
     }
 
     /// An error about the header as a whole, at its last line.
-    pub(super) fn fault(&self, source: &Source, reason: String) -> SceneError {
+    pub(super) fn fault(&self, source: &SourceFile, reason: String) -> SceneError {
         SceneError::PlyHeader { path: source.path.to_path_buf(), line: self.num_lines, reason }
     }
 }
@@ -138,7 +138,7 @@ impl Header {
 ///
 /// # Errors
 /// [`SceneError::PlyHeader`] with the line, [`SceneError::PlyCount`] for counts that are no whole number below 2^32.
-pub(super) fn parse(source: &Source) -> Result<Header, SceneError> {
+pub(super) fn parse(source: &SourceFile) -> Result<Header, SceneError> {
     let mut parser = Parser { source, line: 0, encoding: None, elements: Vec::new(), comments: Vec::new() };
     let mut at = 0;
     loop {
@@ -154,7 +154,7 @@ pub(super) fn parse(source: &Source) -> Result<Header, SceneError> {
 }
 
 struct Parser<'a> {
-    source: &'a Source<'a>,
+    source: &'a SourceFile<'a>,
     line: usize,
     encoding: Option<Encoding>,
     elements: Vec<Element>,

@@ -5,10 +5,13 @@ use glam::{DVec3, Vec3};
 use super::comments;
 use super::header::{Element, Encoding, Header, Scalar};
 use super::rows::Rows;
+use crate::decoded::DecodedScene;
+use crate::error::SceneError;
+use crate::filter::SplatFilter;
+use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian, SH_C0};
-use crate::load::{Decoded, Source};
+use crate::source_file::SourceFile;
 use crate::up::UpPrior;
-use crate::{NUM_SH_REST, SceneError, SplatFilter};
 
 /// Names under which programs keep an object id, the most telling first.
 const ID_NAMES: [&str; 9] =
@@ -39,7 +42,7 @@ struct Layout {
 ///
 /// # Errors
 /// [`SceneError`] of the `PLY-*` kinds, and `SCENE-EMPTY`.
-pub(super) fn read(source: &Source, header: &Header) -> Result<Decoded, SceneError> {
+pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene, SceneError> {
     let Some(vertex) = header.element("vertex") else {
         return Err(header.fault(source, "no element vertex".to_owned()));
     };
@@ -76,7 +79,7 @@ pub(super) fn read(source: &Source, header: &Header) -> Result<Decoded, SceneErr
     } else {
         comments::filter(&header.comments)
     };
-    Ok(Decoded {
+    Ok(DecodedScene {
         format: format_name(header.encoding).to_owned(),
         collected,
         filter,

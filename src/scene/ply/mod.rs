@@ -13,14 +13,15 @@ mod write;
 
 pub use write::write_ply;
 
-use super::SceneError;
-use super::load::{Decoded, Source};
+use super::decoded::DecodedScene;
+use super::error::SceneError;
+use super::source_file::SourceFile;
 
 /// Gaussians of a PLY, INRIA's or `PlayCanvas`'s compressed kind, told apart by their elements.
 ///
 /// # Errors
 /// [`SceneError`] of the `PLY-*` kinds, and `SCENE-EMPTY`.
-pub(super) fn read(source: &Source) -> Result<Decoded, SceneError> {
+pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let header = header::parse(source)?;
     if compressed::is_compressed(&header) { compressed::read(source, &header) } else { inria::read(source, &header) }
 }

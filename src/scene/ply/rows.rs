@@ -3,19 +3,19 @@
 use std::ops::Range;
 
 use super::header::{Element, Encoding, Header, Scalar};
-use crate::SceneError;
-use crate::load::Source;
+use crate::error::SceneError;
+use crate::source_file::SourceFile;
 
 /// Walks the rows of a PLY body, element by element, front to back.
 pub(super) struct Rows<'a> {
-    source: &'a Source<'a>,
+    source: &'a SourceFile<'a>,
     encoding: Encoding,
     at: usize,
 }
 
 impl<'a> Rows<'a> {
     /// A reader that stands at the first row of the first element.
-    pub(super) fn new(source: &'a Source<'a>, header: &Header) -> Self {
+    pub(super) fn new(source: &'a SourceFile<'a>, header: &Header) -> Self {
         Self { source, encoding: header.encoding, at: header.body_start.min(source.bytes.len()) }
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use cinesplat_files::{Existing, FileError, NewFile};
 use glam::{DVec3, Vec3};
 
-use crate::{Gaussians, NUM_SH_REST};
+use crate::gaussians::{Gaussians, NUM_SH_REST};
 
 /// Writes Gaussians in INRIA's layout: binary little-endian, one property a number, normals 0, logarithmic scales,
 /// opacity logits, quaternions w first.

@@ -2,9 +2,10 @@ use glam::{DVec3, Vec3};
 
 use super::meta::{Codes, Meta, Palette};
 use super::pictures::{Files, Picture};
+use crate::error::SceneError;
+use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Collected, Intake, RawGaussian};
-use crate::load::Source;
-use crate::{NUM_SH_REST, SceneError};
+use crate::source_file::SourceFile;
 
 /// Entries in a row of the palette picture.
 const ENTRIES_A_ROW: usize = 64;
@@ -16,7 +17,12 @@ const FIRST_MODE: u8 = 252;
 ///
 /// # Errors
 /// [`SceneError::SogPicture`], [`SceneError::SogMeta`], [`SceneError::OutOfMemory`], [`SceneError::Empty`].
-pub(super) fn decode(source: &Source, meta: &Meta, files: &mut Files, count: usize) -> Result<Collected, SceneError> {
+pub(super) fn decode(
+    source: &SourceFile,
+    meta: &Meta,
+    files: &mut Files,
+    count: usize,
+) -> Result<Collected, SceneError> {
     let mut picture = |name: &str| files.picture(source, name, count);
     let (low, high) = (picture(&meta.means[0])?, picture(&meta.means[1])?);
     let (scales, quats, colors) = (picture(&meta.scales)?, picture(&meta.quats)?, picture(&meta.sh0)?);
@@ -84,7 +90,7 @@ struct Higher {
 }
 
 impl Higher {
-    fn read(source: &Source, palette: &Palette, files: &mut Files, count: usize) -> Result<Self, SceneError> {
+    fn read(source: &SourceFile, palette: &Palette, files: &mut Files, count: usize) -> Result<Self, SceneError> {
         let labels = files.picture(source, &palette.labels, count)?;
         let labels: Vec<u16> =
             labels.rgba[..count].iter().map(|texel| u16::from_le_bytes([texel[0], texel[1]])).collect();

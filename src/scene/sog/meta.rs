@@ -2,8 +2,9 @@ use glam::DVec3;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::load::Source;
-use crate::{SceneError, SplatFilter};
+use crate::error::SceneError;
+use crate::filter::SplatFilter;
+use crate::source_file::SourceFile;
 
 /// How a byte becomes a value.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,7 +103,7 @@ impl Meta {
     ///
     /// # Errors
     /// [`SceneError::SogMeta`].
-    pub(super) fn parse(source: &Source, json: &[u8]) -> Result<Self, SceneError> {
+    pub(super) fn parse(source: &SourceFile, json: &[u8]) -> Result<Self, SceneError> {
         let fault = |reason: String| SceneError::SogMeta { path: source.path.to_path_buf(), reason };
         let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
         let raw: RawMeta = serde_json::from_slice(json).map_err(|error| fault(error.to_string()))?;

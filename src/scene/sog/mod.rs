@@ -9,8 +9,9 @@ mod pictures;
 
 use std::path::Path;
 
-use super::SceneError;
-use super::load::{Decoded, Source};
+use super::decoded::DecodedScene;
+use super::error::SceneError;
+use super::source_file::SourceFile;
 use super::up::UpPrior;
 use meta::Meta;
 use pictures::Files;
@@ -19,7 +20,7 @@ use pictures::Files;
 ///
 /// # Errors
 /// [`SceneError`] of the `SOG-*` kinds, and the caps.
-pub(super) fn read_bundle(source: &Source) -> Result<Decoded, SceneError> {
+pub(super) fn read_bundle(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let mut files = Files::in_zip(source)?;
     let meta = Meta::parse(source, &files.meta(source)?)?;
     read(source, &meta, &mut files, "bundled")
@@ -29,17 +30,17 @@ pub(super) fn read_bundle(source: &Source) -> Result<Decoded, SceneError> {
 ///
 /// # Errors
 /// [`SceneError`] of the `SOG-*` kinds, and the caps.
-pub(super) fn read_unbundled(source: &Source) -> Result<Decoded, SceneError> {
+pub(super) fn read_unbundled(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let meta = Meta::parse(source, source.bytes)?;
     let folder = source.path.parent().unwrap_or(Path::new(""));
     read(source, &meta, &mut Files::Folder(folder.to_path_buf()), "unbundled")
 }
 
-fn read(source: &Source, meta: &Meta, files: &mut Files, wrapping: &str) -> Result<Decoded, SceneError> {
+fn read(source: &SourceFile, meta: &Meta, files: &mut Files, wrapping: &str) -> Result<DecodedScene, SceneError> {
     let count = source.check_count(meta.count)?;
     let mut collected = decode::decode(source, meta, files, count)?;
     collected.notes.extend(meta.notes.iter().cloned());
-    Ok(Decoded {
+    Ok(DecodedScene {
         format: format!("sog v{} ({wrapping})", meta.version),
         collected,
         filter: meta.filter,

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use image::{ImageReader, Limits};
 use zip::ZipArchive;
 
-use crate::SceneError;
-use crate::load::{Source, read_file};
+use crate::error::SceneError;
+use crate::source_file::{SourceFile, read_file};
 
 /// Longest `meta.json` in a bundle.
 const MAX_META_BYTES: u64 = 4 << 20;
@@ -36,7 +36,7 @@ impl<'a> Files<'a> {
     ///
     /// # Errors
     /// [`SceneError::SogPicture`] naming the bundle's own directory.
-    pub(super) fn in_zip(source: &Source<'a>) -> Result<Self, SceneError> {
+    pub(super) fn in_zip(source: &SourceFile<'a>) -> Result<Self, SceneError> {
         let archive = ZipArchive::new(Cursor::new(source.bytes));
         archive
             .map(|archive| Self::Zip(Box::new(archive)))
@@ -47,7 +47,7 @@ impl<'a> Files<'a> {
     ///
     /// # Errors
     /// [`SceneError::SogPicture`] when there is none, or when it is damaged.
-    pub(super) fn meta(&mut self, source: &Source) -> Result<Vec<u8>, SceneError> {
+    pub(super) fn meta(&mut self, source: &SourceFile) -> Result<Vec<u8>, SceneError> {
         self.bytes(source, "meta.json", MAX_META_BYTES)
     }
 
@@ -55,7 +55,7 @@ impl<'a> Files<'a> {
     ///
     /// # Errors
     /// [`SceneError::SogPicture`] when it is missing, damaged, too small, or larger than anything it could hold.
-    pub(super) fn picture(&mut self, source: &Source, name: &str, least: usize) -> Result<Picture, SceneError> {
+    pub(super) fn picture(&mut self, source: &SourceFile, name: &str, least: usize) -> Result<Picture, SceneError> {
         let fault = |reason: String| picture_fault(source, name, reason);
         let bytes = self.bytes(source, name, source.options.max_file_bytes)?;
         let open =
@@ -76,7 +76,7 @@ impl<'a> Files<'a> {
     }
 
     /// The bytes of one file, at most `cap`.
-    fn bytes(&mut self, source: &Source, name: &str, cap: u64) -> Result<Vec<u8>, SceneError> {
+    fn bytes(&mut self, source: &SourceFile, name: &str, cap: u64) -> Result<Vec<u8>, SceneError> {
         match self {
             Self::Folder(folder) => read_file(&folder.join(name), cap),
             Self::Zip(archive) => zip_bytes(source, archive, name, cap),
@@ -85,7 +85,7 @@ impl<'a> Files<'a> {
 }
 
 fn zip_bytes(
-    source: &Source,
+    source: &SourceFile,
     archive: &mut ZipArchive<Cursor<&[u8]>>,
     name: &str,
     cap: u64,
@@ -109,6 +109,6 @@ fn zip_bytes(
     Ok(bytes)
 }
 
-fn picture_fault(source: &Source, file: &str, reason: String) -> SceneError {
+fn picture_fault(source: &SourceFile, file: &str, reason: String) -> SceneError {
     SceneError::SogPicture { path: source.path.to_path_buf(), file: file.to_owned(), reason }
 }

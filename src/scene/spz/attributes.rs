@@ -2,9 +2,10 @@ use glam::{DVec3, Vec3};
 use half::f16;
 
 use super::container::{Container, SpzHeader};
+use crate::error::SceneError;
+use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Collected, Intake, RawGaussian};
-use crate::load::Source;
-use crate::{NUM_SH_REST, SceneError};
+use crate::source_file::SourceFile;
 
 /// Range of the degree-0 coefficients: a byte holds 0.5 + 0.15 * `f_dc`.
 const COLOR_SCALE: f64 = 0.15;
@@ -13,7 +14,7 @@ const COLOR_SCALE: f64 = 0.15;
 ///
 /// # Errors
 /// [`SceneError::OutOfMemory`], [`SceneError::Empty`].
-pub(super) fn decode(source: &Source, container: &Container) -> Result<Collected, SceneError> {
+pub(super) fn decode(source: &SourceFile, container: &Container) -> Result<Collected, SceneError> {
     let header = container.header;
     let [positions, alphas, colors, scales, rotations, sh] = &container.attributes;
     let degree = header.sh_degree.min(3);

@@ -6,9 +6,9 @@ use std::io::Read;
 use flate2::bufread::GzDecoder;
 use ruzstd::decoding::StreamingDecoder;
 
-use super::{HAS_EXTENSIONS, LOD_TREE};
-use crate::SceneError;
-use crate::load::Source;
+use super::flags::{HAS_EXTENSIONS, LOD_TREE};
+use crate::error::SceneError;
+use crate::source_file::SourceFile;
 
 /// Header of versions 1-3, and of version 4.
 const SHORT_HEADER: usize = 16;
@@ -70,7 +70,7 @@ impl<'a> Container<'a> {
     ///
     /// # Errors
     /// [`SceneError::SpzHeader`], [`SceneError::SpzCorrupt`], [`SceneError::SpzBomb`], [`SceneError::NotReadYet`], caps.
-    pub(super) fn open(source: &'a Source) -> Result<Self, SceneError> {
+    pub(super) fn open(source: &'a SourceFile) -> Result<Self, SceneError> {
         let bytes = source.bytes;
         if bytes.starts_with(&[0x1f, 0x8b]) {
             return open_gzip(source);
@@ -80,15 +80,15 @@ impl<'a> Container<'a> {
     }
 }
 
-fn header_fault(source: &Source, reason: String) -> SceneError {
+fn header_fault(source: &SourceFile, reason: String) -> SceneError {
     SceneError::SpzHeader { path: source.path.to_path_buf(), reason }
 }
 
-fn corrupt(source: &Source, reason: String) -> SceneError {
+fn corrupt(source: &SourceFile, reason: String) -> SceneError {
     SceneError::SpzCorrupt { path: source.path.to_path_buf(), reason }
 }
 
-fn short_header(source: &Source, found: usize) -> SceneError {
+fn short_header(source: &SourceFile, found: usize) -> SceneError {
     corrupt(source, format!("{found} bytes, expected a header of {SHORT_HEADER} at least"))
 }
 
@@ -97,7 +97,7 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
 }
 
 /// Parses and checks what all versions share: magic, version, count, degree, fractional bits, flags.
-fn parse_header(source: &Source, bytes: &[u8]) -> Result<SpzHeader, SceneError> {
+fn parse_header(source: &SourceFile, bytes: &[u8]) -> Result<SpzHeader, SceneError> {
     let (Some(magic), Some(version), Some(count), Some(&[sh_degree, fractional_bits, flags, _])) =
         (word(bytes, 0), word(bytes, 4), word(bytes, 8), bytes.get(12..16).and_then(<[u8]>::first_chunk))
     else {
@@ -126,7 +126,7 @@ fn parse_header(source: &Source, bytes: &[u8]) -> Result<SpzHeader, SceneError> 
 }
 
 /// Refuses sizes that the compressed bytes cannot have been honest about.
-fn check_ratio(source: &Source, unpacked: u64) -> Result<(), SceneError> {
+fn check_ratio(source: &SourceFile, unpacked: u64) -> Result<(), SceneError> {
     let honest = (source.bytes.len() as u64).saturating_mul(MAX_RATIO).max(FREE_BYTES);
     // Deflate cannot do better than 1032 : 1, Zstandard's run-length blocks can: those fall under the free bytes.
     let cap = honest.min(source.options.max_file_bytes);
@@ -137,7 +137,7 @@ fn check_ratio(source: &Source, unpacked: u64) -> Result<(), SceneError> {
 }
 
 /// Versions 1-3 without gzip.
-fn open_plain<'a>(source: &'a Source) -> Result<Container<'a>, SceneError> {
+fn open_plain<'a>(source: &'a SourceFile) -> Result<Container<'a>, SceneError> {
     let header = parse_header(source, source.bytes)?;
     let sizes = header.sizes();
     let needed = SHORT_HEADER + sizes.iter().sum::<usize>();
@@ -153,7 +153,7 @@ fn open_plain<'a>(source: &'a Source) -> Result<Container<'a>, SceneError> {
 }
 
 /// Versions 1-3 in gzip: the header first, then exactly as much as it announces, then the checksum.
-fn open_gzip<'a>(source: &Source) -> Result<Container<'a>, SceneError> {
+fn open_gzip<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     let mut decoder = GzDecoder::new(source.bytes);
     let mut first = Vec::new();
     read_up_to(source, &mut decoder, SHORT_HEADER as u64, &mut first)?;
@@ -199,7 +199,7 @@ fn open_gzip<'a>(source: &Source) -> Result<Container<'a>, SceneError> {
 }
 
 /// Version 4: a plain header, extension records, a table of sizes, and a Zstandard frame an attribute that is not empty.
-fn open_v4<'a>(source: &Source) -> Result<Container<'a>, SceneError> {
+fn open_v4<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     let bytes = source.bytes;
     let header = parse_header(source, bytes)?;
     let (Some(&[_, _, _, num_streams]), Some(table_at)) =
@@ -247,7 +247,7 @@ fn open_v4<'a>(source: &Source) -> Result<Container<'a>, SceneError> {
 }
 
 /// One Zstandard frame that must unpack to exactly `size` bytes.
-fn unpack_frame(source: &Source, packed: &[u8], size: usize) -> Result<Vec<u8>, SceneError> {
+fn unpack_frame(source: &SourceFile, packed: &[u8], size: usize) -> Result<Vec<u8>, SceneError> {
     let damaged = |what: &dyn std::fmt::Display| corrupt(source, format!("Zstandard data is damaged ({what})"));
     // A window no larger than the stream: the header cannot ask for more memory than the output takes.
     let window = (size as u64).next_power_of_two().max(8 << 20);
@@ -271,7 +271,7 @@ fn unpack_frame(source: &Source, packed: &[u8], size: usize) -> Result<Vec<u8>, 
 }
 
 /// Appends at most `most` bytes of a stream.
-fn read_up_to(source: &Source, decoder: &mut impl Read, most: u64, out: &mut Vec<u8>) -> Result<(), SceneError> {
+fn read_up_to(source: &SourceFile, decoder: &mut impl Read, most: u64, out: &mut Vec<u8>) -> Result<(), SceneError> {
     let read = decoder.by_ref().take(most).read_to_end(out);
     read.map(drop).map_err(|fault| corrupt(source, format!("gzip data is damaged or cut ({fault})")))
 }

@@ -6,24 +6,21 @@
 mod attributes;
 mod container;
 mod extensions;
+mod flags;
 
-use super::load::{Decoded, Source};
+use super::decoded::DecodedScene;
+use super::error::SceneError;
+use super::filter::SplatFilter;
+use super::source_file::SourceFile;
 use super::up::UpPrior;
-use super::{SceneError, SplatFilter};
 use container::Container;
-
-/// Header flag: trained with antialiasing.
-const ANTIALIASED: u8 = 0x01;
-/// Header flag: extension records are there.
-const HAS_EXTENSIONS: u8 = 0x02;
-/// Header flag of another program: a tree of levels of detail, with opacities that mean something else.
-const LOD_TREE: u8 = 0x80;
+use flags::{ANTIALIASED, HAS_EXTENSIONS};
 
 /// Gaussians of an SPZ.
 ///
 /// # Errors
 /// [`SceneError`] of the `SPZ-*` kinds, [`SceneError::NotReadYet`] for level-of-detail trees, and the caps.
-pub(super) fn read(source: &Source) -> Result<Decoded, SceneError> {
+pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let container = Container::open(source)?;
     let header = container.header;
     let mut collected = attributes::decode(source, &container)?;
@@ -37,7 +34,7 @@ pub(super) fn read(source: &Source) -> Result<Decoded, SceneError> {
     }
     let found = extensions::read(&container.extensions);
     collected.notes.extend(found.notes);
-    Ok(Decoded {
+    Ok(DecodedScene {
         format: format!("spz v{}", header.version),
         collected,
         // A flag that is not set says nothing: writers that know no antialiasing leave it so.

@@ -9,21 +9,16 @@
 mod candidates;
 mod facets;
 mod floor;
+mod prior;
 mod sample;
 
 use glam::DVec3;
 
-use super::Gaussians;
+use super::gaussians::Gaussians;
+use prior::AXES;
 use sample::Sample;
 
-/// Which up axes files of a kind tend to have, when nothing in the scene tells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum UpPrior {
-    /// PLY, `.splat` and SOG: y down as COLMAP and INRIA have it, seldom z up.
-    PlyFrame,
-    /// SPZ: y up by its specification, and as often y down by what converters write.
-    Spz,
-}
+pub use prior::UpPrior;
 
 /// An estimate of world up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,11 +35,6 @@ const FLOOR_WEIGHT: f64 = 6.0;
 /// What it is worth that matter lies near the floor rather than near the ceiling.
 const HEIGHT_WEIGHT: f64 = 3.0;
 
-/// What it costs to lie off an axis at all, and for each degree. Many scenes are in the frame of their first camera, which
-/// looks down at its subject by up to 45 degrees.
-const TILT_COST: f64 = 0.2;
-const TILT_COST_A_DEGREE: f64 = 1.0 / 18.0;
-
 /// Evidence below which leveling is not tried.
 const LEAST_EVIDENCE: f64 = 0.03;
 
@@ -56,33 +46,6 @@ const SNAP_COS: f64 = 0.999_962;
 
 /// Angle within which candidates mean the same direction (cosine of 15 degrees).
 const SAME_COS: f64 = 0.966;
-
-impl UpPrior {
-    /// Logarithm of the odds of an axis, against the likeliest one.
-    fn of_axis(self, axis: DVec3) -> f64 {
-        match (self, axis.to_array().map(|v| v as i32)) {
-            (Self::PlyFrame, [0, -1, 0]) | (Self::Spz, [0, 1, 0]) => 0.0,
-            (Self::Spz, [0, -1, 0]) => -0.2,
-            (Self::PlyFrame, [0, 1, 0] | [0, 0, 1]) => -1.5,
-            (Self::Spz, [0, 0, 1]) => -2.0,
-            (_, [0, 0, -1]) => -2.5,
-            _ => -4.0,
-        }
-    }
-
-    /// Logarithm of the odds of a direction: that of the best axis less what the tilt costs.
-    fn of(self, direction: DVec3) -> f64 {
-        let tilted = |axis: DVec3| {
-            let degrees = direction.dot(axis).clamp(-1.0, 1.0).acos().to_degrees();
-            let cost = if degrees < 0.5 { 0.0 } else { TILT_COST + TILT_COST_A_DEGREE * degrees };
-            self.of_axis(axis) - cost
-        };
-        AXES.into_iter().map(tilted).fold(f64::NEG_INFINITY, f64::max)
-    }
-}
-
-/// The coordinate axes in the order that breaks ties.
-const AXES: [DVec3; 6] = [DVec3::NEG_Y, DVec3::Y, DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::NEG_X];
 
 /// World up of a scene by its floor, else by what its kind of file tends to have. Deterministic.
 pub fn estimate(gaussians: &Gaussians, prior: UpPrior) -> UpEstimate {

@@ -1,6 +1,7 @@
 use glam::{DMat3, DVec3};
 
-use crate::{Bounds, Gaussians, SOLID_OPACITY};
+use crate::bounds::Bounds;
+use crate::gaussians::{Gaussians, SOLID_OPACITY};
 
 /// Most points looked at; more of them change the answer by less than the answer is good to.
 const MAX_POINTS: usize = 40_000;
