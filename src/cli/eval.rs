@@ -1,13 +1,12 @@
 use super::outputs::Overwrite;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use strum::VariantArray;
 
 use glam::DVec3;
 
 use super::choice::choice;
 use super::failure::Failure;
-use super::{console, eval_folders, outputs};
+use super::{console, eval_folders};
 use cinesplat::evaluation::{
     Align, Delta, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere, Trajectory,
     evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,

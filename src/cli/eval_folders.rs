@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::console;
-use super::failure::Failure;
+use super::failure::{Exit, Failure};
 use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, Trajectory, evaluate};
 
 /// Compares the files of two folders that have the same name up to the first dot.
@@ -31,7 +31,12 @@ pub(super) fn compare(
     }
     if rows.is_empty() {
         let found = format!("{} and {}: no files of one name, expected pairs", reference.display(), estimate.display());
-        return Err(Failure::new("NO-PAIRS", found, "files are paired by their names up to the first dot", 65));
+        return Err(Failure::new(
+            "NO-PAIRS",
+            found,
+            "files are paired by their names up to the first dot",
+            Exit::BadData,
+        ));
     }
     Ok(rows)
 }

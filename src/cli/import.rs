@@ -2,8 +2,8 @@ use super::outputs::Overwrite;
 use std::path::PathBuf;
 
 use super::choice::choice;
+use super::console;
 use super::failure::Failure;
-use super::{console, outputs};
 use cinesplat::export::{self, Format, shot_json};
 
 /// Makes a shot of another program's camera path.

@@ -101,7 +101,7 @@ impl Command {
 }
 
 /// Runs the program with its arguments (the program's name first) and says how it ended.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let ended = match Cli::try_parse_from(arguments) {
         Ok(cli) => catch_faults(|| cli.command.run()),
         Err(refused) => usage::answer(&refused),

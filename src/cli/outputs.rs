@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use cinesplat::files::{self, Existing};
 
 use super::console;
-use super::failure::Failure;
+use super::failure::{Exit, Failure};
 
 pub(super) use cinesplat::files::{create_folder, relative_to};
 
@@ -68,6 +68,6 @@ pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
     String::from_utf8(files::read(path)?).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let found = format!("{}: byte {at} is not UTF-8, expected text", path.display());
-        Failure::new("NOT-TEXT", found, "is this the right file?", 65)
+        Failure::new("NOT-TEXT", found, "is this the right file?", Exit::BadData)
     })
 }

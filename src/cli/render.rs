@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::choice::choice;
-use super::failure::Failure;
+use super::failure::{Exit, Failure};
 use super::interrupt::Interrupt;
 use super::progress::FrameProgress;
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
@@ -245,7 +245,12 @@ fn finish(report: &FilmReport) -> Result<(), Failure> {
     }
     let (done, wanted) = (report.num_frames, report.num_wanted);
     let found = format!("{}: stopped after {done} of {wanted} frames", report.path.display());
-    Err(Failure::new("STOPPED", found, format!("render the rest with --frames, from frame {done} of this part on"), 75))
+    Err(Failure::new(
+        "STOPPED",
+        found,
+        format!("render the rest with --frames, from frame {done} of this part on"),
+        Exit::Stopped,
+    ))
 }
 
 fn parse_time(text: &str) -> Result<Duration, String> {

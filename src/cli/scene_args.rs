@@ -1,5 +1,4 @@
 use std::path::{Path, PathBuf};
-use strum::VariantArray;
 
 use clap::Args;
 use glam::DVec3;

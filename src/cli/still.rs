@@ -2,7 +2,7 @@ use super::outputs::Overwrite;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::failure::Failure;
+use super::failure::{Exit, Failure};
 use super::scene_args::{PictureArgs, SceneArgs, print_up};
 use super::{console, outputs};
 use cinesplat::export::cameras_json::{self, StillCameras};
@@ -69,7 +69,7 @@ impl Args {
     fn outputs(&self, scene: &Scene) -> Result<StillOutputs, Failure> {
         let bad = |path: &Path, found: String, expected: &str| {
             let message = format!("{}: {found}, expected {expected}", path.display());
-            Failure::new("NPY", message, "write it with numpy.save, one row a Gaussian in file order", 65)
+            Failure::new("NPY", message, "write it with numpy.save, one row per Gaussian in file order", Exit::BadData)
         };
         let read = |path: &Path| fs::read(path).map_err(|error| Failure::io(&path.display().to_string(), &error));
         let labels = match &self.ids {
@@ -108,7 +108,7 @@ impl Args {
                 "OUTPUT-CREATE",
                 format!("{place}: a file, expected a folder"),
                 "name a folder",
-                73,
+                Exit::CannotCreate,
             ));
         }
         outputs::create_folder(&self.output)?;

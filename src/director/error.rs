@@ -83,33 +83,4 @@ impl DirectorError {
             Self::NotFinite { .. } => "MODEL-NOT-FINITE",
         }
     }
-
-    /// What to do about it.
-    pub fn help(&self) -> String {
-        match self {
-            Self::Language(error) => error.help(),
-            Self::EmptyPrompt => "say what the camera should do, such as \"push in on <obj-1>\"".into(),
-            Self::PromptTooLong { .. } => "say it in fewer words, or split it into several shots".into(),
-            Self::BadScene { .. } => "give the up direction with --up, or check the scene with `cinesplat info`".into(),
-            Self::Read { .. } => "check the path given with --model, or leave it out for the built-in weights".into(),
-            Self::BadModel { .. } | Self::IdBeyondVocabulary { .. } => {
-                "leave --model out for the built-in weights, or train them again with `cinesplat train`".into()
-            }
-            Self::Compute(_) | Self::NotFinite { .. } => "this is a fault of ours: report it with the prompt".into(),
-        }
-    }
-
-    /// Exit code of the command that meets it.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::Language(error) => error.exit_code(),
-            Self::Read { source, .. } => match source.kind() {
-                std::io::ErrorKind::NotFound => 66,
-                std::io::ErrorKind::PermissionDenied => 77,
-                _ => 74,
-            },
-            Self::Compute(_) | Self::NotFinite { .. } => 70,
-            _ => 65,
-        }
-    }
 }

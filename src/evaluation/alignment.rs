@@ -6,8 +6,9 @@
 
 use glam::{DMat3, DVec3};
 
+use super::error::{EvaluationError, SettingName};
 use super::singular::{Singular, nearest_rotation, singular};
-use super::{EvaluationError, Trajectory};
+use super::trajectory::Trajectory;
 use cinesplat_geometry::LevelFrame;
 
 /// Singular values of the covariance below this share of the largest count as none: lateral extents below 0.001 of the
@@ -99,7 +100,7 @@ pub fn align(
     let count = num_poses.unwrap_or(usize::MAX).min(reference.len()).min(estimate.len());
     if num_poses == Some(0) {
         let found = "0".into();
-        return Err(EvaluationError::BadSetting { setting: "--align-poses", found, expected: "at least 1" });
+        return Err(EvaluationError::BadSetting { setting: SettingName::AlignPoses, found, expected: "at least 1" });
     }
     if count == 0 {
         return Err(EvaluationError::Empty { which: "alignment" });

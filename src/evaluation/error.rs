@@ -1,4 +1,30 @@
+use strum::Display;
 use thiserror::Error;
+
+/// A setting of an evaluation that can be out of range, named by its [`Display`](std::fmt::Display).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum SettingName {
+    /// Number of poses that the alignment uses.
+    #[strum(serialize = "number of aligned poses")]
+    AlignPoses,
+    /// Distance between the two poses of a relative error.
+    Delta,
+    /// Unit of that distance.
+    #[strum(serialize = "unit of delta")]
+    Unit,
+    /// Largest time between the two poses of a match.
+    #[strum(serialize = "largest time difference")]
+    MaxDiff,
+    /// Seconds added to the times of the estimate.
+    #[strum(serialize = "time offset")]
+    TimeOffset,
+    /// Diameter of the scene.
+    #[strum(serialize = "scene diameter")]
+    Diameter,
+    /// Which part of the error is measured.
+    Relation,
+}
 
 /// What keeps two paths from being compared.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -45,8 +71,8 @@ pub enum EvaluationError {
     /// A setting out of range.
     #[error("{setting} is {found}, expected {expected}")]
     BadSetting {
-        /// Its name on the command line.
-        setting: &'static str,
+        /// Which one.
+        setting: SettingName,
         /// Its value.
         found: String,
         /// What is allowed.
@@ -64,21 +90,5 @@ impl EvaluationError {
             Self::NoPairs { .. } => "EVAL-NO-PAIRS",
             Self::BadSetting { .. } => "EVAL-SETTING",
         }
-    }
-
-    /// What the user can do about it.
-    pub fn help(&self) -> String {
-        match self {
-            Self::Empty { which } => format!("check that the {which} file holds a camera path"),
-            Self::Unreadable { .. } => "check the file, or take it out of the folder".into(),
-            Self::NoMatches { .. } => "raise --max-diff, or check that both files use one clock".into(),
-            Self::NoPairs { .. } => "lower --delta or take --unit f".into(),
-            Self::BadSetting { setting, expected, .. } => format!("set {setting} to {expected}"),
-        }
-    }
-
-    /// Exit code of a program that ends with this error.
-    pub fn exit_code(&self) -> i32 {
-        if matches!(self, Self::BadSetting { .. }) { 2 } else { 65 }
     }
 }

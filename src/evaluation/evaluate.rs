@@ -1,9 +1,10 @@
 //! Absolute and relative pose error of one path against another.
 
+use super::error::{EvaluationError, SettingName};
 use super::relation::Rigid;
 use super::{
-    Align, Alignment, EvaluationError, FocalError, FramingError, Matches, Matching, PairSettings, Relation, Statistics,
-    SubjectSphere, Trajectory, align, associate, focal_error, framing_error, pairs,
+    Align, Alignment, FocalError, FramingError, Matches, Matching, PairSettings, Relation, Statistics, SubjectSphere,
+    Trajectory, align, associate, focal_error, framing_error, pairs,
 };
 
 /// Which error is taken.
@@ -136,17 +137,17 @@ fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {
         Err(EvaluationError::BadSetting { setting, found: found.to_string(), expected })
     };
     if !(settings.max_diff_secs >= 0.0) {
-        return bad("--max-diff", settings.max_diff_secs, "0 or more seconds");
+        return bad(SettingName::MaxDiff, settings.max_diff_secs, "0 or more seconds");
     }
     if !settings.estimate_offset_secs.is_finite() {
-        return bad("--time-offset", settings.estimate_offset_secs, "a finite number of seconds");
+        return bad(SettingName::TimeOffset, settings.estimate_offset_secs, "a finite number of seconds");
     }
     if settings.scene_diameter.is_some_and(|diameter| !(diameter > 0.0)) {
-        return bad("--diameter", settings.scene_diameter.unwrap_or(0.0), "above 0");
+        return bad(SettingName::Diameter, settings.scene_diameter.unwrap_or(0.0), "above 0");
     }
     if settings.relation == Relation::PointDistanceRatio && settings.metric == Metric::Ape {
-        let (setting, found) = ("--relation", settings.relation.as_ref().to_owned());
-        return Err(EvaluationError::BadSetting { setting, found, expected: "another one, or --rpe with it" });
+        let (setting, found) = (SettingName::Relation, settings.relation.as_ref().to_owned());
+        return Err(EvaluationError::BadSetting { setting, found, expected: "one that the absolute error has" });
     }
     Ok(())
 }

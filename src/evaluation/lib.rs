@@ -28,7 +28,7 @@ mod trajectory;
 pub use alignment::{Align, Alignment, align};
 pub use associate::{Matches, Matching, associate};
 pub use batch::{BatchRow, summary_csv, summary_json, summary_text};
-pub use error::EvaluationError;
+pub use error::{EvaluationError, SettingName};
 pub use evaluate::{EvalSettings, Evaluation, Metric, evaluate};
 pub use framing::{FramingError, SubjectSphere, framing_error};
 pub use lens::{FocalError, focal_error};

@@ -2,8 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
+use super::error::{EvaluationError, SettingName};
 use super::singular::rotation_angle;
-use super::{EvaluationError, Trajectory};
+use super::trajectory::Trajectory;
 
 /// Largest error of the rough angle for matrices that count as rotations, rad.
 const ROUGH_RAD: f64 = 0.01;
@@ -22,7 +23,7 @@ pub enum Delta {
 }
 
 impl Delta {
-    /// The distance of a value with the unit's letter on the command line: `f`, `m`, `d` or `r`.
+    /// The distance of a value whose unit is given by its letter: `f` frames, `m` scene units, `d` degrees, `r` radians.
     ///
     /// # Errors
     /// [`EvaluationError::BadSetting`] for another letter, a value that is not above 0, a fraction of a frame, or an angle
@@ -30,16 +31,16 @@ impl Delta {
     pub fn new(value: f64, unit: &str) -> Result<Self, EvaluationError> {
         let bad = |setting, found: String, expected| Err(EvaluationError::BadSetting { setting, found, expected });
         if !(value > 0.0 && value.is_finite()) {
-            return bad("--delta", value.to_string(), "above 0");
+            return bad(SettingName::Delta, value.to_string(), "above 0");
         }
         match unit {
             "f" if value.fract() == 0.0 => Ok(Self::Frames(value as usize)),
-            "f" => bad("--delta", value.to_string(), "a whole number of frames"),
+            "f" => bad(SettingName::Delta, value.to_string(), "a whole number of frames"),
             "m" => Ok(Self::Distance(value)),
             "d" if value <= 180.0 => Ok(Self::Degrees(value)),
             "r" if value <= std::f64::consts::PI => Ok(Self::Radians(value)),
-            "d" | "r" => bad("--delta", value.to_string(), "at most half a turn"),
-            _ => bad("--unit", unit.to_owned(), "f, m, d or r"),
+            "d" | "r" => bad(SettingName::Delta, value.to_string(), "at most half a turn"),
+            _ => bad(SettingName::Unit, unit.to_owned(), "f, m, d or r"),
         }
     }
 

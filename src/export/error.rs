@@ -109,30 +109,4 @@ impl ExportError {
             Self::NotReadable { .. } => "EXCHANGE-UNREADABLE",
         }
     }
-
-    /// What the user can do about it.
-    pub fn help(&self) -> String {
-        match self {
-            Self::File(error) => error.help(),
-            Self::TooLarge { .. } => "is this the camera file, and not the scene?".into(),
-            Self::NotJson { .. } => "check the file with a JSON validator; it may be cut off".into(),
-            Self::WrongFormat { .. } => "name the format with --from or --to".into(),
-            Self::WrongVersion { .. } => "write the file with a version listed above".into(),
-            Self::BadField { place, expected, .. } => format!("set {place} to {expected}"),
-            Self::BadLine { line, .. } => format!("correct or remove line {line}"),
-            Self::BadBytes { .. } => "the file may be cut off: copy it again".into(),
-            Self::BadShot(_) => "correct the value named above in the file".into(),
-            Self::NoPoses => "export the camera path again from the program that wrote it".into(),
-            Self::NotReadable { .. } => "export the path as nerfstudio, gltf or tum instead".into(),
-        }
-    }
-
-    /// Exit code of a program that ends with this error.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::File(error) => error.exit_code(),
-            Self::TooLarge { .. } => 71,
-            _ => 65,
-        }
-    }
 }

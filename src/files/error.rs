@@ -49,27 +49,6 @@ impl FileError {
         }
     }
 
-    /// Exit code of a program that ends with this error.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            _ if self.io_error().is_some_and(|error| error.kind() == io::ErrorKind::PermissionDenied) => 77,
-            Self::Exists { .. } | Self::Create { .. } => 73,
-            Self::Read { source, .. } if source.kind() == io::ErrorKind::NotFound => 66,
-            Self::Read { .. } | Self::Write { .. } => 74,
-        }
-    }
-
-    /// What to do about it.
-    pub fn help(&self) -> String {
-        match self {
-            Self::Exists { .. } => "choose another name, or pass --overwrite",
-            Self::Create { .. } => "create the folder, or choose one that you may write to",
-            Self::Read { .. } => "check the path and its permissions",
-            Self::Write { .. } => "check free space and permissions of the folder",
-        }
-        .to_owned()
-    }
-
     /// The file or folder at fault.
     pub fn path(&self) -> &Path {
         let (Self::Exists { path } | Self::Create { path, .. } | Self::Read { path, .. } | Self::Write { path, .. }) =

@@ -30,3 +30,10 @@ pub enum GeometryError {
         reason: String,
     },
 }
+
+impl GeometryError {
+    /// Stable code for people and scripts.
+    pub fn code(&self) -> &'static str {
+        "GEOMETRY"
+    }
+}

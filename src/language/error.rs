@@ -49,26 +49,4 @@ impl LanguageError {
             Self::BadData { .. } => "LANGUAGE-DATA",
         }
     }
-
-    /// What to do about it, for the `help:` line.
-    pub fn help(&self) -> String {
-        match self {
-            Self::TooLong { .. } => "shorten the prompt to the camera's moves".to_owned(),
-            Self::Empty => "say what the camera does, for example -p \"orbit <obj-3> to the left\"".to_owned(),
-            Self::UnknownObject { nearest, .. } if nearest.is_empty() => {
-                "the scene has no named objects: list them with `cinesplat objects SCENE`".to_owned()
-            }
-            Self::UnknownObject { nearest, .. } => format!("nearest names: {}", nearest.join(", ")),
-            Self::TooManyObjects { .. } => "split the prompt into several shots".to_owned(),
-            Self::BadData { .. } => "please report this: the program's own language files are damaged".to_owned(),
-        }
-    }
-
-    /// Exit code of the command line.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::BadData { .. } => 70,
-            _ => 65,
-        }
-    }
 }

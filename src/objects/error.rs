@@ -86,32 +86,4 @@ impl ObjectsError {
             Self::Picture { .. } => "OBJ-PICTURE",
         }
     }
-
-    /// How to mend it, one line.
-    pub fn help(&self) -> String {
-        match self {
-            Self::File(error) => error.help(),
-            Self::NotJson { .. } | Self::WrongKind { .. } => {
-                "`cinesplat objects SCENE -o objects.json` writes a file to start from".to_owned()
-            }
-            Self::BadField { .. } => {
-                "an object needs `id` (1..65535) and `center` with `half_extents`, or Gaussians in `labels`".to_owned()
-            }
-            Self::DuplicateId { id, .. } => format!("give one of the two another id than {id}"),
-            Self::BadLabels { .. } => {
-                "labels are a little-endian .npy of u8, u16 or u32 with one id a Gaussian, in the scene's order"
-                    .to_owned()
-            }
-            Self::Picture { .. } => "leave the sheet out, or report the scene that it fails on".to_owned(),
-        }
-    }
-
-    /// Exit code of the program: 65 bad data, 66 no such input, 70 a fault of ours, 74 I/O, 77 permission.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::File(error) => error.exit_code(),
-            Self::Picture { .. } => 70,
-            _ => 65,
-        }
-    }
 }

@@ -64,62 +64,24 @@ pub enum PipelineError {
         /// What each quality would give.
         reachable: String,
     },
-    /// The encoding thread ended without a word.
-    #[error("the encoding thread stopped without an error")]
-    EncoderStopped,
-}
-
-/// The same question to whichever error it is.
-macro_rules! ask_stage {
-    ($self:ident, $stage:ident => $answer:expr, $($own:tt)*) => {
-        match $self {
-            Self::Scene($stage) => $answer,
-            Self::Objects($stage) => $answer,
-            Self::Language($stage) => $answer,
-            Self::Director($stage) => $answer,
-            Self::Export($stage) => $answer,
-            Self::Render($stage) => $answer,
-            Self::Video($stage) => $answer,
-            $($own)*
-        }
-    };
 }
 
 impl PipelineError {
-    /// Short name of the case, for messages and searches.
+    /// Stable code for people and scripts: the stage's own where a stage failed.
     pub fn code(&self) -> &'static str {
-        ask_stage!(self, stage => stage.code(),
-            Self::Trajectory(_) => "SHOT-KEYS",
-            Self::Geometry(_) => "GEOMETRY",
+        match self {
+            Self::Scene(error) => error.code(),
+            Self::Objects(error) => error.code(),
+            Self::Language(error) => error.code(),
+            Self::Director(error) => error.code(),
+            Self::Trajectory(error) => error.code(),
+            Self::Geometry(error) => error.code(),
+            Self::Export(error) => error.code(),
+            Self::Render(error) => error.code(),
+            Self::Video(error) => error.code(),
             Self::UnknownSynth { .. } => "SCENE-SYNTH",
             Self::NoSuchFrames { .. } => "SHOT-FRAMES",
             Self::Unreachable { .. } => "COST-BUDGET",
-            Self::EncoderStopped => "VIDEO-STOPPED",
-        )
-    }
-
-    /// What to do about it.
-    pub fn help(&self) -> String {
-        ask_stage!(self, stage => stage.help(),
-            Self::Trajectory(_) => "correct that value in the shot's keyframes".to_owned(),
-            Self::Geometry(_) => "check the pose or direction that was given".to_owned(),
-            Self::UnknownSynth { .. } => "for example synth:room:7, or a file with ./ before its name".to_owned(),
-            Self::NoSuchFrames { .. } => "give --frames A..B with B one after the last frame".to_owned(),
-            Self::Unreachable { .. } => {
-                "allow more time, ask for fewer decibels, or film smaller (--size, --fps, --frames)".to_owned()
-            }
-            Self::EncoderStopped => "this is a fault of cinesplat: please report the command".to_owned(),
-        )
-    }
-
-    /// Exit code of the program for this case, as in `sysexits.h`.
-    pub fn exit_code(&self) -> i32 {
-        ask_stage!(self, stage => stage.exit_code(),
-            Self::Trajectory(_) | Self::Geometry(_) => 65,
-            Self::UnknownSynth { .. } => 66,
-            Self::NoSuchFrames { .. } => 2,
-            Self::Unreachable { .. } => 71,
-            Self::EncoderStopped => 70,
-        )
+        }
     }
 }

@@ -59,24 +59,4 @@ impl RenderError {
             Self::Cost { .. } => "RENDER-COST",
         }
     }
-
-    /// What to do about it, one line.
-    pub fn help(&self) -> String {
-        match self {
-            Self::Camera(_) => "give the camera a size, focal lengths above 0 and a finite pose".into(),
-            Self::Setting { name, expected, .. } => format!("set {name} to {expected}"),
-            Self::Length { what, expected, .. } => format!("give {what} {expected} values, in order"),
-            Self::Memory { .. } => "allow more memory, render smaller, or take the camera out of the Gaussians".into(),
-            Self::Cost { .. } => "allow more work, render smaller, or take the camera out of the Gaussians".into(),
-        }
-    }
-
-    /// Exit code of the process for this error.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::Setting { .. } => 2,
-            Self::Camera(_) | Self::Length { .. } => 65,
-            Self::Memory { .. } | Self::Cost { .. } => 71,
-        }
-    }
 }

@@ -234,46 +234,6 @@ impl SceneError {
         }
     }
 
-    /// What to do about it, one sentence.
-    pub fn help(&self) -> String {
-        match self {
-            Self::NotFound { .. } => "check the path; an unbundled SOG is named by its folder or its meta.json",
-            Self::NotAFile { .. } => "save the data to a file first",
-            Self::Permission { .. } => "change the permissions, or copy it to where you may read and write",
-            Self::Io { .. } => "check the disk and the path, then try again",
-            Self::OutOfMemory { .. } => "free memory, or thin the scene out in an editor",
-            Self::TooManyBytes { .. } | Self::TooManyGaussians { .. } => "raise the cap, or thin the scene out in an editor",
-            Self::UnknownFormat { .. } => "export the scene again as one of these; the content decides, not the extension",
-            Self::NotReadYet { format, .. } if format.contains("SOG") => "name one of its level folders, such as 2_0",
-            Self::NotReadYet { .. } => "convert it to .ply, .spz or .sog, with splat-transform or SuperSplat for instance",
-            Self::PlyHeader { .. } => {
-                "a scene needs x y z, scale_*, rot_*, opacity and f_dc_* (or red green blue); a plain point cloud has no Gaussians"
-            }
-            Self::PlyCount { .. } => "the header is damaged or not honest: export the file again",
-            Self::PlyTruncated { .. } | Self::SpzCorrupt { .. } => "the file is cut or damaged: download or export it again",
-            Self::PlyValue { .. } => "correct that value, or export the file again",
-            Self::SplatSize { .. } => "the file is cut, or is not a .splat: download or export it again",
-            Self::SpzHeader { .. } => "the file is damaged or newer than this program: export it again as SPZ version 2, 3 or 4",
-            Self::SpzBomb { .. } => "do not trust this file; if it is yours, export it again as .ply",
-            Self::SogMeta { .. } | Self::SogPicture { .. } => "the SOG is damaged or not whole: export it again with all its pictures",
-            Self::Empty { .. } => "nothing in this file can be drawn: export it again",
-            Self::BadUp { .. } => "give three numbers that are not all 0, such as 0,-1,0",
-        }
-        .to_owned()
-    }
-
-    /// Exit code of the program for this fault.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::NotFound { .. } | Self::NotAFile { .. } => 66,
-            Self::TooManyBytes { .. } | Self::TooManyGaussians { .. } | Self::OutOfMemory { .. } => 71,
-            Self::Io { .. } => 74,
-            Self::Permission { .. } => 77,
-            Self::BadUp { .. } => 2,
-            _ => 65,
-        }
-    }
-
     /// The error for a failed call on `path`.
     pub(super) fn from_io(path: &Path, source: io::Error) -> Self {
         let path = path.to_path_buf();

@@ -39,3 +39,10 @@ pub enum TrajectoryError {
         expected: &'static str,
     },
 }
+
+impl TrajectoryError {
+    /// Stable code for people and scripts.
+    pub fn code(&self) -> &'static str {
+        "SHOT-KEYS"
+    }
+}

@@ -88,32 +88,6 @@ impl VideoError {
         }
     }
 
-    /// What to do about it.
-    pub fn help(&self) -> String {
-        match self {
-            Self::UnknownFormat { .. } => "name the output film.mp4, or frames/%05d.png for one picture a frame",
-            Self::BadPattern { .. } => "write one %05d in the file name, such as frames/%05d.png; %% is a percent sign",
-            Self::BadSetting { .. } => "give a value in that range",
-            Self::Missing { .. } => "install FFmpeg with x264 and VP9 (Debian's has both), or write frames/%05d.png",
-            Self::File(error) => return error.help(),
-            Self::Ffmpeg { .. } => "try another size or container, or write frames/%05d.png",
-            Self::FrameSize { .. } => "this is a fault of the caller: one frame is width x height x 3 bytes",
-            Self::ReadBack { .. } => "the disk or FFmpeg lost frames: render again, or write frames/%05d.png",
-        }
-        .to_owned()
-    }
-
-    /// Exit code of the program for this case, as in `sysexits.h`.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::UnknownFormat { .. } | Self::BadPattern { .. } | Self::BadSetting { .. } => 2,
-            Self::Missing { .. } => 69,
-            Self::File(error) => error.exit_code(),
-            Self::ReadBack { .. } => 74,
-            Self::Ffmpeg { .. } | Self::FrameSize { .. } => 70,
-        }
-    }
-
     /// The file that it is about, if it is about one.
     pub fn path(&self) -> Option<&std::path::Path> {
         match self {

@@ -183,3 +183,33 @@ fn frames_that_the_film_does_not_have() {
     help: give --frames A..B with B one after the last frame
     ");
 }
+
+#[test]
+fn every_kind_of_failure_has_its_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    fs::write(folder.path().join("no-objects.json"), r#"{"format":"other"}"#).unwrap();
+    let plan = ["plan", SMALL_SCENE, "-p", "push in on <obj-1>", "--json"];
+    let render = ["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4"];
+    let eval = ["eval", "shot.json", "shot.json"];
+    let failures: [(&[&str], &[&str], i32, &str); 12] = [
+        (&render, &["--crf", "99"], 2, "VIDEO-SETTING"),
+        (&eval, &["--rpe", "--delta", "0"], 2, "EVAL-SETTING"),
+        (&eval, &["--align-poses", "0"], 2, "EVAL-SETTING"),
+        (&plan, &["--objects", "no-objects.json"], 65, "OBJ-VERSION"),
+        (&eval, &["--rpe", "--delta", "100"], 65, "EVAL-NO-PAIRS"),
+        (&plan, &["--objects", "none.json"], 66, "FILE-READ"),
+        (&plan, &["--model", "none"], 66, "MODEL-READ"),
+        (&["import", "none.tum", "-o", "s.json"], &[], 66, "FILE-READ"),
+        (&["export", "none.json", "-o", "s.tum"], &[], 66, "FILE-READ"),
+        (&render, &["--budget", "1ms"], 71, "COST-BUDGET"),
+        (&render, &["--save-shot", "shot.json"], 73, "OUTPUT-EXISTS"),
+        (&["export", "shot.json", "-o", "no/s.tum"], &[], 73, "OUTPUT-CREATE"),
+    ];
+    for (command, flags, exit_code, code) in failures {
+        let said = answer(folder.path(), &[command, flags].concat());
+        let expected = (format!("exit {exit_code}\n"), format!("error[{code}]: "));
+        assert!(said.starts_with(&expected.0) && said.contains(&expected.1), "{command:?} {flags:?}: {said}");
+        assert!(said.lines().last().unwrap().starts_with("help: "), "{said}");
+    }
+}

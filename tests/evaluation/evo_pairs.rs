@@ -96,9 +96,9 @@ fn a_path_too_short_for_the_delta_says_how_long_it_is() {
 #[test]
 fn deltas_out_of_range_are_refused() {
     let refused = |value: f64, unit: &str| Delta::new(value, unit).unwrap_err().to_string();
-    insta::assert_snapshot!(refused(0.0, "f"), @"--delta is 0, expected above 0");
-    insta::assert_snapshot!(refused(1.5, "f"), @"--delta is 1.5, expected a whole number of frames");
-    insta::assert_snapshot!(refused(181.0, "d"), @"--delta is 181, expected at most half a turn");
-    insta::assert_snapshot!(refused(f64::NAN, "m"), @"--delta is NaN, expected above 0");
-    insta::assert_snapshot!(refused(1.0, "s"), @"--unit is s, expected f, m, d or r");
+    insta::assert_snapshot!(refused(0.0, "f"), @"delta is 0, expected above 0");
+    insta::assert_snapshot!(refused(1.5, "f"), @"delta is 1.5, expected a whole number of frames");
+    insta::assert_snapshot!(refused(181.0, "d"), @"delta is 181, expected at most half a turn");
+    insta::assert_snapshot!(refused(f64::NAN, "m"), @"delta is NaN, expected above 0");
+    insta::assert_snapshot!(refused(1.0, "s"), @"unit of delta is s, expected f, m, d or r");
 }

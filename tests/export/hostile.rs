@@ -40,7 +40,7 @@ fn truncated_files_never_panic() {
         for part in 0..40 {
             std::fs::write(&path, &bytes[..bytes.len() * part / 40]).unwrap();
             if let Err(error) = read(&path, Some(format)) {
-                assert_eq!(error.exit_code(), 65, "{name}: {error}");
+                assert!(!matches!(error.code(), "FILE-READ" | "EXCHANGE-SIZE"), "{name}: {error}");
             }
         }
     }
@@ -71,9 +71,9 @@ fn deep_nesting_and_far_files_are_refused() {
 }
 
 #[test]
-fn missing_files_and_foreign_content_have_their_own_exit_codes() {
-    let code = |name: &str| read(name.as_ref(), None).map_err(|error| (error.exit_code(), error.code())).unwrap_err();
-    assert_eq!(code("/nowhere/at/all.json"), (66, "EXCHANGE-IO"));
+fn missing_files_and_foreign_content_have_their_own_codes() {
+    let code = |name: &str| read(name.as_ref(), None).map_err(|error| error.code()).unwrap_err();
+    assert_eq!(code("/nowhere/at/all.json"), "FILE-READ");
     let (path, _folder) = file("a.ply", b"ply\nformat ascii 1.0\n");
-    assert_eq!(code(path.to_str().unwrap()), (65, "EXCHANGE-FORMAT"));
+    assert_eq!(code(path.to_str().unwrap()), "EXCHANGE-FORMAT");
 }

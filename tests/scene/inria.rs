@@ -179,7 +179,7 @@ fn truncated_error_names_row_and_byte() {
         error.to_string(),
         format!("scene.ply: vertex 3 of 4 ends at byte {} or later, file has {cut}", start + 3 * 56)
     );
-    assert_eq!(error.exit_code(), 65);
+    assert_eq!(error.code(), "PLY-TRUNCATED");
 }
 
 #[test]

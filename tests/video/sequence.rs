@@ -28,7 +28,7 @@ fn a_frame_that_is_already_there_is_kept() {
     std::fs::write(folder.path().join("05.png"), b"mine").unwrap();
     let settings = VideoSettings { width: 4, height: 4, num_frames: 10, ..Default::default() };
     let error = VideoWriter::create(&pattern, &settings).err().unwrap();
-    assert_eq!((error.code(), error.exit_code()), ("OUTPUT-EXISTS", 73));
+    assert_eq!(error.code(), "OUTPUT-EXISTS");
     assert_eq!(std::fs::read(folder.path().join("05.png")).unwrap(), b"mine");
     let elsewhere = VideoSettings { first_frame: 6, num_frames: 4, ..settings };
     assert!(VideoWriter::create(&pattern, &elsewhere).is_ok(), "frames 6..10 are free");

@@ -1,11 +1,11 @@
 use crate::cli::outputs::BenchFolder;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use strum::VariantArray;
 
+use super::console;
 use super::failure::Failure;
 use super::scene_args::PictureArgs;
 use super::scenes::{NUM_OWN_VIEWS, ScenesArgs, own_views, parse_size, resized, scene_name, settings};
-use super::{console, outputs};
 use crate::cli::progress::FrameProgress;
 use cinesplat::export::cameras_json::StillCameras;
 use cinesplat::render::{Quality, RenderSettings, Renderer};

@@ -1,11 +1,10 @@
 use crate::cli::outputs::BenchFolder;
-use std::path::PathBuf;
 use std::process::Command;
 use strum::VariantArray;
 
-use super::failure::Failure;
+use super::console;
+use super::failure::{Exit, Failure};
 use super::scene_args::{PictureArgs, SceneArgs};
-use super::{console, outputs};
 use cinesplat::render::Quality;
 use cinesplat_bench::scaling::{self, Growth, ScalingCase};
 
@@ -71,8 +70,9 @@ fn in_own_process(growth: Growth, value: u64) -> Result<String, Failure> {
         return Ok(String::from_utf8_lossy(&ran.stdout).into_owned());
     }
     let said = String::from_utf8_lossy(&ran.stderr).trim().replace('\n', "; ");
-    let exit_code = ran.status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(70);
-    Err(Failure::new("BENCH-CASE", format!("{} {value}: {said}", growth.as_ref()), "see its error", exit_code))
+    let exit_code = ran.status.code().and_then(|code| u8::try_from(code).ok());
+    let exit = exit_code.and_then(Exit::from_repr).unwrap_or(Exit::Fault);
+    Err(Failure::new("BENCH-CASE", format!("{} {value}: {said}", growth.as_ref()), "see its error", exit))
 }
 
 fn parse_case(text: &str) -> Result<ScalingCase, String> {

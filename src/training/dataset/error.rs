@@ -57,28 +57,4 @@ impl DatasetError {
             Self::BadLine { .. } => "DATASET-LINE",
         }
     }
-
-    /// What to do about it.
-    pub fn help(&self) -> String {
-        match self {
-            Self::Language(error) => error.help(),
-            Self::Director(error) => error.help(),
-            Self::Objects(error) => error.help(),
-            Self::File(error) => error.help(),
-            Self::Scene { .. } => "this is a fault of the scene generator: report it with the seed".into(),
-            Self::BadLine { .. } => "write the shards again with `cinesplat dataset`".into(),
-        }
-    }
-
-    /// Exit code of the command that meets it.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::Language(error) => error.exit_code(),
-            Self::Director(error) => error.exit_code(),
-            Self::Objects(error) => error.exit_code(),
-            Self::File(error) => error.exit_code(),
-            Self::Scene { .. } => 70,
-            Self::BadLine { .. } => 65,
-        }
-    }
 }

@@ -72,33 +72,4 @@ impl TrainError {
             Self::BadCheckpoint { .. } => "TRAIN-CHECKPOINT",
         }
     }
-
-    /// What to do about it.
-    pub fn help(&self) -> String {
-        match self {
-            Self::Director(error) => error.help(),
-            Self::Language(error) => error.help(),
-            Self::Dataset(error) => error.help(),
-            Self::File(error) => error.help(),
-            Self::NoLesson { .. } => "this is a fault of the phrasebook: report it with the seed".into(),
-            Self::Diverged { .. } => "go on from the last checkpoint with a smaller --rate".into(),
-            Self::Stopped { .. } => "the same command with --resume goes on from there".into(),
-            Self::BadCheckpoint { .. } => {
-                "train into another folder, or give the settings that it was made with".into()
-            }
-        }
-    }
-
-    /// Exit code of the command that meets it.
-    pub fn exit_code(&self) -> i32 {
-        match self {
-            Self::Director(error) => error.exit_code(),
-            Self::Language(error) => error.exit_code(),
-            Self::Dataset(error) => error.exit_code(),
-            Self::File(error) => error.exit_code(),
-            Self::NoLesson { .. } | Self::Diverged { .. } => 70,
-            Self::Stopped { .. } => 75,
-            Self::BadCheckpoint { .. } => 65,
-        }
-    }
 }

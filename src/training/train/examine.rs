@@ -5,7 +5,7 @@ use rand_pcg::Pcg64;
 
 use super::TrainError;
 use crate::sampler::{LabeledPrompt, PromptSampler, TemplateSplit, exam, exam_objects};
-use cinesplat_director::{Director, Stage};
+use cinesplat_director::{Director, DirectorError, Stage};
 use cinesplat_language::{NamedObject, link};
 use cinesplat_objects::Object;
 use cinesplat_operator::{Framing, Program, Step};
@@ -94,7 +94,8 @@ fn understand(director: &Director, prompt: &str, cast: &[NamedObject]) -> Result
     let stage = Stage { objects: &objects, up: DVec3::Y, center: DVec3::ZERO, size: cast.len() as f64 + 2.0 };
     match director.direct(&linked, &stage) {
         Ok(direction) => Ok(direction.program),
-        Err(error) if error.exit_code() == 65 => Ok(Program::default()),
+        // A prompt that the director refuses counts as one that it did not understand.
+        Err(DirectorError::EmptyPrompt | DirectorError::PromptTooLong { .. }) => Ok(Program::default()),
         Err(error) => Err(error.into()),
     }
 }

@@ -2,12 +2,12 @@ use crate::cli::outputs::BenchFolder;
 mod measure;
 mod report;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use super::console;
 use super::failure::Failure;
 use super::scene_args::PictureArgs;
 use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
-use super::{console, outputs};
 use crate::cli::choice::choice;
 use cinesplat::export::cameras_json::StillCameras;
 use cinesplat::geometry::{Camera, Intrinsics};

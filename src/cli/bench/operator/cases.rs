@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use serde::Deserialize;
 
-use crate::cli::failure::Failure;
+use crate::cli::failure::{Exit, Failure};
 use crate::cli::outputs;
 use cinesplat::director::Director;
 use cinesplat::language::program_from_notation;
@@ -62,7 +62,7 @@ impl CaseArgs {
         let folder = self.cases.parent().unwrap_or(Path::new("."));
         let bad = |line: usize, found: &str| {
             let found = format!("{}: line {line}: {found}, expected a case", self.cases.display());
-            Failure::new("BAD-CASE", found, "see cinesplat bench operator --help", 65)
+            Failure::new("BAD-CASE", found, "see cinesplat bench operator --help", Exit::BadData)
         };
         let mut cases = Vec::new();
         for (number, line) in outputs::read_text(&self.cases)?.lines().enumerate() {
@@ -86,7 +86,7 @@ impl CaseArgs {
 fn programs(path: &Path) -> Result<BTreeMap<String, Program>, Failure> {
     let bad = |found: &str| {
         let found = format!("{}: {found}, expected programs by case id", path.display());
-        Failure::new("BAD-INTENTS", found, "see cinesplat bench operator --help", 65)
+        Failure::new("BAD-INTENTS", found, "see cinesplat bench operator --help", Exit::BadData)
     };
     let texts: BTreeMap<String, String> =
         serde_json::from_str(&outputs::read_text(path)?).map_err(|error| bad(&error.to_string()))?;

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use super::cases::CaseArgs;
 use super::median_and_most;
+use crate::cli::console;
 use crate::cli::failure::Failure;
-use crate::cli::{console, outputs};
 use cinesplat::operator::{SolveLevel, SolveSettings};
 use cinesplat::plot::{Axis, COLORS, Chart, Mark, Series, grid};
 use cinesplat::trajectory::Shot;

@@ -1,0 +1,20 @@
+use std::io::ErrorKind;
+
+use cinesplat::files::FileError;
+
+use super::exit::Exit;
+use super::message::Failure;
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        let is_denied = error.io_error().is_some_and(|error| error.kind() == ErrorKind::PermissionDenied);
+        let (exit, help) = match &error {
+            FileError::Exists { .. } => (Exit::CannotCreate, "choose another name, or pass --overwrite"),
+            FileError::Create { .. } => (Exit::CannotCreate, "create the folder, or choose one that you may write to"),
+            FileError::Read { source, .. } if source.kind() == ErrorKind::NotFound => (Exit::NoInput, "check the path"),
+            FileError::Read { .. } => (Exit::Io, "check the path and its permissions"),
+            FileError::Write { .. } => (Exit::Io, "check free space and permissions of the folder"),
+        };
+        Self::new(error.code(), error.to_string(), help, if is_denied { Exit::Permission } else { exit })
+    }
+}

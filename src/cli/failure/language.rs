@@ -1,0 +1,26 @@
+use cinesplat::language::LanguageError;
+
+use super::exit::Exit;
+use super::message::Failure;
+
+impl From<LanguageError> for Failure {
+    fn from(error: LanguageError) -> Self {
+        use LanguageError as E;
+        let (code, message) = (error.code(), error.to_string());
+        let (exit, help) = match error {
+            E::TooLong { .. } => (Exit::BadData, "shorten the prompt to the camera's moves".to_owned()),
+            E::Empty => {
+                (Exit::BadData, "say what the camera does, for example -p \"orbit <obj-3> to the left\"".to_owned())
+            }
+            E::UnknownObject { nearest, .. } if nearest.is_empty() => {
+                (Exit::BadData, "the scene has no named objects: list them with `cinesplat objects SCENE`".to_owned())
+            }
+            E::UnknownObject { nearest, .. } => (Exit::BadData, format!("nearest names: {}", nearest.join(", "))),
+            E::TooManyObjects { .. } => (Exit::BadData, "split the prompt into several shots".to_owned()),
+            E::BadData { .. } => {
+                (Exit::Fault, "please report this: the program's own language files are damaged".to_owned())
+            }
+        };
+        Self::new(code, message, help, exit)
+    }
+}

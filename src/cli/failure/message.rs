@@ -1,0 +1,65 @@
+use std::fmt;
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
+use super::exit::Exit;
+
+/// A failed command: the two lines that a person reads and the exit code that a script sees.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(in crate::cli) struct Failure {
+    code: String,
+    message: String,
+    help: String,
+    exit: Exit,
+}
+
+impl Failure {
+    /// A failure with a stable `code`. `message` is `FILE: found, expected`, without `FILE` where no file is at fault;
+    /// `help` says what to do about it.
+    pub(in crate::cli) fn new(code: &str, message: impl Into<String>, help: impl Into<String>, exit: Exit) -> Self {
+        Self { code: code.to_owned(), message: message.into(), help: help.into(), exit }
+    }
+
+    /// Arguments that contradict each other or the input.
+    pub(in crate::cli) fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::new("USAGE", message, help, Exit::Usage)
+    }
+
+    /// A fault of this program at `place`, which is for its developers.
+    pub(in crate::cli) fn fault(place: &str) -> Self {
+        let help = "this is a fault of cinesplat, not yours: please report it with the command and the file";
+        Self::new("FAULT", format!("cinesplat itself failed: {place}"), help, Exit::Fault)
+    }
+
+    /// An error of the file system on `file`.
+    pub(in crate::cli) fn io(file: &str, error: &io::Error) -> Self {
+        let (code, help) = match error.kind() {
+            ErrorKind::NotFound => ("NOT-FOUND", "check the path"),
+            ErrorKind::PermissionDenied => ("PERMISSION", "change the permissions, or choose another place"),
+            _ => ("IO", "check free space and the disk, then try again"),
+        };
+        Self::new(code, format!("{file}: {error}"), help, Exit::of_read(error))
+    }
+
+    /// The same failure with `path` at the front of the message, unless the message names it already.
+    pub(in crate::cli) fn in_file(mut self, path: &Path) -> Self {
+        let file = path.display().to_string();
+        if !self.message.contains(&file) {
+            self.message = format!("{file}: {}", self.message);
+        }
+        self
+    }
+
+    /// Exit code of the program.
+    pub(in crate::cli) fn exit_code(&self) -> u8 {
+        self.exit as u8
+    }
+}
+
+impl fmt::Display for Failure {
+    /// Exactly two lines: line ends inside the texts become spaces.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let one_line = |text: &str| text.split('\n').map(str::trim).collect::<Vec<_>>().join(" ");
+        write!(f, "error[{}]: {}\nhelp: {}", self.code, one_line(&self.message), one_line(&self.help))
+    }
+}

@@ -1,0 +1,21 @@
+//! How a command ends badly: one file per stage maps the stage's error to an exit code and a line of help.
+//!
+//! Enters: a library's error, which says what happened. Leaves: a [`Failure`], which adds what the user can do about it
+//! and the exit code. Every match lists all variants, so a new variant does not compile without both.
+
+mod director;
+mod evaluation;
+mod exit;
+mod export;
+mod files;
+mod language;
+mod message;
+mod objects;
+mod pipeline;
+mod render;
+mod scene;
+mod training;
+mod video;
+
+pub(super) use exit::Exit;
+pub(super) use message::Failure;

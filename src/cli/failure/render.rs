@@ -1,0 +1,22 @@
+use cinesplat::render::RenderError;
+
+use super::exit::Exit;
+use super::message::Failure;
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        use RenderError as E;
+        let (code, message) = (error.code(), error.to_string());
+        let (exit, help) = match error {
+            E::Camera(_) => {
+                (Exit::BadData, "give the camera a size, focal lengths above 0 and a finite pose".to_owned())
+            }
+            E::Setting { name, expected, .. } => (Exit::Usage, format!("set {name} to {expected}")),
+            E::Length { what, expected, .. } => (Exit::BadData, format!("give {what} {expected} values, in order")),
+            E::Memory { .. } | E::Cost { .. } => {
+                (Exit::OverCap, "render smaller, or move the camera out of the Gaussians".to_owned())
+            }
+        };
+        Self::new(code, message, help, exit)
+    }
+}
