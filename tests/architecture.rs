@@ -1,152 +1,282 @@
-//! The table of layers: who may know whom. A broken row fails with the file, the line and what it names.
+//! What Cargo cannot say about the layers: which row of the table a crate stands on, who may depend on the expensive
+//! packages, and that no two files import each other.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Rows of the table from the bottom up. A folder of `src` may name folders of rows below its own, and itself.
-const ROWS: [&[&str]; 11] = [
-    &["geometry", "plot"],
+/// Rows of the table from the bottom up. A crate depends only on crates of rows below its own.
+const ROWS: [&[&str]; 14] = [
+    &["files", "geometry", "plot"],
     &["trajectory"],
     &["scene", "export"],
     &["render", "video"],
     &["objects"],
+    &["synth"],
     &["lens"],
     &["evaluation"],
     &["operator"],
+    &["language"],
     &["director"],
-    &["pipeline"],
-    &["cli"],
+    &["training"],
+    &["bench"],
+    &["cinesplat"],
 ];
 
-/// Macros that print: `cli` alone, which writes to its streams without them.
-const PRINTING: [&str; 5] = ["println", "eprintln", "print", "eprint", "dbg"];
-
-/// Words of code that belong to some folders alone.
+/// Packages that some crates alone depend on.
 const OWNED: [(&[&str], &[&str]); 3] = [
-    (&["clap", "anyhow", "indicatif", "ctrlc"], &["cli"]),
-    (&["candle_core", "candle_nn", "tokenizers"], &["director"]),
-    (&["ffmpeg_next"], &["video"]),
+    (&["clap", "anyhow", "indicatif", "ctrlc"], &["cinesplat"]),
+    (&["candle-core", "candle-nn", "tokenizers"], &["director", "training"]),
+    (&["ffmpeg-next"], &["video"]),
 ];
 
-#[test]
-fn every_folder_knows_only_what_lies_below_it() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut broken = Vec::new();
-    for file in rust_files(&src) {
-        let relative = file.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
-        broken.extend(violations(&relative, &fs::read_to_string(&file).unwrap()));
-    }
-    assert!(broken.is_empty(), "{}", broken.join("\n"));
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-#[test]
-fn every_folder_has_a_row() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    for entry in fs::read_dir(&src).unwrap().map(Result::unwrap).filter(|entry| entry.path().is_dir()) {
-        let name = entry.file_name().into_string().unwrap();
-        assert!(row(&name).is_some(), "src/{name} is in no row of the table");
-    }
-}
-
-#[test]
-fn a_broken_table_is_noticed() {
-    let breaks = |file: &str, source: &str| !violations(file, source).is_empty();
-    assert!(breaks("geometry/pose.rs", "use crate::trajectory::Shot;"));
-    assert!(breaks("render/blend.rs", "use crate::{\n    geometry::Pose,\n    video::VideoWriter,\n};"));
-    assert!(breaks("scene/ply/rows.rs", "fn f() { super::super::super::cli::run() }"));
-    assert!(breaks("scene/mod.rs", "use super::render;"));
-    assert!(breaks("objects/sheet.rs", "fn f() { println!(\"x\") }"));
-    assert!(breaks("operator/mod.rs", "use candle_core::Tensor;"));
-    assert!(breaks("pipeline/film.rs", "use ffmpeg_next as ffmpeg;"));
-
-    assert!(!breaks("render/blend.rs", "use crate::{geometry::Pose, scene::{Gaussians, video_like}};"));
-    assert!(!breaks("geometry/pose.rs", "// as crate::cli does\nconst S: &str = \"crate::cli println!\";"));
-    assert!(!breaks("scene/ply/rows.rs", "use super::super::SceneError; use super::header::Header;"));
-    assert!(!breaks("scene/paint.rs", "fn print(print: u8) -> u8 { print }"));
-    assert!(!breaks("cli/info.rs", "use crate::pipeline; use clap::Args; fn f() { println!(\"{}\", '\"'); }"));
-}
-
-fn row(folder: &str) -> Option<usize> {
-    ROWS.iter().position(|folders| folders.contains(&folder))
-}
-
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<PathBuf> = entries
-        .flat_map(|path| if path.is_dir() { rust_files(&path) } else { vec![path] })
-        .filter(|path| path.extension().is_some_and(|e| e == "rs"))
+/// Every crate's short name with its folder.
+fn crates() -> Vec<(String, PathBuf)> {
+    let folders = fs::read_dir(root().join("src")).unwrap().map(|entry| entry.unwrap().path());
+    let mut crates: Vec<_> = folders
+        .filter(|folder| folder.join("Cargo.toml").exists())
+        .map(|folder| (folder.file_name().unwrap().to_str().unwrap().to_owned(), folder))
         .collect();
-    files.sort();
-    files
+    crates.push(("cinesplat".to_owned(), root().to_owned()));
+    crates.sort();
+    crates
 }
 
-/// What a file of `src` (path relative to it) names against the table, one line each.
-fn violations(file: &str, source: &str) -> Vec<String> {
-    let Some((folder, inside)) = file.split_once('/') else { return Vec::new() };
-    let tokens = tokens(source);
-    let depth = inside.matches('/').count() + if inside.ends_with("mod.rs") { 1 } else { 2 };
+/// Names in the section `[dependencies]` of a manifest.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let section = manifest.split("\n[dependencies]\n").nth(1).unwrap_or_default();
+    let section = section.split("\n[").next().unwrap_or_default();
+    let lines = section.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()));
+    lines.map(|line| line.split(['.', ' ', '=']).next().unwrap_or_default().to_owned()).collect()
+}
+
+/// What a crate depends on against the table, one line each.
+fn violations(name: &str, dependencies: &[String]) -> Vec<String> {
+    let row = |name: &str| ROWS.iter().position(|crates| crates.contains(&name));
+    let Some(own_row) = row(name) else { return vec![format!("{name} is in no row of the table")] };
     let mut found = Vec::new();
-    for (line, named) in folders_named(&tokens, depth) {
-        let Some(their_row) = row(&named) else { continue };
-        if named != folder && row(folder).is_none_or(|own_row| their_row >= own_row) {
-            found.push(format!("src/{file}:{line}: {folder} names {named}, which is not below it"));
+    for dependency in dependencies {
+        if let Some(below) = dependency.strip_prefix("cinesplat-")
+            && row(below).is_none_or(|row| row >= own_row)
+        {
+            found.push(format!("{name} depends on {below}, which is not below it"));
         }
-    }
-    for (at, (line, word)) in tokens.iter().enumerate() {
-        let is_macro = tokens.get(at + 1).is_some_and(|(_, mark)| mark == "!");
-        if folder != "cli" && is_macro && PRINTING.contains(&word.as_str()) {
-            found.push(format!("src/{file}:{line}: {word}! prints, which cli alone may"));
-        }
-        for (words, owners) in OWNED {
-            if words.contains(&word.as_str()) && !owners.contains(&folder) {
-                found.push(format!("src/{file}:{line}: {word} belongs to {} alone", owners.join(", ")));
+        for (packages, owners) in OWNED {
+            if packages.contains(&dependency.as_str()) && !owners.contains(&name) {
+                found.push(format!("{name} depends on {dependency}, which belongs to {} alone", owners.join(", ")));
             }
         }
     }
     found
 }
 
-/// First names of all paths that start at the crate's root: `crate::x`, `crate::{x, y::z}`, enough `super::`.
-fn folders_named(tokens: &[(usize, String)], depth: usize) -> Vec<(usize, String)> {
-    let word = |i: usize| tokens.get(i).map_or("", |(_, word)| word.as_str());
-    let mut named = Vec::new();
-    for start in 0..tokens.len() {
-        let mut at = start;
-        if word(at) == "crate" && word(at + 1) == "::" {
-            at += 2;
-        } else if word(at) == "super" && (start < 2 || word(start - 2) != "super") {
-            let mut num_up = 0;
-            while word(at) == "super" && word(at + 1) == "::" {
-                num_up += 1;
-                at += 2;
-            }
-            if num_up < depth {
-                continue;
-            }
-        } else {
-            continue;
-        }
-        if word(at) != "{" {
-            named.push((tokens[start].0, word(at).to_owned()));
-            continue;
-        }
-        let mut nesting = 0;
-        while at < tokens.len() {
-            match word(at) {
-                "{" => nesting += 1,
-                "}" => nesting -= 1,
-                name if nesting == 1 && matches!(word(at - 1), "{" | ",") => {
-                    named.push((tokens[at].0, name.to_owned()));
-                }
-                _ => {}
-            }
-            at += 1;
-            if nesting == 0 {
-                break;
-            }
+#[test]
+fn every_crate_depends_only_on_rows_below_its_own() {
+    let broken: Vec<String> = crates()
+        .into_iter()
+        .flat_map(|(name, folder)| {
+            violations(&name, &dependencies(&fs::read_to_string(folder.join("Cargo.toml")).unwrap()))
+        })
+        .collect();
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+    assert_eq!(crates().len(), ROWS.iter().map(|row| row.len()).sum::<usize>(), "the table names every crate");
+}
+
+#[test]
+fn a_broken_table_is_noticed() {
+    let of = |name: &str, dependency: &str| violations(name, &[dependency.to_owned()]).len();
+    assert_eq!(of("geometry", "cinesplat-trajectory"), 1);
+    assert_eq!(of("video", "cinesplat-render"), 1, "two crates of one row do not know each other");
+    assert_eq!(of("operator", "candle-core"), 1);
+    assert_eq!(of("scene", "clap"), 1);
+    assert_eq!(of("attic", "glam"), 1);
+    assert_eq!(of("operator", "cinesplat-scene") + of("director", "candle-core") + of("cinesplat", "clap"), 0);
+    let manifest = "[package]\nname = \"x\"\n\n[dependencies]\n# why\nglam.workspace = true\nclap = { workspace = true }\n\n[lints]\nclippy = 1\n";
+    assert_eq!(dependencies(manifest), ["glam", "clap"]);
+}
+
+#[test]
+fn no_two_files_import_each_other() {
+    let mut circles = Vec::new();
+    for (name, folder) in crates() {
+        let folder = if name == "cinesplat" { root().join("src") } else { folder };
+        let files = rust_files(&folder, name == "cinesplat");
+        let read = |file: &PathBuf| (module_of(file.strip_prefix(&folder).unwrap()), fs::read_to_string(file).unwrap());
+        let sources = files.iter().map(read).collect();
+        circles
+            .extend(circles_of(&imports(&sources)).into_iter().map(|circle| format!("{name}: {}", circle.join(" "))));
+    }
+    assert!(circles.is_empty(), "files that import each other:\n{}", circles.join("\n"));
+}
+
+#[test]
+fn a_circle_of_files_is_noticed() {
+    let circles = |files: &[(&str, &str)]| {
+        let sources = files.iter().map(|(module, text)| (path_of(module), (*text).to_owned())).collect();
+        circles_of(&imports(&sources))
+    };
+    let two = [("", "mod a; mod b;"), ("a", "use super::b::B; pub struct A;"), ("b", "use crate::a::A; pub struct B;")];
+    assert_eq!(circles(&two), [["a", "b"]]);
+    let through_parent = [("", "mod a; use a::A; pub struct P;"), ("a", "use super::P; pub struct A;")];
+    assert_eq!(circles(&through_parent), [["lib", "a"]]);
+    let re_exported = [
+        ("", "mod a; mod b; pub use a::A; pub use b::{B, C};"),
+        ("a", "pub struct A;"),
+        ("b", "use super::{A}; pub struct B; pub struct C;"),
+    ];
+    assert!(circles(&re_exported).is_empty());
+    let one_way = [("", "mod a; mod b;"), ("a", "fn f() { super::b::g() }"), ("b", "pub fn g() {} // use super::a::A")];
+    assert!(circles(&one_way).is_empty());
+}
+
+/// A file's place among the modules of its crate; empty for the root.
+type Module = Vec<String>;
+
+fn path_of(module: &str) -> Module {
+    module.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect()
+}
+
+fn module_of(file: &Path) -> Module {
+    let mut module: Module =
+        file.with_extension("").components().map(|part| part.as_os_str().to_str().unwrap().to_owned()).collect();
+    if module.last().is_some_and(|name| ["mod", "lib", "main", "no_film"].contains(&name.as_str())) {
+        module.pop();
+    }
+    module
+}
+
+/// Rust files of a folder; of the root package only those that are in no other crate.
+fn rust_files(folder: &Path, skips_crates: bool) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        if path.is_dir() && !(skips_crates && path.join("Cargo.toml").exists()) {
+            files.extend(rust_files(&path, skips_crates));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
         }
     }
-    named
+    files.sort();
+    files
+}
+
+/// For every file the files whose definitions it names. What a file only hands on (`pub use`) is not counted; a name that
+/// a parent hands on counts as one of the file that defines it.
+fn imports(sources: &BTreeMap<Module, String>) -> BTreeMap<Module, BTreeSet<Module>> {
+    let statements: BTreeMap<&Module, Vec<Named>> =
+        sources.iter().map(|(module, text)| (module, named_paths(module, &tokens(text), sources))).collect();
+    let handed_on = |module: &Module, name: &str| {
+        let of_name =
+            statements[module].iter().find(|named| named.is_public_use && named.item.as_deref() == Some(name));
+        of_name.map(|named| named.module.clone())
+    };
+    let defining = |named: &Named| {
+        let mut module = named.module.clone();
+        for _ in 0..sources.len() {
+            let Some(item) = &named.item else { break };
+            match handed_on(&module, item).filter(|next| *next != module) {
+                Some(next) => module = next,
+                None => break,
+            }
+        }
+        module
+    };
+    let of_file = |module: &&Module| {
+        let named = statements[*module].iter().filter(|named| !named.is_public_use);
+        named.map(defining).filter(|other| other != *module).collect()
+    };
+    sources.keys().map(|module| (module.clone(), of_file(&module))).collect()
+}
+
+/// A path in a file: the module that it leads to, and the name in it.
+struct Named {
+    module: Module,
+    item: Option<String>,
+    is_public_use: bool,
+}
+
+/// Paths from `crate`, `self`, `super` or a child module, in `use` statements and elsewhere.
+fn named_paths(own: &Module, tokens: &[(usize, String)], sources: &BTreeMap<Module, String>) -> Vec<Named> {
+    let word = |at: usize| tokens.get(at).map_or("", |(_, word)| word.as_str());
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < tokens.len() {
+        let starts = word(at + 1) == "::" && (at == 0 || word(at - 1) != "::");
+        let child: Module = own.iter().cloned().chain([word(at).to_owned()]).collect();
+        let base = match word(at) {
+            "crate" if starts => Some(Module::new()),
+            "self" if starts => Some(own.clone()),
+            "super" if starts => Some(own[..own.len().saturating_sub(1)].to_vec()),
+            _ if starts && sources.contains_key(&child) => Some(child),
+            _ => None,
+        };
+        let Some(base) = base else {
+            at += 1;
+            continue;
+        };
+        let is_public_use = (at > 0 && word(at - 1) == "use") && at > 1 && matches!(word(at - 2), "pub" | ")");
+        let mut paths = Vec::new();
+        at = expand(tokens, at + 2, &base, &mut paths);
+        for path in paths {
+            let depth = (0..=path.len()).rev().find(|depth| sources.contains_key(&path[..*depth])).unwrap_or(0);
+            let item = path.get(depth).filter(|name| *name != "self").cloned();
+            found.push(Named { module: path[..depth].to_vec(), item, is_public_use });
+        }
+    }
+    found
+}
+
+/// Reads the rest of a path from `at`: `super` climbs from `path`, braces branch. Returns where it ends.
+fn expand(tokens: &[(usize, String)], mut at: usize, path: &Module, found: &mut Vec<Module>) -> usize {
+    let word = |at: usize| tokens.get(at).map_or("", |(_, word)| word.as_str());
+    let mut path = path.clone();
+    loop {
+        match word(at) {
+            "super" => {
+                path.pop();
+            }
+            "{" => {
+                at += 1;
+                while !matches!(word(at), "}" | "") {
+                    at = expand(tokens, at, &path, found);
+                    at += if word(at) == "as" { 2 } else { 0 };
+                    at += usize::from(word(at) == ",");
+                }
+                return at + 1;
+            }
+            name => path.push(name.to_owned()),
+        }
+        if word(at + 1) != "::" {
+            found.push(path);
+            return at + 1;
+        }
+        at += 2;
+    }
+}
+
+/// Groups of modules that lead back to themselves.
+fn circles_of(imports: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
+    let reached = |from: &Module| {
+        let mut seen = BTreeSet::new();
+        let mut open: Vec<&Module> = imports[from].iter().collect();
+        while let Some(module) = open.pop() {
+            if seen.insert(module.clone()) {
+                open.extend(imports.get(module).into_iter().flatten());
+            }
+        }
+        seen
+    };
+    let reach: BTreeMap<&Module, BTreeSet<Module>> = imports.keys().map(|module| (module, reached(module))).collect();
+    let name = |module: &Module| if module.is_empty() { "lib".to_owned() } else { module.join("::") };
+    let circle = |module: &&Module| -> Vec<String> {
+        let members = imports.keys().filter(|other| reach[*module].contains(*other) && reach[other].contains(*module));
+        members.map(name).collect()
+    };
+    let circles: BTreeSet<Vec<String>> = imports.keys().map(|module| circle(&module)).filter(|c| c.len() > 1).collect();
+    circles.into_iter().collect()
 }
 
 /// Words and marks of code with their lines; comments, strings and character literals are left out.

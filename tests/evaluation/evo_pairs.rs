@@ -1,7 +1,7 @@
 //! Equal to evo 1.38.1 in how relative errors choose their pairs: numbers that `evo.core.metrics.RPE` printed for
 //! `freiburg1_xyz-rgbdslam_drift.txt` against the ground truth after a Sim3 alignment, for every unit of delta.
 
-use cinesplat::evaluation::{Align, Delta, EvalSettings, EvaluationError, Metric, PairSettings, Relation, evaluate};
+use cinesplat::evaluation::{Align, Delta, EvalSettings, EvaluationError, Metric, PairSettings, evaluate};
 
 use super::paths::recorded;
 

@@ -1,6 +1,6 @@
 //! Equal to evo 1.38.1 on recorded paths: `expected_evo_1.38.1.json` holds what its ordinary package computed.
 
-use cinesplat::evaluation::{Align, EvalSettings, Evaluation, Metric, PairSettings, Relation, evaluate};
+use cinesplat::evaluation::{Align, EvalSettings, Evaluation, Metric, PairSettings, evaluate};
 use serde_json::Value;
 
 use super::paths::recorded;
