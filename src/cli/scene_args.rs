@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::choice::choice;
 use super::console;
 use super::failure::Failure;
+use cinesplat::export::cameras_json::FilterChoice;
 use cinesplat::objects::{self, FindSettings, ObjectSet};
 use cinesplat::pipeline::{self, Source};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
@@ -99,8 +100,8 @@ pub(super) struct PictureArgs {
     #[arg(long, value_name = "Q", value_parser = choice::<Quality>())]
     quality: Option<Quality>,
     /// Splat filter: auto (what the scene's file says), classic or mip
-    #[arg(long, value_name = "FILTER", value_parser = ["auto", "classic", "mip"])]
-    filter: Option<String>,
+    #[arg(long, value_name = "FILTER", value_parser = choice::<FilterChoice>())]
+    filter: Option<FilterChoice>,
     /// Order of blending: z (depth, as scenes are trained) or ray (distance; nothing pops while the camera turns)
     #[arg(long, value_name = "ORDER", value_parser = choice::<SortMode>())]
     sort: Option<SortMode>,
@@ -129,15 +130,15 @@ impl PictureArgs {
         &self,
         scene: &Scene,
         default: Quality,
-        filter: Option<&str>,
+        filter: Option<FilterChoice>,
         near: Option<f64>,
     ) -> RenderSettings {
         let defaults = RenderSettings::for_scene(scene);
-        let filter = match self.filter.as_deref().or(filter) {
-            Some("classic") => SplatFilter::Classic,
-            Some("mip") if defaults.filter == SplatFilter::MipSmall => SplatFilter::MipSmall,
-            Some("mip") => SplatFilter::Mip,
-            _ => defaults.filter,
+        let filter = match self.filter.or(filter).unwrap_or_default() {
+            FilterChoice::Auto => defaults.filter,
+            FilterChoice::Classic => SplatFilter::Classic,
+            FilterChoice::Mip if defaults.filter == SplatFilter::MipSmall => SplatFilter::MipSmall,
+            FilterChoice::Mip => SplatFilter::Mip,
         };
         let near = self.near.or(near).unwrap_or(defaults.near);
         let (quality, sort) = (self.quality.unwrap_or(default), self.sort.unwrap_or(defaults.sort));

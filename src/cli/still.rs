@@ -60,7 +60,7 @@ impl Args {
         self.picture.bound_threads()?;
         let scene = self.scene.open()?.scene;
         print_up(&scene);
-        let settings = self.picture.settings(&scene, Quality::Final, cameras.filter.as_deref(), cameras.near);
+        let settings = self.picture.settings(&scene, Quality::Final, cameras.filter, cameras.near);
         let outputs = self.outputs(&scene)?;
         pipeline::still(&scene, &cameras.cameras, &settings, &outputs, &mut |still| self.write(&still))
     }

@@ -1,16 +1,33 @@
 //! `cameras.json`: the still cameras of `still`, each with its own image size and focal lengths.
 
+use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
+
 use super::ExportError;
 use super::json_read::{self, Node};
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
+
+/// Which splat filter a caller asks for.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum FilterChoice {
+    /// The filter that the scene's file names, else classic.
+    #[default]
+    Auto,
+    /// Dilation alone.
+    Classic,
+    /// Dilation with compensated opacity.
+    Mip,
+}
 
 /// What a `cameras.json` says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StillCameras {
     /// Path of the scene as written, relative to the file.
     pub scene: Option<String>,
-    /// Splat filter by name: `auto`, `classic` or `mip`.
-    pub filter: Option<String>,
+    /// Splat filter.
+    pub filter: Option<FilterChoice>,
     /// Distance of the near plane, scene units.
     pub near: Option<f64>,
     /// The cameras in file order, at least one.
@@ -42,12 +59,9 @@ pub fn read(text: &str) -> Result<StillCameras, ExportError> {
     Ok(StillCameras { scene: string("scene")?, filter: read_filter(&root)?, near: read_near(&root)?, cameras })
 }
 
-fn read_filter(root: &Node) -> Result<Option<String>, ExportError> {
+fn read_filter(root: &Node) -> Result<Option<FilterChoice>, ExportError> {
     let Some(node) = root.optional("filter") else { return Ok(None) };
-    match node.text()? {
-        name @ ("auto" | "classic" | "mip") => Ok(Some(name.to_owned())),
-        _ => Err(node.error("auto, classic or mip")),
-    }
+    node.text()?.parse().map(Some).map_err(|_| node.error("auto, classic or mip"))
 }
 
 fn read_near(root: &Node) -> Result<Option<f64>, ExportError> {

@@ -1,4 +1,4 @@
-use cinesplat::export::cameras_json::read;
+use cinesplat::export::cameras_json::{FilterChoice, read};
 use glam::{DVec2, DVec3};
 
 use crate::support::shared;
@@ -21,7 +21,7 @@ fn reads_pose_and_intrinsics() {
 fn reads_the_golden_cameras() {
     let Some(path) = shared("data/golden/kitchen_mip.cameras.json") else { return };
     let file = read(&std::fs::read_to_string(path).unwrap()).unwrap();
-    assert_eq!(file.filter.as_deref(), Some("mip"));
+    assert_eq!(file.filter, Some(FilterChoice::Mip));
     assert_eq!(file.cameras.len(), 3);
     // The kitchen's up is +y: a camera's own up has a positive y.
     assert!(file.cameras.iter().all(|c| c.camera.pose.up().y > 0.9));

@@ -42,7 +42,7 @@ pub(super) fn settings(
     default: Quality,
     file: Option<&StillCameras>,
 ) -> RenderSettings {
-    let (filter, near) = file.map_or((None, None), |file| (file.filter.as_deref(), file.near));
+    let (filter, near) = file.map_or((None, None), |file| (file.filter, file.near));
     picture.settings(scene, default, filter, near)
 }
 
