@@ -14,7 +14,7 @@ use cinesplat::pipeline::{self, FilmReport, FilmSettings, Flow, Forecast, FrameR
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
-use cinesplat::video::{self, Preset, VideoSettings};
+use cinesplat::video::{self, VideoSettings, X264Preset};
 
 /// Films a sentence or a shot.
 #[derive(Debug, clap::Args)]
@@ -51,8 +51,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 18)]
     crf: u8,
     /// Effort of the H.264 encoder: ultrafast, veryfast, fast, medium, slow or veryslow
-    #[arg(long, value_name = "PRESET", default_value = "medium", value_parser = choice::<Preset>())]
-    preset: Preset,
+    #[arg(long, value_name = "PRESET", default_value = "medium", value_parser = choice::<X264Preset>())]
+    preset: X264Preset,
     /// Writes the shot too
     #[arg(long, value_name = "SHOT.JSON")]
     save_shot: Option<PathBuf>,
@@ -83,7 +83,7 @@ impl Args {
         let (scene, shot) = self.open(&mut times)?;
         // Once more, now that size and number of frames are known.
         let format = video::check_output(&self.output, &self.video(&shot)?)?;
-        if let Some(note) = video::size_note(&format, shot.width, shot.height) {
+        if let Some(note) = video::odd_size_note(&format, shot.width, shot.height) {
             console::note(&note);
         }
         if let Some(path) = &self.save_shot {

@@ -202,7 +202,7 @@ impl Encoder {
         for (frame_idx, frame) in frames.iter().enumerate() {
             let start = Instant::now();
             if let Some(sheet) = &mut self.sheet {
-                sheet.offer(frame_idx, &frame.rgb8);
+                sheet.add_frame(frame_idx, &frame.rgb8);
             }
             self.writer.write_frame(&frame.rgb8)?;
             self.busy += start.elapsed();

@@ -1,21 +1,21 @@
-//! R'G'B' to the `Y'CbCr` that HD players expect: ITU-R BT.709-6, 8 bits, limited range, 4:2:0.
+//! Converts R'G'B' to the `Y'CbCr` that HD players expect: ITU-R BT.709-6, 8 bits, limited range, 4:2:0.
 //!
 //! Equations of BT.709-6 section 3: Y' = 0.2126 R' + 0.7152 G' + 0.0722 B', Cb = (B' - Y') / 1.8556,
 //! Cr = (R' - Y') / 1.5748; 8-bit codes Y = 16 + 219 Y', C = 128 + 224 C. The colors of a scene are display-referred
 //! (trained against photos as they are), so no transfer curve is applied.
 //!
-//! Chroma samples lie where MPEG-2, H.264 and VP9 have them by default: in line with the left one of two columns,
-//! halfway between two rows. Hence a 1 2 1 filter across and a mean down.
+//! Chroma samples lie at the default position of MPEG-2, H.264 and VP9: on the left one of two columns, halfway between
+//! two rows. Therefore chroma is filtered with weights 1 2 1 horizontally and averaged vertically.
 
 #![allow(
     clippy::inline_always,
-    reason = "what runs on an instruction set found at run time must be inlined into the function that enables it"
+    reason = "code for an instruction set that is detected at run time must be inlined into the function that enables it"
 )]
 
-/// Fraction bits of the fixed-point weights. With 16 the result is the rounded exact one, or next to it.
+/// Fraction bits of the fixed-point weights. With 16 every code is within 0.51 of the exact value.
 const FRACTION_BITS: u32 = 16;
 
-/// Planes of one 4:2:0 picture, rows packed: `y` width x height, `cb` and `cr` a quarter of that each.
+/// Planes of one 4:2:0 picture, rows packed: `y` has width x height codes, `cb` and `cr` a quarter of that each.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Planes420 {
     /// Luma columns, even.
@@ -38,12 +38,12 @@ struct Weights {
 }
 
 impl Weights {
-    /// `rgb` sum to the code's span for white; `base` is the code of zero.
+    /// Weights for `rgb` (of the equation), the range `span` of the code, and the code `base` that stands for zero.
     fn new(rgb: [f64; 3], span: f64, base: i32, scale_bits: u32) -> Self {
         let shift = FRACTION_BITS + scale_bits;
         let fixed = |weight: f64| (weight * span / 255.0 * f64::from(1 << FRACTION_BITS)).round() as i32;
         let mut rgb = rgb.map(fixed);
-        // Rounding must not tint gray: the largest weight takes up what the sum is off by.
+        // Rounding must not tint gray: the largest weight absorbs the rounding error of the sum.
         let wanted = if base == 16 { fixed(1.0) } else { 0 };
         let largest = (0..3).max_by_key(|&i| rgb[i].abs()).unwrap_or(1);
         rgb[largest] += wanted - rgb.iter().sum::<i32>();
@@ -57,12 +57,12 @@ impl Weights {
     }
 }
 
-/// Converts a picture of `width` x `height` pixels (row-major, r g b, 8 bits, full range) to 4:2:0. Odd sizes grow by
-/// one: the last column or row is repeated.
+/// Converts a picture of `width` x `height` pixels (row-major, r g b, 8 bits, full range) to 4:2:0. An odd width or height
+/// grows by one: the last column or row is repeated.
 ///
-/// `rgb8` has to hold `width * height * 3` bytes, both sizes above 0.
+/// `rgb8` must hold `width * height * 3` bytes; width and height must be above 0.
 pub fn planes_from_rgb8(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
-    // Whole numbers: the same planes on every instruction set.
+    // Integer arithmetic gives the same planes on every instruction set.
     pulp::Arch::new().dispatch(|| convert(rgb8, width, height))
 }
 
@@ -93,7 +93,7 @@ fn convert(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
     Planes420 { width: even_width, height: even_height, y, cb, cr }
 }
 
-/// Red, green and blue of one row, each with its first value repeated in front and its last behind.
+/// Red, green and blue of one row, each with its first value repeated before it and its last value after it.
 type Channels = [Vec<i32>; 3];
 
 #[inline(always)]
@@ -117,7 +117,8 @@ fn write_luma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
     }
 }
 
-/// One row of chroma from the sums of two rows of pixels: weights 1 2 1 across, 8 pixels in all.
+/// One row of chroma from the sums of two rows of pixels, with weights 1 2 1 horizontally; the weights of the six pixels
+/// sum to 8.
 #[inline(always)]
 fn write_chroma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
     let across = |sums: &[i32]| sums[0] + 2 * sums[1] + sums[2];

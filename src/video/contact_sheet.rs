@@ -4,22 +4,21 @@ use cinesplat_files::Existing;
 
 use super::{VideoError, write_png};
 
-/// Columns and rows of a sheet.
+/// Columns and rows of thumbnails.
 const GRID: (usize, usize) = (4, 3);
-/// Width of one small picture in pixels.
+/// Width of a thumbnail in pixels.
 const THUMB_WIDTH: usize = 320;
-/// Gap between pictures in pixels.
+/// Gap between thumbnails in pixels.
 const GAP: usize = 4;
 /// Gray of the gaps.
 const GAP_GRAY: u8 = 40;
 
-/// Small pictures of a film at twelve even moments, first and last frame among them, in one PNG: left to right, then
-/// down.
+/// Thumbnails of a film in one PNG: twelve frames at even intervals, from the first to the last, in reading order.
 #[derive(Debug, Clone)]
 pub struct ContactSheet {
     size: (usize, usize),
     thumb_size: (usize, usize),
-    picks: Vec<usize>,
+    frame_of_cell: Vec<usize>,
     rgb8: Vec<u8>,
 }
 
@@ -29,22 +28,22 @@ impl ContactSheet {
         let size = (width as usize, height as usize);
         let num_thumbs = (GRID.0 * GRID.1).min(num_frames.max(1));
         let last = num_frames.saturating_sub(1);
-        let picks = (0..num_thumbs).map(|i| (i * last).div_euclid(num_thumbs.max(2) - 1)).collect();
+        let frame_of_cell = (0..num_thumbs).map(|i| (i * last).div_euclid(num_thumbs.max(2) - 1)).collect();
         let thumb_width = THUMB_WIDTH.min(size.0);
         let thumb_size = (thumb_width, (size.1 * thumb_width).div_ceil(size.0.max(1)).max(1));
-        let mut sheet = Self { size, thumb_size, picks, rgb8: Vec::new() };
+        let mut sheet = Self { size, thumb_size, frame_of_cell, rgb8: Vec::new() };
         let (sheet_width, sheet_height) = sheet.sheet_size();
         sheet.rgb8 = vec![GAP_GRAY; sheet_width * sheet_height * 3];
         sheet
     }
 
-    /// Offers frame `frame_idx` (counted from the first frame of the film), `width * height * 3` bytes; it is taken
-    /// when it is one of the twelve.
-    pub fn offer(&mut self, frame_idx: usize, rgb8: &[u8]) {
-        for (cell, _) in self.picks.iter().enumerate().filter(|&(_, &pick)| pick == frame_idx) {
+    /// Adds frame `frame_idx` (0 = first of the film; `width * height * 3` bytes) if it is one of the twelve; ignores it
+    /// otherwise.
+    pub fn add_frame(&mut self, frame_idx: usize, rgb8: &[u8]) {
+        for (cell, _) in self.frame_of_cell.iter().enumerate().filter(|&(_, &pick)| pick == frame_idx) {
             let left = GAP + cell % GRID.0 * (self.thumb_size.0 + GAP);
             let top = GAP + cell / GRID.0 * (self.thumb_size.1 + GAP);
-            let sheet_width = sheet_size(self.thumb_size, self.picks.len()).0;
+            let sheet_width = sheet_size(self.thumb_size, self.frame_of_cell.len()).0;
             for y in 0..self.thumb_size.1 {
                 for x in 0..self.thumb_size.0 {
                     let at = ((top + y) * sheet_width + left + x) * 3;
@@ -64,7 +63,7 @@ impl ContactSheet {
     }
 
     fn sheet_size(&self) -> (usize, usize) {
-        sheet_size(self.thumb_size, self.picks.len())
+        sheet_size(self.thumb_size, self.frame_of_cell.len())
     }
 }
 
@@ -73,7 +72,7 @@ fn sheet_size(thumb_size: (usize, usize), num_thumbs: usize) -> (usize, usize) {
     (GAP + columns * (thumb_size.0 + GAP), GAP + rows * (thumb_size.1 + GAP))
 }
 
-/// Mean of the source pixels that a small pixel covers, whole pixels only.
+/// Mean of the source pixels that a thumbnail pixel covers, whole pixels only.
 fn box_mean(rgb8: &[u8], size: (usize, usize), thumb_size: (usize, usize), at: (usize, usize)) -> [u8; 3] {
     let span = |i: usize, from: usize, to: usize| {
         let start = i * from / to;

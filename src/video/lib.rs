@@ -1,10 +1,15 @@
-//! Frames to a film file or a sequence of pictures: films need the feature `ffmpeg`, which is on by default.
+//! Writes frames to a film file or to a numbered sequence of pictures.
 //!
-//! Enters: 8-bit RGB frames, in order. Leaves: H.264 (MP4, Matroska, QuickTime), VP9 (WebM) or PNG files with exact
-//! times and BT.709 color tags. The invariant: a file that bears its name is whole and was read back.
+//! Enters: 8-bit RGB frames, in order. Leaves: H.264 (MP4, Matroska, QuickTime) or VP9 (WebM) with exact times and BT.709
+//! color tags, or one PNG per frame. The invariant: a film file appears under its own name only when it is complete and
+//! has been read back.
+//!
+//! [`VideoWriter`] writes either kind; the ending of the path decides ([`VideoFormat::from_path`]). Films need the feature
+//! `ffmpeg`, which is on by default. Without it only picture sequences are written.
 
 mod bt709;
 mod contact_sheet;
+mod dry_run;
 mod error;
 #[cfg(feature = "ffmpeg")]
 mod film;
@@ -12,16 +17,15 @@ mod film;
 #[path = "no_film.rs"]
 mod film;
 mod pattern;
-mod rehearsal;
 mod sequence;
 mod settings;
 mod writer;
 
 pub use bt709::{Planes420, planes_from_rgb8};
 pub use contact_sheet::ContactSheet;
+pub use dry_run::{encode_and_discard, encoder_delay_frames};
 pub use error::VideoError;
 pub use pattern::FramePattern;
-pub use rehearsal::{num_ahead, rehearse};
 pub use sequence::write_png;
-pub use settings::{Preset, VideoFormat, VideoSettings};
-pub use writer::{VideoWriter, check_output, size_note};
+pub use settings::{VideoFormat, VideoSettings, X264Preset};
+pub use writer::{VideoWriter, check_output, odd_size_note};

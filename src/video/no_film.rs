@@ -1,10 +1,10 @@
-//! Stands in for `film` where this crate is built without FFmpeg: every film file is refused.
+//! Replaces `film` if this crate is built without FFmpeg: rejects every film file.
 
 use std::path::{Path, PathBuf};
 
 use super::{VideoError, VideoFormat, VideoSettings};
 
-/// No encoder, so no value.
+/// Cannot be constructed: there is no encoder.
 pub(crate) enum FilmEncoder {}
 
 impl FilmEncoder {
@@ -21,7 +21,7 @@ impl FilmEncoder {
     }
 }
 
-pub(crate) fn encode_to_nothing(
+pub(crate) fn encode_and_discard(
     path: &Path,
     _format: &VideoFormat,
     _settings: &VideoSettings,

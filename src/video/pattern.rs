@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 
 use super::VideoError;
 
-/// Names of numbered pictures: a path whose file name holds one `%d` or `%05d` as in `printf`, and `%%` for a percent
-/// sign. Only the file name is a pattern; folders are taken as they are.
+/// Names of numbered pictures: a path whose file name contains one `%d` or `%05d` as in `printf`, and `%%` for a percent
+/// sign. Only the file name is a pattern; folder names are used literally.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FramePattern {
     folder: PathBuf,
@@ -14,14 +14,14 @@ pub struct FramePattern {
 }
 
 impl FramePattern {
-    /// Reads a pattern.
+    /// Parses a pattern.
     ///
     /// # Errors
-    /// [`VideoError::BadPattern`] without exactly one number, or with a file name that is not UTF-8.
+    /// [`VideoError::BadPattern`] unless the file name is UTF-8 and contains exactly one frame number of at most 20 digits.
     pub fn parse(path: &Path) -> Result<Self, VideoError> {
         let bad = |reason| VideoError::BadPattern { reason, path: path.to_owned() };
         let name = path.file_name().ok_or(bad("no file name"))?;
-        let name = name.to_str().ok_or(bad("the file name is not UTF-8, a frame pattern has to be"))?;
+        let name = name.to_str().ok_or(bad("the file name is not UTF-8, expected UTF-8 in a frame pattern"))?;
         let mut texts = vec![String::new()];
         let mut min_digits = 1;
         let mut rest = name.chars();
@@ -37,12 +37,13 @@ impl FramePattern {
                     min_digits = digits.parse().unwrap_or(1);
                     texts.push(String::new());
                 }
-                _ => return Err(bad("only %d, %05d and %% are known in a frame pattern")),
+                _ => return Err(bad("the frame pattern has another % sequence, expected %d, %05d or %%")),
             }
         }
-        let [before, after] = <[String; 2]>::try_from(texts).map_err(|_| bad("not exactly one frame number"))?;
+        let [before, after] = <[String; 2]>::try_from(texts)
+            .map_err(|_| bad("none or several frame numbers, expected exactly one %d"))?;
         if min_digits > 20 {
-            return Err(bad("more than 20 digits in a frame number"));
+            return Err(bad("a frame number of more than 20 digits, expected at most 20"));
         }
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         Ok(Self { folder, before, after, min_digits })
@@ -54,7 +55,7 @@ impl FramePattern {
         self.folder.join(OsString::from(format!("{}{frame_idx:0digits$}{}", self.before, self.after)))
     }
 
-    /// The folder that all frames lie in; empty for the working folder.
+    /// The folder of all frames; empty for the working folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

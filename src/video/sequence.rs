@@ -6,7 +6,7 @@ use image::{ExtendedColorType, ImageEncoder, codecs::png};
 
 use super::{FramePattern, VideoError, VideoSettings};
 
-/// One PNG a frame, each whole or absent.
+/// Writes one PNG per frame; each file is complete or absent.
 pub(super) struct SequenceWriter {
     pattern: FramePattern,
     settings: VideoSettings,
@@ -14,7 +14,7 @@ pub(super) struct SequenceWriter {
 }
 
 impl SequenceWriter {
-    /// Creates the folder where there is none.
+    /// Creates the folder if it does not exist.
     pub(super) fn create(pattern: &FramePattern, settings: &VideoSettings) -> Result<Self, VideoError> {
         let folder = pattern.folder();
         if !folder.as_os_str().is_empty() {
@@ -30,16 +30,16 @@ impl SequenceWriter {
         Ok(())
     }
 
-    /// The folder with the pictures.
+    /// The folder of the pictures.
     pub(super) fn finish(self) -> PathBuf {
         self.pattern.folder().to_owned()
     }
 }
 
-/// Writes one 8-bit RGB picture of `[width, height]` pixels. The file is whole or absent.
+/// Writes one 8-bit RGB picture of `[width, height]` pixels as PNG. The file is complete or absent.
 ///
 /// # Errors
-/// [`VideoError::File`] with the system's reason, [`VideoError::FrameSize`] for another number of bytes.
+/// [`VideoError::FrameSize`] unless `rgb8` holds `width * height * 3` bytes, [`VideoError::File`] with the system's reason.
 pub fn write_png(path: &Path, rgb8: &[u8], size_px: [u32; 2], existing: Existing) -> Result<(), VideoError> {
     let bytes = png_bytes(path, rgb8, size_px[0], size_px[1])?;
     Ok(cinesplat_files::write(path, &bytes, existing)?)

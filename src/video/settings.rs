@@ -4,29 +4,29 @@ use cinesplat_files::Existing;
 
 use super::{FramePattern, VideoError};
 
-/// Encoder threads. x264 writes the number into the file, so a fixed one keeps bytes the same on every machine.
+/// Encoder threads. x264 writes their number into the file; a constant keeps the bytes the same on every machine.
 pub(super) const NUM_THREADS: usize = 4;
 
-/// How frames become a file.
+/// How frames are written to a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VideoSettings {
     /// Frame width in pixels.
     pub width: u32,
     /// Frame height in pixels.
     pub height: u32,
-    /// Frames a second, 0.01..=1000.
+    /// Frames per second, 0.01..=1000.
     pub rate_fps: f64,
-    /// Constant rate factor: 0 (best) to 51 for H.264, to 63 for VP9. About 18 the loss is hard to see. H.264 at 720p
-    /// grows by half its bytes for every 4 less.
+    /// Constant rate factor: 0 (best) to 51 for H.264, 0 to 63 for VP9. At about 18 the loss is hard to see. Lowering it
+    /// by 4 makes an H.264 file at 720p half as large again.
     pub crf: u8,
-    /// Effort of the H.264 encoder, by x264's names; slower is smaller at the same quality.
-    pub preset: Preset,
-    /// Number of the first frame: names the pictures of a sequence; films always start at time zero.
+    /// Effort of the H.264 encoder: a slower preset gives a smaller file at the same quality.
+    pub preset: X264Preset,
+    /// Number of the first picture of a sequence. Films always start at time zero.
     pub first_frame: usize,
-    /// Frames to expect, 0 = unknown. With it, an MP4 reserves room for its index at its front, so that it plays while
-    /// it still loads.
+    /// Expected number of frames, 0 = unknown. If it is known, an MP4 or MOV reserves room for its index at the front, so
+    /// that it plays while it loads.
     pub num_frames: usize,
-    /// What happens to files that have the output's name already.
+    /// Whether files that already have the output's name are kept or replaced.
     pub existing: Existing,
 }
 
@@ -37,7 +37,7 @@ impl Default for VideoSettings {
             height: 720,
             rate_fps: 30.0,
             crf: 18,
-            preset: Preset::Medium,
+            preset: X264Preset::Medium,
             first_frame: 0,
             num_frames: 0,
             existing: Existing::Keep,
@@ -46,22 +46,22 @@ impl Default for VideoSettings {
 }
 
 impl VideoSettings {
-    /// Bytes of one frame: r, g, b.
+    /// Bytes of one frame: width x height x 3.
     pub fn frame_bytes(&self) -> usize {
         self.width as usize * self.height as usize * 3
     }
 
-    /// The settings, once an encoder can take them.
+    /// The settings, checked for `format`.
     ///
     /// # Errors
-    /// [`VideoError::BadSetting`] naming the first one that is out of range for `format`.
+    /// [`VideoError::BadSetting`] names the first setting that is out of range.
     pub fn validated(self, format: &VideoFormat) -> Result<Self, VideoError> {
         let bad = |what, found: String, expected| Err(VideoError::BadSetting { what, found, expected });
         if !(1..=16384).contains(&self.width) || !(1..=16384).contains(&self.height) {
             return bad("frame size", format!("{}x{}", self.width, self.height), "1 to 16384 pixels each way");
         }
         if !(self.rate_fps >= 0.01 && self.rate_fps <= 1000.0) {
-            return bad("frame rate", self.rate_fps.to_string(), "0.01 to 1000 frames a second");
+            return bad("frame rate", self.rate_fps.to_string(), "0.01 to 1000 frames per second");
         }
         match format {
             VideoFormat::WebM if self.crf > 63 => bad("crf", self.crf.to_string(), "0 to 63 for VP9"),
@@ -73,7 +73,7 @@ impl VideoSettings {
     }
 }
 
-/// Effort of the H.264 encoder.
+/// Effort of the H.264 encoder, by the names of x264's presets.
 #[derive(
     Debug,
     Clone,
@@ -89,8 +89,8 @@ impl VideoSettings {
     strum::VariantNames,
 )]
 #[strum(serialize_all = "kebab-case")]
-pub enum Preset {
-    /// Fastest that still looks right.
+pub enum X264Preset {
+    /// The least effort.
     Ultrafast,
     /// Little effort.
     Veryfast,
@@ -105,7 +105,7 @@ pub enum Preset {
     Veryslow,
 }
 
-/// What the name of an output asks for.
+/// Container and codec of an output.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum VideoFormat {
     /// H.264 in MP4.
@@ -116,15 +116,16 @@ pub enum VideoFormat {
     Mov,
     /// VP9 in WebM.
     WebM,
-    /// One PNG a frame.
+    /// One PNG per frame.
     Sequence(FramePattern),
 }
 
 impl VideoFormat {
-    /// The format for an output path: by its ending; with a `%` in the file name and `.png`, a sequence.
+    /// The format of an output path, by its ending: `.mp4`, `.m4v`, `.mkv`, `.mov`, `.webm`, or `.png` for a sequence.
     ///
     /// # Errors
-    /// [`VideoError::UnknownFormat`] for another ending, [`VideoError::BadPattern`] for a pattern without one number.
+    /// [`VideoError::UnknownFormat`] for another ending, [`VideoError::BadPattern`] for a `.png` name that is not a
+    /// [`FramePattern`].
     pub fn from_path(path: &Path) -> Result<Self, VideoError> {
         let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
         match ending.as_str() {
@@ -137,7 +138,7 @@ impl VideoFormat {
         }
     }
 
-    /// FFmpeg's names of container and encoder; `None` for a sequence.
+    /// FFmpeg's names of the container and the encoder; `None` for a sequence.
     pub(super) fn ffmpeg_names(&self) -> Option<(&'static str, &'static str)> {
         match self {
             Self::Mp4 => Some(("mp4", "libx264")),

@@ -6,10 +6,11 @@ use super::film::{self, FilmEncoder};
 use super::sequence::SequenceWriter;
 use super::{VideoError, VideoFormat, VideoSettings};
 
-/// Frames on their way into one film file or a numbered sequence of pictures.
+/// Writes frames to one film file or to a numbered sequence of pictures.
 ///
-/// A film lies under a passing name until [`VideoWriter::finish`] has read it back; dropped before that, it is removed.
-/// Paths are opened by this program itself and never handed to FFmpeg, so no name is ever taken for a protocol.
+/// A film has a temporary name until [`VideoWriter::finish`] has read it back; if the writer is dropped before, the file
+/// is removed. This crate opens all paths itself and never passes them to FFmpeg, so FFmpeg cannot take a file name for
+/// a protocol.
 pub struct VideoWriter {
     sink: Sink,
     settings: VideoSettings,
@@ -22,11 +23,11 @@ enum Sink {
 }
 
 impl VideoWriter {
-    /// Starts an output; its format follows from the name ([`VideoFormat::from_path`]).
+    /// Starts an output; the ending of `path` decides its format ([`VideoFormat::from_path`]).
     ///
     /// # Errors
-    /// [`VideoError`]: an unknown format, a setting out of range, a missing encoder, a file that is already there, or
-    /// one that cannot be created. Nothing is left behind.
+    /// Those of [`check_output`]; [`VideoError::File`] if the file cannot be created, [`VideoError::Ffmpeg`] if the encoder
+    /// or the container rejects the settings. No file is left behind.
     pub fn create(path: &Path, settings: &VideoSettings) -> Result<Self, VideoError> {
         let format = check_output(path, settings)?;
         let sink = match &format {
@@ -39,7 +40,8 @@ impl VideoWriter {
     /// Adds one frame: `width * height * 3` bytes, row-major, r g b.
     ///
     /// # Errors
-    /// [`VideoError::FrameSize`] for another number of bytes; else what encoder, disk or system refused.
+    /// [`VideoError::FrameSize`] for another number of bytes, [`VideoError::Ffmpeg`] if the encoder fails,
+    /// [`VideoError::File`] if the file cannot be written.
     pub fn write_frame(&mut self, rgb8: &[u8]) -> Result<(), VideoError> {
         let expected = self.settings.frame_bytes();
         if rgb8.len() != expected {
@@ -53,15 +55,16 @@ impl VideoWriter {
         Ok(())
     }
 
-    /// Frames written so far.
+    /// Number of frames written so far.
     pub fn num_written(&self) -> usize {
         self.num_written
     }
 
-    /// Ends the output and reads a film back. Returns what was made: the film, or the folder of the pictures.
+    /// Completes the output and reads a film back. Returns the path of the film, or the folder of the pictures.
     ///
     /// # Errors
-    /// [`VideoError::ReadBack`] when the file does not hold every frame; else what encoder, disk or system refused.
+    /// [`VideoError::ReadBack`] if the file does not hold every frame, [`VideoError::Ffmpeg`] if encoder or container fails,
+    /// [`VideoError::File`] if the file cannot be written or named.
     pub fn finish(self) -> Result<PathBuf, VideoError> {
         match self.sink {
             Sink::Film(film) => film.finish(None),
@@ -69,8 +72,7 @@ impl VideoWriter {
         }
     }
 
-    /// As [`VideoWriter::finish`] for a film that stopped early: it is named `NAME.partial.EXT`, so that nobody takes
-    /// it for the whole.
+    /// As [`VideoWriter::finish`] for an incomplete film: names it `NAME.partial.EXT`.
     ///
     /// # Errors
     /// As [`VideoWriter::finish`].
@@ -82,10 +84,11 @@ impl VideoWriter {
     }
 }
 
-/// Checks all that can be checked before the first frame, and returns the format.
+/// Checks an output without creating it, and returns its format.
 ///
 /// # Errors
-/// As [`VideoWriter::create`], except for what shows only on creating the file.
+/// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::BadSetting`] for a setting out of
+/// range, [`VideoError::Missing`] without the encoder, [`VideoError::File`] for an output that exists and is to be kept.
 pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat, VideoError> {
     let format = VideoFormat::from_path(path)?;
     settings.clone().validated(&format)?;
@@ -114,8 +117,8 @@ fn partial_name(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// What an odd size means for a format, for a person to read.
-pub fn size_note(format: &VideoFormat, width: u32, height: u32) -> Option<String> {
+/// A note for the user if the format cannot hold this odd size: the film is one pixel wider or higher.
+pub fn odd_size_note(format: &VideoFormat, width: u32, height: u32) -> Option<String> {
     let even = (width.next_multiple_of(2), height.next_multiple_of(2));
     let padded = even != (width, height) && !matches!(format, VideoFormat::Sequence(_));
     padded

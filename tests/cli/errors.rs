@@ -97,7 +97,7 @@ fn outputs_are_checked_before_the_scene_is_read() {
     "#);
     insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "frames/f.png"]), @r"
     exit 2
-    error[VIDEO-PATTERN]: frames/f.png: not exactly one frame number
+    error[VIDEO-PATTERN]: frames/f.png: none or several frame numbers, expected exactly one %d
     help: write one %05d in the file name, such as frames/%05d.png; %% is a percent sign
     ");
     insta::assert_snapshot!(refused(&["plan", "no.ply", "-p", "x", "-o", "film.mp4"]), @r"

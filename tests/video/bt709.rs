@@ -1,6 +1,6 @@
 use cinesplat::video::planes_from_rgb8;
 
-/// 8-bit limited-range codes of full-intensity colors, as printed in tables of BT.709 color bars (Y, Cb, Cr).
+/// 8-bit limited-range codes (Y, Cb, Cr) of full-intensity colors, from published tables of BT.709 color bars.
 const BARS: [([u8; 3], [u8; 3]); 8] = [
     ([255, 255, 255], [235, 128, 128]),
     ([255, 255, 0], [219, 16, 138]),
@@ -47,8 +47,8 @@ fn every_color_is_within_half_a_code_of_the_equations() {
 
 #[test]
 fn chroma_sits_on_the_left_column_between_the_rows() {
-    // One red column at x = 2 of a black picture: the sample at 2 has half of its weight there, the one at 4 none,
-    // the one at 0 none; a red column at x = 3 gives a quarter to the samples on both sides.
+    // A red column at x = 2 of a black picture gets half of the weight of the chroma sample at 2 and none of those at 0
+    // and 4. A red column at x = 3 gets a quarter of the weight of the samples at 2 and 4.
     let redness = |red_column: usize| {
         let rgb8: Vec<u8> = (0..16).flat_map(|i| [if i % 8 == red_column { 255 } else { 0 }, 0, 0]).collect();
         planes_from_rgb8(&rgb8, 8, 2).cr.iter().map(|&code| f64::from(code - 128) / 112.0).collect::<Vec<_>>()

@@ -7,7 +7,7 @@ fn a_sheet_shows_first_and_last_frame_and_ten_between() {
     let path = folder.path().join("sheet.png");
     let mut sheet = ContactSheet::new(640, 360, 111);
     for frame_idx in 0..111 {
-        sheet.offer(frame_idx, &vec![frame_idx as u8 * 2; 640 * 360 * 3]);
+        sheet.add_frame(frame_idx, &vec![frame_idx as u8 * 2; 640 * 360 * 3]);
     }
     sheet.write(&path, Existing::Keep).unwrap();
     let picture = image::open(&path).unwrap().into_rgb8();
@@ -22,7 +22,7 @@ fn small_and_short_films_have_sheets_too() {
     for (width, height, num_frames) in [(1, 1, 1), (3, 500, 2), (321, 7, 5), (5, 5, 0)] {
         let mut sheet = ContactSheet::new(width, height, num_frames);
         for frame_idx in 0..num_frames {
-            sheet.offer(frame_idx, &vec![200; (width * height * 3) as usize]);
+            sheet.add_frame(frame_idx, &vec![200; (width * height * 3) as usize]);
         }
         let folder = tempfile::tempdir().unwrap();
         sheet.write(&folder.path().join("sheet.png"), Existing::Replace).unwrap();

@@ -22,7 +22,7 @@ fn write_film(path: &Path, settings: &VideoSettings, num_frames: usize) -> Resul
     writer.finish()
 }
 
-/// A decoded film: pictures as luma and chroma planes, times in seconds, tags.
+/// A decoded film: pictures as luma and chroma planes, times in seconds, color tags.
 struct Decoded {
     pictures: Vec<[Vec<u8>; 3]>,
     times_secs: Vec<f64>,
@@ -66,14 +66,14 @@ fn packed(picture: &frame::Video, plane: usize) -> Vec<u8> {
     rows.flat_map(|row| &row[..width]).copied().collect()
 }
 
-/// Peak signal to noise over r, g, b of a decoded picture against the frame it came from; equations of BT.709.
+/// PSNR in dB over r, g, b of a decoded picture against the frame that was written, by the equations of BT.709.
 fn psnr_db(planes: &[Vec<u8>; 3], rgb8: &[u8], (width, height): (usize, usize)) -> f64 {
     let mut squares = 0.0;
     let stride = width.next_multiple_of(2);
     for y in 0..height {
         for x in 0..width {
             let chroma = |plane: usize| {
-                // Samples lie on even columns: odd ones take the mean of both sides.
+                // Chroma samples lie on even columns: odd columns take the mean of both neighbors.
                 let row = &planes[plane][y / 2 * (stride / 2)..][..stride / 2];
                 let (left, right) = (row[x / 2], row[(x.div_ceil(2)).min(stride / 2 - 1)]);
                 (f64::midpoint(left.into(), right.into()) - 128.0) / 224.0
@@ -106,13 +106,13 @@ fn every_container_holds_all_frames_at_their_times_with_their_colors() {
         assert_eq!(film.tags, bt709, "{name}");
         for frame_idx in [0, 11, 23] {
             let db = psnr_db(&film.pictures[frame_idx], &test_frame(SIZE.0, SIZE.1, frame_idx), SIZE);
-            assert!(db > 28.0, "{name}: frame {frame_idx} is {db:.1} dB from what was written");
+            assert!(db > 28.0, "{name}: frame {frame_idx} is {db:.1} dB from the frame that was written");
         }
     }
 }
 
 #[test]
-fn a_smooth_picture_survives_closely() {
+fn a_smooth_picture_is_decoded_closely() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("smooth.mp4");
     let (width, height) = SIZE;
@@ -167,7 +167,7 @@ fn odd_sizes_are_padded_to_even() {
 }
 
 #[test]
-fn rates_that_are_no_whole_numbers_keep_their_time() {
+fn films_at_fractional_rates_have_their_duration() {
     let folder = tempfile::tempdir().unwrap();
     for (rate_fps, seconds) in [(29.97, 30.0 * 1001.0 / 30000.0), (12.5, 2.4), (1000.0, 0.03), (0.5, 60.0)] {
         let path = folder.path().join(format!("{rate_fps}.mp4"));
@@ -179,7 +179,28 @@ fn rates_that_are_no_whole_numbers_keep_their_time() {
 }
 
 #[test]
-fn names_that_look_like_protocols_or_options_are_names() {
+fn a_file_states_its_frame_rate_as_the_expected_fraction() {
+    let folder = tempfile::tempdir().unwrap();
+    let known = [
+        (30.0, (30, 1)),
+        (23.976, (24000, 1001)),
+        (29.97, (30000, 1001)),
+        (59.94, (60000, 1001)),
+        (12.5, (25, 2)),
+        (0.5, (1, 2)),
+        (1000.0, (1000, 1)),
+    ];
+    for (rate_fps, (numerator, denominator)) in known {
+        let path = folder.path().join(format!("{rate_fps}.mp4"));
+        write_film(&path, &VideoSettings { rate_fps, ..settings(3) }, 3).unwrap();
+        let input = format::input(&path).unwrap();
+        let rate = input.streams().best(media::Type::Video).unwrap().avg_frame_rate().reduce();
+        assert_eq!((rate.numerator(), rate.denominator()), (numerator, denominator), "{rate_fps} fps");
+    }
+}
+
+#[test]
+fn names_that_look_like_protocols_or_options_are_file_names() {
     let folder = tempfile::tempdir().unwrap();
     let mut names: Vec<std::ffi::OsString> =
         ["concat:a|b.mp4", "-x.mp4", "pipe:1.mp4", "%d.mp4", "a b\n.mkv"].map(Into::into).to_vec();
@@ -193,18 +214,18 @@ fn names_that_look_like_protocols_or_options_are_names() {
 }
 
 #[test]
-fn a_film_that_is_given_up_leaves_nothing() {
+fn a_dropped_writer_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("film.mp4");
     let mut writer = VideoWriter::create(&path, &settings(9)).unwrap();
     writer.write_frame(&test_frame(SIZE.0, SIZE.1, 0)).unwrap();
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "one file under a passing name");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "one file under a temporary name");
     drop(writer);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]
-fn a_film_that_stops_early_says_so_in_its_name() {
+fn an_incomplete_film_has_partial_in_its_name() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("film.mp4");
     let mut writer = VideoWriter::create(&path, &settings(9)).unwrap();
@@ -216,31 +237,31 @@ fn a_film_that_stops_early_says_so_in_its_name() {
 }
 
 #[test]
-fn outputs_that_cannot_be_are_refused_before_any_frame() {
+fn impossible_outputs_are_rejected_before_any_frame() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("there.mp4"), b"mine").unwrap();
     fs::create_dir(folder.path().join("dir.mp4")).unwrap();
-    let refused = |name: &str, settings: VideoSettings| {
+    let rejected = |name: &str, settings: VideoSettings| {
         let error = VideoWriter::create(&folder.path().join(name), &settings).err().unwrap();
         error.code()
     };
-    assert_eq!(refused("there.mp4", settings(1)), "OUTPUT-EXISTS");
-    assert_eq!(refused("dir.mp4", VideoSettings { existing: Existing::Replace, ..settings(1) }), "OUTPUT-CREATE");
-    assert_eq!(refused("no/such/folder.mp4", settings(1)), "OUTPUT-CREATE");
-    assert_eq!(refused("film.avi", settings(1)), "VIDEO-FORMAT");
-    assert_eq!(refused("film", settings(1)), "VIDEO-FORMAT");
-    assert_eq!(refused("a.mp4", VideoSettings { width: 0, ..settings(1) }), "VIDEO-SETTING");
-    assert_eq!(refused("a.mp4", VideoSettings { rate_fps: f64::NAN, ..settings(1) }), "VIDEO-SETTING");
-    assert_eq!(refused("a.mp4", VideoSettings { crf: 52, ..settings(1) }), "VIDEO-SETTING");
+    assert_eq!(rejected("there.mp4", settings(1)), "OUTPUT-EXISTS");
+    assert_eq!(rejected("dir.mp4", VideoSettings { existing: Existing::Replace, ..settings(1) }), "OUTPUT-CREATE");
+    assert_eq!(rejected("no/such/folder.mp4", settings(1)), "OUTPUT-CREATE");
+    assert_eq!(rejected("film.avi", settings(1)), "VIDEO-FORMAT");
+    assert_eq!(rejected("film", settings(1)), "VIDEO-FORMAT");
+    assert_eq!(rejected("a.mp4", VideoSettings { width: 0, ..settings(1) }), "VIDEO-SETTING");
+    assert_eq!(rejected("a.mp4", VideoSettings { rate_fps: f64::NAN, ..settings(1) }), "VIDEO-SETTING");
+    assert_eq!(rejected("a.mp4", VideoSettings { crf: 52, ..settings(1) }), "VIDEO-SETTING");
     assert_eq!(fs::read(folder.path().join("there.mp4")).unwrap(), b"mine");
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing was left behind");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no other file was left");
     write_film(&folder.path().join("there.mp4"), &VideoSettings { existing: Existing::Replace, ..settings(2) }, 2)
         .unwrap();
     assert_eq!(decode(&folder.path().join("there.mp4")).pictures.len(), 2);
 }
 
 #[test]
-fn frames_of_another_size_are_refused() {
+fn frames_of_another_size_are_rejected() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = VideoWriter::create(&folder.path().join("a.mp4"), &settings(1)).unwrap();
     let error = writer.write_frame(&[0; 12]).unwrap_err();
@@ -250,7 +271,7 @@ fn frames_of_another_size_are_refused() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_named_as_the_reason() {
-    // /dev/full takes every open and refuses every byte; a link to it stands for a folder on a full disk.
+    // /dev/full can be opened and fails every write; a link to it simulates a folder on a full disk.
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join(format!(".film.mkv.{}.part", std::process::id()));
     if std::os::unix::fs::symlink("/dev/full", &part).is_err() || fs::write(&part, b"x").is_ok() {

@@ -1,10 +1,10 @@
-//! Frames to files: read back through FFmpeg's decoders, and through `ffprobe` where this machine has it.
+//! Films and picture sequences, read back with FFmpeg's decoders, and with `ffprobe` if this machine has it.
 
 mod bt709;
 mod contact_sheet;
+mod dry_run;
 mod film;
 mod pattern;
-mod rehearsal;
 mod sequence;
 
 /// A picture with smooth ramps, hard edges and saturated patches, moving with `frame_idx`.

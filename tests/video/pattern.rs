@@ -12,7 +12,7 @@ fn patterns_name_frames_as_printf_does() {
 }
 
 #[test]
-fn patterns_that_lose_frames_are_refused() {
+fn patterns_without_one_number_per_frame_are_rejected() {
     for bad in ["out/frame.png", "%d_%d.png", "%x.png", "%5d.png", "%.png", "%", "%099d.png"] {
         let error = FramePattern::parse(Path::new(bad)).unwrap_err();
         assert_eq!(error.code(), "VIDEO-PATTERN", "{bad}");

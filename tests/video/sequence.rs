@@ -18,11 +18,11 @@ fn a_sequence_holds_every_pixel_and_starts_at_its_first_frame() {
         assert_eq!(read.into_raw(), test_frame(33, 21, frame_idx));
     }
     let names = std::fs::read_dir(folder.path().join("new/deep")).unwrap().count();
-    assert_eq!(names, 3, "nothing but the frames is left");
+    assert_eq!(names, 3, "only the frames are left");
 }
 
 #[test]
-fn a_frame_that_is_already_there_is_kept() {
+fn an_existing_frame_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let pattern = folder.path().join("%02d.png");
     std::fs::write(folder.path().join("05.png"), b"mine").unwrap();

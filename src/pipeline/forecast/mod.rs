@@ -21,7 +21,7 @@ use accuracy::{Exact, mean_square, psnr_db};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
 use cinesplat_trajectory::{CameraPath, Shot};
-use cinesplat_video::{VideoFormat, VideoSettings, num_ahead};
+use cinesplat_video::{VideoFormat, VideoSettings, encoder_delay_frames};
 use sample::{Patience, Sampler, Samples};
 
 /// After this long nothing further is looked at.
@@ -104,7 +104,7 @@ pub fn forecast(
     let mean_work = sampler.mean_work()?;
     look_around(&sampler, &timed, &mut samples, &patience)?;
 
-    let num_ahead = num_ahead(&VideoFormat::from_path(output)?, &video);
+    let num_ahead = encoder_delay_frames(&VideoFormat::from_path(output)?, &video);
     let cost = FilmCost {
         num_frames: frames.len(),
         num_rendered: cameras.len(),

@@ -7,7 +7,7 @@ use super::accuracy::{at, mean_square};
 use super::cost::Spent;
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
-use cinesplat_video::{VideoError, VideoSettings, rehearse};
+use cinesplat_video::{VideoError, VideoSettings, encode_and_discard};
 
 /// Places of the film whose work is counted on small pictures.
 const NUM_PLACES: usize = 9;
@@ -165,7 +165,7 @@ pub(super) fn encode_cost(
     counts_still: bool,
 ) -> Result<[Spent; 3], VideoError> {
     let spent = |frames: &[&[u8]]| {
-        let (encoded, spent) = Spent::measure(|| rehearse(output, video, frames));
+        let (encoded, spent) = Spent::measure(|| encode_and_discard(output, video, frames));
         encoded.map(|()| spent)
     };
     let frames: Vec<&[u8]> = run.iter().map(|frame| frame.rgb8.as_slice()).collect();

@@ -1,6 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use cinesplat_files::{FileError, NewFile};
+use ffmpeg_next::error::EAGAIN;
 use ffmpeg_next::format::context::{Output, StreamIo};
 use ffmpeg_next::{Dictionary, Packet, Rational, codec, color, encoder, format, frame};
 
@@ -10,11 +11,11 @@ use crate::bt709::{self, Planes420};
 use crate::settings::NUM_THREADS;
 use crate::{VideoError, VideoFormat, VideoSettings};
 
-/// Room in front of an MP4 for its index: a fixed part, and 8 bytes of sizes and times plus 16 of chunk tables for a
-/// frame, with a margin.
+/// Bytes reserved at the front of an MP4 for its index: a fixed part, and a part per frame (8 bytes of sizes and times
+/// plus 16 of chunk tables, with a margin).
 const INDEX_BYTES: (usize, usize) = (8192, 48);
 
-/// One video stream on its way into a container file.
+/// An encoder whose packets go into a container file with one video stream.
 pub(crate) struct FilmEncoder {
     encoder: encoder::Video,
     muxer: Output,
@@ -28,11 +29,11 @@ pub(crate) struct FilmEncoder {
 }
 
 impl FilmEncoder {
-    /// Opens encoder, then file, then container, in this order: a missing encoder leaves no file behind.
+    /// Opens the encoder first, then the file, then the container, so that a missing encoder leaves no file behind.
     pub(crate) fn create(path: &Path, format: &VideoFormat, settings: &VideoSettings) -> Result<Self, VideoError> {
         let missing = |name: &str| VideoError::Missing { missing: name.to_owned(), path: path.to_owned() };
         let (container, codec_name) = format.ffmpeg_names().ok_or(missing("container of that name"))?;
-        // Errors come back as values; FFmpeg's own lines on stderr would break a progress bar.
+        // FFmpeg returns its errors; its log lines on stderr would break a progress bar.
         ffmpeg_next::log::set_level(ffmpeg_next::log::Level::Quiet);
         let codec = encoder::find_by_name(codec_name).ok_or_else(|| missing(codec_name))?;
         let rate = rate::as_fraction(settings.rate_fps);
@@ -59,7 +60,7 @@ impl FilmEncoder {
         self.drain()
     }
 
-    /// Ends the file, reads it back, and gives it its name (`target` in place of the one it was created for).
+    /// Completes the file, reads it back and names it: `target`, else the path that it was created for.
     pub(crate) fn finish(mut self, target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
         self.encoder.send_eof().map_err(|e| self.fault("encoding", e))?;
         self.drain()?;
@@ -75,12 +76,12 @@ impl FilmEncoder {
         Ok(target)
     }
 
-    /// Moves what the encoder has ready into the file.
+    /// Writes all packets that the encoder has ready.
     fn drain(&mut self) -> Result<(), VideoError> {
         let mut packet = Packet::empty();
-        while self.encoder.receive_packet(&mut packet).is_ok() {
+        while receive(&mut self.encoder, &mut packet).map_err(|e| self.fault("encoding", e))? {
             packet.set_stream(0);
-            // Without a duration the last frame of the file has none.
+            // Without this, the last frame of the file has no duration.
             packet.set_duration(1);
             packet.rescale_ts(self.tick, self.stream_tick);
             packet.write_interleaved(&mut self.muxer).map_err(|e| self.fault("writing", e))?;
@@ -88,7 +89,7 @@ impl FilmEncoder {
         Ok(())
     }
 
-    /// The system's own error where the file had one, else FFmpeg's.
+    /// The first system error of the file if there was one, else FFmpeg's error.
     fn fault(&self, action: &'static str, error: ffmpeg_next::Error) -> VideoError {
         match self.first_error.lock().ok().and_then(|mut first| first.take()) {
             Some(source) => FileError::Write { path: self.path.clone(), source }.into(),
@@ -97,8 +98,8 @@ impl FilmEncoder {
     }
 }
 
-/// Encodes frames and drops what comes out.
-pub(crate) fn encode_to_nothing(
+/// Encodes frames and discards the packets.
+pub(crate) fn encode_and_discard(
     path: &Path,
     format: &VideoFormat,
     settings: &VideoSettings,
@@ -115,11 +116,23 @@ pub(crate) fn encode_to_nothing(
         let mut picture = picture_of(&planes);
         picture.set_pts(Some(frame_idx as i64));
         encoder.send_frame(&picture).map_err(|e| failed("encoding", e, path))?;
-        while encoder.receive_packet(&mut packet).is_ok() {}
+        while receive(&mut encoder, &mut packet).map_err(|e| failed("encoding", e, path))? {}
     }
     encoder.send_eof().map_err(|e| failed("encoding", e, path))?;
-    while encoder.receive_packet(&mut packet).is_ok() {}
+    while receive(&mut encoder, &mut packet).map_err(|e| failed("encoding", e, path))? {}
     Ok(())
+}
+
+/// Takes the next packet from an encoder; false where it has none until the next frame (`EAGAIN`), or no more (`EOF`).
+///
+/// # Errors
+/// Every other error of the encoder.
+fn receive(encoder: &mut encoder::Video, packet: &mut Packet) -> Result<bool, ffmpeg_next::Error> {
+    match encoder.receive_packet(packet) {
+        Ok(()) => Ok(true),
+        Err(ffmpeg_next::Error::Eof | ffmpeg_next::Error::Other { errno: EAGAIN }) => Ok(false),
+        Err(error) => Err(error),
+    }
 }
 
 fn failed(action: &'static str, error: ffmpeg_next::Error, path: &Path) -> VideoError {
@@ -142,7 +155,7 @@ fn open_encoder(
     video.set_color_range(color::Range::MPEG);
     video.set_color_primaries(color::Primaries::BT709);
     video.set_color_transfer_characteristic(color::TransferCharacteristic::BT709);
-    // Parameter sets go into the container's header, where every one of the four expects them.
+    // All four containers expect the parameter sets in their header.
     video.set_flags(codec::Flags::GLOBAL_HEADER);
     video.open_with(encoder_options(codec.name(), settings))
 }
@@ -154,10 +167,10 @@ fn encoder_options(codec_name: &str, settings: &VideoSettings) -> Dictionary<'st
     options.set("crf", &settings.crf.to_string());
     if codec_name == "libx264" {
         options.set("preset", settings.preset.as_ref());
-        // Without it x264 (r3095 with AVX-512) gives other bytes on every run, from the lookahead that weighs blocks.
+        // Without this, the lookahead of x264 (r3095 with AVX-512) makes the bytes differ from run to run.
         options.set("x264-params", "cpu-independent=1");
     } else {
-        // VP9 reads crf as a quality only where the bit rate is 0.
+        // VP9 uses crf as its target quality only if the bit rate is 0.
         for (key, value) in [("b", "0"), ("row-mt", "1"), ("deadline", "good"), ("cpu-used", "3"), ("g", "240")] {
             options.set(key, value);
         }
@@ -165,7 +178,7 @@ fn encoder_options(codec_name: &str, settings: &VideoSettings) -> Dictionary<'st
     options
 }
 
-/// Adds the stream and writes the header; the tick of the stream, which the container may choose.
+/// Adds the stream and writes the header. Returns the time base of the stream, which the container may change.
 fn write_header(
     muxer: &mut Output,
     encoder: &encoder::Video,
@@ -182,7 +195,7 @@ fn write_header(
 
 fn header_options(format: &VideoFormat, settings: &VideoSettings) -> Dictionary<'static> {
     let mut options = Dictionary::new();
-    // No random identifiers, no dates, no versions: the same frames give the same bytes.
+    // No random identifiers, dates or versions: the same frames give the same bytes.
     options.set("fflags", "+bitexact");
     if matches!(format, VideoFormat::Mp4 | VideoFormat::Mov) && settings.num_frames > 0 {
         let (fixed, each) = INDEX_BYTES;
@@ -191,7 +204,7 @@ fn header_options(format: &VideoFormat, settings: &VideoSettings) -> Dictionary<
     options
 }
 
-/// The planes as FFmpeg's picture, whose rows are padded.
+/// The planes copied into an FFmpeg picture, whose rows are padded.
 fn picture_of(planes: &Planes420) -> frame::Video {
     let mut picture = frame::Video::new(format::Pixel::YUV420P, planes.width as u32, planes.height as u32);
     for (plane, codes) in [&planes.y, &planes.cb, &planes.cr].into_iter().enumerate() {

@@ -1,15 +1,15 @@
 use ffmpeg_next::Rational;
 
-/// Largest relative difference at which a rate is taken for one of the broadcast rates n * 1000 / 1001.
+/// A rate within this relative distance of a broadcast rate n * 1000 / 1001 becomes that broadcast rate.
 const BROADCAST_TOLERANCE: f64 = 2e-5;
 /// Largest denominator of any other rate.
 const MAX_DENOMINATOR: i32 = 1001;
 
-/// Frames a second as the fraction that a file stores: whole numbers, the broadcast rates (23.976 = 24000/1001,
+/// Frames per second as the fraction that a file stores: whole numbers, the broadcast rates (23.976 = 24000/1001,
 /// 29.97, 59.94), else the nearest fraction with a denominator up to 1001.
 ///
-/// `rate_fps` has to be in 0.01..=1000. A file's clock follows the fraction, the camera follows `rate_fps`: for 29.97
-/// they drift apart by a millisecond in a quarter of an hour.
+/// `rate_fps` must be in 0.01..=1000. The file's clock follows the fraction, the camera follows `rate_fps`: at 29.97
+/// they drift apart by one millisecond in a quarter of an hour.
 pub(crate) fn as_fraction(rate_fps: f64) -> Rational {
     let nearest = |denominator: i32| (rate_fps * f64::from(denominator)).round().max(1.0) as i32;
     if rate_fps.fract() == 0.0 {
@@ -22,26 +22,4 @@ pub(crate) fn as_fraction(rate_fps: f64) -> Rational {
     let error = |denominator: i32| (f64::from(nearest(denominator)) / f64::from(denominator) - rate_fps).abs();
     let best = (1..=MAX_DENOMINATOR).min_by(|&a, &b| error(a).total_cmp(&error(b))).unwrap_or(1);
     Rational::new(nearest(best), best)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rates_that_people_use_become_their_fractions() {
-        let known = [
-            (30.0, (30, 1)),
-            (23.976, (24000, 1001)),
-            (29.97, (30000, 1001)),
-            (59.94, (60000, 1001)),
-            (12.5, (25, 2)),
-            (0.5, (1, 2)),
-            (1000.0, (1000, 1)),
-        ];
-        for (rate_fps, (numerator, denominator)) in known {
-            let fraction = as_fraction(rate_fps);
-            assert_eq!((fraction.numerator(), fraction.denominator()), (numerator, denominator), "{rate_fps}");
-        }
-    }
 }

@@ -7,7 +7,7 @@ use ffmpeg_next::{Rational, format, media};
 
 use crate::VideoError;
 
-/// Opens a finished file and counts its frames.
+/// Opens a finished file, counts its frames and checks its duration.
 ///
 /// # Errors
 /// [`VideoError::ReadBack`] unless `part` (called `path` in messages) holds one video stream of `num_frames` frames

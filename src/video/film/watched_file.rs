@@ -2,10 +2,10 @@ use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex};
 
-/// The first error of a file that FFmpeg writes to: FFmpeg itself passes on only `EIO`.
+/// The first system error of a file that FFmpeg writes to. FFmpeg itself reports every one of them as `EIO`.
 pub(crate) type FirstError = Arc<Mutex<Option<io::Error>>>;
 
-/// A file that remembers its first error.
+/// A file that records its first error.
 pub(crate) struct WatchedFile {
     pub(crate) file: File,
     pub(crate) first_error: FirstError,
