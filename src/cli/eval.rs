@@ -8,8 +8,8 @@ use super::choice::choice;
 use super::failure::Failure;
 use super::{console, eval_folders};
 use cinesplat::evaluation::{
-    Align, Delta, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere, Trajectory,
-    evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,
+    Align, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere,
+    Trajectory, evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,
 };
 use cinesplat::export::{self, Format, PoseTrack};
 
@@ -47,8 +47,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 1.0, requires = "rpe")]
     delta: f64,
     /// Unit of --delta: f (frames), m (scene units), d (degrees) or r (radians)
-    #[arg(long, value_name = "U", default_value = "f", value_parser = ["f", "m", "d", "r"], requires = "rpe")]
-    unit: String,
+    #[arg(long, value_name = "U", default_value = "f", value_parser = choice::<DeltaUnit>(), requires = "rpe")]
+    unit: DeltaUnit,
     /// Pairs of poses may overlap
     #[arg(long, requires = "rpe")]
     all_pairs: bool,
@@ -162,7 +162,7 @@ impl Args {
         if !self.rpe {
             return Ok(Metric::Ape);
         }
-        let delta = Delta::new(self.delta, &self.unit)?;
+        let delta = Delta::new(self.delta, self.unit)?;
         let pairs = PairSettings { delta, all_pairs: self.all_pairs, ..PairSettings::default() };
         Ok(Metric::Rpe { pairs, pairs_from_reference: self.pairs_from_reference })
     }

@@ -1,9 +1,8 @@
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::console;
 use super::failure::{Exit, Failure};
-use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, Trajectory, evaluate};
+use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, Trajectory, evaluate, pair_files};
 
 /// Compares the files of two folders that have the same name up to the first dot.
 pub(super) fn compare(
@@ -11,23 +10,20 @@ pub(super) fn compare(
     settings: &EvalSettings,
     read: impl Fn(&Path) -> Result<Trajectory, Failure>,
 ) -> Result<Vec<BatchRow>, Failure> {
-    let (references, mut estimates) = (by_stem(reference)?, by_stem(estimate)?);
-    let mut rows = Vec::new();
-    for (stem, path) in &references {
-        let Some(partner) = estimates.remove(stem) else {
-            console::note(&format!("note: {} has no partner in {}", path.display(), estimate.display()));
-            continue;
-        };
-        let unreadable =
-            |failure: Failure| EvaluationError::Unreadable { reason: failure.to_string().replace('\n', "; ") };
-        let outcome = read(path)
-            .and_then(|reference| Ok((reference, read(&partner)?)))
+    let found = pair_files(&files_in(reference)?, &files_in(estimate)?)?;
+    for (lone, other) in [(&found.lone_references, estimate), (&found.lone_estimates, reference)] {
+        for path in lone {
+            console::note(&format!("note: {} has no partner in {}", path.display(), other.display()));
+        }
+    }
+    let unreadable = |failure: Failure| EvaluationError::Unreadable { reason: failure.to_string().replace('\n', "; ") };
+    let mut rows = Vec::with_capacity(found.pairs.len());
+    for (name, [reference, estimate]) in found.pairs {
+        let outcome = read(&reference)
+            .and_then(|reference| Ok((reference, read(&estimate)?)))
             .map_err(unreadable)
             .and_then(|(reference, estimate)| evaluate(&reference, &estimate, settings));
-        rows.push(BatchRow { name: stem.clone(), outcome });
-    }
-    for path in estimates.values() {
-        console::note(&format!("note: {} has no partner in {}", path.display(), reference.display()));
+        rows.push(BatchRow { name, outcome });
     }
     if rows.is_empty() {
         let found = format!("{} and {}: no files of one name, expected pairs", reference.display(), estimate.display());
@@ -41,15 +37,11 @@ pub(super) fn compare(
     Ok(rows)
 }
 
-/// Files of a folder by their names up to the first dot; of two with one name the later in the alphabet.
-fn by_stem(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Failure> {
+/// The files of a folder, sorted by path.
+fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| Failure::io(&folder.display().to_string(), &error);
     let entries = std::fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
     let mut paths: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).filter(|path| path.is_file()).collect();
     paths.sort();
-    let stem = |path: &PathBuf| {
-        let name = path.file_name()?.to_str()?;
-        name.split('.').next().filter(|stem| !stem.is_empty()).map(str::to_owned)
-    };
-    Ok(paths.into_iter().filter_map(|path| Some((stem(&path)?, path))).collect())
+    Ok(paths)
 }

@@ -1,6 +1,8 @@
-//! Many comparisons in one table.
+//! Many comparisons: files of two folders paired by name, and the results as one table.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 
 use super::{Evaluation, EvaluationError};
 use cinesplat_export::json_write::{Json, object};
@@ -12,6 +14,48 @@ pub struct BatchRow {
     pub name: String,
     /// What came of it.
     pub outcome: Result<Evaluation, EvaluationError>,
+}
+
+/// The files of two folders, paired by stem: the name up to the first dot.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FilePairs {
+    /// Stem, reference and estimate of each pair, in order of the stems.
+    pub pairs: Vec<(String, [PathBuf; 2])>,
+    /// References without an estimate of the same stem.
+    pub lone_references: Vec<PathBuf>,
+    /// Estimates without a reference of the same stem.
+    pub lone_estimates: Vec<PathBuf>,
+}
+
+/// Pairs references with estimates of the same stem. Files whose name has no stem (`.hidden`) are skipped.
+///
+/// # Errors
+/// [`EvaluationError::SameStem`] for two files of one list with the same stem: either could be the one meant.
+pub fn pair_files(references: &[PathBuf], estimates: &[PathBuf]) -> Result<FilePairs, EvaluationError> {
+    let (references, mut estimates) = (by_stem(references)?, by_stem(estimates)?);
+    let (mut pairs, mut lone_references) = (Vec::new(), Vec::new());
+    for (stem, reference) in references {
+        match estimates.remove(&stem) {
+            Some(estimate) => pairs.push((stem, [reference, estimate])),
+            None => lone_references.push(reference),
+        }
+    }
+    Ok(FilePairs { pairs, lone_references, lone_estimates: estimates.into_values().collect() })
+}
+
+fn by_stem(paths: &[PathBuf]) -> Result<BTreeMap<String, PathBuf>, EvaluationError> {
+    let stem = |path: &Path| {
+        let name = path.file_name()?.to_str()?;
+        name.split('.').next().filter(|stem| !stem.is_empty()).map(str::to_owned)
+    };
+    let mut found: BTreeMap<String, PathBuf> = BTreeMap::new();
+    for path in paths {
+        let Some(stem) = stem(path) else { continue };
+        if let Some(first) = found.insert(stem.clone(), path.clone()) {
+            return Err(EvaluationError::SameStem { stem, files: [first, path.clone()] });
+        }
+    }
+    Ok(found)
 }
 
 const COLUMNS: &str =

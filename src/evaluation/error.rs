@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use strum::Display;
 use thiserror::Error;
 
@@ -10,9 +12,6 @@ pub enum SettingName {
     AlignPoses,
     /// Distance between the two poses of a relative error.
     Delta,
-    /// Unit of that distance.
-    #[strum(serialize = "unit of delta")]
-    Unit,
     /// Largest time between the two poses of a match.
     #[strum(serialize = "largest time difference")]
     MaxDiff,
@@ -40,6 +39,14 @@ pub enum EvaluationError {
     Unreadable {
         /// The file and what is wrong with it.
         reason: String,
+    },
+    /// Two files of one folder that would both be paired under the same name.
+    #[error("{} and {} have the same stem \"{stem}\", expected one file per stem", .files[0].display(), .files[1].display())]
+    SameStem {
+        /// The name up to the first dot.
+        stem: String,
+        /// Both files.
+        files: [PathBuf; 2],
     },
     /// No time stamps that lie close enough together.
     #[error(
@@ -86,6 +93,7 @@ impl EvaluationError {
         match self {
             Self::Empty { .. } => "EVAL-EMPTY",
             Self::Unreadable { .. } => "EVAL-UNREADABLE",
+            Self::SameStem { .. } => "EVAL-SAME-STEM",
             Self::NoMatches { .. } => "EVAL-NO-MATCHES",
             Self::NoPairs { .. } => "EVAL-NO-PAIRS",
             Self::BadSetting { .. } => "EVAL-SETTING",

@@ -27,14 +27,14 @@ mod trajectory;
 
 pub use alignment::{Align, Alignment, align};
 pub use associate::{Matches, Matching, associate};
-pub use batch::{BatchRow, summary_csv, summary_json, summary_text};
+pub use batch::{BatchRow, FilePairs, pair_files, summary_csv, summary_json, summary_text};
 pub use error::{EvaluationError, SettingName};
 pub use evaluate::{EvalSettings, Evaluation, Metric, evaluate};
 pub use framing::{FramingError, SubjectSphere, framing_error};
 pub use lens::{FocalError, focal_error};
 pub use motion::{motion_json, motion_text};
 pub use named_move::{NamedMove, name_move};
-pub use pairs::{Delta, PairSettings, pairs};
+pub use pairs::{Delta, DeltaUnit, PairSettings, pairs};
 pub use plot::plot_svg;
 pub use relation::Relation;
 pub use smoothness::{Smoothness, smoothness};

@@ -22,30 +22,61 @@ pub enum Delta {
     Radians(f64),
 }
 
+/// Unit of a [`Delta`]; named by its letter on the command line.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+pub enum DeltaUnit {
+    /// Frames, `f`.
+    #[default]
+    #[strum(serialize = "f")]
+    Frames,
+    /// Scene units, `m`.
+    #[strum(serialize = "m")]
+    Distance,
+    /// Degrees, `d`.
+    #[strum(serialize = "d")]
+    Degrees,
+    /// Radians, `r`.
+    #[strum(serialize = "r")]
+    Radians,
+}
+
 impl Delta {
-    /// The distance of a value whose unit is given by its letter: `f` frames, `m` scene units, `d` degrees, `r` radians.
+    /// The distance of a value in a unit.
     ///
     /// # Errors
-    /// [`EvaluationError::BadSetting`] for another letter, a value that is not above 0, a fraction of a frame, or an angle
-    /// above half a turn.
-    pub fn new(value: f64, unit: &str) -> Result<Self, EvaluationError> {
-        let bad = |setting, found: String, expected| Err(EvaluationError::BadSetting { setting, found, expected });
+    /// [`EvaluationError::BadSetting`] for a value that is not above 0, a fraction of a frame, or an angle above half a turn.
+    pub fn new(value: f64, unit: DeltaUnit) -> Result<Self, EvaluationError> {
+        let bad = |expected| {
+            Err(EvaluationError::BadSetting { setting: SettingName::Delta, found: value.to_string(), expected })
+        };
         if !(value > 0.0 && value.is_finite()) {
-            return bad(SettingName::Delta, value.to_string(), "above 0");
+            return bad("above 0");
         }
         match unit {
-            "f" if value.fract() == 0.0 => Ok(Self::Frames(value as usize)),
-            "f" => bad(SettingName::Delta, value.to_string(), "a whole number of frames"),
-            "m" => Ok(Self::Distance(value)),
-            "d" if value <= 180.0 => Ok(Self::Degrees(value)),
-            "r" if value <= std::f64::consts::PI => Ok(Self::Radians(value)),
-            "d" | "r" => bad(SettingName::Delta, value.to_string(), "at most half a turn"),
-            _ => bad(SettingName::Unit, unit.to_owned(), "f, m, d or r"),
+            DeltaUnit::Frames if value.fract() == 0.0 => Ok(Self::Frames(value as usize)),
+            DeltaUnit::Frames => bad("a whole number of frames"),
+            DeltaUnit::Distance => Ok(Self::Distance(value)),
+            DeltaUnit::Degrees if value <= 180.0 => Ok(Self::Degrees(value)),
+            DeltaUnit::Radians if value <= std::f64::consts::PI => Ok(Self::Radians(value)),
+            DeltaUnit::Degrees | DeltaUnit::Radians => bad("at most half a turn"),
         }
     }
 
-    /// Value and unit in words.
-    pub fn named(self) -> (f64, &'static str) {
+    /// The value and its unit in words.
+    pub(crate) fn named(self) -> (f64, &'static str) {
         match self {
             Self::Frames(frames) => (frames as f64, "frames"),
             Self::Distance(distance) => (distance, "scene units"),

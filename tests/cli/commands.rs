@@ -136,6 +136,23 @@ fn folders_are_compared_by_the_names_of_their_files() {
 }
 
 #[test]
+fn two_files_of_one_stem_are_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    for name in ["planned", "flown"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+    }
+    for path in ["planned/a.tum", "flown/a.csv", "flown/a.tum"] {
+        data(folder.path(), &["export", "shot.json", "-o", path]);
+    }
+    insta::assert_snapshot!(answer(folder.path(), &["eval", "planned", "flown"]), @r#"
+    exit 65
+    error[EVAL-SAME-STEM]: flown/a.csv and flown/a.tum have the same stem "a", expected one file per stem
+    help: rename one of the two, or move it out of the folder: files are paired by their names up to the first dot
+    "#);
+}
+
+#[test]
 fn stills_are_named_after_their_cameras() {
     let folder = tempfile::tempdir().unwrap();
     let camera = |name: &str| {

@@ -1,4 +1,6 @@
-use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, evaluate, summary_csv, summary_json};
+use std::path::PathBuf;
+
+use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, evaluate, pair_files, summary_csv, summary_json};
 use glam::{DQuat, DVec3};
 
 use super::paths::through;
@@ -30,4 +32,15 @@ fn the_json_sums_up() {
     assert_eq!((over_all["compared"].as_u64(), over_all["failed"].as_u64()), (Some(2), Some(1)));
     assert_eq!((over_all["mean_rmse"].as_f64(), over_all["worst_rmse"].as_f64()), (Some(2.0), Some(3.0)));
     assert_eq!(json["pairs"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn files_are_paired_by_the_name_up_to_the_first_dot() {
+    let paths = |names: &[&str]| names.iter().map(PathBuf::from).collect::<Vec<_>>();
+    let found =
+        pair_files(&paths(&["r/a.shot.json", "r/b.tum", "r/.hidden"]), &paths(&["e/c.tum", "e/a.csv"])).unwrap();
+    assert_eq!(found.pairs, [("a".to_owned(), ["r/a.shot.json".into(), "e/a.csv".into()])]);
+    assert_eq!((found.lone_references, found.lone_estimates), (paths(&["r/b.tum"]), paths(&["e/c.tum"])));
+    let error = pair_files(&paths(&["r/a.tum"]), &paths(&["e/a.csv", "e/a.tum"])).unwrap_err();
+    insta::assert_snapshot!(error, @r#"e/a.csv and e/a.tum have the same stem "a", expected one file per stem"#);
 }

@@ -1,7 +1,7 @@
 //! Equal to evo 1.38.1 in how relative errors choose their pairs: numbers that `evo.core.metrics.RPE` printed for
 //! `freiburg1_xyz-rgbdslam_drift.txt` against the ground truth after a Sim3 alignment, for every unit of delta.
 
-use cinesplat::evaluation::{Align, Delta, EvalSettings, EvaluationError, Metric, PairSettings, evaluate};
+use cinesplat::evaluation::{Align, Delta, DeltaUnit, EvalSettings, EvaluationError, Metric, PairSettings, evaluate};
 
 use super::paths::recorded;
 
@@ -65,7 +65,7 @@ fn pairs_and_errors_of_every_unit() {
     let Some(reference) = recorded("freiburg1_xyz-groundtruth.txt") else { return };
     let estimate = recorded("freiburg1_xyz-rgbdslam_drift.txt").unwrap();
     for (unit, delta, all_pairs, pairs_from_reference, relation, count, wanted) in ROWS.iter().copied() {
-        let delta = Delta::new(delta, unit).unwrap();
+        let delta = Delta::new(delta, unit.parse().unwrap()).unwrap();
         let pairs = PairSettings { delta, all_pairs, ..PairSettings::default() };
         let settings = EvalSettings {
             metric: Metric::Rpe { pairs, pairs_from_reference },
@@ -86,7 +86,7 @@ fn pairs_and_errors_of_every_unit() {
 #[test]
 fn a_path_too_short_for_the_delta_says_how_long_it_is() {
     let Some(reference) = recorded("freiburg1_xyz-rgbdslam_drift_short.txt") else { return };
-    let pairs = PairSettings { delta: Delta::new(100.0, "m").unwrap(), ..PairSettings::default() };
+    let pairs = PairSettings { delta: Delta::new(100.0, DeltaUnit::Distance).unwrap(), ..PairSettings::default() };
     let settings =
         EvalSettings { metric: Metric::Rpe { pairs, pairs_from_reference: false }, ..EvalSettings::default() };
     let error = evaluate(&reference, &reference, &settings).unwrap_err();
@@ -95,10 +95,9 @@ fn a_path_too_short_for_the_delta_says_how_long_it_is() {
 
 #[test]
 fn deltas_out_of_range_are_refused() {
-    let refused = |value: f64, unit: &str| Delta::new(value, unit).unwrap_err().to_string();
-    insta::assert_snapshot!(refused(0.0, "f"), @"delta is 0, expected above 0");
-    insta::assert_snapshot!(refused(1.5, "f"), @"delta is 1.5, expected a whole number of frames");
-    insta::assert_snapshot!(refused(181.0, "d"), @"delta is 181, expected at most half a turn");
-    insta::assert_snapshot!(refused(f64::NAN, "m"), @"delta is NaN, expected above 0");
-    insta::assert_snapshot!(refused(1.0, "s"), @"unit of delta is s, expected f, m, d or r");
+    let refused = |value: f64, unit: DeltaUnit| Delta::new(value, unit).unwrap_err().to_string();
+    insta::assert_snapshot!(refused(0.0, DeltaUnit::Frames), @"delta is 0, expected above 0");
+    insta::assert_snapshot!(refused(1.5, DeltaUnit::Frames), @"delta is 1.5, expected a whole number of frames");
+    insta::assert_snapshot!(refused(181.0, DeltaUnit::Degrees), @"delta is 181, expected at most half a turn");
+    insta::assert_snapshot!(refused(f64::NAN, DeltaUnit::Distance), @"delta is NaN, expected above 0");
 }

@@ -10,6 +10,11 @@ impl From<EvaluationError> for Failure {
         let (exit, help) = match error {
             E::Empty { which } => (Exit::BadData, format!("check that the {which} file holds a camera path")),
             E::Unreadable { .. } => (Exit::BadData, "check the file, or take it out of the folder".to_owned()),
+            E::SameStem { .. } => (
+                Exit::BadData,
+                "rename one of the two, or move it out of the folder: files are paired by their names up to the first dot"
+                    .to_owned(),
+            ),
             E::NoMatches { .. } => {
                 (Exit::BadData, "raise --max-diff, or check that both files use one clock".to_owned())
             }
@@ -24,7 +29,6 @@ fn setting_advice(setting: SettingName, expected: &str) -> String {
     let flag = match setting {
         SettingName::AlignPoses => "--align-poses",
         SettingName::Delta => "--delta",
-        SettingName::Unit => "--unit",
         SettingName::MaxDiff => "--max-diff",
         SettingName::TimeOffset => "--time-offset",
         SettingName::Diameter => "--diameter",
