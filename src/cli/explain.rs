@@ -41,11 +41,11 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
 
 /// What was proved about the camera's distance to matter, in words.
 fn clearance(proof: &ClearanceProof) -> String {
-    let (radius, parts) = (proof.camera_radius, proof.num_parts);
+    let (radius, parts) = (proof.camera_radius, proof.num_intervals);
     let matter = format!("Gaussians of opacity {} and more, out to {} sigma", proof.opacity_floor, proof.sigma_level);
     let nearest = proof.gaussian_idx.map_or_else(String::new, |idx| format!(", to Gaussian {idx}"));
     let found = match &proof.failure {
-        None => format!("proved: never nearer than {:.4}, about {:.2} s{nearest}", proof.least, proof.at_secs),
+        None => format!("proved: never nearer than {:.4}, about {:.2} s{nearest}", proof.min_distance, proof.at_secs),
         Some(failure) => format!(
             "NOT CLEAR from {:.2} to {:.2} s: {:.4} from Gaussian {}",
             failure.from_secs, failure.to_secs, failure.distance, failure.gaussian_idx

@@ -117,7 +117,7 @@ pub fn evaluate(
     let times = matches.reference.times_or_indices();
     let diameter = settings.scene_diameter.unwrap_or_else(|| matches.reference.diameter());
     let statistics = Statistics::of(&errors)?;
-    let in_units = settings.relation.unit() == "scene units" && diameter > 0.0;
+    let has_ratio = settings.relation.is_length() && diameter > 0.0;
     Ok(Evaluation {
         statistics,
         at_secs: ends.iter().filter_map(|idx: &usize| times.get(*idx).copied()).collect(),
@@ -125,7 +125,7 @@ pub fn evaluate(
         alignment,
         focal: focal_error(&matches.reference, &matches.estimate),
         framing: settings.subject.and_then(|s| framing_error(&matches.reference, &matches.estimate, &s)),
-        relative_to_diameter: in_units.then(|| statistics.mean / diameter),
+        relative_to_diameter: has_ratio.then(|| statistics.mean / diameter),
         matches,
         notes,
         settings: settings.clone(),

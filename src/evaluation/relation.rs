@@ -42,6 +42,11 @@ pub enum Relation {
 }
 
 impl Relation {
+    /// Whether the errors are lengths in scene units.
+    pub(crate) fn is_length(self) -> bool {
+        matches!(self, Self::Trans | Self::PointDistance)
+    }
+
     /// Unit of the errors; empty for norms of matrices.
     pub fn unit(self) -> &'static str {
         match self {

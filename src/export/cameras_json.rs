@@ -1,4 +1,4 @@
-//! `cameras.json`: the still cameras of `still`, each with its own image size and focal lengths.
+//! `cameras.json`: named still cameras, each with its own pose, image size and focal lengths.
 
 use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
@@ -21,10 +21,10 @@ pub enum FilterChoice {
     Mip,
 }
 
-/// What a `cameras.json` says.
+/// The content of a `cameras.json`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StillCameras {
-    /// Path of the scene as written, relative to the file.
+    /// Path of the scene as written in the file, relative to it.
     pub scene: Option<String>,
     /// Splat filter.
     pub filter: Option<FilterChoice>,
@@ -34,19 +34,20 @@ pub struct StillCameras {
     pub cameras: Vec<NamedCamera>,
 }
 
-/// A camera and the name that its image gets.
+/// A camera and the name of its image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedCamera {
-    /// File name stem; no path separators.
+    /// File name without extension and without path separators.
     pub name: String,
     /// Pose and image.
     pub camera: Camera,
 }
 
-/// The cameras in a `cameras.json`. Keys it does not know are ignored.
+/// Reads a `cameras.json`. Unknown keys are ignored.
 ///
 /// # Errors
-/// [`ExportError::NotJson`], [`ExportError::NoPoses`]; [`ExportError::BadField`] names the camera and the field.
+/// [`ExportError::NotJson`] for text that is not JSON, [`ExportError::NoPoses`] without cameras, [`ExportError::BadField`]
+/// naming the camera and the field.
 pub fn read(text: &str) -> Result<StillCameras, ExportError> {
     let value = json_read::parse(text)?;
     let root = Node::root(&value);

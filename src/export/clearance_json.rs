@@ -25,12 +25,12 @@ pub(super) fn write(proof: &ClearanceProof, shot: &Shot) -> Json {
     object([
         ("proved", proof.is_clear().into()),
         ("camera_radius", proof.camera_radius.into()),
-        ("least", proof.least.into()),
+        ("least", proof.min_distance.into()),
         ("at_secs", proof.at_secs.into()),
         ("gaussian", proof.gaussian_idx.map_or_else(Json::NULL, |idx| (idx as u64).into())),
         ("opacity_floor", proof.opacity_floor.into()),
         ("sigma_level", proof.sigma_level.into()),
-        ("num_parts", (proof.num_parts as u64).into()),
+        ("num_parts", (proof.num_intervals as u64).into()),
         ("fails", failure.unwrap_or_else(Json::NULL)),
         ("keys_sha256", keys_sha256(shot).as_str().into()),
     ])
@@ -48,10 +48,10 @@ pub(super) fn read(node: &Node, shot: &Shot) -> Result<Option<ClearanceProof>, E
         opacity_floor: number("opacity_floor")?,
         sigma_level: number("sigma_level")?,
         // Written as null where there is no matter.
-        least: node.optional("least").map_or(Ok(f64::INFINITY), |least| least.number())?,
+        min_distance: node.optional("least").map_or(Ok(f64::INFINITY), |least| least.number())?,
         at_secs: number("at_secs")?,
         gaussian_idx: node.optional("gaussian").map(index).transpose()?,
-        num_parts: index(node.field("num_parts", "a number of parts")?)?,
+        num_intervals: index(node.field("num_parts", "a number of parts")?)?,
         failure: node.optional("fails").map(|failure| read_failure(&failure)).transpose()?,
     }))
 }

@@ -91,7 +91,7 @@ pub(super) fn clearance_lines(
         Some(ReportLine {
             clause: words(part),
             wanted: "a way clear of matter".to_owned(),
-            got: proof.least.min(world.bounds.size()),
+            got: proof.min_distance.min(world.bounds.size()),
             met: true,
             note: format!("the direct way is blocked: the camera goes around, through {num_inner} more keys"),
         })
@@ -116,7 +116,7 @@ pub(super) fn clearance_lines(
              {SIGMA_LEVEL} standard deviations",
             proof.camera_radius
         ),
-        got: proof.least.min(world.bounds.size()),
+        got: proof.min_distance.min(world.bounds.size()),
         met: proof.is_clear(),
         note,
     });

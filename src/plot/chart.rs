@@ -1,7 +1,8 @@
 use std::fmt::Write as _;
 
+use super::Axis;
 use super::labels::Labels;
-use super::{Axis, escaped};
+use super::text::escaped;
 
 /// Room for tick labels left of and under the frame, and for the title above it, px.
 const LEFT: f64 = 58.0;

@@ -1,6 +1,7 @@
 use std::fmt::Write as _;
 
-use super::{Chart, escaped, text_width};
+use super::Chart;
+use super::text::{escaped, text_width};
 
 const MARGIN: f64 = 16.0;
 /// Height of title and legend over the charts of a [`grid`], px.

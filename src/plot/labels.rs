@@ -1,6 +1,6 @@
 //! Words beside points: each goes to the place about its point where it covers least.
 
-use super::text_width;
+use super::text::text_width;
 
 /// Left, top, right, bottom, px.
 type Box4 = [f64; 4];

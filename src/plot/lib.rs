@@ -7,6 +7,7 @@ mod axis;
 mod chart;
 mod figure;
 mod labels;
+mod text;
 
 pub use axis::{Axis, Spacing};
 pub use chart::{Chart, Mark, Series};
@@ -14,13 +15,3 @@ pub use figure::{Entry, Figure, Symbol, grid};
 
 /// Colors that people with any kind of color vision tell apart (Okabe and Ito); the first is gray.
 pub const COLORS: [&str; 8] = ["#888888", "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222"];
-
-/// Text as it may stand in SVG.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// About how wide a text is in the fonts of a figure, px.
-fn text_width(text: &str, font_px: f64) -> f64 {
-    0.6 * font_px * text.chars().count() as f64
-}

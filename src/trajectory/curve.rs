@@ -1,28 +1,27 @@
-//! The geometry of a leg: where the camera goes and how it turns, without regard to time.
+//! The geometry of a leg: position and rotation over knots, independent of time.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
 
-use super::stray::sub_bezier;
-use super::track::Track;
+use super::track::{Track, sub_bezier};
 use super::{Keyframe, Move};
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose, rotation};
 
-/// Beyond this pitch the heading of a camera means too little to interpolate yaw, pitch and roll one by one.
+/// Beyond this pitch the yaw of a camera is ill-conditioned: rotations are interpolated as quaternions instead.
 const STEEP_PITCH_RAD: f64 = 1.48;
 
 /// Positions over knots.
 #[derive(Debug, Clone)]
 pub(super) enum PositionCurve {
-    /// Through the keys.
+    /// A spline through the keys.
     Spline(Track<DVec3>),
-    /// A circle about an upright axis, or a spiral where the keys' radii and heights differ.
+    /// A circle about the upright axis through `pivot`, or a spiral where the keys' radii and heights differ.
     Arc { frame: LevelFrame, pivot: DVec3, azimuth: Track<f64>, radius: Track<f64>, height: Track<f64> },
 }
 
 impl PositionCurve {
-    /// A true arc about `pivot` through the keys, at knots.
+    /// The arc about `pivot` through the keys, each at its knot.
     pub(super) fn arc(frame: LevelFrame, pivot: DVec3, keys: &[Keyframe], knots: &[f64]) -> Self {
         let offsets: Vec<DVec3> = keys.iter().map(|key| key.pose.position - pivot).collect();
         let raw: Vec<f64> = offsets.iter().map(|&o| frame.azimuth(o)).collect();
@@ -34,8 +33,9 @@ impl PositionCurve {
         Self::Arc { frame, pivot, azimuth: track(&azimuths), radius: track(&radii), height: track(&heights) }
     }
 
-    /// Bound of the distance between `center`, the position half way, and any position on `range` of a segment's knots.
-    pub(super) fn stray(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
+    /// Upper bound of the distance from `center`, the position in the middle of `range`, to any position on `range` of a
+    /// segment's parameter, scene units.
+    pub(super) fn max_deviation(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
         match self {
             Self::Spline(track) => {
                 let hull = sub_bezier(track.bezier(segment), range);
@@ -45,10 +45,10 @@ impl PositionCurve {
                 let offset = center - *pivot;
                 let middle_radius = frame.horizontal(offset).length();
                 let middle_azimuth = sub_bezier(azimuth.bezier(segment), (range.0, range.0.midpoint(range.1)))[3];
-                let turned = spread(azimuth, segment, range, middle_azimuth).min(PI);
-                let widened = spread(radius, segment, range, middle_radius);
-                let raised = spread(height, segment, range, frame.height(offset));
-                // A point at radius r, turned by a from another at radius s, is at most |r - s| + 2 s sin(a / 2) from it.
+                let turned = range_deviation(azimuth, segment, range, middle_azimuth).min(PI);
+                let widened = range_deviation(radius, segment, range, middle_radius);
+                let raised = range_deviation(height, segment, range, frame.height(offset));
+                // Two points at radii r and s, an angle a apart, are at most |r - s| + 2 s sin(a / 2) apart.
                 (widened + 2.0 * middle_radius * (turned / 2.0).sin()).hypot(raised)
             }
         }
@@ -65,13 +65,15 @@ impl PositionCurve {
     }
 }
 
-/// How far a track gets from `middle` on `range` of a segment's knots, at most.
-fn spread(track: &Track<f64>, segment: usize, range: (f64, f64), middle: f64) -> f64 {
+/// Upper bound of the difference between `middle` and a track's values on `range` of a segment's parameter.
+fn range_deviation(track: &Track<f64>, segment: usize, range: (f64, f64), middle: f64) -> f64 {
     sub_bezier(track.bezier(segment), range).into_iter().map(|value| (value - middle).abs()).fold(0.0, f64::max)
 }
 
-/// Sign of the change of azimuth that an orbit asks for: travel to the camera's right lowers the azimuth of the camera
-/// as seen from the pivot (counter-clockwise from above; azimuths grow clockwise). 0 without an opinion.
+/// Sign of the change of azimuth that an orbit or arc asks for; 0 for every other move.
+///
+/// Travel to the camera's right is counter-clockwise from above and lowers the camera's azimuth about the pivot, because
+/// azimuths grow clockwise.
 fn arc_sign(key: &Keyframe) -> f64 {
     match key.intent.as_ref().and_then(|intent| intent.movement) {
         Some(Move::OrbitRight | Move::ArcRight) => -1.0,
@@ -80,7 +82,7 @@ fn arc_sign(key: &Keyframe) -> f64 {
     }
 }
 
-/// Sign of the change of yaw that a pan asks for; 0 without an opinion.
+/// Sign of the change of yaw that a pan asks for; 0 for every other move.
 fn pan_sign(key: &Keyframe) -> f64 {
     match key.intent.as_ref().and_then(|intent| intent.movement) {
         Some(Move::PanRight) => 1.0,
@@ -89,8 +91,10 @@ fn pan_sign(key: &Keyframe) -> f64 {
     }
 }
 
-/// Angles without jumps. Each step goes the short way, except steps of over 150 degrees whose key asks for a
-/// direction (`signs[i]` is that of the step from `i` to `i + 1`): half turns have no short way.
+/// Angles without jumps of a full turn, rad.
+///
+/// Each step takes the shorter direction. A step above 150 degrees takes the direction `signs[i]` of its key instead,
+/// where that is not 0, because both directions of a half turn are equally short.
 fn unwrapped(angles: &[f64], signs: &[f64]) -> Vec<f64> {
     let mut out: Vec<f64> = Vec::with_capacity(angles.len());
     for (i, &angle) in angles.iter().enumerate() {
@@ -108,14 +112,14 @@ fn unwrapped(angles: &[f64], signs: &[f64]) -> Vec<f64> {
     out
 }
 
-/// Rotations over knots.
+/// Rotations (`world_from_camera`) over knots.
 #[derive(Debug, Clone)]
-pub(super) enum TurnCurve {
-    /// Yaw, pitch and roll one by one: the horizon stays as level as the keys are.
+pub(super) enum RotationCurve {
+    /// Yaw, pitch and roll interpolated separately: the horizon stays as level as the keys are.
     Level { frame: LevelFrame, angles: AngleTracks },
-    /// Aimed at a point on the way, with the keys' departures from that aim interpolated.
-    Aimed { frame: LevelFrame, target: DVec3, departures: AngleTracks },
-    /// The short way from key to key, C1 by quaternion Bezier curves (Shoemake 1985).
+    /// Aimed at a point from every position, plus the interpolated offsets of the keys from that aim.
+    Aimed { frame: LevelFrame, target: DVec3, offsets: AngleTracks },
+    /// The shortest rotation from key to key, C1 by quaternion Bezier curves (Shoemake 1985).
     Free { knots: Vec<f64>, rotations: Vec<DQuat>, rates: Vec<DVec3> },
 }
 
@@ -145,8 +149,9 @@ impl AngleTracks {
     }
 }
 
-impl TurnCurve {
-    /// The curve for a leg's keys: aimed where all keys name one `target` and none is steep, else level, else free.
+impl RotationCurve {
+    /// The curve for a leg's keys: free where a key is steep or up is unknown, else aimed where there is a `target` that no
+    /// key looks at steeply, else level.
     pub(super) fn new(frame: Option<LevelFrame>, target: Option<DVec3>, keys: &[Keyframe], knots: &[f64]) -> Self {
         let steep = |angles: &[LevelAngles]| angles.iter().any(|a| a.pitch_rad.abs() > STEEP_PITCH_RAD);
         let Some(frame) = frame else { return Self::free(keys, knots) };
@@ -164,9 +169,9 @@ impl TurnCurve {
                     pitch_rad: a.pitch_rad - b.pitch_rad,
                     roll_rad: a.roll_rad - b.roll_rad,
                 };
-                let departures: Vec<LevelAngles> = angles.iter().zip(&aims).map(less).collect();
-                let departures = AngleTracks::new(knots, &departures, &vec![0.0; keys.len()]);
-                return Self::Aimed { frame, target, departures };
+                let offsets: Vec<LevelAngles> = angles.iter().zip(&aims).map(less).collect();
+                let offsets = AngleTracks::new(knots, &offsets, &vec![0.0; keys.len()]);
+                return Self::Aimed { frame, target, offsets };
             }
         }
         Self::Level { frame, angles: AngleTracks::new(knots, &angles, &signs) }
@@ -187,29 +192,31 @@ impl TurnCurve {
         Self::Free { knots: knots.to_vec(), rotations, rates }
     }
 
-    /// Rotation at a knot value between knots `segment` and `segment + 1`, at a position on the way.
+    /// Rotation at a knot value between knots `segment` and `segment + 1`, where the camera is at `position`.
     pub(super) fn at(&self, segment: usize, knot: f64, position: DVec3) -> DQuat {
         match self {
             Self::Level { frame, angles } => frame.rotation(angles.at(knot)),
-            Self::Aimed { frame, target, departures } => {
-                let (aim, off) = (aim(*frame, position, *target, DQuat::IDENTITY), departures.at(knot));
+            Self::Aimed { frame, target, offsets } => {
+                let (aim, off) = (aim(*frame, position, *target, DQuat::IDENTITY), offsets.at(knot));
                 frame.rotation(LevelAngles {
                     yaw_rad: aim.yaw_rad + off.yaw_rad,
                     pitch_rad: aim.pitch_rad + off.pitch_rad,
                     roll_rad: aim.roll_rad + off.roll_rad,
                 })
             }
-            Self::Free { knots, rotations, rates } => bezier(knots, rotations, rates, segment, knot),
+            Self::Free { knots, rotations, rates } => quaternion_bezier(knots, rotations, rates, segment, knot),
         }
     }
 }
 
-/// Angles of a level camera at `position` that looks at `target`; those of `spare` where the two coincide.
-fn aim(frame: LevelFrame, position: DVec3, target: DVec3, spare: DQuat) -> LevelAngles {
-    Pose::look_at(position, target, frame.up, None).map_or_else(|_| frame.angles(spare), |p| frame.angles(p.rotation))
+/// Angles of a level camera at `position` that looks at `target`; those of `fallback` where the two coincide.
+fn aim(frame: LevelFrame, position: DVec3, target: DVec3, fallback: DQuat) -> LevelAngles {
+    Pose::look_at(position, target, frame.up, None)
+        .map_or_else(|_| frame.angles(fallback), |p| frame.angles(p.rotation))
 }
 
-fn bezier(knots: &[f64], rotations: &[DQuat], rates: &[DVec3], segment: usize, knot: f64) -> DQuat {
+/// Cubic Bezier curve of quaternions (de Casteljau by slerp) with the given angular rates at the keys.
+fn quaternion_bezier(knots: &[f64], rotations: &[DQuat], rates: &[DVec3], segment: usize, knot: f64) -> DQuat {
     if rotations.len() == 1 {
         return rotations[0];
     }

@@ -1,26 +1,25 @@
-//! A leg: the stretch between two moments of rest, one smooth curve with a length.
+//! A leg: all segments between two moments of rest, joined by one smooth curve whose length is measured.
 
 use glam::DVec3;
 
-use super::curve::{PositionCurve, TurnCurve};
-use super::path::CameraState;
+use super::curve::{PositionCurve, RotationCurve};
 use super::track::Track;
-use super::{Keyframe, Move};
+use super::{CameraState, Keyframe, Move};
 use cinesplat_geometry::{LevelFrame, Pose, rotation};
 
-/// Chords that measure the length of one segment of a film; the error falls with their square (4e-7 of a 45 degree arc).
+/// Number of chords that measure the length of a segment. The error falls with its square (4e-7 of a 45 degree arc).
 pub(super) const FINE_CHORDS: usize = 128;
-/// Chords for a path that is only judged, not filmed: a solver tries hundreds (2e-4 of a 45 degree arc).
+/// The same for paths that a solver only scores, by the hundred (error 2e-4 of a 45 degree arc).
 pub(super) const COARSE_CHORDS: usize = 6;
 
-/// What changes along a segment; a leg is all of one kind.
+/// What changes along a segment. All segments of a leg are of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
-    /// The camera travels, freely.
+pub(super) enum LegKind {
+    /// The camera's position changes.
     Travel,
-    /// The camera travels on a circle about an upright axis through this point.
+    /// The position changes along a circle about an upright axis through this point.
     Arc(DVec3),
-    /// The camera only turns.
+    /// Only the rotation changes.
     Turn,
     /// Only the lens changes.
     Lens,
@@ -28,10 +27,10 @@ pub(super) enum Kind {
     Hold,
 }
 
-impl Kind {
-    /// What changes from key `a` to key `b`; `reach` is the extent of the whole path.
-    pub(super) fn between(a: &Keyframe, b: &Keyframe, has_up: bool, reach: f64) -> Self {
-        if a.pose.position.distance(b.pose.position) > 1e-7 * reach {
+impl LegKind {
+    /// What changes from key `a` to key `b`; `extent` is that of the whole path, scene units.
+    pub(super) fn between(a: &Keyframe, b: &Keyframe, has_up: bool, extent: f64) -> Self {
+        if a.pose.position.distance(b.pose.position) > 1e-7 * extent {
             return match a.intent.as_ref().and_then(|intent| Some((intent.movement?, intent.pivot?))) {
                 Some((movement, pivot)) if has_up && is_circular(movement) => Self::Arc(pivot),
                 _ => Self::Travel,
@@ -51,53 +50,55 @@ fn is_circular(movement: Move) -> bool {
     matches!(movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
 }
 
-/// A smooth curve through the keys of a leg, measured by length.
+/// A smooth curve through the keys of a leg, with a table of its length.
 #[derive(Debug, Clone)]
 pub(super) struct Leg {
     knots: Vec<f64>,
     position: PositionCurve,
-    turn: TurnCurve,
+    rotation: RotationCurve,
+    /// Focal length over half the frame's height, or its logarithm.
     focal: Track<f64>,
     focal_is_log: bool,
+    /// Focus distance at each key.
     focus: Vec<Option<f64>>,
-    /// Cumulative length at even fractions of each segment's knots, `num_chords + 1` values.
+    /// Per segment the cumulative length at even fractions of its parameter, `num_chords + 1` values.
     lengths: Vec<Vec<f64>>,
     num_chords: usize,
 }
 
 impl Leg {
-    /// The curve through `keys` (at least two), whose segments are all of `kind`, measured by `num_chords` a segment.
-    pub(super) fn new(keys: &[Keyframe], kind: Kind, frame: Option<LevelFrame>, num_chords: usize) -> Self {
+    /// The curve through `keys` (at least two), whose segments are all of `kind`, measured with `num_chords` chords per segment.
+    pub(super) fn new(keys: &[Keyframe], kind: LegKind, frame: Option<LevelFrame>, num_chords: usize) -> Self {
         let knots = knots(keys, kind);
         let points: Vec<DVec3> = keys.iter().map(|key| key.pose.position).collect();
         let position = match (kind, frame) {
-            (Kind::Arc(pivot), Some(frame)) => PositionCurve::arc(frame, pivot, keys, &knots),
+            (LegKind::Arc(pivot), Some(frame)) => PositionCurve::arc(frame, pivot, keys, &knots),
             _ => PositionCurve::Spline(Track::catmull_rom(&knots, &points)),
         };
-        let turn = TurnCurve::new(frame, common_pivot(keys), keys, &knots);
-        let focal_is_log = kind == Kind::Lens;
+        let rotation = RotationCurve::new(frame, common_pivot(keys), keys, &knots);
+        let focal_is_log = kind == LegKind::Lens;
         let focal = |key: &Keyframe| {
             let focal = 1.0 / (key.fov_y_rad / 2.0).tan();
             if focal_is_log { focal.ln() } else { focal }
         };
         let focal = Track::monotone(&knots, &keys.iter().map(focal).collect::<Vec<_>>());
         let focus = keys.iter().map(|key| key.focus_distance).collect();
-        let mut leg = Self { knots, position, turn, focal, focal_is_log, focus, lengths: Vec::new(), num_chords };
-        leg.lengths = (0..keys.len() - 1).map(|segment| leg.measured(segment, kind)).collect();
+        let mut leg = Self { knots, position, rotation, focal, focal_is_log, focus, lengths: Vec::new(), num_chords };
+        leg.lengths = (0..keys.len() - 1).map(|segment| leg.cumulative_lengths(segment, kind)).collect();
         leg
     }
 
-    /// Length of one segment: of its path, or in rad where it only turns, or of log focal length.
+    /// Length of one segment: scene units for travel and arcs, rad for turns, 1 for lens changes and holds.
     pub(super) fn length(&self, segment: usize) -> f64 {
         self.lengths[segment][self.num_chords]
     }
 
-    /// The camera where `length` of a segment is covered.
+    /// The camera after `length` of a segment.
     pub(super) fn at_length(&self, segment: usize, length: f64) -> CameraState {
         self.at_fraction(segment, self.fraction_at_length(segment, length))
     }
 
-    /// Fraction of a segment's knots at which `length` of it is covered, 0..=1.
+    /// Fraction 0..=1 of a segment's parameter after `length` of it.
     pub(super) fn fraction_at_length(&self, segment: usize, length: f64) -> f64 {
         let table = &self.lengths[segment];
         let total = table[self.num_chords];
@@ -110,25 +111,26 @@ impl Leg {
         ((above - 1) as f64 + within) / self.num_chords as f64
     }
 
-    /// Where the camera is at a fraction of a segment's knots.
+    /// Position at a fraction of a segment's parameter, world.
     pub(super) fn position_at(&self, segment: usize, fraction: f64) -> DVec3 {
         self.position.at(self.knot(segment, fraction))
     }
 
-    /// Bound of the distance between `center`, the position half way, and any position on `range` of a segment.
-    pub(super) fn stray(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
-        self.position.stray(segment, range, center)
+    /// Upper bound of the distance from `center`, the position in the middle of `range`, to any position on `range` of a
+    /// segment, scene units.
+    pub(super) fn max_deviation(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
+        self.position.max_deviation(segment, range, center)
     }
 
     fn knot(&self, segment: usize, fraction: f64) -> f64 {
         self.knots[segment] + (self.knots[segment + 1] - self.knots[segment]) * fraction
     }
 
-    /// The camera at a fraction of a segment's knots.
+    /// The camera at a fraction of a segment's parameter.
     fn at_fraction(&self, segment: usize, fraction: f64) -> CameraState {
         let knot = self.knot(segment, fraction);
         let position = self.position.at(knot);
-        let pose = Pose { position, rotation: self.turn.at(segment, knot, position) };
+        let pose = Pose { position, rotation: self.rotation.at(segment, knot, position) };
         let focal = self.focal.at(knot);
         let focal = if self.focal_is_log { focal.exp() } else { focal };
         let focus_distance = match (self.focus[segment], self.focus[segment + 1]) {
@@ -138,18 +140,18 @@ impl Leg {
         CameraState { pose, fov_y_rad: 2.0 * (1.0 / focal).atan(), focus_distance }
     }
 
-    /// Cumulative length of a segment at even fractions of its knots.
-    fn measured(&self, segment: usize, kind: Kind) -> Vec<f64> {
+    /// Cumulative length of a segment at even fractions of its parameter.
+    fn cumulative_lengths(&self, segment: usize, kind: LegKind) -> Vec<f64> {
         let mut total = 0.0;
         let mut last = self.at_fraction(segment, 0.0);
         let mut table = vec![0.0];
         for chord in 1..=self.num_chords {
             let next = self.at_fraction(segment, chord as f64 / self.num_chords as f64);
             total += match kind {
-                Kind::Travel | Kind::Arc(_) => last.pose.position.distance(next.pose.position),
-                Kind::Turn => rotation::angle_between(last.pose.rotation, next.pose.rotation),
-                // Even fractions: the log focal length or the focus distance is linear in the knots.
-                Kind::Lens | Kind::Hold => 1.0 / self.num_chords as f64,
+                LegKind::Travel | LegKind::Arc(_) => last.pose.position.distance(next.pose.position),
+                LegKind::Turn => rotation::angle_between(last.pose.rotation, next.pose.rotation),
+                // The log focal length or the focus distance is linear in the parameter.
+                LegKind::Lens | LegKind::Hold => 1.0 / self.num_chords as f64,
             };
             table.push(total);
             last = next;
@@ -158,23 +160,24 @@ impl Leg {
     }
 }
 
-/// The point that all segments of a leg aim at, where their intents name one and the same.
+/// The point that all segments of a leg aim at; `None` where their intents differ or name none.
 fn common_pivot(keys: &[Keyframe]) -> Option<DVec3> {
     let pivot = |key: &Keyframe| key.intent.as_ref().and_then(|intent| intent.pivot);
     let first = pivot(&keys[0])?;
     keys[..keys.len() - 1].iter().all(|key| pivot(key) == Some(first)).then_some(first)
 }
 
-/// Knots of a leg's keys: centripetal for travel (no cusps or overshoot, Yuksel et al. 2011), angle for turns and arcs.
-fn knots(keys: &[Keyframe], kind: Kind) -> Vec<f64> {
+/// Knots of a leg's keys: centripetal for travel (no cusps or overshoot, Yuksel et al. 2011), chord length for arcs,
+/// angle for turns, even for the rest.
+fn knots(keys: &[Keyframe], kind: LegKind) -> Vec<f64> {
     let mut knots = vec![0.0];
     for pair in keys.windows(2) {
         let (a, b) = (&pair[0], &pair[1]);
         let step = match kind {
-            Kind::Travel => a.pose.position.distance(b.pose.position).sqrt(),
-            Kind::Arc(_) => a.pose.position.distance(b.pose.position),
-            Kind::Turn => rotation::angle_between(a.pose.rotation, b.pose.rotation),
-            Kind::Lens | Kind::Hold => 1.0,
+            LegKind::Travel => a.pose.position.distance(b.pose.position).sqrt(),
+            LegKind::Arc(_) => a.pose.position.distance(b.pose.position),
+            LegKind::Turn => rotation::angle_between(a.pose.rotation, b.pose.rotation),
+            LegKind::Lens | LegKind::Hold => 1.0,
         };
         knots.push(knots[knots.len() - 1] + step.max(f64::MIN_POSITIVE));
     }

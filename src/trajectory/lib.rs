@@ -1,26 +1,29 @@
 //! A shot as data, and the smooth path through its keyframes.
 //!
 //! Enters: keyframes from the director, the operator or a file. Leaves: the camera at any time. The one invariant: at a
-//! key's time the camera is at that key. Never does IO; files are written by `export`.
+//! key's time the camera is at that key. This crate does no IO; `export` writes files.
 
+mod bounds;
+mod camera_state;
+mod clearance;
 mod curve;
 mod easing;
 mod error;
 mod leg;
 mod path;
 mod profile;
-mod proof;
+mod segments;
 mod shot;
-mod stray;
 mod timing;
 mod track;
 mod vocabulary;
 
+pub use bounds::{BoundingBall, PathInterval};
+pub use camera_state::CameraState;
+pub use clearance::{ClearanceFailure, ClearanceProof};
 pub use easing::Easing;
 pub use error::TrajectoryError;
-pub use path::{CameraPath, CameraState};
-pub use proof::{ClearanceFailure, ClearanceProof};
+pub use path::CameraPath;
 pub use shot::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
-pub use stray::{Ball, PathPart};
 pub use timing::{retime, retimed};
 pub use vocabulary::{Move, ShotAngle, ShotSize};

@@ -1,11 +1,11 @@
-//! One value over a parameter: a C1 curve that passes through its keys.
+//! A C1 curve of one value that passes through its keys.
 
 use std::ops::{Add, Div, Mul, Sub};
 
 use glam::DVec3;
 use splines::{Interpolate, Interpolation, Key, Spline};
 
-/// A C1 curve through values at increasing knots; constant beyond its ends.
+/// A C1 piecewise cubic through values at increasing knots; constant beyond its ends.
 #[derive(Debug, Clone)]
 pub(super) struct Track<V> {
     spline: Spline<f64, V>,
@@ -16,7 +16,7 @@ impl<V> Track<V>
 where
     V: Interpolate<f64> + Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
 {
-    /// The cubic with these tangents (value per unit of the knots) at the keys. All slices have one length, at least 1.
+    /// The cubic with the given tangents (value per unit of the knots). All slices have the same length, at least 1.
     fn hermite(knots: &[f64], values: &[V], tangents: &[V]) -> Self {
         let key = |i: usize| {
             // Bezier handles lie a third of the neighboring interval along the tangent.
@@ -28,7 +28,7 @@ where
         Self { spline: Spline::from_vec((0..knots.len()).map(key).collect()), first: values[0] }
     }
 
-    /// The value at a knot position.
+    /// The value at a knot.
     pub(super) fn at(&self, knot: f64) -> V {
         self.spline.clamped_sample(knot).unwrap_or(self.first)
     }
@@ -50,7 +50,7 @@ impl<V: Copy> Track<V> {
 }
 
 impl Track<f64> {
-    /// A monotone curve: between two keys it never leaves their range (Fritsch and Butland 1984).
+    /// A monotone curve: between two keys it stays within their range (Fritsch and Butland 1984).
     pub(super) fn monotone(knots: &[f64], values: &[f64]) -> Self {
         let slopes = slopes(knots, values);
         let tangent = |i: usize| match (i.checked_sub(1).and_then(|j| slopes.get(j)), slopes.get(i)) {
@@ -64,7 +64,7 @@ impl Track<f64> {
 }
 
 impl Track<DVec3> {
-    /// Catmull-Rom over the given knots (Barry and Goldman 1988); at the ends the tangent of the end parabola.
+    /// Catmull-Rom over the given knots (Barry and Goldman 1988), with the tangent of the end parabola at both ends.
     pub(super) fn catmull_rom(knots: &[f64], points: &[DVec3]) -> Self {
         let slopes = slopes(knots, points);
         let step = |i: usize| knots[i + 1] - knots[i];
@@ -91,7 +91,21 @@ where
     (0..values.len().saturating_sub(1)).map(slope).collect()
 }
 
-/// Harmonic mean of two rates; 0 where they differ in sign, so that no curve overshoots.
+/// Harmonic mean of two rates; 0 where their signs differ, so that no curve overshoots.
 pub(super) fn harmonic_mean(a: f64, b: f64) -> f64 {
     if a * b > 0.0 { 2.0 * a * b / (a + b) } else { 0.0 }
+}
+
+/// Bezier values, on the sub-interval `(from, to)` of 0..1, of the cubic with Bezier values `c` (its blossom; Ramshaw
+/// 1989).
+pub(super) fn sub_bezier<V>(c: [V; 4], (from, to): (f64, f64)) -> [V; 4]
+where
+    V: Copy + Add<Output = V> + Mul<f64, Output = V>,
+{
+    let mix = |a: V, b: V, t: f64| a * (1.0 - t) + b * t;
+    let blossom = |u: f64, v: f64, w: f64| {
+        let (a, b, d) = (mix(c[0], c[1], u), mix(c[1], c[2], u), mix(c[2], c[3], u));
+        mix(mix(a, b, v), mix(b, d, v), w)
+    };
+    [blossom(from, from, from), blossom(from, from, to), blossom(from, to, to), blossom(to, to, to)]
 }

@@ -109,10 +109,10 @@ fn what_was_proved_is_kept_until_somebody_edits_a_key() {
         camera_radius: 0.08,
         opacity_floor: 0.5,
         sigma_level: 1.5,
-        least: 0.125,
+        min_distance: 0.125,
         at_secs: 1.25,
         gaussian_idx: Some(4711),
-        num_parts: 93,
+        num_intervals: 93,
         failure: Some(ClearanceFailure { from_secs: 1.0, to_secs: 1.5, distance: 0.01, gaussian_idx: 4711 }),
     });
     let text = write(&shot);

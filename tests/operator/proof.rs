@@ -54,7 +54,7 @@ fn a_thin_wall_between_two_frames_is_caught() {
     assert!(frames.map(|p| brute_force(&gaussians, p).0).all(|distance| distance > proof.camera_radius * 0.4));
     let failure = proof.failure.unwrap();
     assert_eq!((failure.gaussian_idx, proof.gaussian_idx), (8, Some(8)));
-    assert!(proof.least < 0.02 * proof.camera_radius);
+    assert!(proof.min_distance < 0.02 * proof.camera_radius);
     // It crosses x = 1.37 at 6.37 s and is too near a radius before and after.
     let (from, to) = (6.37 - proof.camera_radius, 6.37 + proof.camera_radius);
     assert!((failure.from_secs - from).abs() < 0.02 && (failure.to_secs - to).abs() < 0.02, "{failure:?}");
@@ -72,7 +72,10 @@ fn moving_the_wall_out_of_the_way_turns_the_verdict() {
     assert!(radius > 0.0);
     assert!(!verdict(0.6 + 0.98 * radius).is_clear());
     let clear = verdict(0.6 + 1.02 * radius);
-    assert!(clear.is_clear() && clear.least >= radius && clear.least <= 1.02 * radius + 1e-6, "{clear:?}");
+    assert!(
+        clear.is_clear() && clear.min_distance >= radius && clear.min_distance <= 1.02 * radius + 1e-6,
+        "{clear:?}"
+    );
 }
 
 /// Least distance on 4000 samples of a path.
@@ -84,10 +87,14 @@ fn sampled_least(gaussians: &Gaussians, path: &CameraPath, secs: f64) -> f64 {
 fn agrees(gaussians: &Gaussians, path: &CameraPath, secs: f64) -> ClearanceProof {
     let proof = prove_clear(gaussians, path);
     let sampled = sampled_least(gaussians, path, secs);
-    assert!(proof.least <= sampled, "a proof of {} where a sample is at {sampled}", proof.least);
-    assert!(proof.least >= sampled - 0.03 * proof.camera_radius, "{} is a poor bound for {sampled}", proof.least);
+    assert!(proof.min_distance <= sampled, "a proof of {} where a sample is at {sampled}", proof.min_distance);
+    assert!(
+        proof.min_distance >= sampled - 0.03 * proof.camera_radius,
+        "{} is a poor bound for {sampled}",
+        proof.min_distance
+    );
     let there = brute_force(gaussians, path.sample(proof.at_secs).pose.position).0;
-    assert!((there - proof.least).abs() <= 0.05 * proof.camera_radius, "{there} at the time it names");
+    assert!((there - proof.min_distance).abs() <= 0.05 * proof.camera_radius, "{there} at the time it names");
     proof
 }
 
@@ -141,8 +148,8 @@ fn a_camera_that_stands_still_and_an_empty_scene_have_proofs_too() {
     let gaussians = corners(3.0);
     let still = prove_clear(&gaussians, &path(vec![key(0.0, DVec3::ZERO)]));
     let wanted = 27.0_f64.sqrt() - 0.015;
-    assert!(still.is_clear() && (still.least - wanted).abs() < 1e-4, "{still:?}");
+    assert!(still.is_clear() && (still.min_distance - wanted).abs() < 1e-4, "{still:?}");
     let nothing = prove_clear(&Gaussians::default(), &straight());
-    assert!(nothing.is_clear() && nothing.least == f64::INFINITY && nothing.gaussian_idx.is_none());
+    assert!(nothing.is_clear() && nothing.min_distance == f64::INFINITY && nothing.gaussian_idx.is_none());
     assert!(nothing.camera_radius > 0.0);
 }

@@ -53,7 +53,11 @@ fn a_wall_is_passed_through_its_door() {
     let way = positions(&world, &found);
     for pair in way.windows(2) {
         let distance = brute_force(&gaussians, pair[0]).0;
-        assert!(distance >= world.camera_radius && distance >= found.proof.least - 1e-9, "{distance} at {}", pair[0]);
+        assert!(
+            distance >= world.camera_radius && distance >= found.proof.min_distance - 1e-9,
+            "{distance} at {}",
+            pair[0]
+        );
         if pair[0].x * pair[1].x <= 0.0 {
             assert!((DOOR.0..DOOR.1).contains(&pair[0].z) && pair[0].y < DOOR.2, "crosses at {}", pair[0]);
         }

@@ -1,10 +1,10 @@
 //! Paths through keyframes.
 
+mod bounds;
 mod easing;
 mod hard_keys;
 mod moves;
 mod shots;
-mod stray;
 
 use cinesplat::geometry::{LevelAngles, LevelFrame, Pose};
 use cinesplat::trajectory::{Easing, Keyframe, Shot};

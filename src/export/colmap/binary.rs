@@ -1,47 +1,47 @@
-//! The binary form, little-endian: counts as u64, then records; names end with a zero byte.
+//! The binary form, little-endian: a u64 count, then the records; names end with a zero byte.
 
 use glam::{DQuat, DVec3};
 
 use super::super::ExportError;
 use super::super::track::PoseTrack;
-use super::{Image, Lens, MODELS, ModelFiles, PINHOLE, model, non_empty, track};
+use super::model::{CameraModel, ModelCamera, ModelFiles, ModelImage, model, track};
 
 pub(crate) fn write(track: &PoseTrack) -> ModelFiles {
-    let (lenses, images) = model(track);
-    let mut cameras = (lenses.len() as u64).to_le_bytes().to_vec();
-    for lens in &lenses {
-        cameras.extend(lens.id.to_le_bytes());
-        cameras.extend((PINHOLE as i32).to_le_bytes());
-        cameras.extend(u64::from(lens.width).to_le_bytes());
-        cameras.extend(u64::from(lens.height).to_le_bytes());
-        cameras.extend(lens.params().into_iter().flat_map(f64::to_le_bytes));
+    let (cameras, images) = model(track);
+    let mut camera_bytes = (cameras.len() as u64).to_le_bytes().to_vec();
+    for camera in &cameras {
+        camera_bytes.extend(camera.id.to_le_bytes());
+        camera_bytes.extend((CameraModel::Pinhole as i32).to_le_bytes());
+        camera_bytes.extend(u64::from(camera.width).to_le_bytes());
+        camera_bytes.extend(u64::from(camera.height).to_le_bytes());
+        camera_bytes.extend(camera.pinhole_params().into_iter().flat_map(f64::to_le_bytes));
     }
-    let mut list = (images.len() as u64).to_le_bytes().to_vec();
+    let mut image_bytes = (images.len() as u64).to_le_bytes().to_vec();
     for (idx, image) in images.iter().enumerate() {
         let [x, y, z, w] = image.rotation.to_array();
-        list.extend((idx as u32 + 1).to_le_bytes());
-        list.extend([w, x, y, z].into_iter().chain(image.translation.to_array()).flat_map(f64::to_le_bytes));
-        list.extend(image.lens_id.to_le_bytes());
-        list.extend(image.name.as_bytes());
-        list.push(0);
-        list.extend(0_u64.to_le_bytes());
+        image_bytes.extend((idx as u32 + 1).to_le_bytes());
+        image_bytes.extend([w, x, y, z].into_iter().chain(image.translation.to_array()).flat_map(f64::to_le_bytes));
+        image_bytes.extend(image.camera_id.to_le_bytes());
+        image_bytes.extend(image.name.as_bytes());
+        image_bytes.push(0);
+        image_bytes.extend(0_u64.to_le_bytes());
     }
-    vec![("cameras.bin", cameras), ("images.bin", list), ("points3D.bin", 0_u64.to_le_bytes().to_vec())]
+    vec![("cameras.bin", camera_bytes), ("images.bin", image_bytes), ("points3D.bin", 0_u64.to_le_bytes().to_vec())]
 }
 
-/// The track of `images.bin` and `cameras.bin`; without the latter, fields of view stay unknown.
+/// The track of `images.bin` and `cameras.bin`; without the latter the fields of view are unknown.
 pub(crate) fn read(images: &[u8], cameras: Option<&[u8]>) -> Result<PoseTrack, ExportError> {
-    let lenses = cameras.map(read_lenses).transpose()?.unwrap_or_default();
+    let cameras = cameras.map(read_cameras).transpose()?.unwrap_or_default();
     let mut bytes = Bytes { bytes: images, offset: 0 };
     let num_images = bytes.u64("a number of images")?;
     let mut list = Vec::new();
     for _ in 0..num_images {
         list.push(read_image(&mut bytes)?);
     }
-    Ok(track(non_empty(list)?, &lenses))
+    track(list, &cameras)
 }
 
-fn read_image(bytes: &mut Bytes) -> Result<Image, ExportError> {
+fn read_image(bytes: &mut Bytes) -> Result<ModelImage, ExportError> {
     bytes.take::<4>("an image id")?;
     let start = bytes.offset;
     let mut v = [0.0; 7];
@@ -54,35 +54,37 @@ fn read_image(bytes: &mut Bytes) -> Result<Image, ExportError> {
         let found = format!("rotation {rotation}, translation {translation}");
         return Err(ExportError::BadBytes { offset: start, found, expected: "a rigid pose".into() });
     }
-    let lens_id = u32::from_le_bytes(bytes.take("a camera id")?);
+    let camera_id = u32::from_le_bytes(bytes.take("a camera id")?);
     let name = bytes.text()?;
     let points = bytes.u64("a number of points")?;
     bytes.skip(points, 24)?;
-    Ok(Image { name, lens_id, rotation: rotation.normalize(), translation })
+    Ok(ModelImage { name, camera_id, rotation: rotation.normalize(), translation })
 }
 
-fn read_lenses(cameras: &[u8]) -> Result<Vec<Lens>, ExportError> {
+fn read_cameras(cameras: &[u8]) -> Result<Vec<ModelCamera>, ExportError> {
     let mut bytes = Bytes { bytes: cameras, offset: 0 };
-    let num_lenses = bytes.u64("a number of cameras")?;
-    let mut lenses = Vec::new();
-    for _ in 0..num_lenses {
+    let num_cameras = bytes.u64("a number of cameras")?;
+    let mut list = Vec::new();
+    for _ in 0..num_cameras {
         let start = bytes.offset;
         let id = u32::from_le_bytes(bytes.take("a camera id")?);
-        let model = u32::from_le_bytes(bytes.take("a camera model")?) as usize;
+        let number = u32::from_le_bytes(bytes.take("a camera model")?);
+        let model = CameraModel::from_number(number);
         let (width, height) = (bytes.u64("a width")? as u32, bytes.u64("a height")? as u32);
-        let num_params = MODELS.get(model).map_or(0, |(_, num_params, _)| *num_params);
+        let num_params = model.map_or(0, CameraModel::num_params);
         let params = (0..num_params).map(|_| bytes.f64("a camera parameter")).collect::<Result<Vec<_>, _>>()?;
         let bad = || ExportError::BadBytes {
             offset: start,
-            found: format!("model {model}, {width} x {height}"),
+            found: format!("model {number}, {width} x {height}"),
             expected: "a camera of a known model".into(),
         };
-        lenses.push(Lens::new(id, model, (width, height), &params).ok_or_else(bad)?);
+        let camera = model.and_then(|model| ModelCamera::new(id, model, (width, height), &params));
+        list.push(camera.ok_or_else(bad)?);
     }
-    Ok(lenses)
+    Ok(list)
 }
 
-/// A reader that checks before it takes, so that a count in a hostile file allocates nothing.
+/// A reader that checks the length before each read, so that a hostile count allocates nothing.
 struct Bytes<'a> {
     bytes: &'a [u8],
     offset: usize,

@@ -1,4 +1,5 @@
-//! The text form: `IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME` and a line of points (here blank) an image.
+//! The text form. Each image has two lines: `IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME`, and its points (written
+//! blank).
 
 use std::fmt::Write as _;
 
@@ -7,32 +8,33 @@ use glam::{DQuat, DVec3};
 use super::super::ExportError;
 use super::super::columns::{bad_line, data_lines, joined, number};
 use super::super::track::PoseTrack;
-use super::{Image, Lens, MODELS, ModelFiles, PINHOLE, model, model_number, non_empty, track};
+use super::model::{CameraModel, ModelCamera, ModelFiles, ModelImage, model, track};
 
 pub(crate) fn write(track: &PoseTrack) -> ModelFiles {
-    let (lenses, images) = model(track);
-    let mut cameras = String::from("# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n");
-    for lens in &lenses {
-        let params = joined(lens.params(), " ");
-        let _ = writeln!(cameras, "{} {} {} {} {params}", lens.id, MODELS[PINHOLE].0, lens.width, lens.height);
+    let (cameras, images) = model(track);
+    let mut camera_text = String::from("# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n");
+    for camera in &cameras {
+        let (name, params) = (<&str>::from(CameraModel::Pinhole), joined(camera.pinhole_params(), " "));
+        let _ = writeln!(camera_text, "{} {name} {} {} {params}", camera.id, camera.width, camera.height);
     }
-    let mut list = String::from("# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME\n# POINTS2D[] as X Y POINT3D_ID\n");
+    let mut image_text =
+        String::from("# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME\n# POINTS2D[] as X Y POINT3D_ID\n");
     for (idx, image) in images.iter().enumerate() {
         let [x, y, z, w] = image.rotation.to_array();
         let pose = joined([w, x, y, z].into_iter().chain(image.translation.to_array()), " ");
-        let _ = writeln!(list, "{} {pose} {} {}\n", idx + 1, image.lens_id, image.name);
+        let _ = writeln!(image_text, "{} {pose} {} {}\n", idx + 1, image.camera_id, image.name);
     }
     let points = "# POINT3D_ID X Y Z R G B ERROR TRACK[] as IMAGE_ID POINT2D_IDX\n";
     vec![
-        ("cameras.txt", cameras.into_bytes()),
-        ("images.txt", list.into_bytes()),
+        ("cameras.txt", camera_text.into_bytes()),
+        ("images.txt", image_text.into_bytes()),
         ("points3D.txt", points.as_bytes().to_vec()),
     ]
 }
 
-/// The track of `images.txt` and `cameras.txt`; without the latter, fields of view stay unknown.
+/// The track of `images.txt` and `cameras.txt`; without the latter the fields of view are unknown.
 pub(crate) fn read(images: &str, cameras: Option<&str>) -> Result<PoseTrack, ExportError> {
-    let lenses = cameras.map(read_lenses).transpose()?.unwrap_or_default();
+    let cameras = cameras.map(read_cameras).transpose()?.unwrap_or_default();
     let mut lines = images.lines().enumerate().map(|(idx, line)| (idx + 1, line.trim()));
     let mut list = Vec::new();
     while let Some((line, text)) = lines.next() {
@@ -40,16 +42,16 @@ pub(crate) fn read(images: &str, cameras: Option<&str>) -> Result<PoseTrack, Exp
             continue;
         }
         list.push(read_image(line, text)?);
-        // The line of points, which may be blank.
+        // The line of points may be blank.
         lines.next();
     }
-    Ok(track(non_empty(list)?, &lenses))
+    track(list, &cameras)
 }
 
-fn read_image(line: usize, text: &str) -> Result<Image, ExportError> {
+fn read_image(line: usize, text: &str) -> Result<ModelImage, ExportError> {
     let columns: Vec<&str> = text.split_whitespace().collect();
     let expected = || bad_line(line, text, "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
-    let [_, w, x, y, z, tx, ty, tz, lens_id, name, ..] = columns[..] else { return Err(expected()) };
+    let [_, w, x, y, z, tx, ty, tz, camera_id, name, ..] = columns[..] else { return Err(expected()) };
     let mut v = [0.0; 7];
     for (value, column) in v.iter_mut().zip([w, x, y, z, tx, ty, tz]) {
         *value = number(line, column)?;
@@ -58,21 +60,21 @@ fn read_image(line: usize, text: &str) -> Result<Image, ExportError> {
     if !(rotation.length() > 1e-6) {
         return Err(bad_line(line, text, "a quaternion that is not 0"));
     }
-    let lens_id = lens_id.parse().map_err(|_| expected())?;
+    let camera_id = camera_id.parse().map_err(|_| expected())?;
     let translation = DVec3::new(v[4], v[5], v[6]);
-    Ok(Image { name: name.to_owned(), lens_id, rotation: rotation.normalize(), translation })
+    Ok(ModelImage { name: name.to_owned(), camera_id, rotation: rotation.normalize(), translation })
 }
 
-fn read_lenses(text: &str) -> Result<Vec<Lens>, ExportError> {
-    data_lines(text).map(|(line, text)| read_lens(line, text)).collect()
+fn read_cameras(text: &str) -> Result<Vec<ModelCamera>, ExportError> {
+    data_lines(text).map(|(line, text)| read_camera(line, text)).collect()
 }
 
-fn read_lens(line: usize, text: &str) -> Result<Lens, ExportError> {
+fn read_camera(line: usize, text: &str) -> Result<ModelCamera, ExportError> {
     let columns: Vec<&str> = text.split_whitespace().collect();
     let expected = || bad_line(line, text, "CAMERA_ID MODEL WIDTH HEIGHT PARAMS[] of a known model");
     let [id, name, width, height, params @ ..] = &columns[..] else { return Err(expected()) };
     let params = params.iter().map(|column| number(line, column)).collect::<Result<Vec<_>, _>>()?;
     let whole = |text: &str| text.parse::<u32>().map_err(|_| expected());
-    let model = model_number(name).ok_or_else(expected)?;
-    Lens::new(whole(id)?, model, (whole(width)?, whole(height)?), &params).ok_or_else(expected)
+    let model: CameraModel = name.parse().map_err(|_| expected())?;
+    ModelCamera::new(whole(id)?, model, (whole(width)?, whole(height)?), &params).ok_or_else(expected)
 }

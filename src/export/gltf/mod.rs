@@ -6,16 +6,9 @@
 
 mod accessor;
 mod base64;
+mod constants;
 mod read;
 mod write;
 
 pub(super) use read::read;
 pub(super) use write::{write_binary, write_text};
-
-/// The only extension written or read.
-const POINTER: &str = "KHR_animation_pointer";
-/// A key that follows another by less is a cut, seconds.
-const CUT_SECS: f64 = 1e-4;
-const GLB_MAGIC: &[u8; 4] = b"glTF";
-const JSON_CHUNK: &[u8; 4] = b"JSON";
-const BINARY_CHUNK: &[u8; 4] = b"BIN\0";

@@ -5,7 +5,8 @@ use super::super::json_read::{self, Node};
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{DEFAULT_SIZE_PX, PoseFrame, PoseTrack};
 use super::accessor::{item, size, values};
-use super::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER, base64};
+use super::base64;
+use super::constants::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER};
 use cinesplat_geometry::{Pose, rotation};
 
 /// Deepest chain of nodes above a camera.

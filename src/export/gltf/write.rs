@@ -4,7 +4,8 @@ use super::super::json_write::{Json, object};
 use super::super::opengl::{opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack, fov_y_or_default};
 use super::accessor::FLOAT;
-use super::{BINARY_CHUNK, GLB_MAGIC, JSON_CHUNK, POINTER, base64};
+use super::base64;
+use super::constants::{BINARY_CHUNK, GLB_MAGIC, JSON_CHUNK, POINTER};
 use cinesplat_geometry::rotation;
 
 /// Nearest and farthest distance that a viewer should draw, over the extent of the path.

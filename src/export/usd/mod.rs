@@ -10,8 +10,3 @@ mod write;
 
 pub(super) use read::read;
 pub(super) use write::write;
-
-/// Time codes before a cut at which the pose is held.
-const HOLD_CODES: f64 = 1e-3;
-/// Height of the film back, tenths of a unit: full frame's 24 mm.
-const FILM_HEIGHT: f64 = 0.24;

@@ -3,8 +3,8 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use super::super::ExportError;
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
-use super::HOLD_CODES;
 use super::parse::{Prim, Value, parse};
+use super::write::HOLD_CODES;
 use cinesplat_geometry::rotation;
 
 /// USD's defaults where a camera says nothing, tenths of a unit.

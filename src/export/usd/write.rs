@@ -5,10 +5,14 @@ use glam::{DQuat, DVec3};
 use super::super::columns::joined;
 use super::super::opengl::{opengl_rotation, y_up_from_world};
 use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
-use super::{FILM_HEIGHT, HOLD_CODES};
 use cinesplat_geometry::rotation;
 
-/// Frames and their time codes.
+/// Time codes between the sample that holds the pose before a cut and the cut.
+pub(super) const HOLD_CODES: f64 = 1e-3;
+/// Height of the film back, tenths of a scene unit: 24 mm, full frame.
+const FILM_HEIGHT: f64 = 0.24;
+
+/// Frames with their time codes.
 type Samples<'a> = Vec<(f64, &'a PoseFrame)>;
 
 pub(crate) fn write(track: &PoseTrack) -> String {

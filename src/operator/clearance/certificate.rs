@@ -1,6 +1,6 @@
 //! Proofs about the distance between matter and a whole path.
 //!
-//! A part of a path lies in a ball about its middle ([`CameraPath::ball`]), and distances change by no more than the way:
+//! A part of a path lies in a ball about its middle ([`CameraPath::bounding_ball`]), and distances change by no more than the way:
 //! the part is at least `d - r` from matter when its middle is `d` from it and the ball's radius is `r`. Parts for which
 //! that says too little are halved, those that may come nearest first (branch and bound). What remains is a bound that
 //! holds at every moment, since it speaks of parts that together are the path, and that a witness on the path shows to
@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 
 use super::{ClearanceIndex, Nearest, SIGMA_LEVEL};
 use cinesplat_scene::SOLID_OPACITY;
-use cinesplat_trajectory::{CameraPath, ClearanceFailure, ClearanceProof, PathPart};
+use cinesplat_trajectory::{CameraPath, ClearanceFailure, ClearanceProof, PathInterval};
 
 /// How close the proved bound comes to the least distance found on the path, over the camera's radius.
 const TOLERANCE_FRAC: f64 = 0.01;
@@ -37,7 +37,7 @@ pub(crate) struct LeastClearance {
     /// No point of the path is nearer to matter than this; at most [`Search::enough`].
     pub(crate) bound: f64,
     /// The nearest that was met at the middle of a part: where, and what. `None` where all is at least `enough` away.
-    pub(crate) witness: Option<(PathPart, Nearest)>,
+    pub(crate) witness: Option<(PathInterval, Nearest)>,
     /// Parts looked at.
     pub(crate) num_parts: usize,
 }
@@ -46,7 +46,7 @@ pub(crate) struct LeastClearance {
 #[derive(Debug, Clone, Copy)]
 struct Open {
     bound: f64,
-    part: PathPart,
+    part: PathInterval,
 }
 
 impl Ord for Open {
@@ -79,15 +79,15 @@ struct Hunt<'a> {
     open: BinaryHeap<Open>,
     /// Distance at the nearest place met so far, or what is enough.
     met: f64,
-    witness: Option<(PathPart, Nearest)>,
+    witness: Option<(PathInterval, Nearest)>,
     num_parts: usize,
 }
 
 impl Hunt<'_> {
     /// Looks at a part that is known to be at least `floor` from matter; keeps it if it may come nearer than what is met.
-    fn look(&mut self, part: PathPart, floor: f64) {
+    fn look(&mut self, part: PathInterval, floor: f64) {
         self.num_parts += 1;
-        let ball = self.path.ball(part);
+        let ball = self.path.bounding_ball(part);
         let Some(nearest) = self.index.nearest_within(ball.center, self.met + ball.radius) else { return };
         if nearest.distance < self.met {
             self.met = nearest.distance;
@@ -103,7 +103,7 @@ impl Hunt<'_> {
 /// A lower bound of the distance between a path and matter, as far as the search asks.
 pub(crate) fn least_clearance(index: &ClearanceIndex, path: &CameraPath, search: &Search) -> LeastClearance {
     let mut hunt = Hunt { index, path, open: BinaryHeap::new(), met: search.enough, witness: None, num_parts: 0 };
-    path.parts().into_iter().for_each(|part| hunt.look(part, 0.0));
+    path.intervals().into_iter().for_each(|part| hunt.look(part, 0.0));
     let mut bound = None;
     while let Some(next) = hunt.open.pop() {
         let tight = hunt.witness.is_some() && next.bound >= hunt.met - search.tolerance;
@@ -129,10 +129,10 @@ pub(crate) fn prove(index: &ClearanceIndex, path: &CameraPath, radius: f64) -> C
         camera_radius: radius,
         opacity_floor: f64::from(SOLID_OPACITY),
         sigma_level: SIGMA_LEVEL,
-        least,
+        min_distance: least,
         at_secs: found.witness.map_or(0.0, |(part, _)| path.time_at(part.key_idx, part.middle())),
         gaussian_idx: found.witness.map(|(_, nearest)| nearest.gaussian_idx as usize),
-        num_parts: found.num_parts + more_parts,
+        num_intervals: found.num_parts + more_parts,
         failure,
     }
 }
@@ -140,12 +140,12 @@ pub(crate) fn prove(index: &ClearanceIndex, path: &CameraPath, radius: f64) -> C
 /// The first stretch of a path that cannot be shown to be clear, and the number of parts looked at to find it.
 fn first_failure(index: &ClearanceIndex, path: &CameraPath, radius: f64) -> (usize, Option<ClearanceFailure>) {
     let finest = TOLERANCE_FRAC * radius;
-    let mut ahead = path.parts();
+    let mut ahead = path.intervals();
     ahead.reverse();
-    let (mut num_parts, mut failing): (usize, Option<(PathPart, PathPart, Nearest)>) = (0, None);
+    let (mut num_parts, mut failing): (usize, Option<(PathInterval, PathInterval, Nearest)>) = (0, None);
     while let Some(part) = ahead.pop() {
         num_parts += 1;
-        let ball = path.ball(part);
+        let ball = path.bounding_ball(part);
         match index.nearest_within(ball.center, radius * (1.0 + ROUNDING_FRAC) + ball.radius) {
             None if failing.is_some() => break,
             None => {}

@@ -84,7 +84,7 @@ fn line(head: &str, result: &PairResult, radius: f64) -> String {
     let (outcome, keys, proved) = match &result.route {
         Ok(route) => {
             let outcome = if route.is_straight() { "straight" } else { "around" };
-            (outcome.to_owned(), route.states.len(), Some(route.proof.least))
+            (outcome.to_owned(), route.states.len(), Some(route.proof.min_distance))
         }
         Err(why) => (format!("none: {why}"), 0, None),
     };
@@ -109,7 +109,8 @@ fn summary(results: &[PairResult]) -> String {
     // A scan that finds less than what was proved would break the proof, even where the camera has room. It stops looking
     // at 1.5 radii.
     let untrue = results.iter().filter(|r| {
-        let proved = r.route.as_ref().map_or(0.0, |route| route.proof.least.min(1.5 * route.proof.camera_radius));
+        let proved =
+            r.route.as_ref().map_or(0.0, |route| route.proof.min_distance.min(1.5 * route.proof.camera_radius));
         r.scanned_least.is_some_and(|least| least < proved - 1e-9)
     });
     format!(

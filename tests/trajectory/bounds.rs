@@ -1,27 +1,28 @@
-//! Balls about parts of a path hold every position of the part.
+//! The bounding ball of an interval of a path contains every position of the interval.
 
-use cinesplat::trajectory::{CameraPath, Intent, Keyframe, Move, PathPart};
+use cinesplat::trajectory::{CameraPath, Intent, Keyframe, Move, PathInterval};
 use glam::DVec3;
 
 use super::{key, shot};
 
 fn check(keys: Vec<Keyframe>) {
     let path = CameraPath::new(&shot(keys)).unwrap();
-    let mut parts = path.parts();
+    let mut intervals = path.intervals();
     for _ in 0..6 {
-        for &part in &parts {
-            let ball = path.ball(part);
-            let (from, to) = (path.time_at(part.key_idx, part.from), path.time_at(part.key_idx, part.to));
+        for &interval in &intervals {
+            let ball = path.bounding_ball(interval);
+            let (from, to) =
+                (path.time_at(interval.key_idx, interval.from), path.time_at(interval.key_idx, interval.to));
             for i in 0..=40 {
-                // The last moment before the key that follows still belongs to the part.
+                // The interval ends just before the next key.
                 let time = from + (to - from) * f64::from(i) / 40.0 * (1.0 - 1e-12);
                 let off = path.sample(time).pose.position.distance(ball.center);
                 assert!(off <= ball.radius + 1e-7, "{off} off a ball of {} at {time} s", ball.radius);
             }
         }
-        let before = parts.iter().map(|&part| path.ball(part).radius).fold(0.0, f64::max);
-        parts = parts.into_iter().flat_map(PathPart::halves).collect();
-        let after = parts.iter().map(|&part| path.ball(part).radius).fold(0.0, f64::max);
+        let before = intervals.iter().map(|&interval| path.bounding_ball(interval).radius).fold(0.0, f64::max);
+        intervals = intervals.into_iter().flat_map(PathInterval::halves).collect();
+        let after = intervals.iter().map(|&interval| path.bounding_ball(interval).radius).fold(0.0, f64::max);
         assert!(after <= 0.75 * before + 1e-12, "halves of {before} are {after}");
     }
 }

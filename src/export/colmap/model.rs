@@ -1,0 +1,138 @@
+//! Cameras and images of a model in memory, independent of the text and binary forms.
+
+use glam::{DQuat, DVec3};
+use strum::VariantArray;
+
+use super::super::ExportError;
+use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
+use cinesplat_geometry::Pose;
+
+/// Files of a model as names and bytes, to be written into one folder.
+pub(crate) type ModelFiles = Vec<(&'static str, Vec<u8>)>;
+
+/// COLMAP's camera models, in the order of their numbers in binary files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[strum(serialize_all = "SCREAMING_SNAKE_CASE")]
+pub(super) enum CameraModel {
+    SimplePinhole,
+    Pinhole,
+    SimpleRadial,
+    Radial,
+    Opencv,
+    OpencvFisheye,
+    FullOpencv,
+    Fov,
+    SimpleRadialFisheye,
+    RadialFisheye,
+    ThinPrismFisheye,
+}
+
+impl CameraModel {
+    /// The model with a number; `None` for an unknown one.
+    pub(super) fn from_number(number: u32) -> Option<Self> {
+        Self::VARIANTS.get(number as usize).copied()
+    }
+
+    /// Number of parameters of a camera, focal lengths first.
+    pub(super) fn num_params(self) -> usize {
+        match self {
+            Self::SimplePinhole => 3,
+            Self::Pinhole | Self::SimpleRadial | Self::SimpleRadialFisheye => 4,
+            Self::Radial | Self::Fov | Self::RadialFisheye => 5,
+            Self::Opencv | Self::OpencvFisheye => 8,
+            Self::FullOpencv | Self::ThinPrismFisheye => 12,
+        }
+    }
+
+    /// Index of the vertical focal length: 0 where both directions share one parameter.
+    fn focal_y_idx(self) -> usize {
+        match self {
+            Self::SimplePinhole
+            | Self::SimpleRadial
+            | Self::Radial
+            | Self::SimpleRadialFisheye
+            | Self::RadialFisheye => 0,
+            Self::Pinhole
+            | Self::Opencv
+            | Self::OpencvFisheye
+            | Self::FullOpencv
+            | Self::Fov
+            | Self::ThinPrismFisheye => 1,
+        }
+    }
+}
+
+/// A camera of a model: image size and vertical focal length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ModelCamera {
+    pub(super) id: u32,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) focal_y_px: f64,
+}
+
+impl ModelCamera {
+    /// The camera with these parameters; `None` for a wrong number of parameters, an empty image or a focal length that
+    /// is not above 0.
+    pub(super) fn new(id: u32, model: CameraModel, size: (u32, u32), params: &[f64]) -> Option<Self> {
+        let focal_y_px = *params.get(model.focal_y_idx())?;
+        let usable = params.len() == model.num_params() && focal_y_px > 0.0 && size.0 > 0 && size.1 > 0;
+        usable.then_some(Self { id, width: size.0, height: size.1, focal_y_px })
+    }
+
+    /// The parameters of a [`CameraModel::Pinhole`]: focal lengths and principal point, px.
+    pub(super) fn pinhole_params(&self) -> [f64; 4] {
+        [self.focal_y_px, self.focal_y_px, f64::from(self.width) / 2.0, f64::from(self.height) / 2.0]
+    }
+}
+
+/// An image of a model: a name, a camera and the pose `camera_from_world`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ModelImage {
+    pub(super) name: String,
+    pub(super) camera_id: u32,
+    pub(super) rotation: DQuat,
+    pub(super) translation: DVec3,
+}
+
+/// The track of a model's images, in order of their names.
+///
+/// # Errors
+/// [`ExportError::NoPoses`] without images.
+pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Result<PoseTrack, ExportError> {
+    if images.is_empty() {
+        return Err(ExportError::NoPoses);
+    }
+    images.sort_by(|a, b| a.name.cmp(&b.name));
+    let camera_of = |image: &ModelImage| cameras.iter().find(|camera| camera.id == image.camera_id);
+    let size_px = images.first().and_then(camera_of).map(|camera| (camera.width, camera.height));
+    let frame = |(idx, image): (usize, &ModelImage)| {
+        let pose = Pose::new(image.translation, image.rotation).inverse();
+        let fov_y_rad =
+            camera_of(image).map(|camera| 2.0 * (f64::from(camera.height) / 2.0 / camera.focal_y_px).atan());
+        PoseFrame { fov_y_rad, ..PoseFrame::new(idx as f64 / DEFAULT_FPS, pose) }
+    };
+    let frames = images.iter().enumerate().map(frame).collect();
+    Ok(PoseTrack { size_px, fps: Some(DEFAULT_FPS), ..PoseTrack::untimed(frames) })
+}
+
+/// Cameras and images of a track. A new camera starts wherever the field of view changes; ids count from 1.
+pub(super) fn model(track: &PoseTrack) -> (Vec<ModelCamera>, Vec<ModelImage>) {
+    let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
+    let mut cameras: Vec<ModelCamera> = Vec::new();
+    let mut images = Vec::with_capacity(track.frames.len());
+    for (idx, frame) in track.frames.iter().enumerate() {
+        let focal_y_px = f64::from(height) / 2.0 / (fov_y_or_default(frame) / 2.0).tan();
+        if cameras.last().is_none_or(|last| last.focal_y_px.to_bits() != focal_y_px.to_bits()) {
+            cameras.push(ModelCamera { id: cameras.len() as u32 + 1, width, height, focal_y_px });
+        }
+        let camera_from_world = frame.pose.inverse();
+        images.push(ModelImage {
+            name: format!("{idx:05}.png"),
+            camera_id: cameras.len() as u32,
+            rotation: camera_from_world.rotation,
+            translation: camera_from_world.position,
+        });
+    }
+    (cameras, images)
+}

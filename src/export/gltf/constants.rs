@@ -1,0 +1,9 @@
+//! Constants of the format that reader and writer share.
+
+/// The extension that animates the field of view, the only one written or read.
+pub(super) const POINTER: &str = "KHR_animation_pointer";
+/// A key that follows another by less than this is a cut, seconds.
+pub(super) const CUT_SECS: f64 = 1e-4;
+pub(super) const GLB_MAGIC: &[u8; 4] = b"glTF";
+pub(super) const JSON_CHUNK: &[u8; 4] = b"JSON";
+pub(super) const BINARY_CHUNK: &[u8; 4] = b"BIN\0";
