@@ -1,4 +1,5 @@
 use super::outputs::Overwrite;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -10,7 +11,7 @@ use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, outputs, reproduce};
 use cinesplat::export::shot_json;
-use cinesplat::pipeline::{self, FilmReport, FilmSettings, Flow, Forecast, FrameRange, StageTimes, Wish};
+use cinesplat::pipeline::{self, FilmReport, FilmSettings, Forecast, FrameRange, Phase, PhaseTimes, Requirements};
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
@@ -27,7 +28,7 @@ pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
     #[command(flatten)]
-    what: What,
+    source: ShotSource,
     /// The film (.mp4 .mkv .webm .mov), or pictures such as frames/%05d.png
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
@@ -65,7 +66,7 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Args)]
 #[group(required = true, multiple = false)]
-struct What {
+struct ShotSource {
     /// What the camera does, in words; objects by name or as <obj-ID>
     #[arg(short, long, value_name = "PROMPT")]
     prompt: Option<String>,
@@ -79,7 +80,7 @@ impl Args {
         let start = Instant::now();
         self.check_outputs()?;
         self.picture.bound_threads()?;
-        let mut times = StageTimes::default();
+        let mut times = PhaseTimes::default();
         let (scene, shot) = self.open(&mut times)?;
         // Once more, now that size and number of frames are known.
         let format = video::check_output(&self.output, &self.video(&shot)?)?;
@@ -95,16 +96,16 @@ impl Args {
         let render = self.picture.settings(&scene, Quality::Standard, None, None);
         let video = self.video(&shot)?;
         let mut settings = FilmSettings { render, video, frames: self.frames, sheet: self.sheet.clone() };
-        let predicted = times.measure("predict", || self.predict(&renderer, &shot, &settings))?;
+        let predicted = times.measure(Phase::Predict, || self.predict(&renderer, &shot, &settings))?;
         settings.render.quality = predicted.quality;
         let report = self.film(&renderer, &shot, &settings)?;
-        times.add("render", report.render_time);
-        times.add("encode", report.encode_time);
+        times.add(Phase::Render, report.render_time);
+        times.add(Phase::Encode, report.encode_time);
         print_times(&times, &report, start.elapsed());
         let psnr_db = pipeline::checked_psnr_db(&renderer, &shot, &settings)?;
         self.print_comparison(&predicted, &report, psnr_db)?;
         let mut decided = deciding(&shot).to_vec();
-        if self.wish() != Wish::default() {
+        if self.requirements() != Requirements::default() {
             // On another machine, or another day, the same wish may choose another quality.
             decided.push(("--quality", predicted.quality.as_ref().to_owned()));
         }
@@ -127,9 +128,9 @@ impl Args {
         Ok(())
     }
 
-    fn open(&self, times: &mut StageTimes) -> Result<(Scene, Shot), Failure> {
-        if let Some(file) = &self.what.file {
-            let scene = times.measure("load", || self.scene.open())?.scene;
+    fn open(&self, times: &mut PhaseTimes) -> Result<(Scene, Shot), Failure> {
+        if let Some(file) = &self.source.file {
+            let scene = times.measure(Phase::Load, || self.scene.open())?.scene;
             let shot = self.shot.read_shot(file, &scene)?;
             match shot.scene.up {
                 Some(up) => print_up_of(up, "the shot"),
@@ -137,8 +138,9 @@ impl Args {
             }
             return Ok((scene, shot));
         }
-        let prompt = self.what.prompt.as_deref().unwrap_or_default();
-        let (scene, objects) = times.measure("load", || self.scene.open_with_objects(self.shot.objects.as_deref()))?;
+        let prompt = self.source.prompt.as_deref().unwrap_or_default();
+        let (scene, objects) =
+            times.measure(Phase::Load, || self.scene.open_with_objects(self.shot.objects.as_deref()))?;
         let directed = self.shot.direct(&scene, &objects, prompt)?;
         times.extend(&directed.times);
         Ok((scene, directed.shot))
@@ -158,24 +160,24 @@ impl Args {
         })
     }
 
-    fn wish(&self) -> Wish {
-        Wish { budget: self.budget, min_psnr_db: self.min_psnr }
+    fn requirements(&self) -> Requirements {
+        Requirements { budget: self.budget, min_psnr_db: self.min_psnr }
     }
 
     /// What the film will cost at the quality that holds what is wished for.
     fn predict(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<Forecast, Failure> {
-        let wish = self.wish();
+        let requirements = self.requirements();
         let forecast = |qualities: &[Quality]| pipeline::forecast(renderer, shot, &self.output, settings, qualities);
-        let forecasts = if wish == Wish::default() {
+        let forecasts = if requirements == Requirements::default() {
             forecast(&[settings.render.quality])?
         } else {
             let mut forecasts = forecast(&[Quality::Draft, Quality::Standard, Quality::Final])?;
-            if wish.may_need_reference(&forecasts) {
+            if requirements.may_need_reference(&forecasts) {
                 forecasts.extend(forecast(&[Quality::Reference])?);
             }
             forecasts
         };
-        let quality = pipeline::choose(&forecasts, wish)?;
+        let quality = pipeline::choose(&forecasts, requirements)?;
         let chosen = forecasts.iter().find(|forecast| forecast.quality == quality).copied();
         let predicted = chosen.ok_or_else(|| Failure::fault("a quality without a forecast"))?;
         console::note(&format!("predicted for {} frames: {}", settings.video.num_frames, predicted.sentence()));
@@ -214,9 +216,9 @@ impl Args {
     fn film(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<FilmReport, Failure> {
         let interrupt = Interrupt::listen()?;
         let mut bar = FrameProgress::new();
-        let mut watch = |progress: pipeline::Progress| {
+        let mut watch = |progress: pipeline::FilmProgress| {
             bar.show(progress.done, progress.total);
-            if interrupt.is_asked() { Flow::Stop } else { Flow::Continue }
+            if interrupt.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let report = pipeline::film(renderer, shot, &self.output, settings, &mut watch);
         bar.finish();
@@ -225,15 +227,15 @@ impl Args {
 }
 
 /// Wall time of every stage; encoding runs beside rendering, so the parts are more than the whole.
-fn print_times(times: &StageTimes, report: &FilmReport, total: Duration) {
-    let stages: Vec<String> =
-        times.iter().map(|(stage, time)| format!("{stage} {:.2} s", time.as_secs_f64())).collect();
+fn print_times(times: &PhaseTimes, report: &FilmReport, total: Duration) {
+    let phases: Vec<String> =
+        times.iter().map(|(phase, time)| format!("{phase} {:.2} s", time.as_secs_f64())).collect();
     let rate_fps = report.num_frames as f64 / report.total_time.as_secs_f64().max(1e-9);
     console::note(&format!(
         "{}: {} frames; {} (beside render); all {:.2} s, film {rate_fps:.1} fps",
         report.path.display(),
         report.num_frames,
-        stages.join(", "),
+        phases.join(", "),
         total.as_secs_f64()
     ));
 }

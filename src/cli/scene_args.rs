@@ -8,7 +8,7 @@ use super::console;
 use super::failure::Failure;
 use cinesplat::export::cameras_json::FilterChoice;
 use cinesplat::objects::{self, FindSettings, ObjectSet};
-use cinesplat::pipeline::{self, Source};
+use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
 use cinesplat::scene::{LoadOptions, Scene, SplatFilter, UpSource};
 
@@ -38,7 +38,7 @@ pub(super) struct SceneOptions {
 
 impl SceneOptions {
     /// Opens a scene and says what was dropped.
-    pub(super) fn open(&self, scene: &Path) -> Result<Source, Failure> {
+    pub(super) fn open(&self, scene: &Path) -> Result<OpenedScene, Failure> {
         let (max_file_bytes, max_gaussians) = (self.max_file_bytes, self.max_gaussians);
         let options = LoadOptions { up: self.up, max_file_bytes, max_gaussians };
         let source = pipeline::open_scene(scene, &options)?;
@@ -51,14 +51,14 @@ impl SceneOptions {
 
 impl SceneArgs {
     /// Opens the scene and says what was dropped.
-    pub(super) fn open(&self) -> Result<Source, Failure> {
+    pub(super) fn open(&self) -> Result<OpenedScene, Failure> {
         self.options.open(&self.scene)
     }
 
     /// Opens the scene with its objects: of `file`, of the scene itself, or found. An objects file may correct the up
     /// axis, `--up` goes before both.
     pub(super) fn open_with_objects(&self, file: Option<&Path>) -> Result<(Scene, ObjectSet), Failure> {
-        let Source { mut scene, objects } = self.open()?;
+        let OpenedScene { mut scene, objects } = self.open()?;
         let set = match (file, objects) {
             (Some(file), _) => {
                 let read = objects::read(file, &scene)?;

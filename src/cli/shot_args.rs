@@ -10,7 +10,7 @@ use cinesplat::director::Director;
 use cinesplat::lens::{self, Call, Decision, EffectChoice};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::SolveLevel;
-use cinesplat::pipeline::{self, DirectSettings, Directed, StageTimes};
+use cinesplat::pipeline::{self, DirectSettings, Directed, Phase, PhaseTimes};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{Shot, retimed};
 
@@ -48,8 +48,8 @@ pub(super) struct ShotArgs {
 impl ShotArgs {
     /// Directs a prompt; what was guessed and what was not met goes to stderr.
     pub(super) fn direct(&self, scene: &Scene, objects: &ObjectSet, prompt: &str) -> Result<Directed, Failure> {
-        let mut times = StageTimes::default();
-        let director = times.measure("load", || match &self.model {
+        let mut times = PhaseTimes::default();
+        let director = times.measure(Phase::Load, || match &self.model {
             Some(folder) => Director::load(folder),
             None => Director::embedded(),
         })?;

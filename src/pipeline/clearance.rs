@@ -1,4 +1,4 @@
-use super::PipelineError;
+use super::error::PipelineError;
 use cinesplat_operator;
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::{CameraPath, ClearanceProof, Shot};

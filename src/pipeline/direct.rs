@@ -1,4 +1,5 @@
-use super::{PipelineError, StageTimes};
+use super::error::PipelineError;
+use super::phases::{Phase, PhaseTimes};
 use cinesplat_director::{Direction, Director, Stage, SuggestedCamera};
 use cinesplat_language::{Linked, NamedObject};
 use cinesplat_lens::{Call, Decision, EffectChoice};
@@ -56,8 +57,8 @@ pub struct Directed {
     pub effects: Vec<Decision>,
     /// What was guessed or taken with doubt, one sentence each.
     pub warnings: Vec<String>,
-    /// How long each stage took.
-    pub times: StageTimes,
+    /// Wall time per phase.
+    pub times: PhaseTimes,
 }
 
 /// How one stretch of the prompt was understood.
@@ -95,23 +96,23 @@ pub fn direct(
     director: &Director,
     settings: &DirectSettings,
 ) -> Result<Directed, PipelineError> {
-    let mut times = StageTimes::default();
-    let linked = times.measure("direct", || cinesplat_language::link(prompt, &names(objects)))?;
-    let objects = times.measure("objects", || with_clouds(scene, objects, &linked))?;
+    let mut times = PhaseTimes::default();
+    let linked = times.measure(Phase::Direct, || cinesplat_language::link(prompt, &names(objects)))?;
+    let objects = times.measure(Phase::Objects, || with_clouds(scene, objects, &linked))?;
     let bounds = scene.bounds();
     let stage = Stage { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
-    let mut direction = times.measure("direct", || director.direct(&linked, &stage))?;
+    let mut direction = times.measure(Phase::Direct, || director.direct(&linked, &stage))?;
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }
     let ids = direction.program.object_ids();
-    let world = times.measure("world", || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
+    let world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
     let mut calls = calls(&linked)?;
     let dutch = calls.iter().position(|call| call.kind == DUTCH).map(|at| calls.remove(at));
     let dutch_deg = dutch.map(|_| DUTCH_DEG);
     let (level, seed) = (settings.solve, settings.seed);
     let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
-    let solution = times.measure("solve", || {
+    let solution = times.measure(Phase::Solve, || {
         cinesplat_operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve)
     });
     let mut shot = shot_of(scene, prompt, solution, settings);

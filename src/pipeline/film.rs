@@ -1,11 +1,12 @@
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{FrameRange, PipelineError};
+use super::error::PipelineError;
+use super::frames::FrameRange;
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{RenderSettings, Renderer, Rgb8Frame};
 use cinesplat_trajectory::{CameraPath, Shot};
@@ -29,20 +30,11 @@ pub struct FilmSettings {
 
 /// How far a film is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
+pub struct FilmProgress {
     /// Frames rendered.
     pub done: usize,
     /// Frames to render.
     pub total: usize,
-}
-
-/// Whether to go on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Flow {
-    /// The next frame.
-    Continue,
-    /// No further frame; what is there is written out.
-    Stop,
 }
 
 /// What came of a film.
@@ -82,7 +74,7 @@ pub fn film(
     shot: &Shot,
     output: &Path,
     settings: &FilmSettings,
-    watch: &mut dyn FnMut(Progress) -> Flow,
+    watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
 ) -> Result<FilmReport, PipelineError> {
     let start = Instant::now();
     let path = CameraPath::new(shot)?;
@@ -98,7 +90,7 @@ pub fn film(
 
     let (rendered, encoded) = thread::scope(|scope| {
         let encoding = scope.spawn(move || encoder.run(&receiver));
-        let mut tell = |done| watch(Progress { done, total: num_wanted });
+        let mut report = |done| watch(FilmProgress { done, total: num_wanted });
         let rendered = frames.enumerate().try_for_each(|(done, frame_idx)| {
             let start = Instant::now();
             let camera = camera_at(&path, shot, frame_idx);
@@ -111,7 +103,7 @@ pub fn film(
                 (shown, last_camera) = (Arc::new(frame), Some(camera));
             }
             render_time += start.elapsed();
-            send(Arc::clone(&shown), &sender, done, &mut tell)
+            send(Arc::clone(&shown), &sender, done, &mut report)
         });
         drop(sender);
         (rendered, encoding.join())
@@ -121,8 +113,8 @@ pub fn film(
         Err(panic) => std::panic::resume_unwind(panic),
     };
     match rendered {
-        Ok(()) | Err(Break::Stopped) => {}
-        Err(Break::Failed(error)) => return Err(error),
+        Ok(()) | Err(Interruption::Stopped) => {}
+        Err(Interruption::Failed(error)) => return Err(error),
     }
     encoder.finish(output, settings, num_wanted).map(|(path, num_frames, encode_time)| FilmReport {
         path,
@@ -135,14 +127,14 @@ pub fn film(
 }
 
 /// Why no further frame is rendered.
-enum Break {
+enum Interruption {
     /// The caller wants no more.
     Stopped,
     /// A stage failed.
     Failed(PipelineError),
 }
 
-impl<E: Into<PipelineError>> From<E> for Break {
+impl<E: Into<PipelineError>> From<E> for Interruption {
     fn from(error: E) -> Self {
         Self::Failed(error.into())
     }
@@ -153,13 +145,13 @@ fn send(
     frame: Arc<Rgb8Frame>,
     sender: &SyncSender<Arc<Rgb8Frame>>,
     num_before: usize,
-    tell: &mut dyn FnMut(usize) -> Flow,
-) -> Result<(), Break> {
+    report: &mut dyn FnMut(usize) -> ControlFlow<()>,
+) -> Result<(), Interruption> {
     // The encoder hangs up when it fails; its own error says why.
-    sender.send(frame).map_err(|_| Break::Stopped)?;
-    match tell(num_before + 1) {
-        Flow::Continue => Ok(()),
-        Flow::Stop => Err(Break::Stopped),
+    sender.send(frame).map_err(|_| Interruption::Stopped)?;
+    match report(num_before + 1) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Interruption::Stopped),
     }
 }
 

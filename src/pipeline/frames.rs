@@ -1,7 +1,7 @@
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::PipelineError;
+use super::error::PipelineError;
 
 /// Part of a film's frames: `A..B` with B one after the last, either may be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

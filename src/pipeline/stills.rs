@@ -1,4 +1,4 @@
-use super::PipelineError;
+use super::error::PipelineError;
 use cinesplat_export::cameras_json::NamedCamera;
 use cinesplat_geometry::Camera;
 use cinesplat_render::{DepthMap, FeatureMap, Frame, IdMap, PixelWeight, RenderError, RenderSettings, Renderer};

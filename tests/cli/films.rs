@@ -77,6 +77,21 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     assert!(said.contains("effect: film-grain is called for"), "{said}");
 }
 
+#[test]
+fn the_reproducing_command_names_the_quality_that_was_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let shot = folder.path().join("the cat's shot.json");
+    fs::rename(folder.path().join("shot.json"), shot).unwrap();
+    let render = ["render", SMALL_SCENE, "--shot", "the cat's shot.json", "--min-psnr=10", "-o", "f.mp4"];
+    let said = answer(folder.path(), &render);
+    let command = said.lines().find_map(|line| line.strip_prefix("reproduce with: ")).unwrap();
+    let start = format!(r"cinesplat render {SMALL_SCENE} --shot 'the cat'\''s shot.json' -o f.mp4 ");
+    assert!(command.starts_with(&start), "{command}");
+    assert!(command.contains("--quality ") && !command.contains("--min-psnr"), "{command}");
+    assert!(command.contains("--size 64x36") && command.contains("--seed 0"), "{command}");
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupt_keeps_what_is_there_under_another_name() {

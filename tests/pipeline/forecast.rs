@@ -5,7 +5,7 @@ use std::time::Duration;
 use strum::VariantArray;
 
 use cinesplat::pipeline::{
-    FilmCost, FilmSettings, Forecast, PipelineError, Spent, Wish, checked_psnr_db, choose, forecast,
+    FilmCost, FilmSettings, Forecast, PipelineError, Requirements, TimeCost, checked_psnr_db, choose, forecast,
 };
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 
@@ -32,7 +32,7 @@ fn forecasts() -> Vec<Forecast> {
 #[test]
 fn a_wish_chooses_the_most_accurate_in_time_or_the_fastest_good_enough() {
     let chosen = |secs: Option<u64>, min_psnr_db: Option<f64>| {
-        choose(&forecasts(), Wish { budget: secs.map(Duration::from_secs), min_psnr_db }).ok()
+        choose(&forecasts(), Requirements { budget: secs.map(Duration::from_secs), min_psnr_db }).ok()
     };
     assert_eq!(chosen(Some(25), None), Some(Quality::Standard));
     assert_eq!(chosen(Some(10_000), None), Some(Quality::Reference));
@@ -44,7 +44,7 @@ fn a_wish_chooses_the_most_accurate_in_time_or_the_fastest_good_enough() {
 
 #[test]
 fn a_wish_out_of_reach_says_what_is_in_reach() {
-    let wish = Wish { budget: Some(Duration::from_secs(25)), min_psnr_db: Some(60.0) };
+    let wish = Requirements { budget: Some(Duration::from_secs(25)), min_psnr_db: Some(60.0) };
     let error: PipelineError = choose(&forecasts(), wish).unwrap_err();
     assert_eq!(error.code(), "COST-BUDGET");
     let text = error.to_string();
@@ -55,7 +55,7 @@ fn a_wish_out_of_reach_says_what_is_in_reach() {
 fn reference_is_forecast_only_where_it_may_be_chosen() {
     let others = &forecasts()[..3];
     let may = |secs: Option<u64>, min_psnr_db: Option<f64>| {
-        Wish { budget: secs.map(Duration::from_secs), min_psnr_db }.may_need_reference(others)
+        Requirements { budget: secs.map(Duration::from_secs), min_psnr_db }.may_need_reference(others)
     };
     assert!(!may(None, Some(50.0)), "final has 50 dB");
     assert!(may(None, Some(200.0)), "no other quality has 200 dB");
@@ -69,10 +69,10 @@ fn reference_is_forecast_only_where_it_may_be_chosen() {
 const COST: FilmCost = FilmCost {
     num_frames: 100,
     num_rendered: 100,
-    render: Spent { wall_secs: 0.020, busy_secs: 0.040 },
-    first_encode: Spent { wall_secs: 0.010, busy_secs: 0.010 },
-    encode: Spent { wall_secs: 0.010, busy_secs: 0.010 },
-    still_encode: Spent { wall_secs: 0.001, busy_secs: 0.001 },
+    render: TimeCost { wall_secs: 0.020, cpu_secs: 0.040 },
+    first_encode: TimeCost { wall_secs: 0.010, cpu_secs: 0.010 },
+    encode: TimeCost { wall_secs: 0.010, cpu_secs: 0.010 },
+    still_encode: TimeCost { wall_secs: 0.001, cpu_secs: 0.001 },
     num_ahead: 0,
     num_cores: 2,
 };
@@ -88,10 +88,10 @@ fn renderer_and_encoder_share_the_cores() {
     // With a core to itself the encoder, the faster one, costs nothing.
     assert_secs(FilmCost { num_cores: 3, ..COST }.film_secs(), 2.0);
     // A renderer of one core leaves the other to the encoder.
-    let alone = Spent { wall_secs: 0.020, busy_secs: 0.020 };
+    let alone = TimeCost { wall_secs: 0.020, cpu_secs: 0.020 };
     assert_secs(FilmCost { render: alone, ..COST }.film_secs(), 2.0);
     // An encoder that is slower by the clock sets the pace, whatever cores are free.
-    let slow = Spent { wall_secs: 0.030, busy_secs: 0.030 };
+    let slow = TimeCost { wall_secs: 0.030, cpu_secs: 0.030 };
     assert_secs(FilmCost { first_encode: slow, encode: slow, num_cores: 16, ..COST }.film_secs(), 3.0);
 }
 

@@ -2,9 +2,10 @@
 
 mod forecast;
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use cinesplat::pipeline::{FilmSettings, Flow, FrameRange, PipelineError, Progress, film, open_scene};
+use cinesplat::pipeline::{FilmProgress, FilmSettings, FrameRange, PipelineError, film, open_scene};
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat::scene::{LoadOptions, Scene};
 use cinesplat::trajectory::Shot;
@@ -63,9 +64,9 @@ fn generated_scenes_come_by_name() {
 fn progress_comes_once_a_frame_and_counts_up() {
     let folder = tempfile::tempdir().unwrap();
     let mut seen = Vec::new();
-    let mut watch = |progress: Progress| {
+    let mut watch = |progress: FilmProgress| {
         seen.push((progress.done, progress.total));
-        Flow::Continue
+        ControlFlow::Continue(())
     };
     let path = folder.path().join("film.mkv");
     let report = film(&Renderer::new(&scene().gaussians), &shot(), &path, &settings(), &mut watch).unwrap();
@@ -82,7 +83,7 @@ fn a_resting_camera_is_shown_again_and_again() {
     middle.time_secs = 0.5;
     resting.keyframes.insert(1, middle);
     let (scene, path) = (scene(), folder.path().join("%02d.png"));
-    film(&Renderer::new(&scene.gaussians), &resting, &path, &settings(), &mut |_| Flow::Continue).unwrap();
+    film(&Renderer::new(&scene.gaussians), &resting, &path, &settings(), &mut |_| ControlFlow::Continue(())).unwrap();
     let frame = |idx: usize| std::fs::read(folder.path().join(format!("{idx:02}.png"))).unwrap();
     for idx in 1..=4 {
         assert_eq!(frame(idx), frame(0), "frame {idx}");
@@ -95,7 +96,8 @@ fn a_resting_camera_is_shown_again_and_again() {
 #[test]
 fn a_film_that_is_stopped_keeps_its_frames() {
     let folder = tempfile::tempdir().unwrap();
-    let mut watch = |progress: Progress| if progress.done == 4 { Flow::Stop } else { Flow::Continue };
+    let mut watch =
+        |progress: FilmProgress| if progress.done == 4 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     let path = folder.path().join("film.mkv");
     let report = film(&Renderer::new(&scene().gaussians), &shot(), &path, &settings(), &mut watch).unwrap();
     assert_eq!((report.num_frames, report.num_wanted, report.is_partial()), (4, 10, true));
@@ -108,7 +110,7 @@ fn a_film_that_cannot_be_rendered_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let broken = FilmSettings { render: RenderSettings { near: f64::NAN, ..settings().render }, ..settings() };
     let made = film(&Renderer::new(&scene().gaussians), &shot(), &folder.path().join("film.mp4"), &broken, &mut |_| {
-        Flow::Continue
+        ControlFlow::Continue(())
     });
     assert!(matches!(made, Err(PipelineError::Render(_))), "{made:?}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -117,11 +119,11 @@ fn a_film_that_cannot_be_rendered_leaves_nothing() {
 #[test]
 fn an_encoder_that_fails_says_why() {
     let folder = tempfile::tempdir().unwrap();
-    let mut appears = |progress: Progress| {
+    let mut appears = |progress: FilmProgress| {
         if progress.done == 1 {
             std::fs::write(folder.path().join("frames/05.png"), "mine").unwrap();
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     };
     let made = film(
         &Renderer::new(&scene().gaussians),

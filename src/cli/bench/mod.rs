@@ -4,8 +4,7 @@ mod render;
 mod scaling;
 mod scenes;
 
-use super::{console, failure, outputs, scene_args};
-use failure::Failure;
+use crate::cli::failure::Failure;
 
 /// Measures what accuracy costs in time, and how cost grows with the work.
 #[derive(Debug, clap::Args)]
@@ -17,11 +16,11 @@ Examples:
   cinesplat bench operator moves")]
 pub(super) struct Args {
     #[command(subcommand)]
-    what: What,
+    benchmark: Benchmark,
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum What {
+enum Benchmark {
     /// Scenes at every preset and every knob alone: time, PSNR, SSIM, worst pixel.
     Render(render::Args),
     /// Time and memory against Gaussians, pixels and layers.
@@ -34,11 +33,11 @@ enum What {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        match self.what {
-            What::Render(args) => args.run(),
-            What::Scaling(args) => args.run(),
-            What::Films(args) => args.run(),
-            What::Operator(args) => args.run(),
+        match self.benchmark {
+            Benchmark::Render(args) => args.run(),
+            Benchmark::Scaling(args) => args.run(),
+            Benchmark::Films(args) => args.run(),
+            Benchmark::Operator(args) => args.run(),
         }
     }
 }

@@ -2,11 +2,11 @@ use crate::cli::outputs::BenchFolder;
 use std::path::Path;
 use strum::VariantArray;
 
-use super::console;
-use super::failure::Failure;
-use super::scene_args::PictureArgs;
 use super::scenes::{NUM_OWN_VIEWS, ScenesArgs, own_views, parse_size, resized, scene_name, settings};
+use crate::cli::console;
+use crate::cli::failure::Failure;
 use crate::cli::progress::FrameProgress;
+use crate::cli::scene_args::PictureArgs;
 use cinesplat::export::cameras_json::StillCameras;
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat_bench::{AccuracyAxis, BenchPlan, BenchRow};
@@ -21,7 +21,7 @@ work counts, PSNR, SSIM and worst pixel against `reference` (free knobs: against
 plots. Times are those of pictures in eight bits, as films take them; PSNR and the like are those of the same pictures as
 numbers. Outputs (depth, ids, features, weights, lift) are timed at `standard` in turn with color as numbers; times_color
 is the median ratio of the two. Knobs are measured at the first size alone, `scalar` there once on one camera.")]
-pub(in super::super) struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,
     /// Sizes of the pictures, or `given` for those of the cameras file; all variants at the first, presets alone at the
@@ -41,7 +41,7 @@ pub(in super::super) struct Args {
 }
 
 impl Args {
-    pub(in super::super) fn run(self) -> Result<(), Failure> {
+    pub(crate) fn run(self) -> Result<(), Failure> {
         let scenes = self.scenes.read_cameras()?;
         let plots: Vec<String> = AccuracyAxis::VARIANTS.iter().map(|axis| plot_name(*axis)).collect();
         let names: Vec<&str> =

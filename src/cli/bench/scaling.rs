@@ -2,9 +2,9 @@ use crate::cli::outputs::BenchFolder;
 use std::process::Command;
 use strum::VariantArray;
 
-use super::console;
-use super::failure::{Exit, Failure};
-use super::scene_args::{PictureArgs, SceneArgs};
+use crate::cli::console;
+use crate::cli::failure::{Exit, Failure};
+use crate::cli::scene_args::{PictureArgs, SceneArgs};
 use cinesplat::render::Quality;
 use cinesplat_bench::scaling::{self, Growth, ScalingCase};
 
@@ -14,7 +14,7 @@ use cinesplat_bench::scaling::{self, Growth, ScalingCase};
 Example:
   cinesplat bench scaling synth:tabletop:1 -o bench
 One line of CSV a case on stdout, each measured in a process of its own; -o keeps it with a plot.")]
-pub(in super::super) struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
     /// Runs of every picture, after one that is not counted
@@ -33,7 +33,7 @@ pub(in super::super) struct Args {
 }
 
 impl Args {
-    pub(in super::super) fn run(self) -> Result<(), Failure> {
+    pub(crate) fn run(self) -> Result<(), Failure> {
         if let Some(case) = self.case {
             return self.measure(case);
         }

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::failure::Failure;
-use super::outputs;
-use super::scene_args::{PictureArgs, SceneOptions};
+use crate::cli::failure::Failure;
+use crate::cli::outputs;
+use crate::cli::scene_args::{PictureArgs, SceneOptions};
 use cinesplat::export::cameras_json::{self, StillCameras};
 use cinesplat::geometry::{Camera, Intrinsics, LevelFrame, Pose};
 use cinesplat::render::{Quality, RenderSettings};

@@ -5,7 +5,7 @@ use strum::FromRepr;
 /// Exit code of a command that fails. The numbers above 63 are those of `sysexits.h`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, FromRepr)]
 #[repr(u8)]
-pub(in crate::cli) enum Exit {
+pub(crate) enum Exit {
     /// Wrong arguments.
     Usage = 2,
     /// The input's content is wrong.

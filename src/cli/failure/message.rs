@@ -6,7 +6,7 @@ use super::exit::Exit;
 
 /// A failed command: the two lines that a person reads and the exit code that a script sees.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::cli) struct Failure {
+pub(crate) struct Failure {
     code: String,
     message: String,
     help: String,
@@ -16,23 +16,23 @@ pub(in crate::cli) struct Failure {
 impl Failure {
     /// A failure with a stable `code`. `message` is `FILE: found, expected`, without `FILE` where no file is at fault;
     /// `help` says what to do about it.
-    pub(in crate::cli) fn new(code: &str, message: impl Into<String>, help: impl Into<String>, exit: Exit) -> Self {
+    pub(crate) fn new(code: &str, message: impl Into<String>, help: impl Into<String>, exit: Exit) -> Self {
         Self { code: code.to_owned(), message: message.into(), help: help.into(), exit }
     }
 
     /// Arguments that contradict each other or the input.
-    pub(in crate::cli) fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::new("USAGE", message, help, Exit::Usage)
     }
 
     /// A fault of this program at `place`, which is for its developers.
-    pub(in crate::cli) fn fault(place: &str) -> Self {
+    pub(crate) fn fault(place: &str) -> Self {
         let help = "this is a fault of cinesplat, not yours: please report it with the command and the file";
         Self::new("FAULT", format!("cinesplat itself failed: {place}"), help, Exit::Fault)
     }
 
     /// An error of the file system on `file`.
-    pub(in crate::cli) fn io(file: &str, error: &io::Error) -> Self {
+    pub(crate) fn io(file: &str, error: &io::Error) -> Self {
         let (code, help) = match error.kind() {
             ErrorKind::NotFound => ("NOT-FOUND", "check the path"),
             ErrorKind::PermissionDenied => ("PERMISSION", "change the permissions, or choose another place"),
@@ -42,7 +42,7 @@ impl Failure {
     }
 
     /// The same failure with `path` at the front of the message, unless the message names it already.
-    pub(in crate::cli) fn in_file(mut self, path: &Path) -> Self {
+    pub(crate) fn in_file(mut self, path: &Path) -> Self {
         let file = path.display().to_string();
         if !self.message.contains(&file) {
             self.message = format!("{file}: {}", self.message);
@@ -51,7 +51,7 @@ impl Failure {
     }
 
     /// Exit code of the program.
-    pub(in crate::cli) fn exit_code(&self) -> u8 {
+    pub(crate) fn exit_code(&self) -> u8 {
         self.exit as u8
     }
 }

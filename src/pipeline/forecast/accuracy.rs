@@ -10,7 +10,7 @@ const LEAST_PX: [u32; 2] = [8, 8];
 
 /// `final` held against `reference` on a cut-out from the middle of a picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Exact {
+pub(super) struct ReferenceSample {
     /// PSNR of `final`, dB.
     pub(super) final_db: f64,
     /// Time that `reference` took.
@@ -19,7 +19,7 @@ pub(super) struct Exact {
     num_blends: f64,
 }
 
-impl Exact {
+impl ReferenceSample {
     pub(super) fn of(renderer: &Renderer<'_>, camera: &Camera, settings: &RenderSettings) -> Result<Self, RenderError> {
         let cutout = middle(camera, CUTOUT_PX);
         let best = renderer.render(&cutout, &at(settings, Quality::Final))?;

@@ -6,11 +6,11 @@ const TICKS_A_SECOND: f64 = 100.0;
 
 /// What work takes: time by the clock, and time of all cores together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Spent {
+pub struct TimeCost {
     /// Seconds by the clock.
     pub wall_secs: f64,
     /// Seconds of running threads, summed.
-    pub busy_secs: f64,
+    pub cpu_secs: f64,
 }
 
 /// What a film takes, from what its parts take alone on this machine.
@@ -21,13 +21,13 @@ pub struct FilmCost {
     /// Those that are rendered: all but those of a camera that stands still.
     pub num_rendered: usize,
     /// Rendering a frame, with the memory of the frame before.
-    pub render: Spent,
+    pub render: TimeCost,
     /// Encoding the first frame, with all that an encoder needs once.
-    pub first_encode: Spent,
+    pub first_encode: TimeCost,
     /// Encoding each further frame that was rendered.
-    pub encode: Spent,
+    pub encode: TimeCost,
     /// Encoding a frame equal to the one before.
-    pub still_encode: Spent,
+    pub still_encode: TimeCost,
     /// Frames that the encoder takes in before it gives its first one out.
     pub num_ahead: usize,
     /// Cores that renderer and encoder share.
@@ -36,12 +36,12 @@ pub struct FilmCost {
 
 impl FilmCost {
     /// Rendering all frames, with nothing beside it.
-    pub fn render_all(&self) -> Spent {
+    pub fn render_all(&self) -> TimeCost {
         self.render.times(self.num_rendered as f64)
     }
 
     /// Encoding all frames, with nothing beside it.
-    pub fn encode_all(&self) -> Spent {
+    pub fn encode_all(&self) -> TimeCost {
         let num_still = self.num_frames.saturating_sub(self.num_rendered);
         let moving = self.encode.times(self.num_rendered.saturating_sub(1) as f64);
         self.first_encode.plus(moving).plus(self.still_encode.times(num_still as f64))
@@ -59,37 +59,37 @@ impl FilmCost {
 
     /// Seconds by the clock if every core were busy to the end.
     pub fn least_secs(&self) -> f64 {
-        (self.render_all().busy_secs + self.encode_all().busy_secs) / self.num_cores.max(1) as f64
+        (self.render_all().cpu_secs + self.encode_all().cpu_secs) / self.num_cores.max(1) as f64
     }
 }
 
-impl Spent {
+impl TimeCost {
     /// Does work and measures it. Where the system does not tell how busy this process was, every core counts as busy.
     pub fn measure<T>(work: impl FnOnce() -> T) -> (T, Self) {
-        let (start, busy_before) = (Instant::now(), busy_secs());
+        let (start, busy_before) = (Instant::now(), cpu_secs());
         let result = work();
         let wall_secs = start.elapsed().as_secs_f64();
-        let busy = busy_before.zip(busy_secs()).map(|(before, after)| after - before);
-        (result, Self { wall_secs, busy_secs: busy.unwrap_or(wall_secs * num_cores() as f64) })
+        let busy = busy_before.zip(cpu_secs()).map(|(before, after)| after - before);
+        (result, Self { wall_secs, cpu_secs: busy.unwrap_or(wall_secs * num_cores() as f64) })
     }
 
     /// So many times as much.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
-        Self { wall_secs: self.wall_secs * factor, busy_secs: self.busy_secs * factor }
+        Self { wall_secs: self.wall_secs * factor, cpu_secs: self.cpu_secs * factor }
     }
 
     /// Both together.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
-        Self { wall_secs: self.wall_secs + other.wall_secs, busy_secs: self.busy_secs + other.busy_secs }
+        Self { wall_secs: self.wall_secs + other.wall_secs, cpu_secs: self.cpu_secs + other.cpu_secs }
     }
 
     /// What it takes more than the other, at least nothing.
     #[must_use]
     pub fn beyond(self, other: Self) -> Self {
         let least = |a: f64, b: f64| (a - b).max(0.0);
-        Self { wall_secs: least(self.wall_secs, other.wall_secs), busy_secs: least(self.busy_secs, other.busy_secs) }
+        Self { wall_secs: least(self.wall_secs, other.wall_secs), cpu_secs: least(self.cpu_secs, other.cpu_secs) }
     }
 }
 
@@ -99,7 +99,7 @@ pub fn num_cores() -> usize {
 }
 
 /// Time of all threads that this process ever had, where the system tells (Linux), to a hundredth of a second.
-fn busy_secs() -> Option<f64> {
+fn cpu_secs() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
     // The program's name is in parentheses; of what follows, the twelfth and thirteenth are user and system time.
     let (_, fields) = stat.rsplit_once(')')?;

@@ -13,19 +13,19 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use strum::VariantArray;
 
-pub use cost::{FilmCost, Spent, num_cores};
+pub use cost::{FilmCost, TimeCost, num_cores};
 
-use super::PipelineError;
+use super::error::PipelineError;
 use super::film::{self, FilmSettings, camera_at};
-use accuracy::{Exact, mean_square, psnr_db};
+use accuracy::{ReferenceSample, mean_square, psnr_db};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
 use cinesplat_trajectory::{CameraPath, Shot};
 use cinesplat_video::{VideoFormat, VideoSettings, encoder_delay_frames};
-use sample::{Patience, Sampler, Samples};
+use sample::{Sampler, Samples, TimeLimit};
 
 /// After this long nothing further is looked at.
-const PATIENCE_SECS: f64 = 0.9;
+const TIME_LIMIT_SECS: f64 = 0.9;
 /// Where frames are looked at once those of the middle are, while time is left: places in the film, 0..1.
 const FURTHER_FRACS: [f64; 2] = [1.0 / 6.0, 5.0 / 6.0];
 /// Frames in a row that are rendered to time the last of them.
@@ -62,7 +62,7 @@ pub struct Forecast {
 
 /// What a film must hold.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Wish {
+pub struct Requirements {
     /// Longest time for the film.
     pub budget: Option<Duration>,
     /// Least PSNR of the worst frame, dB.
@@ -81,7 +81,7 @@ pub fn forecast(
     settings: &FilmSettings,
     qualities: &[Quality],
 ) -> Result<Vec<Forecast>, PipelineError> {
-    let patience = Patience::new(PATIENCE_SECS);
+    let limit = TimeLimit::new(TIME_LIMIT_SECS);
     let frames = settings.frames.of_film(shot.num_frames())?;
     let cameras = film::moving_cameras(&CameraPath::new(shot)?, shot, frames.clone());
     let sampler = Sampler { renderer, cameras: &cameras, settings: &settings.render };
@@ -100,15 +100,15 @@ pub fn forecast(
         sampler.render_run(sampler.run(0.5, TIMED_RUN), quality, samples)?;
     }
     let middle = &run[run.len() / 2];
-    let exact = Exact::of(renderer, middle, &settings.render)?;
+    let exact = ReferenceSample::of(renderer, middle, &settings.render)?;
     let mean_work = sampler.mean_work()?;
-    look_around(&sampler, &timed, &mut samples, &patience)?;
+    sample_further(&sampler, &timed, &mut samples, &limit)?;
 
     let num_ahead = encoder_delay_frames(&VideoFormat::from_path(output)?, &video);
     let cost = FilmCost {
         num_frames: frames.len(),
         num_rendered: cameras.len(),
-        render: Spent::default(),
+        render: TimeCost::default(),
         first_encode,
         encode,
         still_encode,
@@ -130,8 +130,8 @@ pub fn forecast(
     if qualities.contains(&Quality::Reference) {
         let more = mean_work[3] / sampler.work_at(middle)?[3].max(1.0);
         let wall_secs = exact.reference_secs(renderer, middle, &settings.render)? * more;
-        let busy_secs = wall_secs * rayon::current_num_threads().min(num_cores()) as f64;
-        let cost = FilmCost { render: Spent { wall_secs, busy_secs }, ..cost };
+        let cpu_secs = wall_secs * rayon::current_num_threads().min(num_cores()) as f64;
+        let cost = FilmCost { render: TimeCost { wall_secs, cpu_secs }, ..cost };
         forecasts.push(Forecast::new(Quality::Reference, &cost, [f64::INFINITY; 2], memory_bytes));
     }
     Ok(forecasts)
@@ -155,27 +155,27 @@ pub fn checked_psnr_db(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSett
         let camera = camera_at(&path, shot, frame_idx);
         let best = renderer.render(&camera, &RenderSettings { quality: Quality::Final, ..*render })?;
         mean_squares.push(mean_square(&renderer.render(&camera, render)?, &best));
-        final_db = final_db.min(Exact::of(renderer, &camera, render)?.final_db);
+        final_db = final_db.min(ReferenceSample::of(renderer, &camera, render)?.final_db);
     }
     Ok(psnr_db(mean_squares.into_iter(), final_db))
 }
 
-/// The quality that holds a wish: with a least PSNR the fastest that has it, else the most accurate in time.
+/// The quality that holds a requirements: with a least PSNR the fastest that has it, else the most accurate in time.
 ///
 /// # Errors
 /// [`PipelineError::Unreachable`] where none does, with what each would give.
-pub fn choose(forecasts: &[Forecast], wish: Wish) -> Result<Quality, PipelineError> {
-    let is_in_time = |forecast: &&Forecast| wish.budget.is_none_or(|budget| forecast.film_time <= budget);
-    let is_good = |forecast: &&Forecast| wish.min_psnr_db.is_none_or(|least| forecast.worst_psnr_db >= least);
+pub fn choose(forecasts: &[Forecast], requirements: Requirements) -> Result<Quality, PipelineError> {
+    let is_in_time = |forecast: &&Forecast| requirements.budget.is_none_or(|budget| forecast.film_time <= budget);
+    let is_good = |forecast: &&Forecast| requirements.min_psnr_db.is_none_or(|least| forecast.worst_psnr_db >= least);
     let mut fitting = forecasts.iter().filter(is_in_time).filter(is_good);
-    let chosen = if wish.min_psnr_db.is_some() {
+    let chosen = if requirements.min_psnr_db.is_some() {
         fitting.min_by_key(|forecast| forecast.film_time)
     } else {
         // Ascending accuracy, as `Quality::VARIANTS`.
         fitting.next_back()
     };
     chosen.map(|forecast| forecast.quality).ok_or_else(|| PipelineError::Unreachable {
-        wanted: wish.sentence(),
+        wanted: requirements.sentence(),
         reachable: forecasts.iter().map(Forecast::sentence).collect::<Vec<_>>().join("; "),
     })
 }
@@ -204,7 +204,7 @@ impl Forecast {
     }
 }
 
-impl Wish {
+impl Requirements {
     /// Whether `reference` may be what is wished for, given forecasts of all other qualities: where none of them is good
     /// enough, or so much time is allowed that it may do.
     pub fn may_need_reference(&self, others: &[Forecast]) -> bool {
@@ -232,11 +232,11 @@ fn timed_qualities(wanted: &[Quality]) -> Vec<Quality> {
 }
 
 /// Holds the middle frame against `final`, then frames elsewhere, timed as well, while there is time.
-fn look_around(
+fn sample_further(
     sampler: &Sampler<'_>,
     qualities: &[Quality],
     samples: &mut [Samples],
-    patience: &Patience,
+    limit: &TimeLimit,
 ) -> Result<(), RenderError> {
     let start = Instant::now();
     sampler.compare(&sampler.run(0.5, 1)[0], qualities, samples)?;
@@ -244,7 +244,7 @@ fn look_around(
     let round_secs = start.elapsed().as_secs_f64() + rendered;
     for frac in FURTHER_FRACS {
         let run: &[Camera] = sampler.run(frac, TIMED_RUN);
-        if !patience.allows(round_secs) || run.len() == sampler.cameras.len() {
+        if !limit.allows(round_secs) || run.len() == sampler.cameras.len() {
             break;
         }
         for (samples, &quality) in samples.iter_mut().zip(qualities) {

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::accuracy::{at, mean_square};
-use super::cost::Spent;
+use super::cost::TimeCost;
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
 use cinesplat_video::{VideoError, VideoSettings, encode_and_discard};
@@ -21,7 +21,7 @@ const ENCODED_PX: usize = 5 * 1280 * 720;
 const ENCODED_FRAMES: (usize, usize) = (3, 12);
 
 /// Work of the four stages: project, sort, bin, blend.
-pub(super) type Work = [f64; 4];
+pub(super) type StageWork = [f64; 4];
 
 /// Who renders what.
 pub(super) struct Sampler<'a> {
@@ -37,10 +37,10 @@ pub(super) struct Samples {
     /// Seconds by stage (project, sort, bin, blend, all else) of the median frame of each run, summed over runs.
     secs: [f64; 5],
     /// Work of these frames, as small pictures count it.
-    work: Work,
+    work: StageWork,
     num_runs: usize,
     /// What all timed frames took together.
-    spent: Spent,
+    spent: TimeCost,
     num_timed: usize,
     /// Mean square differences to `final`, a place each.
     pub(super) mean_squares: Vec<f64>,
@@ -63,10 +63,10 @@ impl Sampler<'_> {
     }
 
     /// Work of a frame in the mean over the whole film.
-    pub(super) fn mean_work(&self) -> Result<Work, RenderError> {
+    pub(super) fn mean_work(&self) -> Result<StageWork, RenderError> {
         let num = NUM_PLACES.min(self.cameras.len());
         let place = |idx: usize| (self.cameras.len() - 1) * idx / (num - 1).max(1);
-        let mut sum = Work::default();
+        let mut sum = StageWork::default();
         for idx in 0..num {
             add(&mut sum, self.work_at(&self.cameras[place(idx)])?);
         }
@@ -74,7 +74,7 @@ impl Sampler<'_> {
     }
 
     /// Work of one frame.
-    pub(super) fn work_at(&self, camera: &Camera) -> Result<Work, RenderError> {
+    pub(super) fn work_at(&self, camera: &Camera) -> Result<StageWork, RenderError> {
         let small = Camera { pose: camera.pose, intrinsics: camera.intrinsics.scaled(SMALL_FRAC) };
         Ok(work(&self.renderer.render(&small, &at(self.settings, Quality::Standard))?.stats.counts))
     }
@@ -98,7 +98,7 @@ impl Sampler<'_> {
         let timed = if run.len() > NUM_WARM { num_warm..run.len() } else { 0..run.len() };
         let mut times = Vec::new();
         for (frame, camera) in frames[timed.clone()].iter_mut().zip(&run[timed]) {
-            let (rendered, spent) = Spent::measure(|| self.renderer.render_rgb8_into(camera, &settings, frame));
+            let (rendered, spent) = TimeCost::measure(|| self.renderer.render_rgb8_into(camera, &settings, frame));
             rendered?;
             times.push((spent, frame.stats.times));
         }
@@ -129,7 +129,7 @@ impl Sampler<'_> {
 
 impl Samples {
     /// Adds what the frames of a run took, at least one; a neighbor's burst in one of them does not count.
-    fn add(&mut self, mut times: Vec<(Spent, StageTimes)>, work: Work) {
+    fn add(&mut self, mut times: Vec<(TimeCost, StageTimes)>, work: StageWork) {
         self.spent = times.iter().fold(self.spent, |sum, (spent, _)| sum.plus(*spent));
         self.num_timed += times.len();
         times.sort_by(|(a, _), (b, _)| a.wall_secs.total_cmp(&b.wall_secs));
@@ -148,12 +148,12 @@ impl Samples {
     }
 
     /// What a frame of so much work takes: seconds a unit of work, stage by stage, times the work.
-    pub(super) fn frame(&self, work: Work) -> Spent {
+    pub(super) fn frame(&self, work: StageWork) -> TimeCost {
         let share = |stage: usize| if self.work[stage] > 0.0 { work[stage] / self.work[stage] } else { 0.0 };
         let stages: f64 = (0..4).map(|stage| self.secs[stage] * share(stage)).sum();
         let wall_secs = stages + self.secs[4] / self.num_runs.max(1) as f64;
-        let num_busy = if self.spent.wall_secs > 0.0 { self.spent.busy_secs / self.spent.wall_secs } else { 1.0 };
-        Spent { wall_secs, busy_secs: wall_secs * num_busy }
+        let num_busy = if self.spent.wall_secs > 0.0 { self.spent.cpu_secs / self.spent.wall_secs } else { 1.0 };
+        TimeCost { wall_secs, cpu_secs: wall_secs * num_busy }
     }
 }
 
@@ -163,17 +163,17 @@ pub(super) fn encode_cost(
     video: &VideoSettings,
     run: &[Rgb8Frame],
     counts_still: bool,
-) -> Result<[Spent; 3], VideoError> {
+) -> Result<[TimeCost; 3], VideoError> {
     let spent = |frames: &[&[u8]]| {
-        let (encoded, spent) = Spent::measure(|| encode_and_discard(output, video, frames));
+        let (encoded, spent) = TimeCost::measure(|| encode_and_discard(output, video, frames));
         encoded.map(|()| spent)
     };
     let frames: Vec<&[u8]> = run.iter().map(|frame| frame.rgb8.as_slice()).collect();
     let all = spent(&frames)?;
     let first = if frames.len() > 1 { spent(&frames[..1])? } else { all };
     // The first frame of a run, which nothing is predicted from, is another kind of work than those that follow.
-    let further = |all: Spent| all.beyond(first).times(1.0 / (frames.len().max(2) - 1) as f64);
-    let still = if counts_still { further(spent(&vec![frames[0]; frames.len().max(2)])?) } else { Spent::default() };
+    let further = |all: TimeCost| all.beyond(first).times(1.0 / (frames.len().max(2) - 1) as f64);
+    let still = if counts_still { further(spent(&vec![frames[0]; frames.len().max(2)])?) } else { TimeCost::default() };
     Ok([first, further(all), still])
 }
 
@@ -181,21 +181,21 @@ fn frame_bytes(camera: &Camera) -> usize {
     camera.intrinsics.width as usize * camera.intrinsics.height as usize * 3
 }
 
-fn work(counts: &WorkCounts) -> Work {
+fn work(counts: &WorkCounts) -> StageWork {
     [counts.num_projected, counts.num_splats, counts.num_pairs, counts.num_block_blends].map(|count| count as f64)
 }
 
-fn add(sum: &mut Work, work: Work) {
+fn add(sum: &mut StageWork, work: StageWork) {
     sum.iter_mut().zip(work).for_each(|(sum, work)| *sum += work);
 }
 
 /// Time since a start, against what is left.
-pub(super) struct Patience {
+pub(super) struct TimeLimit {
     start: Instant,
     secs: f64,
 }
 
-impl Patience {
+impl TimeLimit {
     pub(super) fn new(secs: f64) -> Self {
         Self { start: Instant::now(), secs }
     }

@@ -1,7 +1,9 @@
 //! What is added up: opacity 1, colors below 0 and above 1, values as trained.
 
+use std::ops::ControlFlow;
+
 use cinesplat::files::Existing;
-use cinesplat::pipeline::{FilmSettings, Flow, FrameRange, film};
+use cinesplat::pipeline::{FilmSettings, FrameRange, film};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use cinesplat::video::VideoSettings;
@@ -93,7 +95,7 @@ fn a_film_without_blur_has_the_levels_of_the_composite() {
             sheet: None,
         };
         let output = folder.path().join("%05d.png");
-        film(&renderer, &shot, &output, &film_settings, &mut |_| Flow::Continue).unwrap();
+        film(&renderer, &shot, &output, &film_settings, &mut |_| ControlFlow::Continue(())).unwrap();
         let written = image::open(folder.path().join("00000.png")).unwrap().to_rgb8().into_raw();
         assert!(written == picture(&scene, &camera(64, 36), quality).to_rgb8(), "{quality:?}");
     }

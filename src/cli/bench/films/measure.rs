@@ -1,10 +1,11 @@
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::super::failure::Failure;
+use crate::cli::failure::Failure;
 use cinesplat::files::Existing;
 use cinesplat::geometry::Camera;
-use cinesplat::pipeline::{self, FilmSettings, Flow, Spent};
+use cinesplat::pipeline::{self, FilmSettings, TimeCost};
 use cinesplat::render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{CameraPath, Shot};
@@ -12,7 +13,7 @@ use cinesplat::video::{VideoError, VideoSettings, VideoWriter};
 
 /// What is filmed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Case<'a> {
+pub(super) struct FilmCase<'a> {
     pub(super) scene: &'a Scene,
     pub(super) name: &'a str,
     pub(super) shot: &'a Shot,
@@ -20,7 +21,7 @@ pub(super) struct Case<'a> {
 
 /// One measurement.
 #[derive(Debug, Clone)]
-pub(super) struct Row {
+pub(super) struct FilmRow {
     pub(super) scene: String,
     pub(super) size_px: [u32; 2],
     pub(super) num_frames: usize,
@@ -28,38 +29,38 @@ pub(super) struct Row {
     pub(super) measure: &'static str,
     pub(super) secs: f64,
     /// Of all cores together, where that means something.
-    pub(super) busy_secs: Option<f64>,
+    pub(super) cpu_secs: Option<f64>,
     /// What it is held against, and how much more it takes in percent.
     pub(super) against: Option<(&'static str, f64)>,
 }
 
-impl Case<'_> {
+impl FilmCase<'_> {
     /// The film's pictures by a renderer that keeps what it has, against the same pictures one by one.
-    pub(super) fn stills(&self, settings: &FilmSettings, tell: &mut dyn FnMut(Row)) -> Result<(), Failure> {
+    pub(super) fn stills(&self, settings: &FilmSettings, report: &mut dyn FnMut(FilmRow)) -> Result<(), Failure> {
         let cameras = self.cameras()?;
         let quality = settings.render.quality.into();
         let renderer = Renderer::new(&self.scene.gaussians);
         let (_, kept) = render(&renderer, &cameras, &settings.render, false)?;
-        tell(self.row((quality, "pictures in a row"), kept, None));
+        report(self.row((quality, "pictures in a row"), kept, None));
 
         let anew = RenderSettings { reuses_order: false, ..settings.render };
         let (_, unordered) = render(&renderer, &cameras, &anew, false)?;
         let more = |secs: f64| ("pictures in a row", (secs / kept.wall_secs - 1.0) * 100.0);
-        tell(self.row((quality, "order found anew"), unordered, Some(more(unordered.wall_secs))));
+        report(self.row((quality, "order found anew"), unordered, Some(more(unordered.wall_secs))));
 
-        let (rendered, alone) = Spent::measure(|| {
+        let (rendered, alone) = TimeCost::measure(|| {
             cameras.iter().try_for_each(|camera| {
                 let renderer = Renderer::new(&self.scene.gaussians);
                 renderer.render_rgb8_into(camera, &settings.render, &mut Rgb8Frame::default())
             })
         });
         rendered?;
-        tell(self.row((quality, "stills by a renderer each"), alone, Some(more(alone.wall_secs))));
+        report(self.row((quality, "stills by a renderer each"), alone, Some(more(alone.wall_secs))));
         Ok(())
     }
 
     /// The film against rendering and encoding alone, and against its forecast.
-    pub(super) fn film(&self, settings: &FilmSettings, tell: &mut dyn FnMut(Row)) -> Result<(), Failure> {
+    pub(super) fn film(&self, settings: &FilmSettings, report: &mut dyn FnMut(FilmRow)) -> Result<(), Failure> {
         let quality = settings.render.quality;
         let output = TemporaryFilm::new();
         let renderer = Renderer::new(&self.scene.gaussians);
@@ -68,33 +69,34 @@ impl Case<'_> {
         let forecast_secs = start.elapsed().as_secs_f64();
         let predicted = forecasts.first().map_or(f64::NAN, |forecast| forecast.film_time.as_secs_f64());
 
-        let (filmed, film) =
-            Spent::measure(|| pipeline::film(&renderer, self.shot, &output.0, settings, &mut |_| Flow::Continue));
+        let (filmed, film) = TimeCost::measure(|| {
+            pipeline::film(&renderer, self.shot, &output.0, settings, &mut |_| ControlFlow::Continue(()))
+        });
         filmed?;
         let (pictures, rendered) = render(&renderer, &self.cameras()?, &settings.render, true)?;
         let encoded = self.encode(&output.0, &settings.video, &pictures)?;
         let slower = rendered.wall_secs.max(encoded.wall_secs);
-        let busy = rendered.plus(encoded).busy_secs;
-        let all_busy = Spent { wall_secs: busy / pipeline::num_cores() as f64, busy_secs: busy };
+        let busy = rendered.plus(encoded).cpu_secs;
+        let all_busy = TimeCost { wall_secs: busy / pipeline::num_cores() as f64, cpu_secs: busy };
         let percent = |secs: f64, of: f64| (secs / of - 1.0) * 100.0;
-        let only = |wall_secs: f64| Spent { wall_secs, busy_secs: f64::NAN };
+        let only = |wall_secs: f64| TimeCost { wall_secs, cpu_secs: f64::NAN };
 
         let of = |measure: &'static str| (quality.into(), measure);
-        tell(self.row(of("rendered alone"), rendered, None));
-        tell(self.row(of("encoded alone"), encoded, None));
-        tell(self.row(of("both with every core busy"), all_busy, None));
-        tell(self.row(of("film"), film, Some(("the slower alone", percent(film.wall_secs, slower)))));
+        report(self.row(of("rendered alone"), rendered, None));
+        report(self.row(of("encoded alone"), encoded, None));
+        report(self.row(of("both with every core busy"), all_busy, None));
+        report(self.row(of("film"), film, Some(("the slower alone", percent(film.wall_secs, slower)))));
         let over_busy = percent(film.wall_secs, all_busy.wall_secs);
-        tell(self.row(of("film"), film, Some(("every core busy", over_busy))));
-        tell(self.row(of("predicted"), only(predicted), Some(("film", percent(predicted, film.wall_secs)))));
-        tell(self.row(of("time to predict"), only(forecast_secs), None));
+        report(self.row(of("film"), film, Some(("every core busy", over_busy))));
+        report(self.row(of("predicted"), only(predicted), Some(("film", percent(predicted, film.wall_secs)))));
+        report(self.row(of("time to predict"), only(forecast_secs), None));
         Ok(())
     }
 
-    fn encode(&self, output: &Path, video: &VideoSettings, pictures: &[Rgb8Frame]) -> Result<Spent, VideoError> {
+    fn encode(&self, output: &Path, video: &VideoSettings, pictures: &[Rgb8Frame]) -> Result<TimeCost, VideoError> {
         let video = pipeline::video_of(self.shot, &(0..pictures.len()), video);
         let video = VideoSettings { existing: Existing::Replace, ..video };
-        let (written, spent) = Spent::measure(|| {
+        let (written, spent) = TimeCost::measure(|| {
             let mut writer = VideoWriter::create(output, &video)?;
             pictures.iter().try_for_each(|picture| writer.write_frame(&picture.rgb8))?;
             writer.finish()
@@ -110,17 +112,17 @@ impl Case<'_> {
     fn row(
         &self,
         (quality, measure): (&'static str, &'static str),
-        spent: Spent,
+        spent: TimeCost,
         against: Option<(&'static str, f64)>,
-    ) -> Row {
-        Row {
+    ) -> FilmRow {
+        FilmRow {
             scene: self.name.to_owned(),
             size_px: [self.shot.width, self.shot.height],
             num_frames: self.shot.num_frames(),
             quality,
             measure,
             secs: spent.wall_secs,
-            busy_secs: Some(spent.busy_secs).filter(|secs| secs.is_finite()),
+            cpu_secs: Some(spent.cpu_secs).filter(|secs| secs.is_finite()),
             against,
         }
     }
@@ -132,10 +134,10 @@ fn render(
     cameras: &[Camera],
     settings: &RenderSettings,
     keeps: bool,
-) -> Result<(Vec<Rgb8Frame>, Spent), RenderError> {
-    let (mut frame, mut pictures, mut sum) = (Rgb8Frame::default(), Vec::new(), Spent::default());
+) -> Result<(Vec<Rgb8Frame>, TimeCost), RenderError> {
+    let (mut frame, mut pictures, mut sum) = (Rgb8Frame::default(), Vec::new(), TimeCost::default());
     for camera in cameras {
-        let (rendered, spent) = Spent::measure(|| renderer.render_rgb8_into(camera, settings, &mut frame));
+        let (rendered, spent) = TimeCost::measure(|| renderer.render_rgb8_into(camera, settings, &mut frame));
         rendered?;
         sum = sum.plus(spent);
         if keeps {
@@ -156,7 +158,7 @@ impl TemporaryFilm {
 
 impl Drop for TemporaryFilm {
     fn drop(&mut self) {
-        // Nobody is left to tell.
+        // Nobody is left to report.
         let _ = std::fs::remove_file(&self.0);
     }
 }

@@ -4,11 +4,11 @@ mod report;
 
 use std::path::Path;
 
-use super::console;
-use super::failure::Failure;
-use super::scene_args::PictureArgs;
 use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
 use crate::cli::choice::choice;
+use crate::cli::console;
+use crate::cli::failure::Failure;
+use crate::cli::scene_args::PictureArgs;
 use cinesplat::export::cameras_json::StillCameras;
 use cinesplat::geometry::{Camera, Intrinsics};
 use cinesplat::pipeline::{FilmSettings, FrameRange};
@@ -16,7 +16,7 @@ use cinesplat::render::Quality;
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{Easing, Keyframe, SceneRef, Shot};
 use cinesplat::video::VideoSettings;
-use measure::{Case, Row};
+use measure::{FilmCase, FilmRow};
 
 /// Frames a second of the films.
 const RATE_FPS: f64 = 30.0;
@@ -34,7 +34,7 @@ Example:
 Films a dolly: a straight move along the view axis of the first camera (auto: that in the middle). One line of CSV a
 measurement on stdout, with what it is held against and how much more it takes in percent. All pictures of a film are kept
 in memory to encode them alone. -o keeps films.csv and a table.")]
-pub(in super::super) struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,
     /// Size of the pictures, or `given` for that of the cameras file
@@ -59,7 +59,7 @@ pub(in super::super) struct Args {
 }
 
 impl Args {
-    pub(in super::super) fn run(self) -> Result<(), Failure> {
+    pub(crate) fn run(self) -> Result<(), Failure> {
         let scenes = self.scenes.read_cameras()?;
         self.folder.prepare(&["films.csv", "films.md"])?;
         self.picture.bound_threads()?;
@@ -72,7 +72,7 @@ impl Args {
         self.folder.write("films.md", &report::to_table(&rows))
     }
 
-    fn bench_scene(&self, path: &Path, file: Option<&StillCameras>) -> Result<Vec<Row>, Failure> {
+    fn bench_scene(&self, path: &Path, file: Option<&StillCameras>) -> Result<Vec<FilmRow>, Failure> {
         let scene = self.scenes.options.open(path)?.scene;
         let camera = match file {
             Some(file) => file.cameras.first().map(|named| named.camera),
@@ -83,9 +83,9 @@ impl Args {
         let travel = self.travel.unwrap_or(TRAVEL_FRAC * scene.bounds().size());
         let shot = dolly(&scene, &resized(&camera, self.size), travel, usize::from(self.frames));
         let name = scene_name(path);
-        let case = Case { scene: &scene, name: &name, shot: &shot };
+        let case = FilmCase { scene: &scene, name: &name, shot: &shot };
         let mut rows = Vec::new();
-        let mut tell = |row: Row| {
+        let mut tell = |row: FilmRow| {
             // A reader that has gone is told of at the end.
             let _ = console::data(&report::csv_line(&row));
             rows.push(row);

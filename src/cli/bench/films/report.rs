@@ -1,19 +1,19 @@
 use std::fmt::Write as _;
 
-use super::measure::Row;
+use super::measure::FilmRow;
 
 /// First line of the CSV.
 pub(super) const CSV_HEADER: &str =
     "scene,width,height,frames,quality,measure,secs,ms_a_frame,busy_secs,against,percent\n";
 
 /// The rows as CSV with a header.
-pub(super) fn to_csv(rows: &[Row]) -> String {
+pub(super) fn to_csv(rows: &[FilmRow]) -> String {
     rows.iter().fold(CSV_HEADER.to_owned(), |csv, row| csv + &csv_line(row))
 }
 
 /// One row as a line of the CSV; cells that mean nothing are empty.
-pub(super) fn csv_line(row: &Row) -> String {
-    let busy = row.busy_secs.map_or(String::new(), |secs| format!("{secs:.2}"));
+pub(super) fn csv_line(row: &FilmRow) -> String {
+    let busy = row.cpu_secs.map_or(String::new(), |secs| format!("{secs:.2}"));
     let (against, percent) = row.against.map_or_else(Default::default, |(what, p)| (what, format!("{p:.1}")));
     format!(
         "{},{},{},{},{},{},{:.3},{:.2},{busy},{against},{percent}\n",
@@ -29,7 +29,7 @@ pub(super) fn csv_line(row: &Row) -> String {
 }
 
 /// The rows as a Markdown table.
-pub(super) fn to_table(rows: &[Row]) -> String {
+pub(super) fn to_table(rows: &[FilmRow]) -> String {
     let mut table = String::from(
         "| scene | size | frames | quality | measure | s | ms a frame | against |\n|---|---|---|---|---|---|---|---|\n",
     );
@@ -52,6 +52,6 @@ pub(super) fn to_table(rows: &[Row]) -> String {
     table
 }
 
-fn ms_a_frame(row: &Row) -> f64 {
+fn ms_a_frame(row: &FilmRow) -> f64 {
     row.secs * 1e3 / row.num_frames.max(1) as f64
 }

@@ -33,7 +33,7 @@ pub(super) struct CaseArgs {
 
 /// A prompt on a scene.
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Case {
+pub(super) struct PromptCase {
     pub(super) id: String,
     scene: PathBuf,
     objects: PathBuf,
@@ -43,21 +43,21 @@ pub(super) struct Case {
 }
 
 /// A scene with its objects, up axis corrected by the objects file.
-pub(super) struct Place {
+pub(super) struct CaseScene {
     pub(super) scene: Scene,
     objects: ObjectSet,
 }
 
 /// Scenes that are open, and the director where prompts have to be read.
-pub(super) struct Studio {
+pub(super) struct CaseDirector {
     director: Option<Director>,
-    places: BTreeMap<(PathBuf, PathBuf), Place>,
+    scenes: BTreeMap<(PathBuf, PathBuf), CaseScene>,
     seed: u64,
 }
 
 impl CaseArgs {
     /// The cases with their programs, and a studio to film them in.
-    pub(super) fn open(&self) -> Result<(Vec<Case>, Studio), Failure> {
+    pub(super) fn open(&self) -> Result<(Vec<PromptCase>, CaseDirector), Failure> {
         let programs = self.intents.as_deref().map(programs).transpose()?;
         let folder = self.cases.parent().unwrap_or(Path::new("."));
         let bad = |line: usize, found: &str| {
@@ -66,7 +66,8 @@ impl CaseArgs {
         };
         let mut cases = Vec::new();
         for (number, line) in outputs::read_text(&self.cases)?.lines().enumerate() {
-            let mut case: Case = serde_json::from_str(line).map_err(|error| bad(number + 1, &error.to_string()))?;
+            let mut case: PromptCase =
+                serde_json::from_str(line).map_err(|error| bad(number + 1, &error.to_string()))?;
             if !case.id.contains(&self.only) {
                 continue;
             }
@@ -78,7 +79,7 @@ impl CaseArgs {
             cases.push(case);
         }
         let director = if programs.is_none() { Some(Director::embedded()?) } else { None };
-        Ok((cases, Studio { director, places: BTreeMap::new(), seed: self.seed }))
+        Ok((cases, CaseDirector { director, scenes: BTreeMap::new(), seed: self.seed }))
     }
 }
 
@@ -98,54 +99,54 @@ fn programs(path: &Path) -> Result<BTreeMap<String, Program>, Failure> {
     texts.into_iter().map(program).collect()
 }
 
-impl Studio {
-    /// The place of a case, opened on first use.
-    pub(super) fn place(&mut self, case: &Case) -> Result<&Place, Failure> {
+impl CaseDirector {
+    /// The scene of a case, opened on first use.
+    pub(super) fn scene_of(&mut self, case: &PromptCase) -> Result<&CaseScene, Failure> {
         let key = (case.scene.clone(), case.objects.clone());
-        if !self.places.contains_key(&key) {
+        if !self.scenes.contains_key(&key) {
             let mut scene = pipeline::open_scene(&case.scene, &LoadOptions::default())?.scene;
             let read = objects::read(&case.objects, &scene)?;
             scene.up = read.up.unwrap_or(scene.up);
-            self.places.insert(key.clone(), Place { scene, objects: read.set });
+            self.scenes.insert(key.clone(), CaseScene { scene, objects: read.set });
         }
-        self.places.get(&key).ok_or_else(|| Failure::fault("a scene that was opened is gone"))
+        self.scenes.get(&key).ok_or_else(|| Failure::fault("a scene that was opened is gone"))
     }
 
     /// The shot of a case.
-    pub(super) fn shoot(&mut self, case: &Case, level: SolveLevel) -> Result<Shot, Failure> {
+    pub(super) fn direct(&mut self, case: &PromptCase, level: SolveLevel) -> Result<Shot, Failure> {
         let settings = DirectSettings { seed: self.seed, solve: level, ..DirectSettings::default() };
-        self.place(case)?;
-        let place = &self.places[&(case.scene.clone(), case.objects.clone())];
+        self.scene_of(case)?;
+        let opened = &self.scenes[&(case.scene.clone(), case.objects.clone())];
         if let Some(program) = &case.program {
             let solve = SolveSettings { level, seed: self.seed, ..SolveSettings::default() };
-            return Ok(place.shoot(program, &case.prompt, &solve, &settings)?.0);
+            return Ok(opened.direct(program, &case.prompt, &solve, &settings)?.0);
         }
         let director = self.director.as_ref().ok_or_else(|| Failure::fault("no director was opened"))?;
-        Ok(pipeline::direct(&place.scene, &place.objects, &case.prompt, director, &settings)?.shot)
+        Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, director, &settings)?.shot)
     }
 
     /// Shots of a case for several settings of the search, each with the time of the search alone. Needs programs.
-    pub(super) fn shoot_each(
+    pub(super) fn direct_each(
         &mut self,
-        case: &Case,
+        case: &PromptCase,
         tries: &[SolveSettings],
     ) -> Result<Vec<(Shot, Duration)>, Failure> {
-        let place = self.place(case)?;
+        let opened = self.scene_of(case)?;
         let program = case.program.as_ref().ok_or_else(|| Failure::usage("no programs", "add --intents"))?;
-        let world = World::new(&place.scene.gaussians, place.scene.up, &place.objects, &program.object_ids())?;
-        let shoot = |solve: &SolveSettings| {
+        let world = World::new(&opened.scene.gaussians, opened.scene.up, &opened.objects, &program.object_ids())?;
+        let direct = |solve: &SolveSettings| {
             let start = Instant::now();
             let solution = realize(&world, program, &case.prompt, &[], solve);
             let time = start.elapsed();
-            (pipeline::shot_of(&place.scene, &case.prompt, solution, &DirectSettings::default()), time)
+            (pipeline::shot_of(&opened.scene, &case.prompt, solution, &DirectSettings::default()), time)
         };
-        Ok(tries.iter().map(shoot).collect())
+        Ok(tries.iter().map(direct).collect())
     }
 }
 
-impl Place {
+impl CaseScene {
     /// The shot of a program, and how long preparing the scene and solving took.
-    fn shoot(
+    fn direct(
         &self,
         program: &Program,
         prompt: &str,

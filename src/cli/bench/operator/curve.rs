@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::cases::CaseArgs;
-use super::median_and_most;
+use super::statistics::Summary;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use cinesplat::operator::{SolveLevel, SolveSettings};
@@ -37,14 +37,14 @@ pub(super) struct Args {
 
 /// All films of one budget.
 #[derive(Debug, Default)]
-struct Outcome {
+struct BudgetOutcome {
     ms: Vec<f64>,
     lines: usize,
     unmet: usize,
     whole: usize,
 }
 
-impl Outcome {
+impl BudgetOutcome {
     fn add(&mut self, shot: &Shot, time: Duration) {
         let unmet = shot.report.iter().filter(|line| !line.met).count();
         self.ms.push(time.as_secs_f64() * 1e3);
@@ -64,22 +64,24 @@ impl Args {
         if let Some(plot) = &self.plot {
             self.overwrite.check(plot)?;
         }
-        let (cases, mut studio) = self.cases.open()?;
+        let (cases, mut director) = self.cases.open()?;
         let tries =
             BUDGETS.map(|(level, tries_factor)| SolveSettings { level, tries_factor, ..SolveSettings::default() });
-        let mut outcomes: [Outcome; BUDGETS.len()] = Default::default();
+        let mut outcomes: [BudgetOutcome; BUDGETS.len()] = Default::default();
         for case in &cases {
-            let shots = studio.shoot_each(case, &tries)?;
+            let shots = director.direct_each(case, &tries)?;
             outcomes.iter_mut().zip(&shots).for_each(|(outcome, (shot, time))| outcome.add(shot, *time));
             console::note(&format!("{}: done", case.id));
         }
         console::data("level,tries_factor,ms_median,ms_most,violated_frac,unmet_lines,whole_films,films\n")?;
         for ((level, factor), outcome) in BUDGETS.iter().zip(&outcomes) {
-            let (median, most) = median_and_most(&outcome.ms);
+            let Summary { median, largest, .. } = Summary::of(&outcome.ms);
             let (violated, unmet, whole) = (outcome.violated_frac(), outcome.unmet, outcome.whole);
             let films = outcome.ms.len();
             let name = level.as_ref();
-            console::data(&format!("{name},{factor},{median:.1},{most:.1},{violated:.5},{unmet},{whole},{films}\n"))?;
+            console::data(&format!(
+                "{name},{factor},{median:.1},{largest:.1},{violated:.5},{unmet},{whole},{films}\n"
+            ))?;
         }
         let Some(plot) = &self.plot else { return Ok(()) };
         let title = format!("what was asked for and not found, {} films", cases.len());
@@ -91,8 +93,8 @@ impl Args {
 }
 
 /// Lines of the report that are not met against the time of the search, a dot a budget with its name.
-fn curve_svg(title: &str, outcomes: &[Outcome]) -> String {
-    let point = |outcome: &Outcome| (median_and_most(&outcome.ms).0.max(1e-3), 100.0 * outcome.violated_frac());
+fn curve_svg(title: &str, outcomes: &[BudgetOutcome]) -> String {
+    let point = |outcome: &BudgetOutcome| (Summary::of(&outcome.ms).median.max(1e-3), 100.0 * outcome.violated_frac());
     let name = |(level, factor): &(SolveLevel, f64)| format!("{} x {factor}", level.as_ref());
     let dot = |(idx, budget)| Mark { word: name(budget), ..Mark::dot(idx, 3.5) };
     let mut chart = Chart::new("", Axis::logarithmic("ms of search, median"), Axis::even("lines not met, %"));

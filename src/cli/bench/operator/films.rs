@@ -27,9 +27,9 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         outputs::create_folder(&self.output)?;
-        let (cases, mut studio) = self.cases.open()?;
+        let (cases, mut director) = self.cases.open()?;
         for case in &cases {
-            let shot = studio.shoot(case, self.solve.level)?;
+            let shot = director.direct(case, self.solve.level)?;
             let path = self.output.join(format!("{}.path.json", case.id));
             let settings = ExportSettings { fps: Some(self.fps), ..ExportSettings::default() };
             export::write(&path, Format::Nerfstudio, &shot, &settings, self.overwrite.existing())?;

@@ -7,6 +7,7 @@ mod moves;
 mod pairs;
 mod path_facts;
 mod stages;
+mod statistics;
 mod void;
 
 use crate::cli::failure::Failure;
@@ -25,11 +26,11 @@ Cases are JSON lines with id, scene, objects and prompt, file names relative to 
 programs by id, such as {\"a1\": \"push-in end=2 / pan-left end=3\"}, and stand for the network's reading of the prompt.")]
 pub(super) struct Args {
     #[command(subcommand)]
-    part: Part,
+    benchmark: OperatorBenchmark,
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum Part {
+enum OperatorBenchmark {
     /// Exactness of the moves: radius, speed, continuity, dolly zooms, backtracking.
     Moves,
     /// Writes the camera path and the shot of every case.
@@ -46,20 +47,13 @@ enum Part {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        match self.part {
-            Part::Moves => moves::run(),
-            Part::Films(args) => args.run(),
-            Part::Void(args) => args.run(),
-            Part::Curve(args) => args.run(),
-            Part::Stages(args) => args.run(),
-            Part::Pairs(args) => args.run(),
+        match self.benchmark {
+            OperatorBenchmark::Moves => moves::run(),
+            OperatorBenchmark::Films(args) => args.run(),
+            OperatorBenchmark::Void(args) => args.run(),
+            OperatorBenchmark::Curve(args) => args.run(),
+            OperatorBenchmark::Stages(args) => args.run(),
+            OperatorBenchmark::Pairs(args) => args.run(),
         }
     }
-}
-
-/// Median (of an even number the upper one) and largest of values; 0 of none.
-fn median_and_most(values: &[f64]) -> (f64, f64) {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    (sorted.get(sorted.len() / 2).copied().unwrap_or(0.0), sorted.last().copied().unwrap_or(0.0))
 }

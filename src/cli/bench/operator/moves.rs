@@ -8,7 +8,7 @@ use crate::cli::failure::Failure;
 use cinesplat::geometry::{LevelFrame, Pose};
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, Via, World, realize};
-use cinesplat::pipeline::{self, DirectSettings, Source};
+use cinesplat::pipeline::{self, DirectSettings, OpenedScene};
 use cinesplat::scene::{LoadOptions, Scene};
 use cinesplat::trajectory::{Easing, Intent, Keyframe, Move, SceneRef, Shot, retimed};
 
@@ -18,14 +18,14 @@ const ROOM: &str = "synth:room:7:0.2";
 const NUM_SUBJECTS: usize = 6;
 
 /// Something measured: worst value over `cases`, and what it must stay under.
-struct Row {
+struct Check {
     what: &'static str,
     cases: usize,
     worst: f64,
     limit: f64,
 }
 
-impl Row {
+impl Check {
     fn of(what: &'static str, limit: f64, values: &[f64]) -> Self {
         // A NaN is the worst of all.
         let worst = values.iter().copied().max_by(f64::total_cmp).unwrap_or(f64::NAN);
@@ -35,9 +35,9 @@ impl Row {
 
 /// Measures and prints.
 pub(super) fn run() -> Result<(), Failure> {
-    let set = Set::open()?;
+    let room = TestRoom::open()?;
     let mut rows = authored()?;
-    rows.extend(planned(&set)?);
+    rows.extend(planned(&room)?);
     console::data("what,cases,worst,limit,holds\n")?;
     for row in rows {
         let holds = row.worst <= row.limit;
@@ -47,7 +47,7 @@ pub(super) fn run() -> Result<(), Failure> {
 }
 
 /// Keys as a person types them.
-fn authored() -> Result<Vec<Row>, Failure> {
+fn authored() -> Result<Vec<Check>, Failure> {
     let frame = LevelFrame::new(DVec3::Y)?;
     let pivot = DVec3::new(3.0, -1.0, 0.5);
     let mut radius = Vec::new();
@@ -62,11 +62,11 @@ fn authored() -> Result<Vec<Row>, Failure> {
     let (jump, turn_jump) = bound.velocity_jumps();
     let back = bound.num_reversals() + even.num_reversals();
     Ok(vec![
-        Row::of("orbit radius error from 3 to 12 keys", 1e-3, &radius),
-        Row::of("speed variation of keys 1 and 0.2 and 3.8 apart retimed", 0.01, &[even.speed_variation([0.0, 1.0])]),
-        Row::of("velocity jump at their bound times", 0.01, &[jump]),
-        Row::of("angular velocity jump at their bound times", 0.01, &[turn_jump]),
-        Row::of("steps backward between them", 0.0, &[back as f64]),
+        Check::of("orbit radius error from 3 to 12 keys", 1e-3, &radius),
+        Check::of("speed variation of keys 1 and 0.2 and 3.8 apart retimed", 0.01, &[even.speed_variation([0.0, 1.0])]),
+        Check::of("velocity jump at their bound times", 0.01, &[jump]),
+        Check::of("angular velocity jump at their bound times", 0.01, &[turn_jump]),
+        Check::of("steps backward between them", 0.0, &[back as f64]),
     ])
 }
 
@@ -104,15 +104,15 @@ fn uneven_keys() -> Shot {
 }
 
 /// A generated room to plan in.
-struct Set {
+struct TestRoom {
     scene: Scene,
     subjects: Vec<Object>,
     world: World,
 }
 
-impl Set {
+impl TestRoom {
     fn open() -> Result<Self, Failure> {
-        let Source { scene, objects } = pipeline::open_scene(Path::new(ROOM), &LoadOptions::default())?;
+        let OpenedScene { scene, objects } = pipeline::open_scene(Path::new(ROOM), &LoadOptions::default())?;
         let objects: ObjectSet = objects.ok_or_else(|| Failure::fault("a generated room without objects"))?;
         let subjects: Vec<Object> = objects.objects.iter().take(NUM_SUBJECTS).cloned().collect();
         let ids: Vec<u32> = subjects.iter().map(|object| object.id).collect();
@@ -134,22 +134,22 @@ fn about(object: &Object) -> Framing {
 }
 
 /// Moves as the operator plans them.
-fn planned(set: &Set) -> Result<Vec<Row>, Failure> {
-    let frame = &set.world.frame;
+fn planned(room: &TestRoom) -> Result<Vec<Check>, Failure> {
+    let frame = &room.world.frame;
     let (mut radius, mut even, mut plane, mut boxes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut jumps, mut back) = (Vec::new(), Vec::new());
-    for object in &set.subjects {
+    for object in &room.subjects {
         for degrees in [45.0, 120.0, 360.0] {
             let amount = Some(Amount::Degrees(degrees));
             let step = Step { start: about(object), amount, easing: Some(Easing::Linear), ..Step::of(Move::OrbitLeft) };
-            let film = set.plan(step);
+            let film = room.plan(step);
             let path = Sampled::new(&film)?;
             radius.push(path.radius_error(frame, object.center));
             even.push(path.speed_variation([0.0, 1.0]));
             back.push(path.num_reversals() as f64);
         }
         for movement in [Move::DollyZoomIn, Move::DollyZoomOut] {
-            let film = set.plan(Step { start: about(object), ..Step::of(movement) });
+            let film = room.plan(Step { start: about(object), ..Step::of(movement) });
             let path = Sampled::new(&film)?;
             let corners = object.corners();
             let distance = |s: &cinesplat::trajectory::CameraState| s.pose.position.distance(object.center);
@@ -158,46 +158,46 @@ fn planned(set: &Set) -> Result<Vec<Row>, Failure> {
             back.push(path.num_reversals() as f64);
         }
     }
-    for film in ways(set) {
+    for film in ways(room) {
         let path = Sampled::new(&film)?;
         let (jump, turn_jump) = path.velocity_jumps();
         jumps.push(jump.max(turn_jump));
         back.push(path.num_reversals() as f64);
     }
-    for film in &cruises(set) {
+    for film in &cruises(room) {
         even.push(Sampled::new(film)?.speed_variation([0.0, 1.0]));
     }
     Ok(vec![
-        Row::of("orbit radius error as planned", 1e-3, &radius),
-        Row::of("speed variation of even moves as planned", 0.01, &even),
-        Row::of("dolly zoom drift of the subject's plane", 0.01, &plane),
-        Row::of("dolly zoom drift of the box's projected height", f64::INFINITY, &boxes),
-        Row::of("velocity jump of films of several moves", 0.01, &jumps),
-        Row::of("steps backward in one move", 0.0, &back),
+        Check::of("orbit radius error as planned", 1e-3, &radius),
+        Check::of("speed variation of even moves as planned", 0.01, &even),
+        Check::of("dolly zoom drift of the subject's plane", 0.01, &plane),
+        Check::of("dolly zoom drift of the box's projected height", f64::INFINITY, &boxes),
+        Check::of("velocity jump of films of several moves", 0.01, &jumps),
+        Check::of("steps backward in one move", 0.0, &back),
     ])
 }
 
 /// Free ways of one even speed: past and over things, from one to another.
-fn cruises(set: &Set) -> Vec<Shot> {
-    let pairs = set.subjects.windows(2);
+fn cruises(room: &TestRoom) -> Vec<Shot> {
+    let pairs = room.subjects.windows(2);
     let follow = |pair: &[Object]| {
         let easing = Some(Easing::Linear);
         let via = Some(Via { how: cinesplat::operator::Pass::Over, objects: vec![pair[0].id] });
         [
-            set.plan(Step { start: about(&pair[0]), end: about(&pair[1]), easing, ..Step::of(Move::Follow) }),
-            set.plan(Step { via, end: about(&pair[1]), easing, ..Step::of(Move::FlyThrough) }),
+            room.plan(Step { start: about(&pair[0]), end: about(&pair[1]), easing, ..Step::of(Move::Follow) }),
+            room.plan(Step { via, end: about(&pair[1]), easing, ..Step::of(Move::FlyThrough) }),
         ]
     };
     pairs.flat_map(follow).collect()
 }
 
 /// Films of one way each that must not turn back.
-fn ways(set: &Set) -> Vec<Shot> {
+fn ways(room: &TestRoom) -> Vec<Shot> {
     let film = |object: &Object| {
         [Move::PushIn, Move::PullOut, Move::TruckLeft, Move::TruckRight, Move::PedestalUp, Move::CraneUp]
-            .map(|movement| set.plan(Step { start: about(object), end: about(object), ..Step::of(movement) }))
+            .map(|movement| room.plan(Step { start: about(object), end: about(object), ..Step::of(movement) }))
     };
-    let mut out: Vec<Shot> = set.subjects.iter().flat_map(film).collect();
-    out.extend(cruises(set));
+    let mut out: Vec<Shot> = room.subjects.iter().flat_map(film).collect();
+    out.extend(cruises(room));
     out
 }

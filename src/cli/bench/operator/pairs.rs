@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 
-use super::median_and_most;
+use super::statistics::Summary;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use cinesplat::objects::ObjectSet;
@@ -19,7 +19,7 @@ use cinesplat::scene::{LoadOptions, SOLID_OPACITY, Scene};
 Example:
   cinesplat bench operator pairs kitchen.spz synth:demo --pairs 100 > pairs.csv
 One line a pair. Solver times are processor time of one thread; the index of every scene is timed by itself, on one thread too.")]
-pub(in crate::cli) struct Args {
+pub(crate) struct Args {
     /// Scenes that share the pairs; generated ones are named as for `info`
     #[arg(value_name = "SCENE", required = true)]
     scenes: Vec<PathBuf>,
@@ -35,7 +35,7 @@ pub(in crate::cli) struct Args {
 }
 
 impl Args {
-    pub(in crate::cli) fn run(self) -> Result<(), Failure> {
+    pub(crate) fn run(self) -> Result<(), Failure> {
         console::data(
             "scene,gaussians,index_ms,start_x,start_y,start_z,goal_x,goal_y,goal_z,outcome,keys,solve_ms,camera_radius,\
              proved_least,scanned_least,violations\n",
@@ -102,7 +102,7 @@ fn line(head: &str, result: &PairResult, radius: f64) -> String {
 
 fn summary(results: &[PairResult]) -> String {
     let times: Vec<f64> = results.iter().map(|result| milliseconds(result.solve_time)).collect();
-    let (median, worst) = median_and_most(&times);
+    let Summary { median, largest: worst, .. } = Summary::of(&times);
     let straight = results.iter().filter(|r| r.route.as_ref().is_ok_and(Route::is_straight)).count();
     let found = results.iter().filter(|r| r.route.is_ok()).count();
     let violating = results.iter().filter(|r| r.num_violations.is_some_and(|count| count > 0)).count();

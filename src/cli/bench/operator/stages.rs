@@ -1,11 +1,14 @@
 use std::path::PathBuf;
+use std::time::Instant;
 
+use strum::VariantArray;
+
+use super::statistics::Summary;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::scene_args::SceneArgs;
 use cinesplat::language::program_from_notation;
 use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
-use cinesplat::pipeline::StageTimes;
 
 /// Which scene, which program.
 #[derive(Debug, clap::Args)]
@@ -25,46 +28,45 @@ pub(super) struct Args {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let mut loading = StageTimes::default();
-        let (scene, objects) = loading.measure("load", || self.scene.open_with_objects(self.objects.as_deref()))?;
+        let (loaded, load_ms) = timed(|| self.scene.open_with_objects(self.objects.as_deref()));
+        let (scene, objects) = loaded?;
         let id = |i: usize| objects.objects.get(i).or(objects.objects.first()).map_or(1, |object| object.id);
         let usual = format!("push-in end={0} / orbit-left start={0} / pan end={1}", id(0), id(1));
         let program = match self.program {
             Some(program) => program,
             None => program_from_notation(&usual).map_err(|error| Failure::fault(&error))?,
         };
-        let mut runs = Vec::new();
+        let ids = program.object_ids();
+        let mut world_ms = Vec::new();
+        let mut solve_ms = vec![Vec::new(); SolveLevel::VARIANTS.len()];
         for seed in 0..u64::from(self.runs) {
-            let mut times = StageTimes::default();
-            let ids = program.object_ids();
-            let world = times.measure("world", || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
-            for level in [SolveLevel::Off, SolveLevel::Fast, SolveLevel::Full] {
+            let (world, ms) = timed(|| World::new(&scene.gaussians, scene.up, &objects, &ids));
+            let world = world?;
+            world_ms.push(ms);
+            for (times, &level) in solve_ms.iter_mut().zip(SolveLevel::VARIANTS) {
                 let solve = SolveSettings { level, seed, ..SolveSettings::default() };
-                times.measure(stage_name(level), || realize(&world, &program, "", &[], &solve));
+                times.push(timed(|| realize(&world, &program, "", &[], &solve)).1);
             }
-            runs.push(times);
         }
+        let num_gaussians = scene.gaussians.len();
         console::data("stage,gaussians,ms_least,ms_median,ms_most\n")?;
-        print_stage("load", scene.gaussians.len(), &[loading])?;
-        for name in ["world", "solve off", "solve fast", "solve full"] {
-            print_stage(name, scene.gaussians.len(), &runs)?;
-        }
-        Ok(())
+        print_stage("load", num_gaussians, &[load_ms])?;
+        print_stage("world", num_gaussians, &world_ms)?;
+        SolveLevel::VARIANTS
+            .iter()
+            .zip(&solve_ms)
+            .try_for_each(|(level, ms)| print_stage(&format!("solve {}", level.as_ref()), num_gaussians, ms))
     }
 }
 
-fn stage_name(level: SolveLevel) -> &'static str {
-    match level {
-        SolveLevel::Off => "solve off",
-        SolveLevel::Fast => "solve fast",
-        SolveLevel::Full => "solve full",
-    }
+/// The result of `work` and its wall time in milliseconds.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let result = work();
+    (result, start.elapsed().as_secs_f64() * 1e3)
 }
 
-fn print_stage(name: &str, num_gaussians: usize, runs: &[StageTimes]) -> Result<(), Failure> {
-    let of_run = |times: &StageTimes| times.iter().find(|(stage, _)| *stage == name).map(|(_, time)| time);
-    let mut ms: Vec<f64> = runs.iter().filter_map(of_run).map(|time| time.as_secs_f64() * 1e3).collect();
-    ms.sort_by(f64::total_cmp);
-    let (Some(least), Some(most)) = (ms.first(), ms.last()) else { return Ok(()) };
-    console::data(&format!("{name},{num_gaussians},{least:.1},{:.1},{most:.1}\n", ms[ms.len() / 2]))
+fn print_stage(name: &str, num_gaussians: usize, ms: &[f64]) -> Result<(), Failure> {
+    let Summary { least, median, largest } = Summary::of(ms);
+    console::data(&format!("{name},{num_gaussians},{least:.1},{median:.1},{largest:.1}\n"))
 }

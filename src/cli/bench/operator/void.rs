@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 
 use super::cases::CaseArgs;
-use super::median_and_most;
+use super::statistics::Summary;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::shot_args::SolveArgs;
@@ -30,17 +30,17 @@ pub(super) struct Args {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let (cases, mut studio) = self.cases.open()?;
+        let (cases, mut director) = self.cases.open()?;
         console::data("film,mean_void_frac,worst_void_frac\n")?;
         let mut means = Vec::new();
         for case in &cases {
-            let shot = studio.shoot(case, self.solve.level)?;
-            let shares = self.void_fracs(&studio.place(case)?.scene, &shot)?;
+            let shot = director.direct(case, self.solve.level)?;
+            let shares = self.void_fracs(&director.scene_of(case)?.scene, &shot)?;
             let (mean, worst) = summary(&shares);
             means.push(mean);
             console::data(&format!("{},{mean:.4},{worst:.4}\n", case.id))?;
         }
-        let (median, worst) = median_and_most(&means);
+        let Summary { median, largest: worst, .. } = Summary::of(&means);
         let mut text = String::new();
         let _ = write!(text, "{} films, solver {}: mean void per film ", means.len(), self.solve.level.as_ref());
         let _ = write!(text, "median {median:.4}, worst {worst:.4} (transmittance above {})", self.threshold);

@@ -1,13 +1,13 @@
 use std::path::Path;
 
-use super::PipelineError;
+use super::error::PipelineError;
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_scene::{LoadOptions, Scene, UpSource};
 use cinesplat_synth::{SynthKind, SynthScene, SynthSettings};
 
 /// A scene, with its objects where they are known without a search.
 #[derive(Debug, Clone)]
-pub struct Source {
+pub struct OpenedScene {
     /// The scene.
     pub scene: Scene,
     /// Exact objects of a generated scene; `None` for one from a file.
@@ -20,13 +20,13 @@ pub struct Source {
 /// # Errors
 /// [`PipelineError::Scene`] when the file cannot be read, [`PipelineError::UnknownSynth`] for a generated scene of
 /// another name.
-pub fn open_scene(name: &Path, options: &LoadOptions) -> Result<Source, PipelineError> {
+pub fn open_scene(name: &Path, options: &LoadOptions) -> Result<OpenedScene, PipelineError> {
     match name.to_str().and_then(|name| name.strip_prefix("synth:")) {
         Some(spec) => {
             let settings = synth_settings(spec).ok_or_else(|| unknown(name))?;
             Ok(generated(name, &settings, options))
         }
-        None => Ok(Source { scene: cinesplat_scene::load(name, options)?, objects: None }),
+        None => Ok(OpenedScene { scene: cinesplat_scene::load(name, options)?, objects: None }),
     }
 }
 
@@ -51,7 +51,7 @@ fn synth_settings(spec: &str) -> Option<SynthSettings> {
     is_whole.then_some(SynthSettings { seed, kind, detail })
 }
 
-fn generated(name: &Path, settings: &SynthSettings, options: &LoadOptions) -> Source {
+fn generated(name: &Path, settings: &SynthSettings, options: &LoadOptions) -> OpenedScene {
     let SynthScene { gaussians, objects, labels, up, .. } = cinesplat_synth::generate(settings);
     let (up, up_source) = match options.up.and_then(glam::DVec3::try_normalize) {
         Some(given) => (given, UpSource::Flag),
@@ -86,5 +86,5 @@ fn generated(name: &Path, settings: &SynthSettings, options: &LoadOptions) -> So
         up_source,
         notes: Vec::new(),
     };
-    Source { scene, objects: Some(objects) }
+    OpenedScene { scene, objects: Some(objects) }
 }
