@@ -1,6 +1,6 @@
 use super::report::ms;
 use super::{BenchRow, KnobKind};
-use cinesplat_plot::{Axis, COLORS, Chart, Entry, Mark, Series, Symbol, grid};
+use cinesplat_plot::{Axis, COLORS, Chart, LegendEntry, LegendSymbol, Marker, Series, grid};
 use strum::VariantArray;
 
 /// Plotted in place of infinity: pictures that are equal or nearly so.
@@ -46,7 +46,7 @@ struct Point {
 impl AccuracyAxis {
     fn of_plot(self) -> Axis {
         match self {
-            Self::Psnr => Axis::even("PSNR, dB"),
+            Self::Psnr => Axis::linear("PSNR, dB"),
             Self::Ssim => Axis::logarithmic("1 - SSIM"),
             Self::Worst => Axis::logarithmic("worst pixel"),
         }
@@ -107,15 +107,15 @@ fn color(kind: KnobKind) -> &'static str {
     }
 }
 
-fn legend() -> Vec<Entry> {
-    let entry = |kind: KnobKind| Entry {
+fn legend() -> Vec<LegendEntry> {
+    let entry = |kind: KnobKind| LegendEntry {
         name: if kind == KnobKind::Preset { "preset".to_owned() } else { format!("{} alone", kind.as_ref()) },
         color: color(kind),
-        symbol: Symbol::Dot,
+        symbol: LegendSymbol::Dot,
     };
-    let mut entries: Vec<Entry> =
+    let mut entries: Vec<LegendEntry> =
         KnobKind::VARIANTS.iter().copied().filter(|kind| kind.costs_accuracy()).map(entry).collect();
-    entries.push(Entry { name: "faint: beaten in both".to_owned(), color: "#dddddd", symbol: Symbol::Dot });
+    entries.push(LegendEntry { name: "faint: beaten in both".to_owned(), color: "#dddddd", symbol: LegendSymbol::Dot });
     entries
 }
 
@@ -149,15 +149,15 @@ fn knobs_chart(title: &str, points: &[Point], axis: AccuracyAxis) -> Chart {
     for &kind in KnobKind::VARIANTS.iter().rev() {
         let of_kind: Vec<&Point> = points.iter().filter(|point| point.kind == kind).collect();
         let mark = |(idx, point): (usize, &&Point)| match kind {
-            KnobKind::Preset => Mark { word: point.variant.clone(), ..Mark::dot(idx, 5.0) },
-            _ => Mark { is_muted: point.is_dominated, ..Mark::dot(idx, 3.0) },
+            KnobKind::Preset => Marker { label: point.variant.clone(), ..Marker::dot(idx, 5.0) },
+            _ => Marker { is_muted: point.is_dominated, ..Marker::dot(idx, 3.0) },
         };
         if !of_kind.is_empty() {
             chart.series.push(Series {
                 points: of_kind.iter().map(|point| (point.ms, point.value)).collect(),
                 color: color(kind),
                 line_px: if kind == KnobKind::Preset { 1.0 } else { 0.0 },
-                marks: of_kind.iter().enumerate().map(mark).collect(),
+                markers: of_kind.iter().enumerate().map(mark).collect(),
             });
         }
     }
@@ -180,13 +180,13 @@ fn levels_chart(name: &str, scenes: &[&str], rows: &[&BenchRow], axis: AccuracyA
                 (false, true) => level.to_owned(),
                 (false, false) => String::new(),
             };
-            Mark { word, ..Mark::dot(idx, 4.0) }
+            Marker { label: word, ..Marker::dot(idx, 4.0) }
         };
         chart.series.push(Series {
             points: presets.iter().map(|point| (point.ms, point.value)).collect(),
             color: COLORS[(level_idx + 7) % COLORS.len()],
             line_px: 1.0,
-            marks: presets.iter().enumerate().map(mark).collect(),
+            markers: presets.iter().enumerate().map(mark).collect(),
         });
     }
     chart

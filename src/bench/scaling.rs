@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 use super::report::ms;
 use super::{Timing, time};
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
-use cinesplat_plot::{Axis, COLORS, Chart, Entry, Mark, Series, Symbol, grid};
+use cinesplat_plot::{Axis, COLORS, Chart, LegendEntry, LegendSymbol, Marker, Series, grid};
 use cinesplat_render::{RenderError, RenderSettings, Renderer};
 use cinesplat_scene::{Bounds, Gaussians, NUM_SH_REST};
 
@@ -214,8 +214,8 @@ pub fn scaling_svg(csv: &str) -> String {
     let line = |growth: Growth, x: &str, y: &str, color: &'static str| {
         let of_growth = rows.iter().filter(|row| row.first() == Some(&growth.as_ref()));
         let points: Vec<(f64, f64)> = of_growth.filter_map(|row| Some((number(row, x)?, number(row, y)?))).collect();
-        let marks = (0..points.len()).map(|idx| Mark::dot(idx, 2.2)).collect();
-        Series { points, color, line_px: 1.3, marks }
+        let markers = (0..points.len()).map(|idx| Marker::dot(idx, 2.2)).collect();
+        Series { points, color, line_px: 1.3, markers }
     };
     let chart = |title: &str, (growth, x): (Growth, &str), y: &str, lines: &[(&str, &'static str)]| Chart {
         series: lines.iter().map(|(name, color)| line(growth, x, name, color)).collect(),
@@ -232,8 +232,9 @@ pub fn scaling_svg(csv: &str) -> String {
     ];
     let names = ["whole frame", "project", "sort", "bin", "blend", "held", "allowed"];
     let colors = times.iter().chain(&memory).map(|(_, color)| *color);
-    let entry = |(name, color): (&str, &'static str)| Entry { name: name.to_owned(), color, symbol: Symbol::Line };
-    let entries: Vec<Entry> = names.into_iter().zip(colors).map(entry).collect();
+    let entry =
+        |(name, color): (&str, &'static str)| LegendEntry { name: name.to_owned(), color, symbol: LegendSymbol::Line };
+    let entries: Vec<LegendEntry> = names.into_iter().zip(colors).map(entry).collect();
     grid("Time and memory against work", &entries, &charts, 2, [420.0, 290.0])
 }
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::table::table_beside;
 use super::{TableRow, Trajectory};
 use cinesplat_geometry::LevelFrame;
-use cinesplat_plot::{Axis, COLORS, Chart, Entry, Figure, Mark, Series, Symbol};
+use cinesplat_plot::{Axis, COLORS, Chart, Figure, LegendEntry, LegendSymbol, Marker, Series};
 
 const WIDTH: f64 = 1240.0;
 const HEIGHT: f64 = 1010.0;
@@ -30,21 +30,21 @@ pub fn plot_svg(title: &str, paths: &[(&str, &Trajectory)], key_times_secs: &[f6
     figure.finish()
 }
 
-fn legend(paths: &[(&str, &Trajectory)]) -> Vec<Entry> {
-    let of_path = |((label, path), color): (&(&str, &Trajectory), &&'static str)| Entry {
+fn legend(paths: &[(&str, &Trajectory)]) -> Vec<LegendEntry> {
+    let of_path = |((label, path), color): (&(&str, &Trajectory), &&'static str)| LegendEntry {
         name: format!("{label} ({} poses)", path.len()),
         color,
-        symbol: Symbol::Line,
+        symbol: LegendSymbol::Line,
     };
-    let start = Entry { name: "start".to_owned(), color: "#222222", symbol: Symbol::Ring };
+    let start = LegendEntry { name: "start".to_owned(), color: "#222222", symbol: LegendSymbol::Ring };
     paths.iter().zip(COLORS.iter().cycle()).map(of_path).chain([start]).collect()
 }
 
 /// The line of one path: the first, the reference, is broader, so that it shows under an estimate that covers it.
 fn path_series(path_idx: usize, points: Vec<(f64, f64)>, keys: &[usize]) -> Series {
-    let marks = if path_idx == 0 { keys.iter().map(|key| Mark::dot(*key, 3.2)).collect() } else { Vec::new() };
+    let markers = if path_idx == 0 { keys.iter().map(|key| Marker::dot(*key, 3.2)).collect() } else { Vec::new() };
     let line_px = if path_idx == 0 { 3.0 } else { 1.5 };
-    Series { points, color: COLORS[path_idx % COLORS.len()], line_px, marks }
+    Series { points, color: COLORS[path_idx % COLORS.len()], line_px, markers }
 }
 
 /// From above and from the side, at one scale for both directions of each.
@@ -67,13 +67,13 @@ fn views(figure: &mut Figure, level: &LevelFrame, paths: &[(&str, &Trajectory)],
     let sideways = ("seen from the side", side, side_name, level.up, "height");
     for (idx, (title, across, across_name, up, up_name)) in [above, sideways].into_iter().enumerate() {
         let x = MARGIN + idx as f64 * (width + GAP);
-        let mut chart = Chart::new(title, Axis::even(across_name), Axis::even(up_name));
+        let mut chart = Chart::new(title, Axis::linear(across_name), Axis::linear(up_name));
         chart.has_equal_units = true;
         for (path_idx, (_, path)) in paths.iter().enumerate() {
             let points = path.positions.iter().map(|p| (p.dot(across), p.dot(up))).collect();
             let keys = nearest(&path.times_or_indices(), key_times_secs);
             let mut series = path_series(path_idx, points, &keys);
-            series.marks.push(Mark { is_hollow: true, ..Mark::dot(0, 4.5) });
+            series.markers.push(Marker { is_hollow: true, ..Marker::dot(0, 4.5) });
             chart.series.push(series);
         }
         figure.chart([x, HEADER, width, VIEW_HEIGHT], &chart);
@@ -106,8 +106,8 @@ fn time_charts(figure: &mut Figure, tables: &[Vec<TableRow>], timed: bool, key_t
     for (idx, (title, value)) in columns.into_iter().enumerate() {
         let (column, row) = ((idx % 3) as f64, (idx / 3) as f64);
         // Time begins and ends with the frame.
-        let time = Axis { room_frac: 0.0, ..Axis::even(if timed { "time, s" } else { "frame" }) };
-        let mut chart = Chart::new(title, time, Axis::even(""));
+        let time = Axis { margin_frac: 0.0, ..Axis::linear(if timed { "time, s" } else { "frame" }) };
+        let mut chart = Chart::new(title, time, Axis::linear(""));
         for (path_idx, table) in tables.iter().enumerate() {
             let points = table.iter().map(|row| (row.time_secs - start, value(row))).collect();
             let times: Vec<f64> = table.iter().map(|row| row.time_secs).collect();

@@ -4,72 +4,74 @@ use super::Axis;
 use super::labels::Labels;
 use super::text::escaped;
 
-/// Room for tick labels left of and under the frame, and for the title above it, px.
-const LEFT: f64 = 58.0;
-const UNDER: f64 = 40.0;
-const ABOVE: f64 = 22.0;
-/// Room right of the frame, px.
-const BESIDE: f64 = 8.0;
-/// Points closer to the one drawn before are left out of lines, px: long recordings stay small files.
-const LEAST_STEP: f64 = 0.4;
-const WORD_PX: f64 = 11.0;
+/// Margins of the frame, px: left and bottom hold the tick labels, top holds the title.
+const MARGIN_LEFT: f64 = 58.0;
+const MARGIN_BOTTOM: f64 = 40.0;
+const MARGIN_TOP: f64 = 22.0;
+const MARGIN_RIGHT: f64 = 8.0;
+/// A line skips points nearer than this to the last one drawn, px, so that long recordings make small files.
+const MIN_STEP_PX: f64 = 0.4;
+/// Font size of the labels of markers, px.
+const LABEL_PX: f64 = 11.0;
 
-/// A dot at a point of a series.
+/// A marker at a point of a series.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mark {
-    /// The point.
+pub struct Marker {
+    /// Index of the point in the series.
     pub point_idx: usize,
     /// Radius, px.
     pub radius_px: f64,
-    /// Whether it is a ring.
+    /// Whether it is drawn as a ring.
     pub is_hollow: bool,
-    /// Whether it stands back behind the others.
+    /// Whether it is drawn pale and behind the others.
     pub is_muted: bool,
-    /// A word beside it; may be empty.
-    pub word: String,
+    /// Text beside it; may be empty.
+    pub label: String,
 }
 
-/// Points that belong together.
+/// Points with one color, joined by a line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     /// Points in the units of the axes.
     pub points: Vec<(f64, f64)>,
-    /// Color of line, dots and words.
+    /// Color of line, markers and labels, as in SVG.
     pub color: &'static str,
-    /// Width of the line through the points, px; 0 for none.
+    /// Width of the line through the points, px; 0 for no line.
     pub line_px: f64,
-    /// Dots.
-    pub marks: Vec<Mark>,
+    /// Markers, in the order they are drawn.
+    pub markers: Vec<Marker>,
 }
 
-/// A frame with axes, series in it, a title above.
+/// A frame with axes, a title above it and series inside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
     /// Title.
     pub title: String,
-    /// The axis along the lower side.
+    /// The horizontal axis.
     pub x: Axis,
-    /// The axis along the left side.
+    /// The vertical axis.
     pub y: Axis,
-    /// Whether a unit is as long in both directions.
+    /// Whether a unit has the same length on both axes.
     pub has_equal_units: bool,
-    /// What is drawn, the first under the others.
+    /// The series; later ones are drawn over earlier ones.
     pub series: Vec<Series>,
 }
 
-/// A chart's frame on the figure and the places that it shows.
+/// A chart with its frame on the figure and its axis ranges.
 struct Layout<'a> {
     chart: &'a Chart,
     /// Left, top, right, bottom, px.
     frame: [f64; 4],
-    x_places: (f64, f64),
-    y_places: (f64, f64),
+    /// Scaled values at the left and right side of the frame.
+    x_range: (f64, f64),
+    /// Scaled values at the bottom and top side of the frame.
+    y_range: (f64, f64),
 }
 
-impl Mark {
-    /// A plain dot.
+impl Marker {
+    /// A filled dot without a label.
     pub fn dot(point_idx: usize, radius_px: f64) -> Self {
-        Self { point_idx, radius_px, is_hollow: false, is_muted: false, word: String::new() }
+        Self { point_idx, radius_px, is_hollow: false, is_muted: false, label: String::new() }
     }
 }
 
@@ -79,6 +81,7 @@ impl Chart {
         Self { title: title.to_owned(), x, y, has_equal_units: false, series: Vec::new() }
     }
 
+    /// Appends the chart as SVG, drawn into `[x, y, width, height]`, px.
     pub(super) fn draw(&self, svg: &mut String, area: [f64; 4]) {
         let layout = Layout::new(self, area);
         layout.draw_ticks(svg);
@@ -86,28 +89,29 @@ impl Chart {
         for series in &self.series {
             layout.draw_line(svg, series);
         }
-        let marks = || self.series.iter().flat_map(|series| series.marks.iter().map(move |mark| (series, mark)));
+        let markers =
+            || self.series.iter().flat_map(|series| series.markers.iter().map(move |marker| (series, marker)));
         for is_muted in [true, false] {
-            marks().filter(|(_, mark)| mark.is_muted == is_muted).for_each(|(series, mark)| {
-                layout.draw_mark(svg, series, mark);
+            markers().filter(|(_, marker)| marker.is_muted == is_muted).for_each(|(series, marker)| {
+                layout.draw_marker(svg, series, marker);
             });
         }
         let mut labels = Labels::inside(layout.frame);
-        for (series, mark) in marks() {
-            if let Some(point) = series.points.get(mark.point_idx).filter(|_| !mark.is_muted) {
-                labels.block(layout.to_px(*point), mark.radius_px);
+        for (series, marker) in markers() {
+            if let Some(point) = series.points.get(marker.point_idx).filter(|_| !marker.is_muted) {
+                labels.block(layout.to_px(*point), marker.radius_px);
             }
         }
-        for (series, mark) in marks().filter(|(_, mark)| !mark.word.is_empty()) {
-            let Some(point) = series.points.get(mark.point_idx) else { continue };
-            let (x, y) = labels.place(layout.to_px(*point), mark.radius_px, &mark.word, WORD_PX);
-            // Writing to a string cannot fail, here and below. The white edge keeps lines off the letters.
+        for (series, marker) in markers().filter(|(_, marker)| !marker.label.is_empty()) {
+            let Some(point) = series.points.get(marker.point_idx) else { continue };
+            let (x, y) = labels.place(layout.to_px(*point), marker.radius_px, &marker.label, LABEL_PX);
+            // Writing to a string cannot fail, here and below. The white outline separates the text from lines behind it.
             let _ = writeln!(
                 svg,
-                "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{WORD_PX}\" fill=\"{}\" stroke=\"white\" stroke-width=\"2.5\" \
+                "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{LABEL_PX}\" fill=\"{}\" stroke=\"white\" stroke-width=\"2.5\" \
                  paint-order=\"stroke\">{}</text>",
                 series.color,
-                escaped(&mark.word)
+                escaped(&marker.label)
             );
         }
     }
@@ -115,34 +119,34 @@ impl Chart {
 
 impl<'a> Layout<'a> {
     fn new(chart: &'a Chart, [x, y, width, height]: [f64; 4]) -> Self {
-        let frame = [x + LEFT, y + ABOVE, x + width - BESIDE, y + height - UNDER];
+        let frame = [x + MARGIN_LEFT, y + MARGIN_TOP, x + width - MARGIN_RIGHT, y + height - MARGIN_BOTTOM];
         let all = || chart.series.iter().flat_map(|series| series.points.iter());
-        let mut x_places = chart.x.interval(all().map(|point| point.0));
-        let mut y_places = chart.y.interval(all().map(|point| point.1));
+        let mut x_range = chart.x.range(all().map(|point| point.0));
+        let mut y_range = chart.y.range(all().map(|point| point.1));
         if chart.has_equal_units {
             let (across, up) = (frame[2] - frame[0], frame[3] - frame[1]);
-            let units_a_px = ((x_places.1 - x_places.0) / across).max((y_places.1 - y_places.0) / up);
-            let about = |(low, high): (f64, f64), length: f64| {
+            let units_per_px = ((x_range.1 - x_range.0) / across).max((y_range.1 - y_range.0) / up);
+            let centered = |(low, high): (f64, f64), length: f64| {
                 let middle = f64::midpoint(low, high);
-                (middle - units_a_px * length / 2.0, middle + units_a_px * length / 2.0)
+                (middle - units_per_px * length / 2.0, middle + units_per_px * length / 2.0)
             };
-            (x_places, y_places) = (about(x_places, across), about(y_places, up));
+            (x_range, y_range) = (centered(x_range, across), centered(y_range, up));
         }
-        Self { chart, frame, x_places, y_places }
+        Self { chart, frame, x_range, y_range }
     }
 
-    /// A point on the figure, px.
+    /// Position of a point on the figure, px.
     fn to_px(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let [left, top, right, bottom] = self.frame;
-        let part = |place: f64, (low, high): (f64, f64)| (place - low) / (high - low);
-        let across = part(self.chart.x.place(x), self.x_places);
-        let up = part(self.chart.y.place(y), self.y_places);
+        let fraction = |value: f64, (low, high): (f64, f64)| (value - low) / (high - low);
+        let across = fraction(self.chart.x.scaled(x), self.x_range);
+        let up = fraction(self.chart.y.scaled(y), self.y_range);
         (left + across * (right - left), bottom - up * (bottom - top))
     }
 
     fn draw_ticks(&self, svg: &mut String) {
         let [left, top, right, bottom] = self.frame;
-        let ((x_low, x_high), (y_low, y_high)) = (self.x_places, self.y_places);
+        let ((x_low, x_high), (y_low, y_high)) = (self.x_range, self.y_range);
         for (tick, label) in self.chart.x.ticks(x_low, x_high, (right - left) / 50.0) {
             let (px, _) = self.to_px((tick, 1.0));
             let _ = writeln!(
@@ -191,7 +195,7 @@ impl<'a> Layout<'a> {
         let mut drawn = (f64::INFINITY, f64::INFINITY);
         for (idx, point) in series.points.iter().enumerate() {
             let (x, y) = self.to_px(*point);
-            if (x - drawn.0).hypot(y - drawn.1) >= LEAST_STEP || idx + 1 == series.points.len() {
+            if (x - drawn.0).hypot(y - drawn.1) >= MIN_STEP_PX || idx + 1 == series.points.len() {
                 let _ = write!(line, "{x:.2},{y:.2} ");
                 drawn = (x, y);
             }
@@ -205,10 +209,10 @@ impl<'a> Layout<'a> {
         );
     }
 
-    fn draw_mark(&self, svg: &mut String, series: &Series, mark: &Mark) {
-        let Some(point) = series.points.get(mark.point_idx) else { return };
-        let ((x, y), radius, color) = (self.to_px(*point), mark.radius_px, series.color);
-        let paint = match (mark.is_hollow, mark.is_muted) {
+    fn draw_marker(&self, svg: &mut String, series: &Series, marker: &Marker) {
+        let Some(point) = series.points.get(marker.point_idx) else { return };
+        let ((x, y), radius, color) = (self.to_px(*point), marker.radius_px, series.color);
+        let paint = match (marker.is_hollow, marker.is_muted) {
             (true, _) => format!("fill=\"white\" stroke=\"{color}\" stroke-width=\"1.5\""),
             (false, true) => format!("fill=\"{color}\" fill-opacity=\"0.25\""),
             (false, false) => format!("fill=\"{color}\""),

@@ -3,40 +3,41 @@ use std::fmt::Write as _;
 use super::Chart;
 use super::text::{escaped, text_width};
 
+/// Margin of title and legend, px.
 const MARGIN: f64 = 16.0;
-/// Height of title and legend over the charts of a [`grid`], px.
+/// Height of title and legend above the charts of a [`grid`], px.
 const HEADER: f64 = 58.0;
 
-/// What a name in the legend stands for.
+/// The symbol of a legend entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Symbol {
-    /// Dots.
+pub enum LegendSymbol {
+    /// A filled dot.
     Dot,
     /// A line.
     Line,
-    /// A hollow dot.
+    /// A ring.
     Ring,
 }
 
-/// A name in the legend.
+/// An entry of the legend.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
-    /// The name.
+pub struct LegendEntry {
+    /// Text.
     pub name: String,
-    /// Its color.
+    /// Color of the symbol, as in SVG.
     pub color: &'static str,
-    /// How it is drawn.
-    pub symbol: Symbol,
+    /// Symbol before the text.
+    pub symbol: LegendSymbol,
 }
 
-/// A drawing with a title; charts are added to it.
+/// A drawing with a title, to which a legend and charts are added.
 #[derive(Debug)]
 pub struct Figure {
     svg: String,
 }
 
 impl Figure {
-    /// An empty figure of a size in px.
+    /// A figure of a width and height in px, without charts.
     pub fn new([width, height]: [f64; 2], title: &str) -> Self {
         let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
@@ -48,15 +49,15 @@ impl Figure {
         Self { svg }
     }
 
-    /// Names with what they stand for, in one line under the title.
-    pub fn legend(&mut self, entries: &[Entry]) {
+    /// Adds the legend, one line below the title.
+    pub fn legend(&mut self, entries: &[LegendEntry]) {
         let mut x = MARGIN;
         for entry in entries {
             let (color, name) = (entry.color, escaped(&entry.name));
             let (mark, width) = match entry.symbol {
-                Symbol::Dot => (format!("<circle cx=\"{}\" cy=\"46\" r=\"4\" fill=\"{color}\"/>", x + 4.0), 8.0),
-                Symbol::Line => (format!("<path d=\"M{x} 46h26\" stroke=\"{color}\" stroke-width=\"3\"/>"), 26.0),
-                Symbol::Ring => (
+                LegendSymbol::Dot => (format!("<circle cx=\"{}\" cy=\"46\" r=\"4\" fill=\"{color}\"/>", x + 4.0), 8.0),
+                LegendSymbol::Line => (format!("<path d=\"M{x} 46h26\" stroke=\"{color}\" stroke-width=\"3\"/>"), 26.0),
+                LegendSymbol::Ring => (
                     format!(
                         "<circle cx=\"{}\" cy=\"46\" r=\"4\" fill=\"white\" stroke=\"{color}\" stroke-width=\"1.5\"/>",
                         x + 4.0
@@ -71,7 +72,7 @@ impl Figure {
         }
     }
 
-    /// Draws a chart into an area `[x, y, width, height]`, px.
+    /// Adds a chart in the area `[x, y, width, height]`, px from the upper left corner.
     pub fn chart(&mut self, area: [f64; 4], chart: &Chart) {
         chart.draw(&mut self.svg, area);
     }
@@ -83,8 +84,8 @@ impl Figure {
     }
 }
 
-/// Charts of one size in rows under a title and a legend.
-pub fn grid(title: &str, entries: &[Entry], charts: &[Chart], num_columns: usize, chart_px: [f64; 2]) -> String {
+/// A figure as SVG text: charts of size `chart_px` in rows of `num_columns`, below a title and a legend.
+pub fn grid(title: &str, entries: &[LegendEntry], charts: &[Chart], num_columns: usize, chart_px: [f64; 2]) -> String {
     let num_rows = charts.len().div_ceil(num_columns.max(1));
     let names = entries.iter().map(|entry| text_width(&entry.name, 12.0) + 52.0).sum::<f64>();
     let wanted = names.max(text_width(title, 17.0)) + 2.0 * MARGIN;

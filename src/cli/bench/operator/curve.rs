@@ -7,7 +7,7 @@ use super::statistics::Summary;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use cinesplat::operator::{SolveLevel, SolveSettings};
-use cinesplat::plot::{Axis, COLORS, Chart, Mark, Series, grid};
+use cinesplat::plot::{Axis, COLORS, Chart, Marker, Series, grid};
 use cinesplat::trajectory::Shot;
 
 /// Search budgets: a level and the factor on its tries.
@@ -96,13 +96,13 @@ impl Args {
 fn curve_svg(title: &str, outcomes: &[BudgetOutcome]) -> String {
     let point = |outcome: &BudgetOutcome| (Summary::of(&outcome.ms).median.max(1e-3), 100.0 * outcome.violated_frac());
     let name = |(level, factor): &(SolveLevel, f64)| format!("{} x {factor}", level.as_ref());
-    let dot = |(idx, budget)| Mark { word: name(budget), ..Mark::dot(idx, 3.5) };
-    let mut chart = Chart::new("", Axis::logarithmic("ms of search, median"), Axis::even("lines not met, %"));
+    let dot = |(idx, budget)| Marker { label: name(budget), ..Marker::dot(idx, 3.5) };
+    let mut chart = Chart::new("", Axis::logarithmic("ms of search, median"), Axis::linear("lines not met, %"));
     chart.series.push(Series {
         points: outcomes.iter().map(point).collect(),
         color: COLORS[2],
         line_px: 1.5,
-        marks: BUDGETS.iter().enumerate().map(dot).collect(),
+        markers: BUDGETS.iter().enumerate().map(dot).collect(),
     });
     grid(title, &[], &[chart], 1, [740.0, 420.0])
 }
