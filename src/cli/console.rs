@@ -1,4 +1,5 @@
 use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::failure::Failure;
 
@@ -17,17 +18,32 @@ pub(super) fn data_bytes(bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Writes a line to stderr. There is nobody left to tell when that fails.
+/// Whether notes and progress are suppressed, for the whole process.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Suppresses notes and progress; data and errors are written all the same.
+pub(super) fn set_quiet(is_quiet: bool) {
+    IS_QUIET.store(is_quiet, Ordering::Relaxed);
+}
+
+/// Writes a line to stderr, unless the program is quiet.
 pub(super) fn note(line: &str) {
+    if !IS_QUIET.load(Ordering::Relaxed) {
+        line_to_stderr(line);
+    }
+}
+
+/// A failed write is ignored: there is no other place to report it.
+fn line_to_stderr(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
 /// Writes an error and what to do about it to stderr.
 pub(super) fn error(failure: &Failure) {
-    note(&failure.to_string());
+    line_to_stderr(&failure.to_string());
 }
 
 /// Whether a person watches stderr.
 pub(super) fn is_watched() -> bool {
-    io::stderr().is_terminal()
+    io::stderr().is_terminal() && !IS_QUIET.load(Ordering::Relaxed)
 }

@@ -5,7 +5,9 @@
 
 mod bench;
 mod choice;
+mod completions;
 mod console;
+#[cfg(feature = "training")]
 mod dataset;
 mod eval;
 mod eval_folders;
@@ -24,6 +26,7 @@ mod reproduce;
 mod scene_args;
 mod shot_args;
 mod still;
+#[cfg(feature = "training")]
 mod train;
 mod usage;
 
@@ -42,6 +45,9 @@ use failure::Failure;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Print only data and errors: no notes, warnings or progress
+    #[arg(short, long, global = true)]
+    quiet: bool,
 }
 
 const EXAMPLES: &str = "\
@@ -75,11 +81,17 @@ enum Command {
     /// Compares two trajectories: absolute and relative pose error.
     Eval(eval::Args),
     /// Trains the director.
+    #[cfg(feature = "training")]
     Train(train::Args),
     /// Makes the director's training data.
+    #[cfg(feature = "training")]
     Dataset(dataset::Args),
     /// Measures what accuracy costs in time, and how cost grows with the work.
     Bench(bench::Args),
+    /// Print a completion script for a shell
+    Completions(completions::CompletionsArgs),
+    /// Print the manual page, or write one page per command
+    Man(completions::ManArgs),
 }
 
 impl Command {
@@ -93,9 +105,13 @@ impl Command {
             Self::Export(args) => args.run(),
             Self::Import(args) => args.run(),
             Self::Eval(args) => args.run(),
+            #[cfg(feature = "training")]
             Self::Train(args) => args.run(),
+            #[cfg(feature = "training")]
             Self::Dataset(args) => args.run(),
             Self::Bench(args) => args.run(),
+            Self::Completions(args) => args.run(),
+            Self::Man(args) => args.run(),
         }
     }
 }
@@ -103,7 +119,10 @@ impl Command {
 /// Runs the program with its arguments (the program's name first) and says how it ended.
 pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let ended = match Cli::try_parse_from(arguments) {
-        Ok(cli) => catch_faults(|| cli.command.run()),
+        Ok(cli) => {
+            console::set_quiet(cli.quiet);
+            catch_faults(|| cli.command.run())
+        }
         Err(refused) => usage::answer(&refused),
     };
     match ended {

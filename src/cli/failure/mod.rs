@@ -14,6 +14,7 @@ mod objects;
 mod pipeline;
 mod render;
 mod scene;
+#[cfg(feature = "training")]
 mod training;
 mod video;
 

@@ -1,0 +1,74 @@
+use std::path::PathBuf;
+
+use clap::CommandFactory;
+use clap_complete::Shell;
+
+use super::console;
+use super::failure::Failure;
+use super::outputs::{self, Overwrite};
+
+/// Print a completion script for a shell.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat completions bash > ~/.local/share/bash-completion/completions/cinesplat
+  cinesplat completions zsh > ~/.zfunc/_cinesplat")]
+pub(super) struct CompletionsArgs {
+    /// Shell that reads the script
+    #[arg(value_name = "SHELL")]
+    shell: Shell,
+}
+
+impl CompletionsArgs {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut super::Cli::command(), "cinesplat", &mut script);
+        console::data_bytes(&script)
+    }
+}
+
+/// Print the manual page, or write one page per command.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat man | man -l -
+  cinesplat man -o ~/.local/share/man/man1")]
+pub(super) struct ManArgs {
+    /// Folder for cinesplat.1, cinesplat-render.1 and so on, created where it is missing
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+}
+
+impl ManArgs {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let mut program = super::Cli::command();
+        program.build();
+        let Some(folder) = &self.output else { return console::data_bytes(&page(&program)?) };
+        let pages: Vec<(PathBuf, Vec<u8>)> = commands(&program)
+            .map(|command| Ok((folder.join(file_name(command)), page(command)?)))
+            .collect::<Result<_, Failure>>()?;
+        outputs::create_folder(folder)?;
+        pages.iter().try_for_each(|(path, _)| self.overwrite.check(path))?;
+        pages.iter().try_for_each(|(path, page)| self.overwrite.write(path, page))?;
+        console::note(&format!("{}: {} pages", folder.display(), pages.len()));
+        Ok(())
+    }
+}
+
+/// The program and its commands, without the built-in `help`.
+fn commands(program: &clap::Command) -> impl Iterator<Item = &clap::Command> {
+    std::iter::once(program).chain(program.get_subcommands().filter(|command| command.get_name() != "help"))
+}
+
+fn file_name(command: &clap::Command) -> String {
+    format!("{}.1", command.get_display_name().unwrap_or_else(|| command.get_name()))
+}
+
+fn page(command: &clap::Command) -> Result<Vec<u8>, Failure> {
+    let mut page = Vec::new();
+    let rendered = clap_mangen::Man::new(command.clone()).render(&mut page);
+    rendered.map_err(|error| Failure::fault(&format!("manual page: {error}")))?;
+    Ok(page)
+}
