@@ -76,7 +76,7 @@ impl Field {
             Self::Via => 1 + Pass::ALL.len(),
             Self::Amount => 4,
             Self::Speed => Speed::ALL.len(),
-            Self::Easing => 1 + Easing::SPOKEN.len(),
+            Self::Easing => 1 + Easing::VOCABULARY.len(),
             Self::ArriveSize | Self::DepartSize => 1 + ShotSize::VARIANTS.len(),
             Self::ArriveAngle | Self::DepartAngle => 1 + ShotAngle::VARIANTS.len(),
             Self::ArrivePart | Self::DepartPart => Part::ALL.len(),
@@ -240,7 +240,7 @@ fn encode_segment(segment: &Segment, grounding: &impl Grounding, code: &mut KeyC
     set(code, Field::EitherWay, u8::from(segment.either_way));
     set(code, Field::Via, segment.via.as_ref().map_or(0, |via| 1 + class_of(&Pass::ALL, via.how)));
     set(code, Field::Speed, class_of(&Speed::ALL, segment.speed));
-    set(code, Field::Easing, optional_class(Easing::SPOKEN, segment.easing));
+    set(code, Field::Easing, optional_class(Easing::VOCABULARY, segment.easing));
     set(code, Field::Returns, u8::from(segment.returns));
     let passed = segment.via.as_ref().map_or(&[][..], |via| &via.objects);
     point_at(passed, 2 * PLACES, grounding, code)?;
@@ -341,7 +341,7 @@ fn decode_segment(code: &KeyCode, grounding: &impl Grounding) -> Segment {
         },
         duration_secs: quantity(1).and_then(|place| grounding.seconds(place)),
         speed: Speed::ALL.get(usize::from(code.class(Field::Speed))).copied().unwrap_or_default(),
-        easing: optional(Easing::SPOKEN, code.class(Field::Easing)),
+        easing: optional(Easing::VOCABULARY, code.class(Field::Easing)),
         returns: code.class(Field::Returns) == 1,
         words: code.span.and_then(|tokens| grounding.bytes(tokens)),
     }

@@ -146,7 +146,7 @@ fn choices() -> Vec<String> {
     let moves = Move::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
     let sizes = ShotSize::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
     let angles = ShotAngle::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
-    let easings = Easing::SPOKEN.iter().map(|choice| choice.as_ref().to_owned());
+    let easings = Easing::VOCABULARY.iter().map(|choice| choice.as_ref().to_owned());
     let parts = Part::ALL.iter().map(|choice| format!("{choice:?}"));
     let passes = Pass::ALL.iter().map(|choice| format!("{choice:?}"));
     let speeds = Speed::ALL.iter().map(|choice| format!("{choice:?}"));

@@ -136,7 +136,7 @@ impl PoseTrack {
         let duration_secs = last.time_secs - start + if self.is_sampled() { 1.0 / fps } else { 0.0 };
         let keyframes = self.frames.iter().map(keyframe).collect();
         let scene = SceneRef { up: self.up, ..SceneRef::default() };
-        let shot = Shot { scene, ..Shot::of_keyframes([width, height], fps, duration_secs, keyframes) };
+        let shot = Shot { scene, ..Shot::from_keyframes([width, height], fps, duration_secs, keyframes) };
         Ok((shot.validated()?, self.assumptions()))
     }
 

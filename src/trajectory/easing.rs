@@ -1,15 +1,16 @@
-//! How the speed of a camera changes along a segment, by name.
+//! Named speed profiles of a segment.
 //!
-//! Four easings are what words ask for; the others are the common curves of animation programs (R. Penner, "Motion,
-//! Tweening, and Easing", 2002). Those of that family that leave the way between two keys (back, elastic, bounce) are not
-//! here, since a camera does not run backward, nor circ, whose speed has no bound at one end.
+//! Prompts can ask for four of them. The others are the common curves of animation programs (R. Penner, "Motion, Tweening,
+//! and Easing", 2002), without back, elastic and bounce, which overshoot or run backward, and without circ, whose speed is
+//! unbounded at one end.
 
 use std::f64::consts::{FRAC_PI_2, LN_2};
 
 /// How the camera's speed changes along the segment that starts at a key.
 ///
-/// `smooth`, `ease-in`, `ease-out` are a cruise at even speed with ramps, so that the middle of a move is steady.
-/// The others follow one curve from key to key: `in` starts from rest, `out` comes to rest, `in-out` both.
+/// `smooth`, `linear`, `ease-in` and `ease-out` cruise at even speed, with a ramp at each end that is at rest, so that the
+/// middle of a move is steady. The others follow one curve from key to key: `in` starts from rest, `out` comes to rest,
+/// `in-out` does both.
 #[derive(
     Debug,
     Clone,
@@ -28,73 +29,73 @@ use std::f64::consts::{FRAC_PI_2, LN_2};
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Easing {
-    /// Ramp up, even cruise, ramp down: at rest at both ends.
+    /// Ramp up, cruise, ramp down: at rest at both ends.
     Smooth,
-    /// Even speed, passing through both ends.
+    /// Even speed, at rest at neither end.
     Linear,
-    /// From rest up to even speed.
+    /// Ramp up, cruise: at rest at the start.
     EaseIn,
-    /// From even speed down to rest.
+    /// Cruise, ramp down: at rest at the end.
     EaseOut,
-    /// A quarter of a cosine, from rest.
+    /// A quarter period of a cosine, from rest.
     SineIn,
-    /// A quarter of a sine, to rest.
+    /// A quarter period of a sine, to rest.
     SineOut,
-    /// Half a cosine.
+    /// Half a period of a cosine, from rest to rest.
     SineInOut,
     /// Square of the time, from rest.
     QuadIn,
-    /// Square of the time left, to rest.
+    /// Square of the remaining time, to rest.
     QuadOut,
-    /// Two halves of a square.
+    /// Square of the time, then of the remaining time, from rest to rest.
     QuadInOut,
     /// Third power, from rest.
     CubicIn,
     /// Third power, to rest.
     CubicOut,
-    /// Third power, both.
+    /// Third power, from rest to rest.
     CubicInOut,
     /// Fourth power, from rest.
     QuartIn,
     /// Fourth power, to rest.
     QuartOut,
-    /// Fourth power, both.
+    /// Fourth power, from rest to rest.
     QuartInOut,
     /// Fifth power, from rest.
     QuintIn,
     /// Fifth power, to rest.
     QuintOut,
-    /// Fifth power, both.
+    /// Fifth power, from rest to rest.
     QuintInOut,
-    /// Ten doublings of speed, from rest.
+    /// The speed doubles ten times, from near rest.
     ExpoIn,
-    /// Ten halvings of speed, to rest.
+    /// The speed halves ten times, to near rest.
     ExpoOut,
-    /// Ten doublings and ten halvings.
+    /// The speed doubles ten times, then halves ten times.
     ExpoInOut,
 }
 
-/// Growth of a curve from rest, before it is turned around for its `out` and `in-out`.
+/// The `in` form of a family of curves; `out` and `in-out` are mirrored from it.
 #[derive(Debug, Clone, Copy)]
-enum Growth {
+enum CurveFamily {
     Sine,
     Power(i32),
     Expo,
 }
 
-/// Doublings of speed along the `expo` curves.
+/// Number of doublings of the speed along the `expo` curves.
 const EXPO_DOUBLINGS: f64 = 10.0;
 
-impl Growth {
-    /// Progress and its slope at a share of the time, both 0..=1 mapped to 0..=1.
+impl CurveFamily {
+    /// Fraction of the length after a fraction `x` of the time, both 0..=1, and its derivative.
     fn at(self, x: f64) -> (f64, f64) {
         match self {
             Self::Sine => (1.0 - (FRAC_PI_2 * x).cos(), FRAC_PI_2 * (FRAC_PI_2 * x).sin()),
             Self::Power(n) => (x.powi(n), f64::from(n) * x.powi(n - 1)),
             Self::Expo => {
-                // 2^(10 x) less its value at 0, so that it starts at 0 exactly.
-                let (grown, all) = ((EXPO_DOUBLINGS * x).exp2(), EXPO_DOUBLINGS.exp2() - 1.0);
-                ((grown - 1.0) / all, EXPO_DOUBLINGS * LN_2 * grown / all)
+                // 2^(10 x) minus its value at 0, so that the curve starts at exactly 0.
+                let (power, total) = ((EXPO_DOUBLINGS * x).exp2(), EXPO_DOUBLINGS.exp2() - 1.0);
+                ((power - 1.0) / total, EXPO_DOUBLINGS * LN_2 * power / total)
             }
         }
     }
@@ -108,38 +109,38 @@ enum Rest {
     Both,
 }
 
-/// The curve of an easing that follows one from key to key.
+/// The curve of an easing from key to key.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Curve {
-    growth: Growth,
+    family: CurveFamily,
     rest: Rest,
 }
 
 impl Curve {
-    /// Share of the way at a share of the time, and the slope there.
+    /// Fraction of the length after a fraction `x` of the time, both 0..=1, and its derivative.
     pub(super) fn at(self, x: f64) -> (f64, f64) {
-        let backward = |x: f64| {
-            let (left, slope) = self.growth.at(1.0 - x);
-            (1.0 - left, slope)
+        let mirrored = |x: f64| {
+            let (length, slope) = self.family.at(1.0 - x);
+            (1.0 - length, slope)
         };
         match self.rest {
-            Rest::Start => self.growth.at(x),
-            Rest::End => backward(x),
+            Rest::Start => self.family.at(x),
+            Rest::End => mirrored(x),
             Rest::Both if x < 0.5 => {
-                let (way, slope) = self.growth.at(2.0 * x);
-                (way / 2.0, slope)
+                let (length, slope) = self.family.at(2.0 * x);
+                (length / 2.0, slope)
             }
             Rest::Both => {
-                let (way, slope) = backward(2.0 * x - 1.0);
-                (0.5 + way / 2.0, slope)
+                let (length, slope) = mirrored(2.0 * x - 1.0);
+                (0.5 + length / 2.0, slope)
             }
         }
     }
 }
 
 impl Easing {
-    /// The easings that words ask for, and that a director knows.
-    pub const SPOKEN: &'static [Self] = &[Self::Smooth, Self::Linear, Self::EaseIn, Self::EaseOut];
+    /// The easings that a prompt can ask for: the vocabulary of the director.
+    pub const VOCABULARY: &'static [Self] = &[Self::Smooth, Self::Linear, Self::EaseIn, Self::EaseOut];
 
     /// Whether the camera is at rest where the segment starts.
     pub fn rests_at_start(self) -> bool {
@@ -157,7 +158,7 @@ impl Easing {
         }
     }
 
-    /// The easing made of a cruise and ramps that rests at the same ends.
+    /// The easing with a cruise and ramps that rests at the same ends.
     #[must_use]
     pub fn as_cruise(self) -> Self {
         match (self.rests_at_start(), self.rests_at_end()) {
@@ -168,29 +169,29 @@ impl Easing {
         }
     }
 
-    /// The curve that the speed follows; `None` for a cruise with ramps.
+    /// The curve of the easing; `None` for a cruise with ramps.
     pub(super) fn curve(self) -> Option<Curve> {
-        let (growth, rest) = match self {
+        let (family, rest) = match self {
             Self::Smooth | Self::Linear | Self::EaseIn | Self::EaseOut => return None,
-            Self::SineIn => (Growth::Sine, Rest::Start),
-            Self::SineOut => (Growth::Sine, Rest::End),
-            Self::SineInOut => (Growth::Sine, Rest::Both),
-            Self::QuadIn => (Growth::Power(2), Rest::Start),
-            Self::QuadOut => (Growth::Power(2), Rest::End),
-            Self::QuadInOut => (Growth::Power(2), Rest::Both),
-            Self::CubicIn => (Growth::Power(3), Rest::Start),
-            Self::CubicOut => (Growth::Power(3), Rest::End),
-            Self::CubicInOut => (Growth::Power(3), Rest::Both),
-            Self::QuartIn => (Growth::Power(4), Rest::Start),
-            Self::QuartOut => (Growth::Power(4), Rest::End),
-            Self::QuartInOut => (Growth::Power(4), Rest::Both),
-            Self::QuintIn => (Growth::Power(5), Rest::Start),
-            Self::QuintOut => (Growth::Power(5), Rest::End),
-            Self::QuintInOut => (Growth::Power(5), Rest::Both),
-            Self::ExpoIn => (Growth::Expo, Rest::Start),
-            Self::ExpoOut => (Growth::Expo, Rest::End),
-            Self::ExpoInOut => (Growth::Expo, Rest::Both),
+            Self::SineIn => (CurveFamily::Sine, Rest::Start),
+            Self::SineOut => (CurveFamily::Sine, Rest::End),
+            Self::SineInOut => (CurveFamily::Sine, Rest::Both),
+            Self::QuadIn => (CurveFamily::Power(2), Rest::Start),
+            Self::QuadOut => (CurveFamily::Power(2), Rest::End),
+            Self::QuadInOut => (CurveFamily::Power(2), Rest::Both),
+            Self::CubicIn => (CurveFamily::Power(3), Rest::Start),
+            Self::CubicOut => (CurveFamily::Power(3), Rest::End),
+            Self::CubicInOut => (CurveFamily::Power(3), Rest::Both),
+            Self::QuartIn => (CurveFamily::Power(4), Rest::Start),
+            Self::QuartOut => (CurveFamily::Power(4), Rest::End),
+            Self::QuartInOut => (CurveFamily::Power(4), Rest::Both),
+            Self::QuintIn => (CurveFamily::Power(5), Rest::Start),
+            Self::QuintOut => (CurveFamily::Power(5), Rest::End),
+            Self::QuintInOut => (CurveFamily::Power(5), Rest::Both),
+            Self::ExpoIn => (CurveFamily::Expo, Rest::Start),
+            Self::ExpoOut => (CurveFamily::Expo, Rest::End),
+            Self::ExpoInOut => (CurveFamily::Expo, Rest::Both),
         };
-        Some(Curve { growth, rest })
+        Some(Curve { family, rest })
     }
 }

@@ -3,47 +3,47 @@ use glam::DVec3;
 use super::{ClearanceProof, Easing, Move, ShotAngle, ShotSize, TrajectoryError};
 use cinesplat_geometry::Pose;
 
-/// A shot: keyframes with what they are for. The in-memory twin of `shot.json`, version 1.
+/// A shot: keyframes, their purpose, and the report. The in-memory form of `shot.json`, version 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
-    /// The scene it was made for.
+    /// The scene of the shot.
     pub scene: SceneRef,
-    /// The sentence, empty for an imported path.
+    /// The prompt; empty for an imported path.
     pub prompt: String,
-    /// Seed of every random choice.
+    /// Seed of the random choices.
     pub seed: u64,
-    /// The weights that directed it, if any.
+    /// The director's weights; `None` for a shot without a director.
     pub model: Option<ModelRef>,
     /// Frame width in pixels.
     pub width: u32,
     /// Frame height in pixels.
     pub height: u32,
-    /// Frames a second.
+    /// Frames per second.
     pub fps: f64,
     /// Length of the film.
     pub duration_secs: f64,
-    /// Keys in order of time.
+    /// Keys in order of time, at least one.
     pub keyframes: Vec<Keyframe>,
-    /// Effects that the words or a person asked for.
+    /// Effects that the prompt or a person asked for.
     pub effects: Vec<EffectRequest>,
-    /// What was asked for and what came of it, clause by clause.
+    /// One line per clause of the prompt: requested and achieved values.
     pub report: Vec<ReportLine>,
-    /// What was proved about the path's distance to matter; `None` for a path that was not looked at, or changed since.
+    /// Proven distance of the path to matter; `None` if it was not examined, or was edited since.
     pub clearance: Option<ClearanceProof>,
 }
 
 /// Which scene a shot belongs to.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SceneRef {
-    /// Path as written in the file (relative to it), or empty.
+    /// Path as written in the shot's file, relative to it; may be empty.
     pub path: String,
-    /// SHA-256 of the scene file in hex, or empty.
+    /// SHA-256 of the scene file in hex; may be empty.
     pub sha256: String,
-    /// World up, unit length; `None` when the file does not say.
+    /// World up, unit length; `None` if unknown.
     pub up: Option<DVec3>,
 }
 
-/// Which weights made a shot.
+/// The weights of a director.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ModelRef {
     /// Name of the model.
@@ -52,72 +52,72 @@ pub struct ModelRef {
     pub sha256: String,
 }
 
-/// The camera at one moment.
+/// The camera at one moment, and the purpose of the key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Keyframe {
-    /// When.
+    /// Time from the start of the shot.
     pub time_secs: f64,
-    /// Where, `world_from_camera`.
+    /// `world_from_camera`.
     pub pose: Pose,
     /// Vertical field of view.
     pub fov_y_rad: f64,
     /// Distance of sharpest focus along the view axis, scene units; `None` without depth of field.
     pub focus_distance: Option<f64>,
-    /// Shape of the segment that starts here.
+    /// Speed profile of the segment that starts here.
     pub easing: Easing,
     /// Whether the camera jumps from the key before to this one.
     pub cut: bool,
-    /// What the key is for.
+    /// Purpose of the key.
     pub intent: Option<Intent>,
 }
 
-/// What a key shows and what the segment that starts at it does.
+/// The purpose of a key, and of the segment that starts at it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Intent {
-    /// Ids of the objects it is about, the main one first.
+    /// Ids of the subjects, the main one first.
     pub subjects: Vec<u32>,
-    /// How large the main subject is.
+    /// Size of the main subject in the frame.
     pub size: Option<ShotSize>,
     /// The move of the segment that starts here.
     pub movement: Option<Move>,
-    /// From how high the subject is seen.
+    /// Height from which the camera sees the subject.
     pub angle: Option<ShotAngle>,
-    /// Byte range of the prompt this comes from.
+    /// Byte range of the prompt that asks for it.
     pub words: Option<[usize; 2]>,
-    /// For orbits and arcs: the point that the upright axis of the circle goes through, world. With it the path
-    /// between this key and the next is a true circle; JSON key `pivot`, an addition to version 1.
+    /// For orbits and arcs a point on the upright axis of the circle, world. With it the path from this key to the next is
+    /// a true circle. JSON key `pivot`, an addition to version 1.
     pub pivot: Option<DVec3>,
 }
 
-/// An effect called for.
+/// A requested effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectRequest {
     /// Name, as in `--effects`.
     pub kind: String,
-    /// Why it is there, for a person to read.
+    /// Reason, for a person to read.
     pub because: String,
-    /// Further settings, kept as they were read.
+    /// Further settings as names and values.
     pub settings: Vec<(String, f64)>,
 }
 
-/// One line of the report: what a clause wanted and what it got.
+/// One line of the report: the requested and the achieved value of a clause.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportLine {
-    /// The clause, in words of the prompt.
+    /// The clause, in the words of the prompt.
     pub clause: String,
-    /// What it means as a number.
+    /// The request as a number or range, in words.
     pub wanted: String,
-    /// What the shot does.
+    /// The achieved value; NaN if it was not measured.
     pub got: f64,
-    /// Whether that is as wanted.
+    /// Whether the achieved value satisfies the request.
     pub met: bool,
-    /// What gave way and why, or empty.
+    /// What was compromised and why; may be empty.
     pub note: String,
 }
 
 impl Shot {
-    /// A shot of keyframes alone: of no scene in particular, without a prompt, nothing decided or reported.
-    pub fn of_keyframes(size_px: [u32; 2], fps: f64, duration_secs: f64, keyframes: Vec<Keyframe>) -> Self {
+    /// A shot of keyframes alone, without scene, prompt, effects or report.
+    pub fn from_keyframes(size_px: [u32; 2], fps: f64, duration_secs: f64, keyframes: Vec<Keyframe>) -> Self {
         let [width, height] = size_px;
         Self {
             scene: SceneRef::default(),
@@ -135,17 +135,17 @@ impl Shot {
         }
     }
 
-    /// Number of frames of the film: duration times rate, at least one. Frame `k` is the camera at `k / fps`.
+    /// Number of frames of the film: duration times frame rate, rounded, at least one.
     pub fn num_frames(&self) -> usize {
         ((self.duration_secs * self.fps).round() as usize).max(1)
     }
 
-    /// Time of frame `frame_idx`.
+    /// Time of a frame: `frame_idx / fps`.
     pub fn frame_time_secs(&self, frame_idx: usize) -> f64 {
         frame_idx as f64 / self.fps
     }
 
-    /// The shot, once all its numbers are usable: the one check at the border between files and the engine.
+    /// The shot itself, if every number is in range. Every shot from a file passes this check before the engine uses it.
     ///
     /// # Errors
     /// [`TrajectoryError`] naming the first keyframe and field at fault.
@@ -154,7 +154,7 @@ impl Shot {
         for (index, key) in self.keyframes.iter().enumerate() {
             check_keyframe(index, key)?;
             if let Some(previous) = index.checked_sub(1).and_then(|i| self.keyframes.get(i)) {
-                // Written so that NaN fails.
+                // NaN fails.
                 if !(key.time_secs > previous.time_secs) {
                     let (found, previous) = (key.time_secs, previous.time_secs);
                     return Err(TrajectoryError::TimesNotIncreasing { index, found, previous });

@@ -1,7 +1,6 @@
-//! The names of moves, shot sizes and angles that prompts, shots and reports use.
-use strum::VariantArray;
+//! The names of moves, shot sizes and angles in prompts, shots and reports.
 
-/// What the camera does between two keys. Definitions: `docs` of the operator's move files.
+/// The move of the camera between two keys. Left, right and up are those of the camera operator.
 #[derive(
     Debug,
     Clone,
@@ -30,57 +29,57 @@ pub enum Move {
     TiltUp,
     /// Pitch down, position fixed.
     TiltDown,
-    /// Turn clockwise about the view axis: the right side dips.
+    /// Roll clockwise about the view axis: the camera's right side dips.
     RollCw,
-    /// Turn counter-clockwise about the view axis.
+    /// Roll counter-clockwise about the view axis.
     RollCcw,
-    /// Toward the subject, no turn.
+    /// Toward the subject; no turn, no zoom.
     PushIn,
-    /// Away from the subject, no turn.
+    /// Away from the subject; no turn, no zoom.
     PullOut,
-    /// Sideways to the camera's left, no turn.
+    /// To the camera's left; no turn.
     TruckLeft,
-    /// Sideways to the camera's right, no turn.
+    /// To the camera's right; no turn.
     TruckRight,
-    /// Up along the world's up, no turn.
+    /// Along the world's up; no turn.
     PedestalUp,
-    /// Down along the world's up, no turn.
+    /// Against the world's up; no turn.
     PedestalDown,
-    /// Up, the aim staying on the subject.
+    /// Up, aimed at the subject.
     CraneUp,
-    /// Down, the aim staying on the subject.
+    /// Down, aimed at the subject.
     CraneDown,
-    /// Around the subject, the camera travelling to its left (clockwise from above).
+    /// Around the subject to the camera's left: clockwise seen from above.
     OrbitLeft,
-    /// Around the subject, the camera travelling to its right (counter-clockwise from above).
+    /// Around the subject to the camera's right: counter-clockwise seen from above.
     OrbitRight,
     /// An orbit to the left of a stated or smaller angle.
     ArcLeft,
     /// An orbit to the right of a stated or smaller angle.
     ArcRight,
-    /// The lens alone narrows.
+    /// The field of view narrows; position and rotation are fixed.
     ZoomIn,
-    /// The lens alone widens.
+    /// The field of view widens; position and rotation are fixed.
     ZoomOut,
-    /// Toward the subject while the lens widens, its height in the frame constant.
+    /// Toward the subject while the field of view widens, with the subject's height in the frame constant.
     DollyZoomIn,
-    /// Away from the subject while the lens narrows, its height in the frame constant.
+    /// Away from the subject while the field of view narrows, with the subject's height in the frame constant.
     DollyZoomOut,
-    /// From one framing to the next, keeping the subject in the frame.
+    /// From one framing to the next with the subject in the frame.
     Follow,
-    /// Along a free path ahead, through gaps.
+    /// Forward along a collision-free path, through gaps.
     FlyThrough,
-    /// From where the subject is hidden or out of frame to where it shows.
+    /// From where the subject is hidden or out of frame to where it is visible.
     Reveal,
-    /// A pan fast enough to smear.
+    /// A pan fast enough for motion blur.
     WhipPan,
-    /// The focus distance alone changes.
+    /// Only the focus distance changes.
     RackFocus,
-    /// Small unsteady motion about a pose.
+    /// Small random motion about a pose.
     Handheld,
 }
 
-/// How large the subject stands in the frame: its projected height over the frame's.
+/// Size of the subject in the frame: its projected height over the frame's height.
 #[derive(
     Debug,
     Clone,
@@ -103,20 +102,20 @@ pub enum ShotSize {
     ExtremeCloseUp,
     /// 1.0 to 1.6 frame heights.
     CloseUp,
-    /// 0.8 to 1.0.
+    /// 0.8 to 1.0 frame heights.
     MediumCloseUp,
-    /// 0.6 to 0.8.
+    /// 0.6 to 0.8 frame heights.
     Medium,
-    /// 0.45 to 0.6.
+    /// 0.45 to 0.6 frame heights.
     MediumLong,
-    /// 0.25 to 0.45.
+    /// 0.25 to 0.45 frame heights.
     Long,
-    /// Below 0.25.
+    /// Below 0.25 frame heights.
     ExtremeLong,
 }
 
 impl ShotSize {
-    /// Band of projected height over frame height, `(low, high)`; table 4.1 of the cinematography notes.
+    /// Range `(low, high)` of the projected height over the frame's height.
     pub fn height_band_frac(self) -> (f64, f64) {
         match self {
             Self::ExtremeCloseUp => (1.6, 3.0),
@@ -128,15 +127,9 @@ impl ShotSize {
             Self::ExtremeLong => (0.05, 0.25),
         }
     }
-
-    /// The size whose band holds a projected height over frame height.
-    pub fn of_height_frac(height_frac: f64) -> Self {
-        let holds = |size: &&Self| height_frac >= size.height_band_frac().0;
-        Self::VARIANTS.iter().find(holds).copied().unwrap_or(Self::ExtremeLong)
-    }
 }
 
-/// From how high the camera sees the subject.
+/// Height from which the camera sees the subject, by the pitch of its view axis.
 #[derive(
     Debug,
     Clone,
@@ -155,14 +148,14 @@ impl ShotSize {
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum ShotAngle {
-    /// From above, pitch below -40 degrees.
+    /// Steeply down: pitch below -40 degrees.
     Overhead,
-    /// Looking down, pitch -10 to -40 degrees.
+    /// Down: pitch -40 to -10 degrees.
     High,
-    /// Level, pitch within 10 degrees.
+    /// Level: pitch within 10 degrees of the horizon.
     EyeLevel,
-    /// Looking up, pitch 10 to 40 degrees.
+    /// Up: pitch 10 to 40 degrees.
     Low,
-    /// From the ground, pitch above 40 degrees.
+    /// Steeply up, from the ground: pitch above 40 degrees.
     Worm,
 }

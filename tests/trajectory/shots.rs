@@ -2,25 +2,24 @@
 
 use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 use glam::DVec3;
-use strum::VariantArray;
+use strum::{VariantArray, VariantNames};
 
 use super::{key, shot};
 
 #[test]
-fn names_round_trip() {
-    assert!(Move::VARIANTS.iter().all(|&m| m.as_ref().parse() == Ok(m)));
-    assert!(ShotSize::VARIANTS.iter().all(|&s| s.as_ref().parse() == Ok(s)));
-    assert!(ShotAngle::VARIANTS.iter().all(|&a| a.as_ref().parse() == Ok(a)));
-    assert!(Easing::VARIANTS.iter().all(|&e| e.as_ref().parse() == Ok(e)));
-    assert_eq!("teleport".parse::<Move>().ok(), None);
+fn names_are_those_of_the_file_format() {
+    insta::assert_snapshot!(<Move as VariantNames>::VARIANTS.join(" "), @"static pan-left pan-right tilt-up tilt-down roll-cw roll-ccw push-in pull-out truck-left truck-right pedestal-up pedestal-down crane-up crane-down orbit-left orbit-right arc-left arc-right zoom-in zoom-out dolly-zoom-in dolly-zoom-out follow fly-through reveal whip-pan rack-focus handheld");
+    insta::assert_snapshot!(<ShotSize as VariantNames>::VARIANTS.join(" "), @"extreme-close-up close-up medium-close-up medium medium-long long extreme-long");
+    insta::assert_snapshot!(<ShotAngle as VariantNames>::VARIANTS.join(" "), @"overhead high eye-level low worm");
+    insta::assert_snapshot!(Easing::VOCABULARY.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(" "), @"smooth linear ease-in ease-out");
 }
 
 #[test]
-fn sizes_tile_the_heights() {
-    assert_eq!(ShotSize::of_height_frac(2.0), ShotSize::ExtremeCloseUp);
-    assert_eq!(ShotSize::of_height_frac(1.0), ShotSize::CloseUp);
-    assert_eq!(ShotSize::of_height_frac(0.7), ShotSize::Medium);
-    assert_eq!(ShotSize::of_height_frac(0.01), ShotSize::ExtremeLong);
+fn sizes_cover_every_height_once() {
+    for pair in <ShotSize as VariantArray>::VARIANTS.windows(2) {
+        let (larger, smaller) = (pair[0].height_band_frac(), pair[1].height_band_frac());
+        assert!(smaller.0 < smaller.1 && smaller.1.total_cmp(&larger.0).is_eq(), "{} {}", pair[0], pair[1]);
+    }
 }
 
 #[test]

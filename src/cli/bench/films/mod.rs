@@ -115,7 +115,7 @@ fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot
     let Intrinsics { width, height, .. } = camera.intrinsics;
     let keyframes = vec![key(0.0, 0.0), key(duration_secs, travel)];
     let scene = SceneRef { up: Some(scene.up), ..SceneRef::default() };
-    Shot { scene, ..Shot::of_keyframes([width, height], RATE_FPS, duration_secs, keyframes) }
+    Shot { scene, ..Shot::from_keyframes([width, height], RATE_FPS, duration_secs, keyframes) }
 }
 
 fn parse_way(text: &str) -> Result<f64, String> {

@@ -72,7 +72,7 @@ fn authored() -> Result<Vec<Check>, Failure> {
 
 fn shot(up: DVec3, keyframes: Vec<Keyframe>, duration_secs: f64) -> Shot {
     let scene = SceneRef { up: Some(up), ..SceneRef::default() };
-    Shot { scene, ..Shot::of_keyframes([1280, 720], 30.0, duration_secs, keyframes) }
+    Shot { scene, ..Shot::from_keyframes([1280, 720], 30.0, duration_secs, keyframes) }
 }
 
 fn key(time_secs: f64, pose: Pose, intent: Option<Intent>) -> Keyframe {
