@@ -1,53 +1,119 @@
-//! Camera-trajectory generation for video: a Gaussian-splat scene and a sentence become a camera move, filmed.
+//! Camera trajectories for video: a Gaussian-splat scene and a sentence become a camera move, filmed.
+//!
+//! # A film
+//!
+//! ```no_run
+//! use std::ops::ControlFlow;
+//! use std::path::Path;
+//!
+//! use cinesplat::director::Director;
+//! use cinesplat::pipeline::{self, DirectSettings, FilmSettings};
+//! use cinesplat::render::Renderer;
+//! use cinesplat::scene::LoadOptions;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let opened = pipeline::open_scene(Path::new("room.spz"), &LoadOptions::default())?;
+//! let (scene, objects) = opened.with_objects(Some(Path::new("objects.json")))?;
+//! let director = Director::embedded()?;
+//! let prompt = "push in on the lamp, then orbit it to the left";
+//! let directed = pipeline::direct(&scene, &objects, prompt, &director, &DirectSettings::default())?;
+//! for line in directed.shot.report.iter().filter(|line| !line.met) {
+//!     eprintln!("{}: wanted {}, got {}", line.clause, line.wanted, line.got);
+//! }
+//! let (renderer, settings) = (Renderer::new(&scene.gaussians), FilmSettings::for_scene(&scene));
+//! let mut watch = |_progress| ControlFlow::Continue(());
+//! pipeline::film(&renderer, &directed.shot, Path::new("lamp.mp4"), &settings, &mut watch)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Stills
+//!
+//! ```no_run
+//! use cinesplat::files::Existing;
+//! use cinesplat::geometry::{Camera, Intrinsics, Pose};
+//! use cinesplat::render::{RenderSettings, Renderer};
+//! use cinesplat::scene::{LoadOptions, load};
+//! use cinesplat::video::write_png;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scene = load("room.spz".as_ref(), &LoadOptions::default())?;
+//! let bounds = scene.bounds();
+//! let forward = scene.up.any_orthonormal_vector();
+//! let eye = bounds.center() - forward * 0.5 * bounds.size();
+//! let pose = Pose::facing(eye, forward, scene.up, None);
+//! let camera = Camera { pose, intrinsics: Intrinsics::from_fov_y(1280, 720, 50_f64.to_radians()) };
+//! let frame = Renderer::new(&scene.gaussians).render(&camera, &RenderSettings::for_scene(&scene))?;
+//! write_png("still.png".as_ref(), &frame.to_rgb8(), [1280, 720], Existing::Keep)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Trajectory error
+//!
+//! ```no_run
+//! use cinesplat::evaluation::{Align, EvalSettings, Trajectory, evaluate};
+//! use cinesplat::export;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let read = |path: &str| export::read(path.as_ref(), None).map(|file| Trajectory::from(&file.track));
+//! let (reference, estimate) = (read("groundtruth.tum")?, read("estimate.tum")?);
+//! let settings = EvalSettings { align: Align::Se3, ..EvalSettings::default() };
+//! let evaluation = evaluate(&reference, &estimate, &settings)?;
+//! println!("rmse {:.4} over {} poses", evaluation.statistics.rmse, evaluation.matches.reference.len());
+//! # Ok(())
+//! # }
+//! ```
 //!
 //! # Bird's eye
 //!
 //! ```text
-//! scene file ── scene ──► objects ──► director ──► operator ──► trajectory ──► render ──► video
-//!               (load)    (clouds)    (words to    (exact,      (path)         (frames)   (film)
-//! sentence ───────────────────────────► program)    safe keys)
+//! scene file ── scene ──► objects ──► language, director ──► operator ──► trajectory ──► render ──► video
+//!               (load)    (clouds)    (words to program)     (exact,      (path)         (frames)   (film)
+//! sentence ──────────────────────────►                       safe keys)
 //! ```
 //!
-//! [`scene`] reads Gaussians and finds up. [`objects`] finds or reads what can be named and makes each a sparse cloud by
-//! multi-view alpha shapes. [`director`] turns words and clouds into a program of steps and suggested cameras with a
-//! small network. [`operator`] makes the program exact: keyframes that do what each move means, clear of matter, with a
-//! report of what was wanted and got. [`trajectory`] is the path through keyframes. [`render`] draws it, [`video`]
-//! writes it. [`pipeline`] strings these together for a program that uses the library; [`cli`] is the command line.
-//!
-//! # Entry points
-//!
-//! [`scene::load`], [`pipeline::direct`] (sentence to shot), [`pipeline::film`] (shot to video),
-//! [`export::write`] and [`export::read`] (shots and other tools' paths), [`evaluation::evaluate`] (trajectory error).
+//! [`scene`] reads Gaussians and finds the up axis. [`objects`] finds or reads what can be named and makes each a sparse
+//! cloud by multi-view alpha shapes. [`language`] links the words of a prompt to objects and quantities. [`director`]
+//! turns words and clouds into a program of steps and suggested cameras with a small network. [`operator`] makes the
+//! program exact: keyframes that do what each move means, clear of matter, with a report of what was wanted and got.
+//! [`trajectory`] is the path through keyframes. [`render`] draws it, [`video`] writes it. [`pipeline`] composes these
+//! stages.
 //!
 //! # Map
 //!
-//! Data goes one way, from scene and words to video. A folder imports only from rows below its own; two on one row do
-//! not know each other. `tests/architecture.rs` holds this table.
+//! Data goes one way, from scene and words to video. Every row is a crate of its own (`cinesplat-render` and so on), to be
+//! used alone; this crate re-exports all of them. A crate depends only on rows below its own.
 //!
-//! | row | folders |
-//! |---|---|
-//! | command line | [`cli`] |
-//! | composition | [`pipeline`] |
-//! | words | [`director`]: the only one with candle and tokenizers |
-//! | exactness | [`operator`] |
-//! | measures | [`evaluation`] |
-//! | effects | [`lens`] |
-//! | things | [`objects`] |
-//! | pictures | [`render`], [`video`] (the only one with ffmpeg) |
-//! | files | [`scene`], [`export`] |
-//! | paths | [`trajectory`] |
-//! | frames | [`geometry`]; charts: [`plot`] |
+//! | row | crates | depends on |
+//! |---|---|---|
+//! | composition | [`pipeline`], in this crate | all below but training |
+//! | training | `training` (feature `training`): sampler of sentences, dataset, training, exams | candle |
+//! | network | [`director`]: text encoder, Q-former, decoder | candle, tokenizers |
+//! | words | [`language`]: names, quantities, the notation of programs | |
+//! | exactness | [`operator`]: framing, visibility, clearance | |
+//! | measures | [`evaluation`]: trajectory error, motion tags, framing, smoothness | |
+//! | effects | [`lens`]: effects that a shot calls for | |
+//! | generated scenes | [`synth`] | |
+//! | things | [`objects`]: views, masks, alpha shapes, clouds | |
+//! | pictures | [`render`], [`video`] (feature `video`) | FFmpeg, in `video` alone |
+//! | formats | [`scene`]: Gaussians; [`export`]: camera paths | |
+//! | paths | [`trajectory`]: keyframes, splines, timing | |
+//! | ground | [`geometry`]: poses, cameras; [`plot`]: charts as SVG; [`files`]: whole or absent | |
+//!
+//! The program `cinesplat` is built on this crate with the feature `cli`. `tests/architecture.rs` holds the table.
 //!
 //! # Invariants
 //!
 //! - The scene file's world is never changed. Cameras are OpenCV (x right, y down, z forward), poses are
 //!   `world_from_camera` in `f64`. Axes are flipped only in [`geometry::frames`] and [`export`].
-//! - Nothing below [`cli`] prints, reads the environment or exits. [`geometry`], [`trajectory`], [`operator`] and
-//!   [`evaluation`] never do IO.
+//! - No library prints, reads the environment or exits. [`geometry`], [`trajectory`], [`operator`] and [`evaluation`]
+//!   never do IO.
 //! - Core types are not `Serialize`: a file format is a file in [`export`] or [`objects`].
 //! - The same inputs, seed and version give the same bytes on any number of threads: no parallel float sums, no
 //!   iteration over hash maps, every random number from a seed.
 //! - A shot is checked once, at the border ([`trajectory::Shot::validated`]).
+//! - No file is overwritten unless the caller says so ([`files::Existing`]); a file that bears its name is whole.
 
 pub use cinesplat_director as director;
 pub use cinesplat_evaluation as evaluation;

@@ -7,10 +7,10 @@ use super::choice::choice;
 use super::console;
 use super::failure::Failure;
 use cinesplat::export::cameras_json::FilterChoice;
-use cinesplat::objects::{self, FindSettings, ObjectSet};
+use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
-use cinesplat::scene::{LoadOptions, Scene, SplatFilter, UpSource};
+use cinesplat::scene::{LoadOptions, Scene, SplatFilter};
 
 /// Which scene, and what the caller knows better than its file.
 #[derive(Debug, Clone, Args)]
@@ -58,25 +58,12 @@ impl SceneArgs {
     /// Opens the scene with its objects: of `file`, of the scene itself, or found. An objects file may correct the up
     /// axis, `--up` goes before both.
     pub(super) fn open_with_objects(&self, file: Option<&Path>) -> Result<(Scene, ObjectSet), Failure> {
-        let OpenedScene { mut scene, objects } = self.open()?;
-        let set = match (file, objects) {
-            (Some(file), _) => {
-                let read = objects::read(file, &scene)?;
-                if let (Some(up), None) = (read.up, self.options.up) {
-                    (scene.up, scene.up_source) = (up, UpSource::ObjectsFile);
-                }
-                read.set
-            }
-            (None, Some(known)) => known,
-            (None, None) if !scene.gaussians.ids.is_empty() => {
-                objects::from_labels(&scene, scene.gaussians.ids.clone())
-            }
-            (None, None) => {
-                let found = objects::find(&scene, &FindSettings::default());
-                console::note(&format!("objects: {} found (cinesplat objects lists them)", found.objects.len()));
-                found
-            }
-        };
+        let opened = self.open()?;
+        let is_searched = file.is_none() && opened.needs_search();
+        let (scene, set) = opened.with_objects(file)?;
+        if is_searched {
+            console::note(&format!("objects: {} found (cinesplat objects lists them)", set.objects.len()));
+        }
         print_up(&scene);
         Ok((scene, set))
     }

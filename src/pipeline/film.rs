@@ -9,6 +9,7 @@ use super::error::PipelineError;
 use super::frames::FrameRange;
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{RenderSettings, Renderer, Rgb8Frame};
+use cinesplat_scene::Scene;
 use cinesplat_trajectory::{CameraPath, Shot};
 use cinesplat_video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
 
@@ -26,6 +27,19 @@ pub struct FilmSettings {
     pub frames: FrameRange,
     /// Where a contact sheet of the film goes.
     pub sheet: Option<PathBuf>,
+}
+
+impl FilmSettings {
+    /// The settings that suit a scene: all frames at `standard` quality, H.264 that is hard to tell from the frames, no
+    /// contact sheet.
+    pub fn for_scene(scene: &Scene) -> Self {
+        Self {
+            render: RenderSettings::for_scene(scene),
+            video: VideoSettings::default(),
+            frames: FrameRange::default(),
+            sheet: None,
+        }
+    }
 }
 
 /// How far a film is.

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use super::error::PipelineError;
-use cinesplat_objects::{Object, ObjectSet};
+use cinesplat_objects::{FindSettings, Object, ObjectSet};
 use cinesplat_scene::{LoadOptions, Scene, UpSource};
 use cinesplat_synth::{SynthKind, SynthScene, SynthSettings};
 
@@ -12,6 +12,39 @@ pub struct OpenedScene {
     pub scene: Scene,
     /// Exact objects of a generated scene; `None` for one from a file.
     pub objects: Option<ObjectSet>,
+}
+
+impl OpenedScene {
+    /// Whether [`OpenedScene::with_objects`] has to search the scene, which takes seconds.
+    pub fn needs_search(&self) -> bool {
+        self.objects.is_none() && self.scene.gaussians.ids.is_empty()
+    }
+
+    /// The scene with its objects: those of an objects file, else those that come with the scene, else those that a
+    /// search finds.
+    ///
+    /// The up axis of an objects file replaces that of the scene, unless [`LoadOptions::up`] gave one.
+    ///
+    /// # Errors
+    /// [`PipelineError::Objects`] for an objects file that cannot be used.
+    pub fn with_objects(self, file: Option<&Path>) -> Result<(Scene, ObjectSet), PipelineError> {
+        let Self { mut scene, objects } = self;
+        let set = match (file, objects) {
+            (Some(file), _) => {
+                let read = cinesplat_objects::read(file, &scene)?;
+                if let Some(up) = read.up.filter(|_| scene.up_source != UpSource::Flag) {
+                    (scene.up, scene.up_source) = (up, UpSource::ObjectsFile);
+                }
+                read.set
+            }
+            (None, Some(known)) => known,
+            (None, None) if !scene.gaussians.ids.is_empty() => {
+                cinesplat_objects::from_labels(&scene, scene.gaussians.ids.clone())
+            }
+            (None, None) => cinesplat_objects::find(&scene, &FindSettings::default()),
+        };
+        Ok((scene, set))
+    }
 }
 
 /// Opens a scene by name: a file, the folder of an unbundled SOG, or `synth:room:SEED`, `synth:tabletop:SEED` and

@@ -62,4 +62,9 @@ pub use settings::{Accuracy, ColorClamp, Limits, Precision, Quality, RenderSetti
 pub use stats::{RenderStats, StageTimes, WorkCounts};
 pub use weights::PixelWeight;
 
+/// Poses and cameras.
+pub use cinesplat_geometry as geometry;
+/// The scenes that are rendered.
+pub use cinesplat_scene as scene;
+
 use view::View;
