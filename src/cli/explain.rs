@@ -3,7 +3,7 @@ use strum::VariantArray;
 
 use cinesplat::lens::{Decision, Effect};
 use cinesplat::objects::ObjectSet;
-use cinesplat::operator::{Amount, Framing, Part, Pass, Speed, Step};
+use cinesplat::operator::{Amount, Framing, Speed, Step, SubjectPart};
 use cinesplat::pipeline::Directed;
 use cinesplat::trajectory::ClearanceProof;
 
@@ -64,18 +64,9 @@ fn sentence(step: &Step, objects: &ObjectSet) -> String {
     parts.extend(framing("from", &step.start, objects));
     parts.extend(framing("to", &step.end, objects));
     if let Some(via) = &step.via {
-        let how = match via.how {
-            Pass::Past => "past",
-            Pass::Between => "between",
-            Pass::Over => "over",
-        };
-        parts.push(format!("{how} {}", names(&via.objects, objects)));
+        parts.push(format!("{} {}", via.how, names(&via.objects, objects)));
     }
-    match step.speed {
-        Speed::Slow => parts.push("slow".to_owned()),
-        Speed::Normal => {}
-        Speed::Fast => parts.push("fast".to_owned()),
-    }
+    parts.extend((step.speed != Speed::Normal).then(|| step.speed.to_string()));
     parts.extend(step.duration_secs.map(|secs| format!("{secs} s")));
     parts.extend(step.easing.map(|easing| easing.as_ref().to_owned()));
     if step.cut {
@@ -106,11 +97,11 @@ fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<
     parts.extend(framing.angle.map(|angle| angle.as_ref().to_owned()));
     parts.extend(framing.size.map(|size| size.as_ref().to_owned()));
     let part = match framing.part {
-        Part::Middle => "",
-        Part::Top => "the top of ",
-        Part::Bottom => "the bottom of ",
-        Part::Left => "the left end of ",
-        Part::Right => "the right end of ",
+        SubjectPart::Middle => "",
+        SubjectPart::Top => "the top of ",
+        SubjectPart::Bottom => "the bottom of ",
+        SubjectPart::Left => "the left end of ",
+        SubjectPart::Right => "the right end of ",
     };
     if !framing.subjects.is_empty() {
         let whole = if framing.whole { " whole" } else { "" };

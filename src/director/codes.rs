@@ -4,7 +4,7 @@
 //! the list of quantities and in the text. What does not apply (the move of a key that stops) is `None` and is neither
 //! trained nor read.
 
-use cinesplat_operator::{Amount, Framing, Part, Pass, Speed, Via};
+use cinesplat_operator::{Amount, Framing, Pass, Speed, SubjectPart, Via};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 use strum::VariantArray;
 
@@ -73,13 +73,13 @@ impl Field {
             Self::Movement => Move::VARIANTS.len(),
             Self::With => 1 + Move::VARIANTS.len(),
             Self::EitherWay | Self::Returns | Self::ArriveWhole | Self::DepartWhole => 2,
-            Self::Via => 1 + Pass::ALL.len(),
+            Self::Via => 1 + Pass::VARIANTS.len(),
             Self::Amount => 4,
-            Self::Speed => Speed::ALL.len(),
+            Self::Speed => Speed::VARIANTS.len(),
             Self::Easing => 1 + Easing::VOCABULARY.len(),
             Self::ArriveSize | Self::DepartSize => 1 + ShotSize::VARIANTS.len(),
             Self::ArriveAngle | Self::DepartAngle => 1 + ShotAngle::VARIANTS.len(),
-            Self::ArrivePart | Self::DepartPart => Part::ALL.len(),
+            Self::ArrivePart | Self::DepartPart => SubjectPart::VARIANTS.len(),
         }
     }
 
@@ -215,7 +215,7 @@ fn encode_framing(framing: &Framing, size_field: Field, code: &mut KeyCode) {
     let Some(first) = Field::ALL.iter().position(|field| *field == size_field) else { return };
     code.classes[first] = Some(optional_class(ShotSize::VARIANTS, framing.size));
     code.classes[first + 1] = Some(optional_class(ShotAngle::VARIANTS, framing.angle));
-    code.classes[first + 2] = Some(class_of(&Part::ALL, framing.part));
+    code.classes[first + 2] = Some(class_of(SubjectPart::VARIANTS, framing.part));
     code.classes[first + 3] = Some(u8::from(framing.whole));
 }
 
@@ -238,8 +238,8 @@ fn encode_segment(segment: &Segment, grounding: &impl Grounding, code: &mut KeyC
     set(code, Field::Movement, class_of(Move::VARIANTS, segment.movement));
     set(code, Field::With, optional_class(Move::VARIANTS, segment.with));
     set(code, Field::EitherWay, u8::from(segment.either_way));
-    set(code, Field::Via, segment.via.as_ref().map_or(0, |via| 1 + class_of(&Pass::ALL, via.how)));
-    set(code, Field::Speed, class_of(&Speed::ALL, segment.speed));
+    set(code, Field::Via, segment.via.as_ref().map_or(0, |via| 1 + class_of(Pass::VARIANTS, via.how)));
+    set(code, Field::Speed, class_of(Speed::VARIANTS, segment.speed));
     set(code, Field::Easing, optional_class(Easing::VOCABULARY, segment.easing));
     set(code, Field::Returns, u8::from(segment.returns));
     let passed = segment.via.as_ref().map_or(&[][..], |via| &via.objects);
@@ -307,7 +307,7 @@ fn decode_framing([size, angle, part, whole]: [u8; 4], subjects: Vec<u32>) -> Fr
         subjects,
         size: optional(ShotSize::VARIANTS, size),
         angle: optional(ShotAngle::VARIANTS, angle),
-        part: Part::ALL.get(usize::from(part)).copied().unwrap_or_default(),
+        part: SubjectPart::VARIANTS.get(usize::from(part)).copied().unwrap_or_default(),
         whole: whole == 1,
     }
 }
@@ -327,7 +327,7 @@ fn ids_at(code: &KeyCode, first: usize, grounding: &impl Grounding) -> Vec<u32> 
 fn decode_segment(code: &KeyCode, grounding: &impl Grounding) -> Segment {
     let quantity = |pointer: usize| code.quantities[pointer].and_then(|place| usize::from(place).checked_sub(1));
     let passed = ids_at(code, 2 * PLACES, grounding);
-    let how = optional(&Pass::ALL, code.class(Field::Via));
+    let how = optional(Pass::VARIANTS, code.class(Field::Via));
     Segment {
         movement: Move::VARIANTS.get(usize::from(code.class(Field::Movement))).copied().unwrap_or(Move::Static),
         with: optional(Move::VARIANTS, code.class(Field::With)),
@@ -340,7 +340,7 @@ fn decode_segment(code: &KeyCode, grounding: &impl Grounding) -> Segment {
             _ => None,
         },
         duration_secs: quantity(1).and_then(|place| grounding.seconds(place)),
-        speed: Speed::ALL.get(usize::from(code.class(Field::Speed))).copied().unwrap_or_default(),
+        speed: Speed::VARIANTS.get(usize::from(code.class(Field::Speed))).copied().unwrap_or_default(),
         easing: optional(Easing::VOCABULARY, code.class(Field::Easing)),
         returns: code.class(Field::Returns) == 1,
         words: code.span.and_then(|tokens| grounding.bytes(tokens)),

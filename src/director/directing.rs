@@ -9,26 +9,14 @@ use super::keys::{boundaries_of, steps_of};
 use super::model::{PoseCode, PromptBatch};
 use super::weights::{Model, ModelFiles, embedded};
 use super::{DirectorError, codes::Grounding};
-use cinesplat_geometry::Pose;
 use cinesplat_language::Linked;
 use cinesplat_objects::Object;
-use cinesplat_operator::Program;
-use cinesplat_trajectory::ModelRef;
+use cinesplat_operator::{Program, StepCameras};
+use cinesplat_trajectory::{CameraState, ModelRef};
 use glam::DVec3;
 
 /// Field of view of pose code 0, rad.
 const BASE_FOV_RAD: f64 = 50.0 * std::f64::consts::PI / 180.0;
-
-/// A camera that the network has in mind.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SuggestedCamera {
-    /// Where it stands, world.
-    pub pose: Pose,
-    /// Vertical field of view.
-    pub fov_y_rad: f64,
-    /// When, from the start of the film.
-    pub time_secs: f64,
-}
 
 /// How sure the network is of a step of the program.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,10 +34,8 @@ pub struct StepCertainty {
 pub struct Direction {
     /// What the words ask for.
     pub program: Program,
-    /// One camera a key, in order: of n steps without a cut, n + 1.
-    pub cameras: Vec<SuggestedCamera>,
-    /// For every step the indices in `cameras` of its start and its end.
-    pub step_cameras: Vec<[usize; 2]>,
+    /// The cameras that the network proposes for each step.
+    pub step_cameras: Vec<StepCameras>,
     /// One a step.
     pub certainty: Vec<StepCertainty>,
 }
@@ -133,17 +119,27 @@ fn direction(decoded: &Decoded, ground: &Ground, frame: &SceneFrame) -> Result<D
         duration_secs: decoded.film.and_then(|place| ground.seconds(place)),
         unmet: Vec::new(),
     };
-    let step_cameras = boundaries_of(&keys);
-    let certainty = step_cameras
+    let step_keys = boundaries_of(&keys);
+    let certainty = step_keys
         .iter()
         .zip(&program.steps)
         .map(|([start, end], step)| certainty(&decoded.keys, &decoded.certainties, [*start, *end], step.words))
         .collect();
-    Ok(Direction { program, cameras: cameras(&decoded.poses, frame)?, step_cameras, certainty })
+    let cameras = cameras(&decoded.poses, frame)?;
+    let ends = step_keys.iter().map_while(|&[start, end]| cameras.get(start).zip(cameras.get(end)));
+    let step_cameras = ends
+        .map(|((start_secs, start), (end_secs, end))| StepCameras {
+            start: *start,
+            end: *end,
+            secs: end_secs - start_secs,
+        })
+        .collect();
+    Ok(Direction { program, step_cameras, certainty })
 }
 
-/// Cameras of pose codes in the world; each rotation falls back to the one before.
-fn cameras(poses: &[PoseCode], frame: &SceneFrame) -> Result<Vec<SuggestedCamera>, DirectorError> {
+/// Cameras of pose codes in the world, each with its time from the start of the film. A degenerate rotation falls back to
+/// the one before it.
+fn cameras(poses: &[PoseCode], frame: &SceneFrame) -> Result<Vec<(f64, CameraState)>, DirectorError> {
     let mut fallback = level_rotation();
     let mut time_secs = 0.0;
     let mut out = Vec::with_capacity(poses.len());
@@ -157,7 +153,8 @@ fn cameras(poses: &[PoseCode], frame: &SceneFrame) -> Result<Vec<SuggestedCamera
             time_secs += f64::from(code.log_wait).exp_m1();
         }
         fallback = frame.turn(pose.rotation);
-        out.push(SuggestedCamera { pose, fov_y_rad: fov_rad(code.log_fov), time_secs });
+        let fov_y_rad = fov_rad(code.log_fov);
+        out.push((time_secs, CameraState { pose, fov_y_rad, focus_distance: None }));
     }
     Ok(out)
 }

@@ -19,7 +19,7 @@ pub mod model;
 pub mod vocabulary;
 pub mod weights;
 
-pub use directing::{Direction, Director, Stage, StepCertainty, SuggestedCamera};
+pub use directing::{Direction, Director, Stage, StepCertainty};
 pub use error::DirectorError;
 pub use frame::SceneFrame;
 pub use model::ModelConfig;

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::DirectorError;
 use super::model::{ModelConfig, Network, Parameters};
 use super::vocabulary::Vocabulary;
-use cinesplat_operator::{Part, Pass, Speed};
+use cinesplat_operator::{Pass, Speed, SubjectPart};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 /// Name of the file that describes a model.
@@ -147,9 +147,9 @@ fn choices() -> Vec<String> {
     let sizes = ShotSize::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
     let angles = ShotAngle::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
     let easings = Easing::VOCABULARY.iter().map(|choice| choice.as_ref().to_owned());
-    let parts = Part::ALL.iter().map(|choice| format!("{choice:?}"));
-    let passes = Pass::ALL.iter().map(|choice| format!("{choice:?}"));
-    let speeds = Speed::ALL.iter().map(|choice| format!("{choice:?}"));
+    let parts = SubjectPart::VARIANTS.iter().map(|choice| format!("{choice:?}"));
+    let passes = Pass::VARIANTS.iter().map(|choice| format!("{choice:?}"));
+    let speeds = Speed::VARIANTS.iter().map(|choice| format!("{choice:?}"));
     moves.chain(sizes).chain(angles).chain(easings).chain(parts).chain(passes).chain(speeds).collect()
 }
 

@@ -10,7 +10,7 @@
 //! A move may stand without its direction (`pan`, `orbit`), given by `left right up down in out cw ccw` elsewhere in the
 //! step; without one it is `either` with the first direction of: right, up, in, cw.
 
-use cinesplat_operator::{Amount, Framing, Part, Pass, Program, Speed, Step, Via};
+use cinesplat_operator::{Amount, Framing, Pass, Program, Speed, Step, SubjectPart, Via};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 /// Turns a name in the notation into object ids; `None` where it means nothing.
@@ -184,8 +184,7 @@ fn qualify(framing: &mut Framing, value: &str) -> Result<(), String> {
     if let Some(angle) = value.parse::<ShotAngle>().ok() {
         return once(&mut framing.angle, angle, value);
     }
-    framing.part =
-        Part::ALL.into_iter().find(|part| part_name(*part) == value).ok_or(format!("framing \"{value}\""))?;
+    framing.part = value.parse::<SubjectPart>().map_err(|_| format!("framing \"{value}\""))?;
     Ok(())
 }
 
@@ -217,16 +216,6 @@ fn seconds(value: &str) -> Result<f64, String> {
     value.strip_suffix('s').and_then(|v| v.parse().ok()).ok_or_else(|| format!("\"{value}\" is no time"))
 }
 
-fn part_name(part: Part) -> &'static str {
-    match part {
-        Part::Middle => "middle",
-        Part::Top => "top",
-        Part::Bottom => "bottom",
-        Part::Left => "left",
-        Part::Right => "right",
-    }
-}
-
 /// `program` in the notation; reading it back gives the program without its word spans and unmet requests.
 pub fn program_to_notation(program: &Program) -> String {
     let steps: Vec<String> = program.steps.iter().map(step_to_notation).collect();
@@ -240,12 +229,7 @@ fn step_to_notation(step: &Step) -> String {
     parts.extend(framing_to_notation(&step.start).map(|text| format!("start={text}")));
     parts.extend(framing_to_notation(&step.end).map(|text| format!("end={text}")));
     if let Some(via) = &step.via {
-        let how = match via.how {
-            Pass::Past => "past",
-            Pass::Between => "between",
-            Pass::Over => "over",
-        };
-        parts.push(format!("{how}={}", joined(&via.objects)));
+        parts.push(format!("{}={}", via.how, joined(&via.objects)));
     }
     parts.extend(step.amount.map(|amount| match amount {
         Amount::Degrees(value) => format!("amount={value}deg"),
@@ -255,11 +239,7 @@ fn step_to_notation(step: &Step) -> String {
         Amount::Large => "amount=large".to_owned(),
     }));
     parts.extend(step.duration_secs.map(|secs| format!("dur={secs}s")));
-    parts.extend(match step.speed {
-        Speed::Slow => Some("slow".to_owned()),
-        Speed::Normal => None,
-        Speed::Fast => Some("fast".to_owned()),
-    });
+    parts.extend((step.speed != Speed::Normal).then(|| step.speed.to_string()));
     parts.extend(step.easing.map(|easing| format!("ease={}", easing.as_ref())));
     for (flag, name) in [(step.cut, "cut"), (step.returns, "returns"), (step.either_way, "either")] {
         parts.extend(flag.then(|| name.to_owned()));
@@ -278,7 +258,7 @@ fn framing_to_notation(framing: &Framing) -> Option<String> {
     let mut text = if framing.subjects.is_empty() { "room".to_owned() } else { joined(&framing.subjects) };
     let size = framing.size.map(<&str>::from);
     let angle = framing.angle.map(<&str>::from);
-    let part = (framing.part != Part::Middle).then(|| part_name(framing.part));
+    let part = (framing.part != SubjectPart::Middle).then(|| <&str>::from(framing.part));
     for name in [size, angle, part].into_iter().flatten() {
         text.push(':');
         text.push_str(name);

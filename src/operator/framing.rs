@@ -1,32 +1,32 @@
-//! A subject in the frame: how large it stands, where it is, how much of it shows; and the view that frames it.
+//! A subject in the frame: its size, position and visibility; and the view that frames it at a wanted size.
 
 use glam::{DVec2, DVec3};
 
+use super::program::{Framing, SubjectPart};
 use super::world::{Subject, World};
-use super::{Framing, Part};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::CameraState;
 
-/// Width over height of the frame that shots are planned for, when nothing else is asked.
-pub const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
+/// Width over height of the frame that shots are planned for.
+pub(super) const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 
-/// Something to frame: a point to aim at and the corners that have to fit.
+/// What a view frames: a point to aim at, and the corners that must fit.
 #[derive(Debug, Clone)]
 pub(super) struct Target {
     /// Object ids; empty for the scene as a whole.
     pub(super) ids: Vec<u32>,
-    /// Point that the view axis meets, world.
+    /// Point on the view axis, world.
     pub(super) aim: DVec3,
     /// Center of the first subject, world.
     pub(super) center: DVec3,
-    /// Box corners of all that has to fit.
+    /// Corners of all boxes that must fit, world.
     pub(super) corners: Vec<DVec3>,
-    /// Radius of a sphere about `aim` that holds the corners.
+    /// Radius of a sphere about `aim` that contains the corners.
     pub(super) radius: f64,
 }
 
 impl Target {
-    /// What a framing shows, or `None` where it names nothing.
+    /// The target of a framing; `None` where it names no known object.
     pub(super) fn of(world: &World, framing: &Framing) -> Option<Self> {
         let subjects: Vec<&Subject> = framing.subjects.iter().filter_map(|&id| world.subject(id)).collect();
         let first = *subjects.first()?;
@@ -69,32 +69,33 @@ fn middle(points: &[DVec3]) -> DVec3 {
     (low + high) / 2.0
 }
 
-/// Aim for a part of a subject: 60 % of the way from its middle to that end. Left and right stay the middle here, as
-/// they depend on where the camera is.
-fn part_point(world: &World, subject: &Subject, part: Part) -> DVec3 {
+/// The point to aim at for a part of a subject: 60 % of the way from its middle to that end. Left and right give the middle,
+/// because they depend on the camera's position ([`aimed_at_side`](super::view::aimed_at_side)).
+fn part_point(world: &World, subject: &Subject, part: SubjectPart) -> DVec3 {
     let heights = || subject.corners.iter().map(|&c| world.frame.height(c - subject.center));
     let rise = match part {
-        Part::Top => heights().fold(0.0, f64::max),
-        Part::Bottom => heights().fold(0.0, f64::min),
-        Part::Middle | Part::Left | Part::Right => 0.0,
+        SubjectPart::Top => heights().fold(0.0, f64::max),
+        SubjectPart::Bottom => heights().fold(0.0, f64::min),
+        SubjectPart::Middle | SubjectPart::Left | SubjectPart::Right => 0.0,
     };
     subject.center + world.frame.up * rise * 0.6
 }
 
-/// Position in the frame as fractions of its width and height from the middle (right and up positive) and depth along
-/// the view axis; `None` at or behind the camera.
+/// Position in the frame as fractions of its width and height from the middle (right and up positive), and the depth along
+/// the view axis. `None` for points at or behind the camera.
 pub(super) fn frame_position(state: &CameraState, point: DVec3) -> Option<(DVec2, f64)> {
     let p = state.pose.to_camera(point);
     let tan = (state.fov_y_rad / 2.0).tan();
     (p.z > 1e-9).then(|| (DVec2::new(p.x / (2.0 * p.z * tan * DEFAULT_ASPECT), -p.y / (2.0 * p.z * tan)), p.z))
 }
 
-/// Distance of a point from the frame's middle: the larger of |x| over width and |y| over height; infinite behind.
+/// Distance of a point from the frame's middle: the larger of |x| over the width and |y| over the height. Infinite behind
+/// the camera.
 pub(super) fn off_center(state: &CameraState, point: DVec3) -> f64 {
     frame_position(state, point).map_or(f64::INFINITY, |(at, _)| at.abs().max_element())
 }
 
-/// Projected extent of points over the frame's: `(width, height)`; infinite where one is behind the camera.
+/// Width and height of the points' projection over those of the frame; infinite where a point is behind the camera.
 pub(super) fn extent_frac(state: &CameraState, points: &[DVec3]) -> DVec2 {
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for &point in points {
@@ -105,13 +106,14 @@ pub(super) fn extent_frac(state: &CameraState, points: &[DVec3]) -> DVec2 {
     high - low
 }
 
-/// Share of points inside the frame, shrunk by `margin` of its size on every side.
+/// Share of the points inside the frame, which is shrunk by `margin` of its size on every side.
 pub(super) fn in_frame_frac(state: &CameraState, points: &[DVec3], margin: f64) -> f64 {
     let inside = |p: &&DVec3| off_center(state, **p) <= 0.5 - margin;
     points.iter().filter(inside).count() as f64 / points.len().max(1) as f64
 }
 
-/// Share of a subject's points in the frame that light reaches the camera from; 0 where none is in the frame.
+/// Visible share of a subject's points in the frame: those with a transmittance of at least 0.5. 0 where no point is in the
+/// frame.
 pub(super) fn unoccluded_frac(state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
     let stride = (subject.points.len() / num_points).max(1);
     let (mut framed, mut seen) = (0, 0);
@@ -124,16 +126,16 @@ pub(super) fn unoccluded_frac(state: &CameraState, subject: &Subject, num_points
     f64::from(u32::try_from(seen).unwrap_or(0)) / f64::from(u32::try_from(framed).unwrap_or(1).max(1))
 }
 
-/// Where a view stands with respect to its aim.
+/// Direction from the aim of a view to its camera.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bearing {
-    /// Azimuth of the camera as seen from the aim.
+    /// Azimuth of the camera, seen from the aim.
     pub(super) azimuth_rad: f64,
-    /// Elevation of the camera as seen from the aim.
+    /// Elevation of the camera, seen from the aim.
     pub(super) elevation_rad: f64,
 }
 
-/// A level camera at a bearing and distance from a target, aimed at it.
+/// A level camera at a bearing and distance from a point, aimed at it.
 pub(super) fn view_at(world: &World, aim: DVec3, bearing: Bearing, distance: f64, fov_y_rad: f64) -> CameraState {
     let (sin, cos) = bearing.elevation_rad.sin_cos();
     let away = world.frame.direction(bearing.azimuth_rad) * cos + world.frame.up * sin;
@@ -144,9 +146,9 @@ pub(super) fn view_at(world: &World, aim: DVec3, bearing: Bearing, distance: f64
 /// How a wanted size is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Fill {
-    /// Projected height over the frame's height: what shot sizes are defined by.
+    /// Projected height over the frame's height: the definition of the shot sizes.
     Height(f64),
-    /// The larger of projected width over the frame's width and height over its height: fits wide things too.
+    /// The larger of projected width over the frame's width and projected height over its height: for wide targets too.
     Fit(f64),
 }
 
@@ -160,8 +162,8 @@ impl Fill {
     }
 }
 
-/// The distance at which a target fills the frame as wanted, seen from a bearing; projection shrinks with distance, so
-/// bisection finds it (40 halvings: exact to 1e-9 of the range).
+/// The distance at which a target fills the frame as wanted, seen from a bearing. The projection shrinks with the distance:
+/// 40 bisections find it to 1e-9 of the range.
 pub(super) fn distance_for(world: &World, target: &Target, bearing: Bearing, fill: Fill, fov_y_rad: f64) -> f64 {
     let reached = |d: f64| fill.reached(&view_at(world, target.aim, bearing, d, fov_y_rad), &target.corners);
     let (mut near, mut far) = (0.2 * target.radius, 200.0 * target.radius.max(1e-9));

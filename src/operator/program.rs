@@ -90,14 +90,29 @@ pub struct Framing {
     /// From how high it is seen.
     pub angle: Option<ShotAngle>,
     /// Which part of the subject the camera aims at.
-    pub part: Part,
+    pub part: SubjectPart,
     /// All subjects have to be wholly in the frame.
     pub whole: bool,
 }
 
 /// Part of an object, for `from its base to its top`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Part {
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum SubjectPart {
     /// All of it: its middle.
     #[default]
     Middle,
@@ -111,11 +126,6 @@ pub enum Part {
     Right,
 }
 
-impl Part {
-    /// Every part, in a fixed order.
-    pub const ALL: [Self; 5] = [Self::Middle, Self::Top, Self::Bottom, Self::Left, Self::Right];
-}
-
 /// Objects on the way of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Via {
@@ -126,7 +136,21 @@ pub struct Via {
 }
 
 /// How a camera passes an object.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Pass {
     /// Beside it, seeing it on the way.
     Past,
@@ -134,11 +158,6 @@ pub enum Pass {
     Between,
     /// Above it.
     Over,
-}
-
-impl Pass {
-    /// Every way to pass, in a fixed order.
-    pub const ALL: [Self; 3] = [Self::Past, Self::Between, Self::Over];
 }
 
 /// How far a step goes.
@@ -157,7 +176,22 @@ pub enum Amount {
 }
 
 /// How fast a step is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Speed {
     /// Slowly, gently.
     Slow,
@@ -166,9 +200,4 @@ pub enum Speed {
     Normal,
     /// Fast, quickly.
     Fast,
-}
-
-impl Speed {
-    /// Every speed, in a fixed order.
-    pub const ALL: [Self; 3] = [Self::Slow, Self::Normal, Self::Fast];
 }

@@ -1,46 +1,47 @@
-//! What was asked for and what came of it, clause by clause.
+//! The report: requested and measured values, one line per constraint.
 
-use super::Program;
-use super::draft::Part;
-use super::judge::{outcome, path_of, sampled, supported_frac, wording};
+use super::constraint::{measure, wording};
+use super::cost::{captured_frac, path_of, sampled};
+use super::motion::MotionSegment;
+use super::program::Program;
 use super::world::World;
 use cinesplat_trajectory::ReportLine;
 
-/// Samples of a part that the report is measured on.
+/// Samples per segment on which constraints are measured.
 const NUM_SAMPLES: usize = 49;
 
-/// Share of each part's way that has to look at the capture's good side. The measure is a guess from the matter alone, and
-/// at the edge of what was captured it flickers.
-const LEAST_SUPPORTED: f64 = 0.9;
+/// Share of each segment that must stay inside the captured region and see front faces. Below 1, because the region is
+/// estimated from the matter alone and the estimate flickers at its boundary.
+const MIN_CAPTURED_FRAC: f64 = 0.9;
 
-/// The report of a film: every goal of every step, support of the whole, and what could not be done.
-pub(super) fn report(world: &World, program: &Program, prompt: &str, parts: &[Part]) -> Vec<ReportLine> {
+/// The report of a film: every constraint of every segment, the captured region, and the requests without an
+/// implementation.
+pub(super) fn report(world: &World, program: &Program, prompt: &str, segments: &[MotionSegment]) -> Vec<ReportLine> {
     let mut lines: Vec<ReportLine> = Vec::new();
-    let mut supported = 1.0_f64;
-    for part in parts {
-        let states = sampled(&path_of(world, part), part, NUM_SAMPLES);
-        supported = supported.min(supported_frac(world, &states));
-        let words = program.steps.get(part.step).and_then(|step| step.words);
-        for goal in &part.goals {
-            let found = outcome(world, goal, &states, usize::MAX);
-            let met = found.violation <= 0.0;
-            let note = if met { String::new() } else { gave_way(words.is_some()) };
+    let mut captured = 1.0_f64;
+    for segment in segments {
+        let states = sampled(&path_of(world, segment), segment, NUM_SAMPLES);
+        captured = captured.min(captured_frac(world, &states));
+        let words = program.steps.get(segment.step).and_then(|step| step.words);
+        for constraint in &segment.constraints {
+            let measured = measure(world, constraint, &states, usize::MAX);
+            let met = measured.violation <= 0.0;
             lines.push(ReportLine {
-                clause: clause(prompt, words, part),
-                wanted: wording(world, goal),
-                got: found.got,
+                clause: clause(prompt, words, segment),
+                wanted: wording(world, constraint),
+                got: measured.value,
                 met,
-                note,
+                note: if met { String::new() } else { unmet_note(words.is_some()) },
             });
         }
     }
-    if supported < LEAST_SUPPORTED {
+    if captured < MIN_CAPTURED_FRAC {
         lines.push(ReportLine {
-            clause: "camera stays where the capture shows the scene's good side".to_owned(),
-            wanted: format!("share of the way at least {LEAST_SUPPORTED:.2}"),
-            got: supported,
+            clause: "camera stays in the captured region and sees front sides".to_owned(),
+            wanted: format!("share of the path at least {MIN_CAPTURED_FRAC:.2}"),
+            got: captured,
             met: false,
-            note: "part of the way looks at backs of surfaces or lies outside the captured space".to_owned(),
+            note: "the camera sees back sides of surfaces or leaves the captured region".to_owned(),
         });
     }
     let unmet = |(words, why): &(String, String)| ReportLine {
@@ -54,13 +55,13 @@ pub(super) fn report(world: &World, program: &Program, prompt: &str, parts: &[Pa
     lines
 }
 
-/// The words of a part, or the name of its move.
-pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, part: &Part) -> String {
+/// The words of the prompt that a segment comes from, or else the name of its move.
+pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, segment: &MotionSegment) -> String {
     let text = words.and_then(|[from, to]| prompt.get(from..to)).map(str::trim).unwrap_or_default();
-    if text.is_empty() { part.movement.as_ref().to_owned() } else { text.to_owned() }
+    if text.is_empty() { segment.movement.as_ref().to_owned() } else { text.to_owned() }
 }
 
-fn gave_way(has_words: bool) -> String {
-    let why = "no camera was found that keeps this together with the rest: this gave way";
-    if has_words { why.to_owned() } else { format!("{why} (nothing in the words asks for it)") }
+fn unmet_note(has_words: bool) -> String {
+    let why = "no camera was found that meets this and the other constraints";
+    if has_words { why.to_owned() } else { format!("{why} (the prompt does not ask for it)") }
 }

@@ -1,126 +1,159 @@
-//! The search for what a program leaves open: a beam over steps, then small changes to the best film found.
+//! The search over a program's open parameters: a beam search over the steps, then a local search on the best candidate.
 //!
-//! Bounded and deterministic: the number of tries is fixed by the level, every random number comes from the seed in a
-//! fixed order, and ties go to the earlier try. The best film so far is never lost.
+//! The search is bounded and deterministic: the level fixes the number of candidates, every random number comes from the
+//! seed in a fixed order, and ties go to the earlier candidate. The best candidate so far is always kept.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
-use super::draft::{Genes, NUM_GENES, Part};
-use super::judge::cost;
-use super::moves::{Scenario, build};
+use super::cost::cost;
+use super::motion::{MotionSegment, NUM_PARAMETERS, StepParameters};
+use super::moves::{StepContext, build};
+use super::program::Program;
+use super::settings::{SolveLevel, SolveSettings};
+use super::suggestion::StepCameras;
 use super::world::World;
-use super::{Program, SolveLevel, SolveSettings, Suggestion};
 use cinesplat_trajectory::CameraState;
 
-/// A film up to some step: the choices made, the parts they give and what they cost, step by step.
+/// Candidates per round of the local search. A round is evaluated in parallel.
+const ROUND: usize = 8;
+
+/// A candidate film up to some step: parameters, segments and cost of each step.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Film {
-    genes: Vec<Genes>,
-    pub(super) parts: Vec<Vec<Part>>,
+pub(super) struct Candidate {
+    parameters: Vec<StepParameters>,
+    pub(super) segments: Vec<Vec<MotionSegment>>,
     costs: Vec<f64>,
 }
 
-impl Film {
-    /// Sum over steps.
+impl Candidate {
+    /// Sum over the steps.
     pub(super) fn cost(&self) -> f64 {
         self.costs.iter().sum()
     }
 
     fn last(&self) -> Option<CameraState> {
-        self.parts.iter().rev().find_map(|parts| parts.last()).map(Part::last)
+        self.segments.iter().rev().find_map(|segments| segments.last()).map(MotionSegment::last)
     }
 
     fn origin(&self) -> Option<CameraState> {
-        self.parts.iter().flatten().next().map(|part| part.states[0])
+        self.segments.iter().flatten().next().map(|segment| segment.states[0])
     }
 }
 
-/// What a search is about.
-pub(super) struct Task<'a> {
+/// What the search solves.
+pub(super) struct SearchProblem<'a> {
     pub(super) world: &'a World,
     pub(super) program: &'a Program,
-    pub(super) suggestions: &'a [Suggestion],
+    pub(super) suggestions: &'a [StepCameras],
 }
 
-/// Numbers of tries of a level: first step, tries a film and step after it, films kept, changes at the end.
-fn budget(settings: &SolveSettings) -> (usize, usize, usize, usize) {
-    let (first, each, width, changes) = match settings.level {
-        SolveLevel::Off => return (1, 1, 1, 0),
-        SolveLevel::Fast => (220.0, 24.0, 10.0, 80.0),
-        SolveLevel::Full => (900.0, 64.0, 28.0, 420.0),
-    };
-    let count = |tries: f64, factor: f64| ((tries * factor).round() as usize).max(1);
-    // Steps after the first are tried for every film kept: both share the factor.
-    let (factor, root) = (settings.tries_factor, settings.tries_factor.sqrt());
-    (count(first, factor), count(each, root), count(width, root), count(changes, factor))
+/// Number of candidates per phase.
+struct Budget {
+    /// Samples of the first step, and of a step after a cut.
+    first_samples: usize,
+    /// Samples of any other step, per candidate in the beam.
+    step_samples: usize,
+    /// Candidates kept after each step.
+    beam_width: usize,
+    /// Candidates of the local search.
+    local_samples: usize,
 }
 
-/// The best film found.
-pub(super) fn best_film(task: &Task, settings: &SolveSettings) -> Film {
-    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
-    let (first_tries, tries, width, changes) = budget(settings);
-    let mut beam = vec![Film::default()];
-    for index in 0..task.program.steps.len() {
-        let count = if index == 0 || task.program.steps[index].cut { first_tries } else { tries };
-        let mut jobs: Vec<(usize, Genes)> = Vec::new();
-        for film in 0..beam.len() {
-            let draws = count.div_ceil(if index == 0 { 1 } else { 1 + beam.len() * usize::from(count == first_tries) });
-            jobs.extend((0..draws).map(|draw| (film, if draw == 0 { [0.5; NUM_GENES] } else { draw_genes(&mut rng) })));
+impl Budget {
+    fn of(settings: &SolveSettings) -> Self {
+        let (first, each, width, local) = match settings.level {
+            SolveLevel::Off => {
+                return Self { first_samples: 1, step_samples: 1, beam_width: 1, local_samples: 0 };
+            }
+            SolveLevel::Fast => (220.0, 24.0, 10.0, 80.0),
+            SolveLevel::Full => (900.0, 64.0, 28.0, 420.0),
+        };
+        let count = |samples: f64, factor: f64| ((samples * factor).round() as usize).max(1);
+        // A later step is sampled for every candidate in the beam: samples and width share the factor.
+        let (factor, root) = (settings.tries_factor, settings.tries_factor.sqrt());
+        Self {
+            first_samples: count(first, factor),
+            step_samples: count(each, root),
+            beam_width: count(width, root),
+            local_samples: count(local, factor),
         }
-        let mut films: Vec<Film> =
-            jobs.into_par_iter().map(|(film, genes)| task.extended(&beam[film], index, genes)).collect();
-        films.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
-        beam = diverse(task.world, films, width);
+    }
+}
+
+/// The candidate of least cost.
+pub(super) fn best_candidate(problem: &SearchProblem, settings: &SolveSettings) -> Candidate {
+    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
+    let budget = Budget::of(settings);
+    let mut beam = vec![Candidate::default()];
+    for index in 0..problem.program.steps.len() {
+        let starts_anew = index == 0 || problem.program.steps[index].cut;
+        let count = if starts_anew { budget.first_samples } else { budget.step_samples };
+        let mut jobs: Vec<(usize, StepParameters)> = Vec::new();
+        for candidate in 0..beam.len() {
+            let shares = if index == 0 { 1 } else { 1 + beam.len() * usize::from(count == budget.first_samples) };
+            // The first sample is the midpoint of every parameter.
+            jobs.extend(
+                (0..count.div_ceil(shares))
+                    .map(|i| (candidate, if i == 0 { [0.5; NUM_PARAMETERS] } else { sample_parameters(&mut rng) })),
+            );
+        }
+        let mut candidates: Vec<Candidate> = jobs
+            .into_par_iter()
+            .map(|(candidate, parameters)| problem.extended(&beam[candidate], index, parameters))
+            .collect();
+        candidates.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+        beam = distinct(problem.world, candidates, budget.beam_width);
     }
     let best = beam.into_iter().next().unwrap_or_default();
-    improved(task, best, changes, &mut rng)
+    locally_improved(problem, best, budget.local_samples, &mut rng)
 }
 
-fn draw_genes(rng: &mut impl Rng) -> Genes {
+fn sample_parameters(rng: &mut impl Rng) -> StepParameters {
     std::array::from_fn(|_| rng.random::<f64>())
 }
 
-impl Task<'_> {
-    /// A film with one more step.
-    fn extended(&self, film: &Film, index: usize, genes: Genes) -> Film {
-        let before = if self.program.steps[index].cut { None } else { film.last() };
+impl SearchProblem<'_> {
+    /// A candidate with one more step.
+    fn extended(&self, candidate: &Candidate, index: usize, parameters: StepParameters) -> Candidate {
+        let before = if self.program.steps[index].cut { None } else { candidate.last() };
         let suggestion = self.suggestions.get(index);
-        let scenario = Scenario::new(self.world, (self.program, index), (before, film.origin()), suggestion, &genes);
-        let parts = build(&scenario);
-        let guess = suggestion.filter(|_| before.is_none()).map(|s| s.state);
-        let own: f64 = parts.iter().map(|part| cost(self.world, part, guess.as_ref())).sum();
-        let mut out = film.clone();
-        out.genes.push(genes);
-        out.parts.push(parts);
+        let context =
+            StepContext::new(self.world, (self.program, index), (before, candidate.origin()), suggestion, &parameters);
+        let segments = build(&context);
+        let proposed = suggestion.filter(|_| before.is_none()).map(|cameras| cameras.start);
+        let own: f64 = segments.iter().map(|segment| cost(self.world, segment, proposed.as_ref())).sum();
+        let mut out = candidate.clone();
+        out.parameters.push(parameters);
+        out.segments.push(segments);
         out.costs.push(own);
         out
     }
 
-    /// The film that a whole list of choices gives, keeping the first `kept` steps of `film`.
-    fn rebuilt(&self, film: &Film, kept: usize, genes: &[Genes]) -> Film {
-        let mut out = Film {
-            genes: film.genes[..kept].to_vec(),
-            parts: film.parts[..kept].to_vec(),
-            costs: film.costs[..kept].to_vec(),
+    /// The candidate of a full list of parameters. Its first `kept` steps are copied from `candidate`.
+    fn rebuilt(&self, candidate: &Candidate, kept: usize, parameters: &[StepParameters]) -> Candidate {
+        let mut out = Candidate {
+            parameters: candidate.parameters[..kept].to_vec(),
+            segments: candidate.segments[..kept].to_vec(),
+            costs: candidate.costs[..kept].to_vec(),
         };
-        for (index, &genes) in genes.iter().enumerate().skip(kept) {
-            out = self.extended(&out, index, genes);
+        for (index, &parameters) in parameters.iter().enumerate().skip(kept) {
+            out = self.extended(&out, index, parameters);
         }
         out
     }
 }
 
-/// The best films, without those that end (nearly) where a better one ends.
-fn diverse(world: &World, films: Vec<Film>, width: usize) -> Vec<Film> {
+/// The first `width` candidates that do not end close to where a better one ends.
+fn distinct(world: &World, candidates: Vec<Candidate>, width: usize) -> Vec<Candidate> {
     let apart = 0.015 * world.bounds.size();
-    let mut kept: Vec<Film> = Vec::with_capacity(width);
-    for film in films {
+    let mut kept: Vec<Candidate> = Vec::with_capacity(width);
+    for candidate in candidates {
         if kept.len() == width {
             break;
         }
-        let same = |other: &Film| match (film.last(), other.last()) {
+        let ends_alike = |other: &Candidate| match (candidate.last(), other.last()) {
             (Some(a), Some(b)) => {
                 a.pose.position.distance(b.pose.position) < apart
                     && a.pose.forward().dot(b.pose.forward()) > 0.999
@@ -128,35 +161,36 @@ fn diverse(world: &World, films: Vec<Film>, width: usize) -> Vec<Film> {
             }
             _ => false,
         };
-        if !kept.iter().any(same) {
-            kept.push(film);
+        if !kept.iter().any(ends_alike) {
+            kept.push(candidate);
         }
     }
     kept
 }
 
-/// Small changes to one step at a time, in rounds of eight tries at once; a change stays when the film gets better.
-fn improved(task: &Task, mut film: Film, changes: usize, rng: &mut Pcg64Mcg) -> Film {
-    const ROUND: usize = 8;
-    for round in 0..changes / ROUND {
-        // From a quarter of the range down to a hundredth.
-        let spread = 0.25 * 0.04_f64.powf(round as f64 * ROUND as f64 / changes as f64);
-        let tries: Vec<(usize, Vec<Genes>)> = (0..ROUND).map(|_| changed(&film.genes, spread, rng)).collect();
-        let films: Vec<Film> = tries.par_iter().map(|(kept, genes)| task.rebuilt(&film, *kept, genes)).collect();
-        let better = films.into_iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
-        film = better.filter(|better| better.cost() < film.cost() - 1e-9).unwrap_or(film);
+/// Local search: each round perturbs one step per sample and keeps the best sample where it lowers the cost.
+fn locally_improved(problem: &SearchProblem, mut best: Candidate, num_samples: usize, rng: &mut Pcg64Mcg) -> Candidate {
+    for round in 0..num_samples / ROUND {
+        // The step size falls from a quarter of a parameter's range to a hundredth.
+        let spread = 0.25 * 0.04_f64.powf(round as f64 * ROUND as f64 / num_samples as f64);
+        let samples: Vec<(usize, Vec<StepParameters>)> =
+            (0..ROUND).map(|_| perturbed(&best.parameters, spread, rng)).collect();
+        let candidates: Vec<Candidate> =
+            samples.par_iter().map(|(kept, parameters)| problem.rebuilt(&best, *kept, parameters)).collect();
+        let better = candidates.into_iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
+        best = better.filter(|better| better.cost() < best.cost() - 1e-9).unwrap_or(best);
     }
-    film
+    best
 }
 
-/// Choices with some of one step's moved by up to `spread`, and the index of that step.
-fn changed(genes: &[Genes], spread: f64, rng: &mut impl Rng) -> (usize, Vec<Genes>) {
-    let mut out = genes.to_vec();
-    let step = rng.random_range(0..genes.len().max(1));
-    for gene in &mut out[step] {
+/// Parameters of which some, all of one step, have moved by up to `spread`; and the index of that step.
+fn perturbed(parameters: &[StepParameters], spread: f64, rng: &mut impl Rng) -> (usize, Vec<StepParameters>) {
+    let mut out = parameters.to_vec();
+    let step = rng.random_range(0..parameters.len().max(1));
+    for parameter in &mut out[step] {
         let (on, by) = (rng.random::<f64>(), rng.random::<f64>());
         if on < 0.45 {
-            *gene = (*gene + (by * 2.0 - 1.0) * spread).clamp(0.0, 1.0);
+            *parameter = (*parameter + (by * 2.0 - 1.0) * spread).clamp(0.0, 1.0);
         }
     }
     (step, out)

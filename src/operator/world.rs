@@ -1,66 +1,65 @@
-//! A scene as the operator sees it: subjects to frame, matter to avoid and to look past, space to stand in.
+//! A scene prepared for planning: subjects to frame, matter to avoid, occlusion, and the region that the capture covers.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::clearance::{ClearanceIndex, SIGMA_LEVEL};
-use super::grid::{Grid, OpacityGrid};
-use super::support::Support;
+use super::capture_region::CaptureRegion;
+use super::clearance::ClearanceIndex;
+use super::grid::Grid;
+use super::opacity_grid::OpacityGrid;
 use cinesplat_geometry::{GeometryError, LevelFrame};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
 
-/// Least distance from the lens to solid matter, over the scene size, unless asked for otherwise.
-pub const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;
+/// Default of the camera's radius, over the scene size.
+const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;
 /// The camera's radius in a scene without extent, scene units.
-const SMALLEST_CAMERA_RADIUS: f64 = 1e-6;
-/// Points that stand for a subject when it is framed and looked for.
+const MIN_CAMERA_RADIUS: f64 = 1e-6;
+/// Sample points per subject, for framing and visibility.
 const SUBJECT_POINTS: usize = 48;
 
 /// A scene prepared for planning shots.
 pub struct World {
     /// The world's up with a reference heading.
     pub frame: LevelFrame,
-    /// Extents of the scene.
+    /// Extents of the scene, world.
     pub bounds: Bounds,
-    /// Least distance from the lens to solid matter, scene units.
+    /// Radius of the camera's ball: the least distance that it keeps from matter, scene units. Above 0.
     pub camera_radius: f64,
     subjects: BTreeMap<u32, Subject>,
     matter: OpacityGrid,
     clearance: ClearanceIndex,
-    support: Support,
+    region: CaptureRegion,
 }
 
-/// Something a shot can be about.
-pub struct Subject {
-    /// Object id; 0 for the scene as a whole.
-    pub id: u32,
+/// An object that a shot can be about.
+pub(super) struct Subject {
     /// Name for reports.
-    pub label: String,
-    /// Box center, world.
-    pub center: DVec3,
-    /// Box corners, world.
-    pub corners: Vec<DVec3>,
-    /// Half the box's diagonal.
-    pub radius: f64,
-    /// Points on it, world.
-    pub points: Vec<DVec3>,
-    /// Everything but this subject, for looking at it.
+    pub(super) label: String,
+    /// Center of its box, world.
+    pub(super) center: DVec3,
+    /// Corners of its box, world.
+    pub(super) corners: Vec<DVec3>,
+    /// Half the diagonal of its box.
+    pub(super) radius: f64,
+    /// Sample points on it, world.
+    pub(super) points: Vec<DVec3>,
+    /// All Gaussians except its own: what can occlude it.
     others: OpacityGrid,
 }
 
 impl World {
-    /// Prepares a scene and those of its objects that `ids` names; `up` is the world's up.
+    /// Prepares a scene and those of its objects whose ids are in `ids`. `up` is the world's up, of any length above 0.
     ///
     /// # Errors
-    /// [`GeometryError::NoUpDirection`] when `up` has no length.
+    /// [`GeometryError::NoUpDirection`] where `up` has no length.
     pub fn new(gaussians: &Gaussians, up: DVec3, objects: &ObjectSet, ids: &[u32]) -> Result<Self, GeometryError> {
         let frame = LevelFrame::new(up)?;
         let bounds = Bounds::of(gaussians);
         let matter = OpacityGrid::of(Grid::around(&bounds, frame.up), gaussians, |_| true);
-        let clearance = ClearanceIndex::new(gaussians, SOLID_OPACITY, SIGMA_LEVEL);
-        let support = Support::of(&matter, &clearance, &bounds, &frame, &objects.objects);
+        let clearance = ClearanceIndex::new(gaussians);
+        let region = CaptureRegion::of(&matter, &clearance, &bounds, &frame, &objects.objects);
         let subjects = objects
             .objects
             .iter()
@@ -68,71 +67,73 @@ impl World {
             .map(|object| (object.id, Subject::of(gaussians, object, &objects.labels, &matter.grid)))
             .collect();
         let camera_radius = default_camera_radius(&bounds);
-        Ok(Self { frame, bounds, camera_radius, subjects, matter, clearance, support })
+        Ok(Self { frame, bounds, camera_radius, subjects, matter, clearance, region })
     }
 
-    /// A subject by object id.
-    pub fn subject(&self, id: u32) -> Option<&Subject> {
+    /// The subject with an object id.
+    pub(super) fn subject(&self, id: u32) -> Option<&Subject> {
         self.subjects.get(&id)
     }
 
-    /// Distance from a point to the nearest matter, scene units; that to the far end of the scene where there is less.
+    /// Distance from a world point to the nearest matter, scene units; 0 inside. At most a little more than twice the
+    /// scene size.
     pub fn clearance(&self, point: DVec3) -> f64 {
         let far = 2.0 * self.bounds.size() + self.camera_radius;
         self.clearance.nearest_within(point, far).map_or(far, |nearest| nearest.distance)
     }
 
-    /// The matter of the scene as ellipsoids.
-    pub fn ellipsoids(&self) -> &ClearanceIndex {
+    /// The scene's matter as ellipsoids.
+    pub(super) fn ellipsoids(&self) -> &ClearanceIndex {
         &self.clearance
     }
 
-    /// Whether the capture shows its good side from a point.
-    pub fn supports(&self, point: DVec3) -> bool {
-        self.support.holds(&self.matter, point)
+    /// Whether a world point lies in the region from which the scene was captured, as estimated from the matter.
+    pub fn in_capture_region(&self, point: DVec3) -> bool {
+        self.region.contains(&self.matter, point)
     }
 
-    /// Height along up of the lowest matter, but for the lowest 2 %: the floor of a room, the foot of a thing.
-    pub fn floor_height(&self) -> f64 {
+    /// Whether a camera at a world point sees surfaces from the side that was captured.
+    pub fn sees_front_faces(&self, point: DVec3) -> bool {
+        self.region.sees_front_faces(&self.matter, point)
+    }
+
+    /// Height along up of the bottom of the scene's core box: the floor of a room, or the foot of an object.
+    fn floor_height(&self) -> f64 {
         self.frame.height(self.bounds.core_min).min(self.frame.height(self.bounds.core_max))
     }
 
-    /// How far a point is below the height of a camera lying on the floor, over the scene size; 0 above.
-    pub fn sunk_frac(&self, point: DVec3) -> f64 {
+    /// How far a point is below the height of a camera that lies on the floor, over the scene size; 0 above that height.
+    pub(super) fn sunk_frac(&self, point: DVec3) -> f64 {
         (self.floor_height() + self.camera_radius - self.frame.height(point)).max(0.0) / self.bounds.size()
     }
 
-    /// How far a point lies outside the box of the middle 96 % of the solid Gaussians, over the scene size; 0 inside.
-    pub fn outside_frac(&self, point: DVec3) -> f64 {
+    /// Distance from a point to the scene's core box (of the middle 96 % of the solid Gaussians) over the scene size; 0
+    /// inside.
+    pub(super) fn outside_frac(&self, point: DVec3) -> f64 {
         let inside = point.clamp(self.bounds.core_min, self.bounds.core_max);
         inside.distance(point) / self.bounds.size()
     }
 
-    /// Whether what is seen from a point is seen from the side that the capture shows.
-    pub fn is_good_side(&self, point: DVec3) -> bool {
-        self.support.is_good_side(&self.matter, point)
+    /// Free places with a wide view of the scene, the best one first; world.
+    pub(super) fn viewpoints(&self) -> &[DVec3] {
+        &self.region.viewpoints
     }
 
-    /// Free places with a good view of the scene, the best first.
-    pub fn hubs(&self) -> &[DVec3] {
-        &self.support.hubs
-    }
-
-    /// Whether the scene surrounds the camera (a room) rather than being looked at from outside (a thing).
+    /// Whether the scene surrounds the camera (a room); otherwise the camera looks at it from outside (an object).
     pub fn is_indoor(&self) -> bool {
-        self.support.indoor
+        self.region.indoor
     }
 
-    /// Distance to what a ray meets, if it meets anything.
-    pub fn hit_distance(&self, eye: DVec3, direction: DVec3) -> Option<f64> {
+    /// Distance to the first surface that a ray of unit `direction` meets; `None` where it meets none.
+    pub(super) fn hit_distance(&self, eye: DVec3, direction: DVec3) -> Option<f64> {
         self.matter.hit_distance(eye, direction, 1.6 * self.bounds.size())
     }
 }
 
-/// The camera's radius unless asked for otherwise; never 0.
-pub fn default_camera_radius(bounds: &Bounds) -> f64 {
+/// The default of the camera's radius, scene units; above 0.
+pub(super) fn default_camera_radius(bounds: &Bounds) -> f64 {
     let radius = DEFAULT_CAMERA_RADIUS_FRAC * bounds.size();
-    if radius > 0.0 { radius } else { SMALLEST_CAMERA_RADIUS }
+    if radius > 0.0 { radius } else { MIN_CAMERA_RADIUS }
 }
 
 impl Subject {
@@ -153,11 +154,11 @@ impl Subject {
         };
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !own[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
-        Self { id: object.id, label, center: object.center, corners, radius: object.radius(), points, others }
+        Self { label, center: object.center, corners, radius: object.radius(), points, others }
     }
 
-    /// Share of light that reaches `eye` from a point of the subject, past everything but the subject.
-    pub fn transmittance(&self, eye: DVec3, point: DVec3) -> f64 {
+    /// Transmittance from a point of the subject to `eye` through all matter except the subject, 0..1.
+    pub(super) fn transmittance(&self, eye: DVec3, point: DVec3) -> f64 {
         self.others.transmittance(eye, point)
     }
 }

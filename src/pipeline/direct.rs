@@ -1,12 +1,12 @@
 use super::error::PipelineError;
 use super::phases::{Phase, PhaseTimes};
-use cinesplat_director::{Direction, Director, Stage, SuggestedCamera};
+use cinesplat_director::{Direction, Director, Stage};
 use cinesplat_language::{Linked, NamedObject};
 use cinesplat_lens::{Call, Decision, EffectChoice};
 use cinesplat_objects::{CloudSettings, ObjectSet};
-use cinesplat_operator::{Solution, SolveLevel, SolveSettings, Step, Suggestion, World};
+use cinesplat_operator::{Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
-use cinesplat_trajectory::{CameraState, ReportLine, SceneRef, Shot};
+use cinesplat_trajectory::{ReportLine, SceneRef, Shot};
 
 /// The name under which words ask for a slanted horizon, and the roll that it gets: in the middle of 5 to 35 degrees, what
 /// storyboards mean by it.
@@ -113,7 +113,7 @@ pub fn direct(
     let (level, seed) = (settings.solve, settings.seed);
     let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
     let solution = times.measure(Phase::Solve, || {
-        cinesplat_operator::realize(&world, &direction.program, prompt, &suggestions(&direction), &solve)
+        cinesplat_operator::realize(&world, &direction.program, prompt, &direction.step_cameras, &solve)
     });
     let mut shot = shot_of(scene, prompt, solution, settings);
     let effects = cinesplat_lens::decide(&settings.effects, &calls);
@@ -158,19 +158,6 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     set.objects.append(&mut rest);
     set.objects.sort_by_key(|object| object.id);
     Ok(set)
-}
-
-/// The cameras that the network has in mind for each step.
-fn suggestions(direction: &Direction) -> Vec<Suggestion> {
-    let camera = |index: usize| direction.cameras.get(index);
-    let state = |at: &SuggestedCamera| CameraState { pose: at.pose, fov_y_rad: at.fov_y_rad, focus_distance: None };
-    let ends = direction.step_cameras.iter().map_while(|&[start, end]| camera(start).zip(camera(end)));
-    let suggestion = |(start, end): (&SuggestedCamera, &SuggestedCamera)| Suggestion {
-        state: state(start),
-        end: state(end),
-        secs: end.time_secs - start.time_secs,
-    };
-    ends.map(suggestion).collect()
 }
 
 fn calls(linked: &Linked) -> Result<Vec<Call>, PipelineError> {

@@ -118,11 +118,12 @@ fn whatever_the_words_the_direction_can_be_carried_out() {
     for prompt in prompts {
         let direction = directed(&director, prompt, &objects);
         let steps = &direction.program.steps;
-        assert!(!steps.is_empty() && direction.cameras.len() <= MAX_KEYS, "{prompt}");
+        assert!(!steps.is_empty() && steps.len() <= MAX_KEYS, "{prompt}");
         assert_eq!((direction.step_cameras.len(), direction.certainty.len()), (steps.len(), steps.len()));
-        for camera in &direction.cameras {
+        assert!(direction.step_cameras.iter().all(|cameras| cameras.secs >= 0.0));
+        for camera in direction.step_cameras.iter().flat_map(|cameras| [cameras.start, cameras.end]) {
             assert!(camera.pose.position.is_finite() && (camera.pose.rotation.length() - 1.0).abs() < 1e-9);
-            assert!(camera.fov_y_rad > 0.0 && camera.fov_y_rad < 3.0 && camera.time_secs >= 0.0);
+            assert!(camera.fov_y_rad > 0.0 && camera.fov_y_rad < 3.0);
         }
         let named: Vec<u32> = linked(prompt, &objects).slots;
         for step in steps {

@@ -1,5 +1,5 @@
 use cinesplat::language::{program_from_notation, program_to_notation};
-use cinesplat::operator::{Amount, Framing, Part, Pass, Program, Speed, Step, Via};
+use cinesplat::operator::{Amount, Framing, Pass, Program, Speed, Step, SubjectPart, Via};
 use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 #[test]
@@ -12,10 +12,16 @@ fn every_part_of_a_step_is_read() {
             subjects: vec![3, 5],
             size: Some(ShotSize::Long),
             angle: Some(ShotAngle::Low),
-            part: Part::Middle,
+            part: SubjectPart::Middle,
             whole: true,
         },
-        end: Framing { subjects: vec![3], size: Some(ShotSize::CloseUp), angle: None, part: Part::Top, whole: false },
+        end: Framing {
+            subjects: vec![3],
+            size: Some(ShotSize::CloseUp),
+            angle: None,
+            part: SubjectPart::Top,
+            whole: false,
+        },
         via: Some(Via { how: Pass::Between, objects: vec![1, 2] }),
         amount: Some(Amount::Degrees(45.0)),
         duration_secs: Some(2.5),

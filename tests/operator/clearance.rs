@@ -6,8 +6,8 @@ use glam::{DVec3, Quat, Vec3};
 
 use super::{add, bisected, brute_force};
 
-/// Numbers in 0..1 that repeat for the same start.
-struct Dice(u64);
+/// Seeded random numbers.
+pub(super) struct Dice(pub(super) u64);
 
 impl Dice {
     fn roll(&mut self) -> f64 {
@@ -15,7 +15,8 @@ impl Dice {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn vector(&mut self) -> DVec3 {
+    /// Three numbers in -1..1.
+    pub(super) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.roll(), self.roll(), self.roll()) * 2.0 - 1.0
     }
 
@@ -57,7 +58,7 @@ fn distances_are_those_to_the_surface_for_needles_flats_and_all_between() {
             let mut gaussians = Gaussians::default();
             let scales = Vec3::from_array(shape.map(|s: f64| s as f32));
             add(&mut gaussians, dice.vector(), scales, dice.rotation(), 0.9);
-            let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
+            let index = ClearanceIndex::new(&gaussians);
             let point = gaussians.mean_world(0) + dice.vector() * 3.0;
             let got = index.nearest_within(point, f64::INFINITY).unwrap().distance;
             if bisected(&gaussians, 0, point) == 0.0 {
@@ -77,13 +78,13 @@ fn distances_are_those_to_the_surface_for_needles_flats_and_all_between() {
 fn a_gaussian_without_extent_is_a_point_and_a_flat_one_is_a_disk() {
     let mut gaussians = Gaussians::default();
     add(&mut gaussians, DVec3::new(1.0, 2.0, 3.0), Vec3::ZERO, Quat::IDENTITY, 1.0);
-    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&gaussians);
     let nearest = index.nearest_within(DVec3::new(1.0, 2.0, 7.0), f64::INFINITY).unwrap();
     assert!((nearest.distance - 4.0).abs() < 1e-9);
 
     let mut gaussians = Gaussians::default();
     add(&mut gaussians, DVec3::ZERO, Vec3::new(2.0, 2.0, 0.0), Quat::IDENTITY, 1.0);
-    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&gaussians);
     let distance = |p: DVec3| index.nearest_within(p, f64::INFINITY).unwrap().distance;
     assert!((distance(DVec3::new(0.5, 0.5, 0.7)) - 0.7).abs() < 1e-6, "above the disk");
     assert!((distance(DVec3::new(4.0, 0.0, 0.0)) - 1.0).abs() < 1e-6, "beside the disk");
@@ -103,7 +104,7 @@ fn the_nearest_of_many_is_that_of_a_scan() {
     // One as large as the scene, and one far from it.
     add(&mut gaussians, DVec3::new(0.0, -6.0, 0.0), Vec3::new(4.0, 0.1, 4.0), Quat::IDENTITY, 0.9);
     add(&mut gaussians, DVec3::new(4000.0, 0.0, 0.0), Vec3::splat(0.5), Quat::IDENTITY, 0.9);
-    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&gaussians);
     let solid = gaussians.opacities.iter().filter(|&&opacity| opacity >= SOLID_OPACITY).count();
     assert_eq!(index.len(), solid);
     for i in 0..300 {
@@ -122,7 +123,7 @@ fn the_nearest_of_many_is_that_of_a_scan() {
 fn faint_gaussians_are_no_matter_and_nothing_is_infinitely_far() {
     let mut gaussians = Gaussians::default();
     add(&mut gaussians, DVec3::ZERO, Vec3::ONE, Quat::IDENTITY, 0.49);
-    let index = ClearanceIndex::new(&gaussians, SOLID_OPACITY, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&gaussians);
     assert!(index.is_empty());
     assert_eq!(index.nearest_within(DVec3::ZERO, f64::INFINITY), None);
 }

@@ -1,7 +1,7 @@
 //! Each move does what the contract's "Moves, exactly" says, measured on the film.
 
 use cinesplat::geometry::{LevelFrame, rotation};
-use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, Suggestion, realize};
+use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, StepCameras, realize};
 use cinesplat::trajectory::{CameraState, Move, ShotSize};
 use glam::DVec3;
 
@@ -154,14 +154,14 @@ fn without_a_search_the_film_goes_through_the_suggested_cameras() {
         fov_y_rad: 0.8,
         focus_distance: None,
     };
-    let (state, end) = (at(DVec3::new(-0.5, 1.0, -1.5)), at(DVec3::new(0.2, 0.9, -0.4)));
-    let suggestion = Suggestion { state, end, secs: 3.0 };
+    let (start, end) = (at(DVec3::new(-0.5, 1.0, -1.5)), at(DVec3::new(0.2, 0.9, -0.4)));
+    let suggestion = StepCameras { start, end, secs: 3.0 };
     let program = Program { steps: vec![Step { end: about(1), ..Step::of(Move::PushIn) }], ..Program::default() };
     let settings = SolveSettings { level: SolveLevel::Off, ..SolveSettings::default() };
     let solution = realize(&world, &program, "", &[suggestion], &settings);
     let frames = film(&solution);
     assert!((solution.duration_secs - 3.0).abs() < 1e-9);
-    assert!(frames[0].pose.position.distance(state.pose.position) < 1e-9);
+    assert!(frames[0].pose.position.distance(start.pose.position) < 1e-9);
     assert!(frames[frames.len() - 1].pose.position.distance(end.pose.position) < 1e-9);
     assert!(!solution.report.is_empty(), "what the step wants is still held against the film");
 }

@@ -1,4 +1,4 @@
-//! Where a camera may stand: clear of matter, and where the capture shows its good side.
+//! Where a camera may stand: clear of matter and inside the captured region.
 
 use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, realize};
 use cinesplat::trajectory::Move;
@@ -7,14 +7,14 @@ use glam::DVec3;
 use super::{film, room, solved, world};
 
 #[test]
-fn the_middle_is_supported_and_behind_the_walls_is_not() {
+fn the_captured_region_ends_at_the_walls() {
     let world = world();
     assert!(world.is_indoor());
-    assert!(world.supports(DVec3::new(0.0, 1.2, -1.0)) && world.is_good_side(DVec3::new(0.0, 1.2, -1.0)));
+    assert!(world.in_capture_region(DVec3::new(0.0, 1.2, -1.0)) && world.sees_front_faces(DVec3::new(0.0, 1.2, -1.0)));
     for outside in [DVec3::new(-3.6, 1.2, 0.0), DVec3::new(0.0, 1.2, 3.6), DVec3::new(0.0, -0.4, 0.0)] {
-        assert!(!world.supports(outside), "{outside}");
+        assert!(!world.in_capture_region(outside), "{outside}");
     }
-    assert!(!world.supports(DVec3::new(1.2, 0.6, 0.9)), "inside of a box");
+    assert!(!world.in_capture_region(DVec3::new(1.2, 0.6, 0.9)), "inside of a box");
 }
 
 #[test]

@@ -1,34 +1,36 @@
-//! Which ellipsoid is nearest to a point: a tree of boxes, eight to a node, in flat arrays.
+//! The ellipsoid nearest to a point, by a bounding volume hierarchy with eight boxes per node in flat arrays.
 //!
-//! The ellipsoids are put in order of size class and place (Morton order of their means), so that large ones do not blow
-//! up the boxes of small ones; then every eight neighbors share a node, and every eight nodes one above. Boxes are kept in
-//! f32, widened by more than the rounding of a query: a box is never farther than what it holds.
+//! The ellipsoids are sorted by size class, then by the Morton code of their means, so that large ones do not enlarge the
+//! boxes of small ones. Every eight neighbors share a node, and every eight nodes share a parent. The boxes are `f32`,
+//! widened by more than the rounding error of a query: a box is never farther from a point than its contents.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::ellipsoid::Ellipsoid;
-use cinesplat_scene::Gaussians;
+use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
-/// Children of a node.
+/// Number of standard deviations of a Gaussian that count as matter. There its opacity has fallen to a third of its peak:
+/// a Gaussian of opacity 0.5 hides a sixth of the light.
+pub const SIGMA_LEVEL: f64 = 1.5;
+/// Children per node.
 const WIDTH: usize = 8;
-/// Longest half extent over the extent of all means from which an ellipsoid falls into a class of larger ones.
+/// Thresholds between the size classes: largest half extent over the extent of all means.
 const LARGE_FRACS: [f64; 3] = [1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
-/// Widening of a box over the largest coordinate: four roundings to f32.
+/// Widening of a box over the largest coordinate: four rounding errors of `f32`.
 const BOX_ROUNDING: f64 = 2.5e-7;
-/// Share of a computed squared distance to a box that is certain.
+/// Factor that turns a computed squared distance to a box into a lower bound.
 const SURE_FRAC: f32 = 1.0 - 4e-6;
 
-/// The matter of a scene, prepared for questions of distance.
+/// The matter of a scene, indexed for nearest-neighbor queries.
 #[derive(Debug, Clone)]
 pub struct ClearanceIndex {
     origin: DVec3,
-    sigma: f64,
     ellipsoids: Vec<Ellipsoid>,
     /// Index of each ellipsoid's Gaussian in the scene.
     gaussians: Vec<u32>,
-    /// Levels of nodes; the lowest has a child an ellipsoid, the last is one node.
-    levels: Vec<Vec<Node>>,
+    /// Levels of nodes. The children of the first level are the ellipsoids; the last level is the root.
+    levels: Vec<Vec<BoxNode>>,
 }
 
 /// The ellipsoid nearest to a point.
@@ -40,25 +42,25 @@ pub struct Nearest {
     pub gaussian_idx: u32,
 }
 
-/// Boxes of eight children, axis by axis; a child that is not there has an empty box, infinitely far from all.
+/// The boxes of eight children, axis by axis. A missing child has an empty box, which is infinitely far from every point.
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct BoxNode {
     low: [[f32; WIDTH]; 3],
     high: [[f32; WIDTH]; 3],
 }
 
-const EMPTY: Node = Node { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
+const EMPTY: BoxNode = BoxNode { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
 
 impl ClearanceIndex {
-    /// The ellipsoids of all Gaussians of at least an opacity, out to `sigma` standard deviations.
-    pub fn new(gaussians: &Gaussians, opacity_floor: f32, sigma: f64) -> Self {
+    /// Indexes the ellipsoids of all Gaussians of at least [`SOLID_OPACITY`], out to [`SIGMA_LEVEL`] standard deviations.
+    pub fn new(gaussians: &Gaussians) -> Self {
         let ellipsoid = |i: u32| {
             let i = i as usize;
             Ellipsoid { mean: gaussians.means[i], rotation: gaussians.rotations[i], scales: gaussians.scales[i] }
         };
         let solid: Vec<u32> =
-            (0..gaussians.len() as u32).filter(|&i| gaussians.opacities[i as usize] >= opacity_floor).collect();
-        let half_extents: Vec<DVec3> = solid.par_iter().map(|&i| ellipsoid(i).half_extents(sigma)).collect();
+            (0..gaussians.len() as u32).filter(|&i| gaussians.opacities[i as usize] >= SOLID_OPACITY).collect();
+        let half_extents: Vec<DVec3> = solid.par_iter().map(|&i| ellipsoid(i).half_extents(SIGMA_LEVEL)).collect();
         let order = order(gaussians, &solid, &half_extents);
         let ellipsoids: Vec<Ellipsoid> = order.par_iter().map(|&at| ellipsoid(solid[at as usize])).collect();
         let reach = |i: &u32| gaussians.means[*i as usize].abs().max_element();
@@ -70,7 +72,7 @@ impl ClearanceIndex {
         };
         let boxes: Vec<([f32; 3], [f32; 3])> = ellipsoids.par_iter().zip(&order).map(bounds).collect();
         let gaussians_of = order.iter().map(|&at| solid[at as usize]).collect();
-        Self { origin: gaussians.origin, sigma, ellipsoids, gaussians: gaussians_of, levels: levels(&boxes) }
+        Self { origin: gaussians.origin, ellipsoids, gaussians: gaussians_of, levels: levels(&boxes) }
     }
 
     /// Number of ellipsoids.
@@ -78,14 +80,14 @@ impl ClearanceIndex {
         self.ellipsoids.len()
     }
 
-    /// Whether there is no matter.
+    /// Whether the scene has no matter.
     pub fn is_empty(&self) -> bool {
         self.ellipsoids.is_empty()
     }
 
-    /// The ellipsoid nearest to a point of the world, if one is nearer than `cutoff`.
+    /// The ellipsoid nearest to a world point; `None` where none is nearer than `cutoff`, scene units.
     ///
-    /// The distance is that to the nearest surface and never above it by more than 1e-12 of the numbers' size.
+    /// The distance exceeds the true one by at most 1e-12 of the coordinates' magnitude.
     pub fn nearest_within(&self, point: DVec3, cutoff: f64) -> Option<Nearest> {
         let point = point - self.origin;
         let single = point.as_vec3().to_array();
@@ -104,7 +106,7 @@ impl ClearanceIndex {
                     stack.push((squared, level.wrapping_sub(1), at * WIDTH as u32 + child as u32));
                 }
             }
-            // The nearest child is looked at first: it comes last on the stack.
+            // The nearest child goes last on the stack, so that it is visited first.
             stack[first..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(b.2.cmp(&a.2)));
             if level > 0 {
                 continue;
@@ -114,7 +116,7 @@ impl ClearanceIndex {
                 if f64::from(squared) >= best * best {
                     continue;
                 }
-                if let Some(distance) = self.ellipsoids[at as usize].distance_below(point, self.sigma, best) {
+                if let Some(distance) = self.ellipsoids[at as usize].distance_below(point, SIGMA_LEVEL, best) {
                     (best, found) = (distance, Some(at));
                 }
             }
@@ -123,8 +125,8 @@ impl ClearanceIndex {
     }
 }
 
-impl Node {
-    /// Lower bounds of the squared distances from a point to the eight boxes.
+impl BoxNode {
+    /// Lower bounds on the squared distances from a point to the eight boxes.
     fn squared_distances(&self, point: [f32; 3]) -> [f32; WIDTH] {
         let mut sum = [0.0_f32; WIDTH];
         for ((low, high), at) in self.low.iter().zip(&self.high).zip(point) {
@@ -136,7 +138,7 @@ impl Node {
         sum.map(|squared| squared * SURE_FRAC)
     }
 
-    /// The box about all children.
+    /// The bounding box of all children.
     fn hull(&self) -> ([f32; 3], [f32; 3]) {
         let low = self.low.map(|axis| axis.into_iter().fold(f32::INFINITY, f32::min));
         let high = self.high.map(|axis| axis.into_iter().fold(f32::NEG_INFINITY, f32::max));
@@ -144,7 +146,7 @@ impl Node {
     }
 }
 
-/// Positions in `solid` in order of size class and Morton code of the mean, ties by position.
+/// Positions in `solid`, sorted by size class, then Morton code of the mean, then position.
 fn order(gaussians: &Gaussians, solid: &[u32], half_extents: &[DVec3]) -> Vec<u32> {
     let mean = |at: usize| gaussians.means[solid[at] as usize].as_dvec3();
     let (low, high) = (0..solid.len())
@@ -162,7 +164,7 @@ fn order(gaussians: &Gaussians, solid: &[u32], half_extents: &[DVec3]) -> Vec<u3
     keys.into_iter().map(|(_, at)| at).collect()
 }
 
-/// The lowest 20 bits, two zeros between each.
+/// The lowest 20 bits, with two zeros after each.
 fn spaced(bits: u32) -> u64 {
     let mut x = u64::from(bits) & 0xF_FFFF;
     for (shift, mask) in [
@@ -177,19 +179,19 @@ fn spaced(bits: u32) -> u64 {
     x
 }
 
-/// Nodes of every level, from the boxes of single ellipsoids up to one node.
-fn levels(boxes: &[([f32; 3], [f32; 3])]) -> Vec<Vec<Node>> {
-    let mut levels: Vec<Vec<Node>> = Vec::new();
+/// The nodes of every level, from the boxes of single ellipsoids up to the root.
+fn levels(boxes: &[([f32; 3], [f32; 3])]) -> Vec<Vec<BoxNode>> {
+    let mut levels: Vec<Vec<BoxNode>> = Vec::new();
     let mut below = boxes.to_vec();
     while below.len() > 1 || (levels.is_empty() && !below.is_empty()) {
-        let nodes: Vec<Node> = below.par_chunks(WIDTH).map(node).collect();
-        below = nodes.iter().map(Node::hull).collect();
+        let nodes: Vec<BoxNode> = below.par_chunks(WIDTH).map(node).collect();
+        below = nodes.iter().map(BoxNode::hull).collect();
         levels.push(nodes);
     }
     levels
 }
 
-fn node(boxes: &[([f32; 3], [f32; 3])]) -> Node {
+fn node(boxes: &[([f32; 3], [f32; 3])]) -> BoxNode {
     let mut node = EMPTY;
     for (child, (low, high)) in boxes.iter().enumerate() {
         for axis in 0..3 {

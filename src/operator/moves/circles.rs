@@ -1,147 +1,140 @@
-//! Moves about a subject with the aim kept on it: orbit, arc, crane.
+//! Moves about a subject that the camera stays aimed at: orbit, arc, crane.
 
 use glam::DVec3;
 
-use super::Scenario;
-use crate::Amount;
-use crate::draft::{GoalKind, Part, When};
+use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Target, bearing_of};
+use crate::motion::MotionSegment;
+use crate::program::{Amount, Framing};
 use crate::view::{aimed, lerp, moved};
+use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
-/// Most degrees of an orbit between two keys, so that a person sees its shape in the keys.
+/// Largest angle of an orbit between two keyframes, so that the keyframes show its shape.
 const DEG_PER_KEY: f64 = 30.0;
 
-/// Around the upright axis through the subject's center, at one radius and height.
-pub(super) fn orbit(scenario: &Scenario) -> Vec<Part> {
-    let target = scenario.main();
-    let (mut parts, first) = scenario.opened_on(&Target { aim: target.center, ..target.clone() }, (0.4, 0.72));
-    let sign = scenario.sign(match scenario.step.movement {
+/// Circles the upright axis through the subject's center, at constant radius and height.
+pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
+    let target = context.main_target();
+    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.4, 0.72));
+    let sign = context.sign(match context.step.movement {
         Move::OrbitLeft | Move::ArcLeft => 1.0,
         _ => -1.0,
     });
-    let degrees = orbit_deg(scenario);
+    let degrees = orbit_deg(context);
     let pivot = target.center;
     let away = first.pose.position - pivot;
-    let frame = &scenario.world.frame;
+    let frame = &context.world.frame;
     let (radius, rise) = (frame.horizontal(away).length(), frame.height(away));
     let from = frame.azimuth(away);
     let count = (degrees / DEG_PER_KEY).ceil().max(2.0) as usize;
     let at = |i: usize| {
         let azimuth = from + sign * degrees.to_radians() * i as f64 / count as f64;
         let position = pivot + frame.direction(azimuth) * radius + frame.up * rise;
-        aimed(scenario.world, &moved(&first, position - first.pose.position), pivot)
+        aimed(context.world, &moved(&first, position - first.pose.position), pivot)
     };
     let states: Vec<CameraState> = (0..=count).map(at).collect();
-    let mut part = scenario.part(states, (degrees / 14.0).clamp(3.0, 20.0)).about(pivot);
-    // Left where the words leave the direction open, the keys say which way it went.
-    part.movement = match (scenario.step.movement, sign > 0.0) {
+    let mut segment = context.segment(states, (degrees / 14.0).clamp(3.0, 20.0)).about(pivot);
+    // Where the prompt leaves the direction open, the keyframes record the one that was taken.
+    segment.movement = match (context.step.movement, sign > 0.0) {
         (Move::OrbitLeft | Move::OrbitRight, true) => Move::OrbitLeft,
         (Move::OrbitLeft | Move::OrbitRight, false) => Move::OrbitRight,
         (_, true) => Move::ArcLeft,
         (_, false) => Move::ArcRight,
     };
-    part = scenario.ending(scenario.beginning(part));
-    if let Some(angle) = scenario.step.start.angle.or(scenario.step.end.angle).filter(|_| scenario.before.is_none()) {
-        part = part.keeping(When::All, GoalKind::Pitch(pitch_band_deg(angle)));
+    segment = context.constrained_at_end(context.constrained_at_start(segment));
+    if let Some(angle) = context.step.start.angle.or(context.step.end.angle).filter(|_| context.before.is_none()) {
+        segment = segment.requiring(Scope::All, ConstraintKind::Pitch(pitch_band_deg(angle)));
     }
-    parts.push(super::seen(part, &target, When::All));
-    parts
+    segments.push(require_visible(segment, &target, Scope::All));
+    segments
 }
 
-/// Angle of an orbit: stated, or what its words usually mean.
-fn orbit_deg(scenario: &Scenario) -> f64 {
-    let arc = matches!(scenario.step.movement, Move::ArcLeft | Move::ArcRight);
-    match scenario.step.amount {
+/// Angle of an orbit: the stated one, or the usual meaning of its words.
+fn orbit_deg(context: &StepContext) -> f64 {
+    let arc = matches!(context.step.movement, Move::ArcLeft | Move::ArcRight);
+    match context.step.amount {
         Some(Amount::Degrees(degrees)) => degrees.clamp(1.0, 1080.0),
         Some(Amount::Factor(turns)) => (turns * 360.0).clamp(1.0, 1080.0),
         Some(Amount::Slight) => 25.0,
         Some(Amount::Large) if arc => 180.0,
         Some(Amount::Large) => 360.0,
-        _ if arc => lerp((40.0, 60.0), scenario.genes[6]),
-        _ => lerp((58.0, 88.0), scenario.genes[6]),
+        _ if arc => lerp((40.0, 60.0), context.parameters[6]),
+        _ => lerp((58.0, 88.0), context.parameters[6]),
     }
 }
 
-/// Pitch of the camera that an angle word stands for, degrees, positive up.
-pub(super) fn pitch_band_deg(angle: ShotAngle) -> (f64, f64) {
-    match angle {
-        ShotAngle::Overhead => (-90.0, -40.0),
-        ShotAngle::High => (-40.0, -12.0),
-        ShotAngle::EyeLevel => (-12.0, 10.0),
-        ShotAngle::Low => (8.0, 42.0),
-        ShotAngle::Worm => (38.0, 90.0),
-    }
-}
-
-/// Up or down with the aim on the subject.
-pub(super) fn crane(scenario: &Scenario) -> Vec<Part> {
-    let target = scenario.main();
-    let upward = (scenario.step.movement == Move::CraneUp) != (scenario.step.either_way && scenario.genes[5] < 0.5);
-    let (mut parts, first) = if scenario.before.is_none() && scenario.step.start.angle.is_none() {
-        let view = scenario.view(&target, &opening_for_crane(scenario, upward), (0.35, 0.62), super::NORMAL_LENS_DEG);
+/// Rises or sinks, aimed at the subject.
+pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
+    let target = context.main_target();
+    let upward = (context.step.movement == Move::CraneUp) != (context.step.either_way && context.parameters[5] < 0.5);
+    let (mut segments, first) = if context.before.is_none() && context.step.start.angle.is_none() {
+        let view = context.view(&target, &opening_for_crane(context, upward), (0.35, 0.62), NORMAL_LENS_DEG);
         (Vec::new(), view)
     } else {
-        scenario.opened_on(&target, (0.35, 0.62))
+        context.opened_on(&target, (0.35, 0.62))
     };
-    let last = raised(scenario, &first, &target, upward);
+    let last = raised(context, &first, &target, upward);
     let middle = CameraState {
-        pose: cinesplat_geometry::Pose { position: first.pose.position.lerp(last.pose.position, 0.5), ..first.pose },
+        pose: Pose { position: first.pose.position.lerp(last.pose.position, 0.5), ..first.pose },
         ..first
     };
-    let states = vec![first, aimed(scenario.world, &middle, target.aim), last];
-    let mut part = scenario.part(states, 4.5).about(target.aim);
-    let end_angle = scenario.step.end.angle;
-    let goal = match (end_angle, upward) {
+    let states = vec![first, aimed(context.world, &middle, target.aim), last];
+    let mut segment = context.segment(states, 4.5).about(target.aim);
+    let end_angle = context.step.end.angle;
+    let band = match (end_angle, upward) {
         (Some(angle), _) => pitch_band_deg(angle),
         (None, true) => (-60.0, -7.0),
         (None, false) => (-40.0, 25.0),
     };
-    part = part.keeping(When::End, GoalKind::Pitch(goal));
-    if let Some(angle) = scenario.step.start.angle {
-        part = part.keeping(When::Start, GoalKind::Pitch(pitch_band_deg(angle)));
+    segment = segment.requiring(Scope::End, ConstraintKind::Pitch(band));
+    if let Some(angle) = context.step.start.angle {
+        segment = segment.requiring(Scope::Start, ConstraintKind::Pitch(pitch_band_deg(angle)));
     }
-    part = scenario.ending(scenario.beginning(part)).keeping(When::All, GoalKind::Centered(target.clone(), 0.14));
-    parts.push(super::seen(part, &target, When::All));
-    parts
+    segment = context
+        .constrained_at_end(context.constrained_at_start(segment))
+        .requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.14));
+    segments.push(require_visible(segment, &target, Scope::All));
+    segments
 }
 
-/// Framing of a crane's open start: low enough to rise, or high enough to sink.
-fn opening_for_crane(scenario: &Scenario, upward: bool) -> crate::Framing {
-    let mut framing = scenario.opening_framing();
+/// Framing of a crane's free start: low enough to rise, or high enough to sink.
+fn opening_for_crane(context: &StepContext, upward: bool) -> Framing {
+    let mut framing = context.opening_framing();
     framing.angle = if upward { None } else { Some(ShotAngle::High) };
     framing
 }
 
-/// Least change of the angle under which a crane sees its subject.
-const LEAST_CRANE_DEG: f64 = 14.0;
+/// Least change of a crane's elevation, seen from its subject.
+const MIN_CRANE_DEG: f64 = 14.0;
 
-/// The camera after the rise (or fall), aimed at the target.
-fn raised(scenario: &Scenario, first: &CameraState, target: &Target, upward: bool) -> CameraState {
-    let frame = &scenario.world.frame;
+/// The camera after it has risen or sunk, aimed at the target.
+fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: bool) -> CameraState {
+    let frame = &context.world.frame;
     let away = first.pose.position - target.aim;
     let level = frame.horizontal(away);
     let distance = away.length();
-    let start = bearing_of(scenario.world, target.aim, first.pose.position).elevation_rad.to_degrees();
+    let start = bearing_of(context.world, target.aim, first.pose.position).elevation_rad.to_degrees();
     let sign = if upward { 1.0 } else { -1.0 };
-    let asked = match scenario.step.end.angle {
-        Some(ShotAngle::Overhead) => lerp((46.0, 66.0), scenario.genes[6]),
-        Some(ShotAngle::High) => lerp((16.0, 36.0), scenario.genes[6]),
-        Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), scenario.genes[6]),
-        Some(ShotAngle::Low) => lerp((-30.0, -10.0), scenario.genes[6]),
+    let asked = match context.step.end.angle {
+        Some(ShotAngle::Overhead) => lerp((46.0, 66.0), context.parameters[6]),
+        Some(ShotAngle::High) => lerp((16.0, 36.0), context.parameters[6]),
+        Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), context.parameters[6]),
+        Some(ShotAngle::Low) => lerp((-30.0, -10.0), context.parameters[6]),
         Some(ShotAngle::Worm) => -45.0,
-        None => start + sign * lerp((18.0, 38.0), scenario.genes[6]),
+        None => start + sign * lerp((18.0, 38.0), context.parameters[6]),
     };
-    // Whatever the angle at its end, a crane that does not rise (or sink) is none.
-    let least = start + sign * LEAST_CRANE_DEG;
+    // For every end angle a crane must rise or sink visibly.
+    let least = start + sign * MIN_CRANE_DEG;
     let elevation = if upward { asked.max(least) } else { asked.min(least) };
-    let rise = match scenario.step.amount {
+    let rise = match context.step.amount {
         Some(Amount::Units(units)) => sign * units,
         Some(Amount::Slight) => sign * 0.22 * distance,
         Some(Amount::Large) => sign * 1.2 * distance,
         _ => (level.length() * elevation.clamp(-70.0, 70.0).to_radians().tan()) - frame.height(away),
     };
-    // The jib swings in a little as it rises.
-    let swing: DVec3 = -level * lerp((0.0, 0.3), scenario.genes[7]) * rise.abs() / (rise.abs() + distance);
-    aimed(scenario.world, &moved(first, frame.up * rise + swing), target.aim)
+    // The jib swings toward the subject as it rises.
+    let swing: DVec3 = -level * lerp((0.0, 0.3), context.parameters[7]) * rise.abs() / (rise.abs() + distance);
+    aimed(context.world, &moved(first, frame.up * rise + swing), target.aim)
 }

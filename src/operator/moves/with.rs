@@ -2,53 +2,57 @@
 
 use glam::DVec3;
 
-use super::Scenario;
-use crate::draft::{Goal, GoalKind, Part};
+use super::context::StepContext;
+use crate::constraint::{Constraint, ConstraintKind};
+use crate::motion::MotionSegment;
 use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose};
 use cinesplat_trajectory::{CameraState, Move};
 
-/// Keys of a mixed move at least: its path bends.
+/// Least number of keyframes of a combined move, whose path is curved.
 const NUM_KEYS: usize = 5;
 
-/// Lays the step's second move over its last part. The first move keeps its own goals except those that the second one
-/// breaks by its nature.
-pub(super) fn add_second_move(scenario: &Scenario, parts: &mut [Part]) {
-    let named_direction = matches!(scenario.step.movement, Move::WhipPan | Move::Reveal);
-    let Some(second) = scenario.step.with.filter(|second| *second != scenario.step.movement && !named_direction) else {
+/// Adds the step's second move to its last segment. The segment keeps its constraints, except those that the second move
+/// inevitably violates.
+pub(super) fn add_second_move(context: &StepContext, segments: &mut [MotionSegment]) {
+    let named_direction = matches!(context.step.movement, Move::WhipPan | Move::Reveal);
+    let Some(second) = context.step.with.filter(|second| *second != context.step.movement && !named_direction) else {
         return;
     };
-    let Some(part) = parts.iter_mut().rev().find(|part| !part.is_join) else { return };
-    if part.states.len() == 2 {
-        part.states = subdivided(scenario, part);
+    let Some(segment) = segments.iter_mut().rev().find(|segment| !segment.is_join) else { return };
+    if segment.states.len() == 2 {
+        segment.states = subdivided(context, segment);
     }
-    let count = part.states.len() - 1;
-    let target = scenario.main();
-    let keeps_aim = part.pivot.is_some() || matches!(second, Move::CraneUp | Move::CraneDown);
-    for (i, state) in part.states.iter_mut().enumerate() {
+    let count = segment.states.len() - 1;
+    let target = context.main_target();
+    let keeps_aim = segment.pivot.is_some() || matches!(second, Move::CraneUp | Move::CraneDown);
+    for (i, state) in segment.states.iter_mut().enumerate() {
         let share = i as f64 / count as f64;
-        *state = added(scenario, second, state, target.aim, share);
+        *state = added(context, second, state, target.aim, share);
         if keeps_aim {
-            *state = aimed(scenario.world, state, target.aim);
+            *state = aimed(context.world, state, target.aim);
         }
     }
-    let broken = |goal: &Goal| match goal.kind {
-        GoalKind::DistanceRatio(..) | GoalKind::LensRatio(_) => !is_turn(second),
-        GoalKind::Centered(..) => !keeps_aim,
-        GoalKind::Travel(..) | GoalKind::YawChange(_) | GoalKind::PitchChange(_) | GoalKind::Pitch(_) => true,
+    let violated = |constraint: &Constraint| match constraint.kind {
+        ConstraintKind::DistanceRatio(..) | ConstraintKind::LensRatio(_) => !is_turn(second),
+        ConstraintKind::Centered(..) => !keeps_aim,
+        ConstraintKind::Travel(..)
+        | ConstraintKind::YawChange(_)
+        | ConstraintKind::PitchChange(_)
+        | ConstraintKind::Pitch(_) => true,
         _ => false,
     };
-    part.goals.retain(|goal| !broken(goal));
+    segment.constraints.retain(|constraint| !violated(constraint));
 }
 
 fn is_turn(movement: Move) -> bool {
     matches!(movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::RollCw | Move::RollCcw)
 }
 
-/// States in between, by way, level angles and lens.
-fn subdivided(scenario: &Scenario, part: &Part) -> Vec<CameraState> {
-    let (a, b) = (part.states[0], part.states[1]);
-    let frame = &scenario.world.frame;
+/// Intermediate states, linear in position, level angles and focal length.
+fn subdivided(context: &StepContext, segment: &MotionSegment) -> Vec<CameraState> {
+    let (a, b) = (segment.states[0], segment.states[1]);
+    let frame = &context.world.frame;
     let (from, to) = (frame.angles(a.pose.rotation), frame.angles(b.pose.rotation));
     let turn =
         (to.yaw_rad - from.yaw_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
@@ -66,12 +70,12 @@ fn subdivided(scenario: &Scenario, part: &Part) -> Vec<CameraState> {
     (0..NUM_KEYS).map(between).collect()
 }
 
-/// A state with `share` of the second move added, of the amount that the move has when the words give none.
-fn added(scenario: &Scenario, second: Move, state: &CameraState, aim: DVec3, share: f64) -> CameraState {
-    let frame = &scenario.world.frame;
+/// A state with `share` of the second move added, at the move's default amount.
+fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, share: f64) -> CameraState {
+    let frame = &context.world.frame;
     let away = state.pose.position - aim;
     let distance = away.length();
-    let reach = lerp((0.25, 0.5), scenario.genes[7]);
+    let reach = lerp((0.25, 0.5), context.parameters[7]);
     let shift = |by: DVec3| moved(state, by * share);
     let turn = |yaw_deg: f64, pitch_deg: f64, roll_deg: f64| {
         let angles = frame.angles(state.pose.rotation);
@@ -86,7 +90,7 @@ fn added(scenario: &Scenario, second: Move, state: &CameraState, aim: DVec3, sha
     let around = |sign: f64| {
         let azimuth = frame.azimuth(away) + (sign * 40.0 * share).to_radians();
         let place = aim + frame.direction(azimuth) * frame.horizontal(away).length() + frame.up * frame.height(away);
-        aimed(scenario.world, &moved(state, place - state.pose.position), aim)
+        aimed(context.world, &moved(state, place - state.pose.position), aim)
     };
     match second {
         Move::PanLeft => turn(-18.0, 0.0, 0.0),

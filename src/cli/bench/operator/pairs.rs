@@ -5,13 +5,14 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 
+use super::pair_trial::{PairResult, PairTrial};
 use super::statistics::Summary;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use cinesplat::objects::ObjectSet;
-use cinesplat::operator::{ClearanceIndex, PairResult, PairSettings, Route, SIGMA_LEVEL, World, try_pairs};
+use cinesplat::operator::{ClearanceIndex, Route, World};
 use cinesplat::pipeline;
-use cinesplat::scene::{LoadOptions, SOLID_OPACITY, Scene};
+use cinesplat::scene::{LoadOptions, Scene};
 
 /// Ways between random places of scenes: are they clear of matter, and how long do they take to find?
 #[derive(Debug, clap::Args)]
@@ -47,22 +48,22 @@ impl Args {
             let scene = pipeline::open_scene(name, &LoadOptions::default())?.scene;
             let share = usize::from(self.pairs) * (number + 1) / self.scenes.len()
                 - usize::from(self.pairs) * number / self.scenes.len();
-            let settings = PairSettings { num_pairs: share, num_samples: self.samples, seed: self.seed };
-            all.extend(single.install(|| on_scene(&scene, &settings))?);
+            let trial = PairTrial { num_pairs: share, num_samples: self.samples, seed: self.seed };
+            all.extend(single.install(|| on_scene(&scene, &trial))?);
         }
         console::note(&summary(&all));
         Ok(())
     }
 }
 
-fn on_scene(scene: &Scene, settings: &PairSettings) -> Result<Vec<PairResult>, Failure> {
+fn on_scene(scene: &Scene, trial: &PairTrial) -> Result<Vec<PairResult>, Failure> {
     let begun = busy_time();
-    let index = ClearanceIndex::new(&scene.gaussians, SOLID_OPACITY, SIGMA_LEVEL);
+    let index = ClearanceIndex::new(&scene.gaussians);
     let index_ms = milliseconds(busy_time().saturating_sub(begun));
     let num_solid = index.len();
     drop(index);
     let world = World::new(&scene.gaussians, scene.up, &ObjectSet::default(), &[])?;
-    let results = try_pairs(&world, &scene.gaussians, settings, busy_time);
+    let results = trial.run(&world, &scene.gaussians, busy_time);
     let name = scene.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     for result in &results {
         let head = format!("{name},{},{index_ms:.1}", scene.gaussians.len());

@@ -7,7 +7,7 @@ use super::{Binding, Composer, pick_family};
 use crate::sampler::wording::{Atom, Drawn};
 use cinesplat_language::grammar::{Family, Form};
 use cinesplat_language::inflection::Tense;
-use cinesplat_operator::{Framing, Part, Step};
+use cinesplat_operator::{Framing, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
 impl<'a> Composer<'a> {
@@ -102,8 +102,10 @@ impl<'a> Composer<'a> {
         let holds =
             matches!(last.movement, Move::Static | Move::RollCw | Move::RollCcw | Move::RackFocus | Move::Handheld);
         if same.is_some() && !holds && !last.returns {
-            let open =
-                last.end.size.is_none() && last.end.angle.is_none() && !last.end.whole && last.end.part == Part::Middle;
+            let open = last.end.size.is_none()
+                && last.end.angle.is_none()
+                && !last.end.whole
+                && last.end.part == SubjectPart::Middle;
             if !open || last.end.subjects != framing.subjects {
                 return None;
             }

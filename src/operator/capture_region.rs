@@ -1,86 +1,85 @@
-//! Where a camera belongs: the part of space from which the capture shows its good side.
+//! The region from which the scene was captured, estimated from its matter.
 //!
-//! A scan holds surfaces as seen from where its photographs were taken; behind walls and inside furniture there are only
-//! backs. The photographs are not in the file, so the stand is found from the matter itself: hubs are free places that
-//! see much of the scene around them at a distance, and a place is supported if enough hubs see it.
+//! A capture reconstructs surfaces as seen from its photographs. From behind walls and inside furniture only back faces
+//! show. The scene file does not contain the photographs' poses, so the region is estimated: viewpoints are free places
+//! that see much of the scene around them at a distance, and a point is in the region where enough viewpoints see it.
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::clearance::ClearanceIndex;
-use super::grid::OpacityGrid;
+use super::opacity_grid::OpacityGrid;
 use cinesplat_geometry::LevelFrame;
 use cinesplat_objects::Object;
 use cinesplat_scene::Bounds;
 
-/// Share of all directions in which the best place must meet matter for the scene to count as a place one stands inside.
+/// Share of all directions in which the best viewpoint must see matter for the scene to count as indoor.
 const INDOOR_HIT_FRAC: f64 = 0.5;
-/// Hubs of a scene.
-const NUM_HUBS: usize = 24;
-/// Share of the hubs that must see a place. Through a window or a hole in a wall a few hubs see what is behind it; from
-/// within a room even a niche is seen by more.
+/// Viewpoints per scene.
+const NUM_VIEWPOINTS: usize = 24;
+/// Share of the viewpoints that must see a point of the region. A few viewpoints see through a window or a hole in a wall;
+/// more of them see even a niche of their own room.
 const SEEN_BY_FRAC: f64 = 0.25;
+/// Grounded share of a point's view, over the mean of the viewpoints, from which the point sees front faces.
+const GROUNDED_OF_VIEWPOINTS_FRAC: f64 = 0.62;
 
-/// What a place sees must stand on ground in at least this share of what the hubs see.
-const GROUNDED_OF_HUBS_FRAC: f64 = 0.62;
-
-/// Which places a camera may stand in.
+/// The region in which a camera may stand.
 #[derive(Debug, Clone)]
-pub(super) struct Support {
-    /// Least share of grounded sights of a place; 0 where the scene has no ground.
+pub(super) struct CaptureRegion {
+    /// Least grounded share of the view of a point that sees front faces; 0 for outdoor scenes, which have no floor.
     least_grounded: f64,
     up: DVec3,
     size: f64,
-    /// Free places with a good view, the best one first.
-    pub(super) hubs: Vec<DVec3>,
+    /// Free places with a wide view of the scene, the best one first; world.
+    pub(super) viewpoints: Vec<DVec3>,
     /// Whether the scene surrounds the camera.
     pub(super) indoor: bool,
 }
 
-impl Support {
-    /// The supported space of a scene.
-    ///
-    /// No hub stands in one of `boxes`: the inside of a thing is no place to film from, however well it is enclosed.
+impl CaptureRegion {
+    /// Estimates the region of a scene. No viewpoint lies inside one of the `objects`: their inside is enclosed like a room,
+    /// but it was not captured.
     pub(super) fn of(
         matter: &OpacityGrid,
         clearance: &ClearanceIndex,
         bounds: &Bounds,
         frame: &LevelFrame,
-        boxes: &[Object],
+        objects: &[Object],
     ) -> Self {
         let free = |p: DVec3| {
             let open = clearance.nearest_within(p, 0.03 * bounds.size()).is_none();
-            open && !boxes.iter().any(|object| object.contains(p, 0.0))
+            open && !objects.iter().any(|object| object.contains(p, 0.0))
         };
-        let (hubs, indoor) = hubs(matter, bounds, frame, free);
+        let (viewpoints, indoor) = viewpoints(matter, bounds, frame, free);
         let (up, size) = (frame.up, bounds.size());
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
-        let grounded = mean(hubs.iter().map(|&hub| grounded_frac(matter, hub, up, size, 96)).collect());
-        let least_grounded = if indoor { GROUNDED_OF_HUBS_FRAC * grounded } else { 0.0 };
-        Self { least_grounded, up, size, hubs, indoor }
+        let grounded = mean(viewpoints.iter().map(|&eye| grounded_frac(matter, eye, up, size, 96)).collect());
+        let least_grounded = if indoor { GROUNDED_OF_VIEWPOINTS_FRAC * grounded } else { 0.0 };
+        Self { least_grounded, up, size, viewpoints, indoor }
     }
 
-    /// Whether what is seen from a point is seen from its good side: what stands on a floor has that floor before it.
-    pub(super) fn is_good_side(&self, matter: &OpacityGrid, point: DVec3) -> bool {
+    /// Whether a point sees surfaces from the captured side: the floor in front of them was captured too.
+    pub(super) fn sees_front_faces(&self, matter: &OpacityGrid, point: DVec3) -> bool {
         self.least_grounded <= 0.0 || grounded_frac(matter, point, self.up, self.size, 40) >= self.least_grounded
     }
 
-    /// Whether a camera may stand at a point.
-    pub(super) fn holds(&self, matter: &OpacityGrid, point: DVec3) -> bool {
-        let needed = (SEEN_BY_FRAC * self.hubs.len() as f64).ceil() as usize;
-        let (mut seen, mut left) = (0, self.hubs.len());
-        for &hub in &self.hubs {
+    /// Whether a point lies in the region.
+    pub(super) fn contains(&self, matter: &OpacityGrid, point: DVec3) -> bool {
+        let needed = (SEEN_BY_FRAC * self.viewpoints.len() as f64).ceil() as usize;
+        let (mut seen, mut left) = (0, self.viewpoints.len());
+        for &viewpoint in &self.viewpoints {
             if seen >= needed || seen + left < needed {
                 break;
             }
             left -= 1;
-            seen += usize::from(matter.is_open(point, hub));
+            seen += usize::from(matter.is_open(point, viewpoint));
         }
         seen >= needed
     }
 }
 
-fn hubs(
+/// The viewpoints of a scene, and whether it is indoor.
+fn viewpoints(
     matter: &OpacityGrid,
     bounds: &Bounds,
     frame: &LevelFrame,
@@ -96,7 +95,7 @@ fn hubs(
         })
         .collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
-    // Ground is dear to look for: only for the most open third.
+    // Ground is expensive to test: only the best third is tested.
     scored.truncate(scored.len().div_ceil(3));
     scored.par_iter_mut().for_each(|(score, _, p)| *score *= 0.1 + grounded_frac(matter, *p, frame.up, size, 48));
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -104,14 +103,14 @@ fn hubs(
         Some(&(best, hit_frac, first)) if hit_frac >= INDOOR_HIT_FRAC => {
             let good: Vec<DVec3> =
                 scored.iter().filter(|s| s.0 >= 0.4 * best && s.1 >= 0.8 * hit_frac).map(|s| s.2).collect();
-            (spread(first, &good, matter), true)
+            (spread_out(first, &good, matter), true)
         }
         _ => (ring(bounds, frame), false),
     }
 }
 
-/// Points to try as hubs: a lattice over the core box and a way around it, where a camera may have stood that saw only
-/// one side of a room.
+/// Candidate viewpoints: a lattice over the core box and a margin around it, where the camera of a capture of one side of a
+/// room may have stood.
 fn lattice(bounds: &Bounds, frame: &LevelFrame) -> Vec<DVec3> {
     const N: usize = 12;
     let upright = frame.up.abs();
@@ -127,8 +126,8 @@ fn lattice(bounds: &Bounds, frame: &LevelFrame) -> Vec<DVec3> {
     points
 }
 
-/// Share of directions that meet matter, and how far what they meet spreads in space over the scene size: the geometric
-/// mean of its standard deviations. Behind a wall all that is met is the wall, which is flat.
+/// Share of directions that hit matter, and the spread of the hits over the scene size: the geometric mean of their
+/// standard deviations. Behind a wall every hit is on the wall, which is flat, so that the spread is small.
 fn openness(matter: &OpacityGrid, point: DVec3, size: f64) -> (f64, f64) {
     let rays = sphere_directions(96);
     let hits: Vec<DVec3> =
@@ -140,8 +139,8 @@ fn openness(matter: &OpacityGrid, point: DVec3, size: f64) -> (f64, f64) {
     (hits.len() as f64 / rays.len() as f64, spread / size)
 }
 
-/// Share of the sights of a place that have ground under the space before them. A scan holds the floor in front of a
-/// wall, not behind it: from the wrong side of a surface the space before it hangs over nothing.
+/// Share of a point's hits that have ground below the space before them. A capture contains the floor in front of a wall,
+/// not behind it: from the wrong side of a surface there is no ground before it.
 fn grounded_frac(matter: &OpacityGrid, point: DVec3, up: DVec3, size: f64, num_rays: usize) -> f64 {
     let (mut hits, mut grounded) = (0.0_f64, 0.0);
     for ray in sphere_directions(num_rays) {
@@ -157,8 +156,8 @@ fn outer(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }
 
-/// Even directions over the sphere (Fibonacci spiral).
-pub(super) fn sphere_directions(count: usize) -> Vec<DVec3> {
+/// Evenly distributed unit directions (Fibonacci spiral).
+fn sphere_directions(count: usize) -> Vec<DVec3> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let direction = |i: usize| {
         let y = 1.0 - 2.0 * (i as f64 + 0.5) / count as f64;
@@ -169,21 +168,21 @@ pub(super) fn sphere_directions(count: usize) -> Vec<DVec3> {
     (0..count).map(direction).collect()
 }
 
-/// The first hub and others far from it and from each other, each in sight of one before.
-fn spread(first: DVec3, good: &[DVec3], matter: &OpacityGrid) -> Vec<DVec3> {
-    let mut hubs = vec![first];
-    while hubs.len() < NUM_HUBS {
-        let apart = |p: &DVec3| hubs.iter().map(|hub| hub.distance(*p)).fold(f64::INFINITY, f64::min);
-        let seen = |p: &&DVec3| hubs.iter().any(|&hub| matter.is_open(hub, **p));
+/// Farthest point sampling among the `good` places, from `first` on; each one is visible from one before it.
+fn spread_out(first: DVec3, good: &[DVec3], matter: &OpacityGrid) -> Vec<DVec3> {
+    let mut chosen = vec![first];
+    while chosen.len() < NUM_VIEWPOINTS {
+        let apart = |p: &DVec3| chosen.iter().map(|other| other.distance(*p)).fold(f64::INFINITY, f64::min);
+        let seen = |p: &&DVec3| chosen.iter().any(|&other| matter.is_open(other, **p));
         match good.iter().filter(seen).max_by(|a, b| apart(a).total_cmp(&apart(b))) {
-            Some(&next) if apart(&next) > 2.0 * matter.grid.cell => hubs.push(next),
+            Some(&next) if apart(&next) > 2.0 * matter.grid.cell => chosen.push(next),
             _ => break,
         }
     }
-    hubs
+    chosen
 }
 
-/// Places around a scene that is looked at from outside.
+/// Viewpoints on two rings around an outdoor scene.
 fn ring(bounds: &Bounds, frame: &LevelFrame) -> Vec<DVec3> {
     let reach = 0.52 * bounds.size() + frame.horizontal(bounds.core_max - bounds.core_min).length() / 2.0;
     let height = frame.height(bounds.core_max - bounds.core_min).abs();

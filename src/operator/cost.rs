@@ -1,0 +1,142 @@
+//! The cost of a motion segment: violated constraints, clearance, the captured region, and the quality of the pictures.
+
+use glam::{DVec2, DVec3};
+
+use super::clearance::{ClearanceQuery, least_clearance};
+use super::constraint::{Constraint, ConstraintKind, SEARCH_POINTS, measure};
+use super::framing::DEFAULT_ASPECT;
+use super::motion::{MotionSegment, StepLabels, keyframes};
+use super::world::World;
+use cinesplat_geometry::{Camera, Intrinsics};
+use cinesplat_trajectory::{CameraPath, CameraState};
+
+/// Limit on the path intervals that branch and bound examines per candidate.
+const SEARCH_INTERVALS: usize = 400;
+
+/// Cost above which a segment cannot win, so that the expensive terms are skipped.
+const REJECT_COST: f64 = 9.0;
+
+/// Cost of a segment; costs add up over a film. It is between 0 and 3 where every constraint is met, and above 3 where one
+/// is violated. Cheap terms are evaluated first: above [`REJECT_COST`] a constant stands for the others. The director's
+/// camera, where given, attracts the first state.
+pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&CameraState>) -> f64 {
+    let path = path_of(world, segment);
+    let states = sampled(&path, segment, if segment.states.len() > 2 { 11 } else { 9 });
+    let charge = |constraint: &Constraint| match measure(world, constraint, &states, SEARCH_POINTS).violation {
+        violation if violation > 0.0 => 3.0 + 4.0 * violation.min(2.0),
+        _ => 0.0,
+    };
+    let (expensive, cheap): (Vec<&Constraint>, Vec<&Constraint>) =
+        segment.constraints.iter().partition(|constraint| matches!(constraint.kind, ConstraintKind::Unoccluded(..)));
+    let mut total: f64 = cheap.into_iter().map(charge).sum::<f64>() + clearance_cost(world, &path);
+    if total > REJECT_COST {
+        return total + REJECT_COST;
+    }
+    total += region_cost(world, &states);
+    if total > REJECT_COST {
+        return total + REJECT_COST / 2.0;
+    }
+    total += expensive.into_iter().map(charge).sum::<f64>();
+    total + void_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
+}
+
+/// The path of a segment by itself.
+pub(super) fn path_of(world: &World, segment: &MotionSegment) -> CameraPath {
+    let alone = MotionSegment { cut: false, step: 0, ..segment.clone() };
+    // Keyframes carry their move and pivot only where they have labels: empty ones do.
+    CameraPath::coarse(keyframes(&[alone], &[StepLabels::default()]), world.frame)
+}
+
+/// Samples of a segment's path at even times.
+pub(super) fn sampled(path: &CameraPath, segment: &MotionSegment, count: usize) -> Vec<CameraState> {
+    (0..count).map(|i| path.sample(segment.secs * i as f64 / (count - 1) as f64)).collect()
+}
+
+/// Cost of coming closer to matter than the camera's radius, at any moment.
+fn clearance_cost(world: &World, path: &CameraPath) -> f64 {
+    let radius = world.camera_radius;
+    let query = ClearanceQuery { enough: radius, tolerance: 0.1 * radius, max_intervals: SEARCH_INTERVALS };
+    let short = 1.0 - least_clearance(world.ellipsoids(), path, &query).bound / radius;
+    if short > 0.0 { 6.0 + 6.0 * short } else { 0.0 }
+}
+
+/// Cost of positions from which the capture shows back faces, and a milder one of positions far outside the scene's core
+/// box.
+fn region_cost(world: &World, states: &[CameraState]) -> f64 {
+    let position = |state: &CameraState| state.pose.position;
+    let sunk = states.iter().map(|s| world.sunk_frac(position(s))).fold(0.0, f64::max);
+    if sunk > 0.0 && world.is_indoor() {
+        return 5.0 + 20.0 * sunk.min(0.4);
+    }
+    let beyond = states.iter().map(|s| beyond_corner_frac(world, position(s))).fold(0.0, f64::max);
+    if beyond > 0.0 && world.is_indoor() {
+        return 5.0 + 20.0 * beyond.min(0.4);
+    }
+    let uncaptured =
+        states.iter().filter(|s| !world.in_capture_region(position(s))).count() as f64 / states.len() as f64;
+    if uncaptured > 0.0 {
+        return 5.0 + 8.0 * uncaptured;
+    }
+    let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
+    let wrong = ends.iter().filter(|s| !world.sees_front_faces(position(s))).count();
+    let outside = states.iter().map(|s| world.outside_frac(position(s))).fold(0.0, f64::max);
+    3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
+}
+
+/// How far a point lies outside the scene's core box along both horizontal axes at once: the smaller distance over the
+/// scene size. A room is often captured through an open side. The camera may stand in front of that side, but beyond the
+/// planes of the walls next to it, it would see their back faces.
+fn beyond_corner_frac(world: &World, point: DVec3) -> f64 {
+    let bounds = &world.bounds;
+    let outside = (bounds.core_min - point).max(point - bounds.core_max).max(DVec3::ZERO);
+    let mut level = outside;
+    // The vertical axis does not count.
+    level[world.frame.up.abs().max_position()] = f64::INFINITY;
+    level.min_element() / bounds.size()
+}
+
+/// Share of the states inside the captured region, seeing front faces.
+pub(super) fn captured_frac(world: &World, states: &[CameraState]) -> f64 {
+    let good = |s: &&CameraState| {
+        let p = s.pose.position;
+        let inside = world.sunk_frac(p) <= 0.0 && beyond_corner_frac(world, p) <= 0.0;
+        world.in_capture_region(p) && world.sees_front_faces(p) && (inside || !world.is_indoor())
+    };
+    states.iter().filter(good).count() as f64 / states.len() as f64
+}
+
+/// Mean cost of three pictures: void, and matter close before the lens.
+fn void_cost(world: &World, states: &[CameraState]) -> f64 {
+    let picks = [0, states.len() / 2, states.len() - 1];
+    let total: f64 = picks.iter().map(|&i| picture_cost(world, &states[i])).sum();
+    total / picks.len() as f64
+}
+
+fn picture_cost(world: &World, state: &CameraState) -> f64 {
+    let camera = Camera {
+        pose: state.pose,
+        intrinsics: Intrinsics::from_fov_y((9.0 * DEFAULT_ASPECT) as u32, 9, state.fov_y_rad),
+    };
+    let near = 0.05 * world.bounds.size();
+    let (mut void, mut blocked, mut count) = (0.0, 0.0, 0.0);
+    for column in 0..6 {
+        for row in 0..4 {
+            let at = DVec2::new((f64::from(column) + 0.5) / 6.0 * 16.0, (f64::from(row) + 0.5) / 4.0 * 9.0);
+            match world.hit_distance(state.pose.position, camera.ray(at)) {
+                None => void += 1.0,
+                Some(distance) if distance < near => blocked += 1.0,
+                Some(_) => {}
+            }
+            count += 1.0;
+        }
+    }
+    let weight = if world.is_indoor() { 2.6 } else { 0.3 };
+    (weight * void + 1.2 * blocked) / count
+}
+
+/// How far the first view is from the camera that the director proposed: a tie breaker.
+fn deviation(world: &World, state: &CameraState, proposed: &CameraState) -> f64 {
+    let apart = state.pose.position.distance(proposed.pose.position) / world.bounds.size();
+    let turned = state.pose.forward().angle_between(proposed.pose.forward());
+    0.5 * apart.min(1.0) + 0.25 * turned
+}

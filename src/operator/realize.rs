@@ -1,0 +1,136 @@
+//! A program becomes keyframes: search, detours, timing, clearance certificate, report.
+
+use super::detours;
+use super::dutch;
+use super::motion::{MotionSegment, StepLabels, keyframes};
+use super::program::{Framing, Program, Step};
+use super::report;
+use super::search::{SearchProblem, best_candidate};
+use super::settings::{SolveLevel, SolveSettings};
+use super::suggestion::{StepCameras, follow_suggestions};
+use super::world::World;
+use cinesplat_trajectory::{ClearanceProof, Keyframe, Move, ReportLine, retime};
+
+/// Shortest time into which a stated total duration compresses the segments of free length.
+const MIN_FREE_SECS: f64 = 0.3;
+
+/// A solved shot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// Keyframes in order of time, the first at 0.
+    pub keyframes: Vec<Keyframe>,
+    /// Length of the film.
+    pub duration_secs: f64,
+    /// Requested and measured values, one line per constraint.
+    pub report: Vec<ReportLine>,
+    /// Index of the keyframe at which each step of the program begins, followed by the index of the last keyframe.
+    pub step_keys: Vec<usize>,
+    /// Certified clearance of the whole path.
+    pub clearance: ClearanceProof,
+    /// The cost that the search minimized. Below 3, every constraint was met during the search.
+    pub cost: f64,
+}
+
+/// Solves a program: keyframes whose path carries out every step.
+///
+/// `prompt` is the sentence that the report quotes. `suggestions` holds the director's cameras, one entry per step; it may
+/// be shorter than the program. An empty program gives a static view of the scene.
+pub fn realize(
+    world: &World,
+    program: &Program,
+    prompt: &str,
+    suggestions: &[StepCameras],
+    settings: &SolveSettings,
+) -> Solution {
+    let fallback;
+    let program = if program.steps.is_empty() {
+        fallback = Program { steps: vec![Step::of(Move::Static)], ..program.clone() };
+        &fallback
+    } else {
+        program
+    };
+    let best = best_candidate(&SearchProblem { world, program, suggestions }, settings);
+    let cost = best.cost();
+    let mut segments: Vec<MotionSegment> = best.segments.into_iter().flatten().collect();
+    // Without a search the director's cameras are not moved: the report names the matter in their way.
+    let detours = if settings.level == SolveLevel::Off {
+        segments = follow_suggestions(segments, suggestions);
+        Vec::new()
+    } else {
+        detours::reroute(world, program, &mut segments)
+    };
+    fit_duration(&mut segments, program.duration_secs);
+    if let Some(degrees) = settings.dutch_deg {
+        dutch::roll(&mut segments, degrees);
+    }
+    let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
+    let mut keys = keyframes(&segments, &labels);
+    retime(&mut keys, Some(world.frame));
+    let duration_secs = segments.iter().map(|segment| segment.secs).sum();
+    let clearance = detours::proof(world, &keys);
+    let mut report = report::report(world, program, prompt, &segments);
+    report.extend(detours::clearance_lines(world, (program, prompt), &segments, &detours, &clearance));
+    report.extend(settings.dutch_deg.map(|_| dutch::report_line(world, &keys)));
+    let step_keys = step_keys(&segments, program.steps.len());
+    Solution { keyframes: keys, duration_secs, report, step_keys, cost, clearance }
+}
+
+/// Scales the segments of free length so that the film lasts as long as the prompt says. Segments of stated length are
+/// scaled too where the free ones cannot absorb the difference.
+fn fit_duration(segments: &mut [MotionSegment], wanted_secs: Option<f64>) {
+    let Some(wanted) = wanted_secs.filter(|&secs| secs > 0.0) else { return };
+    let sum = |segments: &[MotionSegment], bound: bool| -> f64 {
+        segments.iter().filter(|segment| segment.secs_bind == bound).map(|segment| segment.secs).sum()
+    };
+    let (bound, free) = (sum(segments, true), sum(segments, false));
+    let factor = (wanted - bound) / free;
+    let all = free <= 0.0 || factor * free < MIN_FREE_SECS;
+    let factor = if all { wanted / (bound + free) } else { factor };
+    for segment in segments.iter_mut().filter(|segment| all || !segment.secs_bind) {
+        segment.secs *= factor;
+    }
+}
+
+/// The labels of a step's keyframes. An empty framing takes the subjects of the step's other end, or else those of the
+/// nearest earlier step that names some.
+fn labels(program: &Program, index: usize) -> StepLabels {
+    let step = &program.steps[index];
+    let earlier = || {
+        let named =
+            |s: &Step| [&s.end, &s.start].into_iter().find(|f| !f.subjects.is_empty()).map(|f| f.subjects.clone());
+        program.steps[..index].iter().rev().find_map(named).unwrap_or_default()
+    };
+    let filled = |framing: &Framing, other: &Framing| match (framing.subjects.is_empty(), other.subjects.is_empty()) {
+        (false, _) => framing.subjects.clone(),
+        (true, false) => other.subjects.clone(),
+        (true, true) => earlier(),
+    };
+    StepLabels {
+        start_subjects: filled(&step.start, &step.end),
+        end_subjects: filled(&step.end, &step.start),
+        start_size: step.start.size,
+        end_size: step.end.size,
+        start_angle: step.start.angle,
+        end_angle: step.end.angle,
+        words: step.words,
+    }
+}
+
+/// Index of the keyframe at which each step begins, its join included, followed by the index of the last keyframe.
+fn step_keys(segments: &[MotionSegment], num_steps: usize) -> Vec<usize> {
+    let mut out = vec![0; num_steps + 1];
+    let mut key = 0;
+    let mut seen = None;
+    for (i, segment) in segments.iter().enumerate() {
+        if segment.cut && i > 0 {
+            key += 1;
+        }
+        if seen != Some(segment.step) {
+            out[segment.step] = key;
+            seen = Some(segment.step);
+        }
+        key += segment.states.len() - 1;
+    }
+    out[num_steps] = key;
+    out
+}

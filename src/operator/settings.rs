@@ -1,0 +1,51 @@
+//! Settings of the search.
+
+/// How many candidates the search evaluates.
+#[derive(
+    Default,
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    PartialOrd,
+    Ord,
+    strum::AsRefStr,
+    strum::Display,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum SolveLevel {
+    /// No search: the path joins the director's cameras. A step without a proposal takes the midpoint of every open
+    /// parameter.
+    Off,
+    /// About 300 candidates for a program of one step.
+    Fast,
+    /// About 1,300 candidates for a program of one step, and 1,800 more for each further step.
+    #[default]
+    Full,
+}
+
+/// Settings of [`realize`](crate::realize).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolveSettings {
+    /// Effort of the search.
+    pub level: SolveLevel,
+    /// Seed of the search. The same seed gives the same solution on any number of threads.
+    pub seed: u64,
+    /// Factor on the level's number of candidates, for measuring accuracy against time.
+    pub tries_factor: f64,
+    /// Roll of the whole film in degrees, clockwise: the dutch angle that the prompt asks for. `None` keeps the horizon
+    /// level.
+    pub dutch_deg: Option<f64>,
+}
+
+impl Default for SolveSettings {
+    fn default() -> Self {
+        Self { level: SolveLevel::default(), seed: 0, tries_factor: 1.0, dutch_deg: None }
+    }
+}
