@@ -7,13 +7,14 @@ use super::failure::Failure;
 use cinesplat::operator::SolveLevel;
 use cinesplat::training::{DatasetSettings, write_dataset};
 
-/// Makes the director's training data.
+/// Generate training data for the director's network
+///
+/// Writes shards of shots as JSON lines: shots that the operator finds for sampled prompts in generated scenes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example:
   cinesplat dataset -o shots --scenes 256 --shots 24
-Shots that the operator finds for the phrasebook's prompts in generated scenes, as JSON lines. Shards that are there
-already stay: the same command goes on where it was stopped.")]
+Shards that exist already are kept: the same command goes on where it was stopped.")]
 pub(super) struct Args {
     /// Folder for the shards
     #[arg(short, long, value_name = "DIR")]
@@ -21,19 +22,19 @@ pub(super) struct Args {
     /// Number of scenes
     #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().scenes)]
     scenes: u64,
-    /// Shots tried in each
+    /// Shots tried per scene
     #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().shots)]
     shots: u64,
-    /// Number of Gaussians of a scene, relative to film quality
+    /// Number of Gaussians per scene as a share of the full number
     #[arg(long, value_name = "FRAC", default_value_t = DatasetSettings::default().detail)]
     detail: f64,
-    /// How long the operator looks for cameras
-    #[arg(long, value_name = "off|fast|full", default_value = "fast", value_parser = choice::<SolveLevel>())]
+    /// Effort of the camera search
+    #[arg(long, value_name = "EFFORT", default_value = "fast", value_parser = choice::<SolveLevel>())]
     solve: SolveLevel,
     /// Seed of scenes and prompts
     #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().seed)]
     seed: u64,
-    /// Threads that make shards side by side
+    /// Threads, each of which writes its own shards
     #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().threads)]
     threads: usize,
 }
@@ -55,7 +56,7 @@ impl Args {
             console::note(&format!("scene {done}/{total}, {left_mins:.0} min left"));
         })?;
         console::note(&format!(
-            "{}: {} shots in {} scenes; {} left out (not all found, or too long); {} shards kept",
+            "{}: {} shots in {} scenes; {} dropped (not fully solved, or too long); {} shards kept",
             settings.out.display(),
             summary.shots,
             summary.scenes,

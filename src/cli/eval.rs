@@ -6,14 +6,16 @@ use glam::DVec3;
 
 use super::choice::choice;
 use super::failure::Failure;
-use super::{console, eval_folders};
+use super::{console, eval_folders, heading};
 use cinesplat::evaluation::{
     Align, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere,
     Trajectory, evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,
 };
 use cinesplat::export::{self, Format, PoseTrack};
 
-/// Compares two trajectories: absolute and relative pose error.
+/// Compare two camera paths: absolute and relative pose error
+///
+/// Reads every format that `import` reads. Prints statistics of the error over matched poses.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "flags of a command")]
 #[command(after_help = "\
@@ -22,68 +24,68 @@ Examples:
   cinesplat eval plan.shot.json flown.tum --rpe --delta 1 --unit m --relation angle_deg --json
   cinesplat eval planned/ flown/ --align se3 --csv > all.csv
   cinesplat eval a.shot.json b.shot.json --subject 0,1,-2,0.4 --motion
-Relations: full trans rot angle_deg angle_rad point_distance point_distance_ratio. Nothing is aligned unless asked.
-A shot.json stands for the frames of its film. Of two folders the files of one name (up to the first dot) are compared.")]
+Nothing is aligned unless asked. A shot.json stands for the frames of its film. Of two folders, files with the same
+name up to the first dot are compared.")]
 pub(super) struct Args {
-    /// The path that is taken for true, or a folder of paths
+    /// Reference path, or a folder of paths
     #[arg(value_name = "REF")]
     reference: PathBuf,
-    /// The path that is measured, or a folder of paths
+    /// Path to compare with it, or a folder of paths
     #[arg(value_name = "EST")]
     estimate: PathBuf,
-    /// Format of both files, instead of what their contents say
-    #[arg(long, value_name = "FORMAT", value_parser = choice::<Format>())]
+    /// Format of both files [default: by their contents]
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]
     from: Option<Format>,
-    /// What is aligned first: none, origin, yaw, se3, sim3 or scale
+    /// How the estimate is aligned to the reference first
     #[arg(long, value_name = "MODE", default_value = "none", value_parser = choice::<Align>())]
     align: Align,
-    /// What of the error is measured
-    #[arg(long, value_name = "R", default_value = "trans", value_parser = choice::<Relation>())]
+    /// Which part of the error is measured
+    #[arg(long, value_name = "RELATION", default_value = "trans", value_parser = choice::<Relation>())]
     relation: Relation,
-    /// Relative error: of the motion between poses --delta apart
+    /// Measure the relative error: of the motion between two poses [default: absolute]
     #[arg(long)]
     rpe: bool,
-    /// Distance of the two poses of a relative error
+    /// Distance between the two poses of a relative error
     #[arg(long, value_name = "N", default_value_t = 1.0, requires = "rpe")]
     delta: f64,
-    /// Unit of --delta: f (frames), m (scene units), d (degrees) or r (radians)
-    #[arg(long, value_name = "U", default_value = "f", value_parser = choice::<DeltaUnit>(), requires = "rpe")]
+    /// Unit of --delta: frames, scene units (m), degrees or radians
+    #[arg(long, value_name = "UNIT", default_value = "f", value_parser = choice::<DeltaUnit>(), requires = "rpe")]
     unit: DeltaUnit,
-    /// Pairs of poses may overlap
-    #[arg(long, requires = "rpe")]
+    /// Use all pairs of poses, overlapping ones too
+    #[arg(long, hide_short_help = true, requires = "rpe")]
     all_pairs: bool,
-    /// Measures --delta along the reference instead of the estimate
-    #[arg(long, requires = "rpe")]
+    /// Measure --delta along the reference instead of the estimate
+    #[arg(long, hide_short_help = true, requires = "rpe")]
     pairs_from_reference: bool,
-    /// Number of poses from the start that the alignment sees, instead of all
+    /// Number of first poses that the alignment uses [default: all]
     #[arg(long, value_name = "N")]
     align_poses: Option<usize>,
-    /// Interpolates the estimate to the reference's times instead of matching the nearest poses
+    /// Interpolate the estimate at the reference's times [default: match nearest poses]
     #[arg(long)]
     interpolate: bool,
     /// Seconds added to the estimate's times
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECS", default_value_t = 0.0, allow_hyphen_values = true)]
     time_offset: f64,
-    /// Diameter of the scene, for the error relative to it, instead of the reference path's
+    /// Diameter that errors are related to, scene units [default: the reference's]
     #[arg(long, value_name = "D")]
     diameter: Option<f64>,
-    /// Sphere that both paths should frame alike: center and radius, scene units
+    /// Compare the framing of a sphere: center and radius, scene units
     #[arg(long, value_name = "X,Y,Z,R", value_parser = parse_subject, allow_hyphen_values = true)]
     subject: Option<SubjectSphere>,
-    /// Says how both paths move too: smoothness, motion tags, tables of poses
+    /// Describe the motion of both paths too: smoothness, moves, tables of poses
     #[arg(long)]
     motion: bool,
-    /// Largest time between the two poses of a match, seconds
-    #[arg(long, value_name = "S", default_value_t = EvalSettings::default().max_diff_secs)]
+    /// Largest time difference of matched poses in seconds
+    #[arg(long, value_name = "SECS", default_value_t = EvalSettings::default().max_diff_secs)]
     max_diff: f64,
-    /// One JSON object instead of lines
-    #[arg(long)]
+    /// Print one JSON object instead of lines
+    #[arg(long, help_heading = heading::OUTPUT)]
     json: bool,
-    /// Of folders: a CSV table instead of lines
-    #[arg(long, conflicts_with = "json")]
+    /// Print a CSV table instead of lines; for folders
+    #[arg(long, help_heading = heading::OUTPUT, conflicts_with = "json")]
     csv: bool,
-    /// Writes both paths and their x y z roll pitch yaw as a picture
-    #[arg(long, value_name = "OUT.SVG")]
+    /// Plot both paths and their x, y, z, roll, pitch and yaw
+    #[arg(long, value_name = "OUT.SVG", help_heading = heading::OUTPUT)]
     plot: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -123,7 +125,10 @@ impl Args {
     /// A table over pairs of files.
     fn run_folders(&self, settings: &EvalSettings) -> Result<(), Failure> {
         if self.plot.is_some() || self.motion {
-            return Err(Failure::usage("--plot and --motion are of one pair", "give two files, or leave them out"));
+            return Err(Failure::usage(
+                "--plot and --motion compare two files, found two folders",
+                "give two files, or leave these flags out",
+            ));
         }
         let rows = eval_folders::compare([&self.reference, &self.estimate], settings, |path| self.read(path))?;
         let table = match (self.json, self.csv) {

@@ -4,34 +4,40 @@ use std::path::PathBuf;
 use strum::VariantNames;
 
 use super::failure::Failure;
-use super::{console, outputs};
+use super::{console, formats, outputs};
 use cinesplat::export::{self, Content, ExportSettings, Format, Layout, shot_json};
 use cinesplat::trajectory::retimed;
 
-/// Writes a shot's camera path for other programs.
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
+const EXAMPLES: &str = "\
 Examples:
   cinesplat export shot.json --to nerfstudio --fps 10 -o path.json
   cinesplat export shot.json -o move.blender.py --keyframes
-Formats: tum kitti euroc nerfstudio transforms colmap supersplat lichtfeld gltf usd blender csv log shot.")]
+  cinesplat export shot.json --to tum -o - | less";
+
+/// Write a shot's camera path for another program
+///
+/// Prints a warning for everything in the shot that the format cannot hold.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, after_long_help = formats::table_with(EXAMPLES))]
 pub(super) struct Args {
-    /// The shot
+    /// Shot to export
     #[arg(value_name = "SHOT.JSON")]
     shot: PathBuf,
-    /// The file, or the folder of a COLMAP model; its name tells the format where --to does not
+    /// File to write, a folder for COLMAP, or - for stdout
+    ///
+    /// The name decides the format unless --to names it.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// The format
-    #[arg(long, value_name = "FORMAT", value_parser = choice::<Format>())]
+    /// Format to write [default: by the name of the output]
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]
     to: Option<Format>,
-    /// Frames a second, instead of the shot's
-    #[arg(long, value_name = "F")]
+    /// Frames per second [default: the shot's]
+    #[arg(long, value_name = "FPS")]
     fps: Option<f64>,
-    /// Writes the keyframes instead of every frame
+    /// Write the keyframes instead of every frame
     #[arg(long)]
     keyframes: bool,
-    /// Moves the inner keys in time so that the camera cruises at even speed
+    /// Move the inner keys in time so that the camera's speed is even
     #[arg(long)]
     retime: bool,
     #[command(flatten)]
@@ -41,14 +47,14 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let format = self.to.or_else(|| Format::from_path(&self.output)).ok_or_else(|| {
-            let found = format!("{}: the name leaves the format open, expected --to FORMAT", self.output.display());
+            let found = format!("{}: the name does not say which format, expected --to FORMAT", self.output.display());
             Failure::usage(found, format!("add --to with one of {}", <Format as VariantNames>::VARIANTS.join(" ")))
         })?;
         let layout = Layout::of_path(&self.output);
         let files = export::output_files(&self.output, format, layout);
         if outputs::is_stdout(&self.output) && files.len() > 1 {
             let help = "name a folder, or choose another format with --to";
-            return Err(Failure::usage(format!("{format} is {} files, standard output is one", files.len()), help));
+            return Err(Failure::usage(format!("{format} takes {} files, standard output is one", files.len()), help));
         }
         files.iter().try_for_each(|file| self.overwrite.check(file))?;
         let text = outputs::read_text(&self.shot)?;

@@ -2,25 +2,29 @@ use super::outputs::Overwrite;
 use std::path::PathBuf;
 
 use super::choice::choice;
-use super::console;
 use super::failure::Failure;
+use super::{console, formats};
 use cinesplat::export::{self, Format, shot_json};
 
-/// Makes a shot of another program's camera path.
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
+const EXAMPLES: &str = "\
 Examples:
   cinesplat import camera_path.json -o shot.json
-  cinesplat import poses.txt --from kitti -o shot.json")]
+  cinesplat import poses.txt --from kitti -o shot.json";
+
+/// Turn another program's camera path into a shot
+///
+/// Prints a warning for everything that the file does not say and the shot assumes.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, after_long_help = formats::table_with(EXAMPLES))]
 pub(super) struct Args {
-    /// The camera path, or a folder with a COLMAP model
+    /// Camera path to read, or the folder of a COLMAP, EuRoC or nerfstudio capture
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The shot
+    /// Shot to write, or - for stdout
     #[arg(short, long, value_name = "SHOT.JSON")]
     output: PathBuf,
-    /// The format, instead of what the content says
-    #[arg(long, value_name = "FORMAT", value_parser = choice::<Format>())]
+    /// Format to read [default: by the content of the file]
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]
     from: Option<Format>,
     #[command(flatten)]
     overwrite: Overwrite,

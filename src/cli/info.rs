@@ -7,13 +7,15 @@ use super::failure::Failure;
 use super::scene_args::SceneArgs;
 use cinesplat::scene::SceneInfo;
 
-/// Says what a scene is.
+/// Print what a scene file contains
+///
+/// Format, number of Gaussians, bounds, size, filter, up axis with its source, and what was dropped and why.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  cinesplat info room.spz --json | jq .num_gaussians")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// One JSON object instead of lines
+    /// Print one JSON object instead of lines
     #[arg(long)]
     json: bool,
 }

@@ -1,7 +1,7 @@
-//! The command line: one file a subcommand, and the only place that prints.
+//! The command line: one file per subcommand, and the only place that prints.
 //!
 //! Enters: arguments. Leaves: data on stdout, everything else on stderr, files, an exit code. An error is one line
-//! `error[CODE]: FILE: what was found, what was expected` and a second line `help: ` with the fix.
+//! `error[CODE]: FILE: found, expected` and a second line `help: ` with the fix.
 
 mod bench;
 mod choice;
@@ -14,6 +14,8 @@ mod eval_folders;
 mod explain;
 mod export;
 mod failure;
+mod formats;
+mod heading;
 mod import;
 mod info;
 mod interrupt;
@@ -39,7 +41,7 @@ use clap::{Parser, Subcommand};
 
 use failure::Failure;
 
-/// A splat scene and a sentence become a camera move, filmed.
+/// Turn a Gaussian-splat scene and a sentence into a camera move, and render it as a film.
 #[derive(Debug, Parser)]
 #[command(name = "cinesplat", version, max_term_width = 110, after_help = EXAMPLES)]
 struct Cli {
@@ -57,36 +59,38 @@ Examples:
   cinesplat render room.spz -p \"push in on the lamp, then orbit it\" --objects objects.json -o lamp.mp4
   cinesplat render synth:demo -p \"slowly push in on the sofa\" -o sofa.mp4
 
-SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or synth:room:SEED,
-synth:tabletop:SEED and synth:demo, which are generated.
-Exit codes: 0 done, 2 usage, 65 bad data, 66 no such input, 69 codec missing, 70 our fault, 71 over a cap,
-73 cannot create the output, 74 I/O, 75 stopped early, 77 permission, 130 interrupted twice.";
+SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or a generated scene:
+synth:demo, synth:room:SEED or synth:tabletop:SEED.
+Data goes to stdout, notes and progress go to stderr. No file is overwritten without --overwrite.
+Exit codes: 0 done, 2 wrong arguments, 65 bad data, 66 no such input, 69 codec missing, 70 fault of
+cinesplat, 71 over a cap, 73 cannot create the output, 74 I/O error, 75 stopped early, 77 permission
+denied, 130 interrupted twice.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Says what a scene is: format, Gaussians, bounds, up axis, what was dropped.
+    /// Print what a scene file contains
     Info(info::Args),
-    /// Finds or reads the objects of a scene.
+    /// Find or read the objects of a scene
     Objects(objects::Args),
-    /// Makes a sentence into keyframes, without rendering.
+    /// Turn a sentence into keyframes
     Plan(plan::Args),
-    /// Films a sentence or a shot.
+    /// Render a film from a sentence or a shot
     Render(render::Args),
-    /// Takes still pictures from given cameras.
+    /// Render still pictures from given cameras
     Still(still::Args),
-    /// Writes a shot's camera path for other programs.
+    /// Write a shot's camera path for another program
     Export(export::Args),
-    /// Makes a shot of another program's camera path.
+    /// Turn another program's camera path into a shot
     Import(import::Args),
-    /// Compares two trajectories: absolute and relative pose error.
+    /// Compare two camera paths: absolute and relative pose error
     Eval(eval::Args),
-    /// Trains the director.
+    /// Train the network that understands sentences
     #[cfg(feature = "training")]
     Train(train::Args),
-    /// Makes the director's training data.
+    /// Generate training data for that network
     #[cfg(feature = "training")]
     Dataset(dataset::Args),
-    /// Measures what accuracy costs in time, and how cost grows with the work.
+    /// Measure time, memory and accuracy
     Bench(bench::Args),
     /// Print a completion script for a shell
     Completions(completions::CompletionsArgs),
@@ -116,7 +120,7 @@ impl Command {
     }
 }
 
-/// Runs the program with its arguments (the program's name first) and says how it ended.
+/// Runs the program with its arguments, the program's name first; returns the exit code.
 pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let ended = match Cli::try_parse_from(arguments) {
         Ok(cli) => {
@@ -134,7 +138,7 @@ pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// Runs `work`; a panic in it, a fault of ours, ends as a [`Failure`] with its place instead of a stack of frames.
+/// Runs `work`; a panic in it is a fault of this program and becomes a [`Failure`] that names the place in the code.
 fn catch_faults(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
     let place = Arc::new(Mutex::new(String::new()));
     let seen = Arc::clone(&place);

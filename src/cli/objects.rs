@@ -6,34 +6,39 @@ use serde_json::{Value, json};
 
 use super::failure::Failure;
 use super::scene_args::{SceneArgs, print_up};
-use super::{console, outputs, reproduce};
+use super::{console, heading, outputs, reproduce};
 use cinesplat::objects::{self, Object, ObjectSet, SheetSettings};
 use cinesplat::{pipeline, video};
 
-/// Finds or reads the objects of a scene.
+/// Find or read the objects of a scene
+///
+/// Prints a table of the objects. Without --labels and --objects they are those of the scene itself, else those that a
+/// search finds.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   cinesplat objects room.spz -o objects.json --sheet objects.png
   cinesplat objects room.spz --labels labels.npy -o objects.json
-Give names in objects.json (\"label\": \"lamp\") so that a prompt can say \"the lamp\"; <obj-ID> always works.")]
+Name objects in objects.json (\"label\": \"lamp\") so that a prompt can say \"the lamp\"; <obj-ID> always works.")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The objects with their boxes and sparse clouds, and their labels beside them
-    #[arg(short, long, value_name = "OBJECTS.JSON")]
+    /// Objects file to write, with the labels in a file beside it
+    #[arg(short, long, value_name = "OBJECTS.JSON", help_heading = heading::OUTPUT)]
     output: Option<PathBuf>,
-    /// One object id a Gaussian, .npy of u8, u16 or u32, instead of a search
-    #[arg(long, value_name = "FILE", conflicts_with = "objects")]
+    /// Read the objects from labels: one id per Gaussian
+    ///
+    /// A .npy file of u8, u16 or u32 in the order of the scene's file.
+    #[arg(long, value_name = "LABELS.NPY", help_heading = heading::SCENE, conflicts_with = "objects")]
     labels: Option<PathBuf>,
-    /// Objects to read instead of a search
-    #[arg(long, value_name = "FILE")]
+    /// Read the objects from an objects file
+    #[arg(long, value_name = "OBJECTS.JSON", help_heading = heading::SCENE)]
     objects: Option<PathBuf>,
-    /// Writes a picture with every object and its id
-    #[arg(long, value_name = "SHEET.PNG")]
+    /// Write a picture of every object with its id
+    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT)]
     sheet: Option<PathBuf>,
-    /// One JSON list instead of a table
-    #[arg(long)]
+    /// Print one JSON list instead of a table
+    #[arg(long, help_heading = heading::OUTPUT)]
     json: bool,
     #[command(flatten)]
     overwrite: Overwrite,

@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use cinesplat::files::{self, Existing};
 
-use super::console;
 use super::failure::{Exit, Failure};
+use super::{console, heading};
 
 pub(super) use cinesplat::files::{create_folder, relative_to};
 
-/// The flag that lets a command replace files.
+/// The flag that lets a command overwrite files.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(super) struct Overwrite {
-    /// Overwrite files that exist already
-    #[arg(long)]
+    /// Overwrite files that exist already [default: refuse]
+    #[arg(long, help_heading = heading::OUTPUT)]
     overwrite: bool,
 }
 
@@ -33,11 +33,13 @@ impl Overwrite {
     }
 }
 
-/// The folder in which a bench leaves its figures.
+/// The folder that a bench writes its results to.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct BenchFolder {
-    /// Folder for CSV, tables and plots, created where it is missing; without it only the CSV on stdout
-    #[arg(short, long, value_name = "DIR")]
+    /// Folder for CSV, tables and plots [default: CSV on stdout only]
+    ///
+    /// The folder is created where it is missing.
+    #[arg(short, long, value_name = "DIR", help_heading = heading::OUTPUT)]
     output: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

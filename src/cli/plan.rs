@@ -5,7 +5,7 @@ use strum::VariantArray;
 use super::failure::Failure;
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, explain, outputs, reproduce};
+use super::{console, explain, heading, outputs, reproduce};
 use cinesplat::export::shot_json;
 use cinesplat::pipeline::{self, FilmSettings, FrameRange};
 use cinesplat::render::{Quality, Renderer};
@@ -13,29 +13,33 @@ use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
 use cinesplat::video::VideoSettings;
 
-/// Makes a sentence into keyframes, without rendering.
+/// Turn a sentence into keyframes
+///
+/// Writes a shot.json without rendering it.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   cinesplat plan room.spz -p \"push in on <obj-3>\" --objects objects.json -o shot.json
   cinesplat plan synth:demo -p \"push in on the sofa, then crane up\" -o shot.json --explain
-shot.json may be edited by hand: move keys in time, add or remove some, then render --shot shot.json.")]
+shot.json may be edited by hand: move keys in time, add or remove keys, then `render --shot shot.json`.")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// What the camera does, in words; objects by name or as <obj-ID>
-    #[arg(short, long, value_name = "PROMPT")]
+    /// What the camera does, in words
+    ///
+    /// Objects are named by their labels or as <obj-ID>.
+    #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
     prompt: String,
-    /// The shot
-    #[arg(short, long, value_name = "SHOT.JSON", required_unless_present_any = ["json", "explain"])]
+    /// Shot to write, or - for stdout
+    #[arg(short, long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, required_unless_present_any = ["json", "explain"])]
     output: Option<PathBuf>,
     #[command(flatten)]
     shot: ShotArgs,
-    /// Prints the shot on stdout
-    #[arg(long)]
+    /// Print the shot on stdout
+    #[arg(long, help_heading = heading::OUTPUT)]
     json: bool,
-    /// Prints how every clause was understood and what it got
-    #[arg(long)]
+    /// Print how each clause is understood and what the shot achieves
+    #[arg(long, help_heading = heading::OUTPUT)]
     explain: bool,
     #[command(flatten)]
     picture: PictureArgs,
@@ -69,7 +73,8 @@ impl Args {
         Ok(())
     }
 
-    /// What the film would cost on this machine as H.264 with the settings that `render` has, on stderr: it differs from run to run.
+    /// Prints forecasts of the film as H.264 with the defaults of `render`. They go to stderr because they differ from run
+    /// to run.
     fn print_forecasts(&self, scene: &Scene, shot: &Shot) -> Result<(), Failure> {
         let render = self.picture.settings(scene, Quality::Standard, None, None);
         let settings =

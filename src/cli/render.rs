@@ -9,7 +9,7 @@ use super::interrupt::Interrupt;
 use super::progress::FrameProgress;
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, outputs, reproduce};
+use super::{console, heading, outputs, reproduce};
 use cinesplat::export::shot_json;
 use cinesplat::pipeline::{self, FilmReport, FilmSettings, Forecast, FrameRange, Phase, PhaseTimes, Requirements};
 use cinesplat::render::{Quality, Renderer};
@@ -17,48 +17,56 @@ use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
 use cinesplat::video::{self, VideoSettings, X264Preset};
 
-/// Films a sentence or a shot.
+/// Render a film from a sentence or a shot
+///
+/// Predicts time and accuracy first, renders, then prints both as measured and the command that reproduces the film.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   cinesplat render room.spz -p \"push in on the lamp\" --objects objects.json -o lamp.mp4
   cinesplat render room.spz --shot shot.json -o frames/%05d.png --frames 0..120 --quality final
-Ctrl-C ends after the frame in work and keeps what is there (a film as NAME.partial.EXT); twice ends at once.")]
+Ctrl-C ends after the current frame and keeps the finished frames (as NAME.partial.EXT); twice ends at once.")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
     #[command(flatten)]
     source: ShotSource,
-    /// The film (.mp4 .mkv .webm .mov), or pictures such as frames/%05d.png
-    #[arg(short, long, value_name = "OUT")]
+    /// Film (.mp4 .mkv .webm .mov), or pictures such as frames/%05d.png
+    #[arg(short, long, value_name = "OUT", help_heading = heading::OUTPUT)]
     output: PathBuf,
     #[command(flatten)]
     shot: ShotArgs,
     #[command(flatten)]
     picture: PictureArgs,
-    /// Longest time for the film, rendered and encoded, such as 90s, 5m or 1h; chooses the quality
-    #[arg(long, value_name = "TIME", value_parser = parse_time, conflicts_with = "quality")]
+    /// Longest time to render and encode; chooses the quality [default: none]
+    ///
+    /// A number with a unit, such as 90s, 5m or 1h.
+    #[arg(long, value_name = "TIME", help_heading = heading::PICTURE, value_parser = parse_time, conflicts_with = "quality")]
     budget: Option<Duration>,
-    /// Least PSNR of the worst frame against `reference`, dB; chooses the fastest quality that has it
-    #[arg(long, value_name = "DB", value_parser = parse_decibels, conflicts_with = "quality")]
+    /// Least PSNR of the worst frame in dB; chooses the quality [default: none]
+    ///
+    /// The fastest quality whose worst frame is predicted to be this close to `reference`.
+    #[arg(long, value_name = "DB", help_heading = heading::PICTURE, value_parser = parse_decibels, conflicts_with = "quality")]
     min_psnr: Option<f64>,
-    /// Prints what was predicted and what was measured on stdout
-    #[arg(long)]
+    /// Print predicted and measured figures as JSON
+    #[arg(long, help_heading = heading::OUTPUT)]
     json: bool,
-    /// Part of the film's frames, B one after the last
-    #[arg(long, value_name = "A..B", default_value = "..")]
+    /// Range of frames to render; B is one past the last
+    #[arg(long, value_name = "A..B", help_heading = heading::FILM, default_value = "..")]
     frames: FrameRange,
-    /// Quality of the encoder: lower is better and larger, 18 is hard to tell from the frames
-    #[arg(long, value_name = "N", default_value_t = 18)]
+    /// Quality of the encoder: lower is better and larger
+    ///
+    /// At 18 a film is hard to tell from its frames.
+    #[arg(long, value_name = "N", help_heading = heading::FILM, default_value_t = 18)]
     crf: u8,
-    /// Effort of the H.264 encoder: ultrafast, veryfast, fast, medium, slow or veryslow
-    #[arg(long, value_name = "PRESET", default_value = "medium", value_parser = choice::<X264Preset>())]
+    /// Effort of the H.264 encoder
+    #[arg(long, value_name = "PRESET", help_heading = heading::FILM, hide_short_help = true, default_value = "medium", value_parser = choice::<X264Preset>())]
     preset: X264Preset,
-    /// Writes the shot too
-    #[arg(long, value_name = "SHOT.JSON")]
+    /// Write the shot too
+    #[arg(long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT)]
     save_shot: Option<PathBuf>,
-    /// Writes a contact sheet too: twelve small frames of the film
-    #[arg(long, value_name = "SHEET.PNG")]
+    /// Write a contact sheet too: twelve small frames of the film
+    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT)]
     sheet: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -67,11 +75,13 @@ pub(super) struct Args {
 #[derive(Debug, clap::Args)]
 #[group(required = true, multiple = false)]
 struct ShotSource {
-    /// What the camera does, in words; objects by name or as <obj-ID>
-    #[arg(short, long, value_name = "PROMPT")]
+    /// What the camera does, in words
+    ///
+    /// Objects are named by their labels or as <obj-ID>.
+    #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
     prompt: Option<String>,
-    /// A shot made before, instead of words
-    #[arg(long = "shot", value_name = "SHOT.JSON")]
+    /// Shot to render instead of words
+    #[arg(long = "shot", value_name = "SHOT.JSON", help_heading = heading::SHOT)]
     file: Option<PathBuf>,
 }
 
@@ -82,7 +92,7 @@ impl Args {
         self.picture.bound_threads()?;
         let mut times = PhaseTimes::default();
         let (scene, shot) = self.open(&mut times)?;
-        // Once more, now that size and number of frames are known.
+        // A second check, now that size and number of frames are known.
         let format = video::check_output(&self.output, &self.video(&shot)?)?;
         if let Some(note) = video::odd_size_note(&format, shot.width, shot.height) {
             console::note(&note);
@@ -106,14 +116,14 @@ impl Args {
         self.print_comparison(&predicted, &report, psnr_db)?;
         let mut decided = deciding(&shot).to_vec();
         if self.requirements() != Requirements::default() {
-            // On another machine, or another day, the same wish may choose another quality.
+            // The same requirements may choose another quality on another machine.
             decided.push(("--quality", predicted.quality.as_ref().to_owned()));
         }
         reproduce::print(&decided);
         finish(&report)
     }
 
-    /// Everything that can be refused before the scene is read.
+    /// Refuses wrong outputs before the scene is read.
     fn check_outputs(&self) -> Result<(), Failure> {
         let video = VideoSettings {
             crf: self.crf,
@@ -164,7 +174,7 @@ impl Args {
         Requirements { budget: self.budget, min_psnr_db: self.min_psnr }
     }
 
-    /// What the film will cost at the quality that holds what is wished for.
+    /// Forecast of the film at the quality that meets the requirements.
     fn predict(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<Forecast, Failure> {
         let requirements = self.requirements();
         let forecast = |qualities: &[Quality]| pipeline::forecast(renderer, shot, &self.output, settings, qualities);
@@ -184,10 +194,10 @@ impl Args {
         Ok(predicted)
     }
 
-    /// Predicted and measured figures beside each other.
+    /// Prints predicted beside measured figures.
     fn print_comparison(&self, predicted: &Forecast, report: &FilmReport, psnr_db: f64) -> Result<(), Failure> {
         let measured = report.total_time.as_secs_f64();
-        // A film that was stopped took its part of the time.
+        // A film that was stopped took a share of the predicted time.
         let share = report.num_frames as f64 / report.num_wanted as f64;
         let expected = |time: Duration| time.as_secs_f64() * share;
         let film_secs = expected(predicted.film_time);
@@ -226,13 +236,13 @@ impl Args {
     }
 }
 
-/// Wall time of every stage; encoding runs beside rendering, so the parts are more than the whole.
+/// Prints the wall time per phase. Encoding runs beside rendering, so the phases sum to more than the total.
 fn print_times(times: &PhaseTimes, report: &FilmReport, total: Duration) {
     let phases: Vec<String> =
         times.iter().map(|(phase, time)| format!("{phase} {:.2} s", time.as_secs_f64())).collect();
     let rate_fps = report.num_frames as f64 / report.total_time.as_secs_f64().max(1e-9);
     console::note(&format!(
-        "{}: {} frames; {} (beside render); all {:.2} s, film {rate_fps:.1} fps",
+        "{}: {} frames; {} (parallel to render); total {:.2} s, film {rate_fps:.1} fps",
         report.path.display(),
         report.num_frames,
         phases.join(", "),
@@ -240,7 +250,7 @@ fn print_times(times: &PhaseTimes, report: &FilmReport, total: Duration) {
     ));
 }
 
-/// A film that was stopped is no success, but what is there is kept.
+/// A film that was stopped is a failure; its finished frames are kept.
 fn finish(report: &FilmReport) -> Result<(), Failure> {
     if !report.is_partial() {
         return Ok(());
@@ -250,7 +260,7 @@ fn finish(report: &FilmReport) -> Result<(), Failure> {
     Err(Failure::new(
         "STOPPED",
         found,
-        format!("render the rest with --frames, from frame {done} of this part on"),
+        format!("render the rest with --frames, from frame {done} of this range on"),
         Exit::Stopped,
     ))
 }

@@ -4,18 +4,21 @@ use clap::Args;
 use glam::DVec3;
 
 use super::choice::choice;
-use super::console;
 use super::failure::Failure;
+use super::{console, heading};
 use cinesplat::export::cameras_json::FilterChoice;
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
 use cinesplat::scene::{LoadOptions, Scene, SplatFilter};
 
-/// Which scene, and what the caller knows better than its file.
+/// A scene, and how it is read.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SceneArgs {
-    /// Scene file (.ply .spz .sog .splat), folder of an unbundled SOG, or synth:room:SEED, synth:tabletop:SEED, synth:demo
+    /// Scene file (.ply .spz .sog .splat), SOG folder, or synth:demo
+    ///
+    /// Generated scenes are synth:demo, synth:room:SEED and synth:tabletop:SEED, with an optional share of the full
+    /// number of Gaussians, such as synth:room:7:0.2.
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
     #[command(flatten)]
@@ -25,19 +28,21 @@ pub(super) struct SceneArgs {
 /// How scenes are read.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SceneOptions {
-    /// World up, instead of what the file says or what is estimated, such as 0,-1,0
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    /// World up axis [default: what the file says, else estimated]
+    ///
+    /// Three numbers, such as 0,-1,0.
+    #[arg(long, value_name = "X,Y,Z", help_heading = heading::SCENE, value_parser = parse_vector, allow_hyphen_values = true)]
     up: Option<DVec3>,
-    /// Most Gaussians that are read
-    #[arg(long, value_name = "N", default_value_t = LoadOptions::default().max_gaussians)]
+    /// Largest number of Gaussians to read
+    #[arg(long, value_name = "N", help_heading = heading::SCENE, hide_short_help = true, default_value_t = LoadOptions::default().max_gaussians)]
     max_gaussians: usize,
-    /// Largest file that is read, packed or unpacked, in bytes
-    #[arg(long, value_name = "N", default_value_t = LoadOptions::default().max_file_bytes)]
+    /// Largest file to read in bytes, packed or unpacked
+    #[arg(long, value_name = "N", help_heading = heading::SCENE, hide_short_help = true, default_value_t = LoadOptions::default().max_file_bytes)]
     max_file_bytes: u64,
 }
 
 impl SceneOptions {
-    /// Opens a scene and says what was dropped.
+    /// Opens a scene and prints notes, such as how many Gaussians were dropped.
     pub(super) fn open(&self, scene: &Path) -> Result<OpenedScene, Failure> {
         let (max_file_bytes, max_gaussians) = (self.max_file_bytes, self.max_gaussians);
         let options = LoadOptions { up: self.up, max_file_bytes, max_gaussians };
@@ -50,26 +55,26 @@ impl SceneOptions {
 }
 
 impl SceneArgs {
-    /// Opens the scene and says what was dropped.
+    /// Opens the scene and prints notes.
     pub(super) fn open(&self) -> Result<OpenedScene, Failure> {
         self.options.open(&self.scene)
     }
 
-    /// Opens the scene with its objects: of `file`, of the scene itself, or found. An objects file may correct the up
-    /// axis, `--up` goes before both.
+    /// Opens the scene with its objects: those of `file`, else those of the scene itself, else those that a search
+    /// finds. The up axis is that of `--up`, else of `file`, else of the scene.
     pub(super) fn open_with_objects(&self, file: Option<&Path>) -> Result<(Scene, ObjectSet), Failure> {
         let opened = self.open()?;
         let is_searched = file.is_none() && opened.needs_search();
         let (scene, set) = opened.with_objects(file)?;
         if is_searched {
-            console::note(&format!("objects: {} found (cinesplat objects lists them)", set.objects.len()));
+            console::note(&format!("objects: found {} (`cinesplat objects` lists them)", set.objects.len()));
         }
         print_up(&scene);
         Ok((scene, set))
     }
 }
 
-/// Says which way is up and how that is known.
+/// Prints the up axis and its source.
 pub(super) fn print_up(scene: &Scene) {
     print_up_of(scene.up, &scene.up_source.to_string());
 }
@@ -83,36 +88,46 @@ pub(super) fn print_up_of(up: DVec3, source: &str) {
 /// How pictures are rendered.
 #[derive(Debug, Clone, Args)]
 pub(super) struct PictureArgs {
-    /// Accuracy against time: draft, standard, final or reference
-    #[arg(long, value_name = "Q", value_parser = choice::<Quality>())]
+    /// Accuracy against time [default: standard for films, final for stills]
+    ///
+    /// `reference` renders the exact picture in double precision, `final` the same in single precision. `standard` and
+    /// `draft` are faster; the program prints how accurate they are.
+    #[arg(long, value_name = "QUALITY", help_heading = heading::PICTURE, value_parser = choice::<Quality>())]
     quality: Option<Quality>,
-    /// Splat filter: auto (what the scene's file says), classic or mip
-    #[arg(long, value_name = "FILTER", value_parser = choice::<FilterChoice>())]
+    /// Splat filter [default: auto]
+    ///
+    /// `auto` takes the filter that the scene's file names, else `classic`. `mip` lowers the opacity of splats
+    /// that the dilation enlarges.
+    #[arg(long, value_name = "FILTER", help_heading = heading::PICTURE, value_parser = choice::<FilterChoice>())]
     filter: Option<FilterChoice>,
-    /// Order of blending: z (depth, as scenes are trained) or ray (distance; nothing pops while the camera turns)
-    #[arg(long, value_name = "ORDER", value_parser = choice::<SortMode>())]
+    /// Order of blending [default: z]
+    ///
+    /// `z` sorts by depth, as scenes are trained. `ray` sorts by distance: no splat pops while the camera turns.
+    #[arg(long, value_name = "ORDER", help_heading = heading::PICTURE, hide_short_help = true, value_parser = choice::<SortMode>())]
     sort: Option<SortMode>,
-    /// Where colors are held to their range: trained (once, in the finished picture) or khr (in every Gaussian, as the glTF
-    /// extension for splats has it)
-    #[arg(long, value_name = "MODE", value_parser = choice::<ColorClamp>())]
+    /// Where colors are clamped to their range [default: trained]
+    ///
+    /// `trained` clamps once, in the finished picture. `khr` clamps every Gaussian, as the glTF extension for splats
+    /// defines it.
+    #[arg(long, value_name = "MODE", help_heading = heading::PICTURE, hide_short_help = true, value_parser = choice::<ColorClamp>())]
     color_clamp: Option<ColorClamp>,
-    /// Near plane in scene units, instead of 0.01 of the scene size, at most 0.2
-    #[arg(long, value_name = "D", value_parser = parse_distance)]
+    /// Near plane in scene units [default: 0.01 of the scene size, at most 0.2]
+    #[arg(long, value_name = "DISTANCE", help_heading = heading::PICTURE, hide_short_help = true, value_parser = parse_distance)]
     near: Option<f64>,
-    /// Threads to render with, instead of one a core
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    /// Threads to render with [default: one per core]
+    #[arg(long, value_name = "N", help_heading = heading::PICTURE, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 }
 
 impl PictureArgs {
-    /// Bounds the threads of everything that follows; has to come before any work.
+    /// Bounds the number of threads of everything that follows; call it before any work.
     pub(super) fn bound_threads(&self) -> Result<(), Failure> {
         let Some(threads) = self.threads else { return Ok(()) };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
         pool.map_err(|error| Failure::fault(&error.to_string()))
     }
 
-    /// Settings for a scene; `filter` and `near` are what a cameras file says, which a flag goes before.
+    /// Settings for a scene. `filter` and `near` come from a cameras file; a flag takes precedence over them.
     pub(super) fn settings(
         &self,
         scene: &Scene,

@@ -3,9 +3,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::choice::choice;
-use super::console;
 use super::failure::Failure;
-use super::outputs;
+use super::{console, heading, outputs};
 use cinesplat::director::Director;
 use cinesplat::lens::{self, Call, Decision, EffectChoice};
 use cinesplat::objects::ObjectSet;
@@ -14,39 +13,43 @@ use cinesplat::pipeline::{self, DirectSettings, Directed, Phase, PhaseTimes};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{Shot, retimed};
 
-/// What a shot is to be like, for `plan` and `render`.
+/// How `plan` and `render` make a shot.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ShotArgs {
-    /// Objects file: ids, boxes or labels, and names for the prompt; without it objects are found
-    #[arg(long, value_name = "FILE")]
+    /// Objects file [default: the scene's own objects, else a search]
+    ///
+    /// It holds ids, boxes or labels, and names for the prompt. `cinesplat objects SCENE -o objects.json` writes one.
+    #[arg(long, value_name = "OBJECTS.JSON", help_heading = heading::SCENE)]
     pub(super) objects: Option<PathBuf>,
     /// Frame size in pixels [default: 1280x720, or the shot's]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", help_heading = heading::SHOT, value_parser = parse_size)]
     size: Option<(u32, u32)>,
-    /// Frames a second [default: 30, or the shot's]
-    #[arg(long, value_name = "F", value_parser = parse_rate)]
+    /// Frames per second [default: 30, or the shot's]
+    #[arg(long, value_name = "FPS", help_heading = heading::SHOT, value_parser = parse_rate)]
     fps: Option<f64>,
-    /// Length of the film in seconds, instead of what words and moves need
-    #[arg(long, value_name = "S", value_parser = parse_duration)]
+    /// Length in seconds [default: what words and moves need]
+    #[arg(long, value_name = "SECS", help_heading = heading::SHOT, value_parser = parse_duration)]
     duration: Option<f64>,
-    /// Effects of the lens: auto (what the words call for), off, or names with commas
-    #[arg(long, value_name = "LIST", default_value = "auto")]
+    /// Lens effects: auto, off, or names separated by commas
+    ///
+    /// `auto` takes the effects that the words call for.
+    #[arg(long, value_name = "LIST", help_heading = heading::SHOT, default_value = "auto")]
     effects: EffectChoice,
-    /// Seed of the search for cameras [default: 0, or the shot's]
-    #[arg(long, value_name = "N")]
+    /// Seed of the camera search [default: 0, or the shot's]
+    #[arg(long, value_name = "N", help_heading = heading::SHOT)]
     seed: Option<u64>,
-    /// Moves the inner keys in time so that the camera cruises at even speed
-    #[arg(long)]
+    /// Move the inner keys in time so that the camera's speed is even
+    #[arg(long, help_heading = heading::SHOT, hide_short_help = true)]
     retime: bool,
     #[command(flatten)]
     solve: SolveArgs,
-    /// Weights of the director from a folder, instead of the built-in ones
-    #[arg(long, value_name = "DIR")]
+    /// Folder with the director's weights [default: the built-in weights]
+    #[arg(long, value_name = "DIR", help_heading = heading::SHOT, hide_short_help = true)]
     model: Option<PathBuf>,
 }
 
 impl ShotArgs {
-    /// Directs a prompt; what was guessed and what was not met goes to stderr.
+    /// Turns a prompt into a shot. Prints guesses and requirements that are not met on stderr.
     pub(super) fn direct(&self, scene: &Scene, objects: &ObjectSet, prompt: &str) -> Result<Directed, Failure> {
         let mut times = PhaseTimes::default();
         let director = times.measure(Phase::Load, || match &self.model {
@@ -74,13 +77,13 @@ impl ShotArgs {
         Ok(directed)
     }
 
-    /// Reads a shot and lets the flags change it.
+    /// Reads a shot and applies the flags to it.
     pub(super) fn read_shot(&self, path: &Path, scene: &Scene) -> Result<Shot, Failure> {
         let text = outputs::read_text(path)?;
         let shot = cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
         let made_for_another = !shot.scene.sha256.is_empty() && shot.scene.sha256 != scene.sha256;
         if made_for_another {
-            console::note(&format!("warning: {} was made for another scene ({})", path.display(), shot.scene.path));
+            console::note(&format!("warning: {} was made for another scene: {}", path.display(), shot.scene.path));
         }
         let mut shot = self.changed(shot);
         shot.clearance = Some(pipeline::prove_clearance(scene, &shot)?);
@@ -104,7 +107,7 @@ impl ShotArgs {
     }
 }
 
-/// Flags and defaults that decide the result, for the command that reproduces it.
+/// Flags with the values that decide the result, for the command that reproduces it.
 pub(super) fn deciding(shot: &Shot) -> [(&'static str, String); 3] {
     [
         ("--size", format!("{}x{}", shot.width, shot.height)),
@@ -113,19 +116,18 @@ pub(super) fn deciding(shot: &Shot) -> [(&'static str, String); 3] {
     ]
 }
 
-/// Warns of a shot that comes too near to matter.
+/// Warns of a camera path that comes too close to Gaussians.
 fn print_clearance(shot: &Shot) {
     let Some((proof, failure)) = shot.clearance.as_ref().and_then(|proof| Some((proof, proof.failure?))) else {
         return;
     };
     console::note(&format!(
-        "warning: the camera is not clear of matter from {:.2} to {:.2} s: {:.4} from Gaussian {}, closer than its radius \
-         {:.4}",
-        failure.from_secs, failure.to_secs, failure.distance, failure.gaussian_idx, proof.camera_radius
+        "warning: the camera comes too close to Gaussian {} from {:.2} to {:.2} s: distance {:.4}, camera radius {:.4}",
+        failure.gaussian_idx, failure.from_secs, failure.to_secs, failure.distance, proof.camera_radius
     ));
 }
 
-/// Guesses, effects, and every line of the report that was not met.
+/// Prints guesses, effects, and every line of the report that is not met.
 fn print_gaps(directed: &Directed) {
     for warning in &directed.warnings {
         console::note(&format!("warning: {warning}"));
@@ -143,11 +145,13 @@ fn print_effects(decisions: &[Decision]) {
     }
 }
 
-/// How well the solver works.
+/// How hard the camera search works.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(super) struct SolveArgs {
-    /// How well open choices are made, against time: off (the network's cameras as they are), fast or full
-    #[arg(long = "solve", value_name = "off|fast|full", default_value = "full", value_parser = choice::<SolveLevel>())]
+    /// Effort of the camera search
+    ///
+    /// `off` takes the network's cameras as they are, `fast` and `full` search for better ones.
+    #[arg(long = "solve", value_name = "EFFORT", help_heading = heading::SHOT, default_value = "full", value_parser = choice::<SolveLevel>())]
     pub(super) level: SolveLevel,
 }
 
@@ -159,7 +163,7 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
 
 fn parse_rate(text: &str) -> Result<f64, String> {
     let rate = text.parse().ok().filter(|rate: &f64| (0.01..=1000.0).contains(rate));
-    rate.ok_or_else(|| "expected 0.01 to 1000 frames a second".to_owned())
+    rate.ok_or_else(|| "expected 0.01 to 1000 frames per second".to_owned())
 }
 
 fn parse_duration(text: &str) -> Result<f64, String> {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::{Exit, Failure};
 use super::scene_args::{PictureArgs, SceneArgs, print_up};
-use super::{console, outputs};
+use super::{console, heading, outputs};
 use cinesplat::export::cameras_json::{self, StillCameras};
 use cinesplat::files::npy;
 use cinesplat::objects;
@@ -13,7 +13,9 @@ use cinesplat::render::{PixelWeight, Quality};
 use cinesplat::scene::Scene;
 use cinesplat::video;
 
-/// Takes still pictures from given cameras.
+/// Render still pictures from given cameras
+///
+/// Writes one NAME.png per camera, and further files NAME.*.npy on request.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Example:\n  cinesplat still room.spz --cameras cameras.json -o stills --quality reference --npy"
@@ -22,31 +24,39 @@ use cinesplat::video;
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Cameras, each with a name, image size, focal lengths and `world_from_camera`
+    /// Cameras file: per camera name, image size, focal lengths, `world_from_camera`
     #[arg(long, value_name = "CAMERAS.JSON")]
     cameras: PathBuf,
-    /// Folder for NAME.png, one a camera
-    #[arg(short, long, value_name = "DIR")]
+    /// Folder for NAME.png, one per camera
+    #[arg(short, long, value_name = "DIR", help_heading = heading::OUTPUT)]
     output: PathBuf,
     #[command(flatten)]
     picture: PictureArgs,
-    /// Writes NAME.npy too, float32 H x W x 3 not clamped from above, and NAME.T.npy, the final transmittance
-    #[arg(long)]
+    /// Write colors (NAME.npy) and final transmittance (NAME.T.npy) as numbers
+    ///
+    /// float32, H x W x 3 and H x W. Colors are not clamped from above.
+    #[arg(long, help_heading = heading::OUTPUT)]
     npy: bool,
-    /// Writes NAME.depth.npy and NAME.median.npy too: expected and median depth along the view axis, float32 H x W, NaN
-    /// where nothing is
-    #[arg(long)]
+    /// Write expected depth (NAME.depth.npy) and median depth (NAME.median.npy)
+    ///
+    /// float32, H x W, along the view axis in scene units; NaN where no Gaussian is.
+    #[arg(long, help_heading = heading::OUTPUT)]
     depth: bool,
-    /// Writes NAME.ids.npy too: the object of each pixel, uint16 H x W, from one label a Gaussian (of the scene itself
-    /// without a file)
-    #[arg(long, value_name = "LABELS.NPY", num_args = 0..=1)]
+    /// Write the object id of each pixel (NAME.ids.npy) [labels: the scene's own]
+    ///
+    /// uint16, H x W. The file holds one label per Gaussian in file order.
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "LABELS.NPY", num_args = 0..=1)]
     #[allow(clippy::option_option, reason = "not given, given without a file, given with one")]
     ids: Option<Option<PathBuf>>,
-    /// Writes NAME.features.npy too: rows of the file, float32 Gaussians x N, blended as color is, H x W x N
-    #[arg(long, value_name = "FILE.NPY")]
+    /// Write features blended like colors (NAME.features.npy)
+    ///
+    /// The file holds one row of N features per Gaussian, float32; the output is float32, H x W x N.
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "FILE.NPY")]
     features: Option<PathBuf>,
-    /// Writes NAME.weights.npy too: (pixel, gaussian, weight) of every splat in every pixel; large
-    #[arg(long)]
+    /// Write the weight of every splat in every pixel (NAME.weights.npy)
+    ///
+    /// Records of pixel, Gaussian and weight; the file is large.
+    #[arg(long, help_heading = heading::OUTPUT)]
     weights: bool,
     #[command(flatten)]
     overwrite: Overwrite,

@@ -12,6 +12,7 @@ use serde_json::Value;
     Hash,
     strum::AsRefStr,
     strum::Display,
+    strum::EnumMessage,
     strum::EnumString,
     strum::IntoStaticStr,
     strum::VariantArray,
@@ -19,9 +20,9 @@ use serde_json::Value;
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Format {
-    /// TUM RGB-D: seconds, position, quaternion a line.
+    /// TUM RGB-D: seconds, position and quaternion per line.
     Tum,
-    /// KITTI odometry: a 3 x 4 matrix a line, no times.
+    /// KITTI odometry: one 3 x 4 matrix per line, without times.
     Kitti,
     /// EuRoC MAV ground truth: CSV with nanoseconds.
     Euroc,
@@ -41,11 +42,11 @@ pub enum Format {
     Usd,
     /// A Python script for Blender.
     Blender,
-    /// A table with everything, one frame a line.
+    /// A table with all values, one line per frame.
     Csv,
     /// Redwood and Open3D trajectory log: 4 x 4 matrices.
     Log,
-    /// The project's own `shot.json`.
+    /// A `shot.json` of cinesplat.
     Shot,
 }
 

@@ -15,6 +15,7 @@ mod pipeline;
 mod render;
 mod scene;
 #[cfg(feature = "training")]
+#[cfg(feature = "training")]
 mod training;
 mod video;
 
