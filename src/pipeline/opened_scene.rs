@@ -70,14 +70,10 @@ fn unknown(name: &Path) -> PipelineError {
 /// `demo`, `room:7`, `tabletop:3`, and with a detail after it `room:7:0.5`.
 fn synth_settings(spec: &str) -> Option<SynthSettings> {
     if spec == "demo" {
-        return Some(SynthSettings::demo());
+        return Some(SynthSettings::default());
     }
     let mut parts = spec.split(':');
-    let kind = match parts.next()? {
-        "room" => SynthKind::Room,
-        "tabletop" => SynthKind::Tabletop,
-        _ => return None,
-    };
+    let kind: SynthKind = parts.next()?.parse().ok()?;
     let seed = parts.next()?.parse().ok()?;
     let detail = parts.next().map_or(Some(1.0), |text| text.parse().ok())?;
     let is_whole = parts.next().is_none() && (0.01..=4.0).contains(&detail);

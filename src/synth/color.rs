@@ -1,32 +1,32 @@
 use glam::Vec3;
 
-/// A color with the word that people use for it.
+/// A color and its English word.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hue {
-    /// Plain color word, such as `green`.
+pub(super) struct NamedColor {
+    /// Color word, such as `green`.
     pub(super) name: &'static str,
     /// Linear reflectance.
     pub(super) linear: Vec3,
 }
 
-/// A hue as written in the tables: display-encoded.
+/// A color as the tables hold it: display-encoded (sRGB).
 #[derive(Debug, Clone, Copy)]
-struct RawHue {
+struct EncodedColor {
     name: &'static str,
     rgb: [u8; 3],
 }
 
-const fn raw(name: &'static str, rgb: [u8; 3]) -> RawHue {
-    RawHue { name, rgb }
+const fn raw(name: &'static str, rgb: [u8; 3]) -> EncodedColor {
+    EncodedColor { name, rgb }
 }
 
-impl RawHue {
-    fn decoded(self) -> Hue {
-        Hue { name: self.name, linear: srgb(self.rgb[0], self.rgb[1], self.rgb[2]) }
+impl EncodedColor {
+    fn decoded(self) -> NamedColor {
+        NamedColor { name: self.name, linear: srgb(self.rgb[0], self.rgb[1], self.rgb[2]) }
     }
 }
 
-/// Linear reflectance of a display color (IEC 61966-2-1).
+/// Linear reflectance of an sRGB color (IEC 61966-2-1).
 pub(super) fn srgb(red: u8, green: u8, blue: u8) -> Vec3 {
     Vec3::new(decode(red), decode(green), decode(blue))
 }
@@ -36,44 +36,44 @@ fn decode(channel: u8) -> f32 {
     if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Display value of a linear one in 0..=1.
+/// sRGB value of a linear value; both in 0..=1.
 pub(super) fn encode(linear: f32) -> f32 {
     let c = linear.clamp(0.0, 1.0);
     if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// Colors that belong together in one room.
+/// Colors of one room.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Palette {
     /// Walls.
-    pub(super) wall: Hue,
-    /// The wall behind the main group.
-    pub(super) feature: Hue,
+    pub(super) wall: NamedColor,
+    /// The wall behind the main furniture.
+    pub(super) feature: NamedColor,
     /// Floor boards.
-    pub(super) floor: Hue,
+    pub(super) floor: NamedColor,
     /// Furniture wood.
-    pub(super) wood: Hue,
+    pub(super) wood: NamedColor,
     /// Large upholstery.
-    pub(super) main: Hue,
-    /// Small upholstery, textiles.
-    pub(super) accent: Hue,
-    /// Second accent.
-    pub(super) second: Hue,
+    pub(super) main: NamedColor,
+    /// Small upholstery and textiles.
+    pub(super) accent: NamedColor,
+    /// Second accent color.
+    pub(super) second: NamedColor,
     /// Light neutral of textiles and ceramics.
-    pub(super) light: Hue,
+    pub(super) light: NamedColor,
     /// Dark neutral of metal and frames.
-    pub(super) dark: Hue,
+    pub(super) dark: NamedColor,
 }
 
 /// Number of palettes.
 pub(super) const NUM_PALETTES: usize = 9;
 
-const CREAM: RawHue = raw("cream", [234, 223, 201]);
-const WHITE: RawHue = raw("white", [238, 234, 226]);
-const BLACK: RawHue = raw("black", [38, 36, 35]);
+const CREAM: EncodedColor = raw("cream", [234, 223, 201]);
+const WHITE: EncodedColor = raw("white", [238, 234, 226]);
+const BLACK: EncodedColor = raw("black", [38, 36, 35]);
 
-/// Rows: wall, feature wall, floor, wood, main, accent, second, light, dark.
-const PALETTES: [[RawHue; 9]; NUM_PALETTES] = [
+/// Columns: wall, feature wall, floor, wood, main, accent, second, light, dark.
+const PALETTES: [[EncodedColor; 9]; NUM_PALETTES] = [
     [
         raw("white", [226, 220, 208]),
         raw("green", [124, 140, 124]),
@@ -176,20 +176,20 @@ const PALETTES: [[RawHue; 9]; NUM_PALETTES] = [
 ];
 
 impl Palette {
-    /// One of the tasteful harmonies, by index (taken modulo their number).
+    /// The palette of an index modulo [`NUM_PALETTES`].
     pub(super) fn numbered(index: usize) -> Self {
         let [wall, feature, floor, wood, main, accent, second, light, dark] =
-            PALETTES[index % NUM_PALETTES].map(RawHue::decoded);
+            PALETTES[index % NUM_PALETTES].map(EncodedColor::decoded);
         Self { wall, feature, floor, wood, main, accent, second, light, dark }
     }
 }
 
-/// Colors of ceramics, glass and book spines that go with anything, muted.
-pub(super) const SMALL_HUES: usize = 10;
+/// Number of muted colors for ceramics, glass and book spines.
+pub(super) const NUM_MUTED_COLORS: usize = 10;
 
-/// One of [`SMALL_HUES`] muted colors.
-pub(super) fn small_hue(index: usize) -> Hue {
-    const TABLE: [RawHue; SMALL_HUES] = [
+/// The muted color of an index modulo [`NUM_MUTED_COLORS`].
+pub(super) fn muted_color(index: usize) -> NamedColor {
+    const TABLE: [EncodedColor; NUM_MUTED_COLORS] = [
         raw("blue", [62, 92, 132]),
         raw("white", [232, 226, 214]),
         raw("green", [86, 118, 84]),
@@ -201,5 +201,5 @@ pub(super) fn small_hue(index: usize) -> Hue {
         raw("pink", [206, 146, 138]),
         raw("brown", [122, 82, 56]),
     ];
-    TABLE[index % SMALL_HUES].decoded()
+    TABLE[index % NUM_MUTED_COLORS].decoded()
 }

@@ -1,30 +1,31 @@
-//! Grids of light by place and rough direction of the surface: what directly lit surfaces send out, and what has been
-//! gathered from them, averaged.
+//! Grids of light, by position and by the coordinate axis nearest to the surface normal.
+//!
+//! Enters: outgoing radiance or gathered irradiance of surfels. Leaves: area-weighted means around a point.
 
 use glam::Vec3;
 
-use super::bake::RayCounts;
+use super::bake_quality::BakeQuality;
 use super::surfel::Surfel;
 
-/// Edge of a cell of the radiance grid, m, where surfels are dense.
+/// Edge of the radiance grid's cells at film quality, m.
 const GRID_CELL: f32 = 0.14;
 
-/// Edge of the cells that bounced light is averaged over, m, where surfels are dense.
+/// Edge of the cells over which bounced light is averaged, at film quality, m.
 const SMOOTH_CELL: f32 = 0.27;
 
-/// Gathered rays from which the openness of a single surfel is more signal than noise.
+/// Number of gathered rays from which the openness of a single surfel is reliable.
 const OWN_OPENNESS_RAYS: u32 = 10;
 
-/// Bounced light on one surfel.
+/// Bounced light on a surfel.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Gathered {
+pub(super) struct GatheredLight {
     /// Irradiance.
     pub(super) irradiance: Vec3,
-    /// Mean openness of the half space, 0..=1.
+    /// Mean openness of the hemisphere, 0..=1.
     pub(super) openness: f32,
 }
 
-/// Mean radiance by place and rough direction of the surface.
+/// Area-weighted mean radiance per cell and per direction: six directions, the signed axes nearest to the normal.
 pub(super) struct RadianceGrid {
     cell: f32,
     low: Vec3,
@@ -33,9 +34,9 @@ pub(super) struct RadianceGrid {
 }
 
 impl RadianceGrid {
-    /// An empty grid for the first bounce.
-    pub(super) fn direct(surfels: &[Surfel], counts: RayCounts) -> Self {
-        Self::around(surfels, counts.grid * GRID_CELL)
+    /// An empty grid around the surfels.
+    pub(super) fn direct(surfels: &[Surfel], quality: BakeQuality) -> Self {
+        Self::around(surfels, quality.grid_scale * GRID_CELL)
     }
 
     fn around(surfels: &[Surfel], cell: f32) -> Self {
@@ -54,7 +55,7 @@ impl RadianceGrid {
         ((z * self.size[1] + y) * self.size[0] + x) * 6 + side
     }
 
-    /// Adds what leaves a surfel.
+    /// Adds the radiance of a surfel, weighted by its area.
     pub(super) fn add(&mut self, surfel: &Surfel, radiance: Vec3) {
         let area = surfel.scale.x * surfel.scale.y;
         let index = self.index(surfel.mean, surfel.normal);
@@ -62,7 +63,8 @@ impl RadianceGrid {
         self.cells[index].1 += area;
     }
 
-    /// Mean around a hit: stand-ins lie up to some centimeters off the surface, so the cells beside it help out.
+    /// Mean radiance at a hit. Proxies lie up to several centimeters off the surface, so an empty cell falls back to its
+    /// neighbors along the normal.
     pub(super) fn radiance(&self, at: Vec3, normal: Vec3) -> Vec3 {
         let (mut sum, mut weight) = (Vec3::ZERO, 0.0);
         for shift in [0.0, -0.6, 0.6] {
@@ -77,31 +79,31 @@ impl RadianceGrid {
     }
 }
 
-/// Bounced light averaged over cells and interpolated between them: the noise of single surfels goes, while their own
-/// openness brings back the darkening toward contacts that a cell is too coarse for.
+/// Bounced light averaged over cells and interpolated between them, which removes the noise of single surfels. The surfel's
+/// own openness restores contact shadows, which are finer than a cell.
 pub(super) struct SmoothGrid {
     grid: RadianceGrid,
     openness: Vec<f32>,
-    /// Whether the openness of single surfels is known well enough.
-    own: bool,
+    /// Whether the openness of single surfels is reliable.
+    use_own_openness: bool,
 }
 
 impl SmoothGrid {
-    /// Averages what the surfels gathered.
-    pub(super) fn of(surfels: &[Surfel], gathered: &[Gathered], counts: RayCounts) -> Self {
-        let own = counts.gather >= OWN_OPENNESS_RAYS;
-        let mut grid = RadianceGrid::around(surfels, counts.grid * SMOOTH_CELL);
+    /// Averages the gathered light of the surfels.
+    pub(super) fn of(surfels: &[Surfel], gathered: &[GatheredLight], quality: BakeQuality) -> Self {
+        let use_own_openness = quality.gather_rays >= OWN_OPENNESS_RAYS;
+        let mut grid = RadianceGrid::around(surfels, quality.grid_scale * SMOOTH_CELL);
         let mut openness = vec![0.0; grid.cells.len()];
         for (surfel, lit) in surfels.iter().zip(gathered) {
             let area = surfel.scale.x * surfel.scale.y;
             openness[grid.index(surfel.mean, surfel.normal)] += lit.openness * area;
             grid.add(surfel, lit.irradiance);
         }
-        Self { grid, openness, own }
+        Self { grid, openness, use_own_openness }
     }
 
-    /// Trilinear mean of the eight cells around a surfel, those empty left out, brought to its own openness.
-    pub(super) fn irradiance(&self, surfel: &Surfel, own: &Gathered) -> Vec3 {
+    /// Trilinear mean of the non-empty cells among the eight around a surfel, scaled by the surfel's relative openness.
+    pub(super) fn irradiance(&self, surfel: &Surfel, own: &GatheredLight) -> Vec3 {
         let at = (surfel.mean - self.grid.low) / self.grid.cell - 0.5;
         let frac = at - at.floor();
         let (mut sum, mut open, mut weight) = (Vec3::ZERO, 0.0, 0.0);
@@ -117,7 +119,7 @@ impl SmoothGrid {
         if weight <= 0.0 || open <= 0.0 {
             return own.irradiance;
         }
-        let relative = if self.own { (own.openness * weight / open).min(1.6) } else { 1.0 };
+        let relative = if self.use_own_openness { (own.openness * weight / open).min(1.6) } else { 1.0 };
         sum / weight * relative
     }
 }

@@ -1,48 +1,52 @@
 use glam::DVec2;
 
-use super::super::models::{beds, lamps, plants, seats, storage, tables, textiles, walls};
-use super::super::shell::Wall;
-use super::super::stage::Stage;
-use super::{fill_floor, hang_things, lamp_on, trinket, window_side};
+use super::furnishing::{decorate_walls, fill_floor, lamp_on, trinket, window_side};
+use crate::assets::{beds, lamps, plants, seats, storage, tables, textiles, walls};
+use crate::scene_builder::SceneBuilder;
+use crate::shell::Wall;
 
 /// A bed at the back wall between nightstands, wardrobe and drawers along the others.
-pub(super) fn furnish(stage: &mut Stage, aisle: [f64; 2]) {
-    let palette = stage.palette;
-    let window = window_side(stage);
-    let back = -stage.shell.half.y;
-    let bed = beds::bed(&mut stage.dice, &palette);
+pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
+    let palette = builder.palette;
+    let window = window_side(builder);
+    let back = -builder.shell.half.y;
+    let bed = beds::bed(&mut builder.rng, &palette);
     let size = bed.size();
     let center = -window * 0.1;
-    let rug = textiles::rug(&mut stage.dice, &palette, [size.x + 1.0, 1.5]);
-    stage.stand(rug, DVec2::new(center, aisle[0] - 0.5), 0.0);
-    stage.against(bed, Wall::Back, center);
+    let rug = textiles::rug(&mut builder.rng, &palette, [size.x + 1.0, 1.5]);
+    builder.place_on_floor(rug, DVec2::new(center, aisle[0] - 0.5), 0.0);
+    builder.place_at_wall(bed, Wall::Back, center);
     for side in [-1.0, 1.0] {
-        let stand = tables::nightstand(&mut stage.dice, &palette);
+        let stand = tables::nightstand(&mut builder.rng, &palette);
         let along = center + side * (size.x / 2.0 + stand.size().x / 2.0 + 0.06);
-        let host = stage.against(stand, Wall::Back, along);
-        lamp_on(stage, host, [0.0, -0.1]);
-        let piece = storage::book_stack(&mut stage.dice, &palette);
-        stage.on(host, &piece);
+        let host = builder.place_at_wall(stand, Wall::Back, along);
+        lamp_on(builder, host, [0.0, -0.1]);
+        let piece = storage::book_stack(&mut builder.rng, &palette);
+        builder.place_on(host, &piece);
     }
-    let wide = walls::picture(&mut stage.dice, &palette, [1.1, 0.7]);
-    stage.hang(wide, Wall::Back, [center, 1.4]);
-    let bench = seats::bench(&mut stage.dice, &palette);
-    stage.stand(bench, DVec2::new(center, back + size.z + 0.3), 0.0);
-    let wardrobe = storage::wardrobe(&mut stage.dice, &palette.light);
-    let half = stage.shell.half.x - 0.9;
-    stage.along(&wardrobe, Wall::Front, [-half, half]);
-    let dresser = storage::dresser(&mut stage.dice, &palette);
-    let host = stage.along(&dresser, Wall::Front, [-half, half]);
+    let wide = walls::picture(&mut builder.rng, &palette, [1.1, 0.7]);
+    builder.hang_on_wall(wide, Wall::Back, [center, 1.4]);
+    let bench = seats::bench(&mut builder.rng, &palette);
+    builder.place_on_floor(bench, DVec2::new(center, back + size.z + 0.3), 0.0);
+    let wardrobe = storage::wardrobe(&mut builder.rng, &palette.light);
+    let half = builder.shell.half.x - 0.9;
+    builder.place_along_wall(&wardrobe, Wall::Front, [-half, half]);
+    let dresser = storage::dresser(&mut builder.rng, &palette);
+    let host = builder.place_along_wall(&dresser, Wall::Front, [-half, half]);
     for _ in 0..3 {
-        let piece = trinket(stage);
-        stage.on(host, &piece);
+        let piece = trinket(builder);
+        builder.place_on(host, &piece);
     }
-    let chair = seats::armchair(&mut stage.dice, &palette.accent, &palette);
-    stage.stand(chair, DVec2::new(window * (stage.shell.half.x - 0.85), stage.shell.half.y - 0.7), -window * 2.4);
-    let lamp = lamps::floor_lamp(&mut stage.dice, &palette);
-    stage.anywhere(&lamp);
-    let plant = plants::potted_plant(&mut stage.dice, &palette.light);
-    stage.anywhere(&plant);
-    fill_floor(stage, 3);
-    hang_things(stage, 5);
+    let chair = seats::armchair(&mut builder.rng, &palette.accent, &palette);
+    builder.place_on_floor(
+        chair,
+        DVec2::new(window * (builder.shell.half.x - 0.85), builder.shell.half.y - 0.7),
+        -window * 2.4,
+    );
+    let lamp = lamps::floor_lamp(&mut builder.rng, &palette);
+    builder.place_at_any_wall(&lamp);
+    let plant = plants::potted_plant(&mut builder.rng, &palette.light);
+    builder.place_at_any_wall(&plant);
+    fill_floor(builder, 3);
+    decorate_walls(builder, 5);
 }
