@@ -35,8 +35,8 @@ pub struct BenchRow {
     pub timed: Timing,
     /// Of an output: its time over that of color as numbers, the two in turn; the median of the pairs.
     pub times_color: Option<f64>,
-    /// Of the picture as numbers against the spec image, of a free knob against the picture of `standard`; all NaN for an
-    /// output.
+    /// Of the picture as numbers against the spec image, of a free knob against the picture of `standard`; all NaN for
+    /// an output.
     pub difference: Difference,
 }
 

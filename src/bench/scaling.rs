@@ -1,7 +1,8 @@
-//! How cost grows with the work: Gaussians, pixels, layers of splats over each other, one growing while the others stay.
+//! How cost grows with the work: Gaussians, pixels, layers of splats over each other, one growing while the others
+//! stay.
 //!
-//! Enters: a scene to tile and one [`ScalingCase`]. Leaves: a [`ScalingRow`] with time, counts and memory. A case should have a
-//! process of its own: what an earlier one gave back would hide what this one takes.
+//! Enters: a scene to tile and one [`ScalingCase`]. Leaves: a [`ScalingRow`] with time, counts and memory. A case
+//! should have a process of its own: what an earlier one gave back would hide what this one takes.
 
 use std::fmt::Write as _;
 
@@ -11,7 +12,7 @@ use super::report::ms;
 use super::{Timing, time};
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 use cinesplat_plot::{Axis, COLORS, Chart, LegendEntry, LegendSymbol, Marker, Series, grid};
-use cinesplat_render::{RenderError, RenderSettings, Renderer};
+use cinesplat_render::{RenderError, RenderSettings, Renderer, memory_target_bytes};
 use cinesplat_scene::{Bounds, Gaussians, NUM_SH_REST};
 
 /// Gaussians of one tile of a tiled scene, at most.
@@ -19,9 +20,6 @@ const TILE_LEN: usize = 10_000;
 /// The picture where it does not grow.
 const SIZE_PX: [u32; 2] = [1280, 720];
 const FOV_Y_RAD: f64 = 0.9;
-/// What the renderer may hold beyond the loaded scene.
-const BYTES_A_GAUSSIAN: u64 = 100;
-const BYTES_A_PIXEL: u64 = 64;
 
 /// What grows.
 #[derive(
@@ -177,7 +175,7 @@ fn camera([width, height]: [u32; 2], position: DVec3) -> Camera {
 impl ScalingRow {
     /// What the renderer may hold for this scene and picture.
     pub fn allowed_bytes(&self) -> u64 {
-        BYTES_A_GAUSSIAN * self.num_gaussians + BYTES_A_PIXEL * self.num_pixels
+        memory_target_bytes(self.num_gaussians, self.num_pixels)
     }
 }
 

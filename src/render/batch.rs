@@ -6,9 +6,9 @@ pub(super) const BYTES_PER_SPLAT: usize = size_of::<Splat>() + size_of::<HotFiel
 /// The fields of a splat that sorting and binning read.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HotFields {
-    /// Tiles that the splat covers: first and last column, first and last row.
+    /// Tiles that the splat overlaps: first and last column, first and last row.
     pub(super) rect: [u16; 4],
-    /// The Gaussian that it shows.
+    /// The Gaussian.
     pub(super) gaussian_idx: u32,
     /// Depth along the view axis.
     pub(super) depth: f32,
@@ -24,7 +24,7 @@ pub(super) struct Batch {
 }
 
 impl Batch {
-    /// Adds a splat and the tiles that it covers; see [`Splat::tile_rect`].
+    /// Adds a splat and the tiles that it overlaps; see [`Splat::tile_rect`].
     #[inline(always)]
     pub(super) fn push(&mut self, splat: Splat, rect: [u16; 4]) {
         self.splats.push(splat);

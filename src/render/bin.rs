@@ -1,7 +1,8 @@
-//! Splats to tiles: for each tile of the picture the splats that may touch it, nearest first.
+//! Splats to tiles.
 //!
-//! The sorted splats are cut into runs of fixed length, each binned on its own; a tile's list is its part of every
-//! run, one after the other. So the order never depends on the number of threads.
+//! Enters: splats in depth order. Leaves: for each tile the splats that may overlap it, nearest first. The sorted
+//! splats are cut into runs of fixed length and each run is binned by itself; a tile's list is the concatenation of its
+//! parts in all runs. The invariant: the order does not depend on the number of threads.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -12,11 +13,11 @@ use super::sort::DepthKey;
 use super::splats::Splats;
 use super::tiles::TileGrid;
 
-/// Splats in a run.
+/// Splats per run.
 const RUN_LEN: usize = 8192;
 
-/// A splat in the order of depth and the tiles that it touches: first and last column, first and last row. It takes the
-/// place of its key, which has done its work.
+/// A splat in depth order and the tiles that it overlaps: first and last column, first and last row. Overwrites its
+/// sort key, which is no longer needed and has the same size.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct Placed {
@@ -27,15 +28,15 @@ struct Placed {
 /// The bins of one run of splats.
 #[derive(Debug, Default)]
 struct Run {
-    /// Number of splats of each tile, and room for counts of 0 behind.
+    /// Number of splats per tile, followed by slots that [`for_each_tile`] adds 0 to.
     counts: Vec<u32>,
-    /// Where the next place of each tile goes; in the end one after its last.
+    /// Index in `places` where the next splat of each tile is written; in the end one past its last.
     ends: Vec<u32>,
-    /// Places of splats, tile after tile, each with one slot to spare behind it.
+    /// Places of splats, tile after tile, with one spare slot after each tile.
     places: Vec<u32>,
 }
 
-/// The splats of every tile. Memory is kept from picture to picture.
+/// The splats of every tile. Keeps its memory from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct Bins {
     runs: Vec<Run>,
@@ -43,11 +44,12 @@ pub(super) struct Bins {
 }
 
 impl Bins {
-    /// Bins splats given in depth order into the tiles of a grid; returns the number of splat-tile pairs. The keys are
-    /// written over.
+    /// Bins splats in depth order into the tiles of a grid; returns the number of splat-tile pairs. Overwrites the
+    /// keys.
     ///
     /// # Errors
-    /// [`RenderError::Cost`] or [`RenderError::Memory`] before anything is allocated for the pairs.
+    /// [`RenderError::Cost`] for too many pairs, [`RenderError::Memory`] if their list would exceed the limit; both
+    /// before the list is allocated.
     pub(super) fn fill(
         &mut self,
         keys: &mut [DepthKey],
@@ -68,13 +70,13 @@ impl Bins {
         Ok(num_pairs)
     }
 
-    /// Bytes that the lists hold on to.
+    /// Bytes that the lists have allocated.
     pub(super) fn bytes(&self) -> u64 {
         let lists = |run: &Run| bytes_of(&run.counts) + bytes_of(&run.ends) + bytes_of(&run.places);
         self.runs.iter().map(lists).sum()
     }
 
-    /// Places of the splats of one tile, nearest first, in slices.
+    /// Places of the splats of one tile, nearest first, one slice per run.
     pub(super) fn of_tile(&self, tile_idx: usize) -> impl Iterator<Item = &[u32]> {
         self.runs[..self.num_runs].iter().map(move |run| {
             let end = run.ends[tile_idx] as usize;
@@ -84,7 +86,7 @@ impl Bins {
 }
 
 impl Run {
-    /// Finds the tiles that each splat touches and how many splats each tile gets; returns the number of pairs.
+    /// Looks up the tiles of each splat and counts the splats of each tile; returns the number of pairs.
     fn count(&mut self, placed: &mut [Placed], splats: &Splats, grid: TileGrid) -> u64 {
         self.counts.clear();
         self.counts.resize(grid.len() + grid.across + 2, 0);
@@ -108,7 +110,8 @@ impl Run {
         let (ends, places) = (&mut self.ends, &mut self.places);
         for &Placed { rect, place } in placed {
             for_each_tile(rect, grid, |tile_idx, is_covered| {
-                // Where it does not belong it is written over, or stays in the slot to spare.
+                // Written even if the tile is not covered: then the next splat overwrites it, or it stays in the spare
+                // slot.
                 places[ends[tile_idx] as usize] = place;
                 ends[tile_idx] += is_covered;
             });
@@ -116,8 +119,10 @@ impl Run {
     }
 }
 
-/// Calls `visit` with every tile of a rectangle and 1. Up to 2 x 2 tiles, which is most, it is called four times, with 0
-/// for those that are not in it: whether they are cannot be foretold, and a wrong guess costs more than a visit.
+/// Calls `visit` with every tile of a rectangle and 1.
+///
+/// Most rectangles have up to 2 x 2 tiles. For those it makes four calls, with 0 for tiles outside the rectangle: a
+/// branch would be unpredictable, and a misprediction costs more than a wasted visit.
 #[inline(always)]
 fn for_each_tile([left, right, top, bottom]: [u16; 4], grid: TileGrid, mut visit: impl FnMut(usize, u32)) {
     let first = (usize::from(top) - grid.first_row) * grid.across + usize::from(left);

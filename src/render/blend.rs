@@ -1,8 +1,8 @@
-//! Tiles to pixels: front to back, a tile at a time, each 8 x 4 block with its own list of splats.
+//! Tiles to pixels: blends each tile front to back, each block of 8 x 4 pixels with its own list of splats.
 //!
-//! Enters: the places of a tile's splats, nearest first. Leaves: its pixels. Splats are taken a few hundred at a time:
-//! first it is found for every block which of them touch it, then every block that is not yet opaque lists those and
-//! blends them with all its pixels in registers. A block that has become opaque takes no more splats.
+//! Enters: the places of a tile's splats, nearest first. Leaves: the tile's pixels. Splats are processed in chunks of
+//! 256: first the coverage of every block is computed, then every block that is not yet opaque blends the splats that
+//! cover it, with its pixels in registers. A block that has become opaque takes no more splats (early termination).
 
 use std::marker::PhantomData;
 
@@ -18,7 +18,7 @@ use super::splat::{EXPONENT_DIVISOR, Splat};
 use super::splats::Splats;
 use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_BLOCKS, NUM_STRIPS, StripMasks};
 
-/// The memory that one tile at a time needs; used for one tile after another.
+/// Work buffers for one tile, reused for the next.
 #[derive(Debug)]
 pub(super) struct Workspace {
     splats: Box<[Splat; RECORDS_LEN]>,
@@ -43,21 +43,21 @@ impl Default for Workspace {
     }
 }
 
-/// One tile to be blended.
+/// One tile to blend.
 pub(super) struct Tile<'a, I, A, K> {
-    /// Its left and upper corner, pixels.
+    /// Left upper corner, pixels.
     pub(super) origin_px: [usize; 2],
-    /// Places of its splats, nearest first.
+    /// Places of the tile's splats, nearest first.
     pub(super) places: I,
-    /// Where the splats are.
+    /// The splats of the picture.
     pub(super) splats: &'a Splats,
     /// The view.
     pub(super) view: &'a View,
-    /// Memory to work in; holds the pixels afterwards.
+    /// Work buffers; hold the pixels afterwards.
     pub(super) workspace: &'a mut Workspace,
-    /// What else is made of the weights.
+    /// Receives the weights.
     pub(super) sink: &'a mut K,
-    /// How opacities are computed and added.
+    /// How opacities are computed and blended.
     pub(super) arithmetic: PhantomData<A>,
 }
 
@@ -70,15 +70,15 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
         workspace.clear(origin_px, view);
         let cutoffs = Cutoffs {
             level: A::level((view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32),
-            // A little less: behind two layers of the largest opacity the spec has exactly 1e-4 left, which is not
-            // below its least; in `f32` it would be, and the second layer would be missing.
+            // Slightly lower: behind two layers of opacity 0.99 the spec image has a transmittance of exactly 1e-4,
+            // which is not below the stop. In `f32` it would be, and the second layer would be missing.
             transmittance: (view.transmittance_stop * (1.0 - 1e-5)) as f32,
         };
         let constants = Constants::new(simd, cutoffs);
         let corner = origin_px.map(|position| position as f32);
         let mut left = places.flatten().map(|&place| splats.get(place));
         while workspace.done != [u8::MAX; NUM_STRIPS] {
-            // Copied first: the copies wait for memory side by side, the work below would wait one by one.
+            // Copied first: the loads of the copies overlap; the work below would wait for each load.
             let mut len = 0;
             for (to, from) in workspace.splats.iter_mut().zip(&mut left) {
                 *to = *from;
@@ -93,11 +93,11 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
 }
 
 impl Workspace {
-    /// Bytes that it takes.
+    /// Bytes of a workspace.
     pub(super) const BYTES: usize =
         RECORDS_LEN * (size_of::<Splat>() + size_of::<Record>()) + Coverage::BYTES + TilePixels::BYTES;
 
-    /// Starts a tile: nothing blended, blocks beyond the picture done with.
+    /// Starts a tile: clears the pixels and marks blocks outside the picture as done.
     fn clear(&mut self, origin_px: [usize; 2], view: &View) {
         self.pixels.clear();
         self.num_block_blends = 0;
@@ -107,7 +107,7 @@ impl Workspace {
         self.done[..rows].fill((0xff_u32 << columns) as u8);
     }
 
-    /// Blends the copied splats.
+    /// Blends the chunk of copied splats.
     #[inline(always)]
     fn blend_copied<S: Simd, A: Arithmetic, K: Sink>(
         &mut self,
@@ -128,7 +128,7 @@ impl Workspace {
         self.blend_blocks::<S, A, K>(simd, constants, sink);
     }
 
-    /// Blends into every block that still takes splats those that touch it.
+    /// Blends the chunk into every block that is not done.
     #[inline(always)]
     fn blend_blocks<S: Simd, A: Arithmetic, K: Sink>(&mut self, simd: S, constants: &Constants<S>, sink: &mut K) {
         let mut list = PositionList::default();
@@ -149,7 +149,7 @@ impl Workspace {
         }
     }
 
-    /// Overlaps between splats and blocks blended for the last tile.
+    /// Number of splat-block pairs that were blended for the last tile.
     pub(super) fn num_block_blends(&self) -> u64 {
         self.num_block_blends
     }
@@ -160,7 +160,7 @@ impl Workspace {
     }
 }
 
-/// A splat relative to the tile's corner.
+/// The record of a splat relative to the tile's corner.
 #[inline(always)]
 fn relative<A: Arithmetic>(splat: &Splat, corner_px: [f32; 2]) -> Record {
     let (x, y) = (splat.mean_px[0] - corner_px[0], splat.mean_px[1] - corner_px[1]);

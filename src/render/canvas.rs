@@ -1,4 +1,4 @@
-//! Where a picture goes: numbers as they are, or eight bits. What a film does not need is neither computed nor written.
+//! Target of a picture: `f32` color and transmittance, or 8-bit color only, for films.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -8,12 +8,12 @@ use super::pixels::TilePixels;
 use super::tiles::TILE_PX;
 use super::{Frame, Rgb8Frame};
 
-/// Rows of a picture to be written to.
+/// Rows of a picture that are written to.
 #[derive(Debug)]
 pub(super) enum Canvas<'a> {
     /// Color and transmittance.
     Linear { rgb: &'a mut [f32], transmittance: &'a mut [f32] },
-    /// Color in eight bits.
+    /// Color in 8 bits.
     Rgb8(&'a mut [u8]),
 }
 
@@ -38,7 +38,7 @@ impl<'a> Canvas<'a> {
         self.into_parts(width * TILE_PX).into_iter().map(Mutex::new).collect()
     }
 
-    /// The picture in parts of so many pixels each, the last of what is left.
+    /// The picture in parts of `num_pixels` each; the last part may be shorter.
     pub(super) fn into_parts(self, num_pixels: usize) -> Vec<Self> {
         match self {
             Self::Linear { rgb, transmittance } => {
@@ -50,15 +50,15 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// A finished tile on its way into the picture, compiled for every instruction set.
+/// The copy of a finished tile into the picture, compiled for every instruction set.
 pub(super) struct FinishedTile<'a, 'frame> {
     pub(super) pixels: &'a TilePixels,
     pub(super) band: &'a Band<'frame>,
-    /// The tile's place in the band.
+    /// Column of the tile in the band.
     pub(super) column: usize,
     /// Width of the picture.
     pub(super) width: usize,
-    /// Shines through where something is left of it.
+    /// Background color, weighted with the transmittance.
     pub(super) background: [f32; 3],
 }
 

@@ -1,4 +1,7 @@
-//! Which 8 x 4 pixel blocks of a tile the ellipses of a few hundred splats touch, found for many splats at once.
+//! Which blocks of 8 x 4 pixels of a tile each splat covers.
+//!
+//! Enters: up to 256 splats. Leaves: for each block the list of splats that cover it, in order. Computed for 16 splats
+//! at a time. The invariant: no block is missed; a block too many is allowed.
 
 use super::record::RECORDS_LEN;
 use super::splat::Splat;
@@ -6,28 +9,31 @@ use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_BLOCKS, NUM_STR
 
 const BLOCKS_PER_PX: f32 = 1.0 / BLOCK_WIDTH as f32;
 
-/// Slack in pixels for rounding; a block too many costs a little time, one too few a wrong pixel.
+/// Slack in pixels for rounding errors. A block too many costs a little time, a block too few gives a wrong pixel.
 const SLACK_PX: f32 = 0.02;
 
-/// Splats looked at together, the width of the widest registers.
+/// Splats per SIMD loop: the width of the widest registers.
 const LANES: usize = 16;
 
-/// Eight splats a word.
-const NUM_WORDS: usize = RECORDS_LEN / 8;
+/// Groups of eight splats in a chunk.
+const NUM_OCTETS: usize = RECORDS_LEN / 8;
 
-/// One number for each of [`LANES`] splats.
+/// One value for each of [`LANES`] splats.
 type Lane = [f32; LANES];
 
-/// The regions where splats count, relative to a tile's corner, one array an attribute. Across in blocks, down in pixels.
+/// The regions of 16 splats above the alpha cut, relative to the corner of a tile, one array per attribute. Horizontal
+/// values are in blocks, vertical ones in pixels.
 #[derive(Debug, Clone, Copy, Default)]
 struct Regions {
-    /// Row of the center.
+    /// Vertical position of the center.
     y: Lane,
-    /// The center, moved so that rounding what lies half a width before it gives the first block.
+    /// Horizontal position of the center, shifted so that `left` less half the width rounds to the first block.
     left: Lane,
-    /// The center, moved so that rounding what lies half a width behind it gives the block behind the last.
+    /// Horizontal position of the center, shifted so that `right` plus half the width rounds to one past the last
+    /// block.
     right: Lane,
-    /// How far the middle of a row moves to the right a pixel down, and half a row's width a unit of the root below.
+    /// The middle of a row moves right by `shift` per pixel down; half its width is `width` times the root in
+    /// [`covered_blocks`].
     shift: Lane,
     width: Lane,
     /// See [`Splat`].
@@ -37,28 +43,28 @@ struct Regions {
     skew: Lane,
 }
 
-/// For every block of a tile, the splats that touch it.
+/// For every block of a tile, the splats that cover it.
 #[derive(Debug)]
 pub(super) struct Coverage {
     regions: Box<[Regions; RECORDS_LEN / LANES]>,
     /// `[block][position / 8]`, bit `position % 8`.
-    masks: Box<[[u8; NUM_WORDS]; NUM_BLOCKS]>,
+    masks: Box<[[u8; NUM_OCTETS]; NUM_BLOCKS]>,
 }
 
 impl Default for Coverage {
     fn default() -> Self {
         Self {
             regions: Box::new([Regions::default(); RECORDS_LEN / LANES]),
-            masks: Box::new([[0; NUM_WORDS]; NUM_BLOCKS]),
+            masks: Box::new([[0; NUM_OCTETS]; NUM_BLOCKS]),
         }
     }
 }
 
 impl Coverage {
     /// Bytes that it takes.
-    pub(super) const BYTES: usize = (RECORDS_LEN / LANES) * size_of::<Regions>() + NUM_BLOCKS * NUM_WORDS;
+    pub(super) const BYTES: usize = (RECORDS_LEN / LANES) * size_of::<Regions>() + NUM_BLOCKS * NUM_OCTETS;
 
-    /// Notes the region of a splat.
+    /// Sets the region of the splat at a position.
     #[inline(always)]
     pub(super) fn set_splat(&mut self, position: usize, splat: &Splat, corner_px: [f32; 2]) {
         let to = &mut self.regions[position / LANES % (RECORDS_LEN / LANES)];
@@ -70,12 +76,12 @@ impl Coverage {
         (to.half_y[lane], to.skew[lane]) = (splat.half_px[1] + SLACK_PX, splat.skew_px);
     }
 
-    /// Finds the blocks that the first splats touch, in strips that are not wholly done.
+    /// Computes which blocks the first `num_splats` splats cover, in strips that are not entirely done.
     #[inline(always)]
     pub(super) fn compute(&mut self, num_splats: usize, done: &StripMasks) {
         let num_groups = num_splats.div_ceil(LANES).min(RECORDS_LEN / LANES);
         if let Some(last) = self.regions[..num_groups].last_mut() {
-            // Nothing is that low: the lanes behind the last splat touch no block.
+            // The lanes after the last splat cover no block.
             let behind = (num_splats + LANES - 1) % LANES + 1;
             last.half_y[behind..].fill(f32::NEG_INFINITY);
         }
@@ -84,8 +90,9 @@ impl Coverage {
                 let (width, x) = (1.0 / group.width[lane], group.left[lane] * BLOCKS_PER_PX);
                 (group.shift[lane], group.width[lane]) =
                     (-group.shift[lane] * width * BLOCKS_PER_PX, width * BLOCKS_PER_PX);
-                // Pixel i has its center at i + 0.5. The first block with one not before `left` is ceil((left - 7.5) / 8),
-                // that behind the last with one not after `right` is ceil((right - 0.5) / 8). The half is for rounding.
+                // Pixel i has its center at i + 0.5. The first block with a center at or after `left` is ceil((left -
+                // 7.5) / 8); the first block with no center up to `right` is ceil((right - 0.5) / 8). Adding 0.5 turns
+                // ceil into rounding to nearest.
                 group.left[lane] = x - (BLOCK_WIDTH as f32 - 0.5 + SLACK_PX) * BLOCKS_PER_PX + 0.5;
                 group.right[lane] = x - (0.5 - SLACK_PX) * BLOCKS_PER_PX + 0.5;
             }
@@ -102,19 +109,19 @@ impl Coverage {
         }
     }
 
-    /// Writes the positions of the splats that touch a block to the front of `list`, in order; returns their number.
+    /// Writes the positions of the splats that cover a block to the start of `list`, in order; returns their number.
     #[inline(always)]
     pub(super) fn list(&self, block: usize, list: &mut PositionList) -> usize {
         let masks = &self.masks[block % NUM_BLOCKS];
         if masks.as_chunks::<8>().0.iter().all(|word| *word == [0; 8]) {
             return 0;
         }
-        // Without branches: eight positions a byte, those that are too many are written over.
+        // Branch-free: writes eight positions per byte; the next write overwrites the excess.
         let (mut len, mut first) = (0, 0_u64);
         for word in masks.as_chunks::<8>().0 {
             for mask in word {
                 let positions = (SET_BITS[usize::from(*mask)] | first).to_le_bytes();
-                // Never beyond; written so that it need not be asked.
+                // `len` is always below LIST_LEN; the remainder removes the bounds check.
                 let place = len % LIST_LEN;
                 list.0[place..place + 8].copy_from_slice(&positions);
                 (len, first) = (len + mask.count_ones() as usize, first + 0x0808_0808_0808_0808);
@@ -124,10 +131,10 @@ impl Coverage {
     }
 }
 
-/// Room for all positions, a power of two.
+/// Capacity for all positions, a power of two.
 const LIST_LEN: usize = (RECORDS_LEN + 1).next_power_of_two();
 
-/// Positions of splats, with room behind for what [`Coverage::list`] writes too much.
+/// Positions of splats, with room at the end for the excess that [`Coverage::list`] writes.
 #[derive(Debug)]
 pub(super) struct PositionList(pub(super) [u8; LIST_LEN + 8]);
 
@@ -137,7 +144,7 @@ impl Default for PositionList {
     }
 }
 
-/// For every byte the positions of its set bits, lowest first, a byte each.
+/// For every byte the positions of its set bits, lowest first, one byte per position.
 const SET_BITS: [u64; 256] = set_bits();
 
 const fn set_bits() -> [u64; 256] {
@@ -155,12 +162,12 @@ const fn set_bits() -> [u64; 256] {
     positions
 }
 
-/// For each splat the blocks of one strip that hold a pixel center inside the region where it counts, or a few more.
+/// For each splat, the blocks of one strip with a pixel center in the region above the alpha cut, possibly a few more.
 ///
-/// At dy below the center the region reaches from `shift dy - w` to `shift dy + w`, w = sqrt(reach - (vy dy)^2) / ux.
-/// Both ends are monotone on either side of the outermost point, which lies `skew` below (right end) or above (left
-/// end) the center, so within a strip the extreme is at the dy nearest to that point.
-#[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, and the loop would not vectorize")]
+/// At dy below the center the region extends from `shift dy - w` to `shift dy + w`, w = sqrt(reach - (vy dy)^2) / ux.
+/// The rightmost point is `skew` below the center, the leftmost point `skew` above it, and both ends are monotone on
+/// either side of these points. Within a strip the extreme is therefore at the dy nearest to that point.
+#[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, which prevents vectorization")]
 #[inline(always)]
 fn covered_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
     let mut masks = [0; LANES];
@@ -179,27 +186,29 @@ fn covered_blocks(of: &Regions, strip: usize) -> [u8; LANES] {
     masks
 }
 
-/// The square root or up to 0.4 % more, 0 for what is not above 0: a table-free first guess of the inverse and one
-/// Newton step, a third of the time of the exact root.
+/// The square root or up to 0.4 % more; 0 for numbers that are not above 0. A bit-level estimate of the inverse root
+/// and one Newton step take a third of the time of the exact root.
 #[inline(always)]
 fn root(number: f32) -> f32 {
     let number = number.max(0.0);
     let guess = f32::from_bits(0x5f37_59df - (number.to_bits() >> 1));
-    // The step never ends above the inverse root, and at most 0.18 % below it.
+    // A Newton step (1.5, 0.5) ends at most 0.18 % below the inverse root and never above it; the factor 1.002 lifts it
+    // above the root.
     guess * (1.503 - 0.501 * number * guess * guess) * number
 }
 
-/// The whole number nearest to a number, brought to 0..=8. The sum has it in its lowest bits; a cast would not vectorize.
+/// The integer nearest to a number, clamped to 0..=8. The addition moves it into the lowest bits of the mantissa; a
+/// cast does not vectorize.
 #[inline(always)]
 fn nearest(number: f32) -> u32 {
     const SHIFT: f32 = 8_388_608.0;
     (number.max(0.0).min(BLOCKS_ACROSS as f32) + SHIFT).to_bits() & 31
 }
 
-/// A strip's blocks of each splat to the splats of each block: the transpose of a matrix of bits.
+/// Transposes the bit matrix of a strip: from the blocks of each splat to the splats of each block.
 #[inline(always)]
-fn by_block(masks: &[[u8; LANES]; RECORDS_LEN / LANES], blocks: &mut [[u8; NUM_WORDS]; BLOCKS_ACROSS]) {
-    let mut words = [0_u64; NUM_WORDS];
+fn by_block(masks: &[[u8; LANES]; RECORDS_LEN / LANES], blocks: &mut [[u8; NUM_OCTETS]; BLOCKS_ACROSS]) {
+    let mut words = [0_u64; NUM_OCTETS];
     for (word, splats) in words.iter_mut().zip(masks.as_flattened().as_chunks::<8>().0) {
         *word = transposed(u64::from_le_bytes(*splats));
     }
@@ -210,7 +219,8 @@ fn by_block(masks: &[[u8; LANES]; RECORDS_LEN / LANES], blocks: &mut [[u8; NUM_W
     }
 }
 
-/// Transpose of 8 x 8 bits, a row a byte: swaps single bits, then pairs, then fours (Warren, Hacker's Delight, 7-3).
+/// Transpose of 8 x 8 bits, one byte per row: swaps single bits, then pairs, then fours (Warren, Hacker's Delight,
+/// 7-3).
 #[inline(always)]
 fn transposed(mut bits: u64) -> u64 {
     for (shift, mask) in [(7, 0x00aa_00aa_00aa_00aa), (14, 0x0000_cccc_0000_cccc), (28, 0x0000_0000_f0f0_f0f0)] {

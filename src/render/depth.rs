@@ -2,23 +2,23 @@ use super::payload::{Payload, Sink, TileArea, TileRows};
 use super::record::Record;
 use super::tiles::TILE_LEN;
 
-/// Depth along the view axis in each pixel, scene units: `[row * width + column]`, NaN where nothing is.
+/// Depth of each pixel along the view axis, scene units: `[row * width + column]`, NaN where no splat is.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DepthMap {
     /// Width in pixels.
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// Mean of the splats' depths, each with its weight.
+    /// Mean of the depths of the splats, weighted with their blending weights.
     pub expected: Vec<f32>,
-    /// Depth of the splat with which half of the light is gone; NaN where less than half goes.
+    /// Depth of the splat at which the sum of the weights reaches 0.5; NaN where it stays below.
     pub median: Vec<f32>,
 }
 
 /// The payload of a [`DepthMap`].
 pub(super) struct DepthPayload;
 
-/// Sums of one tile.
+/// Running sums of one tile.
 pub(super) struct DepthSink {
     depths: Vec<f32>,
     weight: Vec<f32>,
@@ -66,7 +66,7 @@ impl Sink for DepthSink {
 }
 
 impl DepthMap {
-    /// Puts the tiles together.
+    /// Assembles the map from its tiles.
     pub(super) fn assemble(width: u32, height: u32, tiles: Vec<DepthTile>) -> Self {
         let num_pixels = width as usize * height as usize;
         let mut map = Self { width, height, expected: vec![f32::NAN; num_pixels], median: vec![f32::NAN; num_pixels] };

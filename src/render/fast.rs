@@ -1,5 +1,7 @@
-//! The `f32` path from Gaussians to a picture: the four stages one after the other, for the whole picture or, where that
-//! would take too much memory, for one band of it after the other. A picture is the same to the bit either way.
+//! The `f32` renderer: runs the four stages for the whole picture or, if that would take too much memory, band by band.
+//!
+//! Enters: groups of Gaussians, a view and settings. Leaves: pixels on a canvas, one output per tile, and statistics.
+//! The invariant: a picture has the same bits with and without bands.
 
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -24,30 +26,31 @@ use super::tiles::{TILE_PX, TileGrid};
 use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View};
 use cinesplat_scene::Gaussians;
 
-/// Most bytes that a splat takes until its pairs are listed: itself and two keys.
+/// Bytes per splat before its pairs are listed: the splat and two sort keys.
 const BYTES_PER_SPLAT: u64 = (batch::BYTES_PER_SPLAT + 2 * size_of::<DepthKey>()) as u64;
-/// Bytes of its pairs, in most scenes.
+/// Bytes of the pairs of a splat in a typical scene.
 const PAIR_BYTES_PER_SPLAT: u64 = 8;
 
-/// Work lists of one picture, kept for the next.
+/// Buffers of one picture, kept for the next.
 #[derive(Debug, Default)]
 pub(super) struct Buffers {
     splats: Splats,
     order: DepthOrder,
     bins: Bins,
     workspaces: Pool<Workspace>,
-    /// Splats of the last picture over the Gaussians of all groups that might have been seen; none before the first.
+    /// Number of splats of the previous picture over the number of Gaussians in its visible groups; `None` before the
+    /// first picture.
     visible_frac: Option<f64>,
 }
 
 impl Buffers {
-    /// Bytes that they hold on to.
+    /// Bytes that the buffers have allocated.
     pub(super) fn bytes(&self) -> u64 {
         self.order.bytes() + self.splats.bytes() + self.bins.bytes() + self.workspaces.sum(|_| Workspace::BYTES as u64)
     }
 }
 
-/// Things that are lent one at a time.
+/// A pool of reusable buffers.
 #[derive(Debug)]
 pub(super) struct Pool<T>(Mutex<Vec<T>>);
 
@@ -58,16 +61,16 @@ impl<T> Default for Pool<T> {
 }
 
 impl<T: Default> Pool<T> {
-    /// Calls `work` with a thing of the pool, or with a new one while all are lent.
+    /// Calls `work` with a free item of the pool, or with a new one if none is free.
     pub(super) fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let free = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let mut thing = free.unwrap_or_default();
-        let result = work(&mut thing);
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(thing);
+        let mut item = free.unwrap_or_default();
+        let result = work(&mut item);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(item);
         result
     }
 
-    /// Sum over all things that are not lent.
+    /// Sum of `size` over all free items.
     pub(super) fn sum(&self, size: impl Fn(&T) -> u64) -> u64 {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().map(size).sum()
     }
@@ -114,28 +117,31 @@ pub(super) fn render<P: Payload>(
     Ok((stats, outputs))
 }
 
-/// A picture on its way, from the first row of tiles to the last.
+/// A picture that is being rendered, from the first row of tiles to the last.
 struct Picture<'a, P: Payload> {
     scene: (&'a Gaussians, &'a Groups),
     view: &'a View,
     settings: &'a RenderSettings,
     buffers: &'a mut Buffers,
     payload: &'a P,
-    /// Where each row of tiles goes.
+    /// The canvas, one band per row of tiles.
     bands: &'a [Band<'a>],
     grid: TileGrid,
-    /// What is left for the splats of a band.
+    /// Budget for the splats of a band.
     budget: Budget,
-    /// How much of that makes it worth while to render bands.
+    /// Bytes above which the picture is rendered in bands.
     bytes_before_bands: u64,
     stats: RenderStats,
-    /// Gaussians of all groups that may be seen.
+    /// Number of Gaussians in visible groups; the largest number over the bands.
     num_in_view: u64,
 }
 
 impl<P: Payload> Picture<'_, P> {
-    /// Renders some rows of tiles: at once, or each half by itself where that would take too much memory. Appends what
-    /// the payload leaves of each tile.
+    /// Renders rows of tiles at once, or each half by itself if that would take too much memory. Appends the payload's
+    /// output of each tile.
+    ///
+    /// # Errors
+    /// [`RenderError::Cost`], and [`RenderError::Memory`] if a single row exceeds the limit.
     fn render_rows(&mut self, rows: Range<usize>, outputs: &mut Vec<P::TileOutput>) -> Result<(), RenderError> {
         match self.render_at_once(&rows, outputs) {
             Err(RenderError::Memory { .. }) if rows.len() > 1 => {
@@ -147,10 +153,11 @@ impl<P: Payload> Picture<'_, P> {
         }
     }
 
-    /// Renders some rows of tiles.
+    /// Renders rows of tiles at once.
     ///
     /// # Errors
-    /// [`RenderError::Memory`], with nothing rendered, also where several rows take more than is worth while.
+    /// [`RenderError::Cost`]; [`RenderError::Memory`], with nothing rendered, also if several rows would take more than
+    /// `bytes_before_bands`.
     fn render_at_once(&mut self, rows: &Range<usize>, outputs: &mut Vec<P::TileOutput>) -> Result<(), RenderError> {
         let (gaussians, groups) = self.scene;
         let Buffers { splats, order, bins, visible_frac, .. } = &mut *self.buffers;
@@ -168,7 +175,7 @@ impl<P: Payload> Picture<'_, P> {
         }
         splats.fill(gaussians, groups, &projection);
         let projected = Instant::now();
-        // Half a picture has half an order, which says little about that of the other half.
+        // The order of a band says nothing about that of the next band.
         let reuses_order = self.view.reuses_order && rows.len() == self.grid.down;
         let keys = order.of(splats, &View { reuses_order, ..*self.view }, gaussians);
         let (sorted, num_splats) = (Instant::now(), keys.len() as u64);
@@ -190,7 +197,7 @@ impl<P: Payload> Picture<'_, P> {
         Ok(())
     }
 
-    /// Blends the binned tiles; returns the number of overlaps between splats and blocks.
+    /// Blends the binned tiles; returns the number of blended splat-block pairs.
     fn blend(&self, grid: TileGrid, outputs: &mut Vec<P::TileOutput>) -> u64 {
         let precision = self.settings.effective_accuracy().precision;
         let tiles = (0..grid.len()).into_par_iter().with_max_len(1);
@@ -202,7 +209,7 @@ impl<P: Payload> Picture<'_, P> {
         blends.into_iter().sum()
     }
 
-    /// Blends one tile and writes it into the picture.
+    /// Blends one tile and writes it onto the canvas.
     fn blend_tile<A: Arithmetic>(&self, grid: TileGrid, tile_idx: usize) -> (u64, P::TileOutput) {
         let Buffers { splats, bins, workspaces, .. } = &*self.buffers;
         let (view, width) = (self.view, self.view.width as usize);

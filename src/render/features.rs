@@ -6,28 +6,29 @@ use super::tiles::{TILE_LEN, TILE_PX};
 use super::{RenderError, RenderSettings, Renderer, View};
 use cinesplat_geometry::Camera;
 
-/// Channels blended in one go; more take the blending loop once more for every so many.
-const CHANNELS_AT_ONCE: usize = 16;
+/// Channels per pass of the blending loop.
+const CHANNELS_PER_PASS: usize = 16;
 
-/// Features of what is seen in each pixel: `[(row * width + column) * num_channels + channel]`, 0 where nothing is.
+/// Blended features of each pixel.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FeatureMap {
     /// Width in pixels.
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// Values a pixel.
+    /// Values per pixel.
     pub num_channels: usize,
-    /// Sum of the splats' features, each with its weight.
+    /// Sum of the features of the splats, weighted with their blending weights; 0 where no splat is.
+    /// `[(row * width + column) * num_channels + channel]`.
     pub values: Vec<f32>,
 }
 
 /// The payload of some channels of a [`FeatureMap`].
 struct FeaturePayload<'a> {
-    /// A row of `stride` numbers for each Gaussian.
+    /// One row of `stride` values per Gaussian.
     features: &'a [f32],
     stride: usize,
-    /// The channels blended: the first, and how many.
+    /// First channel of this pass, and the number of channels.
     first: usize,
     num_channels: usize,
 }
@@ -66,9 +67,9 @@ impl Sink for FeatureSink<'_> {
     fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
         let (row, num_channels) = (self.rows[position], self.payload.num_channels);
         let sums = &mut self.sums[first_pixel * num_channels..][..weights.len() * num_channels];
-        if let Ok(row) = <&[f32; CHANNELS_AT_ONCE]>::try_from(row) {
-            // A number of channels known beforehand is one register or two.
-            for (sums, &weight) in sums.as_chunks_mut::<CHANNELS_AT_ONCE>().0.iter_mut().zip(weights) {
+        if let Ok(row) = <&[f32; CHANNELS_PER_PASS]>::try_from(row) {
+            // With a constant number of channels, a row stays in one or two registers.
+            for (sums, &weight) in sums.as_chunks_mut::<CHANNELS_PER_PASS>().0.iter_mut().zip(weights) {
                 sums.iter_mut().zip(row).for_each(|(sum, feature)| *sum += weight * feature);
             }
             return;
@@ -81,12 +82,12 @@ impl Sink for FeatureSink<'_> {
 }
 
 impl Renderer<'_> {
-    /// Features of the Gaussians (`num_channels` each, row after row) blended with the weights of the picture at full
-    /// resolution, as color is. Memory beyond the map does not grow with the channels.
+    /// Blends features (`[gaussian * num_channels + channel]`) as colors are blended, at full resolution. Memory beyond
+    /// the map does not grow with the number of channels.
     ///
     /// # Errors
-    /// As [`Renderer::render`]; [`RenderError::Length`] unless there is one row a Gaussian and at least one channel;
-    /// [`RenderError::Memory`] where the map would not fit under the cap.
+    /// Those of [`Renderer::render`]; [`RenderError::Length`] unless there is one row per Gaussian and at least one
+    /// channel; [`RenderError::Memory`] if the map exceeds [`super::Limits::max_memory_bytes`].
     pub fn features(
         &self,
         camera: &Camera,
@@ -99,7 +100,7 @@ impl Renderer<'_> {
         let view = View::new(camera, glam::DVec3::ZERO, settings)?;
         let num_pixels = view.width as usize * view.height as usize;
         let num_tile_pixels = (view.width as usize + TILE_PX) * (view.height as usize + TILE_PX);
-        let num_values = num_pixels * num_channels + num_tile_pixels * num_channels.min(CHANNELS_AT_ONCE);
+        let num_values = num_pixels * num_channels + num_tile_pixels * num_channels.min(CHANNELS_PER_PASS);
         let mut budget = Budget::of_picture(&view, &settings.limits)?;
         budget.take("the feature map", (num_values * size_of::<f32>()) as u64)?;
         let limits = super::Limits { max_memory_bytes: budget.left_bytes(), ..settings.limits };
@@ -111,8 +112,8 @@ impl Renderer<'_> {
             num_channels,
             values: vec![0.0; num_pixels * num_channels],
         };
-        for first in (0..num_channels).step_by(CHANNELS_AT_ONCE) {
-            let num_some = CHANNELS_AT_ONCE.min(num_channels - first);
+        for first in (0..num_channels).step_by(CHANNELS_PER_PASS) {
+            let num_some = CHANNELS_PER_PASS.min(num_channels - first);
             let payload = FeaturePayload { features, stride: num_channels, first, num_channels: num_some };
             let (_, tiles) = self.render_with_payload(camera, &settings, &&payload)?;
             tiles.iter().for_each(|tile| tile.write(&mut map.values, num_channels, first));

@@ -1,5 +1,8 @@
-//! Gaussians in groups of neighbors, so that what cannot be seen is ruled out a group at a time and what can be seen
-//! is read from memory in order.
+//! Groups of neighboring Gaussians: invisible ones are rejected group by group, visible ones are read from memory in
+//! order.
+//!
+//! Enters: the Gaussians of a scene, once. Leaves: packs of 16 Gaussians in groups of 256, each group with a bounding
+//! sphere. The invariant: every Gaussian that can be drawn is in exactly one group.
 
 use glam::{Quat, Vec3};
 use rayon::prelude::*;
@@ -7,32 +10,33 @@ use rayon::prelude::*;
 use super::memory::bytes_of;
 use cinesplat_scene::Gaussians;
 
-/// Gaussians in a group. Smaller groups rule out more and cost more tests; 64 and 1024 were both slower on the kitchen.
+/// Gaussians per group. Smaller groups reject more Gaussians and take more tests; 64 and 1024 were both slower on the
+/// kitchen.
 pub(super) const GROUP_LEN: usize = 256;
 
-/// Packs in a group.
+/// Packs per group.
 pub(super) const PACKS_PER_GROUP: usize = GROUP_LEN / LANES;
 
-/// Neighbors in space and a sphere about their means.
+/// Bounds of a group of neighbors: a sphere about their means, and the largest scale and opacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Group {
-    /// Center of the sphere, scene offset.
+    /// Center of the sphere, relative to the scene's origin.
     pub(super) center: Vec3,
     /// Radius of the sphere.
     pub(super) radius: f32,
-    /// Largest standard deviation among its members.
+    /// Largest standard deviation of the members.
     pub(super) max_scale: f32,
-    /// Largest opacity among its members.
+    /// Largest opacity of the members.
     pub(super) max_opacity: f32,
 }
 
-/// Gaussians projected together: the width of the widest registers.
+/// Gaussians that are projected together: the width of the widest SIMD registers.
 pub(super) const LANES: usize = 16;
 
-/// One number for each Gaussian projected together.
+/// One value per Gaussian of a pack.
 pub(super) type Lane = [f32; LANES];
 
-/// The attributes of 16 neighbors, one array an attribute; where there are fewer, the lanes behind have opacity 0.
+/// The attributes of 16 neighbors, one array per attribute. Unused lanes at the end have opacity 0.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Pack {
@@ -44,25 +48,25 @@ pub(super) struct Pack {
     pub(super) gaussian_idx: [u32; LANES],
 }
 
-/// All usable Gaussians of a scene, ordered by size and along a space-filling curve and cut into groups.
+/// All Gaussians of a scene that can be drawn, sorted by size class and along a space-filling curve, in groups.
 #[derive(Debug)]
 pub(super) struct Groups {
-    /// Attributes, group after group, [`PACKS_PER_GROUP`] each; all groups but the last are full.
+    /// Attributes: [`PACKS_PER_GROUP`] packs per group; all groups but the last are full.
     pub(super) packs: Vec<Pack>,
-    /// Where the members of each group are.
+    /// Bounds of each group.
     pub(super) bounds: Vec<Group>,
     num_gaussians: usize,
 }
 
 impl Groups {
-    /// Groups the Gaussians. Those with numbers that are not finite, a rotation of length zero or no opacity are left out.
+    /// Groups the Gaussians. Drops those with a value that is not finite, a rotation of length zero or an opacity of 0.
     pub(super) fn new(gaussians: &Gaussians) -> Self {
         let usable = |idx: &u32| is_usable(gaussians, *idx as usize);
         let kept: Vec<u32> = (0..gaussians.len() as u32).into_par_iter().filter(usable).collect();
         let (low, span) = extent(gaussians, &kept);
-        let usual = median_scale(gaussians, &kept);
+        let median = median_scale(gaussians, &kept);
         let code = |idx: u32| {
-            let size_class = size_class(gaussians.scales[idx as usize].max_element() / usual);
+            let size_class = size_class(gaussians.scales[idx as usize].max_element() / median);
             size_class << MORTON_BITS | morton((gaussians.means[idx as usize] - low) / span)
         };
         let mut keyed: Vec<(u64, u32)> = kept.into_par_iter().map(|idx| (code(idx), idx)).collect();
@@ -84,12 +88,12 @@ impl Groups {
         (self.num_gaussians - group * GROUP_LEN).min(GROUP_LEN)
     }
 
-    /// Bytes that they take.
+    /// Bytes of the lists.
     pub(super) fn bytes(&self) -> u64 {
         bytes_of(&self.packs) + bytes_of(&self.bounds)
     }
 
-    /// Indices of all Gaussians that can be drawn, in the order of the file.
+    /// Indices of all Gaussians that can be drawn, ascending.
     pub(super) fn usable(&self) -> Vec<u32> {
         let members = self.packs.iter().flat_map(|pack| &pack.gaussian_idx).take(self.num_gaussians);
         let mut usable: Vec<u32> = members.copied().collect();
@@ -125,7 +129,7 @@ impl Pack {
     }
 }
 
-/// Whether a Gaussian can be drawn; NaN fails every comparison.
+/// Whether a Gaussian can be drawn; rejects NaN.
 fn is_usable(gaussians: &Gaussians, idx: usize) -> bool {
     let scale = gaussians.scales[idx];
     let rotation: Quat = gaussians.rotations[idx];
@@ -140,7 +144,7 @@ fn is_usable(gaussians: &Gaussians, idx: usize) -> bool {
         && gaussians.sh_rest_of(idx).iter().all(|coefficient| coefficient.is_finite())
 }
 
-/// Numbers of a sample of all usable Gaussians, ascending.
+/// Values of a sample of the kept Gaussians, ascending.
 fn sampled(kept: &[u32], number: impl Fn(usize) -> f32) -> Vec<f32> {
     let step = (kept.len() / 4096).max(1);
     let mut numbers: Vec<f32> = kept.iter().step_by(step).map(|&idx| number(idx as usize)).collect();
@@ -148,16 +152,16 @@ fn sampled(kept: &[u32], number: impl Fn(usize) -> f32) -> Vec<f32> {
     numbers
 }
 
-/// Median of the largest standard deviations, estimated on a sample.
+/// Median of the Gaussians' largest standard deviations, estimated on a sample.
 fn median_scale(gaussians: &Gaussians, kept: &[u32]) -> f32 {
     let scales = sampled(kept, |idx| gaussians.scales[idx].max_element());
     scales.get(scales.len() / 2).copied().unwrap_or_default().max(f32::MIN_POSITIVE)
 }
 
-/// Which Gaussians share groups: up to the usual size, up to four times as large, and so on. A single huge one would
-/// make a group be seen from everywhere.
-fn size_class(times_usual: f32) -> u64 {
-    (times_usual.max(1.0).log2() / 2.0).ceil().min(7.0) as u64
+/// Size class of a Gaussian from its size over the median: up to 1, up to 4, up to 16 and so on. Classes do not share
+/// groups, because a single huge Gaussian makes its whole group visible from everywhere.
+fn size_class(times_median: f32) -> u64 {
+    (times_median.max(1.0).log2() / 2.0).ceil().min(7.0) as u64
 }
 
 /// Lowest corner and side lengths of the box of the middle 98 % of the means along each axis, estimated on a sample.
@@ -172,10 +176,10 @@ fn extent(gaussians: &Gaussians, kept: &[u32]) -> (Vec3, Vec3) {
     (low, (Vec3::new(x.1, y.1, z.1) - low).max(Vec3::splat(f32::MIN_POSITIVE)))
 }
 
-/// Bits of a position along the z-order curve.
+/// Bits of a position on the z-order curve.
 const MORTON_BITS: u32 = 60;
 
-/// Position along the z-order curve of a point in the unit cube, 20 bits an axis; points outside are moved to its side.
+/// Position on the z-order curve of a point in the unit cube, 20 bits per axis; points outside are clamped to the cube.
 fn morton(position: Vec3) -> u64 {
     let spread = |value: f32| {
         let mut bits = (value.clamp(0.0, 1.0) * 1_048_575.0) as u64;

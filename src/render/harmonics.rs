@@ -1,4 +1,5 @@
-//! Color of a Gaussian by direction: real spherical harmonics to degree 3 with the signs of 3D Gaussian splatting.
+//! Color of a Gaussian from the view direction: real spherical harmonics up to degree 3 with the signs of 3D Gaussian
+//! splatting.
 //!
 //! Source: Kerbl et al. 2023; the constants are sqrt((2 l + 1) / (4 pi) (l - |m|)! / (l + |m|)!) and its sqrt(2)
 //! multiples, with the Condon-Shortley phase.
@@ -17,7 +18,7 @@ const DEGREE_3: [f64; 5] = [
     1.445_305_721_320_277,
 ];
 
-/// The basis functions of degrees 1..=3 at a unit direction, in the order of the coefficients of a Gaussian.
+/// Basis functions of degrees 1..=3 at a unit direction, in the order of a Gaussian's coefficients.
 pub(super) fn basis(direction: DVec3) -> [f64; 15] {
     let DVec3 { x, y, z } = direction;
     let (xx, yy, zz) = (x * x, y * y, z * z);
@@ -42,9 +43,9 @@ pub(super) fn basis(direction: DVec3) -> [f64; 15] {
     ]
 }
 
-/// Color seen along `offset` (mean minus camera center, any length), in `f64`.
+/// Color in the direction of `offset` (mean minus camera center, any length), in `f64`; 0 or more.
 ///
-/// A camera at the mean itself has no direction: only degree 0 counts then.
+/// If `offset` is zero there is no direction, and only degree 0 is used.
 pub(super) fn color(offset: DVec3, sh_dc: Vec3, sh_rest: &[Vec3]) -> DVec3 {
     let mut sum = sh_dc.as_dvec3() * DEGREE_0 + 0.5;
     if let Some(direction) = offset.try_normalize().filter(|_| !sh_rest.is_empty()) {
@@ -55,12 +56,12 @@ pub(super) fn color(offset: DVec3, sh_dc: Vec3, sh_rest: &[Vec3]) -> DVec3 {
     sum.max(DVec3::ZERO)
 }
 
-/// Color of a Gaussian without direction, in `f32`.
+/// Color from degree 0 alone, in `f32`.
 pub(super) fn base_color(sh_dc: Vec3) -> Vec3 {
     (sh_dc * DEGREE_0 as f32 + 0.5).max(Vec3::ZERO)
 }
 
-/// As [`color`] with the sum in `f32`.
+/// As [`color`], with the sum in `f32`.
 pub(super) fn color_f32(offset: DVec3, sh_dc: Vec3, sh_rest: &[Vec3]) -> Vec3 {
     let mut sum = sh_dc * DEGREE_0 as f32 + 0.5;
     if let Some(direction) = offset.try_normalize().filter(|_| !sh_rest.is_empty()) {

@@ -2,31 +2,32 @@ use super::payload::{Payload, Sink, TileArea, TileRows};
 use super::record::Record;
 use super::tiles::TILE_LEN;
 
-/// The object seen in each pixel: `[row * width + column]`, 0 = none.
+/// The object in each pixel.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct IdMap {
     /// Width in pixels.
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// The label whose Gaussians together have the largest weight in the pixel; of equal ones the lowest.
+    /// The label with the largest sum of weights in the pixel, the lowest one on ties; 0 = none. `[row * width +
+    /// column]`.
     pub ids: Vec<u16>,
 }
 
 /// The payload of an [`IdMap`].
 pub(super) struct IdPayload<'a> {
-    /// A label for each Gaussian.
+    /// One label per Gaussian.
     pub(super) labels: &'a [u16],
 }
 
-/// Sums of one tile: a plane for each label that occurs in it.
+/// Sums of one tile: one plane per label that occurs in it.
 pub(super) struct IdSink<'a> {
     labels: &'a [u16],
     /// Plane of each record.
     plane_from_record: Vec<usize>,
     /// Label of each plane.
     label_from_plane: Vec<u16>,
-    /// Weights, plane after plane.
+    /// Sums of weights: `[plane * TILE_LEN + pixel]`.
     weights: Vec<f32>,
 }
 
@@ -44,7 +45,7 @@ impl<'a> Payload for IdPayload<'a> {
 }
 
 impl IdSink<'_> {
-    /// The label with the largest weight in each pixel.
+    /// The label with the largest sum in each pixel.
     fn strongest(&self) -> Vec<u16> {
         let (mut most, mut labels) = (vec![0.0_f32; TILE_LEN], vec![0_u16; TILE_LEN]);
         for (plane, &label) in self.weights.chunks_exact(TILE_LEN).zip(&self.label_from_plane) {
@@ -57,7 +58,7 @@ impl IdSink<'_> {
         labels
     }
 
-    /// The plane of a label, made where there is none yet.
+    /// The plane of a label; adds one if there is none yet.
     fn plane_of(&mut self, label: u16) -> usize {
         self.label_from_plane.iter().position(|&known| known == label).unwrap_or_else(|| {
             self.label_from_plane.push(label);
@@ -88,7 +89,7 @@ impl Sink for IdSink<'_> {
 }
 
 impl IdMap {
-    /// Puts the tiles together.
+    /// Assembles the map from its tiles.
     pub(super) fn assemble(width: u32, height: u32, tiles: &[TileRows<u16>]) -> Self {
         let mut map = Self { width, height, ids: vec![0; width as usize * height as usize] };
         tiles.iter().for_each(|tile| tile.write(&mut map.ids, 1, 0));

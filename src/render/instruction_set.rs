@@ -1,6 +1,6 @@
 use pulp::{Arch, Simd, WithSimd};
 
-/// The widest instructions that may be used. Pictures are the same to the bit for all of them; time is not.
+/// Instruction set for the SIMD loops. Every set gives the same bits; they differ in speed.
 #[derive(
     Debug,
     Clone,
@@ -17,17 +17,17 @@ use pulp::{Arch, Simd, WithSimd};
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum InstructionSet {
-    /// The widest that this machine has: AVX-512, AVX2, NEON.
+    /// The widest that this machine has: AVX-512, AVX2 or NEON.
     #[default]
     Widest,
-    /// AVX2 with FMA; where a machine has no such thing, one number at a time.
+    /// AVX2 with FMA; scalar code on a machine without them.
     Avx2,
-    /// One number at a time: what the others are checked against. Very slow where the build has no FMA.
+    /// Scalar code: the reference for the other sets. Very slow if the build has no FMA.
     Scalar,
 }
 
 impl InstructionSet {
-    /// Runs `work` with these instructions.
+    /// Runs `work`, compiled for this instruction set.
     #[inline]
     pub(super) fn dispatch<W: WithSimd>(self, work: W) -> W::Output {
         match self {

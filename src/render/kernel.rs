@@ -1,7 +1,8 @@
-//! The innermost loop: one block of pixels, many splats. Color and transmittance stay in registers.
+//! The innermost loop: blends many splats into one block of pixels. Color and transmittance stay in registers.
 //!
-//! Opacity is 2^(8 e) with e = level - u^2 - v^2. How that power is found, from e or from numbers made for it, and who
-//! decides when blending stops, each pixel or the whole block, is the [`Arithmetic`].
+//! Enters: the records of a chunk of splats and the list of those that cover the block, nearest first. Leaves: the
+//! block's pixels, and the weights for a [`Sink`]. The opacity is 2^(8 e) with e = level - u^2 - v^2. An [`Arithmetic`]
+//! decides how that power is computed, and whether each pixel or the whole block stops.
 
 use pulp::Simd;
 
@@ -10,15 +11,15 @@ use super::pixels::{HALF_LEN, Pixels, TilePixels, centers};
 use super::record::{RECORDS_LEN, Record};
 use super::spec;
 
-/// Splats blended between two looks at the transmittance; 8 and 24 took as long.
+/// Splats blended between two checks of the transmittance; 8 and 24 took as long.
 const CHECK_INTERVAL: usize = 16;
 
-/// The two cutoffs as the kernel needs them.
+/// The alpha cut and the transmittance stop in the units of the kernel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cutoffs {
-    /// Least exponent that counts, as [`Arithmetic::level`] makes it.
+    /// Exponent of the alpha cut, converted by [`Arithmetic::level`].
     pub(super) level: f32,
-    /// Least transmittance that blending may leave.
+    /// Transmittance below which blending stops.
     pub(super) transmittance: f32,
 }
 
@@ -43,27 +44,28 @@ impl<S: Simd> Constants<S> {
     }
 }
 
-/// How opacities are computed and added. A trait and no closure: code in closures is not compiled for the instruction set.
+/// How opacities are computed and blended. A trait, because closures are not compiled for the instruction set.
 pub(super) trait Arithmetic {
     /// Whether each pixel stops on its own, as in the spec image.
     const STOPS_EACH_PIXEL: bool;
-    /// What u and v of a [`Record`] are multiplied by.
+    /// Factor of u and v in a [`Record`].
     const OFFSET_UNIT: f32;
 
-    /// What an exponent e becomes in a [`Record`]; the square of [`Arithmetic::OFFSET_UNIT`] is its slope.
+    /// Converts an exponent e to the units of a [`Record`]: linear, with the square of [`Arithmetic::OFFSET_UNIT`] as
+    /// slope.
     fn level(exponent: f32) -> f32;
 
-    /// Opacities of exponents as [`Arithmetic::level`] makes them, right where they are not below the cut.
+    /// Opacities from exponents in the units of [`Arithmetic::level`]; unspecified below the alpha cut.
     fn powers<S: Simd, const N: usize>(simd: S, levels: [S::f32s; N]) -> [S::f32s; N];
 }
 
-/// As the spec image: each pixel stops before its transmittance would fall below the least allowed; relative error of
+/// As in the spec image: each pixel stops before its transmittance would fall below the stop. Relative error of
 /// opacities below 2.5e-5.
 pub(super) struct Exact;
 
-/// A block stops once all its pixels are below the least transmittance, which takes three operations a splat less than
-/// asking each pixel; until then its pixels are nearer to the spec image than if they had stopped. Opacities are off by
-/// 0.8 % of themselves, and not held to 0.99.
+/// A block stops when all of its pixels are below the stop, which saves three operations per splat. Pixels that blend
+/// on until then are closer to the spec image than pixels that stop. Opacities have a relative error up to 0.8 % and
+/// are not clamped to 0.99.
 pub(super) struct Quick;
 
 impl Arithmetic for Exact {
@@ -75,8 +77,8 @@ impl Arithmetic for Exact {
         exponent
     }
 
-    /// Wherever an opacity counts, e lies in -1..=0 (a cut below 1/256 goes a little beyond): a polynomial for 2^e, that
-    /// of least relative error (Remez), and three squarings.
+    /// Above the alpha cut e is in -1..=0 (slightly below -1 for a cut below 1/256). Evaluates the polynomial for 2^e
+    /// with the smallest maximal relative error (Remez) and squares it three times.
     #[inline(always)]
     fn powers<S: Simd, const N: usize>(simd: S, levels: [S::f32s; N]) -> [S::f32s; N] {
         const TERMS: [f32; 5] = [0.006_767_084, 0.053_074_066, 0.239_341_08, 0.693_030_2, 0.999_997_4];
@@ -96,17 +98,17 @@ impl Arithmetic for Exact {
 }
 
 impl Quick {
-    /// Bits behind the point of a binary logarithm in the mantissa of its level.
+    /// Fraction bits of the binary logarithm, in fixed point in the mantissa of a level.
     const FRACTION_BITS: u32 = 15;
-    /// From where on a number's last bit counts 1.
+    /// 2^23: from here on the last bit of an `f32` counts 1.
     const FIRST: f32 = 8_388_608.0;
-    /// Exponent of 1 in the bits of a number, less what makes the mean of the two interpolations below right.
+    /// Exponent bits of 1.0, less a correction that centers the error of the two interpolations in `powers`.
     const BIAS: f32 = 127.0 - 1.053_8;
 }
 
 impl Arithmetic for Quick {
     const STOPS_EACH_PIXEL: bool = false;
-    /// The root of 8 exponents to a logarithm times 2^15 levels to the unit.
+    /// sqrt(8 * 2^15): a logarithm is 8 exponents, and has 2^15 levels per unit.
     const OFFSET_UNIT: f32 = 512.0;
 
     #[inline(always)]
@@ -115,9 +117,9 @@ impl Arithmetic for Quick {
         exponent * (Self::OFFSET_UNIT * Self::OFFSET_UNIT) + (Self::FIRST + Self::BIAS * ones)
     }
 
-    /// The last bits of a level are the logarithm in fixed point. Moved to where a number has its exponent they are a
-    /// number: 2^x at whole x and on straight lines between them, as much as 6.2 % too high (Schraudolph 1999). The mean
-    /// of that and the same with knots half a step aside is too high by 3.0 to 4.6 %, of which the bias takes 3.8 off.
+    /// The low bits of a level are the logarithm x in fixed point. Shifted to the exponent of an `f32` they give 2^x at
+    /// integer x and linear interpolation in between, up to 6.2 % too high (Schraudolph 1999). The mean of this and of
+    /// the same with knots shifted by half a step is 3.0 to 4.6 % too high; the bias removes 3.8 %.
     #[inline(always)]
     fn powers<S: Simd, const N: usize>(simd: S, levels: [S::f32s; N]) -> [S::f32s; N] {
         let places = simd.splat_u32s(23 - Self::FRACTION_BITS);
@@ -132,7 +134,7 @@ impl Arithmetic for Quick {
     }
 }
 
-/// A block of pixels of a tile on its way through a list of splats.
+/// Blends lists of splats into blocks of a tile.
 pub(super) struct Blender<'a, S: Simd, K> {
     pub(super) simd: S,
     pub(super) records: &'a [Record; RECORDS_LEN],
@@ -142,10 +144,10 @@ pub(super) struct Blender<'a, S: Simd, K> {
 }
 
 impl<S: Simd, K: Sink> Blender<'_, S, K> {
-    /// Blends the listed splats into a block; true when no pixel of it takes any more.
+    /// Blends the listed splats into a block; returns true if no pixel of the block takes more splats.
     ///
-    /// Where registers hold less than half a block, the list is gone through a few splats at a time, so that the block
-    /// stops after the same splat whatever their width.
+    /// If a register holds less than half a block, the list is processed in chunks of [`CHECK_INTERVAL`], so that the
+    /// block stops after the same splat for any register width.
     #[inline(always)]
     pub(super) fn blend<A: Arithmetic>(&mut self, block: usize, list: &[u8]) -> bool {
         if S::F32_LANES == HALF_LEN {
@@ -168,7 +170,7 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         false
     }
 
-    /// Pixels of both halves of a block.
+    /// Loads the pixels of both halves of a block.
     #[inline(always)]
     fn load<A: Arithmetic>(&self, block: usize, first_lane: usize) -> BlockRegisters<S> {
         let simd = self.simd;
@@ -177,7 +179,7 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
             if !A::STOPS_EACH_PIXEL {
                 return pixels;
             }
-            // A negative number is the rest of a pixel that takes no more.
+            // A negative transmittance marks a pixel that has stopped.
             let transmittance = simd.max_f32s(pixels.transmittance, self.constants.zero);
             Pixels { rest: simd.abs_f32s(pixels.transmittance), transmittance, ..pixels }
         });
@@ -185,7 +187,7 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         BlockRegisters { x, y, pixels }
     }
 
-    /// Writes pixels back.
+    /// Stores the pixels of both halves of a block.
     #[inline(always)]
     fn store<A: Arithmetic>(&mut self, registers: &BlockRegisters<S>) {
         let simd = self.simd;
@@ -200,10 +202,10 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         }
     }
 
-    /// Adds the listed splats, nearest first; whether a pixel takes more.
+    /// Blends the listed splats, nearest first; returns whether any pixel takes more.
     ///
-    /// Opacities are computed for two splats and both halves side by side: each is a chain of twenty operations that
-    /// wait for one another, and the processor looks ahead only so far. Sixteen registers are too few for that.
+    /// Opacities are computed for two splats and both halves together: each is a chain of twenty dependent operations,
+    /// which is longer than the processor can reorder across. With 16 registers this would spill.
     #[inline(always)]
     fn blend_all<A: Arithmetic>(&mut self, list: &[u8], registers: &mut BlockRegisters<S>) -> bool {
         let simd = self.simd;
@@ -228,7 +230,7 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         any::<S>(simd.greater_than_or_equal_f32s(most, self.constants.stop))
     }
 
-    /// Exponents of a splat in both halves.
+    /// Exponents of a splat at the pixels of both halves.
     #[inline(always)]
     fn exponents(&self, position: usize, BlockRegisters { x, y, .. }: &BlockRegisters<S>) -> [S::f32s; 2] {
         let (simd, record) = (self.simd, &self.records[position]);
@@ -240,7 +242,7 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         [simd.negate_mul_add_f32s(left, left, level), simd.negate_mul_add_f32s(right, right, level)]
     }
 
-    /// Opacities of exponents, 0 where they are below the cut.
+    /// Opacities from exponents; 0 below the alpha cut.
     #[inline(always)]
     fn alphas<A: Arithmetic, const N: usize>(&self, e: [S::f32s; N]) -> [S::f32s; N] {
         let (simd, constants) = (self.simd, self.constants);
@@ -253,14 +255,14 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         power
     }
 
-    /// Adds one splat to pixels.
+    /// Blends one splat into pixels.
     #[inline(always)]
     fn add<A: Arithmetic>(&mut self, position: usize, alpha: S::f32s, pixels: &mut Pixels<S>) {
         let (simd, before) = (self.simd, pixels.transmittance);
         let mut weight = simd.mul_f32s(alpha, before);
         pixels.transmittance = simd.negate_mul_add_f32s(alpha, before, before);
         if A::STOPS_EACH_PIXEL {
-            // Once below, the transmittance stays below: what has stopped does not go on.
+            // Once below the stop, the transmittance stays below it: a stopped pixel does not resume.
             let goes_on = simd.greater_than_or_equal_f32s(pixels.transmittance, self.constants.stop);
             weight = simd.select_f32s(goes_on, weight, self.constants.zero);
             pixels.rest = simd.select_f32s(goes_on, pixels.transmittance, pixels.rest);
@@ -275,14 +277,14 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
     }
 }
 
-/// Registers of pixels of the left and right half of a block, which share what depends on y alone.
+/// Pixels of the left and right half of a block, which share their y positions.
 struct BlockRegisters<S: Simd> {
     x: [S::f32s; 2],
     y: S::f32s,
     pixels: [Pixels<S>; 2],
 }
 
-/// Whether a mask has a lane set.
+/// Whether any lane of a mask is set.
 #[inline(always)]
 fn any<S: Simd>(mask: S::m32s) -> bool {
     bytemuck::bytes_of(&mask).iter().fold(0, |all, byte| all | byte) != 0

@@ -3,30 +3,31 @@ use super::payload::{Payload, Sink, TileArea};
 use super::record::Record;
 use super::tiles::TILE_LEN;
 
-/// What the pixels of a picture say about each Gaussian.
+/// Pixel values summed per Gaussian, over one or several pictures.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LiftedValues {
-    /// Sum over all pixels of the Gaussian's weight times the pixel's value: `[gaussian * num_channels + channel]`.
+    /// Sum over all pixels of the Gaussian's blending weight times the pixel's value: `[gaussian * num_channels +
+    /// channel]`.
     pub sums: Vec<f64>,
-    /// Sum over all pixels of the Gaussian's weight: `[gaussian]`.
+    /// Sum over all pixels of the Gaussian's blending weight: `[gaussian]`.
     pub weights: Vec<f64>,
-    /// Values a pixel.
+    /// Values per pixel.
     pub num_channels: usize,
 }
 
 impl LiftedValues {
-    /// Nothing seen of this many Gaussians.
+    /// Sums of zero for a number of Gaussians and channels.
     pub fn new(num_gaussians: usize, num_channels: usize) -> Self {
         Self { sums: vec![0.0; num_gaussians * num_channels], weights: vec![0.0; num_gaussians], num_channels }
     }
 
-    /// Mean value of a Gaussian in one channel, each pixel with its weight; `None` where it was not seen.
+    /// Weighted mean of the pixel values of a Gaussian in one channel; `None` if it was visible in no pixel.
     pub fn mean(&self, gaussian_idx: usize, channel: usize) -> Option<f64> {
         let weight = self.weights[gaussian_idx];
         (weight > 0.0).then(|| self.sums[gaussian_idx * self.num_channels + channel] / weight)
     }
 
-    /// Adds the sums of the tiles in their order, so that the result does not depend on threads.
+    /// Adds the sums of the tiles in order, so that the result does not depend on the number of threads.
     pub(super) fn add(&mut self, tiles: Vec<LiftTile>) {
         let num_channels = self.num_channels;
         for tile in tiles {
@@ -44,29 +45,29 @@ impl LiftedValues {
 
 /// The payload of [`LiftedValues`].
 pub(super) struct LiftPayload<'a> {
-    /// `num_channels` values a pixel, row-major.
+    /// `num_channels` values per pixel, row-major.
     pub(super) values: &'a [f32],
     pub(super) num_channels: usize,
-    /// Bytes that the rows may take.
+    /// Memory for the rows of all tiles.
     pub(super) budget: SharedBudget,
 }
 
-/// What one tile says: a row of sums for each splat it looked at, the last of them the weight alone.
+/// Sums of one tile: one row per splat, with the sum of the weights as its last column.
 #[derive(Default)]
 pub(super) struct LiftTile {
     gaussians: Vec<u32>,
     sums: Vec<f32>,
 }
 
-/// Sums of one tile.
+/// Running sums of one tile.
 pub(super) struct LiftSink<'a> {
     budget: &'a SharedBudget,
     is_full: bool,
-    /// Values of the tile's pixels, the last of each 1: `[pixel * (num_channels + 1) + channel]`.
+    /// Values of the tile's pixels, and 1 as the last of each pixel: `[pixel * (num_channels + 1) + channel]`.
     values: Vec<f32>,
     stride: usize,
     tile: LiftTile,
-    /// First row of the present records.
+    /// Row of the first splat of the current chunk.
     first: usize,
 }
 
@@ -75,7 +76,7 @@ impl<'a> Payload for &'a LiftPayload<'_> {
     type TileOutput = LiftTile;
 
     fn set_limit(&self, max_bytes: u64) {
-        // Lists grow by doubling.
+        // Half, because vectors grow by doubling.
         self.budget.set_limit(max_bytes / 2);
     }
 

@@ -1,9 +1,12 @@
-//! The depth order of a picture's splats, and what it owes to that of the picture before.
+//! The depth order of a picture's splats, computed from the order of the previous picture where possible.
 //!
-//! While the camera keeps its direction (dollies, trucks, pedestals) every depth changes by the same amount and the
-//! order stays what it was, but for what rounding makes equal and for what comes into view. So the splats are put into
-//! the old order first; what comes into view is sorted and merged; and insertion repairs the rest. Where that would take
-//! more moves than there are splats, they are sorted anew. No two keys are equal: the order is the same either way.
+//! Enters: the splats of a picture. Leaves: their keys, nearest first.
+//!
+//! While the camera keeps its direction (dolly, truck, pedestal) every depth changes by the same amount. The order then
+//! changes only where rounding swaps neighbors, and for splats that come into view. The splats are therefore put into
+//! the previous order, insertion sort repairs it, and splats that come into view are sorted and merged in. If the
+//! repair would take more moves than there are splats, all are sorted instead. No two keys are equal, so both ways give
+//! the same order.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,29 +17,29 @@ use super::splats::Splats;
 use super::{SortMode, View};
 use cinesplat_scene::Gaussians;
 
-/// Least cosine between the directions of two pictures of which the second is worth trying in the order of the first;
-/// a hundredth of a degree. Farther apart, the repair costs more than the sort.
+/// Smallest cosine between the view directions of two pictures at which the order is reused: one hundredth of a degree.
+/// Above that angle the repair takes longer than the sort.
 const MIN_COSINE: f64 = 1.0 - 1.5e-8;
 
-/// No place in the order before.
+/// The rank of a Gaussian that was not in the previous order.
 const NO_RANK: u32 = u32::MAX;
 
-/// Splats in depth order, and memory to find it in. Kept from picture to picture.
+/// Splats in depth order, and buffers for sorting. Kept from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct DepthOrder {
     keys: Vec<DepthKey>,
     spare: Vec<DepthKey>,
-    /// Where each Gaussian stood in the last order; [`NO_RANK`] for those that did not. Empty unless the last two views had
-    /// one direction: a camera that turns never asks.
+    /// Rank of each Gaussian in the previous order, [`NO_RANK`] if absent. Empty unless the last two views had the same
+    /// direction: a camera that turns never uses it.
     rank: Vec<u32>,
-    /// Direction of the last view; zero where its order says nothing about others.
+    /// Direction of the previous view; zero if its order cannot be reused.
     forward: DVec3,
-    /// Length of the last order.
+    /// Length of the previous order.
     last_len: usize,
 }
 
 impl DepthOrder {
-    /// The splats of a view, nearest first. What is written over them is not asked for again.
+    /// The splats of a view, nearest first. The caller may overwrite the keys.
     pub(super) fn of(&mut self, splats: &Splats, view: &View, gaussians: &Gaussians) -> &mut [DepthKey] {
         splats.write_keys(&mut self.keys);
         if view.sort == SortMode::Ray {
@@ -45,7 +48,7 @@ impl DepthOrder {
                 key.depth_bits = view.sort_distance(mean, 0.0).to_bits();
             });
         }
-        // Distances change by amounts of their own when the camera moves.
+        // In ray mode every distance changes by a different amount when the camera moves.
         let is_reusable = view.reuses_order && view.sort == SortMode::Z;
         let forward = view.camera_from_world.row(2);
         let keeps_direction = is_reusable && forward.dot(self.forward) >= MIN_COSINE;
@@ -60,12 +63,12 @@ impl DepthOrder {
         &mut self.keys
     }
 
-    /// Bytes that the lists hold on to.
+    /// Bytes that the lists have allocated.
     pub(super) fn bytes(&self) -> u64 {
         bytes_of(&self.keys) + bytes_of(&self.spare) + bytes_of(&self.rank)
     }
 
-    /// Notes where every Gaussian stands.
+    /// Stores the rank of every Gaussian.
     fn store_ranks(&mut self, num_gaussians: usize) {
         self.rank.resize(num_gaussians, NO_RANK);
         for (rank, key) in (0..).zip(&self.keys) {
@@ -76,7 +79,8 @@ impl DepthOrder {
         self.last_len = self.keys.len();
     }
 
-    /// Puts the keys in order by way of the last one; false, with the keys in some order, where that takes too long.
+    /// Sorts the keys by way of the previous order. Returns false, with the keys in any order, if that takes too many
+    /// moves.
     fn repair(&mut self) -> bool {
         let absent = DepthKey { place: NO_RANK, ..DepthKey::default() };
         self.spare.clear();
@@ -100,7 +104,7 @@ impl DepthOrder {
     }
 }
 
-/// Sorts keys that are nearly sorted; false where it takes more moves than there are keys.
+/// Sorts nearly sorted keys. Returns false if that takes more moves than there are keys.
 fn insertion_sort(keys: &mut [DepthKey]) -> bool {
     let mut num_moves = 0;
     for idx in 1..keys.len() {

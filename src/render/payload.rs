@@ -1,27 +1,29 @@
-//! What a picture gives besides color: anything made of the weights (opacity times transmittance) with which splats
-//! enter pixels. The blending loop is generic over it, so that color alone pays nothing.
+//! Outputs besides color, computed from the blending weights (opacity times transmittance) of splats in pixels.
+//!
+//! Enters: weights from the blending loop. Leaves: one output per tile. The blending loop is generic over the payload,
+//! so that rendering color alone has no overhead.
 
 use super::pixels::position_in_tile;
 use super::record::Record;
 use super::tiles::{TILE_LEN, TILE_PX};
 
-/// Takes the weights of one tile.
+/// Receives the weights of one tile.
 pub(super) trait Sink {
-    /// Whether it wants any; without, the calls are compiled away.
+    /// Whether it needs weights; if not, the calls are compiled away.
     const IS_ACTIVE: bool;
 
-    /// The splats that the positions of the next weights refer to.
+    /// Starts a chunk: the positions of the following weights are indices into `records`.
     fn begin_chunk(&mut self, records: &[Record]);
 
-    /// The weights of the splat at a position in the pixels from `first_pixel` of the tile on; see
-    /// [`position_in_tile`]. Nearest splats come first in every pixel.
+    /// Adds the weights of the splat at a position, in the tile's pixels from `first_pixel` on; [`position_in_tile`]
+    /// explains their order. In every pixel the nearest splats come first.
     fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]);
 }
 
 /// A tile's place in the picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TileArea {
-    /// Left and upper corner, pixels.
+    /// Left upper corner, pixels.
     pub(super) origin_px: [usize; 2],
     /// Width of the picture.
     pub(super) width: usize,
@@ -30,15 +32,15 @@ pub(super) struct TileArea {
 }
 
 impl TileArea {
-    /// Index in the picture of a pixel of the tile, row-major; `None` beyond the border.
+    /// Index of a pixel of the tile in the picture, row-major; `None` outside the picture.
     pub(super) fn picture_idx(&self, pixel: usize) -> Option<usize> {
         let [column, row] = position_in_tile(pixel);
         let (x, y) = (self.origin_px[0] + column, self.origin_px[1] + row);
         (x < self.width && y < self.height).then_some(y * self.width + x)
     }
 
-    /// Values of the tile's pixels row after row, those beyond the border left out: `num_channels` numbers a pixel, given
-    /// in the tile's own order.
+    /// Reorders values of the tile's pixels (`num_channels` per pixel, in the tile's own order) to rows; drops pixels
+    /// outside the picture.
     pub(super) fn in_rows<T: Copy + Default>(self, values: &[T], num_channels: usize) -> TileRows<T> {
         let num_columns = (self.width - self.origin_px[0]).min(TILE_PX);
         let num_rows = (self.height - self.origin_px[1]).min(TILE_PX);
@@ -53,7 +55,7 @@ impl TileArea {
     }
 }
 
-/// What a tile leaves of an output with values in every pixel.
+/// Values of the pixels of one tile, row-major.
 pub(super) struct TileRows<T> {
     area: TileArea,
     num_columns: usize,
@@ -62,7 +64,7 @@ pub(super) struct TileRows<T> {
 }
 
 impl<T: Copy> TileRows<T> {
-    /// Writes the tile into a picture of `stride` values a pixel, from the channel `first` on.
+    /// Writes the tile into a picture of `stride` values per pixel, starting at channel `first`.
     pub(super) fn write(&self, picture: &mut [T], stride: usize, first: usize) {
         let [left, top] = self.area.origin_px;
         for (row, values) in (top..).zip(self.values.chunks_exact(self.num_columns * self.num_channels)) {
@@ -77,20 +79,20 @@ impl<T: Copy> TileRows<T> {
     }
 }
 
-/// An output beside color: a sink a tile, and what becomes of it.
+/// An output besides color: makes one sink per tile and turns it into the tile's output.
 pub(super) trait Payload: Sync {
-    /// Takes a tile's weights.
+    /// Receives the weights of a tile.
     type Sink: Sink;
-    /// What a tile leaves.
+    /// The output of a tile.
     type TileOutput: Send;
 
-    /// Hears how many bytes all sinks and parts together may take.
+    /// Sets how many bytes all sinks and outputs together may take.
     fn set_limit(&self, _max_bytes: u64) {}
 
     /// An empty sink.
     fn sink(&self, area: TileArea) -> Self::Sink;
 
-    /// What the sink of a finished tile has come to.
+    /// The output of a finished tile.
     fn finish(&self, sink: Self::Sink, area: TileArea) -> Self::TileOutput;
 }
 

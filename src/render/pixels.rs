@@ -1,13 +1,13 @@
-//! The pixels of a tile while it is being blended, half block after half block.
+//! The pixels of a tile during blending, stored by half blocks.
 //!
-//! A half block's colors and transmittances lie side by side, not in planes of their own: planes would be a multiple of
-//! 4 KiB apart, and a store to one would hold up loads from the others.
+//! The colors and transmittances of a half block are adjacent. Separate planes would be a multiple of 4 KiB apart, and
+//! a store to one would delay loads from the others (4K aliasing).
 
 use pulp::Simd;
 
 use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_STRIPS};
 
-/// A block's left and right half are blended side by side.
+/// Width of half a block; the left and right half are blended together.
 pub(super) const HALF_WIDTH: usize = BLOCK_WIDTH / 2;
 /// Pixels of half a block, row-major.
 pub(super) const HALF_LEN: usize = HALF_WIDTH * BLOCK_HEIGHT;
@@ -15,7 +15,7 @@ pub(super) const HALF_LEN: usize = HALF_WIDTH * BLOCK_HEIGHT;
 const HALVES_ACROSS: usize = 2 * BLOCKS_ACROSS;
 const NUM_HALVES: usize = HALVES_ACROSS * NUM_STRIPS;
 
-/// What has been blended of half a block: color, and transmittance, which is negative where a pixel has stopped on its own.
+/// Blended color and transmittance of half a block. A negative transmittance marks a pixel that has stopped on its own.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 struct HalfBlock {
@@ -29,7 +29,7 @@ impl HalfBlock {
     const CLEAR: Self =
         Self { red: [0.0; HALF_LEN], green: [0.0; HALF_LEN], blue: [0.0; HALF_LEN], transmittance: [1.0; HALF_LEN] };
 
-    /// Color over a background and transmittance of one row.
+    /// Color over a background, and transmittance, of one row.
     #[inline(always)]
     fn row(&self, row: usize, background: [f32; 3]) -> ([f32; 3 * HALF_WIDTH], [f32; HALF_WIDTH]) {
         let of = |channel: &[f32; HALF_LEN]| channel.as_chunks::<HALF_WIDTH>().0[row % BLOCK_HEIGHT];
@@ -45,17 +45,17 @@ impl HalfBlock {
     }
 }
 
-/// Pixels blended together.
+/// Pixels that are blended together, one register per attribute.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pixels<S: Simd> {
     pub(super) red: S::f32s,
     pub(super) green: S::f32s,
     pub(super) blue: S::f32s,
-    /// Of all splats so far; below the least allowed where a pixel takes no more.
+    /// Transmittance behind all splats so far; below the stop if the pixel has stopped.
     pub(super) transmittance: S::f32s,
-    /// Of the splats that the pixel took; kept only where each pixel stops on its own.
+    /// Transmittance behind the splats that the pixel took; only maintained if each pixel stops on its own.
     pub(super) rest: S::f32s,
-    /// The first one's number in the tile.
+    /// Number of the first pixel in the tile.
     pub(super) first: usize,
 }
 
@@ -64,22 +64,22 @@ pub(super) struct Pixels<S: Simd> {
 pub(super) struct TilePixels(Box<[HalfBlock; NUM_HALVES]>);
 
 impl Default for TilePixels {
-    #[allow(clippy::large_stack_arrays, reason = "made once a thread, 64 KiB, and moved to the heap at once")]
+    #[allow(clippy::large_stack_arrays, reason = "64 KiB, made once per thread and moved to the heap at once")]
     fn default() -> Self {
         Self(Box::new([HalfBlock::CLEAR; NUM_HALVES]))
     }
 }
 
 impl TilePixels {
-    /// Bytes that it takes.
+    /// Bytes of the pixels of a tile.
     pub(super) const BYTES: usize = NUM_HALVES * size_of::<HalfBlock>();
 
-    /// Nothing blended.
+    /// Clears all pixels.
     pub(super) fn clear(&mut self) {
         self.0.fill(HalfBlock::CLEAR);
     }
 
-    /// A register of pixels of a half block, from `first_lane` on.
+    /// Loads pixels of a half block from `first_lane` on.
     #[inline(always)]
     pub(super) fn load<S: Simd>(&self, simd: S, half: usize, first_lane: usize) -> Pixels<S> {
         let pixels = &self.0[half % NUM_HALVES];
@@ -93,7 +93,7 @@ impl TilePixels {
         }
     }
 
-    /// Writes what [`TilePixels::load`] has read.
+    /// Stores pixels at the place where [`TilePixels::load`] read them.
     #[inline(always)]
     pub(super) fn store<S: Simd>(&mut self, simd: S, pixels: &Pixels<S>) {
         let (half, first_lane) = (pixels.first / HALF_LEN, pixels.first % HALF_LEN);
@@ -112,7 +112,7 @@ impl TilePixels {
     }
 }
 
-/// The pixels of one row of a tile, four at a time.
+/// One row of a tile; written four pixels at a time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TileRow<'a> {
     halves: &'a [HalfBlock],
@@ -127,7 +127,7 @@ impl TileRow<'_> {
         self.halves[quad % HALVES_ACROSS].row(self.row, self.background)
     }
 
-    /// Writes color and transmittance from the left, as many as there is room for.
+    /// Writes color and transmittance, as many pixels as the slices hold.
     #[inline(always)]
     pub(super) fn write_linear(&self, rgb: &mut [f32], transmittance: &mut [f32]) {
         let (rgb, rgb_end) = rgb.as_chunks_mut();
@@ -142,7 +142,7 @@ impl TileRow<'_> {
         }
     }
 
-    /// Writes color in eight bits from the left, as many pixels as there is room for.
+    /// Writes color in 8 bits, as many pixels as the slice holds.
     #[inline(always)]
     pub(super) fn write_rgb8(&self, rgb8: &mut [u8]) {
         let (whole, end) = rgb8.as_chunks_mut();
@@ -156,14 +156,14 @@ impl TileRow<'_> {
     }
 }
 
-/// Column and row in the tile of the pixel of a number.
+/// Column and row in the tile of the pixel with a number.
 pub(super) fn position_in_tile(pixel: usize) -> [usize; 2] {
     let (half, lane) = (pixel / HALF_LEN, pixel % HALF_LEN);
     let column = half % HALVES_ACROSS * HALF_WIDTH + lane % HALF_WIDTH;
     [column, half / HALVES_ACROSS * BLOCK_HEIGHT + lane / HALF_WIDTH]
 }
 
-/// Pixel centers of a half block relative to its left and upper corner.
+/// Pixel centers of a half block relative to its left upper corner: x, y.
 const CENTERS: [[f32; HALF_LEN]; 2] = {
     let mut centers = [[0.0; HALF_LEN]; 2];
     let mut lane = 0;
@@ -175,7 +175,7 @@ const CENTERS: [[f32; HALF_LEN]; 2] = {
     centers
 };
 
-/// Registers of pixel centers of both halves of a block relative to its tile, and of their rows.
+/// Pixel centers of a block relative to its tile: x of the left and of the right half, and y.
 #[inline(always)]
 pub(super) fn centers<S: Simd>(simd: S, block: usize, first_lane: usize) -> ([S::f32s; 2], S::f32s) {
     let (left, top) = (block % BLOCKS_ACROSS * BLOCK_WIDTH, block / BLOCKS_ACROSS * BLOCK_HEIGHT);
@@ -184,7 +184,7 @@ pub(super) fn centers<S: Simd>(simd: S, block: usize, first_lane: usize) -> ([S:
     ([x, simd.add_f32s(x, simd.splat_f32s(HALF_WIDTH as f32))], simd.add_f32s(y, simd.splat_f32s(top as f32)))
 }
 
-/// A register of numbers from a place on.
+/// Loads a register of numbers, starting at `first`.
 #[inline(always)]
 pub(super) fn load<S: Simd>(_: S, numbers: &[f32; HALF_LEN], first: usize) -> S::f32s {
     S::as_simd_f32s(&numbers[first..first + S::F32_LANES]).0[0]

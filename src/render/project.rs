@@ -1,8 +1,9 @@
 //! Gaussians to splats, 16 at a time.
 //!
-//! Enters: the Gaussians of one group and a view. Leaves: splats that reach the picture. Depth and center are computed
-//! in `f64` and rounded once, so that the depth order is that of the spec image; shapes in `f32` through V = J W R S
-//! and the Cauchy-Binet determinant (see [`super::reference::project`]), which keeps needles exact.
+//! Enters: the Gaussians of one group and a view. Leaves: the splats that overlap the picture. Depth and center are
+//! computed in `f64` and rounded once, so that the depth order equals that of the spec image. Shapes are computed in
+//! `f32` by V = J W R S and the Cauchy-Binet determinant (see [`super::reference::project`]), which is exact for
+//! needles.
 
 use glam::{DVec3, Vec3};
 use pulp::{Simd, WithSimd};
@@ -14,12 +15,12 @@ use super::tiles::{TILE_PX, TileGrid};
 use super::{View, harmonics, reference};
 use cinesplat_scene::Gaussians;
 
-/// What dilation adds to how far a splat counts, in pixels, with slack: 5.3 deviations of the root of 0.3, for the least
-/// alpha cut that there may be.
+/// Upper bound of what dilation adds to the radius of a splat, in pixels: 5.3 standard deviations (for the smallest
+/// allowed alpha cut) of sqrt(0.3) pixels, with slack.
 const MARGIN_PX: f64 = 4.0;
 
-/// The splats of 16 Gaussians, one array an attribute. `visibility` is 1 for those that are drawn, 0 for those that are
-/// not, NaN where `f32` did not suffice.
+/// The splats of 16 Gaussians, one array per attribute. `visibility` is 1 for a splat that is drawn, 0 for one that is
+/// not, and NaN if `f32` overflowed.
 #[derive(Default)]
 struct Outputs {
     visibility: Lane,
@@ -34,7 +35,7 @@ struct Outputs {
     tile_rect: [[u16; LANES]; 4],
 }
 
-/// The members of one group on their way to being splats, compiled for every instruction set.
+/// The projection of the members of one group, compiled for every instruction set.
 struct GroupMembers<'a> {
     projection: &'a Projection,
     gaussians: &'a Gaussians,
@@ -51,7 +52,7 @@ impl WithSimd for GroupMembers<'_> {
     }
 }
 
-/// A view in `f32` where that is enough.
+/// A view and the tiles to render, in `f32` where that is precise enough.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Projection {
     view: View,
@@ -59,16 +60,17 @@ pub(super) struct Projection {
     rows: [Vec3; 3],
     focal_px: [f32; 2],
     slope: [(f32, f32); 2],
-    /// Where the picture ends for [`super::spec::reaches`], in pixels.
+    /// End of the picture for [`super::spec::reaches`], in pixels.
     end_px: [f32; 2],
     dilation_px2: f32,
-    /// 1 where opacity makes up for the dilation, else 0.
+    /// 1 if opacity compensates for the dilation, else 0.
     compensation: f32,
     cut_level: f32,
     unit: f32,
     /// Width and height of the picture.
     size_px: [f32; 2],
-    /// The tiles to be rendered, their upper and lower end in pixels, and first and last column and row.
+    /// The tiles to render, their upper and lower end in pixels, their first and last column, and their first and last
+    /// row.
     grid: TileGrid,
     grid_px: [f32; 2],
     columns: [f32; 2],
@@ -99,19 +101,21 @@ impl Projection {
         }
     }
 
-    /// Whether any member of a group may reach the tiles to be rendered. Members reach as many standard deviations as
-    /// their largest opacity counts; those are bounded by `max_scale` times the largest stretch of the projection along
-    /// each axis, which makes every test a plane in camera space.
+    /// Whether any member of a group may overlap the tiles to render.
+    ///
+    /// A member extends to the number of standard deviations at which the largest opacity of the group falls to the
+    /// alpha cut. A standard deviation in pixels is at most `max_scale` times the largest stretch of the projection
+    /// along the axis. Every test is therefore a plane in camera space.
     pub(super) fn may_be_visible(&self, group: &Group) -> bool {
         let view = &self.view;
         let center = view.camera_from_world * (group.center.as_dvec3() - view.center);
         let radius = f64::from(group.radius) * 1.001;
-        // NaN where even the center is too faint.
+        // NaN if even the center is below the alpha cut.
         let sigmas = (2.0 * (f64::from(group.max_opacity) / view.alpha_cut).ln()).sqrt() * 1.001;
         if center.z + radius <= view.near || sigmas.is_nan() {
             return false;
         }
-        // Beside what lies between two lines across the picture.
+        // Whether the group lies outside the strip between two lines across the picture.
         let is_beside = |focal: f64, bounds: (f64, f64), along: f64, [first_px, last_px]: [f64; 2]| {
             let stretch = focal * (1.0 + bounds.0.abs().max(bounds.1).powi(2)).sqrt();
             let reach = sigmas * f64::from(group.max_scale) * stretch;
@@ -137,7 +141,7 @@ impl Projection {
             self.shapes(pack, &mut outputs);
             for lane in 0..LANES {
                 if outputs.visibility[lane] != 0.0
-                    && let Some((splat, rect)) = self.finished(gaussians, pack, &outputs, lane)
+                    && let Some((splat, rect)) = self.finish_lane(gaussians, pack, &outputs, lane)
                 {
                     batch.push(splat, rect);
                 }
@@ -145,7 +149,7 @@ impl Projection {
         }
     }
 
-    /// Depth and center in pixels; `visibility` says whether the Gaussian is in front.
+    /// Computes depth and center in pixels; sets `visibility` to 1 if the Gaussian is in front of the near plane.
     #[inline(always)]
     fn centers(&self, inputs: &Pack, outputs: &mut Outputs) {
         let m = self.view.camera_from_world;
@@ -162,15 +166,15 @@ impl Projection {
             outputs.depth[lane] = depth as f32;
             outputs.mean_px[0][lane] = (fx * right + px) as f32;
             outputs.mean_px[1][lane] = (fy * down + py) as f32;
-            // Kept for `shapes`, which turns them into slopes.
+            // Input of `shapes`, which clamps them to slopes and overwrites them.
             outputs.half_px[0][lane] = right as f32;
             outputs.half_px[1][lane] = down as f32;
             outputs.visibility[lane] = if depth > near { 1.0 } else { 0.0 };
         }
     }
 
-    /// Shape and opacity; clears `visibility` where the splat is too faint or beside the picture.
-    #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, and the loop would not vectorize")]
+    /// Computes shape and opacity; clears `visibility` if the splat is below the alpha cut or outside the picture.
+    #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, which prevents vectorization")]
     #[inline(always)]
     fn shapes(&self, inputs: &Pack, out: &mut Outputs) {
         let [r0, r1, r2] = self.rows;
@@ -233,16 +237,17 @@ impl Projection {
             out.tile_rect[1][lane] = tile(x_px + half_x, self.columns);
             out.tile_rect[2][lane] = tile(y_px - half_y, self.rows_of_tiles);
             out.tile_rect[3][lane] = tile(y_px + half_y, self.rows_of_tiles);
-            // Zero times anything finite is zero; what is not finite becomes NaN and is looked at in `f64`.
-            let trouble = (det + ux + x + y + radius_px) * 0.0;
+            // 0 if all are finite, else NaN: the splat is then computed in `f64`.
+            let nan_if_infinite = (det + ux + x + y + radius_px) * 0.0;
             let front = out.visibility[lane];
             let is_visible = is_near & is_inside & is_in_grid;
-            out.visibility[lane] = if front > 0.0 { if is_visible { 1.0 + trouble } else { trouble } } else { 0.0 };
+            out.visibility[lane] =
+                if front > 0.0 { if is_visible { 1.0 + nan_if_infinite } else { nan_if_infinite } } else { 0.0 };
         }
     }
 
-    /// The finished splat of one lane with its color; in `f64` where `f32` did not suffice.
-    fn finished(&self, gaussians: &Gaussians, pack: &Pack, out: &Outputs, lane: usize) -> Option<(Splat, [u16; 4])> {
+    /// The splat of one lane with its color; computed in `f64` if `f32` overflowed.
+    fn finish_lane(&self, gaussians: &Gaussians, pack: &Pack, out: &Outputs, lane: usize) -> Option<(Splat, [u16; 4])> {
         let gaussian_idx = pack.gaussian_idx[lane];
         let (splat, rect) = if out.visibility[lane] > 0.5 {
             let splat = Splat {
@@ -273,17 +278,17 @@ impl Projection {
     }
 }
 
-/// The tile that holds a position, or the nearest between two. The sum has its whole part in the lowest bits; a cast
-/// would not vectorize.
+/// The tile that contains a position, clamped to `first..=last`. The addition moves the integer part into the lowest
+/// bits of the mantissa; a cast does not vectorize.
 #[inline(always)]
 fn tile(position_px: f32, [first, last]: [f32; 2]) -> u16 {
     const SHIFT: f32 = 8_388_608.0;
     ((position_px * (1.0 / TILE_PX as f32)).max(first).min(last).floor() + SHIFT).to_bits() as u16
 }
 
-/// Binary logarithm of a positive normal number, absolute error below 1e-7; written so that it vectorizes.
+/// Binary logarithm of a positive normal number with an absolute error below 1e-7; vectorizes.
 ///
-/// x = 2^e m with m in sqrt(1/2)..sqrt(2); log2(m) by a polynomial in m - 1 fitted at Chebyshev nodes.
+/// x = 2^e m with m in sqrt(1/2)..sqrt(2); log2(m) is a polynomial in m - 1, fitted at Chebyshev nodes.
 #[inline(always)]
 fn log2(x: f32) -> f32 {
     const SQRT_HALF_BITS: u32 = 0x3f35_04f3;

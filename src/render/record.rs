@@ -1,5 +1,5 @@
-/// A splat relative to a tile's corner: u = `ux` x + `uy` y + `u0`, v = `vy` y + `v0` at pixel (x, y) of the tile, all in
-/// the units of an [`super::kernel::Arithmetic`].
+/// A splat relative to the corner of a tile: u = `ux` x + `uy` y + `u0` and v = `vy` y + `v0` at position (x, y) in the
+/// tile, all in the units of an [`super::kernel::Arithmetic`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Record {
     pub(super) ux: f32,
@@ -13,5 +13,5 @@ pub(super) struct Record {
     pub(super) gaussian_idx: u32,
 }
 
-/// Splats that a tile looks at together: as many as a byte can number.
+/// Splats per chunk of a tile: as many as a byte can number.
 pub(super) const RECORDS_LEN: usize = 256;

@@ -1,7 +1,8 @@
-//! The spec image: every step in `f64`, one pixel at a time, nothing clever. All other paths are judged by it.
+//! The spec image: every step in `f64`, pixel by pixel, without approximations. The accuracy of every other quality is
+//! measured against it.
 //!
-//! Enters: Gaussians and a view. Leaves: color and transmittance. Tiles only rule out splats that cannot reach
-//! `alpha_cut` inside them, so their size never shows.
+//! Enters: Gaussians and a view. Leaves: color and transmittance. Tiles only drop splats whose opacity stays below
+//! `alpha_cut` in them, so the tile size does not change the picture.
 
 use std::ops::Range;
 
@@ -30,14 +31,15 @@ pub(super) struct ExactSplat {
     pub(super) variance_y: f64,
     /// Determinant of the covariance, by Cauchy-Binet.
     pub(super) determinant: f64,
-    /// Peak opacity, compensated where the filter asks for it.
+    /// Peak opacity, reduced if the filter compensates for the dilation.
     pub(super) opacity: f64,
 }
 
-/// The splat of one Gaussian, or `None` where it is not in front, not finite or too faint everywhere.
+/// The splat of one Gaussian; `None` if it is not in front of the near plane, not finite, below the alpha cut
+/// everywhere or outside the picture.
 ///
 /// With V = J W R S (2 x 3) and its rows v1, v2 the covariance is V V^T + s I; its determinant is taken as
-/// |v1 x v2|^2 + s (|v1|^2 + |v2|^2) + s^2, which stays exact for needles where a c - b b does not.
+/// |v1 x v2|^2 + s (|v1|^2 + |v2|^2) + s^2, which is exact for needles, where a c - b b loses all digits.
 pub(super) fn project(gaussians: &Gaussians, gaussian_idx: usize, view: &View) -> Option<ExactSplat> {
     let mean_camera = view.camera_from_world * (gaussians.means[gaussian_idx].as_dvec3() - view.center);
     let depth = mean_camera.z;
@@ -74,13 +76,13 @@ pub(super) fn project(gaussians: &Gaussians, gaussian_idx: usize, view: &View) -
 }
 
 impl ExactSplat {
-    /// Whether it is drawn at all; see [`spec::reaches`].
+    /// Whether the splat is drawn; see [`spec::reaches`].
     fn reaches(&self, view: &View) -> bool {
         let radius_px = spec::radius_px(self.variance_x, self.covariance, self.variance_y);
         spec::reaches(self.mean_px.x, radius_px, view.width) && spec::reaches(self.mean_px.y, radius_px, view.height)
     }
 
-    /// Half the width and height in pixels of the region where the opacity reaches `alpha_cut`.
+    /// Half the width and height in pixels of the region where the opacity is at least `alpha_cut`.
     pub(super) fn half_extents_px(&self, alpha_cut: f64) -> DVec2 {
         let sigmas = (2.0 * (self.opacity / alpha_cut).ln()).max(0.0).sqrt();
         DVec2::new(self.variance_x.sqrt(), self.variance_y.sqrt()) * sigmas
@@ -89,7 +91,7 @@ impl ExactSplat {
     /// Opacity at a pixel position.
     fn alpha(&self, position_px: DVec2) -> f64 {
         let offset = position_px - self.mean_px;
-        // Whitened by a Cholesky factor: a sum of squares, so the exponent is never positive.
+        // Whitened with a Cholesky factor: q is a sum of squares, so the exponent is never positive.
         let along = offset.y - self.covariance / self.variance_x * offset.x;
         let q = offset.x * offset.x / self.variance_x + along * along * self.variance_x / self.determinant;
         (self.opacity * (-0.5 * q).exp()).min(spec::ALPHA_MAX)
@@ -103,10 +105,10 @@ struct Colored {
     sort_distance: f32,
 }
 
-/// Renders the given Gaussians into rgb and transmittance; returns the work done.
+/// Renders the `usable` Gaussians into rgb and transmittance; returns the counters.
 ///
 /// # Errors
-/// [`RenderError::Cost`] and [`RenderError::Memory`] where the picture exceeds the limits.
+/// [`RenderError::Cost`] and [`RenderError::Memory`] if the picture exceeds the limits.
 pub(super) fn render(
     (gaussians, usable): (&Gaussians, Vec<u32>),
     view: &View,
@@ -132,7 +134,7 @@ pub(super) fn render(
     Ok(WorkCounts { num_projected, num_splats, num_pairs, num_block_blends: num_blends })
 }
 
-/// All splats in front, nearest first; distances that are equal in `f32` keep the order of the file.
+/// All visible splats, nearest first; ties in `f32` keep the order of the file.
 fn sorted_splats(gaussians: &Gaussians, usable: &[u32], view: &View) -> Vec<Colored> {
     let colored = |&idx: &u32| {
         let idx = idx as usize;
@@ -147,7 +149,7 @@ fn sorted_splats(gaussians: &Gaussians, usable: &[u32], view: &View) -> Vec<Colo
     splats
 }
 
-/// Tiles that a splat may touch: columns and rows, each from the first to behind the last.
+/// Tiles that a splat may overlap: columns and rows.
 struct TileRect {
     columns: Range<usize>,
     rows: Range<usize>,
@@ -162,7 +164,7 @@ impl TileRect {
 fn tile_rect(Colored { splat, .. }: &Colored, view: &View) -> TileRect {
     let half = splat.half_extents_px(view.alpha_cut) + 1.0;
     let (low, high) = ((splat.mean_px - half) / f64::from(TILE_PX), (splat.mean_px + half) / f64::from(TILE_PX));
-    // Casts saturate: what lies outside becomes an empty range at the border.
+    // Casts saturate: a splat outside the picture gets an empty range at the border.
     let range = |low: f64, high: f64, size: u32| {
         let num_tiles = size.div_ceil(TILE_PX) as usize;
         let end = if high < 0.0 { 0 } else { (high as usize).saturating_add(1).min(num_tiles) };
@@ -171,7 +173,7 @@ fn tile_rect(Colored { splat, .. }: &Colored, view: &View) -> TileRect {
     TileRect { columns: range(low.x, high.x, view.width), rows: range(low.y, high.y, view.height) }
 }
 
-/// Indices of the splats that may reach each tile, nearest first.
+/// Indices of the splats that may overlap each tile, nearest first.
 fn bin(splats: &[Colored], view: &View, tiles_across: usize) -> Vec<Vec<u32>> {
     let mut bins = vec![Vec::new(); tiles_across * view.height.div_ceil(TILE_PX) as usize];
     for (splat_idx, splat) in splats.iter().enumerate() {

@@ -16,9 +16,9 @@ use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Rgb8Frame,
 use cinesplat_geometry::Camera;
 use cinesplat_scene::Gaussians;
 
-/// Renders pictures of one scene. Work lists are kept from picture to picture; several threads may share it.
+/// Renders pictures of one scene. Keeps its buffers from picture to picture; several threads may share it.
 ///
-/// Pictures are made on the threads of the current rayon pool; they are the same to the bit for any number of them.
+/// Uses the threads of the current rayon pool. A picture has the same bits for any number of threads.
 #[derive(Debug)]
 pub struct Renderer<'scene> {
     gaussians: &'scene Gaussians,
@@ -28,37 +28,38 @@ pub struct Renderer<'scene> {
 }
 
 impl<'scene> Renderer<'scene> {
-    /// A renderer of these Gaussians. Those with numbers that are not finite, rotations of length zero or no opacity
-    /// are never drawn.
+    /// A renderer of `gaussians`. Never draws Gaussians with a value that is not finite, a rotation of length zero or
+    /// an opacity of 0.
     pub fn new(gaussians: &'scene Gaussians) -> Self {
         Self { gaussians, groups: Groups::new(gaussians), buffers: Pool::default(), small_frames: Pool::default() }
     }
 
-    /// Bytes that the renderer holds on to between pictures, beyond the scene and the pictures handed out.
+    /// Bytes that the renderer holds between pictures, without the scene and the returned pictures.
     pub fn memory_bytes(&self) -> u64 {
         let small = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
         self.groups.bytes() + self.buffers.sum(Buffers::bytes) + self.small_frames.sum(small)
     }
 
-    /// Gaussians of the scene.
+    /// Number of Gaussians of the scene.
     pub fn num_gaussians(&self) -> usize {
         self.gaussians.len()
     }
 
-    /// The picture that a camera takes.
+    /// Renders the picture of a camera.
     ///
     /// # Errors
-    /// [`RenderError`] for a camera or settings that cannot be, or when the work would exceed the limits.
+    /// [`RenderError::Camera`] for an unusable camera, [`RenderError::Setting`] for a setting out of range,
+    /// [`RenderError::Memory`] and [`RenderError::Cost`] if the picture exceeds [`RenderSettings::limits`].
     pub fn render(&self, camera: &Camera, settings: &RenderSettings) -> Result<Frame, RenderError> {
         let mut frame = Frame::default();
         self.render_into(camera, settings, &mut frame)?;
         Ok(frame)
     }
 
-    /// As [`Renderer::render`], into a frame whose memory is used again.
+    /// As [`Renderer::render`], into a frame whose memory is reused.
     ///
     /// # Errors
-    /// As [`Renderer::render`]; the frame then holds nothing of use.
+    /// Those of [`Renderer::render`]; the frame is then unspecified.
     pub fn render_into(
         &self,
         camera: &Camera,
@@ -74,11 +75,11 @@ impl<'scene> Renderer<'scene> {
         Ok(())
     }
 
-    /// As [`Renderer::render_into`], in eight bits: the levels are those of [`Frame::to_rgb8`], and the numbers that they
-    /// are made of are never written to memory.
+    /// As [`Renderer::render_into`], in 8 bits. The result equals [`Frame::to_rgb8`], without writing a picture in
+    /// `f32` first.
     ///
     /// # Errors
-    /// As [`Renderer::render`]; the frame then holds nothing of use.
+    /// Those of [`Renderer::render`]; the frame is then unspecified.
     pub fn render_rgb8_into(
         &self,
         camera: &Camera,
@@ -98,7 +99,7 @@ impl<'scene> Renderer<'scene> {
         Ok(())
     }
 
-    /// Renders onto a canvas of the view's size, at the resolution that the accuracy asks for.
+    /// Renders onto a canvas of the view's size, at the resolution that the accuracy knobs set.
     fn render_onto(
         &self,
         canvas: Canvas<'_>,
@@ -112,8 +113,8 @@ impl<'scene> Renderer<'scene> {
         }
         let intrinsics = camera.intrinsics.scaled(resolution_frac);
         let mut small_view = View::new(&Camera { pose: camera.pose, intrinsics }, self.gaussians.origin, settings)?;
-        // As wide on the large picture as ever: then a small picture is made of values of the large one, and what
-        // enlarging has to guess is only what lies between them.
+        // Keeps the dilation that the large picture has. The small picture then samples the large one, and enlarging
+        // interpolates only between samples.
         small_view.dilation_px2 *= resolution_frac * resolution_frac;
         self.small_frames.with(|small| {
             small.resize(small_view.width, small_view.height);
@@ -123,30 +124,31 @@ impl<'scene> Renderer<'scene> {
         })
     }
 
-    /// Depth of what a camera sees, from the weights of the picture at full resolution.
+    /// Depth of every pixel, from the blending weights at full resolution.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// Those of [`Renderer::render`].
     pub fn depth(&self, camera: &Camera, settings: &RenderSettings) -> Result<DepthMap, RenderError> {
         let (frame, tiles) = self.render_with_payload(camera, settings, &DepthPayload)?;
         Ok(DepthMap::assemble(frame.width, frame.height, tiles))
     }
 
-    /// The object seen in each pixel: of the labels (one a Gaussian, 0 = none) that with the largest summed weight.
+    /// The object in each pixel: of `labels` (one per Gaussian, 0 = none), the one with the largest sum of blending
+    /// weights.
     ///
     /// # Errors
-    /// As [`Renderer::render`]; [`RenderError::Length`] unless there is one label a Gaussian.
+    /// Those of [`Renderer::render`]; [`RenderError::Length`] unless there is one label per Gaussian.
     pub fn object_ids(&self, camera: &Camera, settings: &RenderSettings, labels: &[u16]) -> Result<IdMap, RenderError> {
         check_len("labels", labels.len(), self.gaussians.len())?;
         let (frame, tiles) = self.render_with_payload(camera, settings, &IdPayload { labels })?;
         Ok(IdMap::assemble(frame.width, frame.height, &tiles))
     }
 
-    /// Carries values of pixels (`num_channels` each, row-major) back to the Gaussians seen in them and adds to
-    /// `lifted`, which collects over pictures.
+    /// Adds pixel values (`[(row * width + column) * num_channels + channel]`) to the Gaussians that are visible in the
+    /// pixels, weighted with their blending weights. `lifted` may sum over several pictures.
     ///
     /// # Errors
-    /// As [`Renderer::render`]; [`RenderError::Length`] where `values` or `lifted` have another size.
+    /// Those of [`Renderer::render`]; [`RenderError::Length`] if `values` or `lifted` has another length.
     pub fn lift(
         &self,
         camera: &Camera,
@@ -165,11 +167,11 @@ impl<'scene> Renderer<'scene> {
         Ok(())
     }
 
-    /// Every splat's weight in every pixel it enters: in each pixel nearest first, pixels in no useful order. There are
-    /// many: some fifty a pixel in a room.
+    /// The blending weight of every splat in every pixel: nearest first within a pixel, pixels in no defined order. The
+    /// list is long: about fifty entries per pixel in a room.
     ///
     /// # Errors
-    /// As [`Renderer::render`]; [`RenderError::Memory`] where the list would not fit under the cap.
+    /// Those of [`Renderer::render`]; [`RenderError::Memory`] if the list exceeds the limit.
     pub fn weights(&self, camera: &Camera, settings: &RenderSettings) -> Result<Vec<PixelWeight>, RenderError> {
         let payload = &WeightPayload::default();
         let (_, tiles) = self.render_with_payload(camera, settings, &payload)?;
@@ -215,12 +217,15 @@ impl<'scene> Renderer<'scene> {
     }
 }
 
-/// Holds the length of an input against what it has to be.
+/// Checks the length of an input.
+///
+/// # Errors
+/// [`RenderError::Length`].
 pub(super) fn check_len(what: &'static str, found: usize, expected: usize) -> Result<(), RenderError> {
     if found == expected { Ok(()) } else { Err(RenderError::Length { what, found, expected }) }
 }
 
-/// Lets the background shine through.
+/// Adds the background color, weighted with the transmittance.
 fn add_background(frame: &mut Frame, background: Vec3) {
     if background != Vec3::ZERO {
         for (rgb, rest) in frame.rgb.chunks_exact_mut(3).zip(&frame.transmittance) {

@@ -3,7 +3,7 @@ use glam::Vec3;
 use super::{InstructionSet, RenderError, spec};
 use cinesplat_scene::{Scene, SplatFilter};
 
-/// How much accuracy is traded for time.
+/// Preset of accuracy against time.
 #[derive(
     Debug,
     Clone,
@@ -19,9 +19,9 @@ use cinesplat_scene::{Scene, SplatFilter};
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Quality {
-    /// A coarse alpha cut, blending stops early: for previews.
+    /// For previews: a coarse alpha cut, and blending stops early.
     Draft,
-    /// Full resolution, blending stops a little early.
+    /// Blending stops a little early; opacities are approximate.
     Standard,
     /// The constants of the spec image in `f32`.
     Final,
@@ -30,14 +30,18 @@ pub enum Quality {
 }
 
 impl Quality {
-    /// What this preset sets.
+    /// The accuracy knobs of this preset.
     ///
-    /// Chosen on the kitchen's golden cameras at 1280x720 (`bench render` measures all knobs alone). Of all knobs the
-    /// precision pays best: `standard` takes a third less time than `final` at 68 dB, while a cut of 1/128 would leave 53
-    /// dB and a stop at 3e-3, each pixel by itself, 47 dB for less time saved. Pixels that stop in blocks lose less: on
-    /// fifteen golden cameras a stop at 4e-3 blends up to 5 % less than one at 1e-3 for at most 3 dB (none in the worst,
-    /// 62 dB); at 8e-3 it is 8 % and 8 dB. For `draft` a cut of 1/64 and a stop at 3e-2 save a fifth to a third at 44 dB;
-    /// half the size, enlarged, saves little more at 37 dB, and in small scenes costs more than it saves.
+    /// Chosen on the golden cameras of the kitchen at 1280x720 (`bench render` measures each knob alone). All figures
+    /// are PSNR against the spec image.
+    ///
+    /// - [`Precision::Quick`] saves the most time per decibel: `standard` takes a third less time than `final`, at 68
+    ///   dB. An alpha cut of 1/128 saves less at 53 dB, a per-pixel stop at 3e-3 saves less at 47 dB.
+    /// - A stop per block loses less than a stop per pixel. On fifteen golden cameras a stop at 4e-3 blends up to 5 %
+    ///   fewer splats than one at 1e-3 and costs at most 3 dB (0 dB on the worst camera, 62 dB). A stop at 8e-3 blends
+    ///   8 % fewer and costs 8 dB.
+    /// - For `draft`, an alpha cut of 1/64 and a stop at 3e-2 save a fifth to a third of the time at 44 dB. Half the
+    ///   resolution saves little more at 37 dB, and takes more time in small scenes.
     pub fn accuracy(self) -> Accuracy {
         match self {
             Self::Draft => Accuracy {
@@ -52,14 +56,15 @@ impl Quality {
     }
 }
 
-/// The knobs that cost decibels, each against the spec image.
+/// The knobs that trade accuracy for time. Accuracy is PSNR against the spec image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy {
-    /// Below this opacity a splat leaves a pixel alone, 0..1.
+    /// A splat is skipped in pixels where its opacity is below this, 1e-6..0.9.
     pub alpha_cut: f64,
-    /// Blending stops before the transmittance of a pixel would fall below this, 0..1.
+    /// Blending stops before the transmittance of a pixel would fall below this, above 0 and below 1.
     pub transmittance_stop: f64,
-    /// Side length of the picture rendered over that of the picture returned, above 0 and up to 1.
+    /// Side length of the rendered picture over that of the returned picture, above 0 and up to 1. Below 1, the
+    /// rendered picture is enlarged.
     pub resolution_frac: f64,
     /// Precision of the blending loop.
     pub precision: Precision,
@@ -81,9 +86,9 @@ pub struct Accuracy {
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Precision {
-    /// Opacities within 2.5e-5 of themselves; each pixel stops on its own, as in the spec image.
+    /// Relative error of opacities below 2.5e-5. Each pixel stops on its own, as in the spec image.
     Exact,
-    /// Opacities within 0.8 % of themselves; pixels stop in blocks of 8 x 4, when the last of them may.
+    /// Relative error of opacities up to 0.8 %. A block of 8 x 4 pixels stops when all of its pixels may stop.
     Quick,
 }
 
@@ -97,7 +102,7 @@ impl Accuracy {
     };
 }
 
-/// What decides which of two splats is in front.
+/// Which depth orders the splats.
 #[derive(
     Debug,
     Clone,
@@ -114,14 +119,14 @@ impl Accuracy {
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum SortMode {
-    /// Depth along the view axis, as the spec image: turning the camera may exchange overlapping splats.
+    /// Depth along the view axis, as in the spec image. Turning the camera may swap overlapping splats.
     #[default]
     Z,
-    /// Distance from the camera center: turning the camera exchanges nothing.
+    /// Distance from the camera center. Turning the camera swaps no splats.
     Ray,
 }
 
-/// Where colors are held to their range.
+/// Where colors are clamped.
 #[derive(
     Debug,
     Clone,
@@ -138,16 +143,16 @@ pub enum SortMode {
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum ColorClamp {
-    /// A Gaussian's color at 0 from below, the blended picture at 1 from above: as scenes are trained, and the spec image.
+    /// A Gaussian's color is clamped to 0 from below, the blended picture to 1 from above: as scenes are trained, and
+    /// as in the spec image.
     #[default]
     Trained,
-    /// A Gaussian's color at both 0 and 1, as the glTF extension `KHR_gaussian_splatting` has it: one brighter than
-    /// white counts as white.
+    /// A Gaussian's color is clamped to 0..=1, as the glTF extension `KHR_gaussian_splatting` specifies.
     Khr,
 }
 
 impl ColorClamp {
-    /// The largest value that a Gaussian's color may have.
+    /// Upper bound of a Gaussian's color.
     pub(super) fn max_color(self) -> f32 {
         match self {
             Self::Trained => f32::INFINITY,
@@ -156,13 +161,13 @@ impl ColorClamp {
     }
 }
 
-/// Bounds on what one picture may take.
+/// Limits on the memory and the work of one picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes that the renderer may hold beyond the loaded scene: its own copy of the Gaussians, work lists, buffers,
-    /// the picture and outputs beside it.
+    /// the picture and other outputs.
     pub max_memory_bytes: u64,
-    /// Overlaps between splats and tiles.
+    /// Number of splat-tile pairs (a splat that overlaps n tiles makes n pairs).
     pub max_pairs: u64,
 }
 
@@ -172,29 +177,30 @@ impl Default for Limits {
     }
 }
 
-/// Everything that decides a picture besides scene and camera.
+/// Everything besides scene and camera that a picture depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RenderSettings {
-    /// Preset; also decides between `f32` and `f64`.
+    /// Accuracy preset; [`Quality::Reference`] renders in `f64`, all others in `f32`.
     pub quality: Quality,
-    /// Dilation and its compensation.
+    /// Dilation of splats, and whether their opacity is reduced to compensate.
     pub filter: SplatFilter,
-    /// Gaussians whose mean is not farther than this along the view axis are left out, scene units.
+    /// Near plane: Gaussians with a mean at this depth or nearer are not drawn. Scene units, 0 or more.
     pub near: f64,
-    /// What shows through, as-trained color.
+    /// Background color, in the colors of the trained scene.
     pub background: Vec3,
-    /// Order of blending.
+    /// Depth that orders the splats.
     pub sort: SortMode,
-    /// Where colors are held to their range.
+    /// Where colors are clamped.
     pub color_clamp: ColorClamp,
-    /// Knobs in place of the preset's.
+    /// Accuracy knobs that replace those of the preset. [`Quality::Reference`] ignores `resolution_frac` and
+    /// `precision`.
     pub accuracy: Option<Accuracy>,
-    /// Caps on memory and work.
+    /// Limits on memory and work.
     pub limits: Limits,
-    /// The widest instructions that may be used; changes no picture.
+    /// Instruction set to use. Changes no bit of a picture.
     pub instructions: InstructionSet,
-    /// Whether the depth order of the picture before may help, as it does while the camera keeps its direction; changes
-    /// no picture.
+    /// Whether to start from the depth order of the previous picture, which saves time while the camera keeps its
+    /// direction. Changes no bit of a picture.
     pub reuses_order: bool,
 }
 
@@ -227,12 +233,12 @@ impl RenderSettings {
         }
     }
 
-    /// The knobs in force.
+    /// The accuracy knobs in effect.
     pub(super) fn effective_accuracy(&self) -> Accuracy {
         self.accuracy.unwrap_or_else(|| self.quality.accuracy())
     }
 
-    /// Pixels squared added to both diagonal entries of a splat's covariance.
+    /// Dilation: added to both diagonal entries of a splat's covariance, pixels squared.
     pub(super) fn dilation_px2(&self) -> f64 {
         match self.filter {
             SplatFilter::Classic | SplatFilter::Mip => 0.3,
@@ -240,12 +246,15 @@ impl RenderSettings {
         }
     }
 
-    /// Whether the opacity makes up for the dilation.
+    /// Whether the opacity is reduced to compensate for the dilation.
     pub(super) fn is_compensated(&self) -> bool {
         self.filter != SplatFilter::Classic
     }
 
-    /// Checks every range; NaN fails.
+    /// Checks every range; rejects NaN.
+    ///
+    /// # Errors
+    /// [`RenderError::Setting`].
     pub(super) fn check(&self) -> Result<(), RenderError> {
         let accuracy = self.effective_accuracy();
         let ranges = [

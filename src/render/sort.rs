@@ -1,42 +1,42 @@
-//! Splats to depth order: runs are radix sorted side by side and merged. No two keys are equal, so the order does not
-//! depend on how many runs there were.
+//! Sorts splats by depth: threads radix sort runs in parallel, then merge them. No two keys are equal, so the order
+//! does not depend on the number of runs.
 
 use bytemuck::{Pod, Zeroable};
 
-/// Bits of a key looked at in one pass; with more, a pass writes to more places than the cache can follow.
+/// Bits of a key per pass. With more bits, a pass writes to more places than the cache holds lines for.
 const DIGIT_BITS: u32 = 9;
 const NUM_DIGITS: usize = 1 << DIGIT_BITS;
 
-/// Below this length a run is neither divided nor merged by several threads.
+/// Runs shorter than this are sorted and merged by one thread.
 const MIN_PARALLEL_LEN: usize = 4096;
 
-/// A splat's depth, the Gaussian that it shows, and where it is kept.
+/// Sort key of a splat: its depth, its Gaussian and its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct DepthKey {
-    /// Bits of the depth, which is positive: they order as the numbers do.
+    /// Bits of the depth. It is positive, so the bits have the order of the numbers.
     pub(super) depth_bits: u32,
-    /// Decides between equal depths.
+    /// The Gaussian; breaks ties between equal depths.
     pub(super) gaussian_idx: u32,
-    /// Where the splat is kept.
+    /// The splat's place in [`super::splats::Splats`].
     pub(super) place: u32,
 }
 
 impl DepthKey {
-    /// What keys are ordered by; no two are equal.
+    /// The key as one number; no two keys are equal.
     pub(super) fn order(self) -> u64 {
         u64::from(self.depth_bits) << 32 | u64::from(self.gaussian_idx)
     }
 }
 
-/// Sorts by depth, nearest first, ties by Gaussian. `spare` is memory to work in.
+/// Sorts by depth, nearest first, ties by Gaussian. `spare` is a work buffer.
 pub(super) fn sort(keys: &mut [DepthKey], spare: &mut Vec<DepthKey>) {
     spare.resize(keys.len(), DepthKey::default());
     let num_levels = rayon::current_num_threads().next_power_of_two().ilog2();
     sort_runs(keys, spare, num_levels, false);
 }
 
-/// Sorts `keys`; the result is in `spare` if asked for, else in `keys`.
+/// Sorts `keys`. The result is in `spare` if `into_spare`, else in `keys`.
 fn sort_runs(keys: &mut [DepthKey], spare: &mut [DepthKey], num_levels: u32, into_spare: bool) {
     if num_levels == 0 || keys.len() < MIN_PARALLEL_LEN {
         radix_sort(keys, spare);
@@ -58,7 +58,7 @@ fn sort_runs(keys: &mut [DepthKey], spare: &mut [DepthKey], num_levels: u32, int
     }
 }
 
-/// Merges two sorted runs, with two to the power of `num_levels` threads.
+/// Merges two sorted runs on 2^`num_levels` threads.
 fn merge(left: &[DepthKey], right: &[DepthKey], to: &mut [DepthKey], num_levels: u32) {
     if num_levels == 0 || to.len() < MIN_PARALLEL_LEN {
         return merge_run(left, right, to);
@@ -94,8 +94,8 @@ pub(super) fn merge_run<'a>(mut left: &'a [DepthKey], mut right: &'a [DepthKey],
     }
 }
 
-/// Sorts digit after digit, the least significant first: those of the Gaussian, then those of the depth. Bits that are
-/// the same in all keys, as the high ones are, take no pass.
+/// Least-significant-digit radix sort: the digits of the Gaussian, then those of the depth. High bits that are equal in
+/// all keys take no pass.
 fn radix_sort(keys: &mut [DepthKey], spare: &mut [DepthKey]) {
     let Some(&first) = keys.first() else { return };
     let (depths, gaussians) = keys.iter().fold((0, 0), |(depths, gaussians), key| {
@@ -116,7 +116,7 @@ fn radix_sort(keys: &mut [DepthKey], spare: &mut [DepthKey]) {
     }
 }
 
-/// One pass: `to` is `from` in the order of one digit.
+/// One pass of the radix sort: writes `from` to `to`, stably sorted by one digit.
 fn scatter(from: &[DepthKey], to: &mut [DepthKey], digit: impl Fn(&DepthKey) -> u32) {
     let digit = |key: &DepthKey| digit(key) as usize % NUM_DIGITS;
     let mut starts = [0_u32; NUM_DIGITS];

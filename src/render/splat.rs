@@ -3,21 +3,22 @@ use glam::Vec3;
 use super::tiles::{TILE_PX, TileGrid};
 use super::{View, reference::ExactSplat};
 
-/// The exponent that a splat stores is this many times smaller than the binary logarithm of the opacity, so that it
-/// lies in -1..=0 wherever the opacity counts; see [`super::kernel`].
+/// A splat stores the binary logarithm of the opacity divided by this, so that the exponent is in -1..=0 wherever the
+/// opacity is above the alpha cut; see [`super::kernel`].
 pub(super) const EXPONENT_DIVISOR: f64 = 8.0;
 
-/// Standard deviations to the units of [`Splat::whiten`]: an offset of w standard deviations costs (w k)^2 of exponent.
+/// The factor k from standard deviations to the units of [`Splat::whiten`]: at an offset of w standard deviations the
+/// exponent is lower by (w k)^2.
 pub(super) fn whitening_unit() -> f64 {
     (0.5 * std::f64::consts::LOG2_E / EXPONENT_DIVISOR).sqrt()
 }
 
-/// A Gaussian on the image plane, ready to be blended.
+/// The projection of a Gaussian, in the form that blending needs.
 ///
 /// With d = pixel - mean the opacity is 2^(8 (level - u^2 - v^2)), u = `ux` d.x + `uy` d.y, v = `vy` d.y: a Cholesky
 /// factor of the inverse covariance, so that the exponent is never above `level`, however thin the splat.
 ///
-/// A cache line each: tiles fetch splats in an order that is random in memory.
+/// A splat fills one cache line, because tiles fetch splats in random order.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(align(64))]
 pub(super) struct Splat {
@@ -27,22 +28,22 @@ pub(super) struct Splat {
     pub(super) whiten: [f32; 3],
     /// Exponent at the center.
     pub(super) level: f32,
-    /// Exponent at the center above that of the alpha cut: the splat counts where u^2 + v^2 is not above it.
+    /// Exponent at the center less that of the alpha cut: the opacity is above the cut where u^2 + v^2 <= `reach`.
     pub(super) reach: f32,
-    /// Half the width and height of the region where it counts, pixels.
+    /// Half the width and height of the region above the alpha cut, pixels.
     pub(super) half_px: [f32; 2],
-    /// How far below the center its rightmost point lies, pixels.
+    /// How far the rightmost point of that region is below the center, pixels.
     pub(super) skew_px: f32,
     /// Red, green, blue.
     pub(super) color: [f32; 3],
     /// Depth along the view axis.
     pub(super) depth: f32,
-    /// The Gaussian it shows.
+    /// The Gaussian.
     pub(super) gaussian_idx: u32,
 }
 
 impl Splat {
-    /// The splat of an exact projection, for those that leave the range of `f32` on the way.
+    /// The splat of an exact projection, for Gaussians whose projection overflows `f32`.
     pub(super) fn from_exact(exact: &ExactSplat, view: &View) -> Self {
         let unit = whitening_unit();
         let level = exact.opacity.log2() / EXPONENT_DIVISOR;
@@ -63,12 +64,12 @@ impl Splat {
         }
     }
 
-    /// The same with its color and the Gaussian it shows.
+    /// The splat with its color and its Gaussian.
     pub(super) fn with_source(self, gaussian_idx: u32, color: Vec3) -> Self {
         Self { color: color.to_array(), gaussian_idx, ..self }
     }
 
-    /// First and last tile of a grid that the splat may touch along each axis, x then y, or `None` beside it.
+    /// Tiles of a grid that the splat may overlap: first and last column, first and last row. `None` outside the grid.
     pub(super) fn tile_rect(&self, grid: TileGrid, view: &View) -> Option<[u16; 4]> {
         let [x, y] = self.mean_px;
         let [half_x, half_y] = self.half_px;

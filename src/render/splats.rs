@@ -8,23 +8,24 @@ use super::sort::DepthKey;
 use super::splat::Splat;
 use cinesplat_scene::Gaussians;
 
-/// Groups whose splats are kept together.
+/// Groups per batch of splats.
 const GROUPS_PER_BATCH: usize = 16;
-/// Room for a batch in the numbering of places.
+/// Places per batch; a batch has at most as many splats.
 const BATCH_LEN: usize = GROUPS_PER_BATCH * GROUP_LEN;
-/// Groups that one thread looks at together.
+/// Groups that one job tests for visibility.
 const GROUPS_PER_JOB: usize = 1024;
 
-/// The splats of a picture, in no order that matters; a splat's place is a number that finds it.
+/// The splats of a picture, in no defined order. A splat's place is its index: `batch * BATCH_LEN + position in the
+/// batch`.
 #[derive(Debug, Default)]
 pub(super) struct Splats {
-    /// Groups that may be visible.
+    /// Indices of the groups that may be visible.
     visible_groups: Vec<u32>,
     batches: Vec<Batch>,
     num_batches: usize,
 }
 
-/// Projects some groups into a batch, in place of its former splats.
+/// Projects groups into a batch; replaces its splats.
 fn fill_batch(batch: &mut Batch, visible: &[u32], projection: &Projection, (gaussians, groups): (&Gaussians, &Groups)) {
     batch.splats.clear();
     batch.hot_fields.clear();
@@ -37,7 +38,7 @@ fn fill_batch(batch: &mut Batch, visible: &[u32], projection: &Projection, (gaus
 }
 
 impl Splats {
-    /// Finds the groups that may be visible; returns how many Gaussians they hold.
+    /// Finds the groups that may be visible; returns the number of their Gaussians.
     pub(super) fn find_visible_groups(&mut self, groups: &Groups, projection: &Projection) -> u64 {
         let all = (0..groups.bounds.len() as u32).into_par_iter().with_min_len(GROUPS_PER_JOB);
         self.visible_groups.clear();
@@ -45,7 +46,7 @@ impl Splats {
         self.visible_groups.iter().map(|&group| groups.len_of(group as usize) as u64).sum()
     }
 
-    /// Projects all groups found.
+    /// Projects the groups that may be visible.
     pub(super) fn fill(&mut self, gaussians: &Gaussians, groups: &Groups, projection: &Projection) {
         self.num_batches = self.visible_groups.len().div_ceil(GROUPS_PER_BATCH);
         if self.batches.len() < self.num_batches {
@@ -64,7 +65,7 @@ impl Splats {
         self.batches().iter().map(|batch| batch.splats.len()).sum()
     }
 
-    /// Bytes that they hold on to.
+    /// Bytes that the lists have allocated.
     pub(super) fn bytes(&self) -> u64 {
         self.batches.iter().map(|batch| bytes_of(&batch.splats) + bytes_of(&batch.hot_fields)).sum::<u64>()
             + bytes_of(&self.visible_groups)
@@ -77,14 +78,14 @@ impl Splats {
         &self.batches[place / BATCH_LEN].splats[place % BATCH_LEN]
     }
 
-    /// The tiles that the splat at a place touches.
+    /// The tiles that the splat at a place overlaps: first and last column, first and last row.
     #[inline(always)]
     pub(super) fn rect(&self, place: u32) -> [u16; 4] {
         let place = place as usize;
         self.batches[place / BATCH_LEN].hot_fields[place % BATCH_LEN].rect
     }
 
-    /// Writes the depth and place of every splat over `keys`.
+    /// Overwrites `keys` with the depth and place of every splat.
     pub(super) fn write_keys(&self, keys: &mut Vec<DepthKey>) {
         keys.resize(self.len(), DepthKey::default());
         let mut left = keys.as_mut_slice();

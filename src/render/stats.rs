@@ -1,11 +1,11 @@
 use std::time::Duration;
 
-/// Wall time of the stages of one picture.
+/// Wall time of each stage of one picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct StageTimes {
-    /// Gaussians to splats.
+    /// Gaussians to splats, colors included.
     pub project: Duration,
-    /// Splats to depth order, and their colors.
+    /// Splats to depth order.
     pub sort: Duration,
     /// Splats to tiles.
     pub bin: Duration,
@@ -14,30 +14,30 @@ pub struct StageTimes {
 }
 
 impl StageTimes {
-    /// All stages together.
+    /// Sum over the stages.
     pub fn total(&self) -> Duration {
         self.project + self.sort + self.bin + self.blend
     }
 }
 
-/// Work done for one picture, counted.
+/// Counters of the work for one picture, summed over its bands: a splat that overlaps two bands counts twice.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct WorkCounts {
-    /// Gaussians whose projection was computed; the others were ruled out in groups.
+    /// Gaussians that were projected; the others were rejected group by group.
     pub num_projected: u64,
-    /// Splats that reach the picture.
+    /// Splats that overlap the picture.
     pub num_splats: u64,
-    /// Overlaps between splats and tiles.
+    /// Splat-tile pairs.
     pub num_pairs: u64,
-    /// Overlaps between splats and 8 x 4 pixel blocks (`reference`: pixels) that were blended.
+    /// Blended pairs of a splat and a block of 8 x 4 pixels; for [`super::Quality::Reference`], of a splat and a pixel.
     pub num_block_blends: u64,
 }
 
-/// What a picture cost.
+/// Time and work of one picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct RenderStats {
-    /// Where the time went.
+    /// Wall time of each stage. [`super::Quality::Reference`] reports all of it as `blend`.
     pub times: StageTimes,
-    /// How much work there was.
+    /// Counters of the work.
     pub counts: WorkCounts,
 }

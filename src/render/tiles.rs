@@ -1,4 +1,4 @@
-//! How a picture is cut: into tiles of 64 x 64 pixels, a tile into strips of blocks of 8 x 4 pixels.
+//! Partition of a picture: tiles of 64 x 64 pixels; a tile has strips, one above the other, of blocks of 8 x 4 pixels.
 
 use std::ops::Range;
 
@@ -13,9 +13,9 @@ pub(super) const TILE_LEN: usize = TILE_PX * TILE_PX;
 pub(super) const BLOCK_WIDTH: usize = 8;
 /// Height of a block in pixels.
 pub(super) const BLOCK_HEIGHT: usize = 4;
-/// Blocks side by side in a tile; as many as there are bits in a byte.
+/// Blocks side by side in a tile; equals the number of bits in a byte, see [`StripMasks`].
 pub(super) const BLOCKS_ACROSS: usize = TILE_PX / BLOCK_WIDTH;
-/// Strips of blocks on top of each other in a tile.
+/// Strips (rows of blocks) in a tile.
 pub(super) const NUM_STRIPS: usize = TILE_PX / BLOCK_HEIGHT;
 /// Blocks of a tile, numbered row by row.
 pub(super) const NUM_BLOCKS: usize = BLOCKS_ACROSS * NUM_STRIPS;
@@ -23,14 +23,14 @@ pub(super) const NUM_BLOCKS: usize = BLOCKS_ACROSS * NUM_STRIPS;
 /// One bit per block: `[strip]` counts block rows from the top, bit 0 is the leftmost block.
 pub(super) type StripMasks = [u8; NUM_STRIPS];
 
-/// Rows of tiles of a picture.
+/// Some rows of the tiles of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct TileGrid {
-    /// Tiles side by side.
+    /// Number of columns.
     pub(super) across: usize,
-    /// The first row.
+    /// Index of the first row.
     pub(super) first_row: usize,
-    /// Tiles on top of each other.
+    /// Number of rows.
     pub(super) down: usize,
 }
 
@@ -41,7 +41,7 @@ impl TileGrid {
         Self { across, first_row: 0, down }
     }
 
-    /// Some of the rows.
+    /// The grid restricted to some rows.
     pub(super) fn rows(self, rows: &Range<usize>) -> Self {
         Self { first_row: rows.start, down: rows.len(), ..self }
     }

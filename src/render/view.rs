@@ -3,7 +3,7 @@ use glam::{DMat3, DVec3};
 use super::{InstructionSet, RenderError, RenderSettings, SortMode, spec};
 use cinesplat_geometry::Camera;
 
-/// A camera and the settings as the projection needs them, all `f64`.
+/// A camera and the settings in the form that rendering needs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
     /// Rotation from the world's axes to the camera's.
@@ -22,31 +22,32 @@ pub(super) struct View {
     pub(super) slope_x: (f64, f64),
     /// Bounds of y / z at which the projection is linearized.
     pub(super) slope_y: (f64, f64),
-    /// Near plane.
+    /// Near plane, scene units.
     pub(super) near: f64,
-    /// Added to the diagonal of a splat's covariance.
+    /// Dilation: added to the diagonal of a splat's covariance, pixels squared.
     pub(super) dilation_px2: f64,
-    /// Whether opacity makes up for the dilation.
+    /// Whether opacity compensates for the dilation.
     pub(super) is_compensated: bool,
-    /// Least opacity that counts.
+    /// Opacity below which a splat is skipped.
     pub(super) alpha_cut: f64,
-    /// Least transmittance that blending may leave.
+    /// Blending stops before the transmittance would fall below this.
     pub(super) transmittance_stop: f64,
-    /// Order of blending.
+    /// Depth that orders the splats.
     pub(super) sort: SortMode,
-    /// The largest value that a Gaussian's color may have.
+    /// Upper bound of a Gaussian's color.
     pub(super) max_color: f32,
-    /// The widest instructions that may be used.
+    /// Instruction set to use.
     pub(super) instructions: InstructionSet,
-    /// Whether the depth order of the picture before may help.
+    /// Whether to start from the depth order of the previous picture.
     pub(super) reuses_order: bool,
 }
 
 impl View {
-    /// The view of a camera on a scene with its origin at `origin`.
+    /// The view of a camera on a scene with origin `origin`.
     ///
     /// # Errors
-    /// [`RenderError::Camera`] for intrinsics or a pose that cannot be, [`RenderError::Setting`] for settings out of range.
+    /// [`RenderError::Camera`] for unusable intrinsics, [`RenderError::Setting`] for a setting out of range or a pose
+    /// that is not finite.
     pub(super) fn new(camera: &Camera, origin: DVec3, settings: &RenderSettings) -> Result<Self, RenderError> {
         settings.check()?;
         let image = camera.intrinsics.validated()?;
@@ -78,8 +79,8 @@ impl View {
         })
     }
 
-    /// What a Gaussian is sorted by, scene units: its depth, or its distance in mode `ray`. Rounded once, so that the
-    /// order is that of the spec image.
+    /// Depth that a Gaussian is sorted by, scene units: along the view axis, or its distance in mode `ray`. Rounded
+    /// once, so that the order equals that of the spec image.
     pub(super) fn sort_distance(&self, mean: DVec3, depth: f64) -> f32 {
         match self.sort {
             SortMode::Z => depth as f32,

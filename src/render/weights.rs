@@ -2,12 +2,12 @@ use super::memory::SharedBudget;
 use super::payload::{Payload, Sink, TileArea};
 use super::record::Record;
 
-/// One splat's part in one pixel.
+/// The weight of one splat in one pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PixelWeight {
-    /// The pixel: row * width + column.
+    /// Index of the pixel: row * width + column.
     pub pixel_idx: u32,
-    /// The Gaussian.
+    /// Index of the Gaussian.
     pub gaussian_idx: u32,
     /// Opacity times transmittance, above 0.
     pub weight: f32,
@@ -16,18 +16,18 @@ pub struct PixelWeight {
 /// The payload that lists every weight.
 #[derive(Default)]
 pub(super) struct WeightPayload {
-    /// Bytes that the lists may take.
+    /// Memory for the lists of all tiles.
     pub(super) budget: SharedBudget,
 }
 
-/// Entries that a tile asks memory for at once.
-const NUM_AT_ONCE: usize = 1024;
+/// Entries that a tile reserves at a time.
+const RESERVE_LEN: usize = 1024;
 
 /// The weights of one tile.
 pub(super) struct WeightSink<'a> {
     budget: &'a SharedBudget,
-    /// Entries that there is memory for beyond those listed.
-    num_allowed: usize,
+    /// Entries that are reserved and not used yet.
+    num_reserved: usize,
     area: TileArea,
     gaussians: Vec<u32>,
     list: Vec<PixelWeight>,
@@ -38,12 +38,12 @@ impl<'a> Payload for &'a WeightPayload {
     type TileOutput = Vec<PixelWeight>;
 
     fn set_limit(&self, max_bytes: u64) {
-        // Lists grow by doubling and are joined to one in the end.
+        // A third, because vectors grow by doubling and are concatenated in the end.
         self.budget.set_limit(max_bytes / 3);
     }
 
     fn sink(&self, area: TileArea) -> WeightSink<'a> {
-        WeightSink { budget: &self.budget, num_allowed: 0, area, gaussians: Vec::new(), list: Vec::new() }
+        WeightSink { budget: &self.budget, num_reserved: 0, area, gaussians: Vec::new(), list: Vec::new() }
     }
 
     fn finish(&self, sink: WeightSink<'a>, _: TileArea) -> Vec<PixelWeight> {
@@ -75,16 +75,16 @@ impl Sink for WeightSink<'_> {
 }
 
 impl WeightSink<'_> {
-    /// Whether there is memory for so many more entries; asks for more of it where there is not.
+    /// Whether `num_new` more entries are within the budget; reserves more if needed.
     fn has_room(&mut self, num_new: usize) -> bool {
-        if self.num_allowed < num_new {
-            let num_more = num_new.max(NUM_AT_ONCE);
+        if self.num_reserved < num_new {
+            let num_more = num_new.max(RESERVE_LEN);
             if !self.budget.take((num_more * size_of::<PixelWeight>()) as u64) {
                 return false;
             }
-            self.num_allowed += num_more;
+            self.num_reserved += num_more;
         }
-        self.num_allowed -= num_new;
+        self.num_reserved -= num_new;
         true
     }
 }

@@ -57,8 +57,8 @@ impl Weights {
     }
 }
 
-/// Converts a picture of `width` x `height` pixels (row-major, r g b, 8 bits, full range) to 4:2:0. An odd width or height
-/// grows by one: the last column or row is repeated.
+/// Converts a picture of `width` x `height` pixels (row-major, r g b, 8 bits, full range) to 4:2:0. An odd width or
+/// height grows by one: the last column or row is repeated.
 ///
 /// `rgb8` must hold `width * height * 3` bytes; width and height must be above 0.
 pub fn planes_from_rgb8(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
@@ -117,8 +117,8 @@ fn write_luma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
     }
 }
 
-/// One row of chroma from the sums of two rows of pixels, with weights 1 2 1 horizontally; the weights of the six pixels
-/// sum to 8.
+/// One row of chroma from the sums of two rows of pixels, with weights 1 2 1 horizontally; the weights of the six
+/// pixels sum to 8.
 #[inline(always)]
 fn write_chroma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
     let across = |sums: &[i32]| sums[0] + 2 * sums[1] + sums[2];

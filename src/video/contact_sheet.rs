@@ -37,8 +37,8 @@ impl ContactSheet {
         sheet
     }
 
-    /// Adds frame `frame_idx` (0 = first of the film; `width * height * 3` bytes) if it is one of the twelve; ignores it
-    /// otherwise.
+    /// Adds frame `frame_idx` (0 = first of the film; `width * height * 3` bytes) if it is one of the twelve; ignores
+    /// it otherwise.
     pub fn add_frame(&mut self, frame_idx: usize, rgb8: &[u8]) {
         for (cell, _) in self.frame_of_cell.iter().enumerate().filter(|&(_, &pick)| pick == frame_idx) {
             let left = GAP + cell % GRID.0 * (self.thumb_size.0 + GAP);

@@ -10,12 +10,12 @@ use super::{VideoError, VideoFormat, VideoSettings, X264Preset};
 /// Default lookahead of libvpx in frames (`lag-in-frames`).
 const VP9_LOOKAHEAD: usize = 25;
 
-/// Encodes frames (`width * height * 3` bytes each) as [`super::VideoWriter`] would for the output `path`, and discards the
-/// result. The caller measures how long it takes.
+/// Encodes frames (`width * height * 3` bytes each) as [`super::VideoWriter`] would for the output `path`, and discards
+/// the result. The caller measures how long it takes.
 ///
 /// # Errors
-/// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::FrameSize`] for a frame of another
-/// size, [`VideoError::Missing`] without the encoder, [`VideoError::Ffmpeg`] if the encoder fails.
+/// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::FrameSize`] for a frame of
+/// another size, [`VideoError::Missing`] without the encoder, [`VideoError::Ffmpeg`] if the encoder fails.
 pub fn encode_and_discard(path: &Path, settings: &VideoSettings, frames: &[&[u8]]) -> Result<(), VideoError> {
     let expected = settings.frame_bytes();
     if let Some(wrong) = frames.iter().find(|frame| frame.len() != expected) {

@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 
 use super::VideoError;
 
-/// Names of numbered pictures: a path whose file name contains one `%d` or `%05d` as in `printf`, and `%%` for a percent
-/// sign. Only the file name is a pattern; folder names are used literally.
+/// Names of numbered pictures: a path whose file name contains one `%d` or `%05d` as in `printf`, and `%%` for a
+/// percent sign. Only the file name is a pattern; folder names are used literally.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FramePattern {
     folder: PathBuf,
@@ -17,7 +17,8 @@ impl FramePattern {
     /// Parses a pattern.
     ///
     /// # Errors
-    /// [`VideoError::BadPattern`] unless the file name is UTF-8 and contains exactly one frame number of at most 20 digits.
+    /// [`VideoError::BadPattern`] unless the file name is UTF-8 and contains exactly one frame number of at most 20
+    /// digits.
     pub fn parse(path: &Path) -> Result<Self, VideoError> {
         let bad = |reason| VideoError::BadPattern { reason, path: path.to_owned() };
         let name = path.file_name().ok_or(bad("no file name"))?;

@@ -39,7 +39,8 @@ impl SequenceWriter {
 /// Writes one 8-bit RGB picture of `[width, height]` pixels as PNG. The file is complete or absent.
 ///
 /// # Errors
-/// [`VideoError::FrameSize`] unless `rgb8` holds `width * height * 3` bytes, [`VideoError::File`] with the system's reason.
+/// [`VideoError::FrameSize`] unless `rgb8` holds `width * height * 3` bytes, [`VideoError::File`] with the system's
+/// reason.
 pub fn write_png(path: &Path, rgb8: &[u8], size_px: [u32; 2], existing: Existing) -> Result<(), VideoError> {
     let bytes = png_bytes(path, rgb8, size_px[0], size_px[1])?;
     Ok(cinesplat_files::write(path, &bytes, existing)?)

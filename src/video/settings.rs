@@ -16,15 +16,15 @@ pub struct VideoSettings {
     pub height: u32,
     /// Frames per second, 0.01..=1000.
     pub rate_fps: f64,
-    /// Constant rate factor: 0 (best) to 51 for H.264, 0 to 63 for VP9. At about 18 the loss is hard to see. Lowering it
-    /// by 4 makes an H.264 file at 720p half as large again.
+    /// Constant rate factor: 0 (best) to 51 for H.264, 0 to 63 for VP9. At about 18 the loss is hard to see. Lowering
+    /// it by 4 makes an H.264 file at 720p half as large again.
     pub crf: u8,
     /// Effort of the H.264 encoder: a slower preset gives a smaller file at the same quality.
     pub preset: X264Preset,
     /// Number of the first picture of a sequence. Films always start at time zero.
     pub first_frame: usize,
-    /// Expected number of frames, 0 = unknown. If it is known, an MP4 or MOV reserves room for its index at the front, so
-    /// that it plays while it loads.
+    /// Expected number of frames, 0 = unknown. If it is known, an MP4 or MOV reserves room for its index at the front,
+    /// so that it plays while it loads.
     pub num_frames: usize,
     /// Whether files that already have the output's name are kept or replaced.
     pub existing: Existing,

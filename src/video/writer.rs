@@ -8,9 +8,9 @@ use super::{VideoError, VideoFormat, VideoSettings};
 
 /// Writes frames to one film file or to a numbered sequence of pictures.
 ///
-/// A film has a temporary name until [`VideoWriter::finish`] has read it back; if the writer is dropped before, the file
-/// is removed. This crate opens all paths itself and never passes them to FFmpeg, so FFmpeg cannot take a file name for
-/// a protocol.
+/// A film has a temporary name until [`VideoWriter::finish`] has read it back; if the writer is dropped before, the
+/// file is removed. This crate opens all paths itself and never passes them to FFmpeg, so FFmpeg cannot take a file
+/// name for a protocol.
 pub struct VideoWriter {
     sink: Sink,
     settings: VideoSettings,
@@ -26,8 +26,8 @@ impl VideoWriter {
     /// Starts an output; the ending of `path` decides its format ([`VideoFormat::from_path`]).
     ///
     /// # Errors
-    /// Those of [`check_output`]; [`VideoError::File`] if the file cannot be created, [`VideoError::Ffmpeg`] if the encoder
-    /// or the container rejects the settings. No file is left behind.
+    /// Those of [`check_output`]; [`VideoError::File`] if the file cannot be created, [`VideoError::Ffmpeg`] if the
+    /// encoder or the container rejects the settings. No file is left behind.
     pub fn create(path: &Path, settings: &VideoSettings) -> Result<Self, VideoError> {
         let format = check_output(path, settings)?;
         let sink = match &format {
@@ -63,8 +63,8 @@ impl VideoWriter {
     /// Completes the output and reads a film back. Returns the path of the film, or the folder of the pictures.
     ///
     /// # Errors
-    /// [`VideoError::ReadBack`] if the file does not hold every frame, [`VideoError::Ffmpeg`] if encoder or container fails,
-    /// [`VideoError::File`] if the file cannot be written or named.
+    /// [`VideoError::ReadBack`] if the file does not hold every frame, [`VideoError::Ffmpeg`] if encoder or container
+    /// fails, [`VideoError::File`] if the file cannot be written or named.
     pub fn finish(self) -> Result<PathBuf, VideoError> {
         match self.sink {
             Sink::Film(film) => film.finish(None),
@@ -87,8 +87,9 @@ impl VideoWriter {
 /// Checks an output without creating it, and returns its format.
 ///
 /// # Errors
-/// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::BadSetting`] for a setting out of
-/// range, [`VideoError::Missing`] without the encoder, [`VideoError::File`] for an output that exists and is to be kept.
+/// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::BadSetting`] for a setting
+/// out of range, [`VideoError::Missing`] without the encoder, [`VideoError::File`] for an output that exists and is to
+/// be kept.
 pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat, VideoError> {
     let format = VideoFormat::from_path(path)?;
     settings.clone().validated(&format)?;

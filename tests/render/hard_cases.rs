@@ -1,6 +1,6 @@
 //! Where rasterizers go wrong: needles, flat and huge splats, poison, the near plane, opaque walls, files of all kinds.
-//! Judged by a second renderer in `f64` (`oracle`), by Gaussians integrated along rays (`per_ray`), by a formula, or by a
-//! property that must hold. The cases and the tests of each:
+//! Judged by a second renderer in `f64` (`oracle`), by Gaussians integrated along rays (`per_ray`), by a formula, or by
+//! a property that must hold. The cases and the tests of each:
 //!
 //! | # | case | tests |
 //! |---|---|---|

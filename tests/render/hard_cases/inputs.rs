@@ -196,8 +196,8 @@ fn every_property_of_a_file_takes_any_number() {
     }
 }
 
-/// Whether a Gaussian with this value in this column can be drawn. Infinite opacity is 1 or 0, a scale of minus infinity
-/// is flat, and a finite one is shortened where its exponential is too long.
+/// Whether a Gaussian with this value in this column can be drawn. Infinite opacity is 1 or 0, a scale of minus
+/// infinity is flat, and a finite one is shortened where its exponential is too long.
 fn is_drawable(name: &str, value: f64) -> bool {
     match name {
         "opacity" => !value.is_nan(),

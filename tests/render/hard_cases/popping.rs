@@ -11,8 +11,8 @@ use crate::render::scenes::{camera, crowd, push};
 /// Step of the pan.
 const STEP_DEG: f64 = 0.1;
 
-/// The picture by rays: each Gaussian's largest value along the ray, in the order in which the rays reach it. With P the
-/// inverse covariance and m the mean, t = r'Pm / r'Pr is where, and m'Pm - t r'Pm how far off.
+/// The picture by rays: each Gaussian's largest value along the ray, in the order in which the rays reach it. With P
+/// the inverse covariance and m the mean, t = r'Pm / r'Pr is where, and m'Pm - t r'Pm how far off.
 fn by_rays(scene: &Gaussians, view: &Camera) -> Vec<f32> {
     let axes: Vec<DMat3> = scene.rotations.iter().map(|q| DMat3::from_quat(q.as_dquat()).transpose()).collect();
     let whiten = |idx: usize, v: DVec3| axes[idx] * v / scene.scales[idx].as_dvec3();
@@ -42,8 +42,8 @@ fn by_rays(scene: &Gaussians, view: &Camera) -> Vec<f32> {
     rgb
 }
 
-/// The largest change of a pixel from one picture of a pan to the next beyond that of the pixel by rays, for blending by
-/// depth and by distance.
+/// The largest change of a pixel from one picture of a pan to the next beyond that of the pixel by rays, for blending
+/// by depth and by distance.
 fn pops(scene: &Gaussians, num_steps: u32) -> [f32; 2] {
     let renderer = Renderer::new(scene);
     let mut pops = [0.0_f32; 2];

@@ -132,7 +132,8 @@ fn mip_keeps_the_light_of_a_splat_that_moves_away() {
         let far = light(distance, SplatFilter::Mip);
         assert!((far / near - 1.0).abs() < 0.01, "at {distance}: {far} of {near}");
     }
-    // Classic adds light as the splat gets small, as the formula says: the dilated area over the area, here at 50 degrees.
+    // Classic adds light as the splat gets small, as the formula says: the dilated area over the area, here at 50
+    // degrees.
     let focal = camera(200, 200).intrinsics.fy_px;
     let grown = |distance: f64| 1.0 + 0.3 / (0.02 * focal / distance).powi(2);
     let drift = light(8.0, SplatFilter::Classic) / light(1.0, SplatFilter::Classic);
