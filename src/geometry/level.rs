@@ -2,22 +2,24 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::{GeometryError, Pose};
 
-/// A camera's turn as an operator reads it, in rad: yaw about the world's up (positive to the operator's right), then
-/// pitch (positive looking up), then roll (positive clockwise as the operator sees it: the camera's right side dips).
+/// A camera's rotation in the operator's terms: first yaw about the world's up, then pitch, then roll.
+///
+/// Yaw is positive to the operator's right, pitch is positive upward, and roll is positive clockwise as the operator sees
+/// it (the camera's right side dips).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LevelAngles {
-    /// Heading about up; 0 at the frame's reference direction, positive to the right.
+    /// Heading: 0 at the frame's `north`, positive to the right.
     pub yaw_rad: f64,
     /// Angle of the view axis above the horizon.
     pub pitch_rad: f64,
-    /// Turn about the view axis.
+    /// Rotation about the view axis; 0 with a level horizon.
     pub roll_rad: f64,
 }
 
-/// The world's up with a reference heading: the frame in which yaw, pitch, roll, azimuth and height are measured.
+/// The frame in which yaw, pitch, roll, azimuth and height are measured: the world's up and a reference heading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelFrame {
-    /// World up, unit.
+    /// World up, unit length.
     pub up: DVec3,
     /// Horizontal unit direction at yaw 0.
     pub north: DVec3,
@@ -26,10 +28,10 @@ pub struct LevelFrame {
 }
 
 impl LevelFrame {
-    /// A level frame about `up` with a fixed reference heading.
+    /// The level frame about `up`, with a reference heading that depends on `up` alone.
     ///
     /// # Errors
-    /// [`GeometryError::NoUpDirection`] when `up` has no length.
+    /// [`GeometryError::NoUpDirection`] if `up` has no length or is not finite.
     pub fn new(up: DVec3) -> Result<Self, GeometryError> {
         let up = up
             .try_normalize()
@@ -40,7 +42,7 @@ impl LevelFrame {
         Ok(Self { up, north: up.cross(east), east })
     }
 
-    /// The same frame with yaw 0 at the heading of `forward`; unchanged when that is vertical.
+    /// The same frame with yaw 0 at the heading of `forward`; unchanged if `forward` is vertical.
     #[must_use]
     pub fn with_heading(&self, forward: DVec3) -> Self {
         let flat = forward - self.up * forward.dot(self.up);
@@ -55,23 +57,23 @@ impl LevelFrame {
         self.north * azimuth_rad.cos() + self.east * azimuth_rad.sin()
     }
 
-    /// Azimuth of a direction's horizontal part, rad.
+    /// Azimuth of the horizontal part of a direction, rad, -pi..=pi.
     pub fn azimuth(&self, direction: DVec3) -> f64 {
         direction.dot(self.east).atan2(direction.dot(self.north))
     }
 
-    /// Height of a point or vector along up.
+    /// Component of a point or vector along up.
     pub fn height(&self, point: DVec3) -> f64 {
         point.dot(self.up)
     }
 
-    /// The part of a vector that is level.
+    /// The horizontal part of a vector.
     pub fn horizontal(&self, vector: DVec3) -> DVec3 {
         vector - self.up * vector.dot(self.up)
     }
 
-    /// Yaw, pitch and roll of a camera's rotation. At the zenith and nadir the heading is that of the picture's top
-    /// or bottom edge and roll is 0.
+    /// Yaw, pitch and roll of a rotation (`world_from_camera`). For a vertical view axis, roll is 0 and yaw follows the
+    /// camera's right.
     pub fn angles(&self, rotation: DQuat) -> LevelAngles {
         let (right, down, forward) = (rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z);
         let pitch_rad = forward.dot(self.up).clamp(-1.0, 1.0).asin();
@@ -87,7 +89,7 @@ impl LevelFrame {
         LevelAngles { yaw_rad, pitch_rad, roll_rad }
     }
 
-    /// The rotation (`world_from_camera`) with these angles: the inverse of [`LevelFrame::angles`].
+    /// The rotation (`world_from_camera`) with these angles, the inverse of [`LevelFrame::angles`].
     pub fn rotation(&self, angles: LevelAngles) -> DQuat {
         let heading = self.direction(angles.yaw_rad);
         let right = heading.cross(self.up);
@@ -98,7 +100,7 @@ impl LevelFrame {
         DQuat::from_mat3(&axes).normalize()
     }
 
-    /// Roll of a pose in rad: 0 when its horizon is level.
+    /// Roll of a pose, rad; 0 with a level horizon.
     pub fn roll_rad(&self, pose: &Pose) -> f64 {
         self.angles(pose.rotation).roll_rad
     }
