@@ -1,23 +1,23 @@
-//! Bringing the estimate onto the reference before errors are taken.
+//! Alignment of an estimate to a reference before errors are computed.
 //!
 //! Reference for `se3`, `sim3` and `scale`: S. Umeyama, "Least-squares estimation of transformation parameters between two
-//! point patterns", PAMI 1991. It uses positions alone, which leave the turn about a straight line, or any turn about a
-//! standing camera, open: there the cameras' own rotations decide, and the result says so.
+//! point patterns", PAMI 1991. That method uses positions alone. They do not determine the rotation about a straight line,
+//! or any rotation of a standing camera. In these cases the cameras' rotations determine it, and a note says so.
 
 use glam::{DMat3, DVec3};
 
 use super::error::{EvaluationError, SettingName};
-use super::singular::{Singular, nearest_rotation, singular};
+use super::svd::{Svd, nearest_rotation, svd};
 use super::trajectory::Trajectory;
 use cinesplat_geometry::LevelFrame;
 
-/// Singular values of the covariance below this share of the largest count as none: lateral extents below 0.001 of the
-/// length. A looser bound takes real bends for straight lines, a tighter one lets noise choose the turn about the line.
+/// Singular values of the covariance below this fraction of the largest count as 0: lateral extents below 0.001 of the
+/// length. A larger bound treats real bends as straight lines; a smaller one lets noise choose the rotation about the line.
 const RANK_TOLERANCE: f64 = 1e-6;
-/// Extents below this share of the distance from the origin are rounding.
+/// Extents below this fraction of the distance from the origin count as rounding errors.
 const STILL_TOLERANCE: f64 = 1e-9;
 
-/// What is aligned.
+/// The transform that an alignment may use.
 #[derive(
     Debug,
     Clone,
@@ -34,33 +34,33 @@ const STILL_TOLERANCE: f64 = 1e-9;
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Align {
-    /// Nothing.
+    /// None.
     #[default]
     None,
-    /// The first pose, exactly.
+    /// The rigid transform that makes the first poses equal.
     Origin,
-    /// Heading about up and position.
+    /// Rotation about up, and translation.
     Yaw,
-    /// Rotation and position.
+    /// Rotation and translation.
     Se3,
-    /// Rotation, position and scale.
+    /// Rotation, translation and scale.
     Sim3,
     /// Scale alone.
     Scale,
 }
 
-/// `p -> rotation * (scale * p) + translation`, and what should be known about it.
+/// The transform `p -> rotation * (scale * p) + translation` of an estimate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alignment {
-    /// The mode asked for.
+    /// The requested mode.
     pub mode: Align,
-    /// Factor on positions, applied first.
+    /// Factor of the positions, applied first.
     pub scale: f64,
-    /// Rotation of the world, a proper one up to the rounding of the files.
+    /// Rotation of the world; proper, and orthonormal up to the rounding of the files.
     pub rotation: DMat3,
     /// Translation, applied last.
     pub translation: DVec3,
-    /// Where positions alone did not determine it: what decided instead.
+    /// States what determined the transform where positions did not; `None` otherwise.
     pub note: Option<String>,
 }
 
@@ -69,7 +69,7 @@ impl Alignment {
         Self { mode, scale: 1.0, rotation: DMat3::IDENTITY, translation: DVec3::ZERO, note: None }
     }
 
-    /// The path, aligned.
+    /// The aligned path.
     pub fn apply(&self, path: &Trajectory) -> Trajectory {
         let mut out = path.clone();
         let unmoved = self.rotation == DMat3::IDENTITY && self.translation == DVec3::ZERO;
@@ -84,13 +84,14 @@ impl Alignment {
     }
 }
 
-/// The alignment of `estimate` to `reference`, poses matched one to one, from the first `num_poses` of them (all: `None`).
+/// The alignment of `estimate` to `reference`, whose poses are matched by index, from the first `num_poses` of them (all
+/// for `None`).
 ///
-/// Defined for every non-empty input: see the module's text for straight and standing paths. Yaw turns about the
-/// reference's up, or about the mean of its cameras' ups where the file does not say.
+/// It is defined for every non-empty input (see the module's documentation for straight and standing paths). Yaw rotates
+/// about the reference's up, or about the mean up of its cameras if the file states none.
 ///
 /// # Errors
-/// [`EvaluationError::Empty`] without poses, [`EvaluationError::BadSetting`] for `num_poses` of 0.
+/// [`EvaluationError::Empty`] without poses, [`EvaluationError::BadSetting`] for a `num_poses` of 0.
 pub fn align(
     reference: &Trajectory,
     estimate: &Trajectory,
@@ -121,7 +122,7 @@ fn origin(reference: &Trajectory, estimate: &Trajectory) -> Alignment {
     Alignment { rotation, translation, ..Alignment::identity(Align::Origin) }
 }
 
-/// Means of both paths and the covariance of the estimate with the reference.
+/// Means and variances of both paths, and the covariance of the reference with the estimate.
 struct Moments {
     mean_reference: DVec3,
     mean_estimate: DVec3,
@@ -151,7 +152,7 @@ fn moments(reference: &Trajectory, estimate: &Trajectory) -> Moments {
 }
 
 impl Moments {
-    /// Whether either path stands still but for rounding.
+    /// Whether either path stands still up to rounding.
     fn stands(&self) -> bool {
         let still = |variance: f64, mean: DVec3| variance.sqrt() <= STILL_TOLERANCE * mean.length() || variance == 0.0;
         still(self.variance_estimate, self.mean_estimate) || still(self.variance_reference, self.mean_reference)
@@ -160,13 +161,16 @@ impl Moments {
 
 fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignment {
     let m = moments(reference, estimate);
-    let Singular { u, values, v } = singular(m.covariance);
+    let Svd { u, values, v } = svd(m.covariance);
     let handed = if u.determinant() * v.determinant() < 0.0 { -1.0 } else { 1.0 };
     let (rotation, note) = if m.stands() {
-        (mean_turn(reference, estimate), Some("a path stands still: rotation is that of the cameras, scale stays 1"))
+        (
+            mean_rotation(reference, estimate),
+            Some("a path stands still: the cameras' rotations determine the rotation, scale stays 1"),
+        )
     } else if values.y <= RANK_TOLERANCE * values.x {
-        let note = "positions lie on a straight line: the turn about it is that of the cameras";
-        (turn_about_line(reference, estimate, u.x_axis, v.x_axis), Some(note))
+        let note = "positions lie on a straight line: the cameras' rotations determine the rotation about it";
+        (rotation_about_line(reference, estimate, u.x_axis, v.x_axis), Some(note))
     } else {
         (u * DMat3::from_diagonal(DVec3::new(1.0, 1.0, handed)) * v.transpose(), None)
     };
@@ -174,7 +178,6 @@ fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignm
     let trace = values.x + values.y + handed * values.z;
     let scale = if with_scale { trace / m.variance_estimate } else { 1.0 };
     if mode == Align::Scale {
-        // The turn plays no part here.
         let note = m.stands().then(|| "a path stands still: scale stays 1".to_owned());
         return Alignment { scale, note, ..Alignment::identity(mode) };
     }
@@ -182,23 +185,24 @@ fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignm
     Alignment { mode, scale, rotation, translation, note: note.map(str::to_owned) }
 }
 
-/// The rotation that brings the estimate's camera rotations nearest to the reference's, in the mean.
-fn mean_turn(reference: &Trajectory, estimate: &Trajectory) -> DMat3 {
-    nearest_rotation(turn_sum(reference, estimate))
+/// The mean rotation from the estimate's cameras to the reference's, in the least-squares sense.
+fn mean_rotation(reference: &Trajectory, estimate: &Trajectory) -> DMat3 {
+    nearest_rotation(rotation_sum(reference, estimate))
 }
 
-fn turn_sum(reference: &Trajectory, estimate: &Trajectory) -> DMat3 {
+/// Sum of the rotations from the estimate's cameras to the reference's.
+fn rotation_sum(reference: &Trajectory, estimate: &Trajectory) -> DMat3 {
     let pairs = reference.rotations.iter().zip(&estimate.rotations);
     pairs.fold(DMat3::ZERO, |sum, (a, b)| sum + *a * b.transpose())
 }
 
-/// The rotation that takes the line `from` to the line `to` and, about it, brings the cameras' rotations nearest.
+/// The rotation that takes the line `from` to the line `to` and, about that line, fits the cameras' rotations best.
 ///
-/// With R1 any rotation of one line to the other and N = R1 * (sum of turns)^T, the best angle about the line maximizes
-/// cos(a) (tr N - u N u) + sin(a) tr(N [u]), an equation in one unknown.
-fn turn_about_line(reference: &Trajectory, estimate: &Trajectory, to: DVec3, from: DVec3) -> DMat3 {
+/// With R1 any rotation of one line to the other and N = R1 * (sum of rotations)^T, the best angle about the unit axis u
+/// maximizes cos(a) (tr N - u N u) + sin(a) tr(N [u]).
+fn rotation_about_line(reference: &Trajectory, estimate: &Trajectory, to: DVec3, from: DVec3) -> DMat3 {
     let first = DMat3::from_quat(glam::DQuat::from_rotation_arc(from.normalize(), to.normalize()));
-    about_axis(to.normalize(), first * turn_sum(reference, estimate).transpose()) * first
+    about_axis(to.normalize(), first * rotation_sum(reference, estimate).transpose()) * first
 }
 
 /// The rotation about the unit `axis` that maximizes tr(R * n).
@@ -220,17 +224,17 @@ fn yaw(reference: &Trajectory, estimate: &Trajectory) -> Alignment {
         let outer = |a: DVec3| DMat3::from_cols(a * a.x, a * a.y, a * a.z);
         outer(level.north) + outer(level.east)
     });
-    // Only the level part of the covariance tells a heading.
+    // Only the horizontal part of the covariance determines a heading.
     let flat = level * m.covariance * level;
     let extent = flat.x_axis.length() + flat.y_axis.length() + flat.z_axis.length();
     let open = m.stands() || extent <= RANK_TOLERANCE * (m.variance_estimate * m.variance_reference).sqrt();
-    let rotation = about_axis(up, if open { turn_sum(reference, estimate).transpose() } else { flat.transpose() });
+    let rotation = about_axis(up, if open { rotation_sum(reference, estimate).transpose() } else { flat.transpose() });
     let mut notes = Vec::new();
     if reference.up.is_none() {
-        notes.push(format!("up is not known: {up} is the mean of the reference cameras' own"));
+        notes.push(format!("up is not known: {up}, the mean of the reference cameras' up, is used"));
     }
     if open {
-        notes.push("positions tell no heading: it is that of the cameras".to_owned());
+        notes.push("positions determine no heading: the cameras' rotations do".to_owned());
     }
     let note = (!notes.is_empty()).then(|| notes.join("; "));
     let translation = m.mean_reference - rotation * m.mean_estimate;

@@ -1,45 +1,45 @@
-//! Which pose of one path belongs to which of the other.
+//! Matching of the poses of two paths by time.
 
 use super::{EvaluationError, Trajectory};
 
-/// Candidates that each stamp of the shorter path considers.
+/// Number of earlier and of later candidates for each time stamp of the shorter path.
 const NEAREST: usize = 8;
 
 /// How poses are matched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Matching {
-    /// Poses at nearest times; each is used once.
+    /// Poses at the nearest times, each used at most once.
     #[default]
     Nearest,
-    /// The estimate is interpolated to the reference's times: straight lines, shortest turns.
+    /// The estimate interpolated to the reference's times: positions linearly, rotations along the shorter arc.
     Interpolated,
 }
 
-/// Matched poses of both paths, the same number of each, in order of the reference's time.
+/// Matched poses of both paths, the same number of each, in order of the reference's times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matches {
     /// Poses of the reference.
     pub reference: Trajectory,
     /// Poses of the estimate.
     pub estimate: Trajectory,
-    /// Poses of the reference that found no partner.
+    /// Number of poses of the reference without a match.
     pub dropped_reference: usize,
-    /// Poses of the estimate that found no partner.
+    /// Number of poses of the estimate without a match.
     pub dropped_estimate: usize,
-    /// Largest time difference of a pair; 0 without times.
+    /// Largest time difference of a match; 0 without times.
     pub largest_diff_secs: f64,
-    /// What should be known about the matching.
+    /// Notes about the matching, for a person to read.
     pub notes: Vec<String>,
 }
 
-/// Matches poses by time, one to one and in order; by index where a path has no times.
+/// Matches poses by time, one to one and in order; by index if a path has no times.
 ///
-/// Of all pairs of stamps at most `max_diff_secs` apart the closest is taken first, then the closest of those that are
-/// left and cross no pair already taken. Where nearest neighbors are one to one this gives exactly them, as evo does;
-/// where two stamps share a neighbor evo uses a pose twice, and this does not.
+/// The matching is greedy: of all pairs of time stamps at most `max_diff_secs` apart it takes the closest, then the closest
+/// of the rest that crosses no match, and so on. Where nearest neighbors are one to one the result is the nearest
+/// neighbors, as in evo. Where two time stamps share a nearest neighbor, evo uses that pose twice; this function does not.
 ///
 /// # Errors
-/// [`EvaluationError::Empty`], [`EvaluationError::NoMatches`].
+/// [`EvaluationError::Empty`] for a path without poses, [`EvaluationError::NoMatches`] without time stamps close enough.
 pub fn associate(
     reference: &Trajectory,
     estimate: &Trajectory,
@@ -87,7 +87,7 @@ fn by_index(reference: &Trajectory, estimate: &Trajectory) -> Matches {
         dropped_reference: reference.len() - len,
         dropped_estimate: estimate.len() - len,
         largest_diff_secs: 0.0,
-        notes: vec!["poses are matched by their order: a file without times".into()],
+        notes: vec!["a file has no times: poses are matched by index".into()],
     }
 }
 
@@ -111,17 +111,17 @@ fn no_matches(reference_secs: &[f64], estimate_secs: &[f64], max_diff_secs: f64)
     }
 }
 
-/// Indices in order of time.
+/// Indices sorted by time.
 fn by_time(secs: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..secs.len()).collect();
     order.sort_by(|a, b| secs[*a].total_cmp(&secs[*b]));
     order
 }
 
-/// Pairs of indices into `short` and `long`.
+/// Matches as indices into `short` and `long`, in order of time.
 fn one_to_one(short: &[f64], long: &[f64], max_diff_secs: f64) -> Vec<(usize, usize)> {
     let (short_order, long_order) = (by_time(short), by_time(long));
-    // Ranks in time, so that "crosses" is a comparison of ranks.
+    // Candidates hold ranks in time: two matches cross if their ranks are in opposite order.
     let mut candidates: Vec<(f64, usize, usize)> = Vec::new();
     for (short_rank, idx) in short_order.iter().enumerate() {
         let time = short[*idx];
@@ -144,7 +144,8 @@ fn one_to_one(short: &[f64], long: &[f64], max_diff_secs: f64) -> Vec<(usize, us
     partner.into_iter().map(|(short_rank, long_rank)| (short_order[short_rank], long_order[long_rank])).collect()
 }
 
-/// The estimate at every time of the reference that lies between two of its poses, or within the bound of its ends.
+/// The estimate interpolated to every time of the reference between its first and last pose, or at most `max_diff_secs`
+/// outside.
 fn interpolated(
     reference: &Trajectory,
     estimate: &Trajectory,
@@ -182,7 +183,7 @@ fn interpolated(
 }
 
 impl Trajectory {
-    /// Appends the pose a share `t` of the way from pose `a` to pose `b` of another path.
+    /// Appends the pose at a fraction `t` from pose `a` to pose `b` of another path.
     fn push_between(&mut self, path: &Self, a: usize, b: usize, t: f64, time_secs: f64) {
         use cinesplat_geometry::rotation::slerp;
         use glam::{DMat3, DQuat};

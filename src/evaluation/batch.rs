@@ -1,4 +1,4 @@
-//! Many comparisons: files of two folders paired by name, and the results as one table.
+//! Comparisons of many files: pairs of files by name, and one table of the results.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use super::{Evaluation, EvaluationError};
 use cinesplat_export::json_write::{Json, object};
 
-/// One comparison of a batch.
+/// One comparison of many.
 #[derive(Debug, Clone)]
 pub struct BatchRow {
-    /// Name of the pair, usually the file's.
+    /// Name of the pair.
     pub name: String,
-    /// What came of it.
+    /// The result.
     pub outcome: Result<Evaluation, EvaluationError>,
 }
 
@@ -61,7 +61,7 @@ fn by_stem(paths: &[PathBuf]) -> Result<BTreeMap<String, PathBuf>, EvaluationErr
 const COLUMNS: &str =
     "name,pairs,matched,dropped_reference,dropped_estimate,scale,rmse,mean,median,std,min,max,sse,error\n";
 
-/// A CSV table, one line a comparison; failed ones have only a name and the reason.
+/// A CSV table, one line per comparison. A failed one has only a name and the error.
 pub fn summary_csv(rows: &[BatchRow]) -> String {
     let mut out = COLUMNS.to_owned();
     for row in rows {
@@ -86,7 +86,7 @@ pub fn summary_csv(rows: &[BatchRow]) -> String {
     out
 }
 
-/// The same as aligned text with a line for the whole.
+/// The comparisons as aligned text, with a summary line.
 pub fn summary_text(rows: &[BatchRow]) -> String {
     let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max(6);
     let mut out = format!("{:<width$} {:>7}", "name", "pairs");
@@ -120,7 +120,8 @@ pub fn summary_text(rows: &[BatchRow]) -> String {
     out
 }
 
-/// The same as JSON text: a list of objects, and under `over_all` the mean, median and worst of the root mean squares.
+/// The comparisons as JSON text: a list of objects under `pairs`, and under `over_all` the mean, median and worst of their
+/// root mean squares.
 pub fn summary_json(rows: &[BatchRow]) -> String {
     let row = |row: &BatchRow| match &row.outcome {
         Ok(result) => {
@@ -142,7 +143,7 @@ pub fn summary_json(rows: &[BatchRow]) -> String {
     object([("pairs", Json::list(rows.iter().map(row))), ("over_all", over_all)]).pretty()
 }
 
-/// Root mean squares of the comparisons that succeeded, sorted.
+/// Sorted root mean squares of the successful comparisons.
 fn rmse_sorted(rows: &[BatchRow]) -> Vec<f64> {
     let mut all: Vec<f64> = rows.iter().filter_map(|row| Some(row.outcome.as_ref().ok()?.statistics.rmse)).collect();
     all.sort_by(f64::total_cmp);
@@ -158,7 +159,7 @@ fn median_of(sorted: &[f64]) -> Option<f64> {
     sorted.get((sorted.len() - 1) / 2).map(|lower| f64::midpoint(*lower, *upper))
 }
 
-/// A CSV cell, in quotes where it needs them.
+/// A CSV cell, in quotes if it contains a separator, a quote or a line feed.
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

@@ -1,47 +1,48 @@
-//! Absolute and relative pose error of one path against another.
+//! Absolute and relative pose error of an estimate against a reference.
 
 use super::error::{EvaluationError, SettingName};
+use super::focal::focal_error;
 use super::relation::Rigid;
 use super::{
     Align, Alignment, FocalError, FramingError, Matches, Matching, PairSettings, Relation, Statistics, SubjectSphere,
-    Trajectory, align, associate, focal_error, framing_error, pairs,
+    Trajectory, align, associate, framing_error, pairs,
 };
 
-/// Which error is taken.
+/// The error to compute.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Metric {
-    /// Of each pose: E = estimate^-1 * reference.
+    /// Absolute, per pose: E = estimate^-1 * reference.
     #[default]
     Ape,
-    /// Of the motion over a distance: E = (reference motion)^-1 * estimate motion.
+    /// Relative, of the motion between two poses: E = (reference motion)^-1 * estimate motion.
     Rpe {
-        /// Which poses are compared.
+        /// Choice of the pairs of poses.
         pairs: PairSettings,
-        /// Whether the distance is measured along the reference; else along the aligned estimate.
+        /// Whether the pairs are chosen on the reference; otherwise on the aligned estimate.
         pairs_from_reference: bool,
     },
 }
 
-/// How two paths are compared. Nothing is aligned by default.
+/// Settings of a comparison. By default nothing is aligned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvalSettings {
-    /// Absolute or relative.
+    /// Absolute or relative error.
     pub metric: Metric,
-    /// What of the error pose is measured.
+    /// Part of the error pose that is measured.
     pub relation: Relation,
-    /// What is aligned first.
+    /// Alignment before the error is computed.
     pub align: Align,
-    /// Number of poses from the start that the alignment sees; `None` is all.
+    /// Number of poses from the start that determine the alignment; `None` for all.
     pub align_poses: Option<usize>,
-    /// Largest time between the two poses of a match.
+    /// Largest time difference of a match.
     pub max_diff_secs: f64,
     /// Added to the estimate's times before matching.
     pub estimate_offset_secs: f64,
-    /// How poses are matched.
+    /// Method of matching poses.
     pub matching: Matching,
-    /// Diameter of the scene, for errors relative to it; `None` takes that of the reference path.
+    /// Diameter of the scene for the relative error; `None` for that of the reference path.
     pub scene_diameter: Option<f64>,
-    /// What should stand in the frame as the reference shows it.
+    /// Subject whose framing is compared.
     pub subject: Option<SubjectSphere>,
 }
 
@@ -61,35 +62,37 @@ impl Default for EvalSettings {
     }
 }
 
-/// The outcome of a comparison.
+/// The result of a comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evaluation {
-    /// How it was made.
+    /// The settings.
     pub settings: EvalSettings,
-    /// Statistics of the errors.
+    /// Statistics of `errors`.
     pub statistics: Statistics,
-    /// The errors, in order of time.
+    /// The errors in order of time, in the unit of the relation.
     pub errors: Vec<f64>,
-    /// Time of each error on the reference's clock (of the later pose of a pair); frame numbers without times.
+    /// Time of each error on the reference's clock, of the later pose for a pair; pose indices without times.
     pub at_secs: Vec<f64>,
-    /// The alignment that was applied.
+    /// The alignment.
     pub alignment: Alignment,
-    /// Matched poses; the estimate is aligned.
+    /// Matched poses, with the aligned estimate.
     pub matches: Matches,
-    /// Error of the lens; `None` where a file holds no fields of view.
+    /// Error of the focal lengths; `None` if a file has no fields of view.
     pub focal: Option<FocalError>,
-    /// Error of the framing of the subject; `None` without a subject or where a file holds no fields of view.
+    /// Error of the subject's framing; `None` without a subject or if a file has no fields of view.
     pub framing: Option<FramingError>,
-    /// Mean error over the diameter of the scene or the reference path, for errors in scene units; `None` else.
+    /// Mean error over the diameter of the scene or reference path; `None` for errors that are not in scene units.
     pub relative_to_diameter: Option<f64>,
-    /// What should be known about the result, for a person to read.
+    /// Notes about matching and alignment, for a person to read.
     pub notes: Vec<String>,
 }
 
 /// Compares `estimate` with `reference`.
 ///
 /// # Errors
-/// [`EvaluationError`] where no poses match, no pairs exist or a setting is out of range; never for the shape of a path.
+/// [`EvaluationError::Empty`] for a path without poses, [`EvaluationError::NoMatches`] if no poses match,
+/// [`EvaluationError::NoPairs`] if no pairs exist, [`EvaluationError::BadSetting`] for a setting out of range. The shape of
+/// a path is never an error.
 pub fn evaluate(
     reference: &Trajectory,
     estimate: &Trajectory,
@@ -165,7 +168,7 @@ fn absolute_errors(matches: &Matches, relation: Relation) -> Vec<f64> {
     (0..reference.len()).map(error).collect()
 }
 
-/// Errors of pairs and the index of the later pose of each.
+/// Error of each pair and the index of its later pose.
 fn relative_errors(
     matches: &Matches,
     pairs: &[(usize, usize)],
@@ -186,7 +189,7 @@ fn relative_errors(
     let kept: Vec<(f64, usize)> = pairs.iter().filter_map(|pair| Some((error(*pair)?, pair.1))).collect();
     let standing = pairs.len() - kept.len();
     if standing > 0 {
-        notes.push(format!("{standing} pairs where the reference stands still have no ratio and are left out"));
+        notes.push(format!("{standing} pairs are omitted: the reference stands still, so they have no ratio"));
     }
     kept.into_iter().unzip()
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-/// Magnitudes of the first half (bins 0..=len/2) of the transform of `signal` padded with zeros to `len`, a power of two.
+/// Magnitudes of bins 0..=len/2 of the transform of `signal`, padded with zeros to `len`, a power of two.
 ///
 /// Radix 2, decimation in time, in place (Cooley and Tukey 1965).
 pub(super) fn magnitudes(signal: &[f64], len: usize) -> Vec<f64> {

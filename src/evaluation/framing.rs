@@ -1,14 +1,14 @@
-//! What an error of the path does to the picture: where a subject stands and how large.
+//! Error of a subject's place and size in the frame.
 
 use glam::{DQuat, DVec2, DVec3};
 
 use super::Trajectory;
 use super::statistics::root_mean_square;
 
-/// Half the width of the frame over its height that subjects are looked for in.
+/// Width over height of the frame in which subjects count as visible.
 const ASPECT: f64 = 16.0 / 9.0;
 
-/// A sphere that should look the same from both paths, world.
+/// A subject that both paths should frame alike: a sphere in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SubjectSphere {
     /// Its center.
@@ -17,26 +17,26 @@ pub struct SubjectSphere {
     pub radius: f64,
 }
 
-/// How differently a subject is framed, over matched poses that both have it before them.
+/// Difference of a subject's framing, over matched poses that both have it in front of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramingError {
-    /// Root mean square of the distance between its two places in the frame, over the frame's height.
+    /// Root mean square of the distance between its two places in the frame, in frame heights.
     pub offset_rmse: f64,
-    /// The largest.
+    /// Largest such distance, in frame heights.
     pub offset_max: f64,
-    /// Root mean square of ln(its size in the estimate's picture / in the reference's): 0.1 is about 10 %.
+    /// Root mean square of ln(size in the estimate / size in the reference); 0.1 is about 10 %.
     pub log_size_rmse: f64,
-    /// Share of the reference's pictures with the subject's center in a 16:9 frame that the estimate loses.
+    /// Of the poses whose reference has the subject's center in a 16:9 frame, the fraction whose estimate does not.
     pub lost_frac: f64,
 }
 
-/// The framing error of poses matched one to one; `None` where a path lacks fields of view or no pair has the subject
-/// before both cameras.
+/// The framing error of poses matched by index; `None` if no matched poses have fields of view and the subject in front
+/// of both cameras.
 pub fn framing_error(reference: &Trajectory, estimate: &Trajectory, subject: &SubjectSphere) -> Option<FramingError> {
     let (mut offsets, mut sizes, mut shown, mut lost) = (Vec::new(), Vec::new(), 0_usize, 0_usize);
     for idx in 0..reference.len().min(estimate.len()) {
-        let wanted = seen(reference, idx, subject);
-        let got = seen(estimate, idx, subject);
+        let wanted = projected(reference, idx, subject);
+        let got = projected(estimate, idx, subject);
         if wanted.is_some_and(|(place, _)| in_frame(place)) {
             shown += 1;
             lost += usize::from(!got.is_some_and(|(place, _)| in_frame(place)));
@@ -54,8 +54,8 @@ pub fn framing_error(reference: &Trajectory, estimate: &Trajectory, subject: &Su
     })
 }
 
-/// Where the subject's center is in the picture, in frame heights from its middle, and how large its radius is.
-fn seen(path: &Trajectory, idx: usize, subject: &SubjectSphere) -> Option<(DVec2, f64)> {
+/// Place of the subject's center from the middle of the frame, and its radius, both in frame heights.
+fn projected(path: &Trajectory, idx: usize, subject: &SubjectSphere) -> Option<(DVec2, f64)> {
     let fov_y_rad = path.fov_y_rad.get(idx).copied().flatten()?;
     let camera_from_world = DQuat::from_mat3(path.rotations.get(idx)?).normalize().conjugate();
     let p = camera_from_world * (subject.center - *path.positions.get(idx)?);

@@ -1,26 +1,27 @@
-//! How far one camera path is from another, and how a path moves: errors, alignment, smoothness, motion tags, plots.
+//! Errors between camera paths and measures of one path: alignment, smoothness, motion tags, named moves, plots.
 //!
-//! Enters: timed poses. Leaves: numbers, JSON values and SVG text. Error measures are those of `evo_ape` and `evo_rpe`
-//! and equal to theirs where those are right; where they raise or mislead (straight, still and turning-only paths) the
-//! answer is defined and says why. The one invariant: nothing is aligned unless asked. Never does IO.
+//! Enters: timed poses. Leaves: numbers, JSON text, tables and SVG text. The one invariant: nothing is aligned unless
+//! asked. The absolute and relative pose errors equal those of `evo_ape` and `evo_rpe` (evo 1.38.1). For paths on which evo
+//! fails or is ambiguous (straight, standing, turning in place) the result is defined here, and a note states how. This
+//! crate does no IO.
 
 mod alignment;
 mod associate;
 mod batch;
 mod error;
 mod evaluate;
+mod focal;
 mod fourier;
 mod framing;
-mod lens;
 mod motion;
 mod named_move;
 mod pairs;
 mod plot;
 mod relation;
 mod report;
-mod singular;
 mod smoothness;
 mod statistics;
+mod svd;
 mod table;
 mod tagger;
 mod trajectory;
@@ -30,9 +31,9 @@ pub use associate::{Matches, Matching, associate};
 pub use batch::{BatchRow, FilePairs, pair_files, summary_csv, summary_json, summary_text};
 pub use error::{EvaluationError, SettingName};
 pub use evaluate::{EvalSettings, Evaluation, Metric, evaluate};
+pub use focal::FocalError;
 pub use framing::{FramingError, SubjectSphere, framing_error};
-pub use lens::{FocalError, focal_error};
-pub use motion::{motion_json, motion_text};
+pub use motion::motion_text;
 pub use named_move::{NamedMove, name_move};
 pub use pairs::{Delta, DeltaUnit, PairSettings, pairs};
 pub use plot::plot_svg;

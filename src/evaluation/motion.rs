@@ -1,4 +1,4 @@
-//! Everything that is known about how one path moves, as a JSON value and as text.
+//! The motion of one path, as JSON and as text: smoothness, motion tags and a table of poses.
 
 use std::fmt::Write as _;
 
@@ -6,15 +6,11 @@ use super::table::{rows_json, table_text};
 use super::{Smoothness, Tagger, Trajectory, keyframe_table, smoothness};
 use cinesplat_export::json_write::{Json, object};
 
-/// The motion of a path: smoothness, motion tags of both taggers, and a table of its poses, as JSON text.
-pub fn motion_json(path: &Trajectory) -> String {
-    motion_value(path).pretty()
-}
-
+/// The motion of a path: smoothness, the motion tags of both taggers, and a table of its poses.
 pub(super) fn motion_value(path: &Trajectory) -> Json {
     let segments = |tagger: Tagger| {
         let segment = |s: &super::TagSegment| {
-            object([("from", s.start.into()), ("to", s.end.into()), ("tag", s.tag.words().as_str().into())])
+            object([("from", s.start.into()), ("to", s.end.into()), ("tag", s.tag.to_string().as_str().into())])
         };
         Json::list(tagger.segments(path).iter().map(segment))
     };
@@ -31,9 +27,9 @@ pub(super) fn motion_value(path: &Trajectory) -> Json {
     ])
 }
 
-/// The same as text for a person, without the table of a long path.
+/// The motion of a path as text for a person. The table of a long path has only every n-th pose.
 pub fn motion_text(name: &str, path: &Trajectory) -> String {
-    const MOST_ROWS: usize = 24;
+    const MAX_ROWS: usize = 24;
     let mut out = format!("{name}: {} poses, length {:.4}\n", path.len(), path.path_length());
     for (name, value) in smoothness(path).iter().flat_map(named) {
         let _ = writeln!(out, "  {name:<31} {}", value.map_or("-".to_owned(), |value| format!("{value:.6}")));
@@ -42,17 +38,17 @@ pub fn motion_text(name: &str, path: &Trajectory) -> String {
         let tags: Vec<String> = tagger
             .segments(path)
             .iter()
-            .map(|segment| format!("{}..{} {}", segment.start, segment.end, segment.tag.words()))
+            .map(|segment| format!("{}..{} {}", segment.start, segment.end, segment.tag))
             .collect();
         let _ = writeln!(out, "  tags of {name}: {}", tags.join("; "));
     }
     let rows = keyframe_table(path);
-    let stride = rows.len().div_ceil(MOST_ROWS).max(1);
+    let stride = rows.len().div_ceil(MAX_ROWS).max(1);
     let picked: Vec<_> = rows.iter().step_by(stride).copied().collect();
     out + &table_text(&picked)
 }
 
-/// The numbers of a smoothness with their names.
+/// Names and values of a smoothness.
 fn named(found: &Smoothness) -> [(&'static str, Option<f64>); 11] {
     [
         ("jerk_rms", found.jerk_rms),

@@ -1,7 +1,8 @@
-//! The name of the move that a whole path makes, free of scale.
+//! Recognition of the camera move that a whole path makes, independent of scale.
 //!
-//! A path is sorted by what it does: stands or travels, turns or not, zooms or not. A path that travels and turns with all
-//! view axes through nearly one point circles it (an arc, an orbit from half a turn on) or rises past it (a crane).
+//! A path is classified by whether its position changes, whether its rotation changes, and whether its focal length
+//! changes. If position and rotation change and all view axes pass near one point, the move is an arc about that point (an
+//! orbit from half a turn on) or, if it is mainly vertical, a crane. The thresholds below are this project's own.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -9,37 +10,38 @@ use super::Trajectory;
 use cinesplat_geometry::{LevelAngles, LevelFrame};
 use cinesplat_trajectory::Move;
 
-/// Turns below are none, rad (1 degree).
+/// Smallest rotation that counts, rad (1 degree).
 const TURN_RAD: f64 = 0.0175;
-/// Changes of focal length below this factor are no zoom.
+/// Smallest factor of the focal length that counts as a zoom.
 const ZOOM_FACTOR: f64 = 1.02;
-/// Share of a displacement or turn that its main axis must carry for a name.
+/// Fraction of a displacement or rotation that lies along its main axis in a pure move.
 const PURITY: f64 = 0.8;
-/// Largest distance of a view axis from the common point, over the distance to that point.
+/// Largest distance of the common point from a view axis, over its depth.
 const AIM_TOLERANCE: f64 = 0.1;
-/// Largest change of the distance to the common point for a circle, as a factor.
+/// Largest ratio of the radii of an arc.
 const RADIUS_FACTOR: f64 = 1.15;
-/// Share of the displacement that is height in a crane.
-const RISE_SHARE: f64 = 0.7;
-/// Angle from which an arc is called an orbit, rad.
+/// Smallest fraction of a crane's displacement that is vertical.
+const RISE_FRAC: f64 = 0.7;
+/// Smallest angle of an orbit, rad; below it the move is an arc.
 const ORBIT_RAD: f64 = std::f64::consts::PI;
 
-/// What a path was recognized as.
+/// A recognized move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NamedMove {
-    /// Its name.
+    /// The move.
     pub name: Move,
-    /// How far: rad for turns and arcs, a factor for zooms, scene units else.
+    /// Extent: rad for pans, tilts, rolls, arcs and orbits; the factor of the focal length for zooms; scene units for the
+    /// rest.
     pub amount: f64,
 }
 
-/// The move that the path makes from its first pose to its last; `None` for compound ones.
+/// The move from the first pose of a path to its last; `None` for a compound move.
 ///
-/// `still_distance` is the travel that counts as none, scene units: a thousandth of the scene's size, or 0 for paths
-/// that are exact.
+/// Travel up to `still_distance`, in scene units, counts as none. A thousandth of the scene's size suits recorded paths, 0
+/// suits exact ones.
 pub fn name_move(path: &Trajectory, still_distance: f64) -> Option<NamedMove> {
     let level = LevelFrame::new(path.up_or_mean()).ok()?;
-    let angles = turned(path, &level)?;
+    let angles = total_angles(path, &level)?;
     let (first, last) = (*path.positions.first()?, *path.positions.last()?);
     let extent = path.positions.iter().map(|p| p.distance(first)).fold(0.0, f64::max);
     let rounding = 1e-9 * path.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
@@ -58,11 +60,12 @@ fn named(name: Move, amount: f64) -> NamedMove {
     NamedMove { name, amount }
 }
 
-/// Picks one of two opposite moves by the sign.
+/// One of two opposite moves, by the sign of the amount.
 fn signed(amount: f64, positive: Move, negative: Move) -> NamedMove {
     named(if amount > 0.0 { positive } else { negative }, amount.abs())
 }
 
+/// Last focal length over the first; 1 if unknown.
 fn zoom_factor(path: &Trajectory) -> f64 {
     let focal = |fov: Option<&Option<f64>>| fov.copied().flatten().map(|fov| 1.0 / (fov / 2.0).tan());
     focal(path.fov_y_rad.last()).zip(focal(path.fov_y_rad.first())).map_or(1.0, |(last, first)| last / first)
@@ -78,8 +81,8 @@ fn standing(zoom: f64) -> NamedMove {
     }
 }
 
-/// Sums of the changes of yaw, pitch and roll, so that a full turn counts as one.
-fn turned(path: &Trajectory, level: &LevelFrame) -> Option<LevelAngles> {
+/// Sums of the changes of yaw, pitch and roll from pose to pose, so that full turns are not lost.
+fn total_angles(path: &Trajectory, level: &LevelFrame) -> Option<LevelAngles> {
     let angles = path.rotations.iter().map(|rotation| level.angles(DQuat::from_mat3(rotation).normalize()));
     let angles: Vec<LevelAngles> = angles.collect();
     let change = |of: fn(&LevelAngles) -> f64| {
@@ -103,25 +106,25 @@ fn turning(angles: LevelAngles) -> Option<NamedMove> {
         (angles.pitch_rad, Move::TiltUp, Move::TiltDown),
         (angles.roll_rad, Move::RollCw, Move::RollCcw),
     ];
-    main_of(candidates)
+    dominant(candidates)
 }
 
-/// The candidate of the largest magnitude, if it carries enough of the whole.
-fn main_of(candidates: [(f64, Move, Move); 3]) -> Option<NamedMove> {
+/// The candidate of the largest magnitude, if it is at least [`PURITY`] of the whole.
+fn dominant(candidates: [(f64, Move, Move); 3]) -> Option<NamedMove> {
     let whole = candidates.iter().map(|(amount, ..)| amount * amount).sum::<f64>().sqrt();
     let main = candidates.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
     (main.0.abs() >= PURITY * whole).then(|| signed(main.0, main.1, main.2))
 }
 
-/// Names a displacement without a turn: in the first camera's axes, height along the world's up.
+/// The move of a displacement without rotation: `moved_camera` in the first camera's axes, `rise` along the world's up.
 fn travelling(moved_camera: DVec3, rise: f64, zoom: f64) -> Option<NamedMove> {
     let upward = (rise, Move::PedestalUp, Move::PedestalDown);
-    let found = main_of([
+    let found = dominant([
         (moved_camera.x, Move::TruckRight, Move::TruckLeft),
         upward,
         (moved_camera.z, Move::PushIn, Move::PullOut),
     ])?;
-    // Toward the subject with a widening lens, or away with a narrowing one.
+    // A dolly zoom widens the field of view on the way in, or narrows it on the way out.
     match found.name {
         Move::PushIn if zoom < 1.0 / ZOOM_FACTOR => Some(named(Move::DollyZoomIn, found.amount)),
         Move::PullOut if zoom > ZOOM_FACTOR => Some(named(Move::DollyZoomOut, found.amount)),
@@ -129,7 +132,7 @@ fn travelling(moved_camera: DVec3, rise: f64, zoom: f64) -> Option<NamedMove> {
     }
 }
 
-/// The point nearest to all view axes, in the least squares sense; `None` for parallel ones.
+/// The point with the least sum of squared distances to all view axes; `None` for parallel axes.
 fn aimed_at(path: &Trajectory) -> Option<DVec3> {
     let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
     for (position, rotation) in path.positions.iter().zip(&path.rotations) {
@@ -142,6 +145,7 @@ fn aimed_at(path: &Trajectory) -> Option<DVec3> {
     (matrix.determinant().abs() > 1e-9 * count.powi(3)).then(|| matrix.inverse() * right)
 }
 
+/// The move of a path whose position and rotation change: an arc, an orbit or a crane.
 fn circling(path: &Trajectory, level: &LevelFrame) -> Option<NamedMove> {
     let center = aimed_at(path)?;
     let ahead = |idx: usize| path.rotations[idx].transpose() * (center - path.positions[idx]);
@@ -151,7 +155,7 @@ fn circling(path: &Trajectory, level: &LevelFrame) -> Option<NamedMove> {
     });
     let moved = path.positions.last()?.distance(*path.positions.first()?);
     let rise = level.height(*path.positions.last()? - *path.positions.first()?);
-    if aims && rise.abs() > RISE_SHARE * moved && moved > 0.0 {
+    if aims && rise.abs() > RISE_FRAC * moved && moved > 0.0 {
         return Some(signed(rise, Move::CraneUp, Move::CraneDown));
     }
     let radii = path.positions.iter().map(|p| level.horizontal(*p - center).length());
@@ -161,7 +165,7 @@ fn circling(path: &Trajectory, level: &LevelFrame) -> Option<NamedMove> {
     }
     let azimuths: Vec<f64> = path.positions.iter().map(|p| level.azimuth(*p - center)).collect();
     let wrapped = |pair: &[f64]| (pair[1] - pair[0]).sin().atan2((pair[1] - pair[0]).cos());
-    // Azimuths grow clockwise seen from above, which is travel to the operator's left around a point ahead.
+    // Azimuths grow clockwise seen from above, which is travel to the operator's left about a point ahead.
     let swept = -azimuths.windows(2).map(wrapped).sum::<f64>();
     if swept.abs() >= ORBIT_RAD {
         return Some(signed(swept, Move::OrbitRight, Move::OrbitLeft));

@@ -1,24 +1,24 @@
-//! Which poses a relative error compares: two that lie a distance apart along one path.
+//! Pairs of poses for relative errors: two poses a given distance apart along a path.
 
 use glam::{DMat3, DVec3};
 
 use super::error::{EvaluationError, SettingName};
-use super::singular::rotation_angle;
+use super::svd::rotation_angle;
 use super::trajectory::Trajectory;
 
-/// Largest error of the rough angle for matrices that count as rotations, rad.
-const ROUGH_RAD: f64 = 0.01;
+/// Largest error of [`approximate_angle`] for matrices that count as rotations, rad.
+const APPROXIMATION_RAD: f64 = 0.01;
 
 /// Distance between the two poses of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Delta {
     /// Number of frames, at least 1.
     Frames(usize),
-    /// Distance travelled, scene units.
+    /// Distance traveled, scene units.
     Distance(f64),
-    /// Angle turned, degrees.
+    /// Angle of rotation, degrees.
     Degrees(f64),
-    /// Angle turned, rad.
+    /// Angle of rotation, rad.
     Radians(f64),
 }
 
@@ -86,14 +86,14 @@ impl Delta {
     }
 }
 
-/// How pairs are chosen.
+/// Settings of the choice of pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairSettings {
     /// Distance between the two poses.
     pub delta: Delta,
-    /// Whether pairs may overlap: every pose starts one, instead of the end of the pair before.
+    /// Whether every pose may start a pair. Otherwise a pair starts where the previous one ends.
     pub all_pairs: bool,
-    /// Share of the distance by which overlapping pairs may miss it.
+    /// Tolerance of the distance for overlapping pairs, as a fraction of it.
     pub tolerance_frac: f64,
 }
 
@@ -105,12 +105,13 @@ impl Default for PairSettings {
 
 /// Indices of the poses of each pair, in order.
 ///
-/// Without overlap a pair ends at the first pose by which the distance, summed from frame to frame, is reached. With
-/// overlap each pose is paired with the one nearest to the distance along the path, or with every later one at that angle
-/// (straight from one to the other), within the tolerance.
+/// Without overlap a pair ends at the first pose at which the distance, summed from frame to frame, reaches the delta. With
+/// overlap and a delta in scene units, each pose is paired with the later pose whose distance along the path is nearest to
+/// the delta. With overlap and an angle, it is paired with every later pose at that relative rotation. Both apply the
+/// tolerance.
 ///
 /// # Errors
-/// [`EvaluationError::NoPairs`] when the path is too short.
+/// [`EvaluationError::NoPairs`] if the path is too short.
 pub fn pairs(path: &Trajectory, settings: &PairSettings) -> Result<Vec<(usize, usize)>, EvaluationError> {
     let turn = |a: usize, b: usize| rotation_angle(path.rotations[a].transpose() * path.rotations[b]);
     let step = |idx: usize| path.positions[idx].distance(path.positions[idx + 1]);
@@ -123,14 +124,14 @@ pub fn pairs(path: &Trajectory, settings: &PairSettings) -> Result<Vec<(usize, u
             ends.windows(2).map(|pair| (pair[0], pair[1])).collect()
         }
         (Delta::Distance(distance), true) => at_distance(path, distance, distance * settings.tolerance_frac),
-        (Delta::Distance(distance), false) => in_turn(path.len(), distance, step),
+        (Delta::Distance(distance), false) => end_to_end(path.len(), distance, step),
         (Delta::Degrees(_) | Delta::Radians(_), all_pairs) => {
             let (value, _) = settings.delta.named();
             let angle = if matches!(settings.delta, Delta::Degrees(_)) { value.to_radians() } else { value };
             if all_pairs {
                 at_angle(path, angle, angle * settings.tolerance_frac)
             } else {
-                in_turn(path.len(), angle, |idx| turn(idx, idx + 1))
+                end_to_end(path.len(), angle, |idx| turn(idx, idx + 1))
             }
         }
     };
@@ -152,8 +153,8 @@ fn no_pairs(path: &Trajectory, asked: Delta, turn: impl Fn(usize, usize) -> f64)
     EvaluationError::NoPairs { delta, unit, num_poses: path.len(), available }
 }
 
-/// Pairs end to end: each ends where the steps since its start reach `delta`.
-fn in_turn(len: usize, delta: f64, step: impl Fn(usize) -> f64) -> Vec<(usize, usize)> {
+/// Pairs without overlap: each ends where the sum of the steps since its start reaches `delta`.
+fn end_to_end(len: usize, delta: f64, step: impl Fn(usize) -> f64) -> Vec<(usize, usize)> {
     let (mut start, mut since, mut out) = (0, 0.0, Vec::new());
     for idx in 0..len.saturating_sub(1) {
         since += step(idx);
@@ -165,7 +166,7 @@ fn in_turn(len: usize, delta: f64, step: impl Fn(usize) -> f64) -> Vec<(usize, u
     out
 }
 
-/// For every pose the later one whose distance along the path is nearest to `delta`, if within `tolerance`.
+/// For every pose the later one whose distance along the path is nearest to `delta`, if within the tolerance.
 fn at_distance(path: &Trajectory, delta: f64, tolerance: f64) -> Vec<(usize, usize)> {
     let mut along = vec![0.0];
     for pair in path.positions.windows(2) {
@@ -173,7 +174,7 @@ fn at_distance(path: &Trajectory, delta: f64, tolerance: f64) -> Vec<(usize, usi
     }
     let nearest = |start: usize| {
         let off = |end: usize| (along[end] - along[start] - delta).abs();
-        // The first of equals, as distances along a path only grow.
+        // Distances along a path never decrease; of equal ones the first pose is taken.
         let after = (start + 1) + along[start + 1..].partition_point(|at| at - along[start] < delta);
         let reached = after.min(along.len() - 1);
         let before = reached.checked_sub(1).filter(|end| *end > start && off(*end) <= off(reached));
@@ -186,22 +187,22 @@ fn at_distance(path: &Trajectory, delta: f64, tolerance: f64) -> Vec<(usize, usi
     (0..along.len().saturating_sub(1)).filter_map(nearest).collect()
 }
 
-/// All pairs of poses whose rotations differ by `delta` within `tolerance`.
+/// All pairs of poses whose relative rotation is `delta` within the tolerance, rad.
 fn at_angle(path: &Trajectory, delta: f64, tolerance: f64) -> Vec<(usize, usize)> {
     let (low, high) = (delta - tolerance, delta + tolerance);
     let within = |a: usize, b: usize| {
         let turn = path.rotations[a].transpose() * path.rotations[b];
-        // Most pairs are far off: the exact angle of a rounded matrix is asked for only near the bounds.
-        let rough = rough_angle(turn);
-        let near = rough > low - ROUGH_RAD && rough < high + ROUGH_RAD;
+        // The cheap approximation rejects most pairs; only those near the bounds need the exact angle.
+        let approximate = approximate_angle(turn);
+        let near = approximate > low - APPROXIMATION_RAD && approximate < high + APPROXIMATION_RAD;
         near && (low..=high).contains(&rotation_angle(turn))
     };
     let later = |a: usize| (a + 1..path.len()).map(move |b| (a, b));
     (0..path.len()).flat_map(later).filter(|(a, b)| within(*a, *b)).collect()
 }
 
-/// Angle of a rotation matrix from its skew part and trace: off by about the matrix's own rounding.
-fn rough_angle(turn: DMat3) -> f64 {
+/// Angle of a rotation matrix from its skew part and its trace. Its error is about that of the matrix.
+fn approximate_angle(turn: DMat3) -> f64 {
     let (x, y, z) = (turn.x_axis, turn.y_axis, turn.z_axis);
     let skew = DVec3::new(y.z - z.y, z.x - x.z, x.y - y.x);
     skew.length().atan2(x.x + y.y + z.z - 1.0)

@@ -1,8 +1,8 @@
-//! A figure of paths as SVG: from above, from the side, and x y z roll pitch yaw over time.
+//! A figure of paths as SVG: views from above and from the side, and x, y, z, roll, pitch and yaw over time.
 
 use glam::DVec3;
 
-use super::table::table_beside;
+use super::table::table_relative_to;
 use super::{TableRow, Trajectory};
 use cinesplat_geometry::LevelFrame;
 use cinesplat_plot::{Axis, COLORS, Chart, Figure, LegendEntry, LegendSymbol, Marker, Series};
@@ -16,13 +16,13 @@ const GAP: f64 = 10.0;
 
 /// The figure as SVG text.
 ///
-/// `paths` are drawn in this order with their labels; the first is the reference: its up and first heading give the side
-/// view and the angles. `key_times_secs` are marked on the first path.
+/// `paths` are pairs of a label and a path, drawn in order. The first is the reference: its up and its first heading define
+/// the views and the angles. Markers on it show the poses at `key_times_secs`.
 pub fn plot_svg(title: &str, paths: &[(&str, &Trajectory)], key_times_secs: &[f64]) -> String {
     let mut figure = Figure::new([WIDTH, HEIGHT], title);
     figure.legend(&legend(paths));
     let Some((_, reference)) = paths.first() else { return figure.finish() };
-    let tables: Vec<Vec<TableRow>> = paths.iter().map(|(_, path)| table_beside(path, reference)).collect();
+    let tables: Vec<Vec<TableRow>> = paths.iter().map(|(_, path)| table_relative_to(path, reference)).collect();
     if let Ok(level) = LevelFrame::new(reference.up_or_mean()) {
         views(&mut figure, &level, paths, key_times_secs);
     }
@@ -40,19 +40,19 @@ fn legend(paths: &[(&str, &Trajectory)]) -> Vec<LegendEntry> {
     paths.iter().zip(COLORS.iter().cycle()).map(of_path).chain([start]).collect()
 }
 
-/// The line of one path: the first, the reference, is broader, so that it shows under an estimate that covers it.
+/// The line of one path. That of the reference is broader, so that it stays visible under an estimate on top of it.
 fn path_series(path_idx: usize, points: Vec<(f64, f64)>, keys: &[usize]) -> Series {
     let markers = if path_idx == 0 { keys.iter().map(|key| Marker::dot(*key, 3.2)).collect() } else { Vec::new() };
     let line_px = if path_idx == 0 { 3.0 } else { 1.5 };
     Series { points, color: COLORS[path_idx % COLORS.len()], line_px, markers }
 }
 
-/// From above and from the side, at one scale for both directions of each.
+/// The views from above and from the side, each with equal units on both axes.
 fn views(figure: &mut Figure, level: &LevelFrame, paths: &[(&str, &Trajectory)], key_times_secs: &[f64]) {
     let width = (WIDTH - 2.0 * MARGIN - GAP) / 2.0;
     let first = paths.first().and_then(|(_, path)| path.rotations.first()).map_or(DVec3::Z, |rotation| rotation.z_axis);
     let level = level.with_heading(first);
-    // The side view looks across the level direction in which the paths reach farthest.
+    // The side view shows the horizontal direction with the larger extent.
     let reach = |axis: DVec3| {
         let along = paths.iter().flat_map(|(_, path)| path.positions.iter().map(move |p| p.dot(axis)));
         let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
@@ -80,14 +80,14 @@ fn views(figure: &mut Figure, level: &LevelFrame, paths: &[(&str, &Trajectory)],
     }
 }
 
-/// Index of the pose nearest to each time.
+/// Index of the pose nearest in time to each wanted time.
 fn nearest(times: &[f64], wanted: &[f64]) -> Vec<usize> {
     let closest =
         |time: &f64| (0..times.len()).min_by(|a, b| (times[*a] - time).abs().total_cmp(&(times[*b] - time).abs()));
     wanted.iter().filter_map(closest).collect()
 }
 
-/// Reads one value of a table row.
+/// Reads one column of a table row.
 type Column = fn(&TableRow) -> f64;
 
 fn time_charts(figure: &mut Figure, tables: &[Vec<TableRow>], timed: bool, key_times_secs: &[f64]) {
@@ -105,7 +105,7 @@ fn time_charts(figure: &mut Figure, tables: &[Vec<TableRow>], timed: bool, key_t
     let height = (HEIGHT - top - GAP) / 2.0;
     for (idx, (title, value)) in columns.into_iter().enumerate() {
         let (column, row) = ((idx % 3) as f64, (idx / 3) as f64);
-        // Time begins and ends with the frame.
+        // The time axis has no margins.
         let time = Axis { margin_frac: 0.0, ..Axis::linear(if timed { "time, s" } else { "frame" }) };
         let mut chart = Chart::new(title, time, Axis::linear(""));
         for (path_idx, table) in tables.iter().enumerate() {

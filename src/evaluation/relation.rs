@@ -1,8 +1,8 @@
-//! What of an error pose is measured.
+//! The part of an error pose that becomes a number.
 
 use glam::{DMat3, DVec3};
 
-use super::singular::rotation_angle;
+use super::svd::rotation_angle;
 
 /// The part of the error pose E = (R, t) that becomes a number.
 #[derive(
@@ -34,9 +34,9 @@ pub enum Relation {
     AngleDeg,
     /// Angle of R in rad.
     AngleRad,
-    /// Difference of the distances travelled between two poses, scene units; between single poses the same as `Trans`.
+    /// Difference of the distances between the two poses of a pair, scene units; for absolute errors the same as `Trans`.
     PointDistance,
-    /// The same over the reference's distance, in percent; relative errors only.
+    /// The same relative to the reference's distance, percent; for relative errors only.
     #[strum(to_string = "point_distance_ratio", serialize = "point_distance_error_ratio")]
     PointDistanceRatio,
 }
@@ -59,7 +59,7 @@ impl Relation {
     }
 }
 
-/// A rigid transform with the matrix kept as it came: the inverse transposes, and does not re-orthonormalize.
+/// A rigid transform whose matrix is never re-orthonormalized: the inverse transposes it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rigid {
     pub(super) rotation: DMat3,
@@ -74,7 +74,7 @@ impl Rigid {
         Self { rotation: back * other.rotation, translation }
     }
 
-    /// The number that a relation makes of an error pose.
+    /// The number that a relation takes from an error pose.
     pub(super) fn error(self, relation: Relation) -> f64 {
         let off = || {
             let d = self.rotation - DMat3::IDENTITY;

@@ -1,17 +1,19 @@
-//! A comparison as the JSON object that `eval --json` prints.
+//! A comparison as a JSON object.
 
 use super::motion::motion_value;
 use super::{Evaluation, Metric};
 use cinesplat_export::json_write::{Json, object};
 
 impl Evaluation {
-    /// The text of one JSON object. At its top level: `rmse mean median std min max sse` in the relation's unit, `pairs`
-    /// (number of errors), `relation`, `align`, and `scale`, `rotation` (3 x 3, rows) and `translation` of the alignment.
+    /// The comparison as the text of one JSON object.
+    ///
+    /// At its top level are `rmse mean median std min max sse` in the unit of the relation, `pairs` (the number of errors),
+    /// `relation`, `align`, and `scale`, `rotation` (3 x 3, by rows) and `translation` of the alignment.
     pub fn to_json(&self) -> String {
         Json::Object(self.fields()).pretty()
     }
 
-    /// The same with how both matched paths move under `motion`: smoothness, motion tags, tables of poses.
+    /// As [`Self::to_json`], with smoothness, motion tags and a table of poses of both matched paths under `motion`.
     pub fn to_json_with_motion(&self) -> String {
         let both = [("reference", &self.matches.reference), ("estimate", &self.matches.estimate)];
         let mut fields = self.fields();

@@ -1,8 +1,8 @@
-//! How smoothly a path moves and turns.
+//! Smoothness of a path's translation and rotation.
 //!
-//! Position and rotation are measured apart, since scene units and radians do not add. Reference: S. Balasubramanian et
-//! al., "On the analysis of movement smoothness", Journal of Neuroengineering and Rehabilitation 12:112, 2015 (spectral
-//! arc length, log dimensionless jerk).
+//! Both are measured separately, because scene units and radians do not add. Reference: S. Balasubramanian et al., "On the
+//! analysis of movement smoothness", Journal of Neuroengineering and Rehabilitation 12:112, 2015 (spectral arc length, log
+//! dimensionless jerk).
 
 use glam::{DQuat, DVec3};
 
@@ -10,50 +10,51 @@ use super::Trajectory;
 use super::fourier::magnitudes;
 use cinesplat_geometry::rotation;
 
-/// Frequencies above do not count in the spectral arc length, Hz.
+/// Highest frequency in the spectral arc length, Hz.
 const MAX_FREQUENCY_HZ: f64 = 10.0;
-/// Amplitudes below this share of the largest do not count either, above the last frequency that reaches it.
+/// The spectral arc length runs from the first to the last frequency whose amplitude is at least this fraction of the
+/// largest.
 const MIN_AMPLITUDE: f64 = 0.05;
-/// Zero padding: the transform is this power of two longer than the signal.
+/// Zero padding: log2 of the length of the transform over that of the signal.
 const PAD_LEVEL: u32 = 4;
-/// Share of the high speed (the 90th percentile) at which the cruise starts and ends.
-const CRUISE_SHARE: f64 = 0.8;
-/// Speeds below this share of the highest are standing still, and say nothing about smoothness.
-const STILL_SHARE: f64 = 1e-9;
+/// Speed at which the cruise starts and ends, as a fraction of the 90th percentile of the speed.
+const CRUISE_FRAC: f64 = 0.8;
+/// A path whose steps are all below this fraction of its distance from the origin (or below this angle, rad) stands still.
+const STILL_FRAC: f64 = 1e-9;
 
-/// Smoothness of a path. Fields of position are in scene units, those of rotation in rad; `None` where nothing moves or
-/// there are too few frames.
+/// Smoothness of a path. Values of the translation are in scene units, those of the rotation (`angular_`) in rad. A value
+/// is `None` if the path does not move or has too few frames.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Smoothness {
-    /// Root mean square of the third derivative of the position, units / s^3.
+    /// Root mean square of the third derivative of the position, scene units / s^3.
     pub jerk_rms: Option<f64>,
-    /// Its largest magnitude.
+    /// Largest magnitude of the third derivative of the position, scene units / s^3.
     pub jerk_max: Option<f64>,
-    /// The same for the rotation, rad / s^3.
+    /// Root mean square of the second derivative of the angular velocity, rad / s^3.
     pub angular_jerk_rms: Option<f64>,
-    /// Its largest magnitude.
+    /// Largest magnitude of the second derivative of the angular velocity, rad / s^3.
     pub angular_jerk_max: Option<f64>,
-    /// Spectral arc length of the speed: below 0, nearer to 0 is smoother.
+    /// Spectral arc length of the speed, below 0. Values nearer to 0 are smoother.
     pub spectral_arc_length: Option<f64>,
-    /// The same for the speed of turning.
+    /// Spectral arc length of the angular speed.
     pub angular_spectral_arc_length: Option<f64>,
-    /// Log dimensionless jerk, -ln(T^3 / peak^2 * integral of the squared second derivative of velocity): higher is
-    /// smoother.
+    /// Log dimensionless jerk: -ln(T^3 / peak^2 * integral of the squared second derivative of the velocity). Higher values
+    /// are smoother.
     pub log_dimensionless_jerk: Option<f64>,
-    /// The same for turning.
+    /// Log dimensionless jerk of the rotation.
     pub angular_log_dimensionless_jerk: Option<f64>,
-    /// Speed ripple: standard deviation over mean of the speed while cruising, that is from the first to the last step
-    /// that reaches 80 % of the 90th percentile speed.
+    /// Standard deviation over mean of the speed during the cruise: from the first to the last step with at least 80 % of
+    /// the 90th percentile of the speed.
     pub speed_ripple: Option<f64>,
-    /// The same for turning.
+    /// The same for the angular speed.
     pub angular_speed_ripple: Option<f64>,
-    /// Steps that go back against the step before.
+    /// Number of steps at more than 90 degrees from the previous step.
     pub num_reversals: usize,
 }
 
-/// Smoothness of poses at even times; `None` where a path has no times or they do not increase.
+/// Smoothness of poses at even times; `None` if the path has no times or they do not increase.
 ///
-/// Steps are taken at the mean frame time: a path with gaps should be resampled first.
+/// Derivatives use the mean frame time, so resample a path with gaps first.
 pub fn smoothness(path: &Trajectory) -> Option<Smoothness> {
     let times = path.times_secs.as_ref()?;
     let span = times.last()? - times.first()?;
@@ -63,12 +64,12 @@ pub fn smoothness(path: &Trajectory) -> Option<Smoothness> {
     }
     let velocity: Vec<DVec3> = path.positions.windows(2).map(|pair| (pair[1] - pair[0]) / step_secs).collect();
     let turns: Vec<DQuat> = path.rotations.iter().map(|matrix| DQuat::from_mat3(matrix).normalize()).collect();
-    // World axes, so that the rates of neighboring steps may be subtracted.
+    // In world axes, so that the rates of neighboring steps can be subtracted.
     let rate = |pair: &[DQuat]| rotation::log(pair[1] * pair[0].conjugate()) / step_secs;
     let turning: Vec<DVec3> = turns.windows(2).map(rate).collect();
     let extent = path.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
-    let moving = Motion::new(&velocity, step_secs, extent * STILL_SHARE / step_secs);
-    let turning = Motion::new(&turning, step_secs, STILL_SHARE / step_secs);
+    let moving = VelocitySeries::new(&velocity, step_secs, extent * STILL_FRAC / step_secs);
+    let turning = VelocitySeries::new(&turning, step_secs, STILL_FRAC / step_secs);
     let back = |pair: &&[DVec3]| pair[0].dot(pair[1]) < 0.0;
     Some(Smoothness {
         jerk_rms: moving.jerk_rms(),
@@ -85,16 +86,18 @@ pub fn smoothness(path: &Trajectory) -> Option<Smoothness> {
     })
 }
 
-/// A velocity over time, once it is known to move at all.
-struct Motion {
+/// A velocity over time.
+struct VelocitySeries {
+    /// Magnitudes of the velocity.
     speed: Vec<f64>,
     /// Magnitudes of the second derivative of the velocity.
     jerk: Vec<f64>,
     step_secs: f64,
+    /// Whether any step is above the speed that counts as still.
     moves: bool,
 }
 
-impl Motion {
+impl VelocitySeries {
     fn new(velocity: &[DVec3], step_secs: f64, still_speed: f64) -> Self {
         let second = |v: &[DVec3]| (v[0] - 2.0 * v[1] + v[2]).length() / (step_secs * step_secs);
         let speed: Vec<f64> = velocity.iter().map(|v| v.length()).collect();
@@ -123,7 +126,7 @@ impl Motion {
         let duration = self.step_secs * self.speed.len() as f64;
         let squared = self.jerk.iter().map(|jerk| jerk * jerk).sum::<f64>() * self.step_secs;
         let jerk = duration.powi(3) / self.peak().powi(2) * squared;
-        // An even speed has no jerk but rounding: its logarithm says nothing.
+        // The jerk of an even speed is rounding error, whose logarithm is meaningless.
         self.mean_square_jerk().filter(|_| jerk > 1e-12).map(|_| -jerk.ln())
     }
 
@@ -134,8 +137,8 @@ impl Motion {
         let len = self.speed.len().next_power_of_two() << PAD_LEVEL;
         let spectrum = magnitudes(&self.speed, len);
         let largest = spectrum.iter().copied().fold(0.0, f64::max);
-        let hz_a_bin = 1.0 / (self.step_secs * len as f64);
-        let in_band = spectrum.iter().enumerate().take_while(|(bin, _)| *bin as f64 * hz_a_bin <= MAX_FREQUENCY_HZ);
+        let hz_per_bin = 1.0 / (self.step_secs * len as f64);
+        let in_band = spectrum.iter().enumerate().take_while(|(bin, _)| *bin as f64 * hz_per_bin <= MAX_FREQUENCY_HZ);
         let normalized: Vec<f64> = in_band.map(|(_, amplitude)| amplitude / largest).collect();
         let first = normalized.iter().position(|amplitude| *amplitude >= MIN_AMPLITUDE)?;
         let last = normalized.iter().rposition(|amplitude| *amplitude >= MIN_AMPLITUDE)?;
@@ -148,7 +151,7 @@ impl Motion {
         let mut sorted = self.speed.clone();
         sorted.sort_by(f64::total_cmp);
         let high = *sorted.get(sorted.len().saturating_sub(1) * 9 / 10).filter(|_| self.moves)?;
-        let fast = |speed: &f64| *speed >= CRUISE_SHARE * high;
+        let fast = |speed: &f64| *speed >= CRUISE_FRAC * high;
         let (first, last) = (self.speed.iter().position(fast)?, self.speed.iter().rposition(fast)?);
         let cruise = &self.speed[first..=last];
         let mean = cruise.iter().sum::<f64>() / cruise.len() as f64;

@@ -1,23 +1,23 @@
-//! The statistics of a list of errors that trajectory papers print.
+//! Statistics of a list of errors.
 
 use super::EvaluationError;
 
-/// Statistics of errors, in the errors' own unit; the standard deviation is that of the whole (over n).
+/// Statistics of errors, in the unit of the errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Statistics {
-    /// Root of the mean square.
+    /// Root mean square.
     pub rmse: f64,
     /// Arithmetic mean.
     pub mean: f64,
-    /// Middle value, the mean of the two middle ones for an even count.
+    /// Median; the mean of the two middle values for an even number.
     pub median: f64,
-    /// Standard deviation.
+    /// Population standard deviation (over n).
     pub std: f64,
-    /// Smallest.
+    /// Smallest error.
     pub min: f64,
-    /// Largest.
+    /// Largest error.
     pub max: f64,
-    /// Sum of squares.
+    /// Sum of squares, in the squared unit.
     pub sse: f64,
 }
 
@@ -25,7 +25,7 @@ impl Statistics {
     /// Statistics of at least one error.
     ///
     /// # Errors
-    /// [`EvaluationError::Empty`] for none.
+    /// [`EvaluationError::Empty`] without errors.
     pub fn of(errors: &[f64]) -> Result<Self, EvaluationError> {
         if errors.is_empty() {
             return Err(EvaluationError::Empty { which: "comparison" });
@@ -48,7 +48,7 @@ impl Statistics {
         })
     }
 
-    /// Names and values, in the order they are printed.
+    /// Names and values, in the order of the report.
     pub fn named(&self) -> [(&'static str, f64); 7] {
         [
             ("rmse", self.rmse),
@@ -62,7 +62,7 @@ impl Statistics {
     }
 }
 
-/// Root mean square of values; NaN of none.
+/// Root mean square of values; NaN without values.
 pub(super) fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }

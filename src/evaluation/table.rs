@@ -1,4 +1,4 @@
-//! Keyframes as numbers a person reads: x y z roll pitch yaw.
+//! Poses as a table: time, x, y, z, roll, pitch, yaw, field of view.
 
 use std::fmt::Write as _;
 
@@ -11,28 +11,29 @@ use cinesplat_geometry::LevelFrame;
 /// One pose of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TableRow {
-    /// When; the frame number where the path has no times.
+    /// Time; the index of the pose if the path has no times.
     pub time_secs: f64,
-    /// Where, world.
+    /// Camera center, world.
     pub position: DVec3,
-    /// Clockwise as the operator sees it, degrees.
+    /// Positive clockwise as the operator sees it, degrees.
     pub roll_deg: f64,
-    /// Above the horizon, degrees.
+    /// Positive above the horizon, degrees.
     pub pitch_deg: f64,
-    /// To the right of the first pose, degrees; runs on beyond half a turn.
+    /// Relative to the first pose, positive to the right, degrees; continuous beyond half a turn.
     pub yaw_deg: f64,
-    /// Vertical, degrees; `None` where unknown.
+    /// Vertical field of view, degrees; `None` if unknown.
     pub fov_y_deg: Option<f64>,
 }
 
-/// A row for every pose. Angles are those of the world's up ([`Trajectory::up_or_mean`]) and run on from row to row.
+/// One row per pose. Angles are relative to the world's up (the file's, else the mean up of the cameras) and continuous from
+/// row to row.
 pub fn keyframe_table(path: &Trajectory) -> Vec<TableRow> {
     let level = LevelFrame::new(path.up_or_mean()).ok();
     rows(path, level, None)
 }
 
-/// As [`keyframe_table`], with yaw 0 where another path's first pose has it, so that both can be compared.
-pub(super) fn table_beside(path: &Trajectory, other: &Trajectory) -> Vec<TableRow> {
+/// As [`keyframe_table`], with the up and the yaw 0 of another path, so that both tables can be compared.
+pub(super) fn table_relative_to(path: &Trajectory, other: &Trajectory) -> Vec<TableRow> {
     let level = LevelFrame::new(other.up_or_mean()).ok();
     let start = level
         .zip(other.rotations.first())
@@ -49,7 +50,7 @@ fn rows(path: &Trajectory, level: Option<LevelFrame>, yaw_start_rad: Option<f64>
         let angles = level.angles(DQuat::from_mat3(rotation).normalize());
         let start = *start_rad.get_or_insert(angles.yaw_rad);
         let before = rows.last();
-        // The turn nearest to the row before, or to 0.
+        // The equivalent angle nearest to that of the previous row, or to 0.
         let near =
             |degrees: f64, last: Option<f64>| degrees - 360.0 * ((degrees - last.unwrap_or(0.0)) / 360.0).round();
         rows.push(TableRow {
@@ -64,7 +65,7 @@ fn rows(path: &Trajectory, level: Option<LevelFrame>, yaw_start_rad: Option<f64>
     rows
 }
 
-/// The table as aligned text, one line a row under a line of names.
+/// The table as aligned text: a line of names, then one line per row.
 pub fn table_text(rows: &[TableRow]) -> String {
     let names = ["time s", "x", "y", "z", "roll deg", "pitch deg", "yaw deg", "fov deg"];
     let mut out = names.map(|name| format!("{name:>10}")).join(" ");
@@ -85,6 +86,7 @@ pub fn table_json(rows: &[TableRow]) -> String {
     rows_json(rows).pretty()
 }
 
+/// The table as a JSON value: a list of objects.
 pub(super) fn rows_json(rows: &[TableRow]) -> Json {
     let row = |row: &TableRow| {
         object([

@@ -1,80 +1,97 @@
-//! Motion tags as two published systems give them to paths: E.T. (Courant et al. 2024, 27 translations) and GenDoP
-//! (Zhang et al. 2025, the same times 7 rotations).
+//! Motion tags of paths, as two published systems define them.
 //!
-//! Each frame's motion is seen in the camera's own axes. An axis is active when its speed is above a threshold in absolute
-//! units a second, and stays active unless another is much faster; tags are then smoothed by a mode filter, and chunks too
-//! short are given to their neighbors. Thresholds are those systems' own and depend on the path's scale.
+//! E.T. (R. Courant et al., "E.T. the Exceptional Trajectories", ECCV 2024) has 27 classes of translation. GenDoP (M. Zhang
+//! et al., "GenDoP: Auto-regressive Camera Trajectory Generation as a Director of Photography", 2025) has the same 27
+//! classes times 7 classes of rotation.
+//!
+//! The motion from each frame to the next is expressed in the camera's axes. An axis is active if its speed is above a
+//! threshold in scene units per second and no other axis is much faster. A mode filter smooths the classes, and runs that
+//! are too short are merged into their neighbors. The thresholds are those of the two systems; they are not independent of
+//! the path's scale.
+
+use std::fmt;
 
 use glam::{DMat3, DQuat, DVec3};
+use strum::VariantArray;
 
 use super::Trajectory;
 use cinesplat_geometry::rotation;
 
-/// Speed above which an axis is active, units a second.
+/// Speed above which an axis is active, scene units per second.
 const ACTIVE_SPEED: f64 = 0.02;
-/// Relative difference of two speeds beyond which the slower axis is dropped.
+/// Relative difference of two speeds above which the slower axis is dropped.
 const DOMINANCE: f64 = 0.4;
-/// Turn above which a frame rotates, rad a frame.
+/// Rotation above which a frame turns, rad per frame.
 const ACTIVE_TURN: f64 = 0.005;
-/// Most segments of a GenDoP description.
+/// Largest number of segments of a GenDoP description.
 const MAX_SEGMENTS: usize = 4;
 
-/// Which system's tags.
+/// A system of motion tags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tagger {
-    /// Translations alone, 25 frames a second, OpenCV axes.
+    /// E.T.: translations, at 25 frames per second, in OpenCV axes.
     Et,
-    /// Translations and rotations, 30 frames a second, OpenGL axes.
+    /// GenDoP: translations and rotations, at 30 frames per second, in OpenGL axes.
     Gendop,
 }
 
-/// One frame's or segment's motion in camera axes: -1, 0 or 1 along right, up and forward, and a turn.
+/// The motion of a frame or segment in camera axes: -1, 0 or 1 along right, up and forward, and a turn.
+///
+/// Displayed in words: `right and forward, yaw left`, or `static`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MotionTag {
     /// Movement to the camera's right (1) or left (-1).
     pub right: i8,
-    /// Movement up (1) or down (-1) along the camera's own up.
+    /// Movement along the camera's up (1) or down (-1).
     pub up: i8,
     /// Movement forward (1) or back (-1).
     pub forward: i8,
-    /// The turn; [`Turn::None`] for E.T.
+    /// The turn; always [`Turn::None`] for E.T.
     pub turn: Turn,
 }
 
-/// The axis a frame turns about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// The main rotation of a frame, in the order of GenDoP's classes.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, strum::AsRefStr, strum::Display, strum::EnumString, strum::VariantArray,
+)]
 pub enum Turn {
     /// No turn.
     #[default]
+    #[strum(serialize = "")]
     None,
     /// The view tilts up.
+    #[strum(serialize = "pitch up")]
     PitchUp,
     /// The view tilts down.
+    #[strum(serialize = "pitch down")]
     PitchDown,
     /// The view pans left.
+    #[strum(serialize = "yaw left")]
     YawLeft,
     /// The view pans right.
+    #[strum(serialize = "yaw right")]
     YawRight,
-    /// The camera rolls to its left (its left side dips).
+    /// The camera's left side dips.
+    #[strum(serialize = "roll left")]
     RollLeft,
-    /// The camera rolls to its right.
+    /// The camera's right side dips.
+    #[strum(serialize = "roll right")]
     RollRight,
 }
 
-/// A stretch of frames with one tag.
+/// Consecutive motions with one tag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TagSegment {
-    /// First motion (from frame `start` to the next).
+    /// Index of the first motion, from frame `start` to the next.
     pub start: usize,
-    /// One past the last motion.
+    /// Index after that of the last motion.
     pub end: usize,
-    /// Its tag.
+    /// The tag.
     pub tag: MotionTag,
 }
 
-impl MotionTag {
-    /// The tag in words: `right and forward, yaw left`, or `static`.
-    pub fn words(self) -> String {
+impl fmt::Display for MotionTag {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let word = |sign: i8, positive: &'static str, negative: &'static str| match sign {
             1 => Some(positive),
             -1 => Some(negative),
@@ -83,32 +100,12 @@ impl MotionTag {
         let moves =
             [word(self.right, "right", "left"), word(self.up, "up", "down"), word(self.forward, "forward", "back")];
         let moves = moves.into_iter().flatten().collect::<Vec<_>>().join(" and ");
-        let parts: Vec<String> =
-            [moves, self.turn.words().to_owned()].into_iter().filter(|part| !part.is_empty()).collect();
-        if parts.is_empty() { "static".to_owned() } else { parts.join(", ") }
-    }
-}
-
-impl Turn {
-    /// The turn in words, empty for none.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::None => "",
-            Self::PitchUp => "pitch up",
-            Self::PitchDown => "pitch down",
-            Self::YawLeft => "yaw left",
-            Self::YawRight => "yaw right",
-            Self::RollLeft => "roll left",
-            Self::RollRight => "roll right",
+        match (moves.is_empty(), self.turn) {
+            (true, Turn::None) => f.write_str("static"),
+            (true, turn) => write!(f, "{turn}"),
+            (false, Turn::None) => f.write_str(&moves),
+            (false, turn) => write!(f, "{moves}, {turn}"),
         }
-    }
-
-    /// From a rotation vector in OpenGL camera axes and the number that GenDoP gives each turn.
-    fn from_class(class: usize) -> Self {
-        [Self::None, Self::PitchUp, Self::PitchDown, Self::YawLeft, Self::YawRight, Self::RollLeft, Self::RollRight]
-            .get(class)
-            .copied()
-            .unwrap_or_default()
     }
 }
 
@@ -117,12 +114,12 @@ impl Tagger {
         if self == Self::Et { 25.0 } else { 30.0 }
     }
 
-    /// Length of the mode filter and of the shortest chunk, motions.
+    /// Length of the mode filter and shortest run that is kept, motions.
     fn smoothing(self) -> (usize, usize) {
         if self == Self::Et { (56, 25) } else { (15, 10) }
     }
 
-    /// The class of every motion from a frame to the next, neither smoothed nor joined.
+    /// The class of every motion, without smoothing.
     fn classes(self, path: &Trajectory) -> Vec<usize> {
         let motion = |idx: usize| {
             let back = path.rotations[idx].transpose();
@@ -145,19 +142,24 @@ impl Tagger {
         let (translation, turn) = if self == Self::Et { (class, 0) } else { (class / 7, class % 7) };
         let sign = |digit: usize| [0, 1, -1][digit % 3];
         let (x, y, z) = (sign(translation / 9), sign(translation / 3), sign(translation));
-        // E.T. counts y down and z forward, GenDoP y up and z back.
+        // In E.T. y points down and z forward, in GenDoP y points up and z back.
         let flip = if self == Self::Et { 1 } else { -1 };
-        MotionTag { right: x, up: -y * flip, forward: z * flip, turn: Turn::from_class(turn) }
+        MotionTag {
+            right: x,
+            up: -y * flip,
+            forward: z * flip,
+            turn: Turn::VARIANTS.get(turn).copied().unwrap_or_default(),
+        }
     }
 
-    /// The path's segments.
+    /// The segments of a path, in order.
     ///
-    /// GenDoP widens its filter and its shortest chunk until at most four are left.
+    /// GenDoP increases the length of its filter and of its shortest run until at most four segments are left.
     pub fn segments(self, path: &Trajectory) -> Vec<TagSegment> {
         let classes = self.classes(path);
         let (mut window, mut shortest) = self.smoothing();
         loop {
-            let segments = self.joined(&absorbed(&smoothed(&classes, window), shortest));
+            let segments = self.tagged(&without_short_runs(&smoothed(&classes, window), shortest));
             if self == Self::Et || segments.len() <= MAX_SEGMENTS || window > 2 * classes.len() {
                 return segments;
             }
@@ -171,15 +173,12 @@ impl Tagger {
         self.segments(path).iter().flat_map(|segment| vec![segment.tag; segment.end - segment.start]).collect()
     }
 
-    fn joined(self, chunks: &[Chunk]) -> Vec<TagSegment> {
-        chunks
-            .iter()
-            .map(|chunk| TagSegment { start: chunk.start, end: chunk.end, tag: self.tag(chunk.class) })
-            .collect()
+    fn tagged(self, runs: &[Run]) -> Vec<TagSegment> {
+        runs.iter().map(|run| TagSegment { start: run.start, end: run.end, tag: self.tag(run.class) }).collect()
     }
 }
 
-/// 9 x + 3 y + z with digits 0 none, 1 positive, 2 negative.
+/// The class 9 x + 3 y + z, where the digit of an axis is 0 for no motion, 1 for positive and 2 for negative motion.
 fn translation_class(velocity: DVec3) -> usize {
     let v = velocity.to_array();
     let mut active = v.map(|speed| speed.abs() > ACTIVE_SPEED);
@@ -204,14 +203,14 @@ fn translation_class(velocity: DVec3) -> usize {
     9 * digit(0) + 3 * digit(1) + digit(2)
 }
 
-/// 0 without a turn, else 1 + 2 axis + (1 when negative).
+/// The class of a rotation vector in OpenGL axes: 0 without a turn, else 1 + 2 axis, plus 1 for a negative rotation.
 fn rotation_class(turn: DVec3) -> usize {
     let t = turn.to_array();
     let axis = (1..3).fold(0, |best, axis| if t[axis].abs() > t[best].abs() { axis } else { best });
     if t[axis].abs() > ACTIVE_TURN { 1 + 2 * axis + usize::from(t[axis] < 0.0) } else { 0 }
 }
 
-/// Mode filter; lists shorter than the window stay as they are.
+/// The classes after a mode filter; unchanged if there are fewer than the window is long.
 fn smoothed(classes: &[usize], window: usize) -> Vec<usize> {
     let (len, half) = (classes.len(), window / 2);
     if len < window {
@@ -225,7 +224,7 @@ fn smoothed(classes: &[usize], window: usize) -> Vec<usize> {
     (0..len).map(|idx| mode(around(idx))).collect()
 }
 
-/// Most frequent class, the smallest of equals.
+/// The most frequent class; of equally frequent ones the smallest.
 fn mode(classes: &[usize]) -> usize {
     let mut counts = std::collections::BTreeMap::new();
     for class in classes {
@@ -234,46 +233,47 @@ fn mode(classes: &[usize]) -> usize {
     counts.into_iter().fold((0, 0), |best, (class, count)| if count > best.1 { (class, count) } else { best }).0
 }
 
-/// A run of one class.
+/// Consecutive motions of one class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Chunk {
+struct Run {
     start: usize,
     end: usize,
     class: usize,
 }
 
-fn runs(classes: &[usize]) -> Vec<Chunk> {
-    let mut chunks: Vec<Chunk> = Vec::new();
+fn runs_of(classes: &[usize]) -> Vec<Run> {
+    let mut found: Vec<Run> = Vec::new();
     for (idx, class) in classes.iter().enumerate() {
-        match chunks.last_mut() {
+        match found.last_mut() {
             Some(last) if last.class == *class => last.end = idx + 1,
-            _ => chunks.push(Chunk { start: idx, end: idx + 1, class: *class }),
+            _ => found.push(Run { start: idx, end: idx + 1, class: *class }),
         }
     }
-    chunks
+    found
 }
 
-/// Gives chunks shorter than `shortest` to their neighbors, the shortest first: at the ends to the only one, in between
-/// half to each, the odd motion to the one before.
-fn absorbed(classes: &[usize], shortest: usize) -> Vec<Chunk> {
+/// The runs after those shorter than `shortest` are merged into their neighbors, the shortest first.
+///
+/// A run at an end goes to its only neighbor. A run between two is split in half, with the odd motion in the first half.
+fn without_short_runs(classes: &[usize], shortest: usize) -> Vec<Run> {
     let mut classes = classes.to_vec();
     loop {
-        let chunks = runs(&classes);
-        let Some(idx) = (0..chunks.len()).min_by_key(|idx| chunks[*idx].end - chunks[*idx].start) else {
-            return chunks;
+        let runs = runs_of(&classes);
+        let Some(idx) = (0..runs.len()).min_by_key(|idx| runs[*idx].end - runs[*idx].start) else {
+            return runs;
         };
-        let chunk = chunks[idx];
-        if chunks.len() == 1 || chunk.end - chunk.start >= shortest {
-            return chunks;
+        let run = runs[idx];
+        if runs.len() == 1 || run.end - run.start >= shortest {
+            return runs;
         }
-        let before = idx.checked_sub(1).map(|idx| chunks[idx].class);
-        let after = chunks.get(idx + 1).map(|chunk| chunk.class);
+        let before = idx.checked_sub(1).map(|idx| runs[idx].class);
+        let after = runs.get(idx + 1).map(|run| run.class);
         let split = match (before, after) {
-            (Some(_), Some(_)) => chunk.start + (chunk.end - chunk.start).div_ceil(2),
-            (None, _) => chunk.start,
-            _ => chunk.end,
+            (Some(_), Some(_)) => run.start + (run.end - run.start).div_ceil(2),
+            (None, _) => run.start,
+            _ => run.end,
         };
-        classes[chunk.start..split].fill(before.unwrap_or(chunk.class));
-        classes[split..chunk.end].fill(after.unwrap_or(chunk.class));
+        classes[run.start..split].fill(before.unwrap_or(run.class));
+        classes[split..run.end].fill(after.unwrap_or(run.class));
     }
 }

@@ -3,21 +3,21 @@ use glam::{DMat3, DVec3};
 use cinesplat_export::PoseTrack;
 use cinesplat_geometry::Pose;
 
-/// A camera path as error measures see it: poses with rotation matrices as they stood in their file.
+/// A camera path for error measures: poses with the rotation matrices of their file.
 ///
-/// Matrices rather than quaternions, because a file of rounded matrices (KITTI) is off orthonormal by its digits, and
-/// measures that are to agree with other programs must see the same numbers.
+/// Rotations are matrices, not quaternions, because the rounded matrices of a file (KITTI) are not exactly orthonormal, and
+/// results that agree with other programs need the same numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trajectory {
-    /// Time stamps; `None` where the file has none.
+    /// Time stamps; `None` if the file has none.
     pub times_secs: Option<Vec<f64>>,
     /// Camera centers, world.
     pub positions: Vec<DVec3>,
     /// Rotations of `world_from_camera`, OpenCV camera axes.
     pub rotations: Vec<DMat3>,
-    /// Vertical fields of view; `None` where the file has none.
+    /// Vertical field of view per pose; `None` if the file has none.
     pub fov_y_rad: Vec<Option<f64>>,
-    /// World up; `None` where the file does not say.
+    /// World up; `None` if the file does not state it.
     pub up: Option<DVec3>,
 }
 
@@ -36,7 +36,7 @@ impl From<&PoseTrack> for Trajectory {
 }
 
 impl Trajectory {
-    /// A path of poses at times, nothing else known.
+    /// A path of poses, with times or without.
     pub fn from_poses(times_secs: Option<Vec<f64>>, poses: &[Pose]) -> Self {
         Self {
             times_secs,
@@ -57,12 +57,12 @@ impl Trajectory {
         self.positions.is_empty()
     }
 
-    /// Sum of the distances from pose to pose.
-    pub fn path_length(&self) -> f64 {
+    /// Sum of the distances from pose to pose, scene units.
+    pub(crate) fn path_length(&self) -> f64 {
         self.positions.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
     }
 
-    /// The poses at these indices, in this order; indices out of range are left out.
+    /// The poses at these indices, in this order. Indices out of range are skipped.
     #[must_use]
     pub fn select(&self, indices: &[usize]) -> Self {
         let pick = |list: &[f64]| indices.iter().filter_map(|idx| list.get(*idx).copied()).collect();
@@ -75,20 +75,20 @@ impl Trajectory {
         }
     }
 
-    /// Times, or the index of each pose where there are none.
-    pub fn times_or_indices(&self) -> Vec<f64> {
+    /// Times, or the indices of the poses if there are none.
+    pub(crate) fn times_or_indices(&self) -> Vec<f64> {
         self.times_secs.clone().unwrap_or_else(|| (0..self.len()).map(|idx| idx as f64).collect())
     }
 
-    /// Diagonal of the box around the positions.
+    /// Diagonal of the bounding box of the positions, scene units.
     pub fn diameter(&self) -> f64 {
         let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (low, high) = self.positions.iter().fold(bounds, |(low, high), p| (low.min(*p), high.max(*p)));
         if self.is_empty() { 0.0 } else { (high - low).length() }
     }
 
-    /// World up: the file's, or the mean of the cameras' own up directions, or `-y`.
-    pub fn up_or_mean(&self) -> DVec3 {
+    /// World up: the file's, else the mean of the cameras' up directions, else `-y`.
+    pub(crate) fn up_or_mean(&self) -> DVec3 {
         let mean: DVec3 = self.rotations.iter().map(|rotation| -rotation.y_axis).sum();
         self.up.or(mean.try_normalize()).unwrap_or(DVec3::NEG_Y)
     }

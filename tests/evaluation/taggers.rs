@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::paths::{at_30_fps, through, track_of};
 
 fn words(tagger: Tagger, path: &Trajectory) -> Vec<String> {
-    tagger.segments(path).into_iter().map(|segment| segment.tag.words()).collect()
+    tagger.segments(path).into_iter().map(|segment| segment.tag.to_string()).collect()
 }
 
 #[test]

@@ -1,21 +1,23 @@
-//! Errors of the lens, which trajectory measures leave out.
+//! Error of the focal length, which trajectory errors do not include.
 
 use super::Trajectory;
 use super::statistics::root_mean_square;
 
-/// How far fields of view are off, over matched poses.
+/// Error of the focal lengths over matched poses: statistics of ln(estimate focal length / reference focal length).
+///
+/// A value of 0.1 is a difference of about 10 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FocalError {
-    /// Root mean square of ln(estimate focal length / reference focal length): 0.1 is about 10 %.
+    /// Root mean square.
     pub log_ratio_rmse: f64,
-    /// Mean of the same with its sign: above 0 the estimate is longer, that is, narrower.
+    /// Mean; above 0 if the estimate has longer focal lengths, that is narrower fields of view.
     pub log_ratio_mean: f64,
-    /// Largest magnitude of the same.
+    /// Largest magnitude.
     pub log_ratio_max: f64,
 }
 
-/// The error of the focal lengths of poses matched one to one; `None` where a path lacks fields of view.
-pub fn focal_error(reference: &Trajectory, estimate: &Trajectory) -> Option<FocalError> {
+/// The error of the focal lengths of poses matched by index; `None` if a pose has no field of view.
+pub(super) fn focal_error(reference: &Trajectory, estimate: &Trajectory) -> Option<FocalError> {
     let pairs = reference.fov_y_rad.iter().zip(&estimate.fov_y_rad);
     // Focal length over half the image height is 1 / tan(fov / 2).
     let ratio =
@@ -27,6 +29,6 @@ pub fn focal_error(reference: &Trajectory, estimate: &Trajectory) -> Option<Foca
     Some(FocalError {
         log_ratio_rmse: root_mean_square(&ratios),
         log_ratio_mean: ratios.iter().sum::<f64>() / ratios.len() as f64,
-        log_ratio_max: ratios.iter().fold(0.0, |most, r| r.abs().max(most)),
+        log_ratio_max: ratios.iter().fold(0.0, |largest, r| r.abs().max(largest)),
     })
 }
