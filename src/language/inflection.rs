@@ -1,12 +1,12 @@
-//! English word forms: verbs of the phrasebook, singulars of names.
+//! English word forms: inflected verbs, singular nouns.
 
-/// Form that a sentence asks of its verb.
+/// Form of a verb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tense {
+pub enum VerbForm {
     /// `push`.
     Base,
     /// `pushes`.
-    Third,
+    ThirdPerson,
     /// `pushing`.
     Gerund,
 }
@@ -17,19 +17,27 @@ const DOUBLED: [&str; 22] = [
     "snap", "tip", "skim", "jog", "let", "nod", "set",
 ];
 
-/// `verb` in a form; a hyphenated verb inflects at its end (`dolly-zoom`).
-pub fn inflect(verb: &str, tense: Tense) -> String {
+/// The base form `verb` in another form; of a hyphenated verb (`dolly-zoom`) the last word is inflected.
+///
+/// # Example
+/// ```
+/// use cinesplat_language::{VerbForm, inflect};
+///
+/// assert_eq!(inflect("push", VerbForm::ThirdPerson), "pushes");
+/// assert_eq!(inflect("whip-pan", VerbForm::Gerund), "whip-panning");
+/// ```
+pub fn inflect(verb: &str, form: VerbForm) -> String {
     let (front, last) = verb.rsplit_once('-').map_or(("", verb), |(front, last)| (front, last));
     let dash = if front.is_empty() { "" } else { "-" };
-    let form = match tense {
-        Tense::Base => last.to_owned(),
-        Tense::Third => third(last),
-        Tense::Gerund => gerund(last),
+    let inflected = match form {
+        VerbForm::Base => last.to_owned(),
+        VerbForm::ThirdPerson => third_person(last),
+        VerbForm::Gerund => gerund(last),
     };
-    format!("{front}{dash}{form}")
+    format!("{front}{dash}{inflected}")
 }
 
-fn third(verb: &str) -> String {
+fn third_person(verb: &str) -> String {
     match verb {
         "have" => return "has".to_owned(),
         "be" => return "is".to_owned(),
@@ -56,13 +64,9 @@ fn gerund(verb: &str) -> String {
     }
 }
 
-/// The other forms of a word, were it a verb.
-pub fn forms(word: &str) -> [String; 2] {
-    [inflect(word, Tense::Third), inflect(word, Tense::Gerund)]
-}
-
-/// The singular of an English noun, by its ending; other words come out changed but always in the same way.
-pub fn stem(word: &str) -> String {
+/// The singular of an English noun, by its ending. Equal words always have equal stems; the stem of a word that is no
+/// noun need not be a word.
+pub(crate) fn stem(word: &str) -> String {
     let count = word.chars().count();
     if let Some(base) = word.strip_suffix("ies").filter(|_| count > 4) {
         return format!("{base}y");

@@ -1,94 +1,125 @@
+//! The lexicon file: lists of adjectives, nouns, synonyms, camera words and effects. `prompts/lexicon.txt` describes its
+//! own format.
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use super::LanguageError;
-use super::words::words;
+use super::error::LanguageError;
+use super::tokenizer::tokenize;
 
 const FILE: &str = "prompts/lexicon.txt";
 static TEXT: &str = include_str!("../../prompts/lexicon.txt");
 
-/// Word lists: what may qualify an object, what is camera talk, what is scenery, which words mean the same thing.
+/// Word lists that tell the names of objects from the language of shots.
 #[derive(Debug, Default)]
 pub struct Lexicon {
-    pub determiners: BTreeSet<String>,
-    pub adjectives: BTreeSet<String>,
-    /// Names of things, as written.
-    pub nouns: Vec<String>,
-    /// Single words that head a name of a thing.
-    pub noun_heads: BTreeSet<String>,
-    /// Name (stems, parted by spaces) to the names of the same meaning.
-    pub synonyms: BTreeMap<String, BTreeSet<String>>,
-    pub camera: BTreeSet<String>,
-    pub scene: BTreeSet<String>,
-    pub function: BTreeSet<String>,
-    /// Name of an effect and a wording for it as words; longest wordings first.
-    pub effects: Vec<(String, Vec<String>)>,
+    pub(crate) determiners: BTreeSet<String>,
+    pub(crate) adjectives: BTreeSet<String>,
+    /// Names of objects, as written in the file.
+    nouns: Vec<String>,
+    /// Stems of the last words of `nouns`.
+    pub(crate) noun_heads: BTreeSet<String>,
+    /// A name (stems, separated by spaces) to the names of the same meaning.
+    pub(crate) synonyms: BTreeMap<String, BTreeSet<String>>,
+    pub(crate) camera: BTreeSet<String>,
+    scene: BTreeSet<String>,
+    pub(crate) function: BTreeSet<String>,
+    /// Name of an effect and the words of one phrase for it; longest phrases first.
+    pub(crate) effects: Vec<(String, Vec<String>)>,
+}
+
+/// A `[section]` of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
+#[strum(serialize_all = "lowercase")]
+enum Section {
+    Determiners,
+    Adjectives,
+    Nouns,
+    Synonyms,
+    Camera,
+    Scene,
+    Function,
+    Effects,
 }
 
 impl Lexicon {
     /// The lexicon that the program ships, read once.
     ///
     /// # Errors
-    /// [`LanguageError::BadData`] when the embedded file has a section that nobody knows.
+    /// [`LanguageError::BadData`] when the embedded file has an unknown section, an entry before any section, or an
+    /// effect without a colon.
     pub fn embedded() -> Result<&'static Self, LanguageError> {
         static LEXICON: OnceLock<Result<Lexicon, LanguageError>> = OnceLock::new();
         LEXICON.get_or_init(|| Self::parse(TEXT)).as_ref().map_err(Clone::clone)
     }
 
+    /// Adjectives that may qualify an object (`red`, `wooden`), in alphabetical order.
+    pub fn adjectives(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.adjectives.iter().map(String::as_str)
+    }
+
+    /// Names of things that scenes hold (`armchair`, `coffee table`), in the order of the file.
+    pub fn nouns(&self) -> &[String] {
+        &self.nouns
+    }
+
     fn parse(text: &str) -> Result<Self, LanguageError> {
         let mut lexicon = Self::default();
-        let mut section = String::new();
+        let mut section = None;
         for (index, line) in text.lines().enumerate() {
             let line = line.trim();
             if line.is_empty() || line.starts_with('#') {
                 continue;
             }
+            let bad = |what: String| LanguageError::BadData { file: FILE, line: index + 1, what };
             if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-                name.clone_into(&mut section);
-            } else if !lexicon.take(&section, line) {
-                return Err(LanguageError::BadData { file: FILE, line: index + 1, what: format!("section {section}") });
+                section = Some(name.parse().map_err(|_| bad(format!("unknown section \"{name}\"")))?);
+            } else {
+                let section = section.ok_or_else(|| bad("an entry before any section".to_owned()))?;
+                lexicon.add(section, line).map_err(bad)?;
             }
         }
-        lexicon.effects.sort_by_key(|(_, wording)| std::cmp::Reverse(wording.len()));
+        lexicon.effects.sort_by_key(|(_, phrase)| std::cmp::Reverse(phrase.len()));
         Ok(lexicon)
     }
 
-    fn take(&mut self, section: &str, line: &str) -> bool {
+    fn add(&mut self, section: Section, line: &str) -> Result<(), String> {
         let entries = || line.split(',').map(str::trim).filter(|entry| !entry.is_empty());
-        let singles = || entries().flat_map(words).map(|word| word.text);
+        let words = || entries().flat_map(tokenize).map(|word| word.text);
         match section {
-            "determiners" => self.determiners.extend(singles()),
-            "adjectives" => self.adjectives.extend(singles()),
-            "camera" => self.camera.extend(singles()),
-            "scene" => self.scene.extend(singles()),
-            "function" => self.function.extend(singles()),
-            "nouns" => {
+            Section::Determiners => self.determiners.extend(words()),
+            Section::Adjectives => self.adjectives.extend(words()),
+            Section::Camera => self.camera.extend(words()),
+            Section::Scene => self.scene.extend(words()),
+            Section::Function => self.function.extend(words()),
+            Section::Nouns => {
                 self.nouns.extend(entries().map(str::to_owned));
                 self.noun_heads.extend(entries().filter_map(last_stem));
             }
-            "synonyms" => self.take_synonyms(&entries().map(stems).collect::<Vec<_>>()),
-            "effects" => return self.take_effects(line),
-            _ => return false,
+            Section::Synonyms => self.add_synonyms(&entries().map(stems).collect::<Vec<_>>()),
+            Section::Effects => self.add_effect(line)?,
         }
-        true
+        Ok(())
     }
 
-    fn take_synonyms(&mut self, group: &[String]) {
+    fn add_synonyms(&mut self, group: &[String]) {
         for name in group {
             let others = group.iter().filter(|other| *other != name).cloned();
             self.synonyms.entry(name.clone()).or_default().extend(others);
         }
     }
 
-    fn take_effects(&mut self, line: &str) -> bool {
-        let Some((name, wordings)) = line.split_once(':') else { return false };
-        let wordings = wordings.split(',').map(|w| words(w).into_iter().map(|word| word.text).collect::<Vec<_>>());
-        self.effects.extend(wordings.filter(|w| !w.is_empty()).map(|w| (name.trim().to_owned(), w)));
-        true
+    /// `name: phrase, phrase ..`.
+    fn add_effect(&mut self, line: &str) -> Result<(), String> {
+        let (name, phrases) = line.split_once(':').ok_or_else(|| format!("no colon in \"{line}\""))?;
+        let phrases =
+            phrases.split(',').map(|phrase| tokenize(phrase).into_iter().map(|word| word.text).collect::<Vec<_>>());
+        self.effects.extend(phrases.filter(|words| !words.is_empty()).map(|words| (name.trim().to_owned(), words)));
+        Ok(())
     }
 
-    /// Whether the word belongs to the language of shots rather than to the scene's things.
-    pub fn is_talk(&self, word: &str) -> bool {
+    /// Whether the word belongs to the language of shots rather than to the names of objects.
+    pub(crate) fn is_shot_language(&self, word: &str) -> bool {
         self.camera.contains(word)
             || self.scene.contains(word)
             || self.function.contains(word)
@@ -98,9 +129,9 @@ impl Lexicon {
 }
 
 fn stems(entry: &str) -> String {
-    words(entry).into_iter().map(|word| word.stem).collect::<Vec<_>>().join(" ")
+    tokenize(entry).into_iter().map(|word| word.stem).collect::<Vec<_>>().join(" ")
 }
 
 fn last_stem(entry: &str) -> Option<String> {
-    words(entry).pop().map(|word| word.stem)
+    tokenize(entry).pop().map(|word| word.stem)
 }

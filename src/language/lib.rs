@@ -1,28 +1,84 @@
-//! Words: a prompt's objects and quantities found (`link`), and prompts with their meaning invented (`Phrasebook`).
+//! The words of a prompt: its objects and quantities, the effects it mentions, and the text notation of programs.
 //!
-//! Enters: a sentence and the scene's named objects. Leaves: the sentence as plain words with `<obj-S>` and `<qty-Q>` in
-//! place of names and quantities, every word with its bytes of the prompt; or (sentence, program) pairs for training and
-//! for the exam. The one invariant: spans always lie on character boundaries of the prompt they came from. Nothing here
-//! decides what a sentence means: that is the model's part.
+//! Enters: a prompt and the scene's named objects. Leaves ([`link`]): the prompt as plain words in which placeholders
+//! stand for objects and quantities, each word with its bytes of the prompt. The one invariant: spans lie on character
+//! boundaries of the prompt. The crate never decides what a prompt means; the director's network does.
+//!
+//! # Notation of programs
+//!
+//! A [`Program`](cinesplat_operator::Program) has a short text form, used by training data, the exam and tests:
+//!
+//! ```text
+//! push-in end=3:close-up dur=2s / orbit-left end=3 amount=45deg | total=8s
+//! ```
+//!
+//! Its grammar (EBNF; tokens are separated by spaces and may stand in any order):
+//!
+//! ```text
+//! program   = step { " / " step } [ "|" total ] ;
+//! step      = move { token } ;
+//! move      = MOVE | family ;                       (* push-in | pan *)
+//! token     = direction | framing | pass | amount | duration | speed
+//!           | easing | second | flag ;
+//! direction = "left" | "right" | "up" | "down" | "in" | "out" | "cw" | "ccw" ;
+//! framing   = side "=" subjects { qualifier }       (* names the subjects *)
+//!           | side qualifier { qualifier } ;        (* adds to a framing *)
+//! side      = "start" | "end" ;
+//! subjects  = "room" | object { "+" object } ;
+//! qualifier = ":" ( SIZE | ANGLE | PART ) | "!" | "+" object ;
+//! pass      = ( "past" | "between" | "over" ) "=" object { "+" object } ;
+//! amount    = "amount=" ( number ( "deg" | "u" | "x" ) | "slight" | "large" ) ;
+//! duration  = "dur=" number "s" ;
+//! speed     = "slow" | "fast" ;
+//! easing    = "ease=" EASING ;
+//! second    = "with=" MOVE ;
+//! flag      = "cut" | "returns" | "either" ;
+//! total     = "total=" number "s" ;
+//! object    = integer ;                             (* id of an object *)
+//! ```
+//!
+//! `MOVE`, `SIZE`, `ANGLE`, `EASING` and `PART` are the names of [`Move`](cinesplat_trajectory::Move),
+//! [`ShotSize`](cinesplat_trajectory::ShotSize), [`ShotAngle`](cinesplat_trajectory::ShotAngle),
+//! [`Easing`](cinesplat_trajectory::Easing) and [`SubjectPart`](cinesplat_operator::SubjectPart). A `family` is the name
+//! of a move that exists in two directions, without the direction: `pan`, `tilt`, `roll`, `truck`, `pedestal`, `crane`,
+//! `orbit`, `arc`, `zoom`, `dolly-zoom`. A family takes its direction from the step. Without one it gets `right`, `up`,
+//! `in` or `cw` and the step is `either`: both directions are right. `room` means no subject, `!` all subjects wholly in
+//! the frame. Amounts are degrees (`deg`), scene units (`u`) or a factor on the distance or focal length (`x`). The flags
+//! `cut` and `returns` mean that the step begins with a cut, or ends where the shot began.
+//!
+//! ```
+//! use cinesplat_language::{program_from_notation, program_to_notation};
+//! use cinesplat_trajectory::Move;
+//!
+//! let program = program_from_notation("orbit left end=3:low! amount=45deg slow | total=8s")?;
+//! assert_eq!(program.steps[0].movement, Move::OrbitLeft);
+//! assert_eq!(program.steps[0].end.subjects, [3]);
+//! assert_eq!(program.duration_secs, Some(8.0));
+//! assert_eq!(program_to_notation(&program), "orbit-left end=3:low! amount=45deg slow | total=8s");
+//! # Ok::<(), cinesplat_language::NotationError>(())
+//! ```
 
-pub mod counting;
 mod effects;
 mod error;
-pub mod grammar;
-pub mod inflection;
-pub mod lexicon;
+mod inflection;
+mod known_words;
+mod lexicon;
 mod link;
-mod mention;
-pub mod names;
-pub mod notation;
+mod names;
+mod notation;
+mod numbered;
+mod numerals;
 mod quantity;
+mod tokenizer;
 mod unknown;
-pub mod words;
 
-pub use effects::{CalledFor, effects_called_for};
+pub use effects::{EffectMention, effect_mentions};
 pub use error::LanguageError;
+pub use inflection::{VerbForm, inflect};
+pub use lexicon::Lexicon;
 pub use link::{Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, link};
 pub use names::NamedObject;
-pub use notation::{program_from_notation, program_to_notation};
+pub use notation::{NotationError, program_from_notation, program_to_notation, step_from_notation};
+pub use numerals::number_word;
 pub use quantity::{Quantity, QuantityKind};
 pub use unknown::UnknownName;

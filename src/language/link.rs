@@ -1,50 +1,73 @@
-use super::LanguageError;
-use super::grammar::Grammar;
-use super::lexicon::Lexicon;
-use super::mention::numbered_at;
-use super::names::{NameIndex, NameMatch, NamedObject, shown};
-use super::quantity::{Quantity, quantity_at};
-use super::unknown::{UnknownName, report, suspect_at};
-use super::words::{Word, words};
+//! Linking: objects and quantities of a prompt replaced by placeholders.
+//!
+//! Enters: a prompt and the scene's named objects. Leaves: lower-case words with `<obj-S>` and `<qty-Q>`, each with its
+//! bytes of the prompt. One pass from left to right; at each word a mention by number is tried first, then a name, a
+//! quantity, an unknown name.
 
-/// Longest prompt, in bytes.
+use super::error::LanguageError;
+use super::known_words::KnownWords;
+use super::lexicon::Lexicon;
+use super::names::{NameIndex, NameMatch, NamedObject, display_name};
+use super::numbered::numbered_mention_at;
+use super::quantity::{Quantity, quantity_at};
+use super::tokenizer::{Word, tokenize};
+use super::unknown::{UnknownName, unknown_candidate_at, unknown_name};
+
+/// Most bytes of a prompt.
 pub const MAX_PROMPT_BYTES: usize = 8192;
-/// Most objects of one prompt: the model's identifiers `<obj-0>`..`<obj-99>`.
+/// Most objects of a prompt: the model has the identifiers `<obj-0>` to `<obj-99>`.
 pub const MAX_SLOTS: usize = 100;
-/// Most quantities of one prompt; further ones stay as they were written.
+/// Most quantities of a prompt; further ones stay words.
 pub const MAX_QUANTITIES: usize = 32;
 
-/// A prompt as the model reads it.
+/// A prompt with its objects and quantities replaced by placeholders, as the model reads it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Linked {
-    /// Words and punctuation, lower case, parted by one space each; `<obj-S>` for objects, `<qty-Q>` for quantities.
+    /// Lower-case words and punctuation marks, separated by single spaces: `<obj-S>` stands for the object
+    /// `slots[S]`, `<qty-Q>` for `quantities[Q]`.
     pub tokens_text: String,
-    /// Byte range of the prompt for every word of `tokens_text`.
+    /// Byte range of the prompt for each word of `tokens_text`, on character boundaries.
     pub spans: Vec<[usize; 2]>,
-    /// Object id of every slot, in order of first mention.
+    /// Object id per slot, in order of first mention.
     pub slots: Vec<u32>,
-    /// The quantities, `<qty-0>` first.
+    /// The quantities, in order.
     pub quantities: Vec<Quantity>,
     /// Names that match no object.
     pub unknown: Vec<UnknownName>,
-    /// What was guessed, for the user to read.
+    /// Messages for the user about mentions that fit several objects or are misspelled.
     pub warnings: Vec<String>,
 }
 
-/// `prompt` with its objects and quantities found.
+/// `prompt` with its objects and quantities replaced by placeholders.
 ///
-/// A determiner and plain adjectives before a name belong to it, `the chairs` names every chair, numbers in words and
-/// figures become quantities (their defaults: `quantity.rs`). Takes time linear in the prompt.
+/// A determiner and adjectives before a name belong to the mention. `the chairs` names every chair. A quantity is a
+/// number in digits or words with its unit: `two seconds` becomes `<qty-0>`. A mention that fits several objects takes
+/// the first of them and adds a warning. Takes time linear in the length of the prompt.
 ///
 /// # Errors
-/// [`LanguageError::TooLong`] above [`MAX_PROMPT_BYTES`] · [`LanguageError::Empty`] without a word ·
-/// [`LanguageError::UnknownObject`] for `<obj-N>` that the scene lacks, for a name that surely is a thing it lacks, and
-/// for any unknown name when the prompt names no known object · [`LanguageError::TooManyObjects`] above [`MAX_SLOTS`].
+/// - [`LanguageError::TooLong`]: more than [`MAX_PROMPT_BYTES`].
+/// - [`LanguageError::Empty`]: no word.
+/// - [`LanguageError::UnknownObject`]: `<obj-N>` without such an object, a noun of the lexicon that names no object, or
+///   any unknown name in a prompt that names no known object.
+/// - [`LanguageError::TooManyObjects`]: more than [`MAX_SLOTS`].
+/// - [`LanguageError::BadData`]: the embedded lexicon is malformed.
+///
+/// # Example
+/// ```
+/// use cinesplat_language::{NamedObject, link};
+///
+/// let objects = [NamedObject { id: 7, label: "golden skull".to_owned() }];
+/// let linked = link("Orbit the skull for two seconds.", &objects)?;
+/// assert_eq!(linked.tokens_text, "orbit <obj-0> for <qty-0> .");
+/// assert_eq!(linked.slots, [7]);
+/// assert_eq!(linked.quantities[0].value, 2.0);
+/// # Ok::<(), cinesplat_language::LanguageError>(())
+/// ```
 pub fn link(prompt: &str, objects: &[NamedObject]) -> Result<Linked, LanguageError> {
     if prompt.len() > MAX_PROMPT_BYTES {
         return Err(LanguageError::TooLong { found: prompt.len(), limit: MAX_PROMPT_BYTES });
     }
-    let words = words(prompt);
+    let words = tokenize(prompt);
     if !words.iter().any(|word| word.text.starts_with(char::is_alphanumeric)) {
         return Err(LanguageError::Empty);
     }
@@ -55,7 +78,7 @@ pub fn link(prompt: &str, objects: &[NamedObject]) -> Result<Linked, LanguageErr
         words: &words,
         objects,
         lexicon,
-        grammar: Grammar::embedded()?,
+        known_words: KnownWords::embedded(),
         index,
         linked: Linked::default(),
     };
@@ -68,7 +91,7 @@ struct Linker<'a> {
     words: &'a [Word],
     objects: &'a [NamedObject],
     lexicon: &'a Lexicon,
-    grammar: &'a Grammar,
+    known_words: &'a KnownWords,
     index: NameIndex<'a>,
     linked: Linked,
 }
@@ -76,7 +99,7 @@ struct Linker<'a> {
 impl Linker<'_> {
     fn run(&mut self) -> Result<(), LanguageError> {
         let mut i = 0;
-        let mut suspected_to = 0;
+        let mut candidate_end = 0;
         while i < self.words.len() {
             if let Some(len) = self.object_at(i)? {
                 i += len;
@@ -90,11 +113,11 @@ impl Linker<'_> {
                 i += len;
                 continue;
             }
-            if i >= suspected_to
-                && let Some((end, objects)) = self.suspect(i)
+            if i >= candidate_end
+                && let Some((end, misspelled)) = self.unknown_at(i)
             {
-                suspected_to = end;
-                if let Some(object) = objects {
+                candidate_end = end;
+                if let Some(object) = misspelled {
                     self.push_objects(&[object], i, end - i)?;
                     i = end;
                     continue;
@@ -107,20 +130,20 @@ impl Linker<'_> {
         Ok(())
     }
 
-    /// A mention by number or by name at word `i`; the number of words it took.
+    /// Links the mention by number or name at word `i`; the number of its words.
     fn object_at(&mut self, i: usize) -> Result<Option<usize>, LanguageError> {
         let skip = usize::from(self.is_determiner(i));
         for start in [i, i + skip] {
-            if let Some(numbered) = numbered_at(self.words, start) {
-                let found = numbered.id.and_then(|id| self.objects.iter().position(|object| object.id == id));
+            if let Some(numbered) = numbered_mention_at(self.words, start) {
+                let index = numbered.id.and_then(|id| self.objects.iter().position(|object| object.id == id));
                 let len = start + numbered.len - i;
-                let Some(object) = found else { return Err(self.no_such_number(start, numbered.len, numbered.id)) };
+                let Some(object) = index else { return Err(self.no_such_number(start, numbered.len, numbered.id)) };
                 self.push_objects(&[object], i, len)?;
                 return Ok(Some(len));
             }
         }
         let Some((start, found)) = self.name_at(i) else { return Ok(None) };
-        self.warn_of_rivals(&found);
+        self.warn_if_ambiguous(&found);
         let len = start + found.len - i;
         self.push_objects(&found.objects, i, len)?;
         Ok(Some(len))
@@ -130,12 +153,13 @@ impl Linker<'_> {
         self.words.get(i).is_some_and(|word| self.lexicon.determiners.contains(&word.text))
     }
 
-    /// A name at word `i`, after its determiner and adjectives that the label lacks (`the big skull`).
+    /// A name at word `i`, or after its determiner and adjectives that the label lacks (`the big skull`): the first word
+    /// of the name, and the match.
     fn name_at(&self, i: usize) -> Option<(usize, NameMatch)> {
         if let Some(found) = self.index.match_at(self.words, i) {
             return Some((i, found));
         }
-        // `close on` and `full shot of` are talk: only after a determiner does an adjective surely belong to a name.
+        // Without a determiner an adjective may be shot language: `close on`, `full shot of`.
         if !self.is_determiner(i) {
             return None;
         }
@@ -144,48 +168,50 @@ impl Linker<'_> {
         (i + 1..=i + 1 + num_adjectives).find_map(|start| Some((start, self.index.match_at(self.words, start)?)))
     }
 
-    /// Whether an unknown name begins at word `i`: where it ends, and the object meant if it is only misspelled.
-    fn suspect(&mut self, i: usize) -> Option<(usize, Option<usize>)> {
+    /// The unknown name that begins at word `i`: the word after it, and the object if the name is only misspelled. Adds
+    /// a misspelled name to the warnings, any other to the unknown names.
+    fn unknown_at(&mut self, i: usize) -> Option<(usize, Option<usize>)> {
         let word = |at: usize| self.words.get(at).map_or("", |word| word.text.as_str());
-        let knows = |at: usize| self.grammar.knows(word(at)) || self.index.match_at(self.words, at).is_some();
-        let mut suspect = suspect_at(self.words, i, self.lexicon, &knows)?;
-        suspect.certain &= !self.describes();
-        let end = suspect.start + suspect.len;
+        let is_known = |at: usize| self.known_words.contains(word(at)) || self.index.match_at(self.words, at).is_some();
+        let mut candidate = unknown_candidate_at(self.words, i, self.lexicon, &is_known)?;
+        candidate.certain &= !self.follows_object_and_preposition();
+        let end = candidate.start + candidate.len;
         let last = self.words.get(end - 1).map(|word| word.text.clone()).unwrap_or_default();
-        if !suspect.certain
+        if !candidate.certain
             && let Some(object) = self.index.misspelled(&last)
         {
-            let meant = self.objects.get(object).map(shown).unwrap_or_default();
+            let meant = self.objects.get(object).map(display_name).unwrap_or_default();
             self.linked.warnings.push(format!("\"{last}\" was read as {meant}"));
             return Some((end, Some(object)));
         }
-        let unknown = report(self.prompt, self.words, &suspect, &self.index, self.objects);
+        let unknown = unknown_name(self.prompt, self.words, &candidate, &self.index, self.objects);
         self.linked.unknown.push(unknown);
         Some((end, None))
     }
 
-    /// Whether what follows only tells where a known object is: `the skull on the desk`.
-    fn describes(&self) -> bool {
+    /// Whether the linked words so far end in an object and a preposition of place: what follows only says where that
+    /// object is (`the skull on the desk`).
+    fn follows_object_and_preposition(&self) -> bool {
         let mut last = self.linked.tokens_text.rsplit(' ');
         let (first, second) = (last.next().unwrap_or_default(), last.next().unwrap_or_default());
-        let object = |word: &str| word.starts_with("<obj-");
+        let is_object = |word: &str| word.starts_with("<obj-");
         match (second, first) {
             ("next", "to") | ("front" | "top", "of") => true,
             (_, "on" | "by" | "near" | "beside" | "behind" | "in" | "under" | "at" | "above" | "with" | "inside") => {
-                object(second)
+                is_object(second)
             }
             _ => false,
         }
     }
 
-    fn warn_of_rivals(&mut self, found: &NameMatch) {
-        if found.rivals.is_empty() {
+    fn warn_if_ambiguous(&mut self, found: &NameMatch) {
+        if found.alternatives.is_empty() {
             return;
         }
-        let name = |i: &usize| self.objects.get(*i).map(shown);
+        let name = |i: &usize| self.objects.get(*i).map(display_name);
         let chosen: Vec<String> = found.objects.iter().filter_map(name).collect();
-        let rivals: Vec<String> = found.rivals.iter().take(5).filter_map(name).collect();
-        let warning = format!("took {}; {} could be meant as well", chosen.join(", "), rivals.join(", "));
+        let alternatives: Vec<String> = found.alternatives.iter().take(5).filter_map(name).collect();
+        let warning = format!("took {}; {} could be meant as well", chosen.join(", "), alternatives.join(", "));
         if !self.linked.warnings.contains(&warning) && self.linked.warnings.len() < 32 {
             self.linked.warnings.push(warning);
         }
@@ -198,10 +224,11 @@ impl Linker<'_> {
         near.sort_by_key(|object| (id.map_or(object.id, |id| object.id.abs_diff(id)), object.id));
         LanguageError::UnknownObject {
             name: self.prompt.get(span[0]..span[1]).unwrap_or_default().to_owned(),
-            nearest: near.into_iter().take(3).map(shown).collect(),
+            nearest: near.into_iter().take(3).map(display_name).collect(),
         }
     }
 
+    /// Appends the placeholders of several objects, joined by `and`, all of the bytes of the same mention.
     fn push_objects(&mut self, objects: &[usize], start: usize, len: usize) -> Result<(), LanguageError> {
         for (nth, id) in objects.iter().filter_map(|i| self.objects.get(*i)).map(|object| object.id).enumerate() {
             if nth > 0 {
@@ -213,6 +240,7 @@ impl Linker<'_> {
         Ok(())
     }
 
+    /// The slot of an object, a new one at its first mention.
     fn slot(&mut self, id: u32) -> Result<usize, LanguageError> {
         if let Some(slot) = self.linked.slots.iter().position(|known| *known == id) {
             return Ok(slot);
@@ -224,6 +252,7 @@ impl Linker<'_> {
         Ok(self.linked.slots.len() - 1)
     }
 
+    /// Appends `text` with the bytes of words `start..start + len`.
     fn push(&mut self, text: &str, start: usize, len: usize) {
         let inside = self.words.get(start..start + len).unwrap_or_default();
         let (Some(first), Some(last)) = (inside.first(), inside.last()) else { return };

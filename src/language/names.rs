@@ -1,69 +1,77 @@
-//! Object names in running words: which words of a sentence mean which object.
+//! Object names in a text: which words mean which object.
+//!
+//! Enters: the scene's labels and the words of a prompt. Leaves: the longest and best fitting match at a word. Names are
+//! compared by the stems of their words. A label is split into qualifiers, head and tail: `golden skull` has the head
+//! `skull`, `stack of teal plates` the head `stack` and the tail `teal plate`. A mention may be the whole label, its head
+//! with some of its qualifiers, its tail, or a synonym.
 
 use std::collections::BTreeMap;
 
 use super::inflection::stem;
 use super::lexicon::Lexicon;
-use super::words::{Word, words};
+use super::tokenizer::{Word, tokenize};
 
-/// An object as a prompt can name it.
+/// An object of the scene as prompts name it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedObject {
-    /// Identity, `<obj-N>`.
+    /// The N of `<obj-N>`.
     pub id: u32,
-    /// Name such as `golden skull`; empty when it has none.
+    /// Name such as `golden skull`; empty without one.
     pub label: String,
 }
 
-/// Words `start..start + len` mean these objects.
+/// Objects that some words name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct NameMatch {
-    pub len: usize,
-    /// Indices into the objects. Several when a plural takes them all.
-    pub objects: Vec<usize>,
-    /// Other objects of the same name: the words did not decide.
-    pub rivals: Vec<usize>,
+pub(crate) struct NameMatch {
+    /// Number of words.
+    pub(crate) len: usize,
+    /// Indices of the objects. Several where a plural names all of them.
+    pub(crate) objects: Vec<usize>,
+    /// Indices of other objects that fit the words equally well.
+    pub(crate) alternatives: Vec<usize>,
 }
 
-/// How well words fit a label; later is better.
+/// Which part of a label some words are; later variants fit better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Fit {
     Synonym,
     Tail,
     Head,
-    Qualified,
+    QualifiedHead,
     Full,
 }
 
-/// A label taken apart, in stems: `stack of teal plates` has the head `stack` and the tail `teal plate`.
+/// A label split into its parts, as stems.
 #[derive(Debug)]
-struct Label {
+struct ParsedLabel {
     full: Vec<String>,
     head: String,
     /// Last qualifier and head in one word: `armchair` for `arm chair`.
     joined: String,
     qualifiers: Vec<String>,
     tail: Vec<String>,
-    /// The name is a plural itself.
+    /// The head is a plural.
     plural: bool,
 }
 
-/// Labels by the stems of the words that can end a mention of them.
-pub struct NameIndex<'a> {
-    labels: Vec<Label>,
+/// Labels by the stem of the last word of a mention.
+pub(crate) struct NameIndex<'a> {
+    labels: Vec<ParsedLabel>,
     by_last: BTreeMap<String, Vec<usize>>,
     lexicon: &'a Lexicon,
+    /// Most words of a mention.
     longest: usize,
 }
 
+/// Words that end the front of a label, after which its tail begins.
 const LINKS: [&str; 8] = ["of", "with", "on", "in", "for", "from", "at", "under"];
 
 impl<'a> NameIndex<'a> {
-    pub fn new(objects: &[NamedObject], lexicon: &'a Lexicon) -> Self {
-        let labels: Vec<Label> = objects.iter().map(|object| take_apart(&object.label)).collect();
+    pub(crate) fn new(objects: &[NamedObject], lexicon: &'a Lexicon) -> Self {
+        let labels: Vec<ParsedLabel> = objects.iter().map(|object| parse_label(&object.label)).collect();
         let mut by_last: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (index, label) in labels.iter().enumerate() {
-            for last in ends(label) {
+            for last in last_words(label) {
                 by_last.entry(last).or_default().push(index);
             }
         }
@@ -71,12 +79,13 @@ impl<'a> NameIndex<'a> {
         Self { labels, by_last, lexicon, longest }
     }
 
-    /// The longest and best fitting name that begins at word `start`.
-    pub fn match_at(&self, words: &[Word], start: usize) -> Option<NameMatch> {
+    /// The longest match that begins at word `start`, of those the best fitting.
+    pub(crate) fn match_at(&self, words: &[Word], start: usize) -> Option<NameMatch> {
         let longest = self.longest.min(words.len().saturating_sub(start));
         (1..=longest).rev().find_map(|len| self.match_of(words.get(start..start + len)?, words.get(start + len)))
     }
 
+    /// The best match of exactly the words `segment`, before the word `next`.
     fn match_of(&self, segment: &[Word], next: Option<&Word>) -> Option<NameMatch> {
         let last = segment.last().filter(|word| word.is_alphabetic())?;
         let second_last = segment.len().checked_sub(2).and_then(|i| segment.get(i));
@@ -98,42 +107,44 @@ impl<'a> NameIndex<'a> {
         let mut chosen: Vec<usize> = fits.iter().filter(|(fit, _)| *fit == best).map(|(_, i)| *i).collect();
         chosen.sort_unstable();
         chosen.dedup();
-        // `the chairs` of a scene with two chairs; a label that is a plural itself is one object.
+        // `the chairs` names every object whose label is a singular `chair`.
         let plural = last.text.ends_with('s') && last.stem != last.text;
         let all_singular = chosen.iter().filter_map(|i| self.labels.get(*i)).all(|label| !label.plural);
         if chosen.len() > 1 && plural && all_singular && next.is_none_or(|word| word.text != "'s") {
-            return Some(NameMatch { len: segment.len(), objects: chosen, rivals: Vec::new() });
+            return Some(NameMatch { len: segment.len(), objects: chosen, alternatives: Vec::new() });
         }
-        let rivals = chosen.split_off(1);
-        Some(NameMatch { len: segment.len(), objects: chosen, rivals })
+        let alternatives = chosen.split_off(1);
+        Some(NameMatch { len: segment.len(), objects: chosen, alternatives })
     }
 
+    /// Indices of the labels that a mention ending in `key` can name.
     fn candidates(&self, key: &str) -> impl Iterator<Item = usize> {
         self.by_last.get(key).into_iter().flatten().copied()
     }
 
+    /// How the words `segment`, which end in `key` after `before`, fit a label; `None` where they do not.
     fn fit(&self, index: usize, before: &[Word], key: &str, segment: &[Word]) -> Option<Fit> {
         let label = self.labels.get(index)?;
         if label.full.len() == segment.len() && label.full.iter().zip(segment).all(|(a, b)| *a == b.stem) {
-            // Words of camera talk never name an object alone.
-            let talk = self.lexicon.camera.contains(key) || self.lexicon.function.contains(key);
-            return (segment.len() > 1 || !talk).then_some(Fit::Full);
+            // `frame` or `track` alone is a word about the camera, not the name of an object.
+            let about_camera = self.lexicon.camera.contains(key) || self.lexicon.function.contains(key);
+            return (segment.len() > 1 || !about_camera).then_some(Fit::Full);
         }
         if self.lexicon.camera.contains(key) || self.lexicon.function.contains(key) {
             return None;
         }
-        let within = |word: &Word, of: &[String]| of.contains(&word.stem);
+        let is_in = |word: &Word, stems: &[String]| stems.contains(&word.stem);
         if head_is(label, key) {
             return match before {
                 [] => Some(Fit::Head),
-                _ if before.iter().all(|word| within(word, &label.qualifiers)) => Some(Fit::Qualified),
+                _ if before.iter().all(|word| is_in(word, &label.qualifiers)) => Some(Fit::QualifiedHead),
                 _ => None,
             };
         }
-        before.iter().all(|word| within(word, &label.tail)).then_some(Fit::Tail)
+        before.iter().all(|word| is_in(word, &label.tail)).then_some(Fit::Tail)
     }
 
-    /// Objects that another name of the same meaning names.
+    /// Objects whose label has a synonym of `name`; the words `before` it have to be in the label as well.
     fn synonymous(&self, name: &str, before: &[Word]) -> Vec<(Fit, usize)> {
         let mut found = Vec::new();
         for other in self.lexicon.synonyms.get(name).into_iter().flatten() {
@@ -144,7 +155,7 @@ impl<'a> NameIndex<'a> {
         found
     }
 
-    /// Whether the label ends its front in `name` and `before` are others of its words.
+    /// Whether the front of the label ends in `name` and contains the words `before`.
     fn is_called(&self, index: usize, name: &str, before: &[Word]) -> bool {
         let Some(label) = self.labels.get(index) else { return false };
         let front: Vec<&String> = label.qualifiers.iter().chain([&label.head]).collect();
@@ -154,8 +165,9 @@ impl<'a> NameIndex<'a> {
             && before.iter().all(|word| front.contains(&&word.stem))
     }
 
-    /// Labels by nearness to some words, best first, at most three.
-    pub fn nearest(&self, name: &[String], objects: &[NamedObject]) -> Vec<String> {
+    /// The labels with the least edit distance to the words `name`, shared words counted in their favor; nearest first,
+    /// at most three.
+    pub(crate) fn nearest(&self, name: &[String], objects: &[NamedObject]) -> Vec<String> {
         let text = name.join(" ");
         let last = name.last().map(|word| stem(word)).unwrap_or_default();
         let mut scored: Vec<(f64, u32, String)> = Vec::new();
@@ -163,26 +175,26 @@ impl<'a> NameIndex<'a> {
             let shared = label.full.iter().filter(|word| name.iter().any(|n| stem(n) == **word)).count() as f64;
             let whole = relative_distance(&text, &label.full.join(" "));
             let head = relative_distance(&last, &label.head);
-            scored.push((whole.min(head) - shared, object.id, shown(object)));
+            scored.push((whole.min(head) - shared, object.id, display_name(object)));
         }
         scored.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         scored.into_iter().take(3).map(|(_, _, text)| text).collect()
     }
 
-    /// The one object whose head is a letter or two away from the last of some words.
-    pub fn misspelled(&self, word: &str) -> Option<usize> {
+    /// The only object whose head is within one edit of `word` (two from 7 letters); `None` with several.
+    pub(crate) fn misspelled(&self, word: &str) -> Option<usize> {
         let count = word.chars().count();
         if count < 4 {
             return None;
         }
         let allowed = if count < 7 { 1 } else { 2 };
-        let near = |label: &Label| label.head.chars().count() > 3 && distance(word, &label.head) <= allowed;
+        let near = |label: &ParsedLabel| label.head.chars().count() > 3 && edit_distance(word, &label.head) <= allowed;
         let mut found = self.labels.iter().enumerate().filter(|(_, label)| near(label)).map(|(i, _)| i);
         found.next().filter(|_| found.next().is_none())
     }
 }
 
-fn head_is(label: &Label, key: &str) -> bool {
+fn head_is(label: &ParsedLabel, key: &str) -> bool {
     label.head == key || label.joined == key
 }
 
@@ -190,8 +202,8 @@ fn stems(words: &[Word]) -> String {
     words.iter().map(|word| word.stem.as_str()).collect::<Vec<_>>().join(" ")
 }
 
-/// Words that a mention of the label can end in.
-fn ends(label: &Label) -> Vec<String> {
+/// Stems of the words that a mention of the label can end in.
+fn last_words(label: &ParsedLabel) -> Vec<String> {
     let mut ends = vec![label.head.clone(), label.joined.clone()];
     ends.extend(label.full.last().cloned());
     ends.extend(label.tail.last().cloned());
@@ -201,14 +213,14 @@ fn ends(label: &Label) -> Vec<String> {
     ends
 }
 
-fn take_apart(label: &str) -> Label {
-    let words = words(label);
+fn parse_label(label: &str) -> ParsedLabel {
+    let words = tokenize(label);
     let link = words.iter().position(|word| LINKS.contains(&word.text.as_str())).filter(|at| *at > 0);
     let (front, rest) = words.split_at(link.unwrap_or(words.len()));
     let stems = |words: &[Word]| words.iter().map(|word| word.stem.clone()).collect::<Vec<_>>();
     let (head, qualifiers) = front.split_last().map_or((None, &[][..]), |(head, before)| (Some(head), before));
     let joined = head.zip(qualifiers.last()).map(|(head, last)| stem(&format!("{}{}", last.text, head.text)));
-    Label {
+    ParsedLabel {
         full: stems(&words),
         head: head.map(|word| word.stem.clone()).unwrap_or_default(),
         joined: joined.unwrap_or_default(),
@@ -218,8 +230,8 @@ fn take_apart(label: &str) -> Label {
     }
 }
 
-/// An object for a list of names.
-pub fn shown(object: &NamedObject) -> String {
+/// An object as messages name it: `<obj-3> golden skull`.
+pub(crate) fn display_name(object: &NamedObject) -> String {
     if object.label.is_empty() {
         format!("<obj-{}>", object.id)
     } else {
@@ -227,12 +239,14 @@ pub fn shown(object: &NamedObject) -> String {
     }
 }
 
+/// Edit distance over the length of the longer text, 0..=1.
 fn relative_distance(a: &str, b: &str) -> f64 {
-    distance(a, b) as f64 / a.chars().count().max(b.chars().count()).max(1) as f64
+    edit_distance(a, b) as f64 / a.chars().count().max(b.chars().count()).max(1) as f64
 }
 
-/// Edits (insert, delete, replace, swap neighbors) from one word to another; words beyond 40 letters count as far.
-pub fn distance(a: &str, b: &str) -> usize {
+/// Number of edits (insert, delete, replace, swap neighbors) from one word to another: the optimal string alignment
+/// distance. Different words are 41 apart when one has more than 40 letters, which bounds the time.
+pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(41).collect(), b.chars().take(41).collect());
     if a.len() > 40 || b.len() > 40 {
         return usize::from(a != b) * 41;

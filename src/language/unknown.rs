@@ -1,11 +1,14 @@
-//! Names that match no object: told apart from camera talk, scenery and slips of the pen.
+//! Names that match no object of the scene.
+//!
+//! Enters: a place in a prompt where no object is named. Leaves: the words there that look like the name of an object,
+//! if any. Words about the camera, scenery and misspelled function words are not names.
 
 use super::inflection::stem;
 use super::lexicon::Lexicon;
-use super::names::{NameIndex, NamedObject, distance};
-use super::words::Word;
+use super::names::{NameIndex, NamedObject, edit_distance};
+use super::tokenizer::Word;
 
-/// Words in an object's place that name no object of the scene.
+/// Words in the place of an object's name that match no object of the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownName {
     /// The words, as they stand in the prompt.
@@ -14,19 +17,22 @@ pub struct UnknownName {
     pub span: [usize; 2],
     /// The scene's nearest names, best first.
     pub nearest: Vec<String>,
-    /// Surely the name of a thing (`elephant`), not a word that nobody here knows.
+    /// Whether the lexicon lists the name as a noun (`elephant`). Otherwise it is a word that no list contains.
     pub certain: bool,
 }
 
-/// A stretch of words that may name something unknown.
-pub(crate) struct Suspect {
+/// Words that may be the name of an unknown object.
+pub(crate) struct UnknownCandidate {
+    /// Index of the first word.
     pub(crate) start: usize,
+    /// Number of words.
     pub(crate) len: usize,
+    /// The lexicon lists the last word as a noun.
     pub(crate) certain: bool,
 }
 
-/// Words after which a thing is named.
-const BEFORE_THINGS: [&str; 42] = [
+/// Words that the name of an object may follow without a determiner.
+const BEFORE_NAMES: [&str; 42] = [
     "on",
     "at",
     "to",
@@ -71,18 +77,18 @@ const BEFORE_THINGS: [&str; 42] = [
     "circles",
 ];
 
-/// The unknown name that begins at word `i`, if one does: a determiner or a word before things, adjectives, and then
-/// words that are no talk; `knows` tells of a place whether the phrasebook has that word or an object is named there.
-pub(crate) fn suspect_at(
+/// The candidate for an unknown name at word `i`: a determiner or one of [`BEFORE_NAMES`], then adjectives, then words
+/// that are not shot language. `is_known(j)` says whether word `j` is of the training grammar or begins an object's name.
+pub(crate) fn unknown_candidate_at(
     words: &[Word],
     i: usize,
     lexicon: &Lexicon,
-    knows: &dyn Fn(usize) -> bool,
-) -> Option<Suspect> {
+    is_known: &dyn Fn(usize) -> bool,
+) -> Option<UnknownCandidate> {
     let text = |j: usize| words.get(j).map_or("", |word| word.text.as_str());
     let previous = i.checked_sub(1).map_or("", text);
     let determined = lexicon.determiners.contains(text(i));
-    if !determined && !BEFORE_THINGS.contains(&previous) {
+    if !determined && !BEFORE_NAMES.contains(&previous) {
         return None;
     }
     let start = i + usize::from(determined);
@@ -90,26 +96,28 @@ pub(crate) fn suspect_at(
     while lexicon.adjectives.contains(text(end)) && !is_noun(lexicon, text(end)) {
         end += 1;
     }
-    let (len, certain) = noun_at(words, end, lexicon, knows)?;
-    // `teh`, `ot`: a small word with two letters swapped, where no article stands.
-    let slip = || lexicon.determiners.iter().chain(&lexicon.function).any(|word| is_slip(text(end), word));
-    // `to survey`, `toward varying heights`: verbs and qualities, no names.
+    let (len, certain) = noun_at(words, end, lexicon, is_known)?;
+    // `teh`, `ot`: a function word with two letters swapped, without an article before it.
+    let is_typo = || lexicon.determiners.iter().chain(&lexicon.function).any(|word| is_transposition(text(end), word));
+    // `to survey`, `toward varying heights`: verbs and qualities, not names.
     let no_name = || previous == "to" || ["ing", "ly", "ed"].iter().any(|ending| text(end).ends_with(ending));
-    if !determined && !certain && end == start && (slip() || no_name()) {
+    if !determined && !certain && end == start && (is_typo() || no_name()) {
         return None;
     }
-    Some(Suspect { start, len: end + len - start, certain })
+    Some(UnknownCandidate { start, len: end + len - start, certain })
 }
 
 fn is_noun(lexicon: &Lexicon, word: &str) -> bool {
     lexicon.noun_heads.contains(&stem(word)) && !lexicon.adjectives.contains(word)
 }
 
-fn noun_at(words: &[Word], start: usize, lexicon: &Lexicon, knows: &dyn Fn(usize) -> bool) -> Option<(usize, bool)> {
-    let is_word = |word: &Word| word.is_alphabetic() && !word.text.starts_with('\'') && !lexicon.is_talk(&word.text);
-    let strange = |(at, word): &(usize, &Word)| is_word(word) && !knows(*at);
+/// The words of a name at word `start`: number of words, whether the last is a noun of the lexicon.
+fn noun_at(words: &[Word], start: usize, lexicon: &Lexicon, is_known: &dyn Fn(usize) -> bool) -> Option<(usize, bool)> {
+    let is_word =
+        |word: &Word| word.is_alphabetic() && !word.text.starts_with('\'') && !lexicon.is_shot_language(&word.text);
+    let is_unknown = |(at, word): &(usize, &Word)| is_word(word) && !is_known(*at);
     let numbered = words.iter().enumerate().skip(start).take(3);
-    let run: Vec<&Word> = numbered.take_while(strange).map(|(_, word)| word).collect();
+    let run: Vec<&Word> = numbered.take_while(is_unknown).map(|(_, word)| word).collect();
     let certain = run.iter().rposition(|word| is_noun(lexicon, &word.text));
     match certain {
         Some(index) => Some((index + 1, true)),
@@ -118,30 +126,31 @@ fn noun_at(words: &[Word], start: usize, lexicon: &Lexicon, knows: &dyn Fn(usize
     }
 }
 
-fn is_slip(word: &str, meant: &str) -> bool {
+/// Whether `word` is `meant` with two neighboring letters swapped; words of 2 to 5 bytes only.
+fn is_transposition(word: &str, meant: &str) -> bool {
     let sorted = |w: &str| {
         let mut letters: Vec<char> = w.chars().collect();
         letters.sort_unstable();
         letters
     };
-    word.len() > 1 && word.len() < 6 && distance(word, meant) == 1 && sorted(word) == sorted(meant)
+    word.len() > 1 && word.len() < 6 && edit_distance(word, meant) == 1 && sorted(word) == sorted(meant)
 }
 
-/// The suspect as a person is told of it.
-pub(crate) fn report(
+/// The candidate with the scene's nearest names.
+pub(crate) fn unknown_name(
     prompt: &str,
     words: &[Word],
-    suspect: &Suspect,
+    candidate: &UnknownCandidate,
     index: &NameIndex,
     objects: &[NamedObject],
 ) -> UnknownName {
-    let inside = words.get(suspect.start..suspect.start + suspect.len).unwrap_or_default();
+    let inside = words.get(candidate.start..candidate.start + candidate.len).unwrap_or_default();
     let span = [inside.first().map_or(0, |w| w.span[0]), inside.last().map_or(0, |w| w.span[1])];
     let name: Vec<String> = inside.iter().map(|word| word.text.clone()).collect();
     UnknownName {
         name: prompt.get(span[0]..span[1]).unwrap_or_default().to_owned(),
         span,
         nearest: index.nearest(&name, objects),
-        certain: suspect.certain,
+        certain: candidate.certain,
     }
 }

@@ -161,8 +161,8 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
 }
 
 fn calls(linked: &Linked) -> Result<Vec<Call>, PipelineError> {
-    let called = cinesplat_language::effects_called_for(linked)?;
-    Ok(called.into_iter().map(|call| Call { kind: call.kind, because: call.because }).collect())
+    let called = cinesplat_language::effect_mentions(linked)?;
+    Ok(called.into_iter().map(|call| Call { kind: call.kind, because: call.words }).collect())
 }
 
 fn unknown_name(unknown: &cinesplat_language::UnknownName) -> ReportLine {

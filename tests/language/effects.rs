@@ -1,8 +1,12 @@
-use cinesplat::language::{NamedObject, effects_called_for, link};
+use cinesplat::language::{EffectMention, NamedObject, effect_mentions, link};
+
+fn mentions(prompt: &str) -> Vec<EffectMention> {
+    let objects = [NamedObject { id: 1, label: "vase".to_owned() }];
+    effect_mentions(&link(prompt, &objects).unwrap()).unwrap()
+}
 
 fn kinds(prompt: &str) -> Vec<String> {
-    let objects = [NamedObject { id: 1, label: "vase".to_owned() }];
-    effects_called_for(&link(prompt, &objects).unwrap()).unwrap().into_iter().map(|effect| effect.kind).collect()
+    mentions(prompt).into_iter().map(|mention| mention.kind).collect()
 }
 
 #[test]
@@ -13,15 +17,14 @@ fn effects_are_found_in_the_order_of_the_words() {
 }
 
 #[test]
-fn effects_that_are_denied_are_not_called_for() {
+fn negated_effects_are_left_out() {
     assert!(kinds("push in on the vase, no motion blur, without music").is_empty());
     assert!(kinds("push in on the vase").is_empty());
 }
 
 #[test]
-fn the_words_of_an_effect_are_pointed_at() {
+fn a_mention_has_the_bytes_of_its_words() {
     let prompt = "Orbit the vase, with Motion-Blur.";
-    let objects = [NamedObject { id: 1, label: "vase".to_owned() }];
-    let found = effects_called_for(&link(prompt, &objects).unwrap()).unwrap();
-    assert_eq!(found.iter().map(|effect| &prompt[effect.span[0]..effect.span[1]]).collect::<Vec<_>>(), ["Motion-Blur"]);
+    let spans: Vec<&str> = mentions(prompt).iter().map(|mention| &prompt[mention.span[0]..mention.span[1]]).collect();
+    assert_eq!(spans, ["Motion-Blur"]);
 }

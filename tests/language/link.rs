@@ -37,7 +37,7 @@ fn names_become_slots_in_order_of_first_mention() {
 }
 
 #[test]
-fn a_name_may_be_short_plural_possessive_a_synonym_or_misspelled() {
+fn a_mention_may_be_short_plural_possessive_a_synonym_or_misspelled() {
     for name in [
         "the skull",
         "skull",
@@ -63,7 +63,7 @@ fn a_name_may_be_short_plural_possessive_a_synonym_or_misspelled() {
 }
 
 #[test]
-fn an_ambiguous_name_is_taken_with_a_warning_and_a_fuller_one_without() {
+fn an_ambiguous_name_links_to_the_first_object_with_a_warning_and_a_full_name_without() {
     let short = linked("orbit the chair");
     assert_eq!(short.slots, [5]);
     assert_eq!(short.warnings.len(), 1);
@@ -82,7 +82,7 @@ fn pronouns_and_scenery_stay_words() {
 }
 
 #[test]
-fn words_of_camera_talk_never_name_an_object_alone() {
+fn words_about_the_camera_never_name_an_object_alone() {
     let odd = objects(&["picture frame", "trash can", "dolly", "frying pan"]);
     let found =
         link("Can you dolly in, pan left, keep the frame level? Then the picture frame and the trash can.", &odd)
@@ -107,14 +107,14 @@ fn an_unknown_object_is_an_error_with_the_nearest_names() {
     let LanguageError::UnknownObject { name, nearest } =
         link("orbit the skulls of doom and the tellyvision set", &objects(&["television"])).unwrap_err()
     else {
-        panic!("another error")
+        panic!("not an unknown object")
     };
     assert!(name.starts_with("skulls"), "{name}");
     assert_eq!(nearest, ["<obj-1> television"]);
 }
 
 #[test]
-fn what_only_tells_where_a_known_object_is_ends_nothing() {
+fn an_unknown_name_that_says_where_a_known_object_is_is_no_error() {
     let found = linked("push in on the skull on the desk");
     assert_eq!(found.slots, [1]);
     assert_eq!(found.unknown.len(), 1);
@@ -137,7 +137,7 @@ fn typography_case_and_accents_make_no_difference() {
 }
 
 #[test]
-fn prompts_too_long_or_empty_are_refused() {
+fn prompts_without_words_or_over_a_limit_are_errors() {
     let long = "orbit ".repeat(MAX_PROMPT_BYTES / 6 + 1);
     assert_eq!(link(&long, &room()).unwrap_err().code(), "PROMPT-TOO-LONG");
     for prompt in ["", "  \n", "...", "\u{200B}\u{202E}", "\0\0", "\u{301}", "?!"] {
@@ -149,7 +149,7 @@ fn prompts_too_long_or_empty_are_refused() {
 }
 
 #[test]
-fn the_longest_prompts_of_the_worst_kinds_come_to_an_end() {
+fn repetitive_prompts_of_the_greatest_length_keep_one_span_per_word() {
     let many: Vec<NamedObject> = (1..=300).map(|id| NamedObject { id, label: "old chair".to_owned() }).collect();
     for unit in ["chair ", "a", "the old ", "<", "1 2 ", "a half of a ", "old ", "<obj-", "\u{301}", "second a "] {
         let prompt = unit.repeat(MAX_PROMPT_BYTES / unit.len());
@@ -160,7 +160,7 @@ fn the_longest_prompts_of_the_worst_kinds_come_to_an_end() {
 }
 
 #[test]
-fn public_prompts_link_to_the_objects_that_their_checks_speak_of() {
+fn public_prompts_link_to_the_objects_and_durations_of_their_checks() {
     let Some(file) = shared("data/prompts/public.jsonl") else { return };
     let text = std::fs::read_to_string(&file).unwrap();
     for line in text.lines() {
@@ -205,22 +205,22 @@ fn collect_objects(value: &serde_json::Value, into: &mut BTreeSet<u64>) {
 
 proptest! {
     #[test]
-    fn any_text_gives_words_whose_spans_lie_in_it(prompt in ".{0,200}") {
-        spans_hold(&prompt)?;
+    fn spans_of_any_text_lie_in_it(prompt in ".{0,200}") {
+        check_spans(&prompt)?;
     }
 
     #[test]
-    fn any_mix_of_known_pieces_gives_words_whose_spans_lie_in_it(
+    fn spans_of_any_mix_of_known_pieces_lie_in_it(
         pieces in prop::collection::vec(prop::sample::select(vec![
             "the ", "golden ", "skull", "<obj-1>", "<obj-", "7>", " a ", "half ", "2.5", "s", "\u{B0}", "\u{200D}", "\u{202E}", "'s", "-",
             "second ", "twice as ", "close", "360", ".", ",", "\0", "e\u{301}", "\u{1F3A5}", "of a ", "three ", "quarters ", "#", "object ", "1/",
         ]), 0..40)
     ) {
-        spans_hold(&pieces.concat())?;
+        check_spans(&pieces.concat())?;
     }
 }
 
-fn spans_hold(prompt: &str) -> Result<(), TestCaseError> {
+fn check_spans(prompt: &str) -> Result<(), TestCaseError> {
     let Ok(found) = link(prompt, &room()) else { return Ok(()) };
     prop_assert_eq!(found.tokens_text.split(' ').count(), found.spans.len());
     let mut before = 0;

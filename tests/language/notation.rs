@@ -1,9 +1,9 @@
-use cinesplat::language::{program_from_notation, program_to_notation};
+use cinesplat::language::{NotationError, program_from_notation, program_to_notation};
 use cinesplat::operator::{Amount, Framing, Pass, Program, Speed, Step, SubjectPart, Via};
 use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 #[test]
-fn every_part_of_a_step_is_read() {
+fn every_token_of_a_step_is_parsed_and_printed() {
     let text = "orbit-left with=crane-up start=3+5:long:low! end=3:close-up:top between=1+2 amount=45deg dur=2.5s slow ease=ease-in cut returns either | total=8s";
     let step = Step {
         with: Some(Move::CraneUp),
@@ -37,7 +37,7 @@ fn every_part_of_a_step_is_read() {
 }
 
 #[test]
-fn a_move_takes_its_direction_from_the_step_and_is_open_without_one() {
+fn a_move_takes_its_direction_from_the_step_and_is_either_way_without_one() {
     let step = |text: &str| program_from_notation(text).unwrap().steps.remove(0);
     assert_eq!(step("pan left end=1").movement, Move::PanLeft);
     assert!(!step("pan left end=1").either_way);
@@ -47,19 +47,23 @@ fn a_move_takes_its_direction_from_the_step_and_is_open_without_one() {
 }
 
 #[test]
-fn contradictions_and_nonsense_are_told() {
-    for text in [
-        "",
-        "fly",
-        "push-in slow fast",
-        "pan left right",
-        "push-in left",
-        "push-in end=x",
-        "push-in end=1:huge",
-        "push-in amount=1deg amount=2deg",
-        "push-in foo=1",
-        "push-in | dur=3s",
-    ] {
-        assert!(program_from_notation(text).is_err(), "{text}");
-    }
+fn a_malformed_program_is_an_error_that_names_the_token() {
+    let error = |text: &str| program_from_notation(text).unwrap_err();
+    let named = str::to_owned;
+    assert_eq!(error(""), NotationError::NoMove);
+    assert_eq!(error("fly"), NotationError::UnknownMove { name: named("fly") });
+    assert_eq!(error("push-in slow fast"), NotationError::Contradiction { token: named("fast") });
+    assert_eq!(error("pan left right"), NotationError::Contradiction { token: named("right") });
+    let left = NotationError::WrongDirection { movement: Move::PushIn, direction: named("left") };
+    assert_eq!(error("push-in left"), left);
+    assert_eq!(error("push-in end=x"), NotationError::UnknownObject { name: named("x") });
+    assert_eq!(error("push-in end=1:huge"), NotationError::UnknownFraming { qualifier: named("huge") });
+    let repeated = NotationError::Contradiction { token: named("amount=2deg") };
+    assert_eq!(error("push-in amount=1deg amount=2deg"), repeated);
+    assert_eq!(error("push-in foo=1"), NotationError::UnknownToken { token: named("foo=1") });
+    assert_eq!(error("push-in dur=3"), NotationError::BadDuration { found: named("3") });
+    assert_eq!(error("push-in | dur=3s"), NotationError::UnknownToken { token: named("dur=3s") });
+    // The names of the default speed and of a move without its other direction are no tokens.
+    assert_eq!(error("push-in normal"), NotationError::Contradiction { token: named("normal") });
+    assert_eq!(error("push"), NotationError::UnknownMove { name: named("push") });
 }

@@ -1,8 +1,9 @@
 use std::collections::BTreeSet;
 use strum::VariantArray;
 
+use super::assert_links_to;
 use cinesplat::language::{NamedObject, link, program_from_notation, program_to_notation};
-use cinesplat::operator::{Amount, Program};
+use cinesplat::operator::{Program, Speed, Step};
 use cinesplat::training::{LabeledPrompt, PromptSampler, TemplateSplit, exam, exam_objects};
 use cinesplat::trajectory::Move;
 use rand::SeedableRng;
@@ -11,23 +12,17 @@ use rand_pcg::Pcg64;
 const NUM_SAMPLES: usize = 1500;
 
 fn samples(split: TemplateSplit, seed: u64, count: usize) -> Vec<(LabeledPrompt, Vec<NamedObject>)> {
-    let book = PromptSampler::embedded().unwrap().with_split(split);
+    let sampler = PromptSampler::embedded().unwrap().with_split(split);
     let mut rng = Pcg64::seed_from_u64(seed);
-    let mut draw = |nth: usize| {
-        let objects = book.invent_objects(1 + nth % 8, &mut rng);
-        (book.sample(&objects, &mut rng), objects)
+    let mut draw = |index: usize| {
+        let objects = sampler.invent_objects(1 + index % 8, &mut rng);
+        (sampler.sample(&objects, &mut rng), objects)
     };
     (0..count).map(&mut draw).collect()
 }
 
-fn ids(program: &Program) -> BTreeSet<u32> {
-    let framings = program.steps.iter().flat_map(|step| [&step.start, &step.end]);
-    let via = program.steps.iter().filter_map(|step| step.via.as_ref()).flat_map(|via| via.objects.iter());
-    framings.flat_map(|framing| framing.subjects.iter()).chain(via).copied().collect()
-}
-
 #[test]
-fn the_same_seed_says_the_same() {
+fn equal_seeds_give_equal_prompts() {
     assert_eq!(samples(TemplateSplit::Train, 5, 50), samples(TemplateSplit::Train, 5, 50));
     assert_ne!(samples(TemplateSplit::Train, 5, 50), samples(TemplateSplit::Train, 6, 50));
 }
@@ -35,36 +30,12 @@ fn the_same_seed_says_the_same() {
 #[test]
 fn prompts_link_to_the_objects_and_quantities_of_their_programs() {
     for (sample, objects) in samples(TemplateSplit::Train, 1, NUM_SAMPLES) {
-        let linked = link(&sample.prompt, &objects).unwrap();
-        let slots: BTreeSet<u32> = linked.slots.iter().copied().collect();
-        assert_eq!(slots, ids(&sample.program), "{}", sample.prompt);
-        let mut values: Vec<f64> = sample
-            .program
-            .steps
-            .iter()
-            .flat_map(|step| {
-                let amount = match step.amount {
-                    Some(Amount::Degrees(v) | Amount::Units(v) | Amount::Factor(v)) => Some(v),
-                    _ => None,
-                };
-                [amount, step.duration_secs]
-            })
-            .chain([sample.program.duration_secs])
-            .flatten()
-            .collect();
-        let mut found: Vec<f64> = linked.quantities.iter().map(|q| q.value).collect();
-        values.sort_by(f64::total_cmp);
-        found.sort_by(f64::total_cmp);
-        assert!(
-            values.len() == found.len() && values.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-9),
-            "{}",
-            sample.prompt
-        );
+        assert_links_to(&link(&sample.prompt, &objects).unwrap(), &sample.program, &sample.prompt);
     }
 }
 
 #[test]
-fn programs_are_well_formed_and_their_words_lie_in_the_prompt() {
+fn programs_survive_the_notation_and_their_words_lie_in_the_prompt() {
     for (sample, _) in samples(TemplateSplit::Train, 2, NUM_SAMPLES) {
         assert!((1..=8).contains(&sample.program.steps.len()), "{}", sample.prompt);
         for step in &sample.program.steps {
@@ -74,23 +45,16 @@ fn programs_are_well_formed_and_their_words_lie_in_the_prompt() {
             let different: BTreeSet<u32> = step.end.subjects.iter().copied().collect();
             assert_eq!(different.len(), count, "{}: {}", sample.prompt, program_to_notation(&sample.program));
         }
-        let bare = Program {
-            steps: sample
-                .program
-                .steps
-                .iter()
-                .map(|s| cinesplat::operator::Step { words: None, ..s.clone() })
-                .collect(),
-            ..sample.program
-        };
+        let without_words = sample.program.steps.iter().map(|step| Step { words: None, ..step.clone() });
+        let bare = Program { steps: without_words.collect(), ..sample.program };
         assert_eq!(program_from_notation(&program_to_notation(&bare)).unwrap(), bare);
     }
 }
 
-/// Steps come in the order in which they are told, but for two that `before` turns around.
+/// Steps are in the order of their words, except for two clauses joined by `before`.
 #[test]
-fn before_turns_two_clauses_around() {
-    let mut turned = 0;
+fn before_swaps_two_clauses() {
+    let mut swapped = 0;
     for (sample, objects) in samples(TemplateSplit::Train, 12, NUM_SAMPLES) {
         let starts: Vec<usize> = sample.program.steps.iter().map(|step| step.words.unwrap()[0]).collect();
         let text = link(&sample.prompt, &objects).unwrap().tokens_text;
@@ -98,22 +62,22 @@ fn before_turns_two_clauses_around() {
             assert!(starts.len() < 2 || !text.starts_with("before "), "{}", sample.prompt);
         } else {
             assert!(!sample.program.steps.iter().any(|step| step.returns || step.cut), "{}", sample.prompt);
-            turned += 1;
+            swapped += 1;
         }
     }
-    assert!(turned > 5, "{turned}");
+    assert!(swapped > 5, "{swapped}");
 }
 
-/// `rush up to the vase and hold for 2 seconds`: the time belongs to the hold.
+/// `rush up to the vase and hold for 2 seconds`: the duration belongs to the hold.
 #[test]
-fn holds_have_times_of_their_own() {
+fn a_duration_after_a_hold_belongs_to_the_hold() {
     let mut holds = 0;
     for (sample, _) in samples(TemplateSplit::Train, 13, NUM_SAMPLES) {
         for pair in sample.program.steps.windows(2) {
             let [before, hold] = pair else { continue };
             if hold.movement == Move::Static && !hold.cut && hold.words == before.words {
                 assert_eq!(before.duration_secs, None, "{}", sample.prompt);
-                assert_eq!(hold.speed, cinesplat::operator::Speed::Normal, "{}", sample.prompt);
+                assert_eq!(hold.speed, Speed::Normal, "{}", sample.prompt);
                 holds += 1;
             }
         }
@@ -122,7 +86,7 @@ fn holds_have_times_of_their_own() {
 }
 
 #[test]
-fn every_move_is_spoken_of() {
+fn every_move_is_sampled() {
     let seen: BTreeSet<Move> = samples(TemplateSplit::Train, 3, 4000)
         .iter()
         .flat_map(|(s, _)| s.program.steps.iter().map(|step| step.movement))
@@ -131,17 +95,17 @@ fn every_move_is_spoken_of() {
     assert!(missing.is_empty(), "{missing:?}");
 }
 
-/// Directions by a reading of the words that owes nothing to the grammar: in a prompt of one step, the direction word
-/// decides (CONTRACTS: clockwise from above is to the left).
+/// The oracle does not use the grammar: in a prompt of one step the direction word decides. Clockwise from above is to the
+/// left.
 #[test]
-fn direction_words_decide_directions() {
+fn the_direction_word_of_a_prompt_is_the_direction_of_its_move() {
     let mut checked = 0;
     for (sample, objects) in samples(TemplateSplit::Train, 4, 2 * NUM_SAMPLES) {
         let [step] = sample.program.steps.as_slice() else { continue };
         let text = format!(" {} ", link(&sample.prompt, &objects).unwrap().tokens_text);
         let (left, right) = (text.matches(" left").count(), text.matches(" right").count());
         let counter = text.contains("counter") || text.contains("anticlockwise") || text.contains("anti clockwise");
-        // A slip of the pen may hide one of the two words.
+        // A typo may hide one of the two words of `from left to right`.
         if text.contains("from left")
             || text.contains("from right")
             || text.contains(" end ")
@@ -168,7 +132,7 @@ fn direction_words_decide_directions() {
 }
 
 #[test]
-fn held_out_wordings_stay_out_of_training() {
+fn held_out_templates_stay_out_of_the_train_split() {
     let train: String = samples(TemplateSplit::Train, 7, NUM_SAMPLES)
         .into_iter()
         .map(|(s, _)| s.prompt.to_lowercase() + "\n")
@@ -177,7 +141,7 @@ fn held_out_wordings_stay_out_of_training() {
         .into_iter()
         .map(|(s, _)| s.prompt.to_lowercase() + "\n")
         .collect();
-    for wording in [
+    for phrase in [
         "a smidge",
         "a tad",
         "kick off",
@@ -188,7 +152,7 @@ fn held_out_wordings_stay_out_of_training() {
         "levitate",
         "rock steady",
     ] {
-        assert!(!train.contains(wording), "{wording}");
+        assert!(!train.contains(phrase), "{phrase}");
     }
     assert!(["a smidge", "kick off", "unveil", "home in on"].iter().filter(|w| held.contains(**w)).count() >= 2);
 }
@@ -206,8 +170,8 @@ fn exam_sentences_are_never_sampled() {
 }
 
 #[test]
-fn any_list_of_objects_will_do() {
-    let book = PromptSampler::embedded().unwrap();
+fn any_list_of_objects_gives_a_prompt_that_links() {
+    let sampler = PromptSampler::embedded().unwrap();
     let mut rng = Pcg64::seed_from_u64(9);
     let odd = [
         vec![],
@@ -221,7 +185,7 @@ fn any_list_of_objects_will_do() {
     ];
     for objects in &odd {
         for _ in 0..40 {
-            let sample = book.sample(objects, &mut rng);
+            let sample = sampler.sample(objects, &mut rng);
             assert!(!sample.prompt.is_empty() && !sample.program.steps.is_empty());
             assert!(link(&sample.prompt, objects).is_ok(), "{}", sample.prompt);
         }

@@ -97,7 +97,7 @@ fn lengths_and_factors() {
 }
 
 #[test]
-fn what_looks_like_a_quantity_and_is_none() {
+fn words_that_only_look_like_a_quantity_stay_words() {
     for prompt in [
         "a second orbit of the skull",
         "then once there, stop",

@@ -17,7 +17,7 @@ use cinesplat_director::ground::{MAX_OTHERS, object_input};
 use cinesplat_director::model::{ObjectInput, PoseCode};
 use cinesplat_files::FileError;
 use cinesplat_geometry::Pose;
-use cinesplat_language::{Linked, NamedObject, link, program_from_notation};
+use cinesplat_language::{Linked, NamedObject, NotationError, link, program_from_notation};
 use cinesplat_objects::Object;
 use cinesplat_operator::Program;
 
@@ -131,12 +131,12 @@ fn read_shard(path: &Path, shots: &mut Vec<RealizedShot>) -> Result<(), DatasetE
             continue;
         }
         let scene: SceneRecord = serde_json::from_str(&line).map_err(|error| bad(error.to_string(), "a scene"))?;
-        shots.extend(shots_of(scene).map_err(|found| bad(found, "a program in the phrasebook's notation"))?);
+        shots.extend(shots_of(scene).map_err(|found| bad(found.to_string(), "a program in the notation"))?);
     }
     Ok(())
 }
 
-fn shots_of(scene: SceneRecord) -> Result<Vec<RealizedShot>, String> {
+fn shots_of(scene: SceneRecord) -> Result<Vec<RealizedShot>, NotationError> {
     let set = Arc::new(Set {
         up: DVec3::from(scene.up),
         center: DVec3::from(scene.center),

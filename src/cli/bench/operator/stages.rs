@@ -34,7 +34,7 @@ impl Args {
         let usual = format!("push-in end={0} / orbit-left start={0} / pan end={1}", id(0), id(1));
         let program = match self.program {
             Some(program) => program,
-            None => program_from_notation(&usual).map_err(|error| Failure::fault(&error))?,
+            None => program_from_notation(&usual).map_err(|error| Failure::fault(&error.to_string()))?,
         };
         let ids = program.object_ids();
         let mut world_ms = Vec::new();

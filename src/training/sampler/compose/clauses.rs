@@ -1,37 +1,39 @@
-//! Clauses: which one comes next, what it is bound to, what it means, and the words that join it on.
+//! Clauses: connectives, choice of templates, binding of objects, meaning.
 
 use rand::RngExt;
 
-use super::sense::{is_idle, is_sensible, open_with};
-use super::{Binding, Composer, Order, Place, Style, Voice, bound, pick_family};
-use crate::sampler::wording::{Atom, Drawn};
-use cinesplat_language::grammar::{Family, Form, Wording};
-use cinesplat_language::inflection::Tense;
-use cinesplat_language::notation::step_from_tokens;
+use super::composer::{Bindings, ClauseOrder, ClausePosition, Composer, Connectives, Voice, bound};
+use super::consistency::{apply_opening, is_consistent, is_redundant};
+use crate::sampler::choice::choose_weighted;
+use crate::sampler::expansion::Expansion;
+use crate::sampler::grammar::{ClauseForm, Requirement, TemplateGroup};
+use crate::sampler::template::{ClauseToken, NextForm, Template};
+use cinesplat_language::{VerbForm, step_from_notation};
 use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::Move;
 
-/// A clause that fits.
+/// An expanded clause with its meaning.
 struct Clause {
-    drawn: Drawn,
-    form: Form,
+    expansion: Expansion,
+    form: ClauseForm,
     steps: Vec<Step>,
-    binding: Binding,
+    bindings: Bindings,
 }
 
-impl Composer<'_> {
-    /// Adds clause `place`; `start` is a framing that was said right before it.
-    pub(super) fn add_clause(&mut self, place: Place, start: Option<&Framing>) -> Option<()> {
-        let joint = self.joint(place);
-        let (forms, tense) = self.forms_after(&joint, place);
-        let time = if forms == [Form::Verb] && tense == Tense::Base { self.time_first(&joint, place) } else { None };
-        let clause = self.draw_clause(&forms, place, start, time.as_ref())?;
-        self.add_joint(&joint, place, clause.form);
-        self.add_atoms(&clause.drawn.atoms, tense, Some(self.num_clauses), &clause.binding)?;
-        self.held_out |= clause.drawn.held_out;
+impl<'a> Composer<'a> {
+    /// Adds a clause; `start` is an opening framing right before it.
+    pub(super) fn add_clause(&mut self, position: ClausePosition, start: Option<&Framing>) -> Option<()> {
+        let connective = self.connective(position);
+        let (form, verb_form) = self.forms_after(&connective, position);
+        let is_plain_verb = form == ClauseForm::VerbPhrase && verb_form == VerbForm::Base;
+        let duration = if is_plain_verb { self.leading_duration(&connective, position) } else { None };
+        let clause = self.choose_clause(form, position, start, duration.as_ref())?;
+        self.add_connective(&connective, position, clause.form);
+        self.add_tokens(&clause.expansion.tokens, verb_form, Some(self.num_clauses), &clause.bindings)?;
+        self.held_out |= clause.expansion.held_out;
         let steps = clause.steps;
         if let Some(last) = steps.last() {
-            self.look(last);
+            self.update_focus(last);
         }
         for step in steps {
             self.moved |= step.movement != Move::Static;
@@ -42,220 +44,226 @@ impl Composer<'_> {
         Some(())
     }
 
-    /// The words between this clause and what stands before it; a last word ending in `+g` or `+n` asks for a form.
-    fn joint(&mut self, place: Place) -> Drawn {
-        let name = if place.is_first() { self.lead(place) } else { self.link(place) };
-        self.drawer.list(name, self.rng)
+    /// The words between this clause and what stands before it.
+    fn connective(&mut self, position: ClausePosition) -> Expansion {
+        let list = if position.is_first() { self.lead_list(position) } else { self.join_list(position) };
+        self.expander.expand_list(list, self.rng)
     }
 
-    fn lead(&self, place: Place) -> &'static str {
+    fn lead_list(&self, position: ClausePosition) -> &'static str {
         match (self.voice, self.order) {
-            (_, Order::After) if place.inverted => "lead.after",
-            (_, Order::Before) if place.inverted => "lead.before",
+            (_, ClauseOrder::After) if position.subordinate => "lead.after",
+            (_, ClauseOrder::Before) if position.subordinate => "lead.before",
             (Voice::Imperative, _) => "lead.imp",
             (Voice::Request, _) => "lead.request",
-            (Voice::Third, _) => "lead.third",
+            (Voice::ThirdPerson, _) => "lead.third",
             (Voice::Gerund, _) => "silence",
-            (Voice::Noun, _) => "lead.n",
+            (Voice::NounPhrase, _) => "lead.n",
         }
     }
 
-    fn link(&mut self, place: Place) -> &'static str {
-        let last = place.nth > 0 && place.nth + 1 == place.count;
-        match (self.style, self.voice == Voice::Noun) {
-            (Style::List, false) if place.count > 1 => {
-                if last {
-                    "join.end"
-                } else {
-                    "join.list"
-                }
-            }
-            (Style::List, true) if place.count > 1 => {
-                if last {
-                    "join.n.end"
-                } else {
-                    "join.n.list"
-                }
-            }
+    fn join_list(&mut self, position: ClausePosition) -> &'static str {
+        let is_last = position.index > 0 && position.index + 1 == position.count;
+        let is_list = self.connectives == Connectives::List && position.count > 1;
+        match (self.connectives, self.voice == Voice::NounPhrase) {
+            (_, false) if is_list && is_last => "join.end",
+            (_, false) if is_list => "join.list",
+            (_, true) if is_list && is_last => "join.n.end",
+            (_, true) if is_list => "join.n.list",
             (_, true) => "join.n",
-            (Style::Then, false) => "join.then",
-            (Style::Sentences, false) => "join.sentence",
-            _ if last && self.rng.random_bool(0.35) => "join.last",
+            (Connectives::Then, false) => "join.then",
+            (Connectives::Sentences, false) => "join.sentence",
+            _ if is_last && self.rng.random_bool(0.35) => "join.last",
             _ => "join",
         }
     }
 
-    /// `over 3 seconds,` before what takes them; only after words that begin anew.
-    fn time_first(&mut self, joint: &Drawn, place: Place) -> Option<Drawn> {
-        let opens = match joint.atoms.last() {
-            Some(Atom::Word(word)) if word == "," => joint.atoms.len() > 1,
-            Some(Atom::Word(word)) => matches!(word.as_str(), "then" | "." | ";" | "now" | "next"),
+    /// A duration before its clause (`over 3 seconds, push in`), by chance, where the connective begins a new part.
+    fn leading_duration(&mut self, connective: &Expansion, position: ClausePosition) -> Option<Expansion> {
+        let begins_part = match connective.tokens.last() {
+            Some(ClauseToken::Word(word)) if word == "," => connective.tokens.len() > 1,
+            Some(ClauseToken::Word(word)) => matches!(word.as_str(), "then" | "." | ";" | "now" | "next"),
             _ => false,
         };
-        let list = if place.nth > 0 && opens && self.rng.random_bool(0.08) {
+        let list = if position.index > 0 && begins_part && self.rng.random_bool(0.08) {
             "dur.pre"
-        } else if place.nth == 0 && !place.opened && self.rng.random_bool(0.02) {
+        } else if position.is_first() && self.rng.random_bool(0.02) {
             "dur.take"
         } else {
             return None;
         };
-        Some(self.drawer.list(list, self.rng))
+        Some(self.expander.expand_list(list, self.rng))
     }
 
-    fn forms_after(&mut self, joint: &Drawn, place: Place) -> (Vec<Form>, Tense) {
-        let marked = |mark: &str| matches!(joint.atoms.last(), Some(Atom::Word(word)) if word.ends_with(mark));
-        if marked("+g") {
-            return (vec![Form::Verb], Tense::Gerund);
-        }
-        if marked("+n") {
-            return (vec![Form::Noun], Tense::Base);
+    /// The forms of a clause and its verb after a connective.
+    fn forms_after(&mut self, connective: &Expansion, position: ClausePosition) -> (ClauseForm, VerbForm) {
+        match connective.tokens.last() {
+            Some(ClauseToken::Requires(NextForm::Gerund)) => return (ClauseForm::VerbPhrase, VerbForm::Gerund),
+            Some(ClauseToken::Requires(NextForm::NounPhrase)) => return (ClauseForm::NounPhrase, VerbForm::Base),
+            _ => {}
         }
         match self.voice {
-            _ if place.inverted => (vec![Form::Verb], Tense::Base),
-            Voice::Noun => (vec![Form::Noun], Tense::Base),
-            Voice::Third => (vec![Form::Verb], Tense::Third),
-            Voice::Gerund => (vec![Form::Verb], Tense::Gerund),
-            Voice::Imperative if place.nth == 0 && joint.atoms.is_empty() && self.rng.random_bool(0.1) => {
-                (vec![Form::Statement], Tense::Base)
+            _ if position.subordinate => (ClauseForm::VerbPhrase, VerbForm::Base),
+            Voice::NounPhrase => (ClauseForm::NounPhrase, VerbForm::Base),
+            Voice::ThirdPerson => (ClauseForm::VerbPhrase, VerbForm::ThirdPerson),
+            Voice::Gerund => (ClauseForm::VerbPhrase, VerbForm::Gerund),
+            Voice::Imperative if position.index == 0 && connective.tokens.is_empty() && self.rng.random_bool(0.1) => {
+                (ClauseForm::Statement, VerbForm::Base)
             }
-            Voice::Imperative | Voice::Request => (vec![Form::Verb], Tense::Base),
+            Voice::Imperative | Voice::Request => (ClauseForm::VerbPhrase, VerbForm::Base),
         }
     }
 
-    fn add_joint(&mut self, joint: &Drawn, place: Place, form: Form) {
+    fn add_connective(&mut self, connective: &Expansion, position: ClausePosition, form: ClauseForm) {
         let clause = self.num_clauses;
-        if place.nth == 1 && self.order != Order::Told {
-            self.page.add(",", None, false);
+        if position.index == 1 && self.order != ClauseOrder::Written {
+            self.text.add(",", None, false);
             return;
         }
-        for atom in &joint.atoms {
-            let Atom::Word(word) = atom else { continue };
-            let word = word.trim_end_matches("+g").trim_end_matches("+n");
-            self.page.add(word, Some(clause), false);
+        let mut ends_sentence = false;
+        for token in &connective.tokens {
+            match token {
+                ClauseToken::Word(word) => {
+                    self.text.add(word, Some(clause), false);
+                    ends_sentence |= word == ".";
+                }
+                ClauseToken::Requires(NextForm::NounPhrase) => self.text.add("a", Some(clause), false),
+                _ => {}
+            }
         }
-        if joint.atoms.last().is_some_and(|atom| matches!(atom, Atom::Word(word) if word.ends_with("+n"))) {
-            self.page.add("a", Some(clause), false);
-        }
-        let ends_sentence = joint.atoms.iter().any(|atom| matches!(atom, Atom::Word(word) if word == "."));
-        if self.voice == Voice::Third
-            && !place.is_first()
+        if self.voice == Voice::ThirdPerson
+            && !position.is_first()
             && ends_sentence
-            && form == Form::Verb
+            && form == ClauseForm::VerbPhrase
             && self.rng.random_bool(0.8)
         {
-            self.page.add("the camera", Some(clause), false);
+            self.text.add("the camera", Some(clause), false);
         }
-        self.held_out |= joint.held_out;
+        self.held_out |= connective.held_out;
     }
 
-    /// Draws until a clause fits: its tokens agree, its objects exist, it makes sense after what came before.
-    /// `time` is said before it.
-    fn draw_clause(
+    /// Draws clauses until one fits: its tokens agree, its objects exist, its steps are consistent with those before.
+    /// `duration` stands before the clause.
+    fn choose_clause(
         &mut self,
-        forms: &[Form],
-        place: Place,
+        form: ClauseForm,
+        position: ClausePosition,
         start: Option<&Framing>,
-        time: Option<&Drawn>,
+        duration: Option<&Expansion>,
     ) -> Option<Clause> {
         for _ in 0..40 {
-            let grammar = self.drawer.grammar;
-            let (focused, moved, num_objects) = (self.focus.len() == 1, self.moved, self.objects.len());
-            let able = |family: &&Family| {
-                (!place.is_first() || !family.needs_before)
-                    && (focused || !family.needs_focus)
-                    && (moved || !family.needs_move)
-                    && (place.nth > 0 || !family.steps.iter().flatten().any(|t| t == "cut"))
-                    && family.letters().iter().all(|letter| (*letter as usize) < 'A' as usize + num_objects)
-            };
-            let Some(family) = pick_family(grammar.families.iter().filter(able), self.rng) else { continue };
-            let Some((form, wording)) = self.pick_clause(family, forms) else { continue };
-            let mut drawn = self.drawer.wording(wording, self.rng);
-            if let Some(time) = time.filter(|_| family.steps.len() == 1) {
-                drawn.atoms.splice(0..0, time.atoms.iter().cloned());
-                drawn.meaning.extend(time.meaning.iter().cloned());
-                drawn.held_out |= time.held_out;
+            let Some(group) = self.choose_group(position) else { continue };
+            let Some((form, template)) = self.choose_template(group, &[form]) else { continue };
+            let mut expansion = self.expander.expand(template, self.rng);
+            if let Some(duration) = duration.filter(|_| group.steps.len() == 1) {
+                expansion.tokens.splice(0..0, duration.tokens.iter().cloned());
+                expansion.meaning.extend(duration.meaning.iter().cloned());
+                expansion.held_out |= duration.held_out;
             }
             // `the camera pans the camera`.
-            let doubled = |atom: &Atom| matches!(atom, Atom::Word(word) if word == "camera");
-            if self.voice == Voice::Third && drawn.atoms.iter().take(4).any(doubled) {
+            let is_camera = |token: &ClauseToken| matches!(token, ClauseToken::Word(word) if word == "camera");
+            if self.voice == Voice::ThirdPerson && expansion.tokens.iter().take(4).any(is_camera) {
                 continue;
             }
-            let binding = self.bind();
-            if let Some(steps) = self.steps_of(family, &drawn, &binding, start) {
-                return Some(Clause { drawn, form, steps, binding });
+            let bindings = self.bind();
+            if let Some(steps) = self.steps_of(group, &expansion, &bindings, start) {
+                return Some(Clause { expansion, form, steps, bindings });
             }
         }
         None
     }
 
-    pub(super) fn pick_clause<'f>(&mut self, family: &'f Family, forms: &[Form]) -> Option<(Form, &'f Wording)> {
-        let fitting = family.clauses.iter().filter(|(form, _)| forms.contains(form));
-        let wording = self.drawer.pick(fitting.clone().map(|(_, wording)| wording), self.rng)?;
-        let form = fitting.clone().find(|(_, other)| std::ptr::eq(other, wording)).map(|(form, _)| *form)?;
-        Some((form, wording))
+    /// A group of clauses whose context is given.
+    fn choose_group(&mut self, position: ClausePosition) -> Option<&'a TemplateGroup> {
+        let grammar = self.expander.grammar;
+        let (focused, moved, num_objects) = (self.focus.len() == 1, self.moved, self.objects.len());
+        let is_possible = |group: &&TemplateGroup| {
+            (!position.is_first() || !group.requires(Requirement::Before))
+                && (focused || !group.requires(Requirement::Focus))
+                && (moved || !group.requires(Requirement::Moved))
+                && (position.index > 0 || !group.cuts())
+                && group.placeholders.iter().all(|placeholder| (*placeholder as usize) < num_objects)
+        };
+        choose_weighted(grammar.clauses.iter().filter(is_possible), |group| group.weight, self.rng)
     }
 
-    /// Different objects for A, B, C; A is rather the thing looked at.
-    pub(super) fn bind(&mut self) -> Binding {
+    /// A template of one of `forms`.
+    pub(super) fn choose_template<'g>(
+        &mut self,
+        group: &'g TemplateGroup,
+        forms: &[ClauseForm],
+    ) -> Option<(ClauseForm, &'g Template)> {
+        let fitting = group.templates.iter().filter(|(form, _)| forms.contains(form));
+        let template = self.expander.choose(fitting.clone().map(|(_, template)| template), self.rng)?;
+        let form = fitting.clone().find(|(_, other)| std::ptr::eq(other, template)).map(|(form, _)| *form)?;
+        Some((form, template))
+    }
+
+    /// Different objects for the placeholders; more often than not `A` is the object in focus.
+    pub(super) fn bind(&mut self) -> Bindings {
         let mut ids: Vec<u32> = self.objects.iter().map(|object| object.id).collect();
-        let mut binding = [None; 3];
+        let mut bindings = [None; 3];
         if self.focus.len() == 1 && self.rng.random_bool(0.55) {
-            binding[0] = self.focus.first().copied();
+            bindings[0] = self.focus.first().copied();
         }
         ids.retain(|id| {
-            Some(*id) != binding[0]
-                && (binding[0].is_some() || self.focus.len() != 1 || !self.focus.contains(id) || self.objects.len() < 3)
+            Some(*id) != bindings[0]
+                && (bindings[0].is_some()
+                    || self.focus.len() != 1
+                    || !self.focus.contains(id)
+                    || self.objects.len() < 3)
         });
-        for place in &mut binding {
-            if place.is_none() && !ids.is_empty() {
+        for bound in &mut bindings {
+            if bound.is_none() && !ids.is_empty() {
                 let at = self.rng.random_range(0..ids.len());
-                *place = Some(ids.swap_remove(at));
+                *bound = Some(ids.swap_remove(at));
             }
         }
-        binding
+        bindings
     }
 
-    pub(super) fn step(&self, tokens: impl Iterator<Item = String>, binding: &Binding) -> Option<Step> {
+    /// The step of tokens of the notation, in which a placeholder, `F` or `H` stands for objects.
+    pub(super) fn step(&self, tokens: impl Iterator<Item = String>, bindings: &Bindings) -> Option<Step> {
         let tokens: Vec<String> = tokens.collect();
         let resolve = |name: &str| match name {
             "F" => Some(self.focus.clone()),
-            // What a hold looks at: that one thing, or nothing in particular.
+            // A hold is of the one object in focus, or of nothing in particular.
             "H" => Some(self.focus.iter().copied().filter(|_| self.focus.len() == 1).collect()),
-            _ => bound(binding, name.chars().next()?).map(|id| vec![id]),
+            _ => bound(bindings, name.parse().ok()?).map(|id| vec![id]),
         };
         let tokens: Vec<&str> = tokens.iter().map(String::as_str).collect();
-        step_from_tokens(&tokens, &resolve).ok()
+        step_from_notation(&tokens, &resolve).ok()
     }
 
+    /// The steps of a clause; `None` where they contradict themselves, each other or the steps before.
     fn steps_of(
         &self,
-        family: &Family,
-        drawn: &Drawn,
-        binding: &Binding,
+        group: &TemplateGroup,
+        expansion: &Expansion,
+        bindings: &Bindings,
         start: Option<&Framing>,
     ) -> Option<Vec<Step>> {
-        let last = family.steps.len().checked_sub(1)?;
-        // Of `rush up to A and hold for 2 seconds` the time is the hold's and the speed is not.
-        let holds = last > 0 && family.steps.last()?.first().is_some_and(|movement| movement == "static");
-        let belongs = |token: &String, index: usize| {
-            if holds && !token.starts_with("dur=") { index == 0 } else { index == last }
+        let last = group.steps.len().checked_sub(1)?;
+        // In `rush up to A and hold for 2 seconds` the duration belongs to the hold, the speed to the first step.
+        let ends_in_hold = last > 0 && group.steps.last()?.first().is_some_and(|name| name == Move::Static.as_ref());
+        let belongs_to = |index: usize, token: &String| {
+            if ends_in_hold && !token.starts_with("dur=") { index == 0 } else { index == last }
         };
         let mut steps = Vec::new();
-        for (index, tokens) in family.steps.iter().enumerate() {
-            let more = drawn.meaning.iter().filter(|token| belongs(token, index));
-            let step = self.step(tokens.iter().chain(more).cloned(), binding)?;
-            steps.push(step);
+        for (index, tokens) in group.steps.iter().enumerate() {
+            let more = expansion.meaning.iter().filter(|token| belongs_to(index, token));
+            steps.push(self.step(tokens.iter().chain(more).cloned(), bindings)?);
         }
         if let Some(start) = start {
-            open_with(steps.first_mut()?, start)?;
+            apply_opening(steps.first_mut()?, start)?;
         }
-        let repeats =
-            self.program.steps.last().is_some_and(|before| steps.first().is_some_and(|now| is_idle(before, now)));
-        (!repeats && steps.iter().all(is_sensible)).then_some(steps)
+        let before = self.program.steps.last();
+        let repeats = before.is_some_and(|before| steps.first().is_some_and(|now| is_redundant(before, now)));
+        (!repeats && steps.iter().all(is_consistent)).then_some(steps)
     }
 
-    /// What the camera looks at after a step.
-    fn look(&mut self, step: &Step) {
+    /// Sets the focus to what the camera looks at after a step.
+    fn update_focus(&mut self, step: &Step) {
         let via = step.via.as_ref().map(|via| via.objects.clone()).filter(|ids| ids.len() == 1);
         let turns_away =
             matches!(step.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan);
@@ -275,6 +283,7 @@ impl Composer<'_> {
         self.focus.dedup();
     }
 
+    /// Adds a step that is a clause of its own.
     pub(super) fn push_step(&mut self, step: Step) {
         self.clause_of_step.push(self.num_clauses);
         self.num_clauses += 1;

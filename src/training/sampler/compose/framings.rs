@@ -1,100 +1,143 @@
-//! Framings said by themselves: at the start of a prompt, at its end, alone, or two of the same thing.
+//! Framings without a move: before all clauses, after them, alone, or two of the same subject.
 
 use rand::RngExt;
 
-use super::sense::{is_sensible, move_between};
-use super::{Binding, Composer, pick_family};
-use crate::sampler::wording::{Atom, Drawn};
-use cinesplat_language::grammar::{Family, Form};
-use cinesplat_language::inflection::Tense;
+use super::composer::{Bindings, Composer};
+use super::consistency::{is_consistent, move_between};
+use crate::sampler::choice::choose_weighted;
+use crate::sampler::expansion::Expansion;
+use crate::sampler::grammar::{ClauseForm, TemplateGroup};
+use crate::sampler::template::{ClauseToken, ObjectPlaceholder};
+use cinesplat_language::VerbForm;
 use cinesplat_operator::{Framing, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
+/// End of a step that a framing describes, as in the notation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "kebab-case")]
+enum Side {
+    Start,
+    End,
+}
+
+/// Lists of the words before a framing, by its form.
+struct Introduction {
+    noun_phrase: &'static str,
+    statement: &'static str,
+    /// Before nothing but an object.
+    object: &'static str,
+}
+
+const OPENING: Introduction = Introduction { noun_phrase: "open.n", statement: "open.s", object: "open.on" };
+const ALONE: Introduction = Introduction { noun_phrase: "lead.n", statement: "silence", object: "open.show" };
+const CLOSING: Introduction = Introduction { noun_phrase: "close.n", statement: "close.s", object: "close.on" };
+
 impl<'a> Composer<'a> {
-    /// Draws a framing and says it after words of one of three lists: before a noun, a statement, a bare object.
-    fn say_framing(&mut self, lists: [&str; 3], side: &str, subject: Option<u32>, clause: usize) -> Option<Framing> {
+    /// Adds a framing after its introduction; `subject` is its subject if it has to be a certain one.
+    fn add_framing(
+        &mut self,
+        introduction: &Introduction,
+        side: Side,
+        subject: Option<u32>,
+        clause: usize,
+    ) -> Option<Framing> {
         for _ in 0..20 {
-            let Some((family, form, drawn, binding)) = self.draw_framing(subject) else { continue };
-            let Some(framing) = self.framing_of(family, &drawn, &binding, side) else { continue };
-            let plain = framing.size.is_none() && framing.angle.is_none() && framing.subjects.len() < 2;
-            let begins_with_object = matches!(drawn.atoms.first(), Some(Atom::Object(..)));
+            let Some((group, form, expansion, bindings)) = self.choose_framing(subject) else { continue };
+            let Some(framing) = self.framing_of(group, &expansion, &bindings, side) else { continue };
+            let is_plain = framing.size.is_none() && framing.angle.is_none() && framing.subjects.len() < 2;
+            let begins_with_object = matches!(expansion.tokens.first(), Some(ClauseToken::Object(..)));
             let list = match form {
-                Form::Noun => lists[0],
-                // `look down at it` says itself, but only as a start.
-                Form::Verb if side == "start" || self.page.is_empty() => "silence",
-                Form::Verb => continue,
-                Form::Statement if begins_with_object && plain => lists[2],
-                Form::Statement if begins_with_object && side == "start" => "open.show",
-                Form::Statement if begins_with_object => continue,
-                Form::Statement => lists[1],
+                ClauseForm::NounPhrase => introduction.noun_phrase,
+                // `look down at it` needs no introduction, but is a framing only at the start.
+                ClauseForm::VerbPhrase if side == Side::Start || self.text.is_empty() => "silence",
+                ClauseForm::VerbPhrase => continue,
+                ClauseForm::Statement if begins_with_object && is_plain => introduction.object,
+                ClauseForm::Statement if begins_with_object && side == Side::Start => "open.show",
+                ClauseForm::Statement if begins_with_object => continue,
+                ClauseForm::Statement => introduction.statement,
             };
             self.add_list(list)?;
-            self.add_atoms(&drawn.atoms, Tense::Base, Some(clause), &binding)?;
-            self.held_out |= drawn.held_out;
+            self.add_tokens(&expansion.tokens, VerbForm::Base, Some(clause), &bindings)?;
+            self.held_out |= expansion.held_out;
             return Some(framing);
         }
         None
     }
 
-    fn draw_framing(&mut self, subject: Option<u32>) -> Option<(&'a Family, Form, Drawn, Binding)> {
-        let grammar = self.drawer.grammar;
+    fn choose_framing(&mut self, subject: Option<u32>) -> Option<(&'a TemplateGroup, ClauseForm, Expansion, Bindings)> {
+        let grammar = self.expander.grammar;
         let num_objects = self.objects.len();
-        let able = |family: &&Family| {
-            family.letters().len() <= num_objects && (subject.is_none() || family.letters() == ['A'])
+        let is_possible = |group: &&TemplateGroup| {
+            group.placeholders.len() <= num_objects
+                && (subject.is_none() || group.placeholders == [ObjectPlaceholder::A])
         };
-        let family = pick_family(grammar.framings.iter().filter(able), self.rng)?;
-        let mut binding = self.bind();
+        let group = choose_weighted(grammar.framings.iter().filter(is_possible), |group| group.weight, self.rng)?;
+        let mut bindings = self.bind();
         if let Some(id) = subject {
-            binding[0] = Some(id);
+            bindings[0] = Some(id);
         }
-        let (form, wording) = self.pick_clause(family, &[Form::Noun, Form::Statement, Form::Verb])?;
-        let drawn = self.drawer.wording(wording, self.rng);
-        Some((family, form, drawn, binding))
+        let forms = [ClauseForm::NounPhrase, ClauseForm::Statement, ClauseForm::VerbPhrase];
+        let (form, template) = self.choose_template(group, &forms)?;
+        let expansion = self.expander.expand(template, self.rng);
+        Some((group, form, expansion, bindings))
     }
 
-    fn framing_of(&self, family: &Family, drawn: &Drawn, binding: &Binding, side: &str) -> Option<Framing> {
-        let tokens = family.steps.first()?.iter().chain(&drawn.meaning);
+    fn framing_of(
+        &self,
+        group: &TemplateGroup,
+        expansion: &Expansion,
+        bindings: &Bindings,
+        side: Side,
+    ) -> Option<Framing> {
+        let tokens = group.steps.first()?.iter().chain(&expansion.meaning);
         let sided = tokens.map(|token| {
             if token.starts_with([':', '!']) { format!("{side}{token}") } else { format!("{side}={token}") }
         });
-        let step = self.step(sided.chain(["static".to_owned()]), binding)?;
-        Some(if side == "start" { step.start } else { step.end })
+        let step = self.step(sided.chain([Move::Static.to_string()]), bindings)?;
+        Some(match side {
+            Side::Start => step.start,
+            Side::End => step.end,
+        })
     }
 
+    /// Adds a framing before all clauses: `start close on A`.
     pub(super) fn add_opening(&mut self) -> Option<Framing> {
-        let framing = self.say_framing(["open.n", "open.s", "open.on"], "start", None, self.num_clauses)?;
+        let framing = self.add_framing(&OPENING, Side::Start, None, self.num_clauses)?;
         self.focus.clone_from(&framing.subjects);
         Some(framing)
     }
 
+    /// Adds a framing that is the whole prompt: a static step.
     pub(super) fn add_framing_alone(&mut self) -> Option<()> {
-        let framing = self.say_framing(["lead.n", "silence", "open.show"], "end", None, self.num_clauses)?;
+        let framing = self.add_framing(&ALONE, Side::End, None, self.num_clauses)?;
         self.push_step(Step { end: framing, ..Step::of(Move::Static) });
         Some(())
     }
 
-    /// `close on A, then wide`: the move between them follows from the framings.
+    /// Adds two framings of one subject (`close on A, then wide`); the move between them follows from the framings.
     pub(super) fn add_two_framings(&mut self) -> Option<()> {
         let start = self.add_opening().filter(|f| f.subjects.len() == 1)?;
         self.add_list("join.frame")?;
-        let drawn = self.drawer.list("frame.then", self.rng);
-        let sided = drawn.meaning.iter().map(|token| format!("end{token}"));
+        let expansion = self.expander.expand_list("frame.then", self.rng);
         let subject = start.subjects.first().copied();
-        let all = sided.chain(["static".to_owned(), "end=A".to_owned()]).collect::<Vec<_>>();
-        let end = self.step(all.into_iter().rev(), &[subject, None, None])?.end;
+        let side = Side::End;
+        let tokens = [format!("{side}=A"), Move::Static.to_string()];
+        let qualifiers = expansion.meaning.iter().rev().map(|token| format!("{side}{token}"));
+        let end = self.step(tokens.into_iter().chain(qualifiers), &[subject, None, None])?.end;
         let movement = move_between(&start, &end)?;
-        self.add_atoms(&drawn.atoms, Tense::Base, Some(self.num_clauses), &[None; 3])?;
-        self.held_out |= drawn.held_out;
+        self.add_tokens(&expansion.tokens, VerbForm::Base, Some(self.num_clauses), &[None; 3])?;
+        self.held_out |= expansion.held_out;
         self.push_step(Step { start, end, ..Step::of(movement) });
         Some(())
     }
 
-    /// `, ending on a close-up of it`: of what the last step looks at, of another thing, or of the room.
+    /// Adds a framing after all clauses (`, ending on a close-up of it`): of the object in focus, of another one, or of
+    /// the room.
     pub(super) fn add_closing(&mut self) -> Option<()> {
         let same = self.focus.first().copied().filter(|_| self.focus.len() == 1 && self.rng.random_bool(0.6));
-        // Words about what the last step looks at belong to that step.
+        // A framing of the object in focus belongs to the last clause.
         let clause = if same.is_some() { self.num_clauses.checked_sub(1)? } else { self.num_clauses };
-        let framing = self.say_framing(["close.n", "close.s", "close.on"], "end", same, clause)?;
+        let framing = self.add_framing(&CLOSING, Side::End, same, clause)?;
         if same.is_none() && framing.subjects == self.focus {
             return None;
         }
@@ -110,7 +153,7 @@ impl<'a> Composer<'a> {
                 return None;
             }
             last.end = framing;
-            return is_sensible(last).then_some(());
+            return is_consistent(last).then_some(());
         }
         let room = framing.subjects.is_empty();
         let movement = if room { Move::PullOut } else { Move::Follow };

@@ -1,10 +1,13 @@
-//! Whether steps make sense, and what follows from framings alone.
+//! Consistency of steps: which combinations a prompt can mean, and the move between two framings.
+//!
+//! A function that returns `Option<()>` returns `None` to reject the draw.
 
 use cinesplat_operator::{Amount, Framing, Program, Step};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
-/// `Start close on A`, then this step: its start, unless it has its own or is a hold of the opening itself.
-pub(super) fn open_with(step: &mut Step, start: &Framing) -> Option<()> {
+/// Makes an opening framing (`start close on A`) the start of the first step. Rejects a step with a start of its own, and
+/// moves that do not start at a framing. A static step has to be a hold of the same subjects: the framing becomes its end.
+pub(super) fn apply_opening(step: &mut Step, start: &Framing) -> Option<()> {
     if step.cut || step.returns || step.start != Framing::default() {
         return None;
     }
@@ -20,16 +23,16 @@ pub(super) fn open_with(step: &mut Step, start: &Framing) -> Option<()> {
     Some(())
 }
 
-/// Whether a step says nothing new after another: the same move of the same thing, or a hold after a hold.
-pub(super) fn is_idle(before: &Step, now: &Step) -> bool {
-    let opposite = before.movement == now.movement && before.end.subjects == now.end.subjects && !now.cut;
-    opposite || (before.movement == Move::Static && now.movement == Move::Static && !now.cut)
+/// Whether a step only repeats the one before: the same move with the same subjects at its end, or a hold after a hold.
+pub(super) fn is_redundant(before: &Step, now: &Step) -> bool {
+    let is_same_move = before.movement == now.movement && before.end.subjects == now.end.subjects && !now.cut;
+    is_same_move || (before.movement == Move::Static && now.movement == Move::Static && !now.cut)
 }
 
-/// Whether the parts of a step agree: pushing in ends closer than it began, a tilt stays below a quarter turn ..
-pub(super) fn is_sensible(step: &Step) -> bool {
-    let repeats = |ids: &[u32]| ids.iter().enumerate().any(|(i, id)| ids.iter().take(i).any(|other| other == id));
-    if repeats(&step.start.subjects) || repeats(&step.end.subjects) {
+/// Whether the parts of a step agree. For example a push-in ends closer than it starts, and a tilt is at most 90 degrees.
+pub(super) fn is_consistent(step: &Step) -> bool {
+    let has_repeats = |ids: &[u32]| ids.iter().enumerate().any(|(i, id)| ids.iter().take(i).any(|other| other == id));
+    if has_repeats(&step.start.subjects) || has_repeats(&step.end.subjects) {
         return false;
     }
     let sizes = (step.start.size, step.end.size);
@@ -51,7 +54,7 @@ pub(super) fn is_sensible(step: &Step) -> bool {
     let angles = height(step.start.angle).zip(height(step.end.angle));
     let rises = angles.is_none_or(|(a, b)| b < a);
     let sinks = angles.is_none_or(|(a, b)| b > a);
-    let upright = match step.movement {
+    let is_possible = match step.movement {
         Move::CraneUp => rises && step.start.angle != Some(ShotAngle::Overhead),
         Move::CraneDown => sinks && step.start.angle != Some(ShotAngle::Worm),
         Move::TiltUp | Move::TiltDown | Move::RollCw | Move::RollCcw => {
@@ -61,10 +64,10 @@ pub(super) fn is_sensible(step: &Step) -> bool {
         Move::ArcLeft | Move::ArcRight => !matches!(step.amount, Some(Amount::Degrees(d)) if d > 400.0),
         _ => true,
     };
-    upright && step.with != Some(step.movement)
+    is_possible && step.with != Some(step.movement)
 }
 
-/// The move that leads from one framing of a thing to another.
+/// The move from one framing of a subject to another; `None` where they do not differ in size or angle.
 pub(super) fn move_between(start: &Framing, end: &Framing) -> Option<Move> {
     let height = |framing: &Framing| framing.angle.map(|angle| angle as u8);
     match (start.size.zip(end.size), height(start).zip(height(end))) {
@@ -76,8 +79,9 @@ pub(super) fn move_between(start: &Framing, end: &Framing) -> Option<Move> {
     }
 }
 
-/// A time said of the only step is the film's; steps may not take longer than the film.
-pub(super) fn settle_durations(program: &mut Program) -> Option<()> {
+/// Makes the duration of an only step the film's. Rejects steps that take as long as the film while others are open, or
+/// longer than it.
+pub(super) fn normalize_durations(program: &mut Program) -> Option<()> {
     let sum: f64 = program.steps.iter().filter_map(|step| step.duration_secs).sum();
     let open = program.steps.iter().filter(|step| step.duration_secs.is_none()).count();
     if let [only] = program.steps.as_mut_slice() {

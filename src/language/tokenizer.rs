@@ -1,28 +1,29 @@
-//! A prompt as plain lower-case words, each with its bytes.
+//! Splits a prompt into plain lower-case words and keeps the bytes of each.
 //!
-//! Enters: any UTF-8 text. Leaves: words of one script run each, punctuation as words of one character. Case, accents,
-//! typographic quotes and dashes, full-width forms, joiners and direction marks make no difference; hyphens split words
-//! (`push-in` = `push in`), digits and letters split (`2.5s` = `2.5 s`). One pass over the text.
+//! Enters: any UTF-8 text. Leaves: one word per run of letters or digits, one word per punctuation mark. Case, accents,
+//! typographic quotes and dashes, full-width forms, joiners and direction marks do not change the words. Hyphens split
+//! words (`push-in` = `push in`), and so does the border between digits and letters (`2.5s` = `2.5 s`). One pass over
+//! the text.
 
 use super::inflection::stem;
 
-/// One word and the bytes of the prompt it was made from.
+/// One word and the bytes of the prompt that it was made from.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Word {
-    pub text: String,
+pub(crate) struct Word {
+    pub(crate) text: String,
     /// The word as a singular noun, to compare names by.
-    pub stem: String,
-    pub span: [usize; 2],
+    pub(crate) stem: String,
+    pub(crate) span: [usize; 2],
 }
 
 impl Word {
     /// Whether it begins with a letter.
-    pub fn is_alphabetic(&self) -> bool {
+    pub(crate) fn is_alphabetic(&self) -> bool {
         self.text.starts_with(char::is_alphabetic)
     }
 }
 
-/// What a character is for the tokenizer.
+/// Class of a character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Glyph {
     Letter(char),
@@ -31,7 +32,8 @@ enum Glyph {
     Apostrophe,
     Hyphen,
     Space,
-    Nothing,
+    /// Dropped: it neither belongs to a word nor ends one.
+    Invisible,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,79 +42,82 @@ enum Run {
     Digits,
 }
 
-/// The words of `prompt`, in order.
-pub fn words(prompt: &str) -> Vec<Word> {
+/// The words of `text`, in order.
+pub(crate) fn tokenize(text: &str) -> Vec<Word> {
     let glyphs: Vec<(usize, usize, Glyph)> =
-        prompt.char_indices().map(|(at, c)| (at, at + c.len_utf8(), glyph(c))).collect();
-    let mut splitter = Splitter::default();
+        text.char_indices().map(|(at, c)| (at, at + c.len_utf8(), glyph(c))).collect();
+    let mut tokenizer = Tokenizer::default();
     for (index, &(start, end, glyph)) in glyphs.iter().enumerate() {
         let before = index.checked_sub(1).and_then(|i| glyphs.get(i)).map(|g| g.2);
         let after = glyphs.get(index + 1).map(|g| g.2);
-        splitter.take([start, end], glyph, [before, after]);
+        tokenizer.push(glyph, [start, end], [before, after]);
     }
-    splitter.flush();
-    for word in &mut splitter.words {
+    tokenizer.end_word();
+    for word in &mut tokenizer.words {
         word.stem = stem(&word.text);
     }
-    splitter.words
+    tokenizer.words
 }
 
 #[derive(Default)]
-struct Splitter {
+struct Tokenizer {
     words: Vec<Word>,
     current: Option<(Run, Word)>,
 }
 
-impl Splitter {
-    fn flush(&mut self) {
+impl Tokenizer {
+    fn end_word(&mut self) {
         self.words.extend(self.current.take().map(|(_, word)| word));
     }
 
-    fn grow(&mut self, run: Run, c: char, span: [usize; 2]) {
+    /// Appends to the current word if it is of the same run; else ends that word and begins a new one.
+    fn extend_word(&mut self, run: Run, c: char, span: [usize; 2]) {
         match &mut self.current {
             Some((same, word)) if *same == run => {
                 word.text.push(c);
                 word.span[1] = span[1];
             }
             _ => {
-                self.flush();
+                self.end_word();
                 self.current = Some((run, Word { text: c.to_string(), stem: String::new(), span }));
             }
         }
     }
 
-    fn mark(&mut self, text: &str, span: [usize; 2]) {
-        self.flush();
+    fn push_mark(&mut self, text: &str, span: [usize; 2]) {
+        self.end_word();
         self.words.push(Word { text: text.to_owned(), stem: String::new(), span });
     }
 
-    fn take(&mut self, span: [usize; 2], glyph: Glyph, [before, after]: [Option<Glyph>; 2]) {
+    fn push(&mut self, glyph: Glyph, span: [usize; 2], [before, after]: [Option<Glyph>; 2]) {
         let next_is_digit = matches!(after, Some(Glyph::Digit(_)));
         let in_digits = matches!(self.current, Some((Run::Digits, _)));
         let next_is_letter = matches!(after, Some(Glyph::Letter(_)));
         match glyph {
-            Glyph::Letter(c) => self.grow(Run::Letters, c, span),
-            Glyph::Digit(c) => self.grow(Run::Digits, c, span),
-            Glyph::Mark('.') if next_is_digit && in_digits && !self.has_point() => self.grow(Run::Digits, '.', span),
-            Glyph::Mark('.') if next_is_digit && !matches!(before, Some(Glyph::Digit(_) | Glyph::Letter(_))) => {
-                self.flush();
-                self.grow(Run::Digits, '.', span);
+            Glyph::Letter(c) => self.extend_word(Run::Letters, c, span),
+            Glyph::Digit(c) => self.extend_word(Run::Digits, c, span),
+            Glyph::Mark('.') if next_is_digit && in_digits && !self.has_point() => {
+                self.extend_word(Run::Digits, '.', span);
             }
-            Glyph::Mark('&') => self.mark("and", span),
-            Glyph::Mark(c) => self.mark(c.encode_utf8(&mut [0; 4]), span),
-            // `skull's` and `it's`: the ending is a word of its own; quotation marks vanish.
+            Glyph::Mark('.') if next_is_digit && !matches!(before, Some(Glyph::Digit(_) | Glyph::Letter(_))) => {
+                self.end_word();
+                self.extend_word(Run::Digits, '.', span);
+            }
+            Glyph::Mark('&') => self.push_mark("and", span),
+            Glyph::Mark(c) => self.push_mark(c.encode_utf8(&mut [0; 4]), span),
+            // `skull's` and `it's`: the ending is a word of its own. Quotation marks are dropped.
             Glyph::Apostrophe
                 if next_is_letter && matches!(before, Some(Glyph::Letter(_) | Glyph::Digit(_) | Glyph::Mark('>'))) =>
             {
-                self.flush();
-                self.grow(Run::Letters, '\'', span);
+                self.end_word();
+                self.extend_word(Run::Letters, '\'', span);
             }
-            // A dash between spaces parts clauses like a comma.
+            // A dash between spaces separates clauses like a comma.
             Glyph::Hyphen if matches!(before, Some(Glyph::Space)) && matches!(after, Some(Glyph::Space)) => {
-                self.mark(",", span);
+                self.push_mark(",", span);
             }
-            Glyph::Apostrophe | Glyph::Hyphen | Glyph::Space => self.flush(),
-            Glyph::Nothing => {}
+            Glyph::Apostrophe | Glyph::Hyphen | Glyph::Space => self.end_word(),
+            Glyph::Invisible => {}
         }
     }
 
@@ -122,7 +127,7 @@ impl Splitter {
 }
 
 fn glyph(c: char) -> Glyph {
-    let c = narrow(c);
+    let c = ascii_of_full_width(c);
     match c {
         '\'' | '\u{2018}' | '\u{2019}' | '\u{201B}' | '\u{2032}' | '`' | '\u{B4}' => Glyph::Apostrophe,
         '-' | '_' | '\u{2010}' | '\u{2011}' | '\u{2012}' | '\u{2212}' | '\u{AD}' => Glyph::Hyphen,
@@ -133,27 +138,27 @@ fn glyph(c: char) -> Glyph {
         ',' | '.' | ';' | ':' | '!' | '?' | '(' | ')' | '/' | '<' | '>' | '#' | '%' | '&' | '+' => Glyph::Mark(c),
         '[' => Glyph::Mark('('),
         ']' => Glyph::Mark(')'),
-        _ if is_invisible(c) => Glyph::Nothing,
+        _ if is_invisible(c) => Glyph::Invisible,
         _ if c.is_ascii_digit() => Glyph::Digit(c),
-        _ if c.is_alphabetic() => Glyph::Letter(plain(c)),
+        _ if c.is_alphabetic() => Glyph::Letter(unaccented(c)),
         _ => Glyph::Space,
     }
 }
 
-/// Full-width forms as the ASCII they stand for.
-fn narrow(c: char) -> char {
+/// The ASCII character of a full-width form; other characters unchanged.
+fn ascii_of_full_width(c: char) -> char {
     let code = u32::from(c);
     if (0xFF01..=0xFF5E).contains(&code) { char::from_u32(code - 0xFEE0).unwrap_or(c) } else { c }
 }
 
-/// Combining marks, joiners, direction marks, variation selectors, byte order marks: they change no word.
+/// Combining marks, joiners, direction marks, variation selectors, byte order marks.
 fn is_invisible(c: char) -> bool {
     matches!(u32::from(c), 0x300..=0x36F | 0x1AB0..=0x1AFF | 0x20D0..=0x20FF | 0x200B..=0x200F | 0x202A..=0x202E
         | 0x2060..=0x2069 | 0xFE00..=0xFE0F | 0xFE20..=0xFE2F | 0xFEFF | 0x61C)
 }
 
 /// Lower case without Latin accents.
-fn plain(c: char) -> char {
+fn unaccented(c: char) -> char {
     let c = c.to_lowercase().next().unwrap_or(c);
     match c {
         'à'..='å' | 'ā' | 'ă' | 'ą' => 'a',

@@ -1,32 +1,65 @@
-//! Quantities put into words, with their meaning: the other direction of `quantity.rs`.
+//! Quantities phrased in words: the inverse of finding them in a prompt.
 
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 
-use cinesplat_language::counting::number_word;
+use cinesplat_language::number_word;
 
-/// Words for a quantity, and the token that says what it is.
-pub(crate) fn figure(name: &str, rng: &mut Pcg64) -> (String, String) {
-    match name {
-        "SECS" => seconds(rng, "dur"),
-        "SECS0" => seconds(rng, "total"),
-        "SECSADJ" => seconds_before_noun(rng),
-        "DEG" => degrees(rng),
-        "UNITS" => units(rng),
-        "NEARER" => factor(rng, &NEARER),
-        "FARTHER" => factor(rng, &FARTHER),
-        _ => factor(rng, &LENS),
+/// Placeholder of a quantity in a template, such as `{SECS}`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
+#[strum(serialize_all = "UPPERCASE")]
+pub(crate) enum QuantityPlaceholder {
+    /// Duration of a step.
+    Secs,
+    /// Duration of the film.
+    Secs0,
+    /// Duration of the film before a noun: `a 10-second shot`.
+    SecsAdj,
+    /// Angle.
+    Deg,
+    /// Length.
+    Units,
+    /// Factor below 1 on the distance.
+    Nearer,
+    /// Factor above 1 on the distance.
+    Farther,
+    /// Factor on the focal length.
+    Lens,
+}
+
+/// A quantity in words and as a token of the notation of programs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct QuantityPhrase {
+    pub(crate) words: String,
+    pub(crate) meaning: String,
+}
+
+impl QuantityPlaceholder {
+    /// A random value in random words.
+    pub(crate) fn phrase(self, rng: &mut Pcg64) -> QuantityPhrase {
+        let (words, meaning) = match self {
+            Self::Secs => seconds(rng, "dur"),
+            Self::Secs0 => seconds(rng, "total"),
+            Self::SecsAdj => seconds_before_noun(rng),
+            Self::Deg => degrees(rng),
+            Self::Units => units(rng),
+            Self::Nearer => factor(rng, &NEARER),
+            Self::Farther => factor(rng, &FARTHER),
+            Self::Lens => factor(rng, &LENS),
+        };
+        QuantityPhrase { words, meaning }
     }
 }
 
-/// Hundredths keep every value exact in text and in the program.
-fn shown(hundredths: u32) -> String {
+/// A number of hundredths in digits. Hundredths have the same value in the text and in the program.
+fn decimal(hundredths: u32) -> String {
     format!("{}", f64::from(hundredths) / 100.0)
 }
 
+/// A duration as the notation token `key=`.
 fn seconds(rng: &mut Pcg64, key: &str) -> (String, String) {
-    let special: [(&str, f64); 9] = [
+    let phrases: [(&str, f64); 9] = [
         ("half a second", 0.5),
         ("a second", 1.0),
         ("one second", 1.0),
@@ -38,18 +71,19 @@ fn seconds(rng: &mut Pcg64, key: &str) -> (String, String) {
         ("a minute", 60.0),
     ];
     if rng.random_bool(0.12)
-        && let Some((words, value)) = special.choose(rng)
+        && let Some((words, value)) = phrases.choose(rng)
     {
         return ((*words).to_owned(), format!("{key}={value}s"));
     }
-    let tenths = if rng.random_bool(0.2) { rng.random_range(5..120u32) * 10 } else { rng.random_range(1..21u32) * 100 };
-    let whole = tenths / 100;
-    let figure = match number_word(whole) {
-        Some(word) if tenths % 100 == 0 && rng.random_bool(0.4) => word.to_owned(),
-        _ => shown(tenths),
+    let hundredths =
+        if rng.random_bool(0.2) { rng.random_range(5..120u32) * 10 } else { rng.random_range(1..21u32) * 100 };
+    let whole = hundredths / 100;
+    let number = match number_word(whole) {
+        Some(word) if hundredths % 100 == 0 && rng.random_bool(0.4) => word.to_owned(),
+        _ => decimal(hundredths),
     };
-    let spelled = figure.starts_with(char::is_alphabetic);
-    let one = tenths == 100;
+    let spelled = number.starts_with(char::is_alphabetic);
+    let one = hundredths == 100;
     let unit = match rng.random_range(0..10) {
         0 if !spelled => "s",
         1 if !spelled => " s",
@@ -58,25 +92,25 @@ fn seconds(rng: &mut Pcg64, key: &str) -> (String, String) {
         _ if one => " second",
         _ => " seconds",
     };
-    (format!("{figure}{unit}"), format!("{key}={}s", shown(tenths)))
+    (format!("{number}{unit}"), format!("{key}={}s", decimal(hundredths)))
 }
 
 fn seconds_before_noun(rng: &mut Pcg64) -> (String, String) {
     let value = rng.random_range(2..21u32);
-    let figure = match number_word(value) {
+    let number = match number_word(value) {
         Some(word) if rng.random_bool(0.4) => word.to_owned(),
         _ => value.to_string(),
     };
-    let unit = if figure.starts_with(char::is_alphabetic) {
+    let unit = if number.starts_with(char::is_alphabetic) {
         ["-second", " second"].choose(rng)
     } else {
         ["-second", " second", " sec", "s", " seconds", "-sec"].choose(rng)
     };
-    (format!("{figure}{}", unit.copied().unwrap_or(" second")), format!("total={value}s"))
+    (format!("{number}{}", unit.copied().unwrap_or(" second")), format!("total={value}s"))
 }
 
 fn degrees(rng: &mut Pcg64) -> (String, String) {
-    let named: [(&str, u32); 23] = [
+    let phrases: [(&str, u32); 23] = [
         ("a quarter turn", 90),
         ("a quarter circle", 90),
         ("a quarter of a turn", 90),
@@ -102,7 +136,7 @@ fn degrees(rng: &mut Pcg64) -> (String, String) {
         ("two full turns", 720),
     ];
     if rng.random_bool(0.25)
-        && let Some((words, value)) = named.choose(rng)
+        && let Some((words, value)) = phrases.choose(rng)
     {
         return ((*words).to_owned(), format!("amount={value}deg"));
     }
@@ -120,18 +154,18 @@ fn degrees(rng: &mut Pcg64) -> (String, String) {
         (20, "twenty"),
     ];
     let word = spelled.iter().find(|(v, _)| *v == value).map(|(_, w)| *w).filter(|_| rng.random_bool(0.3));
-    let figure = word.map_or_else(|| value.to_string(), str::to_owned);
+    let number = word.map_or_else(|| value.to_string(), str::to_owned);
     let unit = match rng.random_range(0..8) {
         0 | 1 if word.is_none() => "\u{B0}",
         2 => " deg",
         3 => "-degrees",
         _ => " degrees",
     };
-    (format!("{figure}{unit}"), format!("amount={value}deg"))
+    (format!("{number}{unit}"), format!("amount={value}deg"))
 }
 
 fn units(rng: &mut Pcg64) -> (String, String) {
-    let special: [(&str, f64); 6] = [
+    let phrases: [(&str, f64); 6] = [
         ("half a meter", 0.5),
         ("a meter", 1.0),
         ("a metre", 1.0),
@@ -140,7 +174,7 @@ fn units(rng: &mut Pcg64) -> (String, String) {
         ("one and a half meters", 1.5),
     ];
     if rng.random_bool(0.2)
-        && let Some((words, value)) = special.choose(rng)
+        && let Some((words, value)) = phrases.choose(rng)
     {
         return ((*words).to_owned(), format!("amount={value}u"));
     }
@@ -156,12 +190,12 @@ fn units(rng: &mut Pcg64) -> (String, String) {
     }
     let whole = rng.random_bool(0.6);
     let hundredths = if whole { rng.random_range(2..9u32) * 100 } else { rng.random_range(2..60u32) * 10 };
-    let figure = match number_word(hundredths / 100) {
+    let number = match number_word(hundredths / 100) {
         Some(word) if whole && rng.random_bool(0.5) => word.to_owned(),
-        _ => shown(hundredths),
+        _ => decimal(hundredths),
     };
     let unit = [" meters", " meters", " metres", " units", " m"].choose(rng).copied().unwrap_or(" meters");
-    (format!("{figure}{unit}"), format!("amount={}u", shown(hundredths)))
+    (format!("{number}{unit}"), format!("amount={}u", decimal(hundredths)))
 }
 
 const NEARER: [(&str, f64); 14] = [
@@ -202,8 +236,8 @@ const LENS: [(&str, f64); 7] = [
     ("4x", 4.0),
 ];
 
-fn factor(rng: &mut Pcg64, wordings: &[(&str, f64)]) -> (String, String) {
-    wordings
+fn factor(rng: &mut Pcg64, phrases: &[(&str, f64)]) -> (String, String) {
+    phrases
         .choose(rng)
         .map_or_else(Default::default, |(words, value)| ((*words).to_owned(), format!("amount={value}x")))
 }
