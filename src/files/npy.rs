@@ -94,12 +94,11 @@ pub fn encode_u16(shape: &[usize], values: &[u16]) -> Vec<u8> {
 
 /// A file, version 1.0, of any type: `descr` is numpy's notation as Python writes it, with its quotes or brackets.
 pub fn encode(descr: &str, shape: &[usize], data: impl Iterator<Item = u8>) -> Vec<u8> {
-    let mut axes: Vec<String> = shape.iter().map(usize::to_string).collect();
-    if axes.len() == 1 {
-        // A tuple of one has a comma.
-        axes.push(String::new());
-    }
-    let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({}), }}", axes.join(", "));
+    let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
+    // A tuple of one has a comma.
+    let comma = if axes.len() == 1 { "," } else { "" };
+    let axes = axes.join(", ");
+    let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({axes}{comma}), }}");
     let prefix = MAGIC.len() + 4;
     let padded = (prefix + header.len() + 1).next_multiple_of(ALIGNMENT);
     header.push_str(&" ".repeat(padded - prefix - header.len() - 1));

@@ -82,12 +82,12 @@ fn outputs_are_checked_before_the_scene_is_read() {
     // The scene does not exist: none of these gets as far as to notice.
     insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.mp4"]), @r"
     exit 73
-    error[OUTPUT-EXISTS]: film.mp4: the file is already there, expected a new name
+    error[OUTPUT-EXISTS]: film.mp4: exists already, expected a new name
     help: choose another name, or pass --overwrite
     ");
     insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "no/film.mp4"]), @r"
     exit 73
-    error[OUTPUT-CREATE]: no/film.mp4: cannot create the file: its folder does not exist
+    error[OUTPUT-CREATE]: no/film.mp4: cannot create: its folder does not exist
     help: create the folder, or choose one that you may write to
     ");
     insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.gif"]), @r#"
@@ -102,12 +102,12 @@ fn outputs_are_checked_before_the_scene_is_read() {
     ");
     insta::assert_snapshot!(refused(&["plan", "no.ply", "-p", "x", "-o", "film.mp4"]), @r"
     exit 73
-    error[OUTPUT-EXISTS]: film.mp4: already there, expected a new name
+    error[OUTPUT-EXISTS]: film.mp4: exists already, expected a new name
     help: choose another name, or pass --overwrite
     ");
     insta::assert_snapshot!(refused(&["import", "no.tum", "-o", "."]), @r"
     exit 73
-    error[OUTPUT-CREATE]: .: is a folder, expected a file name
+    error[OUTPUT-CREATE]: .: cannot create: it is a folder, expected a file name
     help: name a file in it
     ");
     assert_eq!(fs::read(folder.path().join("film.mp4")).unwrap(), b"mine");

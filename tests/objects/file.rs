@@ -216,7 +216,7 @@ fn label_files_that_do_not_fit_say_why() {
     insta::assert_snapshot!(said.join("\n"), @r"
     labels: found no .npy signature
     labels: found values of type `<f4`
-    labels: found 4 values of 2 bytes announced and 6 bytes of data
+    labels: found an array of shape [4], 2 bytes per value, with 6 bytes of data
     labels: found id 65536 at index 0
     labels: found 3 ids
     labels: found a cut-off .npy header

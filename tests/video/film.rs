@@ -271,14 +271,14 @@ fn frames_of_another_size_are_rejected() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_named_as_the_reason() {
-    // /dev/full can be opened and fails every write; a link to it simulates a folder on a full disk.
+    // /dev/full can be opened and fails every write; a link to it simulates a full disk.
     let folder = tempfile::tempdir().unwrap();
-    let part = folder.path().join(format!(".film.mkv.{}.part", std::process::id()));
-    if std::os::unix::fs::symlink("/dev/full", &part).is_err() || fs::write(&part, b"x").is_ok() {
+    let path = folder.path().join("film.mkv");
+    if std::os::unix::fs::symlink("/dev/full", &path).is_err() || fs::write(&path, b"x").is_ok() {
         eprintln!("skipped: no /dev/full here");
         return;
     }
-    let error = write_film(&folder.path().join("film.mkv"), &settings(40), 40).unwrap_err();
+    let error = write_film(&path, &settings(40), 40).unwrap_err();
     assert_eq!(error.code(), "FILE-WRITE", "{error}");
     assert!(error.to_string().contains("No space left"), "{error}");
 }
