@@ -20,10 +20,10 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Number of scenes
-    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().scenes)]
+    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().num_scenes)]
     scenes: u64,
     /// Shots tried per scene
-    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().shots)]
+    #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().shots_per_scene)]
     shots: u64,
     /// Number of Gaussians per scene as a share of the full number
     #[arg(long, value_name = "FRAC", default_value_t = DatasetSettings::default().detail)]
@@ -42,26 +42,25 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let settings = DatasetSettings {
-            out: self.output,
             seed: self.seed,
-            scenes: self.scenes,
-            shots: self.shots,
+            num_scenes: self.scenes,
+            shots_per_scene: self.shots,
             detail: self.detail,
             solve: self.solve,
             threads: self.threads,
         };
         let start = Instant::now();
-        let summary = write_dataset(&settings, &|done, total| {
+        let summary = write_dataset(&settings, &self.output, &|done, total| {
             let left_mins = start.elapsed().as_secs_f64() / done as f64 * total.saturating_sub(done) as f64 / 60.0;
             console::note(&format!("scene {done}/{total}, {left_mins:.0} min left"));
         })?;
         console::note(&format!(
             "{}: {} shots in {} scenes; {} dropped (not fully solved, or too long); {} shards kept",
-            settings.out.display(),
-            summary.shots,
-            summary.scenes,
-            summary.left_out,
-            summary.shards_kept
+            self.output.display(),
+            summary.num_shots,
+            summary.num_scenes,
+            summary.num_dropped,
+            summary.num_shards_kept
         ));
         Ok(())
     }

@@ -9,7 +9,9 @@ use super::failure::Failure;
 use super::interrupt::Interrupt;
 use cinesplat::director::Director;
 use cinesplat::language::program_to_notation;
-use cinesplat::training::{Marks, Paper, Progress, TrainSettings, examine, train};
+use cinesplat::training::{
+    EvaluationSplit, ProgramMetrics, Tally, TrainSettings, TrainingProgress, evaluate_director, train,
+};
 
 /// candle's matrix products run on rayon's pool, whose threads spin: two of our own threads with one each are faster.
 const THREADS_VARIABLE: &str = "RAYON_NUM_THREADS";
@@ -81,9 +83,10 @@ impl Args {
             return restart();
         }
         let interrupt = Interrupt::listen()?;
+        let out = self.output.clone().unwrap_or_default();
         let settings = self.settings();
         let mut lines = Lines::new(settings.steps);
-        let summary = train(&settings, &mut |progress| {
+        let summary = train(&settings, &out, &mut |progress| {
             lines.show(progress);
             if interrupt.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
@@ -105,7 +108,6 @@ impl Args {
             vocabulary: self.vocabulary,
             name: self.name,
             shots: self.shots,
-            out: self.output.unwrap_or_default(),
             from: self.from,
             threads: self.threads,
             checkpoint_every: self.checkpoint_every,
@@ -141,9 +143,9 @@ impl Lines {
         Self { start: Instant::now(), first: None, total }
     }
 
-    fn show(&mut self, progress: &Progress) {
+    fn show(&mut self, progress: &TrainingProgress) {
         match progress {
-            Progress::Steps { done, choice_loss, pose_loss, rate, .. } => {
+            TrainingProgress::Steps { done, choice_loss, pose_loss, rate, .. } => {
                 let first = *self.first.get_or_insert(done.saturating_sub(10));
                 let step_secs = self.start.elapsed().as_secs_f64() / (done - first).max(1) as f64;
                 let left_mins = step_secs * self.total.saturating_sub(*done) as f64 / 60.0;
@@ -152,47 +154,48 @@ impl Lines {
                     self.total
                 ));
             }
-            Progress::Checkpoint { done, held_out_loss: [choices, poses], held_out, exam } => {
+            TrainingProgress::Checkpoint { done, held_out_loss: [choices, poses], held_out, hand_written } => {
                 console::note(&format!("checkpoint {done}: held-out loss: choices {choices:.4}, poses {poses:.4}"));
-                console::note(&marks_line("  reserved wordings", held_out));
-                console::note(&marks_line("  people's sentences", exam));
+                console::note(&metrics_line("  reserved wordings", held_out));
+                console::note(&metrics_line("  people's sentences", hand_written));
             }
         }
     }
 }
 
-fn marks_line(title: &str, marks: &Marks) -> String {
-    let share = |[right, all]: [usize; 2]| 100.0 * right as f64 / all.max(1) as f64;
+fn metrics_line(title: &str, metrics: &ProgramMetrics) -> String {
+    let percent = |tally: Tally| 100.0 * tally.correct as f64 / tally.total.max(1) as f64;
     let mut line = format!(
         "{title}: {:.1} % of {} prompts, {:.1} % of {} steps;",
-        share(marks.programs),
-        marks.programs[1],
-        share(marks.steps),
-        marks.steps[1]
+        percent(metrics.programs),
+        metrics.programs.total,
+        percent(metrics.steps),
+        metrics.steps.total
     );
-    for (name, tally) in &marks.fields {
+    for (name, tally) in &metrics.fields {
         // Writing to a string cannot fail.
-        let _ = write!(line, " {name} {:.0}", share(*tally));
+        let _ = write!(line, " {name} {:.0}", percent(*tally));
     }
     line
 }
 
 fn examine_model(model: &std::path::Path) -> Result<(), Failure> {
     let director = if model.as_os_str() == "built-in" { Director::embedded()? } else { Director::load(model)? };
-    let papers = [
-        ("people's sentences", Paper::Exam),
-        ("reserved wordings", Paper::HeldOut { count: 500 }),
-        ("wordings as in training", Paper::Seen { count: 300 }),
+    let splits = [
+        ("people's sentences", EvaluationSplit::HandWritten),
+        ("reserved wordings", EvaluationSplit::HeldOut { count: 500 }),
+        ("wordings as in training", EvaluationSplit::Training { count: 300 }),
     ];
-    for (title, paper) in papers {
-        let marks = examine(&director, paper)?;
-        console::data(&format!("{}\n", marks_line(title, &marks)))?;
-        for miss in &marks.misses {
-            let (meant, understood) = (program_to_notation(&miss.meant), program_to_notation(&miss.understood));
-            let fields = miss.fields.join(", ");
+    for (title, split) in splits {
+        let metrics = evaluate_director(&director, split)?;
+        console::data(&format!("{}\n", metrics_line(title, &metrics)))?;
+        for case in &metrics.error_cases {
+            let (meant, understood) = (program_to_notation(&case.intended), program_to_notation(&case.understood));
+            let mistakes: Vec<String> = case.mistakes.iter().map(ToString::to_string).collect();
             console::data(&format!(
-                "  {}\n    meant      {meant}\n    understood {understood}\n    wrong: {fields}\n",
-                miss.prompt
+                "  {}\n    meant      {meant}\n    understood {understood}\n    wrong: {}\n",
+                case.prompt,
+                mistakes.join(", ")
             ))?;
         }
     }

@@ -1,23 +1,24 @@
 //! A program as the sequence of keys that the decoder emits, and back.
 //!
-//! Enters: a [`Program`] of n steps. Leaves: n + 1 keys, one more for every cut. A key says what the picture shows when
-//! the camera arrives, what it shows when the camera departs, and what comes next. Nothing is lost either way, except
-//! a cut on the first step (there is nothing to cut from) and the words that nobody can do, which are not keys.
+//! Enters: a [`Program`] of n steps. Leaves: n + 1 keys, and one more per cut. A key holds the framing when the camera
+//! arrives, the framing when the camera departs, and what follows. The conversion keeps everything in both directions,
+//! except a cut on the first step (there is nothing to cut from), the length of the film, and the clauses that the program
+//! lists as unmet.
 
 use cinesplat_operator::{Amount, Framing, Program, Speed, Step, Via};
 use cinesplat_trajectory::{Easing, Move};
 
-/// Most keys that the decoder emits.
+/// Most keys of one prompt.
 pub const MAX_KEYS: usize = 12;
 
-/// One key: the boundary between two steps, or an end of the film.
+/// One key: the boundary between two steps, or the start or end of the film.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Key {
-    /// How the step before ends.
+    /// Framing at the end of the step before.
     pub arrive: Framing,
-    /// How the step after begins.
+    /// Framing at the start of the step after.
     pub depart: Framing,
-    /// What follows.
+    /// What follows the key.
     pub next: Next,
 }
 
@@ -28,37 +29,37 @@ pub enum Next {
     Segment(Segment),
     /// A cut to the next key.
     Cut,
-    /// Nothing: the film ends here.
+    /// Nothing; the film ends here.
     #[default]
     Stop,
 }
 
-/// The part of a step that belongs to neither of its ends.
+/// A step without the framings of its two ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
-    /// What the camera does.
+    /// The camera move.
     pub movement: Move,
     /// A second move at the same time.
     pub with: Option<Move>,
-    /// The direction of the move is open.
+    /// Whether the direction of the move is open.
     pub either_way: bool,
-    /// What it passes.
+    /// Objects that the camera passes, and how.
     pub via: Option<Via>,
-    /// How far it goes.
+    /// How far the move goes.
     pub amount: Option<Amount>,
-    /// How long it takes.
+    /// Duration.
     pub duration_secs: Option<f64>,
-    /// How fast it is.
+    /// Speed.
     pub speed: Speed,
-    /// How its speed changes.
+    /// Easing.
     pub easing: Option<Easing>,
-    /// It ends where the film began.
+    /// Whether the step ends where the film began.
     pub returns: bool,
-    /// Byte range of the prompt.
+    /// Byte range of the prompt that the step comes from.
     pub words: Option<[usize; 2]>,
 }
 
-/// The keys of a program, in order. A program without steps gives one key.
+/// Keys of a program, in order. A program without steps gives one key.
 pub fn keys_of(program: &Program) -> Vec<Key> {
     let mut keys = Vec::with_capacity(program.steps.len() + 1);
     let mut arrive = Framing::default();
@@ -74,8 +75,8 @@ pub fn keys_of(program: &Program) -> Vec<Key> {
     keys
 }
 
-/// The steps of keys: total, so that whatever a decoder emits has a meaning. A segment that nothing follows ends in an
-/// empty framing; whatever stands behind the first stop is left out.
+/// Steps of keys. The function is total: every sequence of keys has a meaning. A segment without a key after it ends in an
+/// empty framing; keys behind the first stop are ignored.
 pub fn steps_of(keys: &[Key]) -> Vec<Step> {
     let end = keys.iter().position(|key| key.next == Next::Stop).map_or(keys.len(), |stop_idx| stop_idx + 1);
     let keys = &keys[..end];
@@ -95,7 +96,7 @@ pub fn steps_of(keys: &[Key]) -> Vec<Step> {
     steps
 }
 
-/// For every step of the program that the keys make: the indices of the keys at its start and at its end.
+/// Per step that the keys make, the indices of the keys at its start and at its end.
 pub fn boundaries_of(keys: &[Key]) -> Vec<[usize; 2]> {
     let segments = keys.iter().enumerate().filter(|(_, key)| matches!(key.next, Next::Segment(_)));
     segments.map(|(key_idx, _)| [key_idx, (key_idx + 1).min(keys.len() - 1)]).collect()

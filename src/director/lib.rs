@@ -1,26 +1,33 @@
-//! The director: words and object tokens to keyframes, by a network trained here.
+//! The director: a small network that turns words and objects into a camera program.
 //!
-//! Enters: a linked prompt and the scene's objects with their sparse clouds. Leaves: a [`Direction`]: a program of steps
-//! and a camera for every key. A Q-former turns each object's cloud into a few tokens, a small causal decoder attends to
-//! text and object tokens and emits keys one by one until it stops. The one invariant: whatever the words, the program
-//! names only objects of the scene and all numbers are finite. The only folder with candle and tokenizers.
+//! Enters: a linked prompt, and the scene's objects with their sparse clouds. Leaves: a [`Direction`], which is a program
+//! of steps and one camera per key. A Q-former turns each object's cloud into a few tokens. A small causal decoder
+//! attends to text tokens and object tokens, and emits keys one by one until it emits a stop.
+//! The one invariant: for every prompt, the program names only objects of the scene, and all numbers are finite.
+//!
+//! [`Director`] runs the network; that is all a caller needs to direct. The other items serve training:
+//! - [`keys`] converts a program into the keys that the network emits, and back;
+//! - [`codes`] converts keys and camera poses into class numbers, pointers and values, and back;
+//! - [`inputs`] converts a linked prompt and objects into tokens and points;
+//! - [`network`] holds the layers, their parameters and padded batches;
+//! - [`ModelFiles`] stores and loads a trained network.
+//!
+//! Only this crate and `training` use candle, and only this crate uses tokenizers.
 
-pub mod choices;
 pub mod codes;
-mod coverage;
-pub mod decode;
-pub mod directing;
+mod decoding;
+mod director;
 mod error;
-pub mod frame;
-pub mod ground;
+mod frame;
+pub mod inputs;
 pub mod keys;
-mod merges;
-pub mod model;
-pub mod vocabulary;
-pub mod weights;
+mod manifest;
+mod model;
+mod model_files;
+pub mod network;
 
-pub use directing::{Direction, Director, Stage, StepCertainty};
+pub use decoding::Choice;
+pub use director::{Direction, Director, SceneContext, StepCertainty};
 pub use error::DirectorError;
 pub use frame::SceneFrame;
-pub use model::ModelConfig;
-pub use vocabulary::Vocabulary;
+pub use model_files::ModelFiles;

@@ -1,6 +1,6 @@
 use super::error::PipelineError;
 use super::phases::{Phase, PhaseTimes};
-use cinesplat_director::{Direction, Director, Stage};
+use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{Linked, NamedObject};
 use cinesplat_lens::{Call, Decision, EffectChoice};
 use cinesplat_objects::{CloudSettings, ObjectSet};
@@ -100,8 +100,9 @@ pub fn direct(
     let linked = times.measure(Phase::Direct, || cinesplat_language::link(prompt, &names(objects)))?;
     let objects = times.measure(Phase::Objects, || with_clouds(scene, objects, &linked))?;
     let bounds = scene.bounds();
-    let stage = Stage { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
-    let mut direction = times.measure(Phase::Direct, || director.direct(&linked, &stage))?;
+    let context =
+        SceneContext { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
+    let mut direction = times.measure(Phase::Direct, || director.direct(&linked, &context))?;
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }
@@ -184,7 +185,7 @@ fn readings(prompt: &str, direction: &Direction) -> Vec<StepReading> {
             words: words(step),
             step: step.clone(),
             probability: sure.probability,
-            weakest: sure.weakest,
+            weakest: (sure.weakest.0.into(), sure.weakest.1),
         })
         .collect()
 }

@@ -1,12 +1,16 @@
-//! Training of the director.
+//! Training of the director: sampled sentences, realized shots, the training loop, evaluation.
+//!
+//! [`write_dataset`] makes shards of realized shots, [`train`] trains a network on sampled sentences and these shots, and
+//! [`evaluate_director`] measures how well a director understands prompts.
 
 mod dataset;
 mod sampler;
 mod train;
+mod workers;
 
 pub use dataset::{DatasetError, DatasetSettings, DatasetSummary, write_dataset};
 pub use sampler::{LabeledPrompt, PromptSampler, TemplateSplit, exam, exam_objects};
 pub use train::{
-    GradientAudit, GradientCheck, Marks, Miss, Paper, Progress, Report, TrainError, TrainSettings, TrainSummary,
-    audit_gradients, examine, train,
+    ErrorCase, EvaluationSplit, GradientCheck, Mistake, ParameterCheck, ProgramMetrics, ProgressCallback, StepField,
+    Tally, TrainError, TrainSettings, TrainSummary, TrainingProgress, check_gradients, evaluate_director, train,
 };

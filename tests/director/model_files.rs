@@ -14,11 +14,10 @@ fn model() -> tempfile::TempDir {
         batch: 2,
         corpus: 60,
         vocabulary: 260,
-        exam_prompts: 0,
-        out: out.path().to_owned(),
+        evaluation_prompts: 0,
         ..TrainSettings::default()
     };
-    train(&settings, &mut |_| ControlFlow::Continue(())).unwrap();
+    train(&settings, out.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     out
 }
 

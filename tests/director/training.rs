@@ -1,36 +1,35 @@
 //! Training: gradients, the same run twice, stop and go on.
 
 use std::ops::ControlFlow;
-use std::path::Path;
 
-use cinesplat::training::{Progress, TrainSettings, audit_gradients, train};
+use cinesplat::training::{TrainSettings, TrainingProgress, check_gradients, train};
 
 /// candle drops the gradients of some of its operations silently; ours are written by hand.
 #[test]
 fn every_parameter_has_the_gradient_that_finite_differences_give() {
-    let audit = audit_gradients(5, 16, 8).unwrap();
-    assert!(audit.checks.len() > 60);
-    for check in &audit.checks {
-        assert!(check.backward > 1e-7, "{} has no gradient", check.name);
-        let off = (check.backward - check.numeric).abs();
+    let check = check_gradients(5, 16, 8).unwrap();
+    assert!(check.parameters.len() > 60);
+    for parameter in &check.parameters {
+        assert!(parameter.backward > 1e-7, "{} has no gradient", parameter.name);
+        let off = (parameter.backward - parameter.numeric).abs();
         assert!(
-            off < 0.02 * check.backward + 2e-3,
+            off < 0.02 * parameter.backward + 2e-3,
             "{}: {} by backpropagation, {} by differences",
-            check.name,
-            check.backward,
-            check.numeric
+            parameter.name,
+            parameter.backward,
+            parameter.numeric
         );
     }
 }
 
 #[test]
 fn padding_and_company_in_a_batch_change_no_loss() {
-    let audit = audit_gradients(6, 12, 12).unwrap();
-    let off = (audit.batch_loss - audit.single_losses).abs();
-    assert!(off < 1e-4 * audit.batch_loss, "{} together, {} one by one", audit.batch_loss, audit.single_losses);
+    let check = check_gradients(6, 12, 12).unwrap();
+    let off = (check.batch_loss - check.single_losses).abs();
+    assert!(off < 1e-4 * check.batch_loss, "{} together, {} one by one", check.batch_loss, check.single_losses);
 }
 
-fn settings(out: &Path) -> TrainSettings {
+fn settings() -> TrainSettings {
     TrainSettings {
         steps: 4,
         batch: 6,
@@ -38,8 +37,7 @@ fn settings(out: &Path) -> TrainSettings {
         corpus: 100,
         vocabulary: 300,
         checkpoint_every: 100,
-        exam_prompts: 3,
-        out: out.to_owned(),
+        evaluation_prompts: 3,
         ..TrainSettings::default()
     }
 }
@@ -47,13 +45,13 @@ fn settings(out: &Path) -> TrainSettings {
 #[test]
 fn a_stopped_training_goes_on_to_the_very_same_weights() {
     let whole = tempfile::tempdir().unwrap();
-    let through = train(&settings(whole.path()), &mut |_| ControlFlow::Continue(())).unwrap();
+    let through = train(&settings(), whole.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     let parted = tempfile::tempdir().unwrap();
-    let stopping = TrainSettings { report_every: 2, threads: 1, ..settings(parted.path()) };
-    let stopped = train(&stopping, &mut |_| ControlFlow::Break(())).unwrap_err();
+    let stopping = TrainSettings { report_every: 2, threads: 1, ..settings() };
+    let stopped = train(&stopping, parted.path(), &mut |_| ControlFlow::Break(())).unwrap_err();
     assert_eq!(stopped.code(), "TRAIN-STOPPED");
-    let resumed = TrainSettings { resume: true, ..settings(parted.path()) };
-    let resumed = train(&resumed, &mut |_| ControlFlow::Continue(())).unwrap();
+    let resumed = TrainSettings { resume: true, ..settings() };
+    let resumed = train(&resumed, parted.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(resumed.sha256, through.sha256, "the weights depend on the stop or on the number of threads");
 }
 
@@ -61,9 +59,9 @@ fn a_stopped_training_goes_on_to_the_very_same_weights() {
 fn the_loss_falls_and_the_report_says_where_training_stands() {
     let out = tempfile::tempdir().unwrap();
     let mut losses = Vec::new();
-    let settings = TrainSettings { steps: 24, warm_up: 4, report_every: 8, ..settings(out.path()) };
-    let summary = train(&settings, &mut |progress| {
-        if let Progress::Steps { done, total, choice_loss, .. } = progress {
+    let settings = TrainSettings { steps: 24, warm_up: 4, report_every: 8, ..settings() };
+    let summary = train(&settings, out.path(), &mut |progress| {
+        if let TrainingProgress::Steps { done, total, choice_loss, .. } = progress {
             assert!(*done <= *total);
             losses.push(*choice_loss);
         }
@@ -76,9 +74,9 @@ fn the_loss_falls_and_the_report_says_where_training_stands() {
 #[test]
 fn a_checkpoint_of_other_settings_is_refused() {
     let out = tempfile::tempdir().unwrap();
-    let short = TrainSettings { steps: 1, ..settings(out.path()) };
-    train(&short, &mut |_| ControlFlow::Continue(())).unwrap();
+    let short = TrainSettings { steps: 1, ..settings() };
+    train(&short, out.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     let other = TrainSettings { seed: 9, resume: true, ..short };
-    let error = train(&other, &mut |_| ControlFlow::Continue(())).unwrap_err();
+    let error = train(&other, out.path(), &mut |_| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(error.code(), "TRAIN-CHECKPOINT");
 }

@@ -1,6 +1,6 @@
 //! The tokenizer.
 
-use cinesplat::director::Vocabulary;
+use cinesplat::director::inputs::Vocabulary;
 
 fn trained() -> Vocabulary {
     let lines = ["push in on <obj-0> slowly", "pan left from <obj-0> to <obj-1>", "orbit <obj-1> in <qty-0>"];

@@ -1,15 +1,18 @@
-//! Realized shots as training data: scenes with their objects' clouds, prompts, programs, and the cameras that the
+//! Realized shots as training data: scenes with the clouds of their objects, prompts, programs, and the cameras that the
 //! operator found for them.
 //!
-//! A shard is a text file of JSON lines: a header, then one scene a line with its shots. Programs are stored in the
-//! phrasebook's notation. What the network sees is made from it anew for every lesson.
+//! A shard is a text file of JSON lines: a header, then one scene per line with its shots. Programs are stored in the
+//! notation of `language`. The inputs of the network are computed again for every example.
 
 mod error;
 mod realized;
 mod record;
+mod scene_shots;
+mod settings;
 mod write;
 
 pub use error::DatasetError;
-pub(crate) use realized::RealizedShot;
-pub(crate) use realized::read_shards;
-pub use write::{DatasetSettings, DatasetSummary, write_dataset};
+pub use settings::DatasetSettings;
+pub use write::{DatasetSummary, write_dataset};
+
+pub(crate) use realized::{RealizedShot, read_shards};

@@ -1,4 +1,4 @@
-//! Shots out of shards, as lessons want them.
+//! Shots read from shards, as inputs of the network.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -9,12 +9,11 @@ use rand::RngExt;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
-use super::DatasetError;
-use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, VERSION};
-use cinesplat_director::directing::log_fov;
-use cinesplat_director::frame::SceneFrame;
-use cinesplat_director::ground::{MAX_OTHERS, object_input};
-use cinesplat_director::model::{ObjectInput, PoseCode};
+use super::error::DatasetError;
+use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, ShotRecord, VERSION};
+use cinesplat_director::SceneFrame;
+use cinesplat_director::codes::{PoseCode, log_fov};
+use cinesplat_director::inputs::{MAX_OTHER_OBJECTS, ObjectInput, object_input};
 use cinesplat_files::FileError;
 use cinesplat_geometry::Pose;
 use cinesplat_language::{Linked, NamedObject, NotationError, link, program_from_notation};
@@ -23,7 +22,7 @@ use cinesplat_operator::Program;
 
 /// A scene of a shard.
 #[derive(Debug, Clone)]
-struct Set {
+struct ShardScene {
     up: DVec3,
     center: DVec3,
     size: f64,
@@ -33,48 +32,54 @@ struct Set {
 /// One shot that the operator realized.
 #[derive(Debug, Clone)]
 pub(crate) struct RealizedShot {
-    set: Arc<Set>,
+    scene: Arc<ShardScene>,
     prompt: String,
-    /// What the prompt means.
+    /// Meaning of the prompt.
     pub(crate) program: Program,
     cameras: Vec<CameraRecord>,
 }
 
 /// A shot as the network sees it.
-pub(crate) struct View {
+pub(crate) struct ShotInputs {
     /// Ids of the objects beside the named ones.
     pub(crate) others: Vec<u32>,
     /// The named objects, then the others.
     pub(crate) objects: Vec<ObjectInput>,
-    /// One a key.
+    /// One per key.
     pub(crate) poses: Vec<PoseCode>,
 }
 
 impl RealizedShot {
-    /// Its prompt, linked.
+    /// The linked prompt.
+    ///
+    /// # Errors
+    /// [`DatasetError::Language`].
     pub(crate) fn linked(&self) -> Result<Linked, DatasetError> {
         let named = |object: &Object| NamedObject { id: object.id, label: object.label.clone() };
-        Ok(link(&self.prompt, &self.set.objects.iter().map(named).collect::<Vec<_>>())?)
+        Ok(link(&self.prompt, &self.scene.objects.iter().map(named).collect::<Vec<_>>())?)
     }
 
-    /// Its objects and cameras in the scene's frame, with some of the unnamed objects. A prompt that names nothing gets
-    /// a heading at random, since nothing decides it.
-    pub(crate) fn view(&self, linked: &Linked, rng: &mut Pcg64) -> Result<View, DatasetError> {
-        let set = &*self.set;
-        let find = |id: u32| set.objects.iter().find(|object| object.id == id);
+    /// Objects and cameras in the scene's frame, with a random subset of the unnamed objects. The frame has a random
+    /// heading if the prompt names no object.
+    ///
+    /// # Errors
+    /// [`DatasetError::Director`] for a scene without extent or up direction.
+    pub(crate) fn inputs(&self, linked: &Linked, rng: &mut Pcg64) -> Result<ShotInputs, DatasetError> {
+        let scene = &*self.scene;
+        let find = |id: u32| scene.objects.iter().find(|object| object.id == id);
         let anywhere =
             DVec3::new(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
         let first = linked.slots.first().and_then(|id| find(*id)).map(|object| object.center);
-        let toward = first.unwrap_or(set.center + anywhere * set.size);
-        let frame = SceneFrame::new(set.up, set.center, set.size, Some(toward)).map_err(Box::new)?;
-        let mut others: Vec<u32> = set.objects.iter().map(|o| o.id).filter(|id| !linked.slots.contains(id)).collect();
+        let toward = first.unwrap_or(scene.center + anywhere * scene.size);
+        let frame = SceneFrame::new(scene.up, scene.center, scene.size, Some(toward)).map_err(Box::new)?;
+        let mut others: Vec<u32> = scene.objects.iter().map(|o| o.id).filter(|id| !linked.slots.contains(id)).collect();
         others.shuffle(rng);
-        others.truncate(rng.random_range(0..=MAX_OTHERS));
+        others.truncate(rng.random_range(0..=MAX_OTHER_OBJECTS));
         let ids = linked.slots.iter().chain(&others);
         let objects = ids
             .enumerate()
             .map(|(place, id)| find(*id).map_or_else(ObjectInput::default, |o| object_input(o, place, &frame)));
-        Ok(View { objects: objects.collect(), others, poses: self.poses(&frame) })
+        Ok(ShotInputs { objects: objects.collect(), others, poses: self.poses(&frame) })
     }
 
     fn poses(&self, frame: &SceneFrame) -> Vec<PoseCode> {
@@ -98,7 +103,7 @@ impl RealizedShot {
 /// All shots of the shards (`*.jsonl`) of a folder, in order of file names.
 ///
 /// # Errors
-/// [`FileError::Read`] · [`DatasetError::BadLine`] naming the first line that is not understood.
+/// [`DatasetError::File`] · [`DatasetError::BadLine`] naming the first malformed line.
 pub(crate) fn read_shards(folder: &Path) -> Result<Vec<RealizedShot>, DatasetError> {
     let failed = |source| FileError::Read { path: folder.to_owned(), source };
     let entries = std::fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
@@ -137,18 +142,18 @@ fn read_shard(path: &Path, shots: &mut Vec<RealizedShot>) -> Result<(), DatasetE
 }
 
 fn shots_of(scene: SceneRecord) -> Result<Vec<RealizedShot>, NotationError> {
-    let set = Arc::new(Set {
+    let shared = Arc::new(ShardScene {
         up: DVec3::from(scene.up),
         center: DVec3::from(scene.center),
         size: scene.size,
         objects: scene.objects.into_iter().map(object_of).collect(),
     });
-    let shot = |record: super::record::ShotRecord| {
+    let shot = |record: ShotRecord| {
         let mut program = program_from_notation(&record.program)?;
         for (step, words) in program.steps.iter_mut().zip(&record.words) {
             step.words = *words;
         }
-        Ok(RealizedShot { set: set.clone(), prompt: record.prompt, program, cameras: record.cameras })
+        Ok(RealizedShot { scene: shared.clone(), prompt: record.prompt, program, cameras: record.cameras })
     };
     scene.shots.into_iter().map(shot).collect()
 }

@@ -1,4 +1,4 @@
-//! The lines of a shard.
+//! The lines of a shard, as JSON.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +16,10 @@ pub(super) struct Header {
     pub(super) seed: u64,
 }
 
-/// A scene and what was shot in it.
+/// A scene with its shots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct SceneRecord {
+    /// Seed of the scene.
     pub(super) seed: u64,
     pub(super) up: [f64; 3],
     pub(super) center: [f64; 3],
@@ -40,11 +41,11 @@ pub(super) struct ObjectRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct ShotRecord {
     pub(super) prompt: String,
-    /// In the phrasebook's notation.
+    /// In the notation of `language`.
     pub(super) program: String,
-    /// Byte range of the prompt for every step.
+    /// Byte range of the prompt per step.
     pub(super) words: Vec<Option<[usize; 2]>>,
-    /// One a key of the program.
+    /// One per key of the program.
     pub(super) cameras: Vec<CameraRecord>,
 }
 

@@ -1,4 +1,4 @@
-//! Checkpoints: everything that a training needs to go on as if it had never stopped.
+//! Checkpoints: the whole state of a training. A resumed training gives the same weights as one that was never stopped.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -6,16 +6,19 @@ use std::path::Path;
 use candle_core::{Device, Tensor, Var};
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
-use super::TrainError;
+use super::error::TrainError;
 use super::optimizer::{AdamW, Moments};
-use cinesplat_files::{Existing, FileError};
+use cinesplat_files::Existing;
 
-/// Key of the step count in a checkpoint's metadata.
+/// Metadata key of the step count.
 const STEPS: &str = "steps";
-/// Key of the settings in a checkpoint's metadata.
+/// Metadata key of the settings.
 const SETTINGS: &str = "settings";
 
-/// Writes weights, moments, step count and settings; the file appears whole or not at all.
+/// Writes weights, moments, step count and settings. The file appears complete or not at all.
+///
+/// # Errors
+/// [`TrainError::File`] · [`TrainError::BadCheckpoint`] when the tensors cannot be serialized.
 pub(super) fn write(
     path: &Path,
     vars: &BTreeMap<String, Var>,
@@ -44,10 +47,14 @@ pub(super) fn write(
     Ok(cinesplat_files::write(path, &bytes, Existing::Replace)?)
 }
 
-/// Puts a checkpoint's numbers into `vars` and returns the optimizer's state.
+/// Reads the weights of a checkpoint into `vars` and returns the state of the optimizer.
+///
+/// # Errors
+/// [`TrainError::File`] · [`TrainError::BadCheckpoint`] when the file is damaged, or when its settings or tensors differ from
+/// those of this training.
 pub(super) fn read(path: &Path, vars: &BTreeMap<String, Var>, settings: &str) -> Result<AdamW, TrainError> {
     let bad = |found: String| TrainError::BadCheckpoint { path: path.to_owned(), found };
-    let bytes = std::fs::read(path).map_err(|source| FileError::Read { path: path.to_owned(), source })?;
+    let bytes = cinesplat_files::read(path)?;
     let (_, header) = SafeTensors::read_metadata(&bytes).map_err(|error| bad(error.to_string()))?;
     let metadata = header.metadata().clone().unwrap_or_default();
     match metadata.get(SETTINGS) {

@@ -1,35 +1,36 @@
-//! What the network is trained to make small.
+//! The training loss.
 //!
-//! Choices: cross-entropy, summed over the choices that apply. Poses: Huber. Both as single operations with their own
-//! gradients: some thirty small softmaxes a key would cost more in overhead than the network.
+//! Choices: cross-entropy, summed over the choices that apply. Poses: Huber loss. Each is a single operation with its own
+//! gradient, because the overhead of some thirty small softmaxes per key would cost more than the network.
 
 use std::ops::Range;
 
 use candle_core::{CpuStorage, CustomOp1, Layout, Result, Shape, Tensor};
+use strum::VariantArray;
 
-use super::lesson::Lesson;
-use cinesplat_director::codes::{Field, NUM_FIELDS, OBJECT_POINTERS, QUANTITY_POINTERS};
-use cinesplat_director::model::{POSE_WIDTH, PoseCode, Scores, anchor_places};
+use super::examples::Example;
+use cinesplat_director::codes::{Field, NUM_FIELDS, OBJECT_POINTERS, POSE_WIDTH, PoseCode, QUANTITY_POINTERS};
+use cinesplat_director::network::{Scores, anchor_objects};
 
-/// Weight of a span of words against a class.
+/// Weight of a word span; a class has weight 1.
 const WORDS_WEIGHT: f32 = 0.3;
-/// Weight of one number of a pose against a class.
+/// Weight of one value of a pose; a class has weight 1.
 const POSE_WEIGHT: f32 = 0.5;
-/// Weights of the numbers of a pose: position in scene sizes, rotation, lens, time.
+/// Relative weights of the values of a pose: position in scene sizes, rotation, field of view, time.
 const POSE_WEIGHTS: [f32; POSE_WIDTH] = [4.0, 4.0, 4.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.3];
-/// Where the Huber loss turns from square to straight.
+/// Error at which the Huber loss turns from quadratic to linear.
 const HUBER_AT: f32 = 0.1;
 
 /// Sum over rows and segments of `-weight ln softmax(row[segment])[target]`.
 struct CrossEntropy {
-    /// Parts of a row that are softmaxes of their own, with their weights.
+    /// Segments of a row, each with its own softmax and weight.
     segments: Vec<(Range<usize>, f32)>,
-    /// Class within its segment, `[rows * segments]`; `None` counts nothing.
+    /// Class within its segment, `[rows * segments]`; `None` adds no loss.
     targets: Vec<Option<usize>>,
 }
 
 impl CrossEntropy {
-    /// Calls `each(range in the flat scores, weight, target)` for all that counts.
+    /// Calls `each(range in the flat scores, weight, target)` for every target.
     fn for_each(&self, row_width: usize, mut each: impl FnMut(Range<usize>, f32, usize)) {
         for (row, targets) in self.targets.chunks_exact(self.segments.len()).enumerate() {
             for ((segment, weight), target) in self.segments.iter().zip(targets) {
@@ -42,11 +43,13 @@ impl CrossEntropy {
     }
 }
 
+/// Logarithm of the sum of exponentials.
 fn log_sum_exp(scores: &[f32]) -> f32 {
     let top = scores.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     top + scores.iter().map(|score| (score - top).exp()).sum::<f32>().ln()
 }
 
+/// The values of a contiguous `f32` tensor.
 fn floats<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     match layout.contiguous_offsets() {
         Some((start, end)) => Ok(&storage.as_slice::<f32>()?[start..end]),
@@ -86,7 +89,7 @@ impl CustomOp1 for CrossEntropy {
     }
 }
 
-/// Sum of weighted Huber losses about targets.
+/// Sum of weighted Huber losses of the distances to targets.
 struct Huber {
     targets: Vec<f32>,
     weights: Vec<f32>,
@@ -119,20 +122,21 @@ impl CustomOp1 for Huber {
     }
 }
 
-/// Applies [`CrossEntropy`] to scores whose last dimension is `width`, each row one segment.
+/// Applies [`CrossEntropy`] over the last dimension of `scores`; each row is one segment.
 fn whole_rows(scores: &Tensor, weight: f32, targets: Vec<Option<usize>>) -> Result<Tensor> {
     let width = scores.dims().last().copied().unwrap_or(1);
     let rows = scores.reshape(((), width))?.contiguous()?;
     rows.apply_op1(CrossEntropy { segments: vec![(0..width, weight)], targets })
 }
 
-/// Loss of all choices of a batch, summed over its keys. Lessons are padded to `num_keys`.
-pub(super) fn choice_loss(scores: &Scores, lessons: &[&Lesson], num_keys: usize) -> Result<Tensor> {
-    let keys = || lessons.iter().flat_map(|lesson| (0..num_keys).map(|key_idx| lesson.keys.get(key_idx)));
+/// Loss of all choices of a batch, summed over its keys. Examples are padded to `num_keys` keys.
+pub(super) fn choice_loss(scores: &Scores, examples: &[&Example], num_keys: usize) -> Result<Tensor> {
+    let keys = || examples.iter().flat_map(|example| (0..num_keys).map(|key_idx| example.keys.get(key_idx)));
     let classes: Vec<Option<usize>> = keys()
         .flat_map(|key| (0..NUM_FIELDS).map(move |idx| key.and_then(|key| key.classes[idx]).map(usize::from)))
         .collect();
-    let segments = Field::ALL.iter().map(|field| (field.offset()..field.offset() + field.num_classes(), 1.0)).collect();
+    let segments =
+        Field::VARIANTS.iter().map(|field| (field.offset()..field.offset() + field.num_classes(), 1.0)).collect();
     let rows = scores.classes.reshape(((), Field::total_classes()))?.contiguous()?; // [batch * keys, classes]
     let classes = rows.apply_op1(CrossEntropy { segments, targets: classes })?;
     let objects = keys()
@@ -143,23 +147,23 @@ pub(super) fn choice_loss(scores: &Scores, lessons: &[&Lesson], num_keys: usize)
         .collect();
     let words =
         keys().flat_map(|key| (0..2).map(move |end| key.and_then(|key| key.span).map(|span| span[end]))).collect();
-    let film = lessons.iter().map(|lesson| lesson.film).collect();
+    let film_length = examples.iter().map(|example| example.film_length).collect();
     let sum = (classes + whole_rows(&scores.objects, 1.0, objects)?)?;
     let sum = (sum + whole_rows(&scores.quantities, 1.0, quantities)?)?;
     let sum = (sum + whole_rows(&scores.words, WORDS_WEIGHT, words)?)?;
-    sum + whole_rows(&scores.film, 1.0, film)?
+    sum + whole_rows(&scores.film_length, 1.0, film_length)?
 }
 
-/// Loss of the poses of a batch, summed over the keys that have one: `out` is `[batch, keys, POSE_WIDTH]`, positions
+/// Loss of the poses of a batch, summed over the keys that have one. `out` is `[batch, keys, POSE_WIDTH]` with positions
 /// relative to the anchor.
-pub(super) fn pose_loss(out: &Tensor, lessons: &[&Lesson], num_keys: usize) -> Result<Tensor> {
-    let mut targets = Vec::with_capacity(lessons.len() * num_keys * POSE_WIDTH);
+pub(super) fn pose_loss(out: &Tensor, examples: &[&Example], num_keys: usize) -> Result<Tensor> {
+    let mut targets = Vec::with_capacity(examples.len() * num_keys * POSE_WIDTH);
     let mut weights = Vec::with_capacity(targets.capacity());
-    for lesson in lessons {
-        let anchors = anchor_places(&lesson.keys);
+    for example in examples {
+        let anchors = anchor_objects(&example.keys);
         for key_idx in 0..num_keys {
-            let pose = lesson.poses.get(key_idx);
-            let anchor = anchors.get(key_idx).copied().flatten().and_then(|place| lesson.prompt.objects.get(place));
+            let pose = example.poses.get(key_idx);
+            let anchor = anchors.get(key_idx).copied().flatten().and_then(|idx| example.prompt.objects.get(idx));
             let anchor = anchor.map_or([0.0; 3], |object| object.center.as_vec3().to_array());
             targets.extend(relative(pose.copied().unwrap_or_default(), anchor).to_array());
             let weight = if pose.is_some() { POSE_WEIGHT } else { 0.0 };
@@ -169,6 +173,7 @@ pub(super) fn pose_loss(out: &Tensor, lessons: &[&Lesson], num_keys: usize) -> R
     out.contiguous()?.apply_op1(Huber { targets, weights })
 }
 
+/// The pose with its position relative to an anchor.
 fn relative(pose: PoseCode, anchor: [f32; 3]) -> PoseCode {
     PoseCode { position: std::array::from_fn(|axis| pose.position[axis] - anchor[axis]), ..pose }
 }

@@ -1,23 +1,23 @@
-//! AdamW with clipping, whose state can be saved (candle's own keeps its moments to itself).
+//! AdamW with gradient clipping and a state that can be saved. (candle's own hides its moments.)
 //!
-//! Decoupled weight decay: Loshchilov and Hutter 2019, algorithm 2. Decay acts on matrices, not on gains and biases.
+//! Decoupled weight decay: Loshchilov and Hutter 2019, algorithm 2. Decay applies to matrices, not to gains and biases.
 
 use std::collections::BTreeMap;
 
 use candle_core::{Device, Result, Tensor, Var};
 
-/// How the optimizer steps.
+/// Constants of the optimizer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AdamSettings {
-    /// Decay of the mean of gradients.
+    /// Decay of the running mean of the gradients.
     pub(super) beta1: f32,
-    /// Decay of the mean of squared gradients.
+    /// Decay of the running mean of the squared gradients.
     pub(super) beta2: f32,
-    /// Added to the root of the latter.
+    /// Added to the root of the mean square.
     pub(super) epsilon: f32,
-    /// Share of a weight that a step of rate 1 takes off.
+    /// Fraction of a weight that a step with learning rate 1 removes.
     pub(super) weight_decay: f32,
-    /// Longest gradient (over all parameters together).
+    /// Largest norm of the gradient of all parameters together; a longer gradient is scaled down to it.
     pub(super) max_norm: f32,
 }
 
@@ -30,22 +30,24 @@ impl Default for AdamSettings {
 /// Running means of one parameter's gradient and of its square.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Moments {
+    /// Of the gradient.
     pub(super) mean: Vec<f32>,
+    /// Of the squared gradient.
     pub(super) square: Vec<f32>,
 }
 
 /// The optimizer's state.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct AdamW {
-    /// Steps made.
+    /// Steps done.
     pub(super) steps: u64,
     /// By name of the parameter.
     pub(super) moments: BTreeMap<String, Moments>,
 }
 
 impl AdamW {
-    /// One step against `gradients` (in the order of `vars`), which are scaled down first where they are too long
-    /// together. Returns their length before.
+    /// One step against `gradients`, which are in the order of `vars`. Returns the norm of all gradients before clipping.
+    /// If the norm is not finite, the weights stay as they are.
     pub(super) fn step(
         &mut self,
         vars: &BTreeMap<String, Var>,
@@ -56,7 +58,6 @@ impl AdamW {
         self.steps += 1;
         let squares: f64 = gradients.iter().flatten().map(|g| f64::from(*g) * f64::from(*g)).sum();
         let norm = squares.sqrt() as f32;
-        // Written so that NaN leaves the weights alone.
         if !norm.is_finite() {
             return Ok(norm);
         }
@@ -84,8 +85,8 @@ impl AdamW {
     }
 }
 
-/// Learning rate of a step: straight up over `warm_up` steps, then down along half a cosine to 2 % at `total`.
-pub(super) fn rate(step: u64, warm_up: u64, total: u64, peak: f32) -> f32 {
+/// Learning rate of a step: linear up to `peak` over `warm_up` steps, then half a cosine down to 2 % of it at `total`.
+pub(super) fn learning_rate(step: u64, warm_up: u64, total: u64, peak: f32) -> f32 {
     if step < warm_up {
         return peak * (step + 1) as f32 / warm_up as f32;
     }

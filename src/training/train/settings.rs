@@ -1,52 +1,51 @@
+//! Settings of a training run.
+
 use std::path::PathBuf;
 
 use serde::Serialize;
 
-/// How to train.
+/// Settings of a training run. The serialized fields change the weights; a checkpoint stores them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainSettings {
-    /// Seed of everything: first weights, lessons, damage, dropout.
+    /// Seed of the initial weights, the examples, their augmentation and the dropout.
     pub seed: u64,
-    /// Optimizer steps.
+    /// Number of optimizer steps.
     pub steps: u64,
-    /// Lessons a step.
+    /// Examples per step.
     pub batch: usize,
     /// Highest learning rate.
     pub peak_rate: f32,
-    /// Steps over which the rate rises to it.
+    /// Steps over which the learning rate rises to its peak.
     pub warm_up: u64,
-    /// Share of numbers that dropout takes out.
+    /// Dropout rate, 0..1.
     pub dropout: f32,
-    /// Share of the lessons that are realized shots, where there are any.
+    /// Fraction of the examples that are realized shots if there are any, 0..=1.
     pub shots_frac: f64,
-    /// Tokens of the vocabulary.
+    /// Most tokens of the vocabulary.
     pub vocabulary: usize,
-    /// Prompts that the vocabulary is learned from.
+    /// Number of sampled prompts from which the vocabulary is learned.
     pub corpus: usize,
-    /// Name of the model.
+    /// Name of the model, as shots store it.
     pub name: String,
-    /// Folder of realized shots; without one only the words are learned.
+    /// Folder of realized shots. Without one, only the program is learned, not the poses.
     #[serde(skip)]
     pub shots: Option<PathBuf>,
-    /// Where the model and the checkpoint go.
-    #[serde(skip)]
-    pub out: PathBuf,
-    /// A model to start from instead of drawn weights (with its vocabulary).
+    /// Model whose weights and vocabulary the training starts from, instead of random weights.
     #[serde(skip)]
     pub from: Option<PathBuf>,
-    /// Threads that share a batch.
+    /// Number of threads.
     #[serde(skip)]
     pub threads: usize,
-    /// Steps between two checkpoints with their examination.
+    /// Steps between two checkpoints, which include an evaluation.
     #[serde(skip)]
     pub checkpoint_every: u64,
-    /// Steps between two reports.
+    /// Steps between two progress reports.
     #[serde(skip)]
     pub report_every: u64,
-    /// Prompts of the phrasebook's reserved wordings that a checkpoint is examined on; 0 leaves the exam out too.
+    /// Number of prompts with held-out wordings on which a checkpoint is evaluated; 0 skips the hand-written sentences too.
     #[serde(skip)]
-    pub exam_prompts: usize,
-    /// Go on from the checkpoint in `out`.
+    pub evaluation_prompts: usize,
+    /// Whether to resume from the checkpoint in the output folder.
     #[serde(skip)]
     pub resume: bool,
 }
@@ -65,12 +64,11 @@ impl Default for TrainSettings {
             corpus: 40_000,
             name: "director-1".into(),
             shots: None,
-            out: PathBuf::new(),
             from: None,
             threads: 2,
             checkpoint_every: 500,
             report_every: 10,
-            exam_prompts: 150,
+            evaluation_prompts: 150,
             resume: false,
         }
     }

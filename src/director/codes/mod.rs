@@ -1,0 +1,13 @@
+//! Keys and camera poses as numbers: what the heads of the network put out, and what training compares them with.
+
+mod encoding;
+mod fields;
+mod key_code;
+mod pose_code;
+
+pub use encoding::{decode_key, encode_key};
+pub use fields::{Field, NUM_FIELDS};
+pub use key_code::{KeyCode, MAX_SUBJECTS, OBJECT_POINTERS, QUANTITY_POINTERS};
+pub use pose_code::{POSE_WIDTH, PoseCode, fov_y_rad, log_fov, previous_poses};
+
+pub(crate) use fields::{AMOUNT_QUANTITY, NEXT_CUT, NEXT_SEGMENT, NEXT_STOP};

@@ -1,0 +1,195 @@
+//! The trained network at work: a linked prompt in a scene to a program and cameras.
+
+use std::path::Path;
+
+use cinesplat_language::Linked;
+use cinesplat_objects::Object;
+use cinesplat_operator::{Program, StepCameras};
+use cinesplat_trajectory::{CameraState, ModelRef};
+use glam::{DQuat, DVec3, Vec3};
+
+use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
+use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
+use crate::error::DirectorError;
+use crate::frame::SceneFrame;
+use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
+use crate::keys::{boundaries_of, steps_of};
+use crate::model::Model;
+use crate::model_files::ModelFiles;
+use crate::network::PromptBatch;
+
+/// How sure the network is of a step of the program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepCertainty {
+    /// Product of the probabilities of all choices of the step, 0..=1.
+    pub probability: f64,
+    /// The choice of the lowest probability, and that probability.
+    pub weakest: (Choice, f64),
+    /// Byte range of the prompt that the step comes from.
+    pub words: Option<[usize; 2]>,
+}
+
+/// The director's reading of a prompt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// The program that the words ask for.
+    pub program: Program,
+    /// Cameras that the network proposes, one pair per step, in the world.
+    pub step_cameras: Vec<StepCameras>,
+    /// One per step.
+    pub certainty: Vec<StepCertainty>,
+}
+
+/// The facts about a scene that the director needs.
+#[derive(Debug, Clone, Copy)]
+pub struct SceneContext<'a> {
+    /// Objects of the scene, with their clouds where they have one.
+    pub objects: &'a [Object],
+    /// Up direction of the world.
+    pub up: DVec3,
+    /// Center of the scene, world.
+    pub center: DVec3,
+    /// Size of the scene.
+    pub size: f64,
+}
+
+/// The trained network: words and objects to keys.
+#[derive(Debug, Clone)]
+pub struct Director {
+    model: Model,
+}
+
+impl Director {
+    /// The director with the weights that are compiled into the program.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when the built-in files do not fit together.
+    pub fn embedded() -> Result<Self, DirectorError> {
+        Self::from_files(&ModelFiles::embedded())
+    }
+
+    /// A director from the files of a folder; `path` is the folder, or the `director.json` in it.
+    ///
+    /// # Errors
+    /// [`DirectorError::Read`] · [`DirectorError::BadModel`] when a file is damaged, of another version, or does not fit
+    /// the others.
+    pub fn load(path: &Path) -> Result<Self, DirectorError> {
+        Self::from_files(&ModelFiles::read(path)?)
+    }
+
+    /// A director from model files in memory.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when a file is damaged, of another version, or does not fit the others.
+    pub fn from_files(files: &ModelFiles) -> Result<Self, DirectorError> {
+        Ok(Self { model: Model::load(files)? })
+    }
+
+    /// Name and hash of the weights, as shots store them.
+    pub fn model_ref(&self) -> ModelRef {
+        ModelRef { name: self.model.name.clone(), sha256: self.model.weights_sha256.clone() }
+    }
+
+    /// Ids of the objects that the network sees for a prompt: those that it names, then the nearest others.
+    pub fn looks_at(linked: &Linked, objects: &[Object]) -> Vec<u32> {
+        linked.slots.iter().copied().chain(other_objects(objects, &linked.slots)).collect()
+    }
+
+    /// The program that the words ask for, and a camera per key. The same input gives the same output.
+    ///
+    /// # Errors
+    /// [`DirectorError::PromptTooLong`] · [`DirectorError::EmptyPrompt`] · [`DirectorError::BadScene`] ·
+    /// [`DirectorError::NotFinite`] when the network puts out a position that is not finite ·
+    /// [`DirectorError::Compute`] when a tensor operation fails.
+    pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
+        let others = other_objects(scene.objects, &linked.slots);
+        let (tokens, grounding) = encode_text(linked, &others, &self.model.vocabulary)?;
+        let seen = || grounding.object_ids.iter().map(|id| scene.objects.iter().find(|object| object.id == *id));
+        let frame = SceneFrame::new(scene.up, scene.center, scene.size, seen().next().flatten().map(|o| o.center))?;
+        let objects = seen().enumerate().map(|(idx, object)| object.map(|o| object_input(o, idx, &frame)));
+        let prompt = Prompt {
+            tokens,
+            num_quantities: grounding.quantities.len(),
+            objects: objects.map(Option::unwrap_or_default).collect(),
+            num_named: linked.slots.len(),
+        };
+        let batch = PromptBatch::new(&[&prompt], &self.model.config)?;
+        let rules = WordRules { is_time: grounding.is_time(), is_move: grounding.is_move(&linked.tokens_text) };
+        let decoded = decode(&self.model.network, &prompt, &batch, &rules)?;
+        direction(&decoded, &grounding, &frame)
+    }
+}
+
+/// The program and the cameras of decoded keys.
+fn direction(decoded: &DecodedPrompt, grounding: &Grounding, frame: &SceneFrame) -> Result<Direction, DirectorError> {
+    let keys: Vec<_> = decoded.keys.iter().map(|code| codes::decode_key(code, grounding)).collect();
+    let program = Program {
+        steps: steps_of(&keys),
+        duration_secs: decoded.film_length.and_then(|idx| grounding.seconds(idx)),
+        unmet: Vec::new(),
+    };
+    let step_keys = boundaries_of(&keys);
+    let certainty = step_keys
+        .iter()
+        .zip(&program.steps)
+        .map(|([start, end], step)| certainty(&decoded.keys, &decoded.certainties, [*start, *end], step.words))
+        .collect();
+    let cameras = cameras(&decoded.poses, frame)?;
+    let ends = step_keys.iter().map_while(|&[start, end]| cameras.get(start).zip(cameras.get(end)));
+    let step_cameras = ends.map(|((start_secs, start), (end_secs, end))| StepCameras {
+        start: *start,
+        end: *end,
+        secs: end_secs - start_secs,
+    });
+    Ok(Direction { program, step_cameras: step_cameras.collect(), certainty })
+}
+
+/// World cameras of pose codes, each with its time from the start of the film. A degenerate rotation becomes that of the
+/// camera before.
+fn cameras(poses: &[PoseCode], frame: &SceneFrame) -> Result<Vec<(f64, CameraState)>, DirectorError> {
+    let mut fallback = level_rotation();
+    let mut time_secs = 0.0;
+    let mut cameras = Vec::with_capacity(poses.len());
+    for code in poses {
+        let pose = frame.world_pose(Vec3::from(code.position).as_dvec3(), code.rotation_6d.map(f64::from), fallback);
+        if !pose.position.is_finite() {
+            return Err(DirectorError::NotFinite { field: "position", found: code.position[0] });
+        }
+        if !cameras.is_empty() {
+            time_secs += f64::from(code.log_wait).exp_m1();
+        }
+        fallback = frame.turn(pose.rotation);
+        let fov_y_rad = codes::fov_y_rad(code.log_fov);
+        cameras.push((time_secs, CameraState { pose, fov_y_rad, focus_distance: None }));
+    }
+    Ok(cameras)
+}
+
+/// Rotation `frame_from_camera` of a level camera that looks along -z of the scene's frame.
+fn level_rotation() -> DQuat {
+    DQuat::from_rotation_x(std::f64::consts::PI)
+}
+
+/// Certainty of the step between two keys: the choices that its start key makes for what follows, and the choices that its
+/// end key makes for the arrival.
+fn certainty(
+    keys: &[KeyCode],
+    certainties: &[KeyCertainty],
+    [start, end]: [usize; 2],
+    words: Option<[usize; 2]>,
+) -> StepCertainty {
+    let of = |key_idx: usize| certainties.get(key_idx).map_or(&[][..], |certainty| &certainty.choices);
+    let starts = of(start).iter().filter(|(choice, _)| !choice.is_arrival());
+    let ends = of(end).iter().filter(|(choice, _)| choice.is_arrival());
+    let mut out = StepCertainty { probability: 1.0, weakest: (Choice::Class(Field::Next), 1.0), words };
+    if keys.get(start).is_none_or(|key| key.class(Field::Next) != NEXT_SEGMENT) {
+        out.probability = 0.0;
+    }
+    for (choice, probability) in starts.chain(ends) {
+        out.probability *= probability;
+        if *probability < out.weakest.1 {
+            out.weakest = (*choice, *probability);
+        }
+    }
+    out
+}

@@ -1,0 +1,18 @@
+//! What the network reads: a linked prompt as tokens, and objects as boxes with points.
+
+mod grounding;
+mod merges;
+mod move_words;
+mod objects;
+mod prompt;
+mod text;
+mod vocabulary;
+
+pub use grounding::Grounding;
+pub use objects::{MAX_OTHER_OBJECTS, MAX_POINTS, object_input};
+pub use prompt::{ObjectInput, Prompt, TokenInput};
+pub use text::encode_text;
+pub use vocabulary::{NUM_OBJECT_SLOTS, Vocabulary, object_token};
+
+pub(crate) use objects::other_objects;
+pub(crate) use vocabulary::PAD;

@@ -1,0 +1,43 @@
+//! Scene objects as the network sees them.
+
+use cinesplat_objects::Object;
+use glam::DVec3;
+
+use super::prompt::ObjectInput;
+use super::vocabulary::object_token;
+use crate::frame::SceneFrame;
+
+/// Most points of an object's cloud that the network sees.
+pub const MAX_POINTS: usize = 64;
+/// Most objects that the network sees beside those that the text names.
+pub const MAX_OTHER_OBJECTS: usize = 12;
+
+/// An object in `frame` with the identifier of `slot`. Of a larger cloud every n-th point is kept, at most
+/// [`MAX_POINTS`].
+pub fn object_input(object: &Object, slot: usize, frame: &SceneFrame) -> ObjectInput {
+    let half_extents = frame.half_extents(object.half_extents, object.rotation);
+    let stride = object.points.len().div_ceil(MAX_POINTS).max(1);
+    let points: Vec<DVec3> = object.points.iter().step_by(stride).map(|point| frame.point(*point)).collect();
+    let centroid = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+    let scale = half_extents.length().max(1e-9).recip();
+    ObjectInput {
+        slot_token: object_token(slot),
+        center: frame.point(object.center),
+        half_extents,
+        points: points
+            .iter()
+            .map(|point| ((*point - centroid) * scale).clamp_length_max(4.0).as_vec3().to_array())
+            .collect(),
+    }
+}
+
+/// Ids of up to [`MAX_OTHER_OBJECTS`] objects that the text does not name: those nearest to the first named object, or
+/// the largest when none is named.
+pub(crate) fn other_objects(objects: &[Object], named: &[u32]) -> Vec<u32> {
+    let about = named.first().and_then(|id| objects.iter().find(|object| object.id == *id)).map(|object| object.center);
+    let rank = |object: &Object| about.map_or(-object.radius(), |about| object.center.distance(about));
+    let mut others: Vec<(f64, u32)> =
+        objects.iter().filter(|object| !named.contains(&object.id)).map(|object| (rank(object), object.id)).collect();
+    others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    others.into_iter().take(MAX_OTHER_OBJECTS).map(|(_, id)| id).collect()
+}

@@ -1,0 +1,44 @@
+//! One prompt with its objects, before it is padded into a batch.
+
+use glam::DVec3;
+
+/// One prompt with its objects, in the frame of a [`SceneFrame`](crate::SceneFrame).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Prompt {
+    /// Tokens; the first begins the text.
+    pub tokens: Vec<TokenInput>,
+    /// Number of quantities that the tokens point at.
+    pub num_quantities: usize,
+    /// Objects: those that the text names in the order of their slots, then others.
+    pub objects: Vec<ObjectInput>,
+    /// Number of objects that the text names.
+    pub num_named: usize,
+}
+
+/// One token as the network reads it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TokenInput {
+    /// Row of the embedding table.
+    pub id: u32,
+    /// Index of the object that the token names.
+    pub object: Option<usize>,
+    /// Index of the quantity that the token names.
+    pub quantity: Option<usize>,
+    /// Kind of that quantity, from 1; 0 for other tokens.
+    pub kind: u32,
+    /// Natural logarithm of that quantity over 5, about -1.4..=1.9; 0 for other tokens.
+    pub value: f32,
+}
+
+/// One object as the network sees it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ObjectInput {
+    /// Token id of its slot.
+    pub slot_token: u32,
+    /// Center of its box, in scene sizes.
+    pub center: DVec3,
+    /// Half extents along the frame's axes, in scene sizes.
+    pub half_extents: DVec3,
+    /// Points of its cloud relative to their centroid, in units of the box's half diagonal.
+    pub points: Vec<[f32; 3]>,
+}

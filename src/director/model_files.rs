@@ -1,0 +1,172 @@
+//! A trained model as three files side by side.
+//!
+//! `director.json` describes the other two (sizes, hashes, names of all classes), `director.safetensors` holds the weights
+//! as `f16`, and `director.tokenizer.json` holds the vocabulary.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use candle_core::{Device, Tensor};
+use cinesplat_files::sha256_hex;
+use half::f16;
+use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+
+use crate::error::DirectorError;
+use crate::inputs::Vocabulary;
+use crate::manifest::{MANIFEST_FILE, Manifest};
+use crate::network::ModelConfig;
+
+/// Name of the file with the weights.
+const WEIGHTS_FILE: &str = "director.safetensors";
+/// Name of the file with the vocabulary.
+const TOKENIZER_FILE: &str = "director.tokenizer.json";
+/// Largest file of a model.
+const MAX_FILE_BYTES: u64 = 256 << 20;
+
+/// The bytes of the three files of a model. Nothing is checked before the parts are read.
+#[derive(Debug, Clone)]
+pub struct ModelFiles {
+    manifest: Cow<'static, [u8]>,
+    weights: Cow<'static, [u8]>,
+    tokenizer: Cow<'static, [u8]>,
+}
+
+impl ModelFiles {
+    /// The model that is compiled into the program.
+    pub fn embedded() -> Self {
+        Self {
+            manifest: include_bytes!("../../models/director.json").into(),
+            weights: include_bytes!("../../models/director.safetensors").into(),
+            tokenizer: include_bytes!("../../models/director.tokenizer.json").into(),
+        }
+    }
+
+    /// Reads a model; `path` is its folder, or the `director.json` in it.
+    ///
+    /// # Errors
+    /// [`DirectorError::Read`] · [`DirectorError::BadModel`] for a file above 256 MiB.
+    pub fn read(path: &Path) -> Result<Self, DirectorError> {
+        let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
+        let manifest = if path.is_dir() { path.join(MANIFEST_FILE) } else { path.to_owned() };
+        Ok(Self {
+            manifest: read_capped(&manifest)?.into(),
+            weights: read_capped(&folder.join(WEIGHTS_FILE))?.into(),
+            tokenizer: read_capped(&folder.join(TOKENIZER_FILE))?.into(),
+        })
+    }
+
+    /// The files of a network. `tensors` maps names to shapes and values; values are rounded to `f16`.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when a part cannot be serialized.
+    pub fn pack(
+        name: &str,
+        config: &ModelConfig,
+        vocabulary: &Vocabulary,
+        tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>,
+    ) -> Result<Self, DirectorError> {
+        let weights = pack_tensors(tensors)?;
+        let tokenizer = vocabulary.to_json()?.into_bytes();
+        let manifest = Manifest::new(name, config, &weights, &tokenizer).to_json()?;
+        Ok(Self { manifest: manifest.into(), weights: weights.into(), tokenizer: tokenizer.into() })
+    }
+
+    /// Name and bytes of each file, in the order in which they should be written: the description last, so that it never
+    /// describes a file that is not there yet.
+    pub fn named(&self) -> [(&'static str, &[u8]); 3] {
+        [(WEIGHTS_FILE, &self.weights), (TOKENIZER_FILE, &self.tokenizer), (MANIFEST_FILE, &self.manifest)]
+    }
+
+    /// SHA-256 of the weights file, hexadecimal.
+    pub fn weights_sha256(&self) -> String {
+        sha256_hex(&self.weights)
+    }
+
+    /// The vocabulary.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when the file is no tokenizer of this program.
+    pub fn vocabulary(&self) -> Result<Vocabulary, DirectorError> {
+        Vocabulary::from_json(&self.tokenizer)
+    }
+
+    /// All tensors by name, as `f32`.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when the file is no safetensors file, or a tensor is neither `f16` nor `f32` or holds a
+    /// value that is not finite.
+    pub fn tensors(&self) -> Result<BTreeMap<String, Tensor>, DirectorError> {
+        let file =
+            SafeTensors::deserialize(&self.weights).map_err(|error| bad_weights(&error, &"a safetensors file"))?;
+        file.iter().map(|(name, view)| Ok((name.to_owned(), read_tensor(name, &view)?))).collect()
+    }
+
+    /// The description, checked against the bytes of the other two files.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] for a bad description, or a file whose hash differs from the described one.
+    pub(crate) fn manifest(&self) -> Result<Manifest, DirectorError> {
+        let manifest = Manifest::from_json(&self.manifest)?;
+        check_hash(WEIGHTS_FILE, &self.weights, &manifest.weights_sha256)?;
+        check_hash(TOKENIZER_FILE, &self.tokenizer, &manifest.tokenizer_sha256)?;
+        Ok(manifest)
+    }
+}
+
+fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {
+    let failed = |source| DirectorError::Read { path: path.to_owned(), source };
+    let num_bytes = std::fs::metadata(path).map_err(failed)?.len();
+    if num_bytes > MAX_FILE_BYTES {
+        let (found, expected) = (format!("{num_bytes} bytes"), format!("at most {MAX_FILE_BYTES}"));
+        return Err(bad(&path.display(), &found, &expected));
+    }
+    std::fs::read(path).map_err(failed)
+}
+
+fn check_hash(file: &str, bytes: &[u8], expected: &str) -> Result<(), DirectorError> {
+    let found = sha256_hex(bytes);
+    if found == expected { Ok(()) } else { Err(bad(&file, &format!("SHA-256 {found}"), &expected)) }
+}
+
+fn read_tensor(name: &str, view: &TensorView<'_>) -> Result<Tensor, DirectorError> {
+    let values: Vec<f32> = match view.dtype() {
+        Dtype::F16 => view.data().as_chunks::<2>().0.iter().map(|b| f16::from_le_bytes(*b).to_f32()).collect(),
+        Dtype::F32 => view.data().as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect(),
+        other => return Err(bad(&name, &format!("{other:?}"), &"F16 or F32")),
+    };
+    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+        return Err(bad(&name, &format!("{} at {at}", values[at]), &"finite numbers"));
+    }
+    Ok(Tensor::from_vec(values, view.shape(), &Device::Cpu)?)
+}
+
+fn pack_tensors(tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>) -> Result<Vec<u8>, DirectorError> {
+    let halves: BTreeMap<&String, (&Vec<usize>, Vec<u8>)> = tensors
+        .iter()
+        .map(|(name, (shape, values))| {
+            (name, (shape, values.iter().flat_map(|value| f16::from_f32(*value).to_le_bytes()).collect()))
+        })
+        .collect();
+    let views = halves
+        .iter()
+        .map(|(name, (shape, bytes))| Ok((*name, TensorView::new(Dtype::F16, (*shape).clone(), bytes)?)))
+        .collect::<Result<Vec<_>, safetensors::SafeTensorError>>();
+    views
+        .and_then(|views| safetensors::serialize(views, None))
+        .map_err(|error| bad_weights(&error, &"tensors that can be written"))
+}
+
+/// An error about the weights file.
+pub(crate) fn bad_weights(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
+    bad(&WEIGHTS_FILE, found, expected)
+}
+
+/// An error about the tokenizer file.
+pub(crate) fn bad_tokenizer(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
+    bad(&TOKENIZER_FILE, found, expected)
+}
+
+fn bad(part: &dyn std::fmt::Display, found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
+    DirectorError::BadModel { part: part.to_string(), found: found.to_string(), expected: expected.to_string() }
+}

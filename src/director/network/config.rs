@@ -1,0 +1,79 @@
+//! Sizes of the network.
+
+use serde::{Deserialize, Serialize};
+
+/// Sizes of the network.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ModelConfig {
+    /// Width of a token's state.
+    pub width: usize,
+    /// Attention heads; each has an equal part of the width.
+    pub heads: usize,
+    /// Hidden width of a feed-forward layer.
+    pub hidden: usize,
+    /// Layers of the text encoder.
+    pub text_layers: usize,
+    /// Layers of the Q-former.
+    pub object_layers: usize,
+    /// Learned queries, which become the tokens of an object.
+    pub queries: usize,
+    /// Layers of the intent decoder.
+    pub intent_layers: usize,
+    /// Layers of the pose decoder.
+    pub pose_layers: usize,
+    /// Width of a pointer's query and key.
+    pub pointer_width: usize,
+    /// Features of one coordinate; a position has three times as many.
+    pub axis_features: usize,
+    /// Number of tokens of the vocabulary.
+    pub vocabulary: usize,
+}
+
+impl ModelConfig {
+    /// The sizes of the shipped weights, for a vocabulary of this many tokens.
+    pub fn shipped(vocabulary: usize) -> Self {
+        Self {
+            width: 128,
+            heads: 4,
+            hidden: 512,
+            text_layers: 3,
+            object_layers: 2,
+            queries: 4,
+            intent_layers: 3,
+            pose_layers: 2,
+            pointer_width: 64,
+            axis_features: 32,
+            vocabulary,
+        }
+    }
+
+    /// Small sizes for tests; every kind of layer is present.
+    pub fn tiny(vocabulary: usize) -> Self {
+        Self {
+            width: 16,
+            heads: 2,
+            hidden: 24,
+            text_layers: 1,
+            object_layers: 1,
+            queries: 2,
+            intent_layers: 1,
+            pose_layers: 1,
+            pointer_width: 8,
+            axis_features: 8,
+            vocabulary,
+        }
+    }
+
+    /// Whether a network of these sizes can be built and is of a plausible size.
+    pub(crate) fn is_sound(&self) -> bool {
+        let sizes = [self.width, self.heads, self.hidden, self.queries, self.pointer_width, self.vocabulary];
+        let layers = [self.text_layers, self.object_layers, self.intent_layers, self.pose_layers];
+        sizes.iter().all(|size| (1..=65_536).contains(size))
+            && layers.iter().all(|layers| (1..=64).contains(layers))
+            && self.width.is_multiple_of(self.heads)
+            && self.width <= 4096
+            && self.hidden <= 16_384
+            && self.axis_features.is_multiple_of(2)
+            && (2..=512).contains(&self.axis_features)
+    }
+}

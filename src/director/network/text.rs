@@ -1,0 +1,75 @@
+//! The text encoder: tokens to states that depend on the whole text.
+
+use candle_core::{DType, Device, Result, Tensor};
+
+use super::config::ModelConfig;
+use super::layers::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Visibility};
+use super::parameters::{Parameters, Start};
+use super::prompt_batch::PromptBatch;
+
+/// Number of kinds of quantities, and one for tokens that are no quantity.
+const NUM_KINDS: usize = 5;
+
+/// Embedding table and bidirectional layers.
+#[derive(Debug, Clone)]
+pub(super) struct TextEncoder {
+    /// `[vocabulary, width]`; the object encoder uses the rows of the object slots too.
+    table: Tensor,
+    /// `[NUM_KINDS, width]`
+    kinds: Tensor,
+    value: Linear,
+    layers: Vec<(AttentionLayer, FeedForward)>,
+    norm: Norm,
+}
+
+impl TextEncoder {
+    pub(super) fn new(parameters: &mut Parameters, config: &ModelConfig) -> Result<Self> {
+        let (width, heads) = (config.width, config.heads);
+        let layer = |idx: usize, parameters: &mut Parameters| {
+            Ok((
+                AttentionLayer::over_sequence(parameters, &format!("text.{idx}.attention"), width, heads)?,
+                FeedForward::new(parameters, &format!("text.{idx}.feed"), width, config.hidden)?,
+            ))
+        };
+        Ok(Self {
+            table: parameters.get("text.table", &[config.vocabulary, width], Start::Normal(0.5))?,
+            kinds: parameters.get("text.kinds", &[NUM_KINDS, width], Start::Normal(0.5))?,
+            value: Linear::new(parameters, "text.value", 1, width)?,
+            layers: (0..config.text_layers).map(|idx| layer(idx, parameters)).collect::<Result<_>>()?,
+            norm: Norm::new(parameters, "text.norm", width)?,
+        })
+    }
+
+    /// Rows of the embedding table, `[ids, width]`. All ids are below the size of the vocabulary: `Vocabulary::encode`
+    /// checks them.
+    pub(super) fn rows(&self, ids: &Tensor) -> Result<Tensor> {
+        self.table.index_select(ids, 0)
+    }
+
+    /// States of all tokens: `[batch, tokens, width]`.
+    pub(super) fn apply(&self, batch: &PromptBatch, dropout: &Dropout) -> Result<Tensor> {
+        let width = self.table.dim(1)?;
+        let shape = (batch.size, batch.num_tokens, width);
+        let words = self.rows(&batch.ids)?.reshape(shape)?; // [batch, tokens, width]
+        let kinds = self.kinds.index_select(&batch.kinds, 0)?.reshape(shape)?; // [batch, tokens, width]
+        let values = self.value.apply(&batch.values)?;
+        let mut states = ((words + kinds)? + values)?.broadcast_add(&positions(batch.num_tokens, width)?)?;
+        let all = Visibility { exists: batch.token_exists.clone(), causal: false };
+        for (attention, feed) in &self.layers {
+            states = feed.apply(&attention.apply(&states, None, &all, dropout)?, dropout)?;
+        }
+        self.norm.apply(&states)
+    }
+}
+
+/// Position encoding of the tokens, `[tokens, width]`: sines and cosines of wavelengths from 2 pi to 2000 pi tokens, times
+/// 0.3 (Vaswani et al. 2017).
+fn positions(num_tokens: usize, width: usize) -> Result<Tensor> {
+    let value = |at: usize, feature: usize| {
+        let angle = at as f32 / 1000_f32.powf((feature / 2 * 2) as f32 / width as f32);
+        if feature.is_multiple_of(2) { angle.sin() } else { angle.cos() }
+    };
+    let values: Vec<f32> =
+        (0..num_tokens).flat_map(|at| (0..width).map(move |feature| 0.3 * value(at, feature))).collect();
+    Tensor::from_vec(values, (num_tokens, width), &Device::Cpu)?.to_dtype(DType::F32)
+}

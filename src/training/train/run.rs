@@ -1,0 +1,307 @@
+//! The training loop.
+//!
+//! Enters: the prompt sampler, and shards of realized shots. Leaves: the three files of a model. The same settings and shots
+//! give the same weights, whatever the number of threads is, and whether the training was stopped and resumed or not.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use candle_core::Var;
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+use super::augmentation::Augmentation;
+use super::checkpoint;
+use super::error::TrainError;
+use super::evaluation::{EvaluationSplit, evaluate_director};
+use super::examples::{Example, ExampleSampler};
+use super::gradients::{BatchSettings, TrainableNetwork};
+use super::metrics::ProgramMetrics;
+use super::optimizer::{AdamSettings, AdamW, learning_rate};
+use super::progress::{ProgressCallback, TrainingProgress};
+use super::settings::TrainSettings;
+use crate::dataset::{RealizedShot, read_shards};
+use crate::sampler::PromptSampler;
+use crate::workers::run_on_threads;
+use cinesplat_director::inputs::Vocabulary;
+use cinesplat_director::network::{Dropout, ModelConfig, Network, Parameters};
+use cinesplat_director::{Director, ModelFiles};
+use cinesplat_files::{Existing, create_folder, write};
+use cinesplat_language::link;
+
+/// Examples that one thread computes together.
+const PART_SIZE: usize = 32;
+/// Every n-th realized shot is held out of training.
+const HELD_OUT_EVERY: usize = 20;
+/// Examples of the held-out loss.
+const HELD_OUT_EXAMPLES: u64 = 64;
+
+/// Facts about a finished training.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrainSummary {
+    /// Number of parameters of the network.
+    pub num_parameters: usize,
+    /// Number of tokens of its vocabulary.
+    pub vocabulary: usize,
+    /// Number of realized shots in the training data.
+    pub num_shots: usize,
+    /// SHA-256 of the weights file, hexadecimal.
+    pub sha256: String,
+}
+
+/// Trains a network and writes its model files and a checkpoint to the folder `out`. `report` receives progress every
+/// [`TrainSettings::report_every`] steps and after every checkpoint.
+///
+/// # Errors
+/// [`TrainError::Stopped`] when `report` returns a break; a checkpoint has been written then ·
+/// [`TrainError::BadCheckpoint`] for a checkpoint of other settings · [`TrainError::Diverged`] when the loss is not finite ·
+/// [`TrainError::File`], [`TrainError::Dataset`] and [`TrainError::Director`] for files that cannot be read or written.
+///
+/// # Panics
+/// A panic on a worker thread resumes in the caller.
+pub fn train(
+    settings: &TrainSettings,
+    out: &Path,
+    report: &mut ProgressCallback<'_>,
+) -> Result<TrainSummary, TrainError> {
+    let prompts = PromptSampler::embedded()?;
+    create_folder(out)?;
+    let shots = settings.shots.as_deref().map(read_shards).transpose()?.unwrap_or_default();
+    let held_out_shots: Vec<RealizedShot> = shots.iter().step_by(HELD_OUT_EVERY).cloned().collect();
+    let learned: Vec<RealizedShot> =
+        shots.into_iter().enumerate().filter(|(idx, _)| idx % HELD_OUT_EVERY != 0).map(|(_, shot)| shot).collect();
+    let corpus = corpus(settings, prompts)?;
+    let words = words(&corpus);
+    let vocabulary = match &settings.from {
+        Some(path) => ModelFiles::read(path)?.vocabulary()?,
+        None => Vocabulary::train(&corpus, settings.vocabulary)?,
+    };
+    let config = ModelConfig::shipped(vocabulary.size());
+    let mut parameters = Parameters::seeded(settings.seed);
+    let network = Network::new(&mut parameters, &config)?;
+    let vars = trainable(&mut parameters, settings.from.as_deref())?;
+    let shots_frac = if learned.is_empty() { 0.0 } else { settings.shots_frac };
+    let sampler = ExampleSampler {
+        prompts,
+        vocabulary: &vocabulary,
+        words: &words,
+        shots: &learned,
+        shots_frac,
+        augmentation: Augmentation::default(),
+    };
+    let optimizer = AdamW::default();
+    let mut training =
+        Training { settings, out, config, network, vars, optimizer, sampler, held_out_shots: &held_out_shots };
+    training.resume()?;
+    training.run(report)?;
+    training.summary()
+}
+
+/// Linked texts of sampled prompts.
+fn corpus(settings: &TrainSettings, prompts: PromptSampler) -> Result<Vec<String>, TrainError> {
+    let mut rng = Pcg64::seed_from_u64(settings.seed ^ 0x000c_0de5);
+    let mut line = |_| {
+        let objects = prompts.invent_objects(8, &mut rng);
+        Ok(link(&prompts.sample(&objects, &mut rng).prompt, &objects)?.tokens_text)
+    };
+    (0..settings.corpus).map(&mut line).collect()
+}
+
+/// The different words of a corpus, in lexical order.
+fn words(corpus: &[String]) -> Vec<String> {
+    let words: BTreeSet<&str> = corpus.iter().flat_map(|line| line.split(' ')).collect();
+    words.into_iter().filter(|word| word.chars().all(char::is_alphabetic)).map(str::to_owned).collect()
+}
+
+/// The drawn parameters, with the values of the model at `from` if there is one.
+fn trainable(parameters: &mut Parameters, from: Option<&Path>) -> Result<BTreeMap<String, Var>, TrainError> {
+    let Parameters::Fresh { vars, .. } = parameters else { return Ok(BTreeMap::new()) };
+    let vars = std::mem::take(vars);
+    if let Some(path) = from {
+        let files = ModelFiles::read(path)?;
+        // Checks description, hashes, names and shapes.
+        Director::from_files(&files)?;
+        let stored = files.tensors()?;
+        for (name, var) in &vars {
+            match stored.get(name) {
+                Some(tensor) if tensor.dims() == var.dims() => var.set(tensor)?,
+                found => {
+                    return Err(TrainError::BadCheckpoint {
+                        path: path.to_owned(),
+                        found: format!("{name} of shape {:?}", found.map(candle_core::Tensor::dims)),
+                    });
+                }
+            }
+        }
+    }
+    Ok(vars)
+}
+
+/// A training in progress.
+struct Training<'a> {
+    settings: &'a TrainSettings,
+    out: &'a Path,
+    config: ModelConfig,
+    network: Network,
+    vars: BTreeMap<String, Var>,
+    optimizer: AdamW,
+    sampler: ExampleSampler<'a>,
+    held_out_shots: &'a [RealizedShot],
+}
+
+impl Training<'_> {
+    fn checkpoint_path(&self) -> PathBuf {
+        self.out.join("checkpoint.safetensors")
+    }
+
+    /// All settings that change the weights, as JSON. A checkpoint can only be resumed with the same.
+    fn fingerprint(&self) -> Result<String, TrainError> {
+        let num_shots = self.sampler.shots.len();
+        serde_json::to_string(&(self.settings, &self.config, num_shots))
+            .map_err(|error| TrainError::BadCheckpoint { path: self.checkpoint_path(), found: error.to_string() })
+    }
+
+    /// Reads the checkpoint if the settings ask for it.
+    fn resume(&mut self) -> Result<(), TrainError> {
+        if self.settings.resume {
+            self.optimizer = checkpoint::read(&self.checkpoint_path(), &self.vars, &self.fingerprint()?)?;
+        }
+        Ok(())
+    }
+
+    /// Makes all remaining steps.
+    fn run(&mut self, report: &mut ProgressCallback<'_>) -> Result<(), TrainError> {
+        let total = self.settings.steps;
+        let (mut choice_loss, mut pose_loss, mut since) = (0.0, 0.0, 0.0);
+        while self.optimizer.steps < total {
+            let losses = self.step()?;
+            choice_loss += losses[0];
+            pose_loss += losses[1];
+            since += 1.0;
+            let done = self.optimizer.steps;
+            if done.is_multiple_of(self.settings.report_every.max(1)) || done == total {
+                let rate = self.rate();
+                let (choice_loss, pose_loss) =
+                    (std::mem::take(&mut choice_loss) / since, std::mem::take(&mut pose_loss) / since);
+                since = 0.0;
+                let progress = TrainingProgress::Steps { done, total, choice_loss, pose_loss, rate };
+                if report(&progress).is_break() && done < total {
+                    self.write_checkpoint()?;
+                    return Err(TrainError::Stopped { step: done });
+                }
+            }
+            if done.is_multiple_of(self.settings.checkpoint_every.max(1)) || done == total {
+                // The next step report asks again whether to stop.
+                let _ = report(&self.checkpoint()?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Learning rate of the next step.
+    fn rate(&self) -> f32 {
+        learning_rate(self.optimizer.steps, self.settings.warm_up, self.settings.steps, self.settings.peak_rate)
+    }
+
+    /// Makes one step, and returns the losses of choices and poses before it.
+    fn step(&mut self) -> Result<[f64; 2], TrainError> {
+        let step = self.optimizer.steps;
+        let mut examples = self.examples(step)?;
+        let batch = BatchSettings {
+            threads: self.settings.threads,
+            part_size: PART_SIZE,
+            dropout: self.settings.dropout,
+            seed: self.settings.seed ^ (step + 1).wrapping_mul(0x2545_f491_4f6c_dd1d),
+        };
+        let trainable = TrainableNetwork { network: &self.network, config: &self.config, vars: &self.vars };
+        let result = trainable.gradients(&mut examples, &batch)?;
+        let rate = self.rate();
+        let norm = self.optimizer.step(&self.vars, &result.gradients, rate, &AdamSettings::default())?;
+        let found = result.choice_loss + result.pose_loss + f64::from(norm);
+        if !found.is_finite() {
+            return Err(TrainError::Diverged { step, found });
+        }
+        Ok([result.choice_loss, result.pose_loss])
+    }
+
+    /// The examples of a step, drawn on several threads.
+    fn examples(&self, step: u64) -> Result<Vec<Example>, TrainError> {
+        let batch = self.settings.batch as u64;
+        let threads = self.settings.threads.max(1);
+        let num_threads = threads as u64;
+        let draw = |thread: usize| -> Result<Vec<Example>, TrainError> {
+            let thread = thread as u64;
+            let share = (batch * thread / num_threads)..(batch * (thread + 1) / num_threads);
+            share.map(|idx| self.sampler.example(self.settings.seed, step * batch + idx)).collect()
+        };
+        let mut examples = Vec::with_capacity(self.settings.batch);
+        for part in run_on_threads(threads, draw) {
+            examples.extend(part?);
+        }
+        Ok(examples)
+    }
+
+    fn write_checkpoint(&self) -> Result<(), TrainError> {
+        checkpoint::write(&self.checkpoint_path(), &self.vars, &self.optimizer, &self.fingerprint()?)
+    }
+
+    /// Writes the checkpoint and the model, and evaluates the model with the written weights.
+    fn checkpoint(&self) -> Result<TrainingProgress, TrainError> {
+        self.write_checkpoint()?;
+        let files = self.files()?;
+        for (name, bytes) in files.named() {
+            write(&self.out.join(name), bytes, Existing::Replace)?;
+        }
+        let director = Director::from_files(&files)?;
+        let count = self.settings.evaluation_prompts;
+        let hand_written = match count {
+            0 => ProgramMetrics::default(),
+            _ => evaluate_director(&director, EvaluationSplit::HandWritten)?,
+        };
+        Ok(TrainingProgress::Checkpoint {
+            done: self.optimizer.steps,
+            held_out_loss: self.held_out_loss()?,
+            held_out: Box::new(evaluate_director(&director, EvaluationSplit::HeldOut { count })?),
+            hand_written: Box::new(hand_written),
+        })
+    }
+
+    /// The model files with the current weights.
+    fn files(&self) -> Result<ModelFiles, TrainError> {
+        let mut tensors = BTreeMap::new();
+        for (name, var) in &self.vars {
+            tensors.insert(name.clone(), (var.dims().to_vec(), var.flatten_all()?.to_vec1::<f32>()?));
+        }
+        Ok(ModelFiles::pack(&self.settings.name, &self.config, self.sampler.vocabulary, &tensors)?)
+    }
+
+    /// Mean losses per key of choices and poses, without augmentation, on sentences of another seed and held-out shots.
+    fn held_out_loss(&self) -> Result<[f64; 2], TrainError> {
+        let shots_frac = if self.held_out_shots.is_empty() { 0.0 } else { 0.5 };
+        let augmentation = Augmentation::NONE;
+        let sampler = ExampleSampler { shots: self.held_out_shots, shots_frac, augmentation, ..self.sampler.clone() };
+        let examples = (0..HELD_OUT_EXAMPLES).map(|number| sampler.example(!self.settings.seed, number));
+        let mut examples = examples.collect::<Result<Vec<_>, _>>()?;
+        examples.sort_by_key(|example| example.prompt.tokens.len());
+        let num_keys: usize = examples.iter().map(|example| example.keys.len()).sum();
+        let num_posed: usize = examples.iter().map(|example| example.poses.len()).sum();
+        let trainable = TrainableNetwork { network: &self.network, config: &self.config, vars: &self.vars };
+        let mut sums = [0.0; 2];
+        for part in examples.chunks(PART_SIZE) {
+            let (choices, poses) = trainable.losses(&part.iter().collect::<Vec<_>>(), &Dropout::off())?;
+            sums[0] += f64::from(choices.to_scalar::<f32>()?);
+            sums[1] += poses.map_or(Ok(0.0), |poses| poses.to_scalar::<f32>().map(f64::from))?;
+        }
+        Ok([sums[0] / num_keys.max(1) as f64, sums[1] / num_posed.max(1) as f64])
+    }
+
+    /// Facts about the network as it is.
+    fn summary(&self) -> Result<TrainSummary, TrainError> {
+        Ok(TrainSummary {
+            num_parameters: self.vars.values().map(|var| var.elem_count()).sum(),
+            vocabulary: self.sampler.vocabulary.size(),
+            num_shots: self.sampler.shots.len(),
+            sha256: self.files()?.weights_sha256(),
+        })
+    }
+}
