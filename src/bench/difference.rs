@@ -2,26 +2,26 @@ use rayon::prelude::*;
 
 use cinesplat_render::Frame;
 
-/// Half the window of the structural similarity: 11 x 11 pixels.
+/// Half the width of the SSIM window of 11 x 11 pixels.
 const REACH: usize = 5;
-/// Standard deviation of the window, pixels.
+/// Standard deviation of the SSIM window, pixels.
 const SIGMA: f64 = 1.5;
-/// (0.01 L)^2 and (0.03 L)^2 with L = 1, the range of color.
+/// (0.01 L)^2 and (0.03 L)^2 with the range of color L = 1.
 const STABILIZERS: [f64; 2] = [1e-4, 9e-4];
 
-/// How far a picture is from another of the same size; both clamped to 0..=1.
+/// Difference between two pictures of the same size, both clamped to 0..=1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// Peak signal-to-noise ratio, dB, peak 1; infinite for equal pictures.
+    /// PSNR in dB with peak 1; infinite for equal pictures.
     pub psnr_db: f64,
-    /// Structural similarity, at most 1; NaN for pictures below 11 x 11 pixels.
+    /// SSIM, at most 1; NaN for pictures smaller than 11 x 11 pixels.
     pub ssim: f64,
-    /// Largest difference of one channel of one pixel, 0..=1.
+    /// Largest absolute difference of a channel of a pixel, 0..=1.
     pub worst: f64,
 }
 
 impl Difference {
-    /// Of pictures that cannot be compared: all NaN.
+    /// The difference of pictures that cannot be compared: all NaN.
     pub const UNKNOWN: Self = Self { psnr_db: f64::NAN, ssim: f64::NAN, worst: f64::NAN };
 }
 
@@ -35,11 +35,11 @@ pub fn difference(picture: &Frame, spec: &Frame) -> Difference {
     Difference { psnr_db: picture.psnr_db(spec), ssim: ssim(picture, spec), worst }
 }
 
-/// Mean structural similarity over channels and all places where the window lies inside the picture.
+/// Mean SSIM over all channels and all positions where the window is inside the picture.
 ///
 /// Wang, Bovik, Sheikh and Simoncelli, Image Quality Assessment: From Error Visibility to Structural Similarity, 2004:
-/// Gaussian window of 11 x 11 pixels with a standard deviation of 1.5, K1 = 0.01, K2 = 0.03. Each color channel counts
-/// as a picture of its own.
+/// Gaussian window of 11 x 11 pixels with a standard deviation of 1.5, K1 = 0.01, K2 = 0.03. Each color channel is
+/// treated as a picture of its own.
 fn ssim(a: &Frame, b: &Frame) -> f64 {
     let (width, height) = (a.width as usize, a.height as usize);
     if width <= 2 * REACH || height <= 2 * REACH {
@@ -51,10 +51,10 @@ fn ssim(a: &Frame, b: &Frame) -> f64 {
     sums.iter().sum::<f64>() / (3 * (width - 2 * REACH) * (height - 2 * REACH)) as f64
 }
 
-/// Sum of the similarity over one row of window centers and all channels.
+/// Sum of the SSIM over one row of window centers and all channels.
 fn row_sum(a: &Frame, b: &Frame, row: usize, window: &[f64]) -> f64 {
     let stride = a.width as usize * 3;
-    // Means of a, b, a^2, b^2 and ab along columns first: `[column * 3 + channel]`.
+    // Vertical weighted means of a, b, a^2, b^2 and ab: `[column * 3 + channel]`.
     let mut columns = vec![[0.0; 5]; stride];
     for (weight, y) in window.iter().zip(row - REACH..) {
         let values = a.rgb[y * stride..][..stride].iter().zip(&b.rgb[y * stride..][..stride]);
@@ -75,7 +75,7 @@ fn row_sum(a: &Frame, b: &Frame, row: usize, window: &[f64]) -> f64 {
     (0..stride - 2 * REACH * 3).map(at).sum()
 }
 
-/// Similarity of two windows from their weighted means of a, b, a^2, b^2 and ab.
+/// SSIM of two windows from their weighted means of a, b, a^2, b^2 and ab.
 fn similarity([a, b, aa, bb, ab]: [f64; 5]) -> f64 {
     let [c1, c2] = STABILIZERS;
     let (variance_a, variance_b, covariance) = (aa - a * a, bb - b * b, ab - a * b);

@@ -1,10 +1,10 @@
-//! Accuracy against time: scenes at several settings, each timed and held against the spec image.
+//! Benchmarks of the renderer: accuracy against time, and time and memory against the amount of work.
 //!
-//! Enters: a renderer, cameras, [`Variant`]s. Leaves: [`BenchRow`]s, and of them a CSV, a table and Pareto plots. Times
-//! are those of color in eight bits, which films take; accuracy is that of the same picture as numbers. What other
-//! outputs cost is measured in turn with color alone ([`RenderOutput`]). [`scaling`] measures how cost grows with the
-//! work instead. The one invariant: a variant of [`KnobKind::Free`] is held against the picture of `standard` bit by
-//! bit, all others against `reference`.
+//! Enters: a renderer, cameras and [`Variant`]s of its settings. Leaves: [`BenchRow`]s, and from them a CSV, Markdown
+//! tables and Pareto plots. Times are those of 8-bit color, which films use. Accuracy is that of the same picture in
+//! `f32`. The time of other outputs ([`RenderOutput`]) is measured in turn with that of color alone. [`scaling`]
+//! measures how time and memory grow with the amount of work. The one invariant: a variant of [`KnobKind::Free`] must
+//! equal the picture of `standard` bit by bit; all other variants are compared with `reference`.
 
 mod difference;
 mod measure;

@@ -8,15 +8,15 @@ use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, RenderStats,
 /// What is measured and how often.
 #[derive(Debug, Clone)]
 pub struct BenchPlan {
-    /// Name of the scene in the rows.
+    /// Name of the scene, for the rows.
     pub scene: String,
-    /// What is measured.
+    /// The variants to measure.
     pub variants: Vec<Variant>,
-    /// Timing pictures a row, after one that warms up.
+    /// Timed runs per row, after one warm-up run.
     pub num_repeats: usize,
 }
 
-/// One camera at one variant.
+/// The measurement of one variant with one camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BenchRow {
     /// The scene.
@@ -25,47 +25,47 @@ pub struct BenchRow {
     pub camera: String,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// What the variant turns.
+    /// The knob of the variant.
     pub kind: KnobKind,
-    /// How far.
+    /// Name of the variant: the value of the knob.
     pub variant: String,
-    /// Threads it ran on.
+    /// Number of threads.
     pub num_threads: usize,
-    /// How long it took.
-    pub timed: Timing,
-    /// Of an output: its time over that of color as numbers, the two in turn; the median of the pairs.
+    /// Times of the runs.
+    pub timing: Timing,
+    /// For [`KnobKind::Output`]: time over the time of color in `f32`, both measured in turn; median over the runs.
     pub times_color: Option<f64>,
-    /// Of the picture as numbers against the spec image, of a free knob against the picture of `standard`; all NaN for
-    /// an output.
+    /// Difference of the picture in `f32` from the spec image, for [`KnobKind::Free`] from the picture of `standard`; all
+    /// NaN for [`KnobKind::Output`].
     pub difference: Difference,
 }
 
-/// Times of the same picture, several times.
+/// Times of repeated runs of the same picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
     /// Median wall time.
     pub median: Duration,
     /// Shortest and longest wall time.
     pub range: [Duration; 2],
-    /// Stages and counts of the picture with the median time; zeros for outputs that do not tell.
+    /// Stage times and counters of the run with the median time; zeros for outputs that do not report them.
     pub stats: RenderStats,
 }
 
 impl BenchPlan {
-    /// Rows that [`measure`] leaves.
+    /// Number of rows that [`measure`] returns.
     pub fn num_rows(&self, num_cameras: usize) -> usize {
         let rows = |variant: &Variant| if variant.is_slow { num_cameras.min(1) } else { num_cameras };
         self.variants.iter().map(rows).sum()
     }
 }
 
-/// The pictures of one camera that others are held against.
-struct Against {
+/// The pictures of one camera that variants are compared with.
+struct Baselines {
     spec: Frame,
     standard: Frame,
 }
 
-/// Measures every variant on every camera, slow ones once on the first; `tell` hears of every row.
+/// Measures every variant with every camera; slow variants once, with the first camera. Calls `on_row` with every row.
 ///
 /// # Errors
 /// [`RenderError`] of the first picture that cannot be rendered.
@@ -73,7 +73,7 @@ pub fn measure(
     renderer: &Renderer<'_>,
     cameras: &[(String, Camera)],
     plan: &BenchPlan,
-    tell: &mut dyn FnMut(&BenchRow),
+    on_row: &mut dyn FnMut(&BenchRow),
 ) -> Result<Vec<BenchRow>, RenderError> {
     let mut rows = Vec::new();
     let mut outputs = OutputBuffers::new(renderer.num_gaussians());
@@ -82,35 +82,35 @@ pub fn measure(
             let first = plan.variants.first().map_or_else(RenderSettings::default, |variant| variant.settings);
             renderer.render(camera, &RenderSettings { quality, accuracy: None, ..first })
         };
-        let against = Against { spec: as_preset(Quality::Reference)?, standard: as_preset(Quality::Standard)? };
+        let baselines = Baselines { spec: as_preset(Quality::Reference)?, standard: as_preset(Quality::Standard)? };
         for variant in plan.variants.iter().filter(|variant| camera_idx == 0 || !variant.is_slow) {
             let num_repeats = if variant.is_slow { 1 } else { plan.num_repeats };
-            let mut work = || row(renderer, camera, (variant, num_repeats), &against, &mut outputs);
+            let mut work = || row(renderer, camera, (variant, num_repeats), &baselines, &mut outputs);
             let (mut row, num_threads) = match variant.num_threads.and_then(pool_of) {
                 Some(pool) => (pool.install(work)?, pool.current_num_threads()),
                 None => (work()?, rayon::current_num_threads()),
             };
             (row.scene, row.camera, row.num_threads) = (plan.scene.clone(), name.clone(), num_threads);
-            tell(&row);
+            on_row(&row);
             rows.push(row);
         }
     }
     Ok(rows)
 }
 
-/// The row of one variant, yet without names.
+/// The row of one variant, without the names of scene and camera.
 fn row(
     renderer: &Renderer<'_>,
     camera: &Camera,
     (variant, num_repeats): (&Variant, usize),
-    against: &Against,
+    baselines: &Baselines,
     outputs: &mut OutputBuffers,
 ) -> Result<BenchRow, RenderError> {
     let settings = &variant.settings;
     let mut difference = Difference::UNKNOWN;
     if variant.kind != KnobKind::Output {
         outputs.time(renderer, camera, settings, RenderOutput::Color)?;
-        let other = if variant.kind == KnobKind::Free { &against.standard } else { &against.spec };
+        let other = if variant.kind == KnobKind::Free { &baselines.standard } else { &baselines.spec };
         difference = super::difference(&outputs.frame, other);
     }
     let (timed, times_color) = if variant.kind == KnobKind::Output {
@@ -127,19 +127,19 @@ fn row(
         kind: variant.kind,
         variant: variant.name.clone(),
         num_threads: 0,
-        timed,
+        timing: timed,
         times_color,
         difference,
     })
 }
 
-/// Threads of their own; `None` where the machine gives none, and the current ones do.
+/// A thread pool of its own; `None` if the system refuses the threads, and the current pool is used.
 fn pool_of(num_threads: usize) -> Option<rayon::ThreadPool> {
     rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().ok()
 }
 
-/// Times an output and color as numbers in turn, so that whatever else the machine does meets both; also the median of
-/// the ratios of neighbors.
+/// Times an output and color in `f32` in turn, so that other load on the machine affects both. Also returns the median
+/// ratio of neighboring times.
 fn time_beside_color(
     renderer: &Renderer<'_>,
     camera: &Camera,
@@ -154,16 +154,16 @@ fn time_beside_color(
         Ok((secs, stats))
     };
     let timed = time_runs(num_repeats, &mut work)?;
-    // The first pair warmed up.
+    // The first pair is the warm-up.
     ratios.remove(0);
     ratios.sort_by(f64::total_cmp);
     Ok((timed, ratios[ratios.len() / 2]))
 }
 
-/// Renders once to warm up and then `num_repeats` times, at least once, color as numbers.
+/// Times color in `f32`: one warm-up run and then `num_repeats` runs, at least one.
 ///
 /// # Errors
-/// As [`Renderer::render`].
+/// Those of [`Renderer::render`].
 pub fn time(
     renderer: &Renderer<'_>,
     camera: &Camera,
@@ -173,7 +173,7 @@ pub fn time(
     time_runs(num_repeats, &mut || outputs.time(renderer, camera, settings, RenderOutput::Color))
 }
 
-/// Runs work once to warm up and then `num_repeats` times, at least once; it says how many seconds it took.
+/// Runs `work` once to warm up and then `num_repeats` times, at least once. `work` returns the seconds that it took.
 fn time_runs(
     num_repeats: usize,
     work: &mut dyn FnMut() -> Result<(f64, RenderStats), RenderError>,

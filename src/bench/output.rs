@@ -3,12 +3,12 @@ use std::time::Instant;
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Frame, LiftedValues, RenderError, RenderSettings, RenderStats, Renderer, Rgb8Frame};
 
-/// Channels of the features that are blended.
+/// Channels of the blended features.
 const NUM_CHANNELS: usize = 16;
-/// Objects that the Gaussians are shared out among.
+/// Number of objects; each gets an equal share of the Gaussians.
 const NUM_OBJECTS: usize = 64;
 
-/// What a picture is asked for. Whatever is not color is made in the blending loop of a color picture.
+/// Outputs of the renderer. All outputs other than color are computed in the blending loop of a color picture.
 #[derive(
     Debug,
     Clone,
@@ -24,37 +24,37 @@ const NUM_OBJECTS: usize = 64;
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum RenderOutput {
-    /// Color as numbers.
+    /// Color in `f32`.
     #[strum(serialize = "color f32")]
     Color,
-    /// Color in eight bits, as films take it.
+    /// Color in 8 bits, as films use it.
     #[strum(serialize = "color 8 bit")]
-    Levels,
+    Rgb8,
     /// Color and depth, expected and median.
     #[strum(serialize = "color+depth")]
     Depth,
-    /// Color and the object in each pixel, of 64 in the order of the file.
+    /// Color and the object in each pixel; 64 objects.
     #[strum(serialize = "color+ids")]
     Ids,
     /// Color and 16 blended features.
     #[strum(serialize = "color+16 features")]
     Features,
-    /// Color and every weight of every splat.
+    /// Color and the weight of every splat in every pixel.
     #[strum(serialize = "color+weights")]
     Weights,
-    /// Color, and a mask carried back to the Gaussians.
+    /// Color, and a mask lifted to the Gaussians.
     #[strum(serialize = "color+lift")]
     Lift,
 }
 
-/// What outputs are made of and into, kept from run to run.
+/// Inputs and targets of the outputs, kept from run to run.
 pub(super) struct OutputBuffers {
     labels: Vec<u16>,
     features: Vec<f32>,
     mask: Vec<f32>,
     lifted: LiftedValues,
     pub(super) frame: Frame,
-    levels: Rgb8Frame,
+    rgb8_frame: Rgb8Frame,
 }
 
 impl OutputBuffers {
@@ -66,11 +66,11 @@ impl OutputBuffers {
             mask: Vec::new(),
             lifted: LiftedValues::new(num_gaussians, 1),
             frame: Frame::default(),
-            levels: Rgb8Frame::default(),
+            rgb8_frame: Rgb8Frame::default(),
         }
     }
 
-    /// Renders an output once; its wall time in seconds, and what it cost where the output says so.
+    /// Renders an output once. Returns its wall time in seconds, and its statistics or zeros if the output has none.
     pub(super) fn time(
         &mut self,
         renderer: &Renderer<'_>,
@@ -78,7 +78,7 @@ impl OutputBuffers {
         settings: &RenderSettings,
         output: RenderOutput,
     ) -> Result<(f64, RenderStats), RenderError> {
-        // A mask of stripes, made before the clock starts.
+        // A striped mask, filled before the clock starts.
         let num_pixels = camera.intrinsics.width as usize * camera.intrinsics.height as usize;
         self.mask.resize(num_pixels, 0.0);
         self.mask.iter_mut().enumerate().for_each(|(idx, value)| *value = (idx / 64 % 2) as f32);
@@ -94,15 +94,15 @@ impl OutputBuffers {
         settings: &RenderSettings,
         output: RenderOutput,
     ) -> Result<RenderStats, RenderError> {
-        let unsaid = |()| RenderStats::default();
+        let no_stats = |()| RenderStats::default();
         match output {
             RenderOutput::Color => {
                 renderer.render_into(camera, settings, &mut self.frame)?;
                 return Ok(self.frame.stats);
             }
-            RenderOutput::Levels => {
-                renderer.render_rgb8_into(camera, settings, &mut self.levels)?;
-                return Ok(self.levels.stats);
+            RenderOutput::Rgb8 => {
+                renderer.render_rgb8_into(camera, settings, &mut self.rgb8_frame)?;
+                return Ok(self.rgb8_frame.stats);
             }
             RenderOutput::Depth => renderer.depth(camera, settings).map(drop),
             RenderOutput::Ids => renderer.object_ids(camera, settings, &self.labels).map(drop),
@@ -110,6 +110,6 @@ impl OutputBuffers {
             RenderOutput::Weights => renderer.weights(camera, settings).map(drop),
             RenderOutput::Lift => renderer.lift(camera, settings, &self.mask, &mut self.lifted),
         }
-        .map(unsaid)
+        .map(no_stats)
     }
 }

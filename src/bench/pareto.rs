@@ -3,11 +3,11 @@ use super::{BenchRow, KnobKind};
 use cinesplat_plot::{Axis, COLORS, Chart, LegendEntry, LegendSymbol, Marker, Series, grid};
 use strum::VariantArray;
 
-/// Plotted in place of infinity: pictures that are equal or nearly so.
-const MOST_DB: f64 = 120.0;
+/// PSNR at which plots clip (equal or nearly equal pictures).
+const MAX_DB: f64 = 120.0;
 const PANEL_PX: [f64; 2] = [410.0, 300.0];
 
-/// What a Pareto plot shows against time.
+/// Accuracy that a Pareto plot shows against time.
 #[derive(
     Debug,
     Clone,
@@ -23,23 +23,23 @@ const PANEL_PX: [f64; 2] = [410.0, 300.0];
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum AccuracyAxis {
-    /// Peak signal-to-noise ratio, dB.
+    /// PSNR in dB.
     Psnr,
-    /// One less the structural similarity.
+    /// 1 - SSIM.
     Ssim,
-    /// Largest difference of a pixel.
+    /// Largest difference of a channel of a pixel.
     Worst,
 }
 
-/// A variant on one scene: means over its cameras.
+/// A variant on one scene, averaged over its cameras.
 #[derive(Debug, Clone, PartialEq)]
 struct Point {
     kind: KnobKind,
     variant: String,
-    /// Geometric mean, ms.
+    /// Geometric mean of the times, ms.
     ms: f64,
     value: f64,
-    /// Whether another takes no longer and is no farther off, and one of the two is better.
+    /// Whether another point is at least as good in both time and accuracy, and better in one.
     is_dominated: bool,
 }
 
@@ -54,21 +54,21 @@ impl AccuracyAxis {
 
     fn of(self, row: &BenchRow) -> f64 {
         match self {
-            Self::Psnr => row.difference.psnr_db.min(MOST_DB),
+            Self::Psnr => row.difference.psnr_db.min(MAX_DB),
             Self::Ssim => (1.0 - row.difference.ssim).max(1e-8),
             Self::Worst => row.difference.worst.max(1e-6),
         }
     }
 
-    /// How far off a value is: more is worse.
+    /// A value as a loss: larger is worse.
     fn loss(self, value: f64) -> f64 {
         if self == Self::Psnr { -value } else { value }
     }
 }
 
-/// A panel a scene: time against accuracy of presets, which have their names, and of each knob alone, for the pictures
-/// of one size. What another setting of the same scene beats in both is faint. Scenes that are levels of detail of one
-/// (named `NAME LEVEL`) share a panel, a line through the presets of each.
+/// Pareto plots as SVG, one panel per scene, for the pictures of one size: accuracy against time of the presets, with
+/// their names, and of each knob alone. Dominated settings are faint. Levels of detail of one scene (named `NAME
+/// LEVEL`) share a panel with one line of presets per level.
 pub fn pareto_svg(rows: &[BenchRow], size_px: [u32; 2], axis: AccuracyAxis) -> String {
     let shown: Vec<&BenchRow> = rows.iter().filter(|row| row.size_px == size_px && row.kind.costs_accuracy()).collect();
     let mut panels: Vec<(&str, Vec<&str>)> = Vec::new();
@@ -89,7 +89,7 @@ pub fn pareto_svg(rows: &[BenchRow], size_px: [u32; 2], axis: AccuracyAxis) -> S
     grid(&title, &legend(), &charts, 3.min(charts.len().max(1)), PANEL_PX)
 }
 
-/// The scene of which a scene is a level of detail, or the scene.
+/// The panel of a scene: the name without its level of detail.
 fn panel_of(scene: &str) -> &str {
     match scene.rsplit_once(' ') {
         Some((name, level)) if level.starts_with(|c: char| c.is_ascii_digit()) => name,
@@ -115,11 +115,11 @@ fn legend() -> Vec<LegendEntry> {
     };
     let mut entries: Vec<LegendEntry> =
         KnobKind::VARIANTS.iter().copied().filter(|kind| kind.costs_accuracy()).map(entry).collect();
-    entries.push(LegendEntry { name: "faint: beaten in both".to_owned(), color: "#dddddd", symbol: LegendSymbol::Dot });
+    entries.push(LegendEntry { name: "faint: dominated".to_owned(), color: "#dddddd", symbol: LegendSymbol::Dot });
     entries
 }
 
-/// The variants of a scene in the order of their rows.
+/// The variants of a scene, in the order of their rows.
 fn points(rows: &[&BenchRow], scene: &str, axis: AccuracyAxis) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::new();
     for row in rows.iter().filter(|row| row.scene == scene) {
@@ -131,7 +131,7 @@ fn points(rows: &[&BenchRow], scene: &str, axis: AccuracyAxis) -> Vec<Point> {
         let cameras: Vec<&&BenchRow> = rows.iter().filter(of_variant).collect();
         let mean =
             |value: &dyn Fn(&BenchRow) -> f64| cameras.iter().map(|row| value(row)).sum::<f64>() / cameras.len() as f64;
-        let (ms, value) = (mean(&|row| ms(row.timed.median).ln()).exp(), mean(&|row| axis.of(row)));
+        let (ms, value) = (mean(&|row| ms(row.timing.median).ln()).exp(), mean(&|row| axis.of(row)));
         points.push(Point { kind: row.kind, variant: row.variant.clone(), ms, value, is_dominated: false });
     }
     let beats = |a: &Point, b: &Point| {
@@ -143,9 +143,9 @@ fn points(rows: &[&BenchRow], scene: &str, axis: AccuracyAxis) -> Vec<Point> {
     points
 }
 
-/// Presets and knobs of one scene.
+/// The chart of one scene: presets and knobs.
 fn knobs_chart(title: &str, points: &[Point], axis: AccuracyAxis) -> Chart {
-    let mut chart = Chart::new(title, Axis::logarithmic("ms a frame"), axis.of_plot());
+    let mut chart = Chart::new(title, Axis::logarithmic("ms per frame"), axis.of_plot());
     for &kind in KnobKind::VARIANTS.iter().rev() {
         let of_kind: Vec<&Point> = points.iter().filter(|point| point.kind == kind).collect();
         let mark = |(idx, point): (usize, &&Point)| match kind {
@@ -164,10 +164,11 @@ fn knobs_chart(title: &str, points: &[Point], axis: AccuracyAxis) -> Chart {
     chart
 }
 
-/// A line through the presets of each level of detail; the first level's presets and all levels have their names.
+/// The chart of a scene with levels of detail: one line through the presets of each level. The presets of the first
+/// level and all levels are labeled.
 fn levels_chart(name: &str, scenes: &[&str], rows: &[&BenchRow], axis: AccuracyAxis) -> Chart {
     let title = format!("{name}, {} levels of detail", scenes.len());
-    let mut chart = Chart::new(&title, Axis::logarithmic("ms a frame"), axis.of_plot());
+    let mut chart = Chart::new(&title, Axis::logarithmic("ms per frame"), axis.of_plot());
     for (level_idx, scene) in scenes.iter().enumerate() {
         let presets: Vec<Point> =
             points(rows, scene, axis).into_iter().filter(|point| point.kind == KnobKind::Preset).collect();

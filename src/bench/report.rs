@@ -3,8 +3,8 @@ use std::time::Duration;
 
 use super::{BenchRow, KnobKind};
 
-/// The rows as CSV with a header; times in ms, `times_color` of outputs alone, `psnr_db` against the spec image or, for
-/// free knobs, against `standard`.
+/// The rows as CSV with a header. Times are in ms; `times_color` is empty except for outputs; `psnr_db` is against the
+/// spec image, for free knobs against `standard`.
 pub fn to_csv(rows: &[BenchRow]) -> String {
     let mut csv = String::from(
         "scene,camera,width,height,kind,variant,threads,median_ms,min_ms,max_ms,project_ms,sort_ms,bin_ms,blend_ms,\
@@ -15,10 +15,10 @@ pub fn to_csv(rows: &[BenchRow]) -> String {
 }
 
 fn line(row: &BenchRow) -> String {
-    let (times, counts, [low, high]) = (&row.timed.stats.times, &row.timed.stats.counts, row.timed.range);
-    let times = [row.timed.median, low, high, times.project, times.sort, times.bin, times.blend];
+    let (times, counts, [low, high]) = (&row.timing.stats.times, &row.timing.stats.counts, row.timing.range);
+    let times = [row.timing.median, low, high, times.project, times.sort, times.bin, times.blend];
     let times: Vec<String> = times.iter().map(|time| format!("{:.3}", ms(*time))).collect();
-    // What is not known is left empty.
+    // Unknown values are empty.
     let known = |value: f64, decimals: usize| {
         if value.is_nan() { String::new() } else { format!("{value:.decimals$}") }
     };
@@ -43,8 +43,9 @@ fn line(row: &BenchRow) -> String {
     )
 }
 
-/// Markdown: a table of the presets, one line a scene and size with the median time over the cameras and the worst
-/// camera's figures; presets that another beats; a table of the outputs; and what the free knobs lost.
+/// Markdown: a table of the presets, one line per scene, size and preset, with the median time over the cameras and the
+/// accuracy of the worst camera; presets that another dominates; a table of the outputs; and how many pictures of free
+/// knobs are equal.
 pub fn to_table(rows: &[BenchRow]) -> String {
     let of_kind = |kind: KnobKind| rows.iter().filter(|row| row.kind == kind).collect::<Vec<&BenchRow>>();
     let (presets, outputs, free) = (of_kind(KnobKind::Preset), of_kind(KnobKind::Output), of_kind(KnobKind::Free));
@@ -53,11 +54,11 @@ pub fn to_table(rows: &[BenchRow]) -> String {
     let found = if dominated.is_empty() { "none".to_owned() } else { dominated.join("; ") };
     let num_equal = free.iter().filter(|row| row.difference.psnr_db == f64::INFINITY).count();
     // Writing to a string cannot fail.
-    let _ = writeln!(table, "\nPresets that another of the same scene and size beats in time and PSNR: {found}.\n");
+    let _ = writeln!(table, "\nPresets that another of the same scene and size dominates in time and PSNR: {found}.\n");
     table.push_str(&outputs_table(&outputs));
     let _ = writeln!(
         table,
-        "\nFree knobs (threads, instruction sets): {num_equal} of {} pictures equal to those of `standard` to the bit.",
+        "\nFree knobs (threads, instruction sets): {num_equal} of {} pictures equal those of `standard` bit by bit.",
         free.len()
     );
     table
@@ -65,9 +66,9 @@ pub fn to_table(rows: &[BenchRow]) -> String {
 
 fn presets_table(presets: &[&BenchRow]) -> String {
     let mut table = String::from(
-        "Times are those of pictures in eight bits, as films take them; decibels, similarity and worst pixel are those of \
-         the same pictures as numbers.\n\n\
-         | scene | size | preset | ms a frame | PSNR, dB | SSIM | worst pixel |\n|---|---|---|---|---|---|---|\n",
+        "Times are those of 8-bit pictures, as in films; PSNR, SSIM and worst pixel are those of the same pictures in \
+         `f32`.\n\n\
+         | scene | size | preset | ms per frame | PSNR, dB | SSIM | worst pixel |\n|---|---|---|---|---|---|---|\n",
     );
     for group in groups(presets) {
         let least = |value: fn(&BenchRow) -> f64| group.iter().map(|row| value(row)).fold(f64::INFINITY, f64::min);
@@ -76,7 +77,7 @@ fn presets_table(presets: &[&BenchRow]) -> String {
             table,
             "| {} | {:.1} | {:.1} | {:.4} | {worst:.3} |",
             cells(group[0]),
-            median(group.iter().map(|row| ms(row.timed.median))),
+            median(group.iter().map(|row| ms(row.timing.median))),
             least(|row| row.difference.psnr_db),
             least(|row| row.difference.ssim),
         );
@@ -86,30 +87,30 @@ fn presets_table(presets: &[&BenchRow]) -> String {
 
 fn outputs_table(outputs: &[&BenchRow]) -> String {
     let mut table = String::from(
-        "Outputs at `standard`; the factor is against color as numbers, rendered in turn with the output.\n\n\
-         | scene | size | output | ms a frame | x color |\n|---|---|---|---|---|\n",
+        "Outputs at `standard`; the factor is the time over that of color in `f32`, rendered in turn with the output.\n\n\
+         | scene | size | output | ms per frame | x color |\n|---|---|---|---|---|\n",
     );
     for group in groups(outputs) {
         let _ = writeln!(
             table,
             "| {} | {:.1} | {:.2} |",
             cells(group[0]),
-            median(group.iter().map(|row| ms(row.timed.median))),
+            median(group.iter().map(|row| ms(row.timing.median))),
             median(group.iter().filter_map(|row| row.times_color)),
         );
     }
     table
 }
 
-/// Scene, size and variant as cells of a table.
+/// Scene, size and variant as table cells.
 fn cells(row: &BenchRow) -> String {
     format!("{} | {}x{} | {}", row.scene, row.size_px[0], row.size_px[1], row.variant)
 }
 
-/// Presets of which another of the same scene and size takes no longer and is no farther off.
+/// Presets that another preset of the same scene and size dominates: it takes no longer and is at least as accurate.
 fn dominated(presets: &[&BenchRow]) -> Vec<String> {
     let groups = groups(presets);
-    let time = |group: &[&BenchRow]| median(group.iter().map(|row| ms(row.timed.median)));
+    let time = |group: &[&BenchRow]| median(group.iter().map(|row| ms(row.timing.median)));
     let psnr_db = |group: &[&BenchRow]| group.iter().map(|row| row.difference.psnr_db).fold(f64::INFINITY, f64::min);
     let beats = |a: &[&BenchRow], b: &[&BenchRow]| {
         let is_same = (&a[0].scene, a[0].size_px) == (&b[0].scene, b[0].size_px) && a[0].variant != b[0].variant;
@@ -124,14 +125,14 @@ fn dominated(presets: &[&BenchRow]) -> Vec<String> {
         .collect()
 }
 
-/// The middle value, the upper of two; 0 of none.
+/// The median, the upper one of two middle values; 0 for no values.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Rows of one scene, size and variant together, in the order of their first; none is empty.
+/// Groups of rows with the same scene, size and variant, in order of first appearance. No group is empty.
 fn groups<'a>(rows: &[&'a BenchRow]) -> Vec<Vec<&'a BenchRow>> {
     let mut groups: Vec<Vec<&BenchRow>> = Vec::new();
     let key = |row: &BenchRow| (row.scene.clone(), row.size_px, row.variant.clone());

@@ -1,8 +1,8 @@
-//! How cost grows with the work: Gaussians, pixels, layers of splats over each other, one growing while the others
+//! How time and memory grow with the number of Gaussians, of pixels and of overlapping layers; one grows, the others
 //! stay.
 //!
-//! Enters: a scene to tile and one [`ScalingCase`]. Leaves: a [`ScalingRow`] with time, counts and memory. A case
-//! should have a process of its own: what an earlier one gave back would hide what this one takes.
+//! Enters: a scene to tile and one [`ScalingCase`]. Leaves: a [`ScalingRow`] with time, counters and memory. Run each
+//! case in a process of its own: memory that an earlier case has freed would hide the memory that a later one takes.
 
 use std::fmt::Write as _;
 
@@ -15,13 +15,13 @@ use cinesplat_plot::{Axis, COLORS, Chart, LegendEntry, LegendSymbol, Marker, Ser
 use cinesplat_render::{RenderError, RenderSettings, Renderer, memory_target_bytes};
 use cinesplat_scene::{Bounds, Gaussians, NUM_SH_REST};
 
-/// Gaussians of one tile of a tiled scene, at most.
+/// Maximum number of Gaussians per copy in a tiled scene.
 const TILE_LEN: usize = 10_000;
-/// The picture where it does not grow.
+/// Size of the picture, except in [`Growth::Pixels`].
 const SIZE_PX: [u32; 2] = [1280, 720];
 const FOV_Y_RAD: f64 = 0.9;
 
-/// What grows.
+/// The quantity that grows.
 #[derive(
     Debug,
     Clone,
@@ -37,42 +37,43 @@ const FOV_Y_RAD: f64 = 0.9;
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Growth {
-    /// Gaussians: more and more copies of a scene side by side, seen whole.
+    /// Gaussians: more and more copies of a scene side by side, all in view.
     Gaussians,
-    /// Pixels of one picture.
+    /// Pixels of the picture.
     Pixels,
-    /// Faint layers that each cover the picture.
+    /// Faint layers of splats, each covering the picture.
     Overdraw,
 }
 
-/// One size of the work.
+/// One amount of work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ScalingCase {
-    /// What grows.
+    /// The quantity that grows.
     pub growth: Growth,
-    /// To how many Gaussians, rows of pixels or layers.
+    /// Its value: number of Gaussians, of rows of pixels, or of layers.
     pub value: u64,
 }
 
-/// What one size of the work cost.
+/// Time and memory of one case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScalingRow {
-    /// Which.
+    /// The case.
     pub case: ScalingCase,
     /// Gaussians in the scene.
     pub num_gaussians: u64,
     /// Pixels of the picture.
     pub num_pixels: u64,
-    /// Time and work.
-    pub timed: Timing,
-    /// Bytes of the renderer's buffers and the picture, counted.
+    /// Times and counters.
+    pub timing: Timing,
+    /// Bytes of the renderer's buffers and the picture, by the renderer's own count.
     pub held_bytes: u64,
-    /// Growth of the process's peak memory while renderer and pictures were made; `None` where the system does not say.
+    /// Growth of the peak memory of the process while renderer and pictures were made; `None` if the system does not
+    /// report it.
     pub peak_bytes: Option<u64>,
 }
 
 impl Growth {
-    /// The sizes to measure, ascending.
+    /// The values to measure, ascending.
     pub fn values(self) -> &'static [u64] {
         match self {
             Self::Gaussians => &[10_000, 30_000, 100_000, 300_000, 1_000_000, 2_000_000, 4_000_000],
@@ -83,7 +84,7 @@ impl Growth {
 }
 
 impl ScalingCase {
-    /// The scene of this case, made of copies of `base`, and the camera that sees all of it.
+    /// The scene of this case, made of copies of `base`, and a camera that sees all of it.
     fn scene(self, base: &Gaussians) -> (Gaussians, Camera) {
         let [width, height] = SIZE_PX;
         match self.growth {
@@ -94,10 +95,10 @@ impl ScalingCase {
     }
 }
 
-/// Renders one case with a renderer of its own, `num_repeats` times and once to warm up.
+/// Measures one case with a renderer of its own: one warm-up run and `num_repeats` timed runs.
 ///
 /// # Errors
-/// As [`Renderer::render`].
+/// Those of [`Renderer::render`].
 pub fn measure(
     case: ScalingCase,
     base: &Gaussians,
@@ -107,20 +108,20 @@ pub fn measure(
     let (scene, camera) = case.scene(base);
     let before = process_memory::reset_peak();
     let renderer = Renderer::new(&scene);
-    let timed = time(&renderer, &camera, (settings, num_repeats))?;
+    let timing = time(&renderer, &camera, (settings, num_repeats))?;
     let peak_bytes = before.and_then(|before| Some(process_memory::peak()?.saturating_sub(before)));
     let num_pixels = u64::from(camera.intrinsics.width) * u64::from(camera.intrinsics.height);
     Ok(ScalingRow {
         case,
         num_gaussians: scene.len() as u64,
         num_pixels,
-        timed,
+        timing,
         held_bytes: renderer.memory_bytes() + num_pixels * 4 * size_of::<f32>() as u64,
         peak_bytes,
     })
 }
 
-/// `len` Gaussians: every few of `base`, copied side by side; and the camera before them.
+/// A scene of `len` Gaussians (copies of a subset of `base`, side by side) and a camera in front of it.
 fn tiled(base: &Gaussians, len: usize, size_px: [u32; 2]) -> (Gaussians, Camera) {
     let step = base.len().div_ceil(TILE_LEN).max(1);
     let tile: Vec<usize> = (0..base.len()).step_by(step).collect();
@@ -148,7 +149,7 @@ fn tiled(base: &Gaussians, len: usize, size_px: [u32; 2]) -> (Gaussians, Camera)
     (scene, camera(size_px, bounds.center() - back))
 }
 
-/// Layers of faint splats behind each other, each of 32 x 18 that together cover the picture.
+/// Layers of faint splats, one behind the other; each layer covers the picture with 32 x 18 splats.
 fn layers(num_layers: usize) -> Gaussians {
     let mut scene = Gaussians::default();
     for layer in 0..num_layers {
@@ -167,13 +168,13 @@ fn layers(num_layers: usize) -> Gaussians {
     scene
 }
 
-/// A camera that looks along z.
+/// A camera that looks along +z.
 fn camera([width, height]: [u32; 2], position: DVec3) -> Camera {
     Camera { pose: Pose::new(position, DQuat::IDENTITY), intrinsics: Intrinsics::from_fov_y(width, height, FOV_Y_RAD) }
 }
 
 impl ScalingRow {
-    /// What the renderer may hold for this scene and picture.
+    /// Memory target of the renderer for this scene and picture; see [`memory_target_bytes`].
     pub fn allowed_bytes(&self) -> u64 {
         memory_target_bytes(self.num_gaussians, self.num_pixels)
     }
@@ -185,8 +186,8 @@ pub const CSV_HEADER: &str = "growth,value,gaussians,pixels,median_ms,min_ms,max
 
 /// The row as a line of CSV.
 pub fn csv_line(row: &ScalingRow) -> String {
-    let (times, counts, [low, high]) = (&row.timed.stats.times, &row.timed.stats.counts, row.timed.range);
-    let times = [row.timed.median, low, high, times.project, times.sort, times.bin, times.blend];
+    let (times, counts, [low, high]) = (&row.timing.stats.times, &row.timing.stats.counts, row.timing.range);
+    let times = [row.timing.median, low, high, times.project, times.sort, times.bin, times.blend];
     let times: Vec<String> = times.iter().map(|time| format!("{:.3}", ms(*time))).collect();
     let mut line = format!("{},{},{},{},", row.case.growth.as_ref(), row.case.value, row.num_gaussians, row.num_pixels);
     // Writing to a string cannot fail.
@@ -204,7 +205,8 @@ pub fn csv_line(row: &ScalingRow) -> String {
     line
 }
 
-/// Time against each kind of work, and memory against what is allowed, from the lines of a CSV with [`CSV_HEADER`].
+/// Plots as SVG, from the lines of a CSV with [`CSV_HEADER`]: time against each quantity, and memory against its
+/// target.
 pub fn scaling_svg(csv: &str) -> String {
     let column = |name: &str| CSV_HEADER.trim_end().split(',').position(|column| column == name).unwrap_or(0);
     let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
@@ -223,9 +225,9 @@ pub fn scaling_svg(csv: &str) -> String {
     let times: Vec<(&str, &'static str)> = stages.into_iter().zip([7, 1, 2, 3, 4].map(|idx| COLORS[idx])).collect();
     let memory = [("held_bytes", COLORS[5]), ("allowed_bytes", COLORS[6])];
     let charts = [
-        chart("Gaussians grow, 1280 x 720 pixels", (Growth::Gaussians, "gaussians"), "ms a frame", &times),
-        chart("Pixels grow, 100,000 Gaussians", (Growth::Pixels, "pixels"), "ms a frame", &times),
-        chart("Layers grow, 1280 x 720 pixels", (Growth::Overdraw, "block_blends"), "ms a frame", &times),
+        chart("Gaussians grow, 1280 x 720 pixels", (Growth::Gaussians, "gaussians"), "ms per frame", &times),
+        chart("Pixels grow, 100,000 Gaussians", (Growth::Pixels, "pixels"), "ms per frame", &times),
+        chart("Layers grow, 1280 x 720 pixels", (Growth::Overdraw, "block_blends"), "ms per frame", &times),
         chart("Memory beyond the scene, bytes", (Growth::Gaussians, "gaussians"), "bytes", &memory),
     ];
     let names = ["whole frame", "project", "sort", "bin", "blend", "held", "allowed"];
@@ -236,17 +238,17 @@ pub fn scaling_svg(csv: &str) -> String {
     grid("Time and memory against work", &entries, &charts, 2, [420.0, 290.0])
 }
 
-/// The process's memory as Linux tells it.
+/// Memory of the process, as Linux reports it.
 mod process_memory {
     use std::fs;
 
-    /// Sets the peak back to what is resident now, which is returned; `None` where that cannot be done.
+    /// Resets the peak to the resident memory and returns it; `None` if the system does not support that.
     pub(super) fn reset_peak() -> Option<u64> {
         fs::write("/proc/self/clear_refs", "5").ok()?;
         peak()
     }
 
-    /// The most that was resident at once, bytes.
+    /// Peak resident memory, bytes.
     pub(super) fn peak() -> Option<u64> {
         let status = fs::read_to_string("/proc/self/status").ok()?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

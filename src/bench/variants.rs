@@ -2,7 +2,7 @@ use super::RenderOutput;
 use cinesplat_render::{Accuracy, InstructionSet, Precision, Quality, RenderSettings};
 use strum::VariantArray;
 
-/// What a variant turns.
+/// The knob that a variant sets.
 #[derive(
     Debug,
     Clone,
@@ -20,57 +20,57 @@ use strum::VariantArray;
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum KnobKind {
-    /// A preset.
+    /// The preset.
     Preset,
-    /// The least opacity that counts, all else as `final`.
+    /// The alpha cut; everything else as `final`.
     AlphaCut,
-    /// Where blending stops, all else as `final`.
+    /// The transmittance stop; everything else as `final`.
     TransmittanceStop,
-    /// The size rendered before enlarging, all else as `final`.
+    /// The resolution before enlarging; everything else as `final`.
     Resolution,
-    /// Precision of the blending loop, all else as `final`.
+    /// The precision of the blending loop; everything else as `final`.
     Precision,
-    /// What a picture is asked for, all else as `standard`.
+    /// The output; everything else as `standard`.
     Output,
-    /// What must change no bit, all else as `standard`.
+    /// A knob that must not change any bit; everything else as `standard`.
     Free,
 }
 
 impl KnobKind {
-    /// Whether it trades accuracy for time.
+    /// Whether the knob trades accuracy for time.
     pub fn costs_accuracy(self) -> bool {
         !matches!(self, Self::Output | Self::Free)
     }
 }
 
-/// Settings to be measured.
+/// One setting of the renderer to measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
-    /// What the pictures are asked for.
+    /// The output that is timed.
     pub output: RenderOutput,
-    /// What it turns.
+    /// The knob.
     pub kind: KnobKind,
-    /// How far.
+    /// Value of the knob, for tables.
     pub name: String,
-    /// The settings.
+    /// The render settings.
     pub settings: RenderSettings,
-    /// Threads, in place of those of the current pool.
+    /// Number of threads; `None` for those of the current pool.
     pub num_threads: Option<usize>,
-    /// Whether it takes so long that one run on the first camera has to do.
+    /// Whether it is so slow that it is measured once, with the first camera.
     pub is_slow: bool,
 }
 
-/// A variant of color in eight bits on the threads there are.
-fn of(kind: KnobKind, name: String, settings: RenderSettings) -> Variant {
-    Variant { output: RenderOutput::Levels, kind, name, settings, num_threads: None, is_slow: false }
+/// A variant that times 8-bit color on the current threads.
+fn variant_of(kind: KnobKind, name: String, settings: RenderSettings) -> Variant {
+    Variant { output: RenderOutput::Rgb8, kind, name, settings, num_threads: None, is_slow: false }
 }
 
-/// All presets but `reference`, every knob alone, the outputs, and the knobs that must be free; filter, near plane and
-/// the like as in `base`.
+/// All presets except `reference`, every knob alone, the outputs, and the free knobs. All other settings are those of
+/// `base`.
 pub fn variants(base: &RenderSettings) -> Vec<Variant> {
     let mut all = presets(base);
     let knob = |kind, name, accuracy| {
-        of(kind, name, RenderSettings { quality: Quality::Final, accuracy: Some(accuracy), ..*base })
+        variant_of(kind, name, RenderSettings { quality: Quality::Final, accuracy: Some(accuracy), ..*base })
     };
     for divisor in [1024, 512, 192, 128, 64, 32] {
         let accuracy = Accuracy { alpha_cut: 1.0 / f64::from(divisor), ..Accuracy::SPEC };
@@ -95,25 +95,26 @@ pub fn variants(base: &RenderSettings) -> Vec<Variant> {
     all
 }
 
-/// All presets but `reference`.
+/// All presets except `reference`. All other settings are those of `base`.
 pub fn presets(base: &RenderSettings) -> Vec<Variant> {
     let preset = |quality: Quality| {
-        of(KnobKind::Preset, quality.as_ref().to_owned(), RenderSettings { quality, accuracy: None, ..*base })
+        variant_of(KnobKind::Preset, quality.as_ref().to_owned(), RenderSettings { quality, accuracy: None, ..*base })
     };
     [Quality::Draft, Quality::Standard, Quality::Final].map(preset).to_vec()
 }
 
-/// What a picture may be asked for.
+/// One variant per output.
 fn outputs(base: &RenderSettings) -> Vec<Variant> {
     let settings = RenderSettings { quality: Quality::Standard, accuracy: None, ..*base };
-    let asked = |output: RenderOutput| Variant { output, ..of(KnobKind::Output, output.as_ref().to_owned(), settings) };
-    RenderOutput::VARIANTS.iter().copied().map(asked).collect()
+    let variant =
+        |output: RenderOutput| Variant { output, ..variant_of(KnobKind::Output, output.as_ref().to_owned(), settings) };
+    RenderOutput::VARIANTS.iter().copied().map(variant).collect()
 }
 
-/// What may change time and must change no bit.
+/// Knobs that may change the time and must not change any bit.
 fn free(base: &RenderSettings) -> Vec<Variant> {
     let standard = RenderSettings { quality: Quality::Standard, accuracy: None, ..*base };
-    let as_standard = |name: &str| of(KnobKind::Free, name.to_owned(), standard);
+    let as_standard = |name: &str| variant_of(KnobKind::Free, name.to_owned(), standard);
     let mut anew = as_standard("order anew");
     anew.settings.reuses_order = false;
     let on_threads = |num_threads: usize| {

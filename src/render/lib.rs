@@ -12,15 +12,14 @@
 //! # Example
 //!
 //! ```no_run
-//! use cinesplat_geometry::{Camera, Intrinsics, Pose};
+//! use cinesplat_render::geometry::{Camera, Intrinsics, Pose};
+//! use cinesplat_render::scene::{LoadOptions, load};
 //! use cinesplat_render::{Quality, RenderSettings, Renderer};
-//! use cinesplat_scene::LoadOptions;
-//! use glam::DVec3;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let scene = cinesplat_scene::load("room.ply".as_ref(), &LoadOptions::default())?;
+//! let scene = load("room.ply".as_ref(), &LoadOptions::default())?;
 //! let target = scene.bounds().center();
-//! let eye = target - 0.5 * scene.bounds().size() * DVec3::Z;
+//! let eye = target - 0.5 * scene.bounds().size() * scene.up.any_orthonormal_vector();
 //! let camera = Camera {
 //!     pose: Pose::look_at(eye, target, scene.up, None)?,
 //!     intrinsics: Intrinsics::from_fov_y(1280, 720, 50_f64.to_radians()),
@@ -115,9 +114,9 @@ pub use settings::{Accuracy, ColorClamp, Limits, Precision, Quality, RenderSetti
 pub use stats::{RenderStats, StageTimes, WorkCounts};
 pub use weights::PixelWeight;
 
-/// Poses and cameras.
+/// The crate of poses and cameras.
 pub use cinesplat_geometry as geometry;
-/// The scenes that are rendered.
+/// The crate of scenes: Gaussians and their file formats.
 pub use cinesplat_scene as scene;
 
 use view::View;

@@ -1,13 +1,14 @@
-//! Pictures rendered in bands because the whole would take too much memory.
+//! Pictures that are rendered in bands to stay within the memory limit.
 
 use cinesplat::render::{Frame, Limits, Quality, RenderSettings, Renderer, Rgb8Frame};
 
 use super::scenes::{camera, crowd};
 
-/// Caps under which more is projected than without: groups seen in two bands count twice.
+/// Settings with memory limits that lead to bands, and their frames. With bands more Gaussians are projected, because
+/// groups that are visible in two bands count twice.
 fn with_bands(renderer: &Renderer<'_>, settings: &RenderSettings, whole: &Frame) -> Vec<(RenderSettings, Frame)> {
-    let caps = (0..60).map(|step| (f64::from(15 << 20) * 0.996_f64.powi(step)) as u64);
-    let rendered = caps.filter_map(|max_memory_bytes| {
+    let limits = (0..60).map(|step| (f64::from(15 << 20) * 0.996_f64.powi(step)) as u64);
+    let rendered = limits.filter_map(|max_memory_bytes| {
         let limits = Limits { max_memory_bytes, ..Limits::default() };
         let settings = RenderSettings { limits, ..*settings };
         Some((settings, renderer.render(&camera(640, 360), &settings).ok()?))
@@ -16,7 +17,7 @@ fn with_bands(renderer: &Renderer<'_>, settings: &RenderSettings, whole: &Frame)
 }
 
 #[test]
-fn a_picture_in_bands_is_the_whole_picture_to_the_bit() {
+fn a_picture_in_bands_equals_the_whole_picture_bit_by_bit() {
     let scene = crowd(60_000, 23);
     let renderer = Renderer::new(&scene);
     let labels: Vec<u16> = (0..scene.len()).map(|idx| (idx % 5) as u16).collect();
@@ -26,7 +27,7 @@ fn a_picture_in_bands_is_the_whole_picture_to_the_bit() {
         let whole = renderer.render(&view, &settings).unwrap();
         let (depth, ids) = (renderer.depth(&view, &settings).unwrap(), renderer.object_ids(&view, &settings, &labels));
         let banded = with_bands(&renderer, &settings, &whole);
-        assert!(!banded.is_empty(), "no cap led to bands");
+        assert!(!banded.is_empty(), "no limit led to bands");
         for (_, frame) in &banded {
             assert!(frame.rgb == whole.rgb && frame.transmittance == whole.transmittance, "{}", quality.as_ref());
             assert_eq!(frame.stats.counts.num_pairs, whole.stats.counts.num_pairs);
@@ -42,14 +43,14 @@ fn a_picture_in_bands_is_the_whole_picture_to_the_bit() {
 }
 
 #[test]
-fn a_picture_takes_a_hundred_bytes_a_gaussian_and_sixty_four_a_pixel_at_most() {
+fn a_picture_takes_at_most_100_bytes_per_gaussian_and_64_per_pixel() {
     let scene = crowd(150_000, 24);
     let renderer = Renderer::new(&scene);
     let (width, height) = (640, 360);
     for quality in [Quality::Standard, Quality::Final] {
         let settings = RenderSettings { quality, ..RenderSettings::default() };
         let frame = renderer.render(&camera(width, height), &settings).unwrap();
-        assert!(frame.stats.counts.num_splats > 100_000, "most of the scene is seen");
+        assert!(frame.stats.counts.num_splats > 100_000, "most of the scene is visible");
         let num_pixels = u64::from(width * height);
         let held_bytes = renderer.memory_bytes() + num_pixels * 16;
         assert!(held_bytes <= 100 * scene.len() as u64 + 64 * num_pixels, "{held_bytes} bytes");

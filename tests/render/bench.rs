@@ -1,4 +1,4 @@
-//! The bench of the renderer: rows for every camera and variant, knobs that must be free are free.
+//! The benchmark of the renderer: one row per camera and variant; free knobs change no bit.
 
 use cinesplat::render::{Frame, RenderSettings, Renderer};
 use cinesplat_bench::{
@@ -20,7 +20,7 @@ fn rows() -> Vec<BenchRow> {
 }
 
 #[test]
-fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
+fn presets_are_ordered_by_accuracy_and_free_knobs_change_no_bit() {
     let rows = rows();
     let db = |variant: &str| rows.iter().find(|row| row.variant == variant).unwrap().difference.psnr_db;
     assert!(db("final") > 60.0 && db("final") > db("standard") && db("standard") > db("draft"));
@@ -32,13 +32,15 @@ fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
         assert_eq!(row.difference.psnr_db, f64::INFINITY, "{}", row.variant);
         assert!(row.difference.worst == 0.0 && (row.difference.ssim - 1.0).abs() < 1e-12, "{}", row.variant);
     }
-    assert!(rows.iter().all(|row| row.timed.range[0] <= row.timed.median && row.timed.median <= row.timed.range[1]));
+    assert!(
+        rows.iter().all(|row| row.timing.range[0] <= row.timing.median && row.timing.median <= row.timing.range[1])
+    );
     let csv = to_csv(&rows);
     assert_eq!(csv.lines().count(), rows.len() + 1);
     assert!(csv.lines().all(|line| line.split(',').count() == 22), "{csv}");
     let table = to_table(&rows);
     assert!(table.contains("| crowd | 96x54 | draft |") && table.contains("13 of 13 pictures equal"), "{table}");
-    // A slow variant is measured on the first camera alone.
+    // A slow variant is measured with the first camera only.
     assert_eq!(rows.iter().filter(|row| row.variant == "scalar").count(), 1);
     let outputs: Vec<&BenchRow> = rows.iter().filter(|row| row.kind == KnobKind::Output).collect();
     assert_eq!(outputs.len(), 2 * RenderOutput::VARIANTS.len());
@@ -51,16 +53,16 @@ fn rows_order_presets_by_accuracy_and_free_knobs_lose_nothing() {
 }
 
 #[test]
-fn a_preset_that_another_beats_is_named() {
+fn a_dominated_preset_is_named() {
     let mut rows: Vec<BenchRow> = rows().into_iter().filter(|row| row.kind == KnobKind::Preset).collect();
     let at = |rows: &mut Vec<BenchRow>, variant: &str, ms: u64| {
         let of_variant = rows.iter_mut().filter(|row| row.variant == variant);
-        of_variant.for_each(|row| row.timed.median = std::time::Duration::from_millis(ms));
+        of_variant.for_each(|row| row.timing.median = std::time::Duration::from_millis(ms));
     };
     at(&mut rows, "draft", 10);
     at(&mut rows, "standard", 20);
     at(&mut rows, "final", 30);
-    assert!(to_table(&rows).contains("beats in time and PSNR: none."), "{}", to_table(&rows));
+    assert!(to_table(&rows).contains("dominates in time and PSNR: none."), "{}", to_table(&rows));
     at(&mut rows, "draft", 21);
     assert!(to_table(&rows).contains("crowd at 96x54: draft by standard."), "{}", to_table(&rows));
 }
@@ -73,9 +75,9 @@ fn picture(value: impl Fn(usize, usize) -> f32) -> Frame {
 }
 
 #[test]
-fn differences_of_flat_pictures_are_those_of_the_formulas() {
+fn differences_of_flat_pictures_equal_the_formulas() {
     let apart = difference(&picture(|_, _| 0.5), &picture(|_, _| 0.6));
-    // Without variance the similarity is (2 a b + C1) / (a^2 + b^2 + C1).
+    // Without variance the SSIM is (2 a b + C1) / (a^2 + b^2 + C1).
     assert!((apart.ssim - (0.6 + 1e-4) / (0.25 + 0.36 + 1e-4)).abs() < 1e-6, "{apart:?}");
     assert!((apart.psnr_db - 20.0).abs() < 1e-4 && (apart.worst - 0.1).abs() < 1e-6, "{apart:?}");
     let one_dot = difference(&picture(|x, y| f32::from(u8::from((x, y) == (12, 8)))), &picture(|_, _| 0.0));
@@ -83,7 +85,7 @@ fn differences_of_flat_pictures_are_those_of_the_formulas() {
 }
 
 #[test]
-fn similarity_is_that_of_a_sum_over_the_window_written_out() {
+fn ssim_equals_a_direct_sum_over_the_window() {
     let wave = |x: usize, y: usize| 0.5 + 0.4 * ((x * 7 + y * 13) as f32 * 0.61).sin();
     let other = |x: usize, y: usize| 0.45 + 0.35 * ((x * 7 + y * 13) as f32 * 0.61 + 0.3).sin();
     let found = difference(&picture(wave), &picture(other)).ssim;
@@ -112,7 +114,7 @@ fn scaling_counts_what_it_renders() {
     let few = case(scaling::Growth::Gaussians, 1_000);
     let many = case(scaling::Growth::Gaussians, 8_000);
     assert_eq!((few.num_gaussians, many.num_gaussians), (1_000, 8_000));
-    assert!(many.timed.stats.counts.num_splats > 4 * few.timed.stats.counts.num_splats);
+    assert!(many.timing.stats.counts.num_splats > 4 * few.timing.stats.counts.num_splats);
     let small = case(scaling::Growth::Pixels, 90);
     assert_eq!(small.num_pixels, 160 * 90);
     let csv = format!("{}{}{}", scaling::CSV_HEADER, scaling::csv_line(&few), scaling::csv_line(&small));

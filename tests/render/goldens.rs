@@ -1,4 +1,4 @@
-//! The golden pictures of `../shared/data/golden`: an independent `f64` renderer without tiles made them.
+//! The golden pictures of `../shared/data/golden`, made by an independent `f64` renderer without tiles.
 
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::render::{Quality, RenderSettings, Renderer};
@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 use super::pictures::{golden_set, npy, psnr_db};
 use crate::support;
 
-/// Least PSNR in dB over the cameras of a golden set, color and transmittance.
+/// Smallest PSNR in dB over the cameras of a golden set, for color and for transmittance.
 fn worst_psnr_db(set: &str, quality: Quality) -> Option<(f64, f64)> {
     let folder = support::shared("data/golden")?;
     let golden = golden_set(&folder.join(format!("{set}.cameras.json")));
@@ -28,11 +28,11 @@ fn worst_psnr_db(set: &str, quality: Quality) -> Option<(f64, f64)> {
 fn assert_reaches(set: &str, quality: Quality, least_db: f64) {
     let Some((color, transmittance)) = worst_psnr_db(set, quality) else { return };
     eprintln!("{set} {}: color {color:.1} dB, transmittance {transmittance:.1} dB", quality.as_ref());
-    assert!(color >= least_db, "{set} {}: color {color:.2} dB, wanted {least_db}", quality.as_ref());
+    assert!(color >= least_db, "{set} {}: color {color:.2} dB, expected {least_db}", quality.as_ref());
     assert!(transmittance >= least_db, "{set} {}: transmittance {transmittance:.2} dB", quality.as_ref());
 }
 
-/// The sets with their own scenes; the kitchen is there with both filters.
+/// The golden sets; the kitchen is in two of them, one per filter.
 const SETS: [&str; 5] = ["kitchen", "kitchen_mip", "guitar", "leica", "edge"];
 
 #[test]
@@ -43,21 +43,21 @@ fn reference_is_the_spec_image() {
 }
 
 #[test]
-fn final_is_within_60_db_of_it() {
+fn final_is_within_60_db_of_the_spec_image() {
     for set in SETS {
         assert_reaches(set, Quality::Final, 60.0);
     }
 }
 
 #[test]
-fn standard_is_within_50_db_of_it() {
+fn standard_is_within_50_db_of_the_spec_image() {
     for set in SETS {
         assert_reaches(set, Quality::Standard, 50.0);
     }
 }
 
 #[test]
-fn four_splats_are_as_the_cuda_rasterizer_drew_them() {
+fn four_splats_match_the_picture_of_the_cuda_rasterizer() {
     let Some(path) = support::shared("data/render_reference_gsplat/tiny_case.safetensors") else { return };
     let bytes = std::fs::read(path).unwrap();
     let tensors = safetensors::SafeTensors::deserialize(&bytes).unwrap();

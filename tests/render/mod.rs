@@ -1,4 +1,4 @@
-//! Tests of the renderer: golden pictures, hard cases, equal results however the work is cut.
+//! Tests of the renderer: golden pictures, hard cases, equal bits for any partition of the work.
 
 mod bands;
 mod bench;
@@ -10,4 +10,5 @@ mod per_ray;
 mod pictures;
 mod repeatable;
 mod scenes;
+mod settings;
 mod sort_modes;

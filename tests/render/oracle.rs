@@ -1,4 +1,4 @@
-//! A second renderer, written from the contract alone: `f64`, matrices, every Gaussian in every pixel.
+//! A second renderer, written from the contract alone: in `f64`, with matrices, every Gaussian in every pixel.
 
 use cinesplat::geometry::Camera;
 use cinesplat::scene::{Gaussians, SplatFilter};
@@ -80,7 +80,7 @@ fn project(scene: &Gaussians, idx: usize, camera: &Camera, filter: SplatFilter, 
     })
 }
 
-/// Spherical harmonics from associated Legendre functions, not from a table of polynomials.
+/// Spherical harmonics computed from associated Legendre functions instead of a table of polynomials.
 fn color(scene: &Gaussians, idx: usize, offset: DVec3) -> DVec3 {
     let d = offset.normalize_or_zero();
     let (cos_theta, phi) = (d.z, d.y.atan2(d.x));

@@ -1,4 +1,4 @@
-//! Depth, object ids, weights and lifting come from the weights of the picture.
+//! Depth, object ids, weights, features and lifted values agree with the blending weights of the picture.
 
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::objects;
@@ -11,7 +11,7 @@ use crate::support;
 
 const SETTINGS: fn() -> RenderSettings = || RenderSettings { quality: Quality::Final, ..RenderSettings::default() };
 
-/// Two walls across the left and the right half of the picture, the right one nearer.
+/// Two walls, across the left and the right half of the picture; the right one is nearer.
 fn walls() -> Gaussians {
     let mut scene = Gaussians::default();
     let flat = Vec3::new(0.8, 4.0, 0.01);
@@ -21,7 +21,7 @@ fn walls() -> Gaussians {
 }
 
 #[test]
-fn weights_of_a_pixel_sum_to_what_the_background_loses() {
+fn weights_of_a_pixel_sum_to_one_less_the_transmittance() {
     let scene = crowd(4_000, 11);
     let renderer = Renderer::new(&scene);
     let view = camera(150, 90);
@@ -98,7 +98,7 @@ fn lifted_weights_are_the_sums_of_the_listed_ones() {
 }
 
 #[test]
-fn labels_and_values_of_the_wrong_length_are_refused() {
+fn labels_and_values_of_the_wrong_length_are_rejected() {
     let scene = walls();
     let renderer = Renderer::new(&scene);
     let wrong = renderer.object_ids(&camera(20, 10), &SETTINGS(), &[1]).unwrap_err();
@@ -107,7 +107,7 @@ fn labels_and_values_of_the_wrong_length_are_refused() {
 }
 
 #[test]
-fn a_list_of_weights_ends_at_the_cap_with_one_error() {
+fn a_list_of_weights_above_the_memory_limit_is_an_error() {
     let scene = crowd(4_000, 17);
     let renderer = Renderer::new(&scene);
     let view = camera(150, 90);
@@ -117,21 +117,21 @@ fn a_list_of_weights_ends_at_the_cap_with_one_error() {
         let limits = Limits { max_memory_bytes, ..Limits::default() };
         renderer.weights(&view, &RenderSettings { limits, ..SETTINGS() })
     };
-    let refused = with_cap(held + (all.len() * 12) as u64 / 2).unwrap_err();
-    assert_eq!(refused.code(), "RENDER-MEMORY");
+    let error = with_cap(held + (all.len() * 12) as u64 / 2).unwrap_err();
+    assert_eq!(error.code(), "RENDER-MEMORY");
     assert_eq!(with_cap(held * 8 + (all.len() * 12 * 4) as u64).unwrap(), all);
 }
 
 #[test]
-fn features_blend_as_color_does_whatever_the_number_of_channels() {
+fn features_blend_as_colors_for_any_number_of_channels() {
     let mut scene = crowd(2_000, 18);
-    // Color without direction, so that it can be given as features.
+    // Color of degree 0, so that it can be passed as features.
     scene.sh_degree = 0;
     scene.sh_rest.clear();
     let renderer = Renderer::new(&scene);
     let view = camera(150, 90);
     let frame = renderer.render(&view, &SETTINGS()).unwrap();
-    // Nineteen channels take the blending loop twice; red, green and blue come back in three of them.
+    // Nineteen channels take two passes; three of them hold red, green and blue.
     let num_channels = 19;
     let mut features = vec![0.25_f32; scene.len() * num_channels];
     for (row, dc) in features.chunks_exact_mut(num_channels).zip(&scene.sh_dc) {
@@ -153,7 +153,7 @@ fn features_blend_as_color_does_whatever_the_number_of_channels() {
 }
 
 #[test]
-fn a_picture_with_another_output_has_the_colors_of_one_without() {
+fn other_outputs_do_not_change_the_next_picture() {
     let scene = crowd(3_000, 19);
     let renderer = Renderer::new(&scene);
     let view = camera(150, 90);
@@ -164,7 +164,7 @@ fn a_picture_with_another_output_has_the_colors_of_one_without() {
     assert!(before.rgb == after.rgb && before.transmittance == after.transmittance);
 }
 
-/// Level cameras on two rings about a point, looking at it.
+/// Cameras without roll on two rings around a point, looking at it.
 fn ring(center: DVec3, radius: f64, num: usize) -> Vec<Camera> {
     let around = |idx: usize| {
         let angle = idx as f64 / num as f64 * std::f64::consts::TAU;
@@ -184,7 +184,7 @@ fn a_mask_of_the_guitar_lifted_from_24_views_is_its_label() {
     let gaussians = &scene.gaussians;
     let renderer = Renderer::new(gaussians);
     let settings = RenderSettings { near: 0.02, ..RenderSettings::default() };
-    // The middle of the guitar's box, from the file beside the scene.
+    // Center of the guitar's box, from the file beside the scene.
     let views = ring(DVec3::new(0.7708, 0.75, -0.376), 1.35, 24);
     let mut lifted = LiftedValues::new(gaussians.len(), 1);
     for view in &views {
@@ -192,17 +192,20 @@ fn a_mask_of_the_guitar_lifted_from_24_views_is_its_label() {
         let mask: Vec<f32> = ids.ids.iter().map(|&id| f32::from(u8::from(id == 1))).collect();
         renderer.lift(view, &settings, &mask, &mut lifted).unwrap();
     }
-    // Of what the views show at all: what lies inside or behind is in no mask.
-    let seen = |idx: &usize| lifted.weights[*idx] > 0.05;
+    // Only Gaussians that the views show: hidden ones are in no mask.
+    let visible = |idx: &usize| lifted.weights[*idx] > 0.05;
     let (mut both, mut either) = (0, 0);
-    for idx in (0..gaussians.len()).filter(seen) {
-        let (found, is) = (lifted.mean(idx, 0).unwrap() > 0.5, labels[idx] == 1);
-        both += usize::from(found && is);
-        either += usize::from(found || is);
+    for idx in (0..gaussians.len()).filter(visible) {
+        let (found, is_guitar) = (lifted.mean(idx, 0).unwrap() > 0.5, labels[idx] == 1);
+        both += usize::from(found && is_guitar);
+        either += usize::from(found || is_guitar);
     }
-    let (of_guitar, num_seen) =
-        (labels.iter().filter(|&&label| label == 1).count(), (0..labels.len()).filter(seen).count());
+    let (of_guitar, num_visible) =
+        (labels.iter().filter(|&&label| label == 1).count(), (0..labels.len()).filter(visible).count());
     let iou = both as f64 / either as f64;
-    assert!(iou >= 0.9, "IoU {iou:.3}: {both} of {either}; {num_seen} Gaussians seen, {of_guitar} are the guitar");
+    assert!(
+        iou >= 0.9,
+        "IoU {iou:.3}: {both} of {either}; {num_visible} Gaussians visible, {of_guitar} are the guitar"
+    );
     assert!(both * 2 > of_guitar, "{both} of {of_guitar} found");
 }

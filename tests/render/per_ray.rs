@@ -1,4 +1,4 @@
-//! How far the affine projection is from the Gaussian itself, integrated exactly along each ray, in `f64`.
+//! Error of the affine projection against the Gaussian itself, evaluated exactly along each ray in `f64`.
 
 use cinesplat::geometry::Camera;
 use cinesplat::render::{Quality, RenderSettings, Renderer};
@@ -8,8 +8,8 @@ use super::scenes::{camera, single};
 
 const OPACITY: f32 = 0.9;
 
-/// Opacity along the ray through a pixel: the Gaussian's largest value on it. With P the inverse covariance, m the mean
-/// and r the ray, the least of (t r - m)' P (t r - m) is m'Pm - (r'Pm)^2 / r'Pr.
+/// Opacity along the ray through a pixel: the largest value of the Gaussian on the ray. With P the inverse covariance,
+/// m the mean and r the ray, the minimum of (t r - m)' P (t r - m) is m'Pm - (r'Pm)^2 / r'Pr.
 fn alpha(view: &Camera, pixel: (u32, u32), mean: DVec3, scale: DVec3, rotation: Quat) -> f64 {
     let ray = view.ray(DVec2::new(f64::from(pixel.0) + 0.5, f64::from(pixel.1) + 0.5));
     let axes = DMat3::from_quat(rotation.as_dquat());
@@ -35,8 +35,8 @@ fn largest_error(relative_scale: f64, slope: f64, quality: Quality) -> f64 {
 }
 
 #[test]
-fn the_affine_projection_is_near_the_exact_rays_where_splats_are_small() {
-    // What the approximation itself costs, from a calculation apart, and the alpha cut of 1/255 on top.
+fn the_affine_projection_is_close_to_exact_rays_for_small_splats() {
+    // Bounds: the error of the approximation, calculated separately, plus the alpha cut of 1/255.
     for (relative_scale, bound) in [(0.02, 0.013), (0.05, 0.024), (0.1, 0.048)] {
         for slope in [0.0, 0.2, 0.4] {
             for quality in [Quality::Reference, Quality::Final] {
@@ -45,6 +45,6 @@ fn the_affine_projection_is_near_the_exact_rays_where_splats_are_small() {
             }
         }
     }
-    // And it is an approximation: a test that could not see it would show nothing.
+    // For a large splat the error is visible, so the test can fail.
     assert!(largest_error(0.2, 0.4, Quality::Reference) > 0.08);
 }

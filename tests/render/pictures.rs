@@ -1,4 +1,4 @@
-//! What the tests of the renderer share: cameras and pictures of the golden folder, and how far two pictures are apart.
+//! Shared by the tests of the renderer: cameras and pictures of the golden folder, and differences between pictures.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::scene::SplatFilter;
 use glam::DMat4;
 
-/// A golden scene: where its file lies under `../shared/data`, and the settings that its pictures were made with.
+/// A golden set: the path of its scene under `../shared/data`, and the settings of its pictures.
 pub(crate) struct GoldenSet {
     pub(crate) scene: String,
     pub(crate) filter: SplatFilter,
@@ -46,14 +46,14 @@ fn camera(json: &serde_json::Value) -> (String, Camera) {
     (json["name"].as_str().unwrap().into(), Camera { pose, intrinsics })
 }
 
-/// The numbers of a little-endian `float32` `.npy` file.
+/// The values of a little-endian `float32` `.npy` file.
 pub(crate) fn npy(path: &Path) -> Vec<f32> {
     let bytes = std::fs::read(path).unwrap();
     let header_len = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
     bytes[10 + header_len..].chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
 }
 
-/// Peak signal-to-noise ratio in dB, both clamped to 0..=1, peak 1.
+/// PSNR in dB, both clamped to 0..=1, peak 1.
 pub(crate) fn psnr_db(a: &[f32], b: &[f32]) -> f64 {
     assert_eq!(a.len(), b.len());
     let square = |(&a, &b): (&f32, &f32)| (f64::from(a.clamp(0.0, 1.0)) - f64::from(b.clamp(0.0, 1.0))).powi(2);
@@ -61,7 +61,7 @@ pub(crate) fn psnr_db(a: &[f32], b: &[f32]) -> f64 {
     -10.0 * mean.log10()
 }
 
-/// Largest difference of two pictures.
+/// Largest absolute difference between two pictures.
 pub(crate) fn max_difference(a: &[f32], b: &[f32]) -> f32 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)

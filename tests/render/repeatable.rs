@@ -1,4 +1,4 @@
-//! Equal results however the work is cut: threads, order of the file, reused memory.
+//! Equal bits for any number of threads, instruction set, order of the file, and reused memory.
 
 use cinesplat::render::{Accuracy, Frame, InstructionSet, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
@@ -14,7 +14,7 @@ fn on_threads(num_threads: usize, scene: &Gaussians, settings: &RenderSettings) 
 }
 
 #[test]
-fn one_two_three_and_seven_threads_agree_to_the_bit() {
+fn one_two_three_and_seven_threads_give_the_same_bits() {
     let scene = crowd(20_000, 5);
     for &quality in Quality::VARIANTS {
         let settings = RenderSettings { quality, ..RenderSettings::default() };
@@ -31,7 +31,7 @@ fn one_two_three_and_seven_threads_agree_to_the_bit() {
 }
 
 #[test]
-fn every_instruction_set_gives_the_same_picture_to_the_bit() {
+fn every_instruction_set_gives_the_same_bits() {
     let scene = crowd(1_500, 10);
     let half = Accuracy { resolution_frac: 0.5, ..Accuracy::SPEC };
     let all = [Quality::Draft, Quality::Standard, Quality::Final].map(|quality| (quality, None));
@@ -88,7 +88,7 @@ fn a_used_renderer_and_frame_give_the_picture_of_new_ones() {
 }
 
 #[test]
-fn far_off_coordinates_give_the_picture_of_near_ones() {
+fn large_coordinates_give_the_picture_of_small_ones() {
     let scene = crowd(3_000, 9);
     let offset = DVec3::new(5e5, 5e6, 100.0);
     let far = Gaussians { origin: offset, ..scene.clone() };
@@ -99,11 +99,11 @@ fn far_off_coordinates_give_the_picture_of_near_ones() {
 }
 
 #[test]
-fn dollies_holds_and_pans_are_the_same_whether_the_last_order_helps_or_not() {
+fn reusing_the_depth_order_changes_no_bit_of_dollies_holds_and_pans() {
     let scene = crowd(6_000, 11);
     let used = Renderer::new(&scene);
     let mut camera = camera(200, 120);
-    // A hold, a dolly, a truck that ends far off, a pan too small and one too large to keep the order.
+    // A hold, a dolly, a long move, a pan below and one above the angle up to which the order is reused.
     let moves = [
         (0.0, DVec3::ZERO),
         (0.0, DVec3::Z * 0.05),
@@ -122,7 +122,7 @@ fn dollies_holds_and_pans_are_the_same_whether_the_last_order_helps_or_not() {
 }
 
 #[test]
-fn eight_bit_frames_are_the_rounded_numbers() {
+fn eight_bit_frames_are_the_rounded_values() {
     let scene = crowd(3_000, 12);
     let renderer = Renderer::new(&scene);
     for &quality in Quality::VARIANTS {

@@ -1,4 +1,4 @@
-//! Small scenes made of a few numbers.
+//! Small generated scenes.
 
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::scene::Gaussians;
@@ -15,19 +15,19 @@ pub(crate) fn push(scene: &mut Gaussians, mean: Vec3, scale: Vec3, rotation: Qua
     scene.sh_dc.push((rgb - 0.5) / 0.282_094_8);
 }
 
-/// A scene of one Gaussian, white.
+/// A scene of one white Gaussian.
 pub(crate) fn single(mean: Vec3, scale: Vec3, rotation: Quat, opacity: f32) -> Gaussians {
     let mut scene = Gaussians::default();
     push(&mut scene, mean, scale, rotation, (opacity, Vec3::ONE));
     scene
 }
 
-/// A camera at the origin that looks along +z, 50 degrees high.
+/// A camera at the origin that looks along +z, with a vertical field of view of 50 degrees.
 pub(crate) fn camera(width: u32, height: u32) -> Camera {
     Camera { pose: Pose::IDENTITY, intrinsics: Intrinsics::from_fov_y(width, height, 50_f64.to_radians()) }
 }
 
-/// Gaussians of all shapes in front of [`camera`], with color that depends on direction.
+/// Gaussians of all shapes in front of [`camera`], with view-dependent color.
 pub(crate) fn crowd(num_gaussians: usize, seed: u64) -> Gaussians {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let mut scene = Gaussians { sh_degree: 3, ..Gaussians::default() };
@@ -60,7 +60,7 @@ pub(crate) fn reordered(scene: &Gaussians, order: &[usize]) -> Gaussians {
     }
 }
 
-/// A camera like `camera` somewhere else, not turned.
+/// The camera at another position, with the same rotation.
 pub(crate) fn moved(camera: &Camera, position: DVec3) -> Camera {
     Camera { pose: Pose::new(position, camera.pose.rotation), ..*camera }
 }

@@ -1,4 +1,4 @@
-//! The two orders of blending: `z` as the spec image, `ray` for cameras that turn.
+//! The two sort modes: `z` as in the spec image, `ray` for cameras that turn.
 
 use cinesplat::geometry::{Camera, Pose};
 use cinesplat::render::{Frame, Quality, RenderSettings, Renderer, SortMode};
@@ -8,8 +8,8 @@ use strum::VariantArray;
 
 use super::scenes::{camera, crowd, push};
 
-/// Two thick overlapping splats of different color. Along the view axis of a camera that looks ahead the green one is
-/// nearer, from the camera's center the red one; turned to the right the red one is nearer both ways.
+/// Two thick overlapping splats of different colors. For a camera that looks along +z the green one is nearer along the
+/// view axis, the red one from the camera's center. After a pan to the right the red one is nearer by both.
 fn rivals() -> Gaussians {
     let mut scene = Gaussians::default();
     let size = Vec3::splat(0.8);
@@ -18,7 +18,7 @@ fn rivals() -> Gaussians {
     scene
 }
 
-/// A camera at the origin, turned to its right.
+/// A camera at the origin, panned to the right.
 fn panned(degrees: f64) -> Camera {
     let view = camera(160, 120);
     Camera { pose: Pose::new(view.pose.position, DQuat::from_rotation_y(degrees.to_radians())), ..view }
@@ -38,7 +38,7 @@ fn redness(frame: &Frame, view: &Camera) -> f32 {
 }
 
 #[test]
-fn a_pan_exchanges_overlapping_splats_by_depth_and_not_by_distance() {
+fn a_pan_swaps_overlapping_splats_in_mode_z_and_not_in_mode_ray() {
     let scene = rivals();
     for quality in [Quality::Reference, Quality::Standard] {
         let along = |sort, degrees| {
@@ -46,17 +46,17 @@ fn a_pan_exchanges_overlapping_splats_by_depth_and_not_by_distance() {
             redness(&picture(&scene, &view, quality, sort), &view)
         };
         let steps = || (0..=20).map(f64::from);
-        let by_depth: Vec<f32> = steps().map(|degrees| along(SortMode::Z, degrees)).collect();
-        let by_distance: Vec<f32> = steps().map(|degrees| along(SortMode::Ray, degrees)).collect();
+        let in_mode_z: Vec<f32> = steps().map(|degrees| along(SortMode::Z, degrees)).collect();
+        let in_mode_ray: Vec<f32> = steps().map(|degrees| along(SortMode::Ray, degrees)).collect();
         let largest_step = |track: &[f32]| track.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
-        assert!(largest_step(&by_depth) > 0.3, "{quality:?}: no pop by depth: {by_depth:?}");
-        assert!(largest_step(&by_distance) < 0.05, "{quality:?}: pops by distance: {by_distance:?}");
-        assert!(by_distance.iter().all(|&red| red > 0.5), "{quality:?}: red is nearer: {by_distance:?}");
+        assert!(largest_step(&in_mode_z) > 0.3, "{quality:?}: no pop in mode z: {in_mode_z:?}");
+        assert!(largest_step(&in_mode_ray) < 0.05, "{quality:?}: pops in mode ray: {in_mode_ray:?}");
+        assert!(in_mode_ray.iter().all(|&red| red > 0.5), "{quality:?}: red is nearer: {in_mode_ray:?}");
     }
 }
 
 #[test]
-fn fast_and_exact_agree_in_either_order() {
+fn final_and_reference_agree_in_either_sort_mode() {
     let scene = crowd(2_000, 31);
     for &sort in SortMode::VARIANTS {
         let exact = picture(&scene, &panned(5.0), Quality::Reference, sort);
@@ -66,9 +66,9 @@ fn fast_and_exact_agree_in_either_order() {
 }
 
 #[test]
-fn the_order_is_a_choice_that_shows() {
+fn the_sort_modes_give_different_pictures() {
     let scene = crowd(2_000, 32);
-    let [by_depth, by_distance] =
+    let [in_mode_z, in_mode_ray] =
         [SortMode::Z, SortMode::Ray].map(|sort| picture(&scene, &panned(0.0), Quality::Final, sort));
-    assert!(by_depth.psnr_db(&by_distance) < 60.0);
+    assert!(in_mode_z.psnr_db(&in_mode_ray) < 60.0);
 }

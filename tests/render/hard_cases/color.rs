@@ -1,4 +1,4 @@
-//! What is added up: opacity 1, colors below 0 and above 1, values as trained.
+//! Blending: opacity 1, colors below 0 and above 1, colors as trained.
 
 use std::ops::ControlFlow;
 
@@ -13,7 +13,7 @@ use strum::VariantArray;
 use super::{picture, settings};
 use crate::render::scenes::{camera, crowd, push, single};
 
-/// Walls across the whole picture, the first the nearest.
+/// Walls across the whole picture, nearest first.
 fn walls(layers: &[(f32, Vec3)]) -> Gaussians {
     let mut scene = Gaussians::default();
     for (idx, layer) in layers.iter().enumerate() {
@@ -23,7 +23,7 @@ fn walls(layers: &[(f32, Vec3)]) -> Gaussians {
 }
 
 #[test]
-fn an_opaque_wall_lets_a_hundredth_through_and_two_a_ten_thousandth() {
+fn one_opaque_wall_transmits_one_hundredth_and_two_one_ten_thousandth() {
     for quality in [Quality::Final, Quality::Reference] {
         let mut scene = single(Vec3::Z * 2.0, Vec3::new(50.0, 50.0, 0.01), Quat::IDENTITY, 1.0);
         let view = camera(32, 32);
@@ -37,16 +37,16 @@ fn an_opaque_wall_lets_a_hundredth_through_and_two_a_ten_thousandth() {
 
 #[test]
 fn color_is_clamped_below_before_blending_and_above_after_it() {
-    // A splat twice as bright as white over one darker than black. Clamped to 0..=1 each, they would come to a half.
+    // A splat twice as bright as white in front of one darker than black.
     let bright = walls(&[(0.5, Vec3::new(2.0, 2.0, 0.4)), (0.8, Vec3::new(-3.0, 0.5, -3.0))]);
     for quality in [Quality::Final, Quality::Reference] {
         let frame = picture(&bright, &camera(24, 16), quality);
         let expected = [0.5 * 2.0, 0.5 * 2.0 + 0.5 * 0.8 * 0.5, 0.5 * 0.4];
         for rgb in frame.rgb.chunks(3) {
             let off = rgb.iter().zip(expected).map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f32::max);
-            assert!(off < 1e-4, "{quality:?}: {rgb:?}, wanted {expected:?}");
+            assert!(off < 1e-4, "{quality:?}: {rgb:?}, expected {expected:?}");
         }
-        // The one clamp from above is that of the levels.
+        // Only the conversion to 8 bits clamps from above.
         assert_eq!(frame.to_rgb8()[..3], [255, 255, 51], "{quality:?}");
     }
 }
@@ -66,21 +66,21 @@ fn color_clamped_in_every_gaussian_makes_bright_ones_white_before_blending() {
 
 #[test]
 fn layers_blend_as_trained() {
-    // In linear light the sum of the first channel would be 0.66.
+    // Blended in linear light, the first channel would be 0.66.
     let (front, behind) = (Vec3::new(0.2, 0.9, 0.5), Vec3::new(0.9, 0.1, 0.5));
     let scene = walls(&[(0.5, front), (0.9, behind)]);
     let expected = front * 0.5 + behind * 0.5 * 0.9;
     for &quality in Quality::VARIANTS {
         let frame = picture(&scene, &camera(24, 16), quality);
         for rgb in frame.rgb.chunks(3) {
-            // Quick opacities of `draft` and `standard` are within 0.8 %.
+            // Opacities of `draft` and `standard` have a relative error up to 0.8 %.
             assert!((Vec3::from_slice(rgb) - expected).abs().max_element() < 0.012, "{quality:?}: {rgb:?}");
         }
     }
 }
 
 #[test]
-fn a_film_without_blur_has_the_levels_of_the_composite() {
+fn a_film_without_blur_has_the_levels_of_the_still() {
     const SHOT: &str = r#"{"format":"cinesplat.shot","version":1,"width":64,"height":36,"fps":4,"duration_secs":0.5,"keyframes":[
         {"time_secs":0,"position":[0,0,0],"rotation_xyzw":[0,0,0,1],"fov_y_deg":50,"easing":"smooth"}]}"#;
     let shot = cinesplat::export::shot_json::read(SHOT).unwrap();

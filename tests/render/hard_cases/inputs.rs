@@ -1,4 +1,4 @@
-//! What comes out of files: numbers that are none, quaternions of any length, far-off doubles, all kinds of PLY.
+//! Values from files: NaN, quaternions of any length, large coordinates in double precision, all kinds of PLY.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ use super::{picture, settings};
 use crate::render::pictures::psnr_db;
 use crate::render::scenes::{camera, crowd, moved, push, single};
 
-/// Names and rows of a PLY of these Gaussians as they are trained: logarithms of scales, logits of opacities,
-/// coefficients channel after channel. Values are exact in single precision.
+/// Column names and rows of a PLY of these Gaussians, encoded as in training: logarithms of scales, logits of
+/// opacities, coefficients channel by channel. Values are exact in single precision.
 fn rows(scene: &Gaussians) -> (Vec<String>, Vec<Vec<f64>>) {
     let num_rest = scene.sh_rest.len() / scene.len();
     let names = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2"]
@@ -39,7 +39,7 @@ fn rows(scene: &Gaussians) -> (Vec<String>, Vec<Vec<f64>>) {
 struct Layout {
     is_double: bool,
     is_big_endian: bool,
-    /// An element before and one behind the Gaussians, and a column that nobody knows.
+    /// An element before and one after the Gaussians, and an unknown column.
     has_extras: bool,
 }
 
@@ -196,8 +196,8 @@ fn every_property_of_a_file_takes_any_number() {
     }
 }
 
-/// Whether a Gaussian with this value in this column can be drawn. Infinite opacity is 1 or 0, a scale of minus
-/// infinity is flat, and a finite one is shortened where its exponential is too long.
+/// Whether a Gaussian with this value in this column can be drawn. An infinite logit is an opacity of 1 or 0, a log
+/// scale of minus infinity is flat, and a finite log scale whose exponential overflows is clamped.
 fn is_drawable(name: &str, value: f64) -> bool {
     match name {
         "opacity" => !value.is_nan(),
@@ -256,7 +256,7 @@ fn tiny_gaussians_are_points_as_wide_as_the_dilation() {
 }
 
 #[test]
-fn doubles_far_off_draw_the_picture_of_near_ones() {
+fn large_coordinates_in_double_precision_draw_the_picture_of_small_ones() {
     let shift = DVec3::new(5e5, 5e6, 100.0);
     let (names, values) = rows(&crowd(300, 48));
     let shifted: Vec<Vec<f64>> = values
@@ -270,7 +270,7 @@ fn doubles_far_off_draw_the_picture_of_near_ones() {
     for quality in [Quality::Final, Quality::Reference] {
         let (here, there) = (drawn(&near, &view, quality), drawn(&far, &moved(&view, shift), quality));
         let apart = here.iter().zip(&there).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-        // Doubles at five million are good to 1e-9, single precision about the local origin to 1e-6.
+        // The precision of doubles at 5e6 is 1e-9, that of floats relative to the local origin 1e-6.
         let db = psnr_db(&here, &there);
         assert!(apart < 2e-3 && db > 90.0, "{quality:?}: {apart}, {db:.1} dB");
     }
@@ -285,7 +285,7 @@ fn a_million_equal_splats_load_and_draw() {
     assert_eq!(scene.gaussians.len(), NUM);
     let frame = Renderer::new(&scene.gaussians).render(&camera(64, 48), &settings(Quality::Standard)).unwrap();
     assert!(frame.transmittance[24 * 64 + 32] < 2e-3);
-    // Blending ends where the pixels are full, not with the list.
+    // Blending stops when the pixels are opaque, not at the end of the list.
     let counts = frame.stats.counts;
     assert!(counts.num_splats == NUM as u64 && counts.num_block_blends < counts.num_pairs * 12, "{counts:?}");
 }

@@ -1,4 +1,4 @@
-//! Work without bounds: splats larger than the picture, caps on memory and cost.
+//! Limits on memory and work, and splats larger than the picture.
 
 use cinesplat::render::{Limits, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
@@ -7,7 +7,7 @@ use glam::{Quat, Vec3};
 use super::settings;
 use crate::render::scenes::{camera, push};
 
-/// Gray splats behind each other that each cover the picture.
+/// Gray splats, one behind the other, each covering the picture.
 fn full_screen(num_splats: usize) -> Gaussians {
     let mut scene = Gaussians::default();
     for idx in 0..num_splats {
@@ -18,14 +18,14 @@ fn full_screen(num_splats: usize) -> Gaussians {
 }
 
 #[test]
-fn a_hundred_thousand_full_screen_splats_lose_no_tile_and_stay_under_the_cap() {
+fn a_hundred_thousand_full_screen_splats_lose_no_tile_and_stay_within_the_memory_limit() {
     let scene = full_screen(100_000);
     let renderer = Renderer::new(&scene);
     let picture_bytes = 512 * 512 * 16;
     for (quality, max_memory_bytes) in [(Quality::Standard, 64 << 20), (Quality::Final, 64 << 20)] {
         let limits = Limits { max_memory_bytes, ..Limits::default() };
         let frame = renderer.render(&camera(512, 512), &RenderSettings { limits, ..settings(quality) }).unwrap();
-        // Every pixel of every tile has the layers that its stop allows.
+        // Every pixel of every tile is blended up to the transmittance stop.
         assert!(frame.transmittance.iter().all(|&rest| rest > 0.0 && rest < 4e-3), "{quality:?}");
         assert!(frame.rgb.iter().all(|value| (value - 0.5).abs() < 2.5e-3), "{quality:?}");
         let held = renderer.memory_bytes() + picture_bytes;
@@ -40,7 +40,7 @@ fn a_hundred_thousand_full_screen_splats_lose_no_tile_and_stay_under_the_cap() {
 }
 
 #[test]
-fn too_much_work_ends_in_one_error_before_anything_is_allocated() {
+fn work_above_the_limits_is_an_error_before_any_allocation() {
     let mut scene = Gaussians::default();
     for _ in 0..2_000 {
         push(&mut scene, Vec3::Z * 2.0, Vec3::splat(50.0), Quat::IDENTITY, (0.5, Vec3::ONE));

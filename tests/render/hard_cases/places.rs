@@ -1,4 +1,5 @@
-//! Where the camera is: inside a splat, in front of it, beside the middle of the picture, far away.
+//! Positions of the camera and of splats: inside a splat, at a mean, behind the camera, far away; off-center principal
+//! points.
 
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat::scene::SplatFilter;
@@ -18,7 +19,7 @@ fn a_camera_that_flies_through_a_splat_sees_only_finite_numbers() {
     scene.sh_rest = (0..15).map(|idx| Vec3::new(0.2, -0.1, 0.03 * idx as f32)).collect();
     let brightest = 0.5 / 0.282_094_8 + 15.0 * 0.5;
     let renderer = Renderer::new(&scene);
-    // Through the mean itself, and close by it.
+    // Through the mean itself, and close to it.
     for (quality, aside) in [(Quality::Final, 0.0), (Quality::Final, 1e-3), (Quality::Reference, 0.0)] {
         let mut before: Option<(f32, f32)> = None;
         for step in 0..1000 {
@@ -27,7 +28,7 @@ fn a_camera_that_flies_through_a_splat_sees_only_finite_numbers() {
             assert!(frame.rgb.iter().chain(&frame.transmittance).all(|value| value.is_finite()));
             let mean = |values: &[f32]| values.iter().sum::<f32>() / values.len() as f32;
             let (color, rest) = (mean(&frame.rgb), mean(&frame.transmittance));
-            // What one splat may change at all: its opacity, and as much of its color.
+            // One splat can change the transmittance by its opacity, and the color by its opacity times its color.
             let is_bounded = |(old_color, old_rest): (f32, f32)| {
                 (old_rest - rest).abs() <= OPACITY + 1e-4 && (old_color - color).abs() <= OPACITY * brightest
             };
@@ -39,7 +40,7 @@ fn a_camera_that_flies_through_a_splat_sees_only_finite_numbers() {
 
 #[test]
 fn a_camera_at_a_mean_sees_the_color_without_direction() {
-    // In front of the mean by the least that an f64 position can say: no direction survives the square of that.
+    // The camera is 1e-300 in front of the mean: the squared length of the offset underflows, so there is no direction.
     let mut scene = single(Vec3::ZERO, Vec3::splat(0.3), Quat::IDENTITY, 0.6);
     scene.sh_degree = 1;
     scene.sh_rest = vec![Vec3::splat(0.4), Vec3::splat(-0.3), Vec3::splat(0.2)];
@@ -69,8 +70,8 @@ fn what_is_behind_the_camera_leaves_no_ghost() {
 
 #[test]
 fn a_principal_point_off_the_middle_is_a_crop_of_a_wider_picture() {
-    // Not larger than a tenth of the picture: where a splat beside the picture is linearized follows the picture's own
-    // border by contract, and the two borders differ.
+    // Small splats: for a splat outside the picture the point of linearization depends on the border of the picture (by
+    // contract), and the two pictures have different borders.
     let mut scene = crowd(2_000, 4);
     scene.scales.iter_mut().for_each(|scale| *scale *= 0.25);
     let wide = camera(256, 128);
@@ -84,7 +85,7 @@ fn a_principal_point_off_the_middle_is_a_crop_of_a_wider_picture() {
 }
 
 #[test]
-fn a_principal_point_far_off_the_middle_is_that_of_the_second_renderer() {
+fn a_picture_with_an_extreme_principal_point_matches_the_second_renderer() {
     let scene = crowd(300, 41);
     let mut view = camera(120, 80);
     (view.intrinsics.cx_px, view.intrinsics.cy_px) = (20.0, 71.5);
@@ -99,7 +100,7 @@ fn a_principal_point_far_off_the_middle_is_that_of_the_second_renderer() {
 #[test]
 fn a_splat_a_million_units_away_changes_no_level() {
     let mut scene = crowd(1_000, 14);
-    // Two walls behind the crowd: what is behind them may not show, however its depth is written.
+    // Two walls behind the crowd hide everything behind them.
     for depth in [20.0, 30.0] {
         push(&mut scene, Vec3::Z * depth, Vec3::new(500.0, 500.0, 0.01), Quat::IDENTITY, (1.0, Vec3::splat(0.3)));
         scene.sh_rest.extend([Vec3::ZERO; 15]);
@@ -111,7 +112,7 @@ fn a_splat_a_million_units_away_changes_no_level() {
     for &quality in Quality::VARIANTS {
         let (without, with) = (picture(&scene, &view, quality), picture(&with_far, &view, quality));
         if quality != Quality::Reference {
-            assert_eq!(with.stats.counts.num_splats, without.stats.counts.num_splats + 1, "it is not drawn");
+            assert_eq!(with.stats.counts.num_splats, without.stats.counts.num_splats + 1, "the far splat is not drawn");
         }
         let levels = without.to_rgb8().into_iter().zip(with.to_rgb8()).map(|(a, b)| a.abs_diff(b)).max();
         assert!(levels.unwrap() <= 1, "{quality:?}: {levels:?}");
@@ -130,7 +131,7 @@ fn the_sign_of_a_quaternion_does_not_matter() {
 }
 
 #[test]
-fn bad_cameras_and_settings_are_refused_by_name() {
+fn bad_cameras_and_settings_are_rejected() {
     let scene = crowd(10, 16);
     let renderer = Renderer::new(&scene);
     let bad_near = renderer.render(&camera(8, 8), &RenderSettings { near: f64::NAN, ..RenderSettings::default() });

@@ -1,4 +1,4 @@
-//! Popping: how much more a picture changes over a small pan than the Gaussians themselves do, integrated along rays.
+//! Popping: how much more a picture changes over a small pan than the same Gaussians evaluated along rays.
 
 use cinesplat::geometry::{Camera, Pose};
 use cinesplat::render::{Quality, RenderSettings, Renderer, SortMode};
@@ -11,8 +11,8 @@ use crate::render::scenes::{camera, crowd, push};
 /// Step of the pan.
 const STEP_DEG: f64 = 0.1;
 
-/// The picture by rays: each Gaussian's largest value along the ray, in the order in which the rays reach it. With P
-/// the inverse covariance and m the mean, t = r'Pm / r'Pr is where, and m'Pm - t r'Pm how far off.
+/// The picture by rays: the largest value of each Gaussian along the ray, in the order along the ray. With P the
+/// inverse covariance and m the mean, the maximum is at t = r'Pm / r'Pr with squared distance m'Pm - t r'Pm.
 fn by_rays(scene: &Gaussians, view: &Camera) -> Vec<f32> {
     let axes: Vec<DMat3> = scene.rotations.iter().map(|q| DMat3::from_quat(q.as_dquat()).transpose()).collect();
     let whiten = |idx: usize, v: DVec3| axes[idx] * v / scene.scales[idx].as_dvec3();
@@ -42,8 +42,8 @@ fn by_rays(scene: &Gaussians, view: &Camera) -> Vec<f32> {
     rgb
 }
 
-/// The largest change of a pixel from one picture of a pan to the next beyond that of the pixel by rays, for blending
-/// by depth and by distance.
+/// The largest change of a pixel between successive pictures of a pan, less the change of the same pixel by rays: in
+/// mode z and in mode ray.
 fn pops(scene: &Gaussians, num_steps: u32) -> [f32; 2] {
     let renderer = Renderer::new(scene);
     let mut pops = [0.0_f32; 2];
@@ -66,25 +66,25 @@ fn pops(scene: &Gaussians, num_steps: u32) -> [f32; 2] {
 }
 
 #[test]
-fn by_depth_a_pan_pops_and_by_distance_it_does_not() {
-    // Along the view axis of a camera that looks ahead the green one is nearer, from the camera's center the red one.
+fn a_pan_pops_in_mode_z_and_not_in_mode_ray() {
+    // The green splat is nearer along the view axis, the red one from the camera's center.
     let mut scene = Gaussians::default();
     for (mean, rgb) in [(Vec3::new(0.0, 0.0, 4.0), Vec3::X), (Vec3::new(1.4, 0.0, 3.9), Vec3::Y)] {
         push(&mut scene, mean, Vec3::splat(0.8), Quat::IDENTITY, (0.95, rgb));
     }
-    let [by_depth, by_distance] = pops(&scene, 100);
-    assert!(by_depth > 0.2, "by depth {by_depth}: no pop to be measured");
-    assert!(by_distance < 0.02, "by distance {by_distance}");
+    let [in_mode_z, in_mode_ray] = pops(&scene, 100);
+    assert!(in_mode_z > 0.2, "no pop in mode z: {in_mode_z}");
+    assert!(in_mode_ray < 0.02, "pop in mode ray: {in_mode_ray}");
 }
 
 #[test]
-fn a_crowd_pops_less_by_distance_than_by_depth() {
-    // Round and small against their distance, so that the affine projection is near the rays; close in depth.
+fn a_crowd_pops_less_in_mode_ray_than_in_mode_z() {
+    // Round and small relative to their distance, so that the affine projection is close to the rays; similar depths.
     let mut scene = crowd(150, 49);
     (scene.sh_degree, scene.sh_rest) = (0, Vec::new());
     scene.means.iter_mut().for_each(|mean| *mean = *mean / mean.z * (4.0 + 0.1 * mean.z));
     scene.scales.fill(Vec3::splat(0.25));
     scene.opacities.fill(0.95);
-    let [by_depth, by_distance] = pops(&scene, 60);
-    assert!(by_depth > 0.1 && by_depth > 4.0 * by_distance, "by depth {by_depth}, by distance {by_distance}");
+    let [in_mode_z, in_mode_ray] = pops(&scene, 60);
+    assert!(in_mode_z > 0.1 && in_mode_z > 4.0 * in_mode_ray, "mode z {in_mode_z}, mode ray {in_mode_ray}");
 }

@@ -1,4 +1,4 @@
-//! Needles, disks, points, small splats: the two-dimensional covariance and what it is made of.
+//! Needles, disks, points and small splats: the projected covariance.
 
 use cinesplat::render::{Accuracy, Quality, RenderSettings, Renderer};
 use cinesplat::scene::{Gaussians, SplatFilter};
@@ -26,8 +26,8 @@ fn needles_keep_their_opacity_up_to_a_hundred_thousand_pixels() {
     }
 }
 
-/// Of two determinants, without and with the dilation, `mip` multiplies the opacity by the root of their quotient: what
-/// the middle pixel of a needle shows. Against the product of its variances.
+/// `mip` multiplies the opacity by the root of the quotient of two determinants, without and with the dilation. The
+/// middle pixel of a needle shows that factor; the expected value is computed from the variances along its axes.
 #[test]
 fn determinants_of_needles_are_those_of_the_formula() {
     // The mean falls on the center of a pixel.
@@ -46,7 +46,7 @@ fn determinants_of_needles_are_those_of_the_formula() {
             let settings = RenderSettings { filter: SplatFilter::Mip, accuracy: Some(accuracy), ..settings(quality) };
             let frame = Renderer::new(&scene).render(&view, &settings).unwrap();
             let middle = f64::from(frame.rgb[(60 * 161 + 80) * 3]) / f64::from(0.9_f32);
-            // In f32 opacities are good to 2.5e-5, whatever they are.
+            // In `f32` opacities have an error up to 2.5e-5.
             let (off, allowed) = match quality {
                 Quality::Reference => ((middle * middle / expected - 1.0).abs(), 1e-5),
                 _ => ((middle - expected.sqrt()).abs(), 2.6e-5),
@@ -82,7 +82,7 @@ fn a_disk_seen_from_its_edge_is_a_line_as_wide_as_the_dilation() {
         for across in -1_i32..=1 {
             let alpha = 1.0 - f64::from(rest[32 * 97 + (48 + across) as usize]);
             let expected = f64::from(0.8_f32) * (-f64::from(across * across) / (2.0 * 0.3)).exp();
-            assert!((alpha - expected).abs() < 1e-4, "{across} px off: {alpha}, wanted {expected}");
+            assert!((alpha - expected).abs() < 1e-4, "{across} px off: {alpha}, expected {expected}");
         }
     }
 }
@@ -93,7 +93,7 @@ fn half(value: f32) -> f32 {
     ((f64::from(value) / step).round_ties_even() * step) as f32
 }
 
-/// Needles a hundred times as long as thick, everywhere and at every angle.
+/// Needles a hundred times as long as thick, at many positions and angles.
 fn needles() -> Gaussians {
     let mut scene = crowd(400, 40);
     scene.scales = (0..scene.len()).map(|idx| Vec3::new(0.3 + 0.001 * idx as f32, 0.003, 0.0025)).collect();
@@ -132,8 +132,7 @@ fn mip_keeps_the_light_of_a_splat_that_moves_away() {
         let far = light(distance, SplatFilter::Mip);
         assert!((far / near - 1.0).abs() < 0.01, "at {distance}: {far} of {near}");
     }
-    // Classic adds light as the splat gets small, as the formula says: the dilated area over the area, here at 50
-    // degrees.
+    // `classic` adds light as the splat gets small: by the formula, the dilated area over the area, here at 50 degrees.
     let focal = camera(200, 200).intrinsics.fy_px;
     let grown = |distance: f64| 1.0 + 0.3 / (0.02 * focal / distance).powi(2);
     let drift = light(8.0, SplatFilter::Classic) / light(1.0, SplatFilter::Classic);
