@@ -1,8 +1,8 @@
-//! A Python script that makes the camera in Blender: a keyframe a frame on location, rotation and lens, straight lines
-//! between them, and a jump at cuts.
+//! A Python script that creates the camera in Blender, with one keyframe per frame on location, rotation and lens, linear
+//! interpolation between them and a jump at cuts.
 //!
-//! Blender's world has +z up: the script turns the scene's world by `z_up_from_world`, which a splat imported there needs
-//! as well. The numbers stand in one block that is JSON too, from which the path is read back.
+//! Blender's world has +z up, so the script rotates the scene's world by `z_up_from_world`; a splat imported into Blender
+//! needs the same rotation. All numbers are in one block that is also valid JSON, from which the path is read back.
 
 use super::ExportError;
 use super::json_read::{self, Node};
@@ -95,7 +95,7 @@ fn wxyz(rotation: glam::DQuat) -> Json {
     Json::list([w, x, y, z])
 }
 
-/// A frame without `null` or `true`, which Python does not know.
+/// The JSON of a frame, without `null` and `true`, which are not valid Python.
 fn frame_json(time_secs: f64, frame: &PoseFrame) -> Json {
     let mut fields = vec![
         ("time_secs", time_secs.into()),
@@ -119,7 +119,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let nodes = root.field("frames", "a list of frames")?.items()?;
     Ok(PoseTrack {
         size_px: Some(size_px),
-        fps: Some(root.field("fps", "frames a second")?.number()?).filter(|fps| *fps > 0.0),
+        fps: Some(root.field("fps", "frames per second")?.number()?).filter(|fps| *fps > 0.0),
         up: root.optional("up").map(|up| up.vector()).transpose()?,
         timed: true,
         ..PoseTrack::untimed(nodes.iter().map(read_frame).collect::<Result<_, _>>()?)

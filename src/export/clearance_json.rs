@@ -1,7 +1,7 @@
-//! What was proved about a shot's clearance, as the key `clearance` of `shot.json`: an addition to version 1.
+//! The clearance proof of a shot: the key `clearance` of `shot.json`, an addition to version 1.
 //!
-//! The proof carries a digest of what decides where the camera is when. One whose digest is not that of the keys beside
-//! it was made before somebody edited them: it is not read.
+//! The proof carries a digest of the keys that it was computed for. A proof whose digest differs from that of the keys in
+//! the file is stale, because somebody edited the keys: it is not read.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ use super::json_read::Node;
 use super::json_write::{Json, object};
 use cinesplat_trajectory::{ClearanceFailure, ClearanceProof, Shot};
 
-/// The proof of a shot.
+/// The JSON value of a proof.
 pub(super) fn write(proof: &ClearanceProof, shot: &Shot) -> Json {
     let failure = proof.failure.map(|failure| {
         object([
@@ -36,7 +36,7 @@ pub(super) fn write(proof: &ClearanceProof, shot: &Shot) -> Json {
     ])
 }
 
-/// The proof of a shot that has been read but for it; `None` for one of other keys.
+/// The proof of a shot; `None` if it is stale.
 pub(super) fn read(node: &Node, shot: &Shot) -> Result<Option<ClearanceProof>, ExportError> {
     if node.optional("keys_sha256").map(|digest| digest.text()).transpose()? != Some(keys_sha256(shot).as_str()) {
         return Ok(None);
@@ -66,8 +66,8 @@ fn read_failure(node: &Node) -> Result<ClearanceFailure, ExportError> {
     })
 }
 
-/// SHA-256 in hex of all that decides where the camera is when: up, and of every key time, position, easing, cut, move
-/// and pivot.
+/// SHA-256 in hex of everything that determines the camera's position over time: up, and the time, position, easing, cut,
+/// move and pivot of every key.
 fn keys_sha256(shot: &Shot) -> String {
     let mut digest = Sha256::new();
     let mut numbers = |values: &[f64]| values.iter().for_each(|value| digest.update(value.to_bits().to_le_bytes()));

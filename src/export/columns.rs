@@ -1,20 +1,20 @@
-//! What the formats of one pose a line share.
+//! Parsing of text formats with one pose per line.
 
 use super::ExportError;
 use super::json_read::quoted;
 
-/// Lines with data, each with its number from 1; comments (`#`) and empty lines are left out.
+/// Lines with data and their numbers from 1, without comments (`#`) and empty lines.
 pub(super) fn data_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     lines.map(|(idx, line)| (idx + 1, line.trim())).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// An error about a line.
+/// An error at a line.
 pub(super) fn bad_line(line: usize, found: &str, expected: impl Into<String>) -> ExportError {
     ExportError::BadLine { line, found: format!("\"{}\"", quoted(found)), expected: expected.into() }
 }
 
-/// The finite number that a column holds.
+/// The finite number in a column.
 pub(super) fn number(line: usize, column: &str) -> Result<f64, ExportError> {
     let value = column.trim().parse::<f64>().ok().filter(|v| v.is_finite());
     value.ok_or_else(|| bad_line(line, column, "a finite number"))
@@ -33,7 +33,7 @@ pub(super) fn numbers<const N: usize>(line: usize, text: &str) -> Result<[f64; N
     Ok(values)
 }
 
-/// Numbers joined by a separator, each with the digits that read back to the same value.
+/// Numbers joined by a separator, each with enough digits to read back the same value.
 pub(super) fn joined(values: impl IntoIterator<Item = f64>, separator: &str) -> String {
     values.into_iter().map(|value| format!("{value}")).collect::<Vec<_>>().join(separator)
 }

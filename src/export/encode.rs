@@ -1,4 +1,4 @@
-//! Shots and tracks into files of any format.
+//! Shots encoded in any format.
 
 use std::path::{Path, PathBuf};
 
@@ -11,24 +11,24 @@ use super::{
 };
 use cinesplat_trajectory::Shot;
 
-/// What of a shot is written.
+/// The poses of a shot to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Content {
     /// Every frame of the film.
     #[default]
     Sampled,
-    /// The keyframes; the reader's own curve joins them.
+    /// The keyframes; the reading program interpolates between them.
     Keyframes,
 }
 
-/// How a shot is written.
+/// Settings of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExportSettings {
-    /// Frames or keys.
+    /// Frames or keyframes.
     pub content: Content,
-    /// Frames per second of sampled content; `None` takes the shot's.
+    /// Frames per second of sampled content; `None` for the shot's.
     pub fps: Option<f64>,
-    /// Layout, for formats that have two.
+    /// Layout, for glTF and COLMAP.
     pub layout: Layout,
 }
 
@@ -43,25 +43,25 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// The layout that a path asks for: binary for `.glb` and `.bin`, else text.
+    /// The layout of a path by its extension: binary for `.glb` and `.bin`, else text.
     pub fn of_path(path: &Path) -> Self {
         if has_extension(path, "glb") || has_extension(path, "bin") { Self::Binary } else { Self::Text }
     }
 }
 
-/// A shot in a format, before it is a file.
+/// A shot encoded in a format, not yet written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Encoded {
     /// Name and bytes of every file: one without a name, or the named files of a folder.
     pub files: Vec<(&'static str, Vec<u8>)>,
-    /// One line for everything that the format cannot hold.
+    /// One line per thing that the format cannot hold.
     pub losses: Vec<String>,
 }
 
-/// Encodes `shot`.
+/// Encodes a shot in a format.
 ///
 /// # Errors
-/// [`ExportError::BadShot`] when the shot is not usable.
+/// [`ExportError::BadShot`] if the shot is not usable.
 pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<Encoded, ExportError> {
     let track = match settings.content {
         Content::Sampled => PoseTrack::sampled(shot, settings.fps)?,
@@ -78,12 +78,8 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
     Ok(encoded)
 }
 
-/// Encodes timed poses, as [`encode()`] does.
-///
-/// # Errors
-/// [`ExportError::NoPoses`] for a track without frames, [`ExportError::BadShot`] where it makes no shot and the format is
-/// `shot`.
-pub fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Encoded, ExportError> {
+/// Encodes timed poses in a format.
+fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Encoded, ExportError> {
     if track.frames.is_empty() {
         return Err(ExportError::NoPoses);
     }
@@ -122,7 +118,7 @@ pub fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result
 
 /// The files that an export to `path` creates.
 ///
-/// A COLMAP model is a folder: `path` names it, or `images.txt` or `images.bin` in it. Every other format is one file.
+/// A COLMAP model is a folder: `path` is the folder, or a `.txt` or `.bin` file in it. Every other format is one file.
 pub fn output_files(path: &Path, format: Format, layout: Layout) -> Vec<PathBuf> {
     if format != Format::Colmap {
         return vec![path.to_owned()];
@@ -132,13 +128,12 @@ pub fn output_files(path: &Path, format: Format, layout: Layout) -> Vec<PathBuf>
     ["cameras", "images", "points3D"].map(|name| folder.join(format!("{name}.{extension}"))).to_vec()
 }
 
-/// Writes `shot` to `path` and returns a line for everything the format cannot hold.
+/// Writes a shot to `path` and returns one line per thing that the format cannot hold.
 ///
-/// [`output_files`] says which files are created. Nothing is written if one of them exists and may not be replaced.
+/// [`output_files`] returns the paths of the files. Nothing is written if one of them exists and may not be replaced.
 ///
 /// # Errors
-/// [`ExportError::BadShot`] when the shot is not usable, [`ExportError::File`] when a file exists already or cannot be
-/// written.
+/// [`ExportError::BadShot`] if the shot is not usable, [`ExportError::File`] if a file exists already or cannot be written.
 pub fn write(
     path: &Path,
     format: Format,

@@ -1,6 +1,6 @@
-//! EuRoC MAV ground truth: CSV lines `nanoseconds, px, py, pz, qw, qx, qy, qz, ..` (later columns are velocities and
-//! biases and are not read). Poses are written as `world_from_camera` with OpenCV camera axes; files of the data set
-//! itself hold the IMU body's pose, which is taken as it stands.
+//! EuRoC MAV ground truth: CSV lines of `nanoseconds, px, py, pz, qw, qx, qy, qz, ..`. Further columns (velocities and
+//! biases) are ignored. Poses are written as `world_from_camera` with OpenCV camera axes. Files of the data set itself hold
+//! poses of the IMU body, which are read unchanged.
 
 use std::fmt::Write as _;
 

@@ -24,7 +24,7 @@ pub enum Format {
     Tum,
     /// KITTI odometry: one 3 x 4 matrix per line, without times.
     Kitti,
-    /// EuRoC MAV ground truth: CSV with nanoseconds.
+    /// EuRoC MAV ground truth: CSV with times in nanoseconds.
     Euroc,
     /// nerfstudio's `camera_path.json`.
     Nerfstudio,
@@ -32,7 +32,7 @@ pub enum Format {
     Transforms,
     /// COLMAP sparse model, text or binary.
     Colmap,
-    /// SuperSplat viewer settings, version 2; `.ssproj` is read.
+    /// SuperSplat viewer settings, version 2; also reads `.ssproj`.
     Supersplat,
     /// LichtFeld Studio timeline, version 4.
     Lichtfeld,
@@ -50,25 +50,33 @@ pub enum Format {
     Shot,
 }
 
-/// What a format can hold beyond positions and rotations.
+/// What a format can hold besides positions and rotations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "one row of a table of capabilities")]
 pub(super) struct Holds {
+    /// Times of the frames.
     pub(super) times: bool,
+    /// Times that do not start at 0.
     pub(super) clock: bool,
+    /// Fields of view.
     pub(super) fov: bool,
+    /// The image size.
     pub(super) size: bool,
+    /// Focus distances.
     pub(super) focus: bool,
+    /// Easings.
     pub(super) easing: bool,
+    /// Cuts.
     pub(super) cuts: bool,
+    /// Roll of the camera.
     pub(super) roll: bool,
 }
 
 impl Format {
-    /// The format that a path to be written stands for; `None` where the name leaves it open.
+    /// The format of a path by its name; `None` if the name is ambiguous.
     ///
-    /// Whole names first (`transforms.json`, `camera_path.json`, `images.bin`), then a part before the extension
-    /// (`move.shot.json`, `move.kitti.txt`), then the extension; plain `.json` and `.txt` leave it open.
+    /// The whole name decides first (`transforms.json`, `camera_path.json`, `images.bin`), then a part before the extension
+    /// (`move.shot.json`, `move.kitti.txt`), then the extension. Plain `.json` and `.txt` are ambiguous.
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_str()?.to_ascii_lowercase();
         match name.as_str() {
@@ -104,7 +112,7 @@ impl Format {
         }
     }
 
-    /// The format of a file by its content; `None` when it is none that is known.
+    /// The format of a file by its content; `None` for an unknown one.
     pub fn detect(bytes: &[u8]) -> Option<Self> {
         if bytes.starts_with(b"glTF") {
             return Some(Self::Gltf);
@@ -123,6 +131,7 @@ impl Format {
         }
     }
 
+    /// What files of the format can hold.
     pub(super) fn holds(self) -> Holds {
         let none = Holds {
             times: false,
@@ -172,7 +181,7 @@ fn detect_json(value: &Value) -> Option<Format> {
     }
 }
 
-/// Formats of lines, told apart by the first line that holds data.
+/// The line-based format of a text, by its first line with data.
 fn detect_columns(text: &str) -> Option<Format> {
     let header = text.lines().next()?;
     if header.contains("time_secs") && header.contains(',') {

@@ -1,4 +1,4 @@
-//! Files of any format into tracks and shots.
+//! Tracks and shots read from files of any format.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ use super::{
 };
 use cinesplat_trajectory::Shot;
 
-/// Largest file that is read, bytes: camera paths are small, a scene given by mistake is not.
+/// Largest file that is read, bytes. A larger one is likely a scene, given by mistake.
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
-/// Files that a folder may stand for, in the order they are looked for.
+/// Files in a folder that may hold its camera path, in the order of the search.
 const IN_FOLDER: [&str; 11] = [
     "images.bin",
     "images.txt",
@@ -33,19 +33,19 @@ const IN_FOLDER: [&str; 11] = [
 /// A camera path read from a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imported {
-    /// The format it was in.
+    /// Format of the file.
     pub format: Format,
-    /// The poses on the file's own clock.
+    /// The poses, on the file's clock.
     pub track: PoseTrack,
-    /// The shot, where the file was a `shot.json`.
+    /// The shot, if the file is a `shot.json`.
     pub shot: Option<Shot>,
 }
 
 impl Imported {
-    /// The shot of the file: its own, or one with a key a pose; and a line for everything that had to be assumed.
+    /// The file's shot, or a shot with one keyframe per pose; and one line per assumption.
     ///
     /// # Errors
-    /// [`ExportError::BadShot`] where the poses make no shot (times that do not increase, for one).
+    /// [`ExportError::BadShot`] if the poses make no shot, for example because times do not increase.
     pub fn into_shot(self) -> Result<(Shot, Vec<String>), ExportError> {
         match self.shot {
             Some(shot) => Ok((shot, Vec::new())),
@@ -56,7 +56,7 @@ impl Imported {
 
 /// The camera path in a file, or in a folder that holds a COLMAP, EuRoC or nerfstudio capture.
 ///
-/// The format is found from the content unless it is given.
+/// Without a format, the content of the file determines it.
 ///
 /// # Errors
 /// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is none
@@ -102,7 +102,7 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
 
 fn unknown_content() -> ExportError {
     let names: Vec<&str> = Format::VARIANTS.iter().map(|format| format.as_ref()).collect();
-    ExportError::WrongFormat { found: "content of no format that is known".into(), expected: names.join(", ") }
+    ExportError::WrongFormat { found: "content of no known format".into(), expected: names.join(", ") }
 }
 
 fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
@@ -113,7 +113,7 @@ fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
     })
 }
 
-/// The file itself, or the first of a capture's files in a folder.
+/// The file itself, or the first match of [`IN_FOLDER`] in a folder.
 fn file_of(path: &Path) -> Result<PathBuf, ExportError> {
     if !path.is_dir() {
         return Ok(path.to_owned());
@@ -133,7 +133,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, ExportError> {
     Ok(cinesplat_files::read(path)?)
 }
 
-/// A file that another one names: only in the same folder, so that a file cannot reach elsewhere.
+/// A file that another file names. It must be in the same folder, so that a file cannot read from elsewhere.
 fn read_beside(path: &Path, name: &str) -> Result<Vec<u8>, ExportError> {
     if name.is_empty() || name.contains(['/', '\\']) || name.starts_with('.') {
         let found = super::json_read::quoted(name);
@@ -142,7 +142,7 @@ fn read_beside(path: &Path, name: &str) -> Result<Vec<u8>, ExportError> {
     read_bytes(&path.with_file_name(name))
 }
 
-/// A model by its `images` (or `cameras`) file; fields of view stay unknown where there is no `cameras` file.
+/// The model of an `images` (or `cameras`) file. Without a `cameras` file the fields of view are unknown.
 fn read_colmap(path: &Path, bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let binary = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bin"));
     let extension = if binary { "bin" } else { "txt" };

@@ -1,27 +1,27 @@
-//! Reading JSON with errors that name the place: `keyframes[3].position: found "x", expected 3 finite numbers`.
+//! JSON reading with errors that name the place: `keyframes[3].position: found "x", expected 3 finite numbers`.
 
 use glam::{DMat4, DVec3};
 use serde_json::Value;
 
 use super::ExportError;
 
-/// Longest piece of a file that an error message repeats.
+/// Longest piece of a file in an error message, characters.
 const MAX_QUOTED_CHARS: usize = 60;
 
-/// A JSON value and where it stands.
+/// A JSON value and its place in the file.
 #[derive(Debug, Clone)]
 pub(super) struct Node<'a> {
     value: &'a Value,
     place: String,
 }
 
-/// Parses JSON text. Depth is bounded by the parser (128 levels), numbers by `f64`.
+/// Parses JSON text. The parser limits the depth to 128 levels and numbers to `f64`.
 pub(super) fn parse(text: &str) -> Result<Value, ExportError> {
     serde_json::from_str(text.trim_start_matches('\u{feff}'))
         .map_err(|error| ExportError::NotJson { reason: error.to_string() })
 }
 
-/// Text as an error message quotes it: on one line and not too long.
+/// Text for an error message: on one line, shortened to the maximum length.
 pub(super) fn quoted(text: &str) -> String {
     let mut short: String = text.chars().take(MAX_QUOTED_CHARS).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if short.len() < text.len() {
@@ -35,6 +35,7 @@ impl<'a> Node<'a> {
         Self { value, place: String::new() }
     }
 
+    /// An error at this place.
     pub(super) fn error(&self, expected: impl Into<String>) -> ExportError {
         let place = if self.place.is_empty() { "top level".to_owned() } else { self.place.clone() };
         ExportError::BadField { place, found: quoted(&self.value.to_string()), expected: expected.into() }
@@ -80,7 +81,7 @@ impl<'a> Node<'a> {
 
     pub(super) fn whole(&self, max: u64) -> Result<u64, ExportError> {
         let whole = self.value.as_u64().or_else(|| {
-            // Other programs write 1280.0.
+            // Other programs write 1280.0 for 1280.
             self.value.as_f64().filter(|v| v.fract() == 0.0 && (0.0..9.0e15).contains(v)).map(|v| v as u64)
         });
         whole.filter(|v| *v <= max).ok_or_else(|| self.error(format!("a whole number 0..{max}")))
@@ -129,7 +130,7 @@ impl<'a> Node<'a> {
     }
 }
 
-/// The matrix whose 12 or 16 numbers stand row by row.
+/// The matrix of 12 or 16 numbers in row-major order; `None` for another count or a last row that is not 0 0 0 1.
 pub(super) fn matrix_from_rows(rows: &[f64]) -> Option<DMat4> {
     let mut full = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     if rows.len() != 12 && rows.len() != 16 {

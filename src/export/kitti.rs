@@ -1,5 +1,5 @@
-//! KITTI odometry poses: the 12 numbers of a 3 x 4 `world_from_camera` matrix a line, row by row, OpenCV camera axes,
-//! no times.
+//! KITTI odometry poses: per line the 12 numbers of a 3 x 4 `world_from_camera` matrix in row-major order, with OpenCV
+//! camera axes and no times.
 
 use super::ExportError;
 use super::columns::{bad_line, data_lines, joined, numbers};
@@ -26,7 +26,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     Ok(PoseTrack::untimed(frames))
 }
 
-/// Frame `frame_idx` from the rows of its matrix; `Err` says what was expected instead.
+/// Frame `frame_idx` from a row-major matrix; the error is the expectation that the numbers fail.
 pub(super) fn matrix_frame(frame_idx: usize, rows: &[f64]) -> Result<PoseFrame, String> {
     let matrix = matrix_from_rows(rows).ok_or("a 3 x 4 or 4 x 4 matrix")?;
     let pose = Pose::from_matrix(matrix).map_err(|error| format!("a rigid pose ({error})"))?;

@@ -1,9 +1,9 @@
-//! Camera paths as files: the project's own, and one file a format of other programs.
+//! Files of camera paths: the project's own `shot.json` and the formats of other programs, one module per format.
 //!
-//! Enters: a [`Shot`](cinesplat_trajectory::Shot) or timed poses; files of other programs. Leaves: files; shots and
-//! [`PoseTrack`]s. Poses inside are `world_from_camera` with OpenCV camera axes in the scene's own world; each format's
-//! file says what it makes of them, and with `geometry` this folder is the only place where signs are flipped.
-//! The one invariant: what a format cannot hold is named in a warning, never dropped in silence.
+//! Enters: a [`Shot`](cinesplat_trajectory::Shot), or a file. Leaves: files, or shots and [`PoseTrack`]s. In memory a pose is
+//! `world_from_camera` with OpenCV camera axes in the scene's world; each module documents the convention of its format.
+//! Only this crate and `geometry::frames` flip the signs of axes. The one invariant: a warning names everything that a
+//! format cannot hold.
 
 mod blender;
 pub mod cameras_json;
@@ -32,8 +32,8 @@ mod transforms;
 mod tum;
 mod usd;
 
-pub use encode::{Content, Encoded, ExportSettings, Layout, encode, encode_poses, output_files, write};
+pub use encode::{Content, Encoded, ExportSettings, Layout, encode, output_files, write};
 pub use error::ExportError;
 pub use format::Format;
 pub use import::{Imported, read};
-pub use track::{DEFAULT_FOV_Y_DEG, DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack};
+pub use track::{PoseFrame, PoseTrack};

@@ -1,6 +1,8 @@
-//! LichtFeld Studio timelines, version 4: seconds, position, quaternion w x y z with OpenGL camera axes, focal length in
-//! mm on a frame 24 mm high, and one of four easings; other
-//! easings become the one of the four that rests at the same ends. Its own spline joins the keys; it keeps numbers as f32.
+//! LichtFeld Studio timelines, version 4: per key seconds, position, quaternion (w x y z, OpenGL camera axes), focal length in
+//! mm for a frame 24 mm high, and one of four easings.
+//!
+//! Other easings are replaced by the one of the four that rests at the same ends. The program joins the keys with its own
+//! spline and stores numbers as f32.
 
 use super::ExportError;
 use super::json_read::{self, Node};
@@ -10,11 +12,11 @@ use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_trajectory::Easing;
 
 const VERSION: u32 = 4;
-/// Height of the frame that focal lengths refer to, mm.
+/// Height of the frame for focal lengths, mm.
 const FRAME_HEIGHT_MM: f64 = 24.0;
-/// Focal lengths that the program keeps, mm; others are clamped by it.
+/// Range of focal lengths in the program, mm; it clamps others.
 pub(super) const FOCAL_RANGE_MM: (f64, f64) = (10.0, 200.0);
-/// Easings by their number in the file.
+/// Easings in the order of their numbers in the file.
 const EASINGS: [Easing; 4] = [Easing::Linear, Easing::EaseIn, Easing::EaseOut, Easing::Smooth];
 
 pub(super) fn focal_mm(fov_y_rad: f64) -> f64 {

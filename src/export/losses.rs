@@ -1,4 +1,4 @@
-//! What a format cannot hold of a track, in words.
+//! Warnings about what a format cannot hold of a track.
 
 use glam::DVec3;
 
@@ -8,18 +8,18 @@ use super::{lichtfeld, opengl};
 use cinesplat_geometry::LevelFrame;
 use cinesplat_trajectory::Easing;
 
-/// Most keys of a camera animation that SuperSplat's authoring limits allow.
+/// Largest number of keys of a camera animation in SuperSplat's editor.
 const SUPERSPLAT_MAX_KEYS: usize = 1000;
 /// Roll below which a camera counts as level, rad.
 const LEVEL_RAD: f64 = 1e-3;
 
-/// A line for everything in `track` that a file of `format` does not hold.
+/// One line per thing in `track` that `format` cannot hold.
 pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
     let holds = format.holds();
     let mut lines = Vec::new();
     let mut lost = |is_lost: bool, what: String| {
         if is_lost {
-            lines.push(format!("{} {what}", format.as_ref()));
+            lines.push(format!("{format} {what}"));
         }
     };
     let any = |test: fn(&PoseFrame) -> bool| track.frames.iter().any(test);
@@ -45,7 +45,7 @@ pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
     lines
 }
 
-/// Values that the other program holds but does not take.
+/// A line about values that the format can hold but the program rejects or clamps.
 fn out_of_range(format: Format, track: &PoseTrack) -> Option<String> {
     match format {
         Format::Lichtfeld => {
@@ -57,7 +57,7 @@ fn out_of_range(format: Format, track: &PoseTrack) -> Option<String> {
         Format::Supersplat if track.frames.len() > SUPERSPLAT_MAX_KEYS => {
             Some(format!("supersplat's editor takes at most {SUPERSPLAT_MAX_KEYS} keys: lower --fps"))
         }
-        Format::Gltf | Format::Usd => opengl::unknown_up(format.as_ref(), track.up),
+        Format::Gltf | Format::Usd => opengl::unknown_up(format, track.up),
         Format::Blender if track.up.is_none() => Some("blender takes +z as up: the scene's up is not known".into()),
         _ => None,
     }

@@ -1,9 +1,9 @@
-//! nerfstudio's `camera_path.json`, which `ns-render camera-path` films and nerfview and others share.
+//! nerfstudio's `camera_path.json`, which `ns-render camera-path` renders and nerfview also reads.
 //!
-//! Matrices are `world_from_camera` with OpenGL camera axes, 16 numbers row by row; fields of view vertical, in degrees.
-//! `ns-render` takes frames from `camera_path` at `len / seconds` a second and ignores `keyframes` and `fps`; the viewer
-//! loads `keyframes` alone. Positions are in the scene file's own world: a scene trained by nerfstudio and exported by it
-//! has the same one.
+//! Matrices are `world_from_camera` with OpenGL camera axes, 16 numbers in row-major order. Fields of view are vertical, in
+//! degrees. `ns-render` renders `camera_path` at `len / seconds` frames per second and ignores `keyframes` and `fps`; the
+//! viewer loads only `keyframes`. Positions are in the scene file's world, which is that of nerfstudio if nerfstudio
+//! exported the scene.
 
 use glam::DMat4;
 
@@ -28,7 +28,7 @@ pub(super) fn write(track: &PoseTrack) -> String {
         ])
     };
     let keyframes = keys.iter().enumerate().map(|(idx, key)| {
-        // The time that the viewer takes to get here from the key before.
+        // Time from the previous key to this one in the viewer.
         let before = idx.checked_sub(1).and_then(|idx| keys.get(idx));
         let transition_secs = before.map_or(0.0, |before| key.time_secs - before.time_secs);
         let Json::Object(mut fields) = camera(key, "matrix") else { return Json::NULL() };
@@ -42,7 +42,7 @@ pub(super) fn write(track: &PoseTrack) -> String {
         ("camera_type", "perspective".into()),
         ("render_height", height.into()),
         ("render_width", width.into()),
-        // A path without length still needs a rate: frames over seconds.
+        // A path of no duration still needs a rate: frames over seconds.
         ("fps", if seconds > 0.0 { num_frames / seconds } else { track.fps.unwrap_or(DEFAULT_FPS) }.into()),
         ("seconds", if seconds > 0.0 { seconds } else { num_frames / track.fps.unwrap_or(DEFAULT_FPS) }.into()),
         ("is_cycle", false.into()),
@@ -69,14 +69,14 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     for (idx, node) in path.iter().enumerate() {
         frames.push(read_camera(node, "camera_to_world", idx as f64 / fps.unwrap_or(DEFAULT_FPS))?);
     }
-    // A path that only repeats its keys was written as keys: their transitions tell the times.
+    // A path that repeats its keys was written from keys: their transitions give the times.
     if frames.is_empty() || (frames.len() == keys.len() && frames.iter().zip(&keys).all(|(a, b)| a.pose == b.pose)) {
         return Ok(PoseTrack { size_px, fps, timed: true, ..PoseTrack::untimed(keys) });
     }
     Ok(PoseTrack { size_px, fps: fps.or(Some(DEFAULT_FPS)), timed: fps.is_some(), keys, ..PoseTrack::untimed(frames) })
 }
 
-/// Keyframes, their times summed up from the transitions.
+/// Keyframes, with times summed from the transitions.
 fn read_keys(nodes: &[Node], root: &Node) -> Result<Vec<PoseFrame>, ExportError> {
     let default_secs = root.optional("default_transition_sec").map_or(Ok(0.5), |node| node.number())?;
     let mut time_secs = 0.0;
@@ -102,7 +102,7 @@ fn read_camera(node: &Node, matrix_name: &str, time_secs: f64) -> Result<PoseFra
     Ok(PoseFrame { fov_y_rad: fov_deg.map(f64::to_radians), ..PoseFrame::new(time_secs, pose) })
 }
 
-/// The Blender add-on writes keyframe matrices as a string that holds a list, column by column.
+/// The matrix in a string with a list in column-major order, as the Blender add-on writes keyframes.
 fn matrix_in_text(text: &str) -> Option<DMat4> {
     let numbers = text.trim().trim_start_matches('[').trim_end_matches(']').split(',');
     let columns: Vec<f64> = numbers.map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;

@@ -1,28 +1,30 @@
-//! `shot.json`, version 1: the project's own file, made to be edited by hand.
+//! `shot.json`, version 1: the project's own format, which people may edit by hand.
 //!
 //! Enters: JSON text or a [`Shot`]. Leaves: a validated [`Shot`] or JSON text. Positions and rotations are
-//! `world_from_camera` in the scene's world; angles in degrees under keys that say so. Readers ignore keys they do not
-//! know and refuse another `format` or `version`.
+//! `world_from_camera` in the scene's world; angles are in degrees under keys that end in `_deg`. The reader ignores unknown
+//! keys and rejects another `format` or `version`.
+
+use std::str::FromStr;
 
 use glam::DQuat;
-use strum::VariantArray;
+use strum::VariantNames;
 
 use super::ExportError;
 use super::clearance_json;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose};
-use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
+use cinesplat_trajectory::Easing;
 use cinesplat_trajectory::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
 
 /// Value of the `format` key.
 pub(super) const FORMAT: &str = "cinesplat.shot";
 const VERSION: u32 = 1;
 
-/// The shot in a `shot.json`.
+/// Reads a `shot.json`.
 ///
-/// Required: `format`, `version`, `width`, `height`, `fps`, `duration_secs`, `keyframes`, and of a keyframe `time_secs`,
-/// `position`, `rotation_xyzw`, `fov_y_deg`. `euler_deg` is not looked at: the quaternion decides.
+/// Required keys: `format`, `version`, `width`, `height`, `fps`, `duration_secs`, `keyframes`, and in a keyframe
+/// `time_secs`, `position`, `rotation_xyzw`, `fov_y_deg`. `euler_deg` is ignored in favor of the quaternion.
 ///
 /// # Errors
 /// [`ExportError::NotJson`], [`ExportError::WrongFormat`], [`ExportError::WrongVersion`]; [`ExportError::BadField`] and
@@ -38,7 +40,7 @@ pub fn read(text: &str) -> Result<Shot, ExportError> {
         model: root.optional("model").map(|node| read_model(&node)).transpose()?,
         width: root.field("width", "a number of pixels")?.pixels()?,
         height: root.field("height", "a number of pixels")?.pixels()?,
-        fps: root.field("fps", "frames a second")?.number()?,
+        fps: root.field("fps", "frames per second")?.number()?,
         duration_secs: root.field("duration_secs", "seconds")?.number()?,
         keyframes: list_of(&root.field("keyframes", "a list of keyframes")?, read_keyframe)?,
         effects: root.optional("effects").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_effect))?,
@@ -50,7 +52,7 @@ pub fn read(text: &str) -> Result<Shot, ExportError> {
         shot.clearance = clearance_json::read(&node, &shot)?;
     }
     for key in &mut shot.keyframes {
-        // A quaternion typed by hand with a few digits is off unit length; one that we wrote keeps its bits.
+        // A quaternion typed with a few digits is not of unit length. One written by this program keeps its bits.
         if (key.pose.rotation.length() - 1.0).abs() > 1e-12 {
             key.pose.rotation = key.pose.rotation.normalize();
         }
@@ -102,24 +104,17 @@ fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
         pose: Pose { position, rotation },
         fov_y_rad: node.field("fov_y_deg", "degrees")?.number()?.to_radians(),
         focus_distance: node.optional("focus_distance").map(|d| d.number()).transpose()?,
-        easing: named(node, "easing", Easing::VARIANTS, <&str>::from)?.unwrap_or(Easing::Smooth),
+        easing: named(node, "easing")?.unwrap_or(Easing::Smooth),
         cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
         intent: node.optional("intent").map(|intent| read_intent(&intent)).transpose()?,
     })
 }
 
-/// The choice that a field names, `None` when the field is absent.
-fn named<T: Copy>(
-    node: &Node,
-    field: &str,
-    choices: &[T],
-    name: impl Fn(T) -> &'static str,
-) -> Result<Option<T>, ExportError> {
+/// The choice that a field names; `None` without the field.
+fn named<T: FromStr + VariantNames>(node: &Node, field: &str) -> Result<Option<T>, ExportError> {
     let Some(node) = node.optional(field) else { return Ok(None) };
-    let text = node.text()?;
-    let found = choices.iter().copied().find(|choice| name(*choice) == text);
-    let names = || choices.iter().map(|choice| name(*choice)).collect::<Vec<_>>().join(", ");
-    found.map(Some).ok_or_else(|| node.error(format!("one of {}", names())))
+    let found = node.text()?.parse();
+    found.map(Some).map_err(|_| node.error(format!("one of {}", T::VARIANTS.join(", "))))
 }
 
 fn read_intent(node: &Node) -> Result<Intent, ExportError> {
@@ -133,9 +128,9 @@ fn read_intent(node: &Node) -> Result<Intent, ExportError> {
     });
     Ok(Intent {
         subjects,
-        size: named(node, "size", ShotSize::VARIANTS, <&str>::from)?,
-        movement: named(node, "move", Move::VARIANTS, <&str>::from)?,
-        angle: named(node, "angle", ShotAngle::VARIANTS, <&str>::from)?,
+        size: named(node, "size")?,
+        movement: named(node, "move")?,
+        angle: named(node, "angle")?,
         words: words.transpose()?,
         pivot: node.optional("pivot").map(|pivot| pivot.vector()).transpose()?,
     })
@@ -153,7 +148,7 @@ fn read_report_line(node: &Node) -> Result<ReportLine, ExportError> {
     Ok(ReportLine {
         clause: text_or_empty(node, "clause")?,
         wanted: text_or_empty(node, "wanted")?,
-        // Written as null where nothing could be measured.
+        // A value that was not measured is written as null.
         got: node.optional("got").map_or(Ok(f64::NAN), |got| got.number())?,
         met: node.optional("met").map_or(Ok(false), |met| met.flag())?,
         note: text_or_empty(node, "note")?,
@@ -162,8 +157,8 @@ fn read_report_line(node: &Node) -> Result<ReportLine, ExportError> {
 
 /// The text of a `shot.json`; ends with a line feed.
 ///
-/// Numbers read back to the same bits, angles to within rounding of degrees. `euler_deg` is written where the scene's up
-/// is known; its yaw lies in -180..180.
+/// Numbers read back to the same bits, angles to within the rounding of degrees. `euler_deg` is written if the scene's up is
+/// known, with a yaw of -180..180.
 pub fn write(shot: &Shot) -> String {
     let eulers = euler_angles(shot);
     let keyframes = shot.keyframes.iter().zip(eulers).map(|(key, euler)| keyframe_json(key, euler));
@@ -198,7 +193,7 @@ fn euler_angles(shot: &Shot) -> Vec<Option<LevelAngles>> {
     level_angles(&level, shot.keyframes.iter().map(|key| key.pose.rotation)).into_iter().map(Some).collect()
 }
 
-/// Angles of rotations in a level frame, yaw counted from the first of them and brought to -pi..pi.
+/// Angles of rotations in a level frame, with yaw relative to the first and in -pi..pi.
 pub(crate) fn level_angles(level: &LevelFrame, rotations: impl Iterator<Item = DQuat>) -> Vec<LevelAngles> {
     let mut angles: Vec<LevelAngles> = rotations.map(|rotation| level.angles(rotation)).collect();
     let start = angles.first().map_or(0.0, |first| first.yaw_rad);

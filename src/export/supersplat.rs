@@ -1,7 +1,7 @@
-//! SuperSplat viewer settings, version 2, and the camera poses inside a SuperSplat project (`.ssproj`).
+//! SuperSplat viewer settings, version 2, and the camera poses of a SuperSplat project (`.ssproj`).
 //!
-//! Their world is the PLY's turned by half a turn about z, +y up; poses are position, target and a field of view along
-//! the larger side of the image, in degrees: there is no roll. Times in the file count frames.
+//! SuperSplat's world is that of the PLY rotated by half a turn about z, with +y up. A pose is a position, a target and a
+//! field of view along the larger side of the image, in degrees; it has no roll. Times count frames.
 
 use std::io::Read as _;
 
@@ -14,10 +14,10 @@ use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::Easing;
 
-/// Cap on the size of the document inside a project.
+/// Largest document inside a project that is read, bytes.
 const MAX_DOCUMENT_BYTES: u64 = 64 << 20;
 
-/// Their world from the scene file's, and back: half a turn about z.
+/// A point in SuperSplat's world from one in the scene file's world, or back: half a turn about z.
 fn turned(point: DVec3) -> DVec3 {
     DVec3::new(-point.x, -point.y, point.z)
 }
@@ -27,6 +27,7 @@ fn larger_fov(fov_y_rad: f64, aspect: f64) -> f64 {
     2.0 * ((fov_y_rad / 2.0).tan() * aspect.max(1.0)).atan()
 }
 
+/// The vertical field of view from the one along the larger image side, rad.
 fn vertical_fov(larger_fov_rad: f64, aspect: f64) -> f64 {
     2.0 * ((larger_fov_rad / 2.0).tan() / aspect.max(1.0)).atan()
 }
@@ -34,8 +35,9 @@ fn vertical_fov(larger_fov_rad: f64, aspect: f64) -> f64 {
 pub(super) fn write(track: &PoseTrack) -> String {
     let fps = track.fps.unwrap_or(DEFAULT_FPS);
     let aspect = track.aspect();
-    let reach = reach(track);
-    let target = |frame: &PoseFrame| frame.pose.position + frame.pose.forward() * frame.focus_distance.unwrap_or(reach);
+    let distance = target_distance(track);
+    let target =
+        |frame: &PoseFrame| frame.pose.position + frame.pose.forward() * frame.focus_distance.unwrap_or(distance);
     let flat = |point: fn(&PoseFrame) -> DVec3| track.frames.iter().flat_map(move |f| turned(point(f)).to_array());
     let targets = track.frames.iter().flat_map(|frame| turned(target(frame)).to_array());
     let fov_deg = |frame: &PoseFrame| larger_fov(fov_y_or_default(frame), aspect).to_degrees();
@@ -81,7 +83,7 @@ pub(super) fn write(track: &PoseTrack) -> String {
     .pretty()
 }
 
-/// Every post effect that the schema asks for, switched off.
+/// All post effects that the schema requires, disabled.
 fn effects_off() -> Json {
     let off = |numbers: &[(&str, f64)]| {
         let mut fields = vec![("enabled".to_owned(), false.into())];
@@ -101,8 +103,8 @@ fn effects_off() -> Json {
     ])
 }
 
-/// How far ahead targets lie where there is no focus distance: the extent of the path, or 1 for a path without.
-fn reach(track: &PoseTrack) -> f64 {
+/// Distance of targets without a focus distance: the extent of the path, or 1 for a standing camera.
+fn target_distance(track: &PoseTrack) -> f64 {
     let positions = track.frames.iter().map(|frame| frame.pose.position);
     let (low, high) =
         positions.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
@@ -110,7 +112,7 @@ fn reach(track: &PoseTrack) -> f64 {
     if extent > 1e-6 && extent.is_finite() { extent } else { 1.0 }
 }
 
-/// The track of viewer settings, or of a project's document.
+/// Reads viewer settings, or a project's document.
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let value = json_read::parse(text)?;
     let root = Node::root(&value);
@@ -130,7 +132,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let list = |name: &str, width: usize| {
         let node = values.field(name, "a list of numbers")?;
         let list = node.number_list()?;
-        if list.len() == times.len() * width { Ok(list) } else { Err(node.error(format!("{width} numbers a key"))) }
+        if list.len() == times.len() * width { Ok(list) } else { Err(node.error(format!("{width} numbers per key"))) }
     };
     let (positions, targets, fovs) = (list("position", 3)?, list("target", 3)?, list("fov", 1)?);
     let mut frames = Vec::with_capacity(times.len());
@@ -140,10 +142,10 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         let place = || format!("animTracks[0].keyframes, key {idx}");
         frames.push(frame(time / fps, position, target, *fov_deg).ok_or_else(|| no_direction(place()))?);
     }
-    Ok(finished(frames, fps))
+    Ok(track_of(frames, fps))
 }
 
-/// The poses of a project's document.
+/// Reads the poses of a project's document.
 fn read_document(root: &Node) -> Result<PoseTrack, ExportError> {
     let sets = root.field("poseSets", "a list of pose sets")?.items()?;
     let poses = sets.first().ok_or(ExportError::NoPoses)?.field("poses", "a list of poses")?.items()?;
@@ -161,20 +163,20 @@ fn read_document(root: &Node) -> Result<PoseTrack, ExportError> {
             .push(frame(time_secs, position, target, fov_deg).ok_or_else(|| pose.error("position and target apart"))?);
     }
     frames.sort_by(|a, b| a.time_secs.total_cmp(&b.time_secs));
-    Ok(finished(frames, fps))
+    Ok(track_of(frames, fps))
 }
 
 fn frame_rate(node: Option<Node>) -> Result<f64, ExportError> {
     let Some(node) = node else { return Ok(DEFAULT_FPS) };
     let fps = node.number()?;
-    if fps > 0.0 { Ok(fps) } else { Err(node.error("frames a second above 0")) }
+    if fps > 0.0 { Ok(fps) } else { Err(node.error("frames per second above 0")) }
 }
 
 fn no_direction(place: String) -> ExportError {
     ExportError::BadField { place, found: "position = target".into(), expected: "the two apart".into() }
 }
 
-/// A frame from their world; the image is taken to have the default size, since the file holds none.
+/// A frame from SuperSplat's world. The aspect is that of the default image size, because the file states none.
 fn frame(time_secs: f64, position: DVec3, target: DVec3, fov_deg: f64) -> Option<PoseFrame> {
     let pose = Pose::look_at(turned(position), turned(target), DVec3::NEG_Y, None).ok()?;
     let aspect = f64::from(DEFAULT_SIZE_PX.0) / f64::from(DEFAULT_SIZE_PX.1);
@@ -182,7 +184,7 @@ fn frame(time_secs: f64, position: DVec3, target: DVec3, fov_deg: f64) -> Option
     Some(PoseFrame { fov_y_rad, easing: Easing::Linear, ..PoseFrame::new(time_secs, pose) })
 }
 
-fn finished(frames: Vec<PoseFrame>, fps: f64) -> PoseTrack {
+fn track_of(frames: Vec<PoseFrame>, fps: f64) -> PoseTrack {
     PoseTrack { fps: Some(fps), up: Some(DVec3::NEG_Y), timed: true, ..PoseTrack::untimed(frames) }
 }
 

@@ -4,52 +4,52 @@ use super::ExportError;
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraPath, Easing, Keyframe, SceneRef, Shot, TrajectoryError};
 
-/// Vertical field of view that a shot gets when its file holds none, in degrees.
-pub const DEFAULT_FOV_Y_DEG: f64 = 50.0;
-/// Frame rate that gives times to poses of files without times.
-pub const DEFAULT_FPS: f64 = 30.0;
-/// Image size of a shot whose file holds none, pixels.
-pub const DEFAULT_SIZE_PX: (u32, u32) = (1280, 720);
+/// Vertical field of view of a shot whose file states none, degrees.
+pub(super) const DEFAULT_FOV_Y_DEG: f64 = 50.0;
+/// Frame rate of the poses of a file without times, frames per second.
+pub(super) const DEFAULT_FPS: f64 = 30.0;
+/// Image width and height of a shot whose file states none, pixels.
+pub(super) const DEFAULT_SIZE_PX: (u32, u32) = (1280, 720);
 
-/// Timed camera poses as files of other programs hold them: every frame of a film, or its keyframes.
+/// Timed camera poses of a file: every frame of a film, or its keyframes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseTrack {
-    /// Image width and height in pixels; `None` where the file does not say.
+    /// Image width and height in pixels; `None` if the file does not state them.
     pub size_px: Option<(u32, u32)>,
-    /// Frames a second; `None` where the file does not say and times are not even.
+    /// Frames per second; `None` if the file states no rate and the times are not even.
     pub fps: Option<f64>,
-    /// World up; `None` where the file does not say.
+    /// World up; `None` if the file does not state it.
     pub up: Option<DVec3>,
-    /// Whether the file holds times. Without them `time_secs` counts frames at [`DEFAULT_FPS`].
+    /// Whether the file holds times. If not, `time_secs` counts frames at 30 per second.
     pub timed: bool,
     /// The poses in order of time (in file order without times), at least one.
     pub frames: Vec<PoseFrame>,
-    /// The keyframes behind sampled `frames`, for formats that hold both; empty where `frames` are the keys or unknown.
+    /// The keyframes of sampled `frames`, for formats that hold both; empty if `frames` are the keyframes or they are unknown.
     pub keys: Vec<PoseFrame>,
 }
 
 /// The camera at one moment of a [`PoseTrack`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseFrame {
-    /// When, on the file's own clock (which may count from 1970).
+    /// Time on the file's clock, which may start in 1970.
     pub time_secs: f64,
-    /// Where, `world_from_camera`.
+    /// `world_from_camera`.
     pub pose: Pose,
-    /// Vertical field of view; `None` where the file does not say.
+    /// Vertical field of view; `None` if the file does not state it.
     pub fov_y_rad: Option<f64>,
-    /// Distance of sharpest focus, scene units.
+    /// Distance of sharpest focus, scene units; `None` if the file does not state it.
     pub focus_distance: Option<f64>,
-    /// Shape of the way to the next frame; linear between sampled frames.
+    /// Speed profile up to the next frame; linear between sampled frames.
     pub easing: Easing,
-    /// Whether the camera jumps from the frame before to this one.
+    /// Whether the camera jumps from the previous frame to this one.
     pub cut: bool,
-    /// The rotation matrix as it stands in the file, where the file holds matrices: its rounding is off orthonormal by
-    /// what the file's digits lose, and error measures that are to agree with other programs see that.
+    /// The file's own rotation matrix, with OpenCV camera axes; `None` if the file holds quaternions. A rounded matrix is
+    /// not exactly orthonormal, and error measures that agree with other programs need it unchanged.
     pub matrix: Option<DMat3>,
 }
 
 impl PoseFrame {
-    /// A pose at a time, nothing else known.
+    /// A pose at a time, with nothing else known.
     pub fn new(time_secs: f64, pose: Pose) -> Self {
         let easing = Easing::Linear;
         Self { time_secs, pose, fov_y_rad: None, focus_distance: None, easing, cut: false, matrix: None }
@@ -71,15 +71,15 @@ impl From<&Keyframe> for PoseFrame {
 }
 
 impl PoseTrack {
-    /// A track of which nothing but its frames is known.
-    pub fn untimed(frames: Vec<PoseFrame>) -> Self {
+    /// A track of frames without times, with nothing else known.
+    pub(super) fn untimed(frames: Vec<PoseFrame>) -> Self {
         Self { size_px: None, fps: None, up: None, timed: false, frames, keys: Vec::new() }
     }
 
-    /// The film's frames: the path of `shot` at `k / fps`, with the shot's own rate unless another is given.
+    /// The frames of a shot's film: its path at the times `k / fps`. `None` takes the shot's rate.
     ///
     /// # Errors
-    /// [`TrajectoryError`] when the shot or the rate is not usable.
+    /// [`TrajectoryError`] if the shot or the rate is out of range.
     pub fn sampled(shot: &Shot, fps: Option<f64>) -> Result<Self, TrajectoryError> {
         let at_rate = Shot { fps: fps.unwrap_or(shot.fps), ..shot.clone() };
         let path = CameraPath::new(&at_rate)?;
@@ -99,7 +99,7 @@ impl PoseTrack {
         Ok(Self { frames, keys: Self::keyframes(shot).frames, ..Self::keyframes(&at_rate) })
     }
 
-    /// The keyframes of `shot`.
+    /// The keyframes of a shot.
     pub fn keyframes(shot: &Shot) -> Self {
         Self {
             size_px: Some((shot.width, shot.height)),
@@ -111,12 +111,13 @@ impl PoseTrack {
         }
     }
 
-    /// A shot with one key a frame, its clock starting at 0. What the file did not say gets the defaults above, each
-    /// with a line in the second value.
+    /// A shot with one keyframe per frame and times from 0, and one line per default that stands for what the file does not
+    /// state.
     ///
     /// # Errors
-    /// [`ExportError::NoPoses`]; [`ExportError::BadShot`] where times do not increase or a number is out of range.
-    pub fn to_shot(&self) -> Result<(Shot, Vec<String>), ExportError> {
+    /// [`ExportError::NoPoses`] without frames, [`ExportError::BadShot`] if times do not increase or a number is out of
+    /// range.
+    pub(super) fn to_shot(&self) -> Result<(Shot, Vec<String>), ExportError> {
         let (Some(first), Some(last)) = (self.frames.first(), self.frames.last()) else {
             return Err(ExportError::NoPoses);
         };
@@ -132,7 +133,7 @@ impl PoseTrack {
             cut: frame.cut,
             intent: None,
         };
-        // The last frame is shown for a frame's time too.
+        // The last frame is shown for one frame time, too.
         let duration_secs = last.time_secs - start + if self.is_sampled() { 1.0 / fps } else { 0.0 };
         let keyframes = self.frames.iter().map(keyframe).collect();
         let scene = SceneRef { up: self.up, ..SceneRef::default() };
@@ -140,8 +141,8 @@ impl PoseTrack {
         Ok((shot.validated()?, self.assumptions()))
     }
 
-    /// Whether the frames are evenly spaced at the rate: frames of a film and not keys.
-    pub fn is_sampled(&self) -> bool {
+    /// Whether the times are even at the frame rate, as for the frames of a film.
+    fn is_sampled(&self) -> bool {
         let Some(fps) = self.fps else { return false };
         let even = |pair: &[PoseFrame]| ((pair[1].time_secs - pair[0].time_secs) * fps - 1.0).abs() < 1e-3;
         self.frames.windows(2).all(even)
@@ -150,7 +151,7 @@ impl PoseTrack {
     fn assumptions(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if !self.timed {
-            lines.push(format!("the file has no times: frames are {DEFAULT_FPS} to the second"));
+            lines.push(format!("the file has no times: {DEFAULT_FPS} frames per second are assumed"));
         }
         if self.size_px.is_none() {
             lines.push(format!("the file has no image size: {} x {} is assumed", DEFAULT_SIZE_PX.0, DEFAULT_SIZE_PX.1));
@@ -161,7 +162,7 @@ impl PoseTrack {
         lines
     }
 
-    /// Width over height, of the default size where the file does not say.
+    /// Width over height of the image, or of the default size.
     pub(super) fn aspect(&self) -> f64 {
         let (width, height) = self.size_px.unwrap_or(DEFAULT_SIZE_PX);
         f64::from(width) / f64::from(height)
@@ -173,14 +174,14 @@ impl PoseTrack {
         span + if self.is_sampled() { self.fps.map_or(0.0, |fps| 1.0 / fps) } else { 0.0 }
     }
 
-    /// Frames and the seconds of each since the first one.
+    /// Each frame with its time since the first, seconds.
     pub(super) fn since_start(&self) -> impl Iterator<Item = (f64, &PoseFrame)> {
         let start = self.frames.first().map_or(0.0, |first| first.time_secs);
         self.frames.iter().map(move |frame| (frame.time_secs - start, frame))
     }
 }
 
-/// Vertical field of view of a frame or its default.
+/// Vertical field of view of a frame, or the default, rad.
 pub(super) fn fov_y_or_default(frame: &PoseFrame) -> f64 {
     frame.fov_y_rad.unwrap_or(DEFAULT_FOV_Y_DEG.to_radians())
 }

@@ -1,8 +1,8 @@
 //! `transforms.json` of NeRF, instant-ngp and nerfstudio: images with poses and intrinsics.
 //!
-//! `transform_matrix` is `world_from_camera` with OpenGL camera axes; `fl_x fl_y cx cy w h` in pixels stand at the top or
-//! in each frame, or `camera_angle_x` (rad) gives the focal length. There are no times: `time_secs` of a frame and `fps`
-//! are additions of this program that other readers ignore.
+//! `transform_matrix` is `world_from_camera` with OpenGL camera axes. `fl_x fl_y cx cy w h` in pixels are at the top level or
+//! in each frame; `camera_angle_x` (rad) may replace the focal length. The format has no times: this program adds
+//! `time_secs` to frames and `fps`, which other readers ignore.
 
 use glam::DMat3;
 
@@ -46,11 +46,11 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         let matrix_node = node.field("transform_matrix", "a 4 x 4 matrix, row-major")?;
         let matrix = matrix_node.matrix()?;
         let pose = from_opengl(matrix).map_err(|error| matrix_node.error(format!("a rigid pose ({error})")))?;
-        let lens = Lens::read(node, &root)?;
-        size_px = size_px.or(lens.size_px());
+        let intrinsics = FrameIntrinsics::read(node, &root)?;
+        size_px = size_px.or(intrinsics.size_px());
         let opencv_axes = DMat3::from_mat4(matrix) * DMat3::from_diagonal(glam::DVec3::new(1.0, -1.0, -1.0));
         frames.push(PoseFrame {
-            fov_y_rad: lens.fov_y_rad(),
+            fov_y_rad: intrinsics.fov_y_rad(),
             matrix: Some(opencv_axes),
             ..PoseFrame::new(time_secs.unwrap_or(idx as f64 / fps.unwrap_or(DEFAULT_FPS)), pose)
         });
@@ -59,8 +59,8 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     Ok(PoseTrack { size_px, fps, timed, ..PoseTrack::untimed(frames) })
 }
 
-/// What a frame says about its image, by itself or for all frames at the top.
-struct Lens {
+/// Intrinsics of a frame, from its own keys or from those at the top level.
+struct FrameIntrinsics {
     width: Option<f64>,
     height: Option<f64>,
     fl_x: Option<f64>,
@@ -69,7 +69,7 @@ struct Lens {
     angle_y: Option<f64>,
 }
 
-impl Lens {
+impl FrameIntrinsics {
     fn read(frame: &Node, root: &Node) -> Result<Self, ExportError> {
         let get = |name: &str| -> Result<Option<f64>, ExportError> {
             let node = frame.optional(name).or_else(|| root.optional(name));

@@ -1,5 +1,5 @@
-//! TUM RGB-D trajectories: `time tx ty tz qx qy qz qw` a line, `world_from_camera`, OpenCV camera axes, seconds on any
-//! clock. Reference: the TUM RGB-D benchmark's file formats; strict as evo reads them (8 columns, `#` comments).
+//! TUM RGB-D trajectories: lines of `time tx ty tz qx qy qz qw`, `world_from_camera` with OpenCV camera axes, seconds on any
+//! clock. Reference: the file formats of the TUM RGB-D benchmark, read as strictly as evo does (8 columns, `#` comments).
 
 use glam::{DQuat, DVec3};
 
@@ -8,7 +8,7 @@ use super::columns::{bad_line, data_lines, joined, numbers};
 use super::track::{PoseFrame, PoseTrack};
 use cinesplat_geometry::Pose;
 
-/// Rotations whose quaternion is off unit length by more are refused: they are likely other columns.
+/// Largest deviation of a quaternion's length from 1. Above it, the columns are likely something else.
 const UNIT_TOLERANCE: f64 = 0.05;
 
 pub(super) fn write(track: &PoseTrack) -> String {
@@ -31,10 +31,10 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     Ok(PoseTrack { timed: true, ..PoseTrack::untimed(frames) })
 }
 
-/// A pose from numbers of a text file, whose quaternion may be rounded.
+/// A pose from a position and a rounded quaternion; `None` for a quaternion that is not of unit length.
 pub(super) fn unit_pose(position: DVec3, rotation: DQuat) -> Option<Pose> {
     let length = rotation.length();
-    // A quaternion that was written with all digits keeps its bits.
+    // A quaternion written with all digits keeps its bits.
     let unit = if (length - 1.0).abs() > 1e-12 { rotation.normalize() } else { rotation };
     ((length - 1.0).abs() < UNIT_TOLERANCE).then_some(Pose { position, rotation: unit })
 }

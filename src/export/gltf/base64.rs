@@ -1,4 +1,4 @@
-//! Base64 of RFC 4648, as data URIs hold it.
+//! Base64 (RFC 4648), as in data URIs.
 
 const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -14,7 +14,7 @@ pub(super) fn encode(bytes: &[u8]) -> String {
     out
 }
 
-/// The bytes; `None` for characters that are none of the alphabet.
+/// The bytes of a text; `None` for characters outside the alphabet.
 pub(super) fn decode(text: &str) -> Option<Vec<u8>> {
     let mut out = Vec::with_capacity(text.len() / 4 * 3);
     let (mut group, mut num_bits) = (0_u32, 0);

@@ -2,7 +2,7 @@
 
 /// The extension that animates the field of view, the only one written or read.
 pub(super) const POINTER: &str = "KHR_animation_pointer";
-/// A key that follows another by less than this is a cut, seconds.
+/// Largest time between the key that holds a pose and the cut after it, seconds.
 pub(super) const CUT_SECS: f64 = 1e-4;
 pub(super) const GLB_MAGIC: &[u8; 4] = b"glTF";
 pub(super) const JSON_CHUNK: &[u8; 4] = b"JSON";

@@ -1,8 +1,8 @@
 //! glTF 2.0: one camera with animated translation, rotation and (through `KHR_animation_pointer`) field of view.
 //!
-//! Cameras have OpenGL axes, the world +y up: a node above the camera turns the scene's up there, and says in its
-//! `extras` which direction that was, so that a file written here reads back in the scene's own world. Key times and
-//! values are f32, as the format asks. Where the shot cuts, a second key a hair before the cut holds the pose.
+//! Cameras have OpenGL axes, and the world has +y up. A node above the camera rotates the scene's up to +y. Its `extras` state
+//! the scene's up, so that a file written here reads back in the scene's own world. Key times and values are f32, as the
+//! format requires. An additional key just before a cut holds the pose up to the cut.
 
 mod accessor;
 mod base64;

@@ -12,7 +12,7 @@ use cinesplat_geometry::{Pose, rotation};
 /// Deepest chain of nodes above a camera.
 const MAX_DEPTH: usize = 64;
 
-/// The track of the first camera in a `.gltf` or `.glb`; `resolve` gives the bytes of a file beside it.
+/// The track of the first camera in a `.gltf` or `.glb`. `resolve` reads a file in the same folder.
 pub(crate) fn read(
     bytes: &[u8],
     resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>,
@@ -29,7 +29,10 @@ pub(crate) fn read(
     let lens = camera.field("perspective", "a perspective camera")?;
     let channels = channels(&root, &buffers, camera_node, camera_idx)?;
     let (above, up) = world_above(&nodes, camera_node)?;
-    let still = Still { node: Placement::read(&nodes[camera_node])?, fov_y_rad: lens.field("yfov", "rad")?.number()? };
+    let still = StaticCamera {
+        node: NodeTransform::read(&nodes[camera_node])?,
+        fov_y_rad: lens.field("yfov", "rad")?.number()?,
+    };
     let frames = frames(&channels, &still, &above);
     let aspect = lens.optional("aspectRatio").map(|aspect| aspect.number()).transpose()?.filter(|aspect| *aspect > 0.0);
     let size_px =
@@ -37,7 +40,7 @@ pub(crate) fn read(
     Ok(PoseTrack { size_px, fps: even_rate(&frames), up: Some(up), timed: true, ..PoseTrack::untimed(frames) })
 }
 
-/// JSON and binary chunk of a `.glb`.
+/// The JSON and the binary chunk of a `.glb`.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ExportError> {
     let (mut offset, mut json, mut binary) = (12, None, None);
     while let Some(head) = bytes.get(offset..offset + 8) {
@@ -77,15 +80,15 @@ fn buffers(
     list.items()?.iter().map(load).collect()
 }
 
-/// Translation, rotation and scale of a node.
+/// Transform of a node into its parent.
 #[derive(Debug, Clone, Copy)]
-struct Placement {
+struct NodeTransform {
     position: DVec3,
     rotation: DQuat,
     scale: f64,
 }
 
-impl Placement {
+impl NodeTransform {
     fn read(node: &Node) -> Result<Self, ExportError> {
         if let Some(matrix) = node.optional("matrix") {
             let (scale, rotation, position) =
@@ -110,9 +113,9 @@ impl Placement {
     }
 }
 
-/// What stands above the camera's node, and which way is up there. Animations of nodes above are not followed.
-fn world_above(nodes: &[Node], camera_node: usize) -> Result<(Placement, DVec3), ExportError> {
-    let mut above = Placement { position: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: 1.0 };
+/// The transform of the nodes above the camera's, and the world's up. Animations of these nodes are ignored.
+fn world_above(nodes: &[Node], camera_node: usize) -> Result<(NodeTransform, DVec3), ExportError> {
+    let mut above = NodeTransform { position: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: 1.0 };
     let mut child = camera_node;
     let mut scene_up = None;
     for _ in 0..MAX_DEPTH {
@@ -122,22 +125,23 @@ fn world_above(nodes: &[Node], camera_node: usize) -> Result<(Placement, DVec3),
                 .is_some_and(|ids| ids.contains(&(child as f64)))
         };
         let Some(parent) = nodes.iter().position(is_parent) else { break };
-        above = Placement::read(&nodes[parent])?.then(&above);
+        above = NodeTransform::read(&nodes[parent])?.then(&above);
         let extras = nodes[parent].optional("extras").and_then(|extras| extras.optional("cinesplat_world_up"));
         scene_up = scene_up.or(extras.map(|up| up.vector()).transpose()?.and_then(DVec3::try_normalize));
         child = parent;
     }
     if let Some(up) = scene_up {
-        let back = Placement { rotation: y_up_from_world(Some(up)).conjugate(), position: DVec3::ZERO, scale: 1.0 };
+        let back = NodeTransform { rotation: y_up_from_world(Some(up)).conjugate(), position: DVec3::ZERO, scale: 1.0 };
         above = back.then(&above);
     }
     Ok((above, scene_up.unwrap_or(DVec3::Y)))
 }
 
-/// A channel's keys; `step` holds each to the next.
+/// The keys of an animated property.
 struct Channel {
     times: Vec<f64>,
     values: Vec<Vec<f64>>,
+    /// Whether each value holds until the next key.
     step: bool,
 }
 
@@ -148,7 +152,7 @@ struct Channels {
     fov: Option<Channel>,
 }
 
-/// The first animation of each property of the camera.
+/// The first channel of each property of the camera.
 fn channels(root: &Node, buffers: &[Vec<u8>], node: usize, camera: usize) -> Result<Channels, ExportError> {
     let mut found = Channels::default();
     let Some(animations) = root.optional("animations") else { return Ok(found) };
@@ -183,7 +187,7 @@ fn read_sampler(root: &Node, buffers: &[Vec<u8>], sampler: &Node) -> Result<Chan
     let mut values = values(root, buffers, size(sampler, "output", None)?)?;
     let interpolation = sampler.optional("interpolation").map_or(Ok("LINEAR"), |name| name.text())?;
     if interpolation == "CUBICSPLINE" && values.len() == 3 * times.len() {
-        // In-tangent, value, out-tangent: the value stands at the key.
+        // Each key has an in-tangent, a value and an out-tangent; only the value is read.
         values = values.into_iter().skip(1).step_by(3).collect();
     }
     if values.len() != times.len() {
@@ -193,7 +197,7 @@ fn read_sampler(root: &Node, buffers: &[Vec<u8>], sampler: &Node) -> Result<Chan
 }
 
 impl Channel {
-    /// The value at a time: one of its keys or between two.
+    /// The value at a time, interpolated by `between`.
     fn at(&self, time: f64, between: impl Fn(&[f64], &[f64], f64) -> Vec<f64>) -> Option<Vec<f64>> {
         let after = self.times.partition_point(|key| *key <= time);
         let (before, next) = (after.saturating_sub(1), after.min(self.times.len().checked_sub(1)?));
@@ -218,14 +222,14 @@ fn turn(values: &[f64]) -> DQuat {
         .map_or(DQuat::IDENTITY, DQuat::normalize)
 }
 
-/// The camera where no channel moves it.
-struct Still {
-    node: Placement,
+/// The camera without animation.
+struct StaticCamera {
+    node: NodeTransform,
     fov_y_rad: f64,
 }
 
-/// A frame for every key time of any channel; one frame without animation.
-fn frames(channels: &Channels, still: &Still, above: &Placement) -> Vec<PoseFrame> {
+/// One frame per key time of any channel; one frame without animation.
+fn frames(channels: &Channels, still: &StaticCamera, above: &NodeTransform) -> Vec<PoseFrame> {
     let all = [&channels.translation, &channels.rotation, &channels.fov];
     let mut times: Vec<f64> = all.into_iter().flatten().flat_map(|channel| channel.times.iter().copied()).collect();
     times.sort_by(f64::total_cmp);
@@ -239,7 +243,7 @@ fn frames(channels: &Channels, still: &Still, above: &Placement) -> Vec<PoseFram
         let slerp = |a: &[f64], b: &[f64], t: f64| rotation::slerp(turn(a), turn(b), t).to_array().to_vec();
         let rotation = channels.rotation.as_ref().and_then(|c| c.at(time, slerp)).map(|values| turn(&values));
         let fov = channels.fov.as_ref().and_then(|c| c.at(time, blend)).and_then(|values| values.first().copied());
-        let node = Placement {
+        let node = NodeTransform {
             position: position.unwrap_or(still.node.position),
             rotation: rotation.unwrap_or(still.node.rotation),
             scale: still.node.scale,
@@ -250,14 +254,14 @@ fn frames(channels: &Channels, still: &Still, above: &Placement) -> Vec<PoseFram
     };
     let mut frames: Vec<PoseFrame> = Vec::with_capacity(times.len());
     for time in times {
-        // A key just before this one was only there to hold the pose up to a cut.
+        // A key just before this one only holds the pose up to a cut.
         let cut = frames.pop_if(|held| time - held.time_secs < CUT_SECS).is_some();
         frames.push(PoseFrame { cut, ..frame(time) });
     }
     frames
 }
 
-/// The frame rate of evenly spaced frames, brought from f32 times to a round number.
+/// The frame rate, rounded to 0.001 because times are f32; `None` without a duration.
 fn even_rate(frames: &[PoseFrame]) -> Option<f64> {
     let (first, last) = frames.first().zip(frames.last())?;
     let span = last.time_secs - first.time_secs;

@@ -3,20 +3,17 @@ use glam::DQuat;
 use super::super::json_write::{Json, object};
 use super::super::opengl::{opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack, fov_y_or_default};
-use super::accessor::FLOAT;
+use super::accessor::{ElementType, FLOAT};
 use super::base64;
 use super::constants::{BINARY_CHUNK, GLB_MAGIC, JSON_CHUNK, POINTER};
 use cinesplat_geometry::rotation;
 
-/// Nearest and farthest distance that a viewer should draw, over the extent of the path.
+/// Near and far plane over the largest distance of the path from the origin.
 const CLIP_FACTORS: (f64, f64) = (1e-3, 1e3);
 
-/// The `.gltf` text, its numbers inside as a data URI.
+/// The `.gltf` text, with its numbers as a data URI.
 pub(crate) fn write_text(track: &PoseTrack) -> String {
-    let (document, bytes) =
-        document(track, |bytes| Some(format!("data:application/octet-stream;base64,{}", base64::encode(bytes))));
-    let _ = bytes;
-    document
+    document(track, |bytes| Some(format!("data:application/octet-stream;base64,{}", base64::encode(bytes)))).0
 }
 
 /// The `.glb` bytes.
@@ -38,10 +35,10 @@ pub(crate) fn write_binary(track: &PoseTrack) -> Vec<u8> {
     out
 }
 
-/// The JSON document and the bytes of its only buffer (a multiple of 4, none for a still camera).
+/// The JSON document and the bytes of its only buffer: a multiple of 4, none for a still camera.
 fn document(track: &PoseTrack, uri: impl Fn(&[u8]) -> Option<String>) -> (String, Vec<u8>) {
-    let mut numbers = Numbers::default();
-    let animation = (track.frames.len() > 1).then(|| animation(track, &mut numbers));
+    let mut buffer = Buffer::default();
+    let animation = (track.frames.len() > 1).then(|| animation(track, &mut buffer));
     let zooms = animation.as_ref().is_some_and(|(_, zooms)| *zooms);
     let mut fields = vec![("asset", object([("version", "2.0".into()), ("generator", "cinesplat".into())]))];
     if zooms {
@@ -54,20 +51,20 @@ fn document(track: &PoseTrack, uri: impl Fn(&[u8]) -> Option<String>) -> (String
         ("cameras", Json::list([camera(track)])),
     ]);
     if let Some((animation, _)) = animation {
-        let mut buffer = vec![("byteLength".to_owned(), numbers.bytes.len().into())];
-        buffer.extend(uri(&numbers.bytes).map(|uri| ("uri".to_owned(), uri.as_str().into())));
+        let mut fields_of_buffer = vec![("byteLength".to_owned(), buffer.bytes.len().into())];
+        fields_of_buffer.extend(uri(&buffer.bytes).map(|uri| ("uri".to_owned(), uri.as_str().into())));
         fields.extend([
             ("animations", Json::list([animation])),
-            ("accessors", Json::List(numbers.accessors)),
-            ("bufferViews", Json::List(numbers.views)),
-            ("buffers", Json::list([Json::Object(buffer)])),
+            ("accessors", Json::List(buffer.accessors)),
+            ("bufferViews", Json::List(buffer.views)),
+            ("buffers", Json::list([Json::Object(fields_of_buffer)])),
         ]);
     }
     let fields = fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-    (Json::Object(fields).pretty(), numbers.bytes)
+    (Json::Object(fields).pretty(), buffer.bytes)
 }
 
-/// The node that turns the scene's world to +y up.
+/// The node that rotates the scene's world to +y up.
 fn world_node(track: &PoseTrack) -> Json {
     let mut fields = vec![
         ("name".to_owned(), "scene".into()),
@@ -101,40 +98,51 @@ fn camera(track: &PoseTrack) -> Json {
 }
 
 /// The animation and whether it changes the field of view.
-fn animation(track: &PoseTrack, numbers: &mut Numbers) -> (Json, bool) {
-    let keys = held(track);
+fn animation(track: &PoseTrack, buffer: &mut Buffer) -> (Json, bool) {
+    let keys = keys_with_holds(track);
     let rotations: Vec<DQuat> = keys.iter().map(|(_, frame)| opengl_rotation(&frame.pose)).collect();
-    let times = numbers.push("SCALAR", keys.iter().map(|(secs, _)| *secs), true);
+    let times = buffer.push(ElementType::Scalar, keys.iter().map(|(secs, _)| *secs), true);
     let positions = keys.iter().flat_map(|(_, frame)| frame.pose.position.as_vec3().to_array());
-    let translation = numbers.push("VEC3", positions, false);
+    let translation = buffer.push(ElementType::Vec3, positions, false);
     let turns = rotation::aligned(&rotations).into_iter().flat_map(|turn| turn.as_quat().normalize().to_array());
-    let rotation = numbers.push("VEC4", turns, false);
+    let rotation = buffer.push(ElementType::Vec4, turns, false);
     let fov = |(_, frame): &(f32, &PoseFrame)| fov_y_or_default(frame) as f32;
     let zooms = keys.windows(2).any(|pair| fov(&pair[0]).to_bits() != fov(&pair[1]).to_bits());
-    let mut outputs = vec![(translation, "translation"), (rotation, "rotation")];
+    let mut outputs = vec![(translation, Property::Translation), (rotation, Property::Rotation)];
     if zooms {
-        outputs.push((numbers.push("SCALAR", keys.iter().map(fov), false), "pointer"));
+        outputs.push((buffer.push(ElementType::Scalar, keys.iter().map(fov), false), Property::FieldOfView));
     }
     let sampler = |output: usize| {
         object([("input", times.into()), ("interpolation", "LINEAR".into()), ("output", output.into())])
     };
     let samplers = Json::list(outputs.iter().map(|(output, _)| sampler(*output)));
-    let channels = outputs.iter().enumerate().map(|(idx, (_, path))| channel(idx, path));
+    let channels = outputs.iter().enumerate().map(|(idx, (_, property))| channel(idx, *property));
     (object([("name", "camera".into()), ("samplers", samplers), ("channels", Json::list(channels))]), zooms)
 }
 
-fn channel(sampler: usize, path: &str) -> Json {
-    let target = if path == "pointer" {
-        let pointer = object([("pointer", "/cameras/0/perspective/yfov".into())]);
-        object([("path", path.into()), ("extensions", object([(POINTER, pointer)]))])
-    } else {
-        object([("node", 1_u32.into()), ("path", path.into())])
+/// An animated property of the camera.
+#[derive(Debug, Clone, Copy)]
+enum Property {
+    Translation,
+    Rotation,
+    FieldOfView,
+}
+
+fn channel(sampler: usize, property: Property) -> Json {
+    let of_node = |path: &str| object([("node", 1_u32.into()), ("path", path.into())]);
+    let target = match property {
+        Property::Translation => of_node("translation"),
+        Property::Rotation => of_node("rotation"),
+        Property::FieldOfView => {
+            let pointer = object([("pointer", "/cameras/0/perspective/yfov".into())]);
+            object([("path", "pointer".into()), ("extensions", object([(POINTER, pointer)]))])
+        }
     };
     object([("sampler", sampler.into()), ("target", target)])
 }
 
-/// Keys with f32 times that strictly increase; before each cut one more, the pose before it held to the last moment.
-fn held(track: &PoseTrack) -> Vec<(f32, &PoseFrame)> {
+/// Keys with strictly increasing f32 times, plus a key just before each cut that holds the pose up to it.
+fn keys_with_holds(track: &PoseTrack) -> Vec<(f32, &PoseFrame)> {
     let mut keys: Vec<(f32, &PoseFrame)> = Vec::with_capacity(track.frames.len());
     for (secs, frame) in track.since_start() {
         let mut time = secs as f32;
@@ -151,22 +159,17 @@ fn held(track: &PoseTrack) -> Vec<(f32, &PoseFrame)> {
     keys
 }
 
-/// Accessors, views and the bytes behind them.
+/// The bytes of a buffer, with its views and accessors.
 #[derive(Default)]
-struct Numbers {
+struct Buffer {
     bytes: Vec<u8>,
     views: Vec<Json>,
     accessors: Vec<Json>,
 }
 
-impl Numbers {
-    /// Appends values and returns the index of their accessor; key times need their bounds written out.
-    fn push(&mut self, kind: &str, values: impl Iterator<Item = f32>, with_bounds: bool) -> usize {
-        let width = match kind {
-            "VEC3" => 3,
-            "VEC4" => 4,
-            _ => 1,
-        };
+impl Buffer {
+    /// Appends values and returns the index of their accessor. Key times require bounds.
+    fn push(&mut self, element_type: ElementType, values: impl Iterator<Item = f32>, with_bounds: bool) -> usize {
         let (start, view) = (self.bytes.len(), self.views.len());
         let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
         for value in values {
@@ -178,8 +181,8 @@ impl Numbers {
         let mut fields = vec![
             ("bufferView".to_owned(), view.into()),
             ("componentType".to_owned(), FLOAT.into()),
-            ("count".to_owned(), (len / 4 / width).into()),
-            ("type".to_owned(), kind.into()),
+            ("count".to_owned(), (len / 4 / element_type.width()).into()),
+            ("type".to_owned(), <&str>::from(element_type).into()),
         ];
         if with_bounds {
             fields.push(("min".to_owned(), Json::list([f64::from(low)])));

@@ -1,12 +1,12 @@
-//! The part of USD's text syntax that cameras need: prims with attributes, relations and metadata.
+//! Parser of the part of USD's text syntax that cameras need: prims with attributes, relations and metadata.
 
 use super::super::ExportError;
 use super::super::columns::bad_line;
 
-/// Deepest nesting of prims and values.
+/// Largest nesting depth of prims and values.
 const MAX_DEPTH: usize = 64;
 
-/// A value: what it means follows from the attribute's name.
+/// An untyped value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     Number(f64),
@@ -14,7 +14,7 @@ pub(super) enum Value {
     Text(String),
     /// A tuple or a list.
     List(Vec<Value>),
-    /// A dictionary or time samples, keys as they stand.
+    /// A dictionary or time samples, with keys as text.
     Map(Vec<(String, Value)>),
 }
 
@@ -35,12 +35,12 @@ impl Value {
     }
 }
 
-/// A prim or, with an empty type, the layer.
+/// A prim, or the layer (with an empty kind).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Prim {
     pub(super) kind: String,
     pub(super) metadata: Vec<(String, Value)>,
-    /// Values by name; time samples under `name.timeSamples`.
+    /// Values by name; time samples have the name `name.timeSamples`.
     pub(super) attributes: Vec<(String, Value)>,
     pub(super) children: Vec<Prim>,
 }
@@ -68,7 +68,7 @@ struct Parser {
     next: usize,
 }
 
-/// The layer in a text.
+/// Parses a layer.
 pub(super) fn parse(text: &str) -> Result<Prim, ExportError> {
     let mut parser = Parser { tokens: tokens(text)?, next: 0 };
     let mut layer = Prim::default();
@@ -112,7 +112,7 @@ fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ExportError> {
             }
             c if is_word(c) => {
                 let mut len = rest.find(|c: char| !is_word(c)).unwrap_or(rest.len());
-                // A key of time samples: the colon after the number is a mark.
+                // In time samples the colon after a key is a token of its own.
                 let word = &rest[..len];
                 if word.ends_with(':') {
                     len -= 1;
@@ -164,7 +164,7 @@ impl Parser {
         Some(word)
     }
 
-    /// A prim, an attribute, a relation or a variant set inside `parent`.
+    /// Parses a prim, an attribute, a relation or a variant set of `parent`.
     fn statement(&mut self, parent: &mut Prim, depth: usize) -> Result<(), ExportError> {
         if depth > MAX_DEPTH {
             return Err(self.error("less nesting"));
@@ -199,7 +199,7 @@ impl Parser {
         Ok(())
     }
 
-    /// Variants are alternatives of which the file picks one elsewhere: they are skipped.
+    /// Skips a variant set, whose selected variant is stated elsewhere.
     fn variant_set(&mut self, depth: usize) -> Result<(), ExportError> {
         self.next += 1;
         self.expect('=')?;
@@ -218,7 +218,7 @@ impl Parser {
         Ok(())
     }
 
-    /// `[custom] [uniform] type name [= value] [(metadata)]`: the last word before `=` is the name.
+    /// Parses `[custom] [uniform] type name [= value] [(metadata)]`. The last word before `=` is the name.
     fn attribute(&mut self, first: String, parent: &mut Prim, depth: usize) -> Result<(), ExportError> {
         let mut name = first;
         loop {
@@ -266,7 +266,7 @@ impl Parser {
         Ok(value)
     }
 
-    /// Metadata (`name = value`), dictionaries (`type name = value`) and time samples (`time: value,`) up to `close`.
+    /// Parses metadata (`name = value`), dictionaries (`type name = value`) or time samples (`time: value,`) up to `close`.
     fn entries(&mut self, close: char, depth: usize) -> Result<Vec<(String, Value)>, ExportError> {
         let mut entries = Vec::new();
         while !self.take_mark(close) {

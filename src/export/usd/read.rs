@@ -7,7 +7,7 @@ use super::parse::{Prim, Value, parse};
 use super::write::HOLD_CODES;
 use cinesplat_geometry::rotation;
 
-/// USD's defaults where a camera says nothing, tenths of a unit.
+/// USD's defaults for a camera, tenths of a scene unit.
 const DEFAULT_FOCAL: f64 = 50.0;
 const DEFAULT_FILM_HEIGHT: f64 = 15.2908;
 const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
@@ -30,7 +30,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let frames = code_list(camera).into_iter().map(|code| {
         let placed =
             above.iter().chain([&camera]).try_fold(DAffine3::IDENTITY, |world, prim| Some(world * local(prim, code)?));
-        let placed = placed.ok_or_else(|| not_readable("a transform operation that is not known"))?;
+        let placed = placed.ok_or_else(|| not_readable("an unknown transform operation"))?;
         frame(camera, code, fps, DAffine3::from_quat(world_from_stage) * placed)
     });
     let frames = drop_holds(frames.collect::<Result<Vec<_>, _>>()?, fps);
@@ -43,7 +43,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     })
 }
 
-/// The first camera, depth first; `above` then holds the prims it stands under.
+/// The first camera, depth first. `above` then holds the prims above it.
 fn find_camera<'a>(prim: &'a Prim, above: &mut Vec<&'a Prim>) -> Option<&'a Prim> {
     for child in &prim.children {
         if child.kind == "Camera" {
@@ -58,7 +58,7 @@ fn find_camera<'a>(prim: &'a Prim, above: &mut Vec<&'a Prim>) -> Option<&'a Prim
     None
 }
 
-/// Every time code at which something of the camera has a sample; 0 without any.
+/// All time codes with a sample of the camera; 0 alone without samples.
 fn code_list(camera: &Prim) -> Vec<f64> {
     let samples = camera.attributes.iter().filter(|(name, _)| name.ends_with(".timeSamples"));
     let keys = samples.flat_map(|(_, value)| if let Value::Map(entries) = value { entries.as_slice() } else { &[] });
@@ -69,7 +69,7 @@ fn code_list(camera: &Prim) -> Vec<f64> {
     if codes.is_empty() { vec![0.0] } else { codes }
 }
 
-/// An attribute's numbers at a time code: between samples in a straight line, quaternions along the shorter arc.
+/// An attribute's numbers at a time code, interpolated linearly, or along the shorter arc for quaternions.
 fn numbers_at(prim: &Prim, name: &str, code: f64) -> Option<Vec<f64>> {
     let Some(Value::Map(entries)) = prim.attribute(&format!("{name}.timeSamples")) else {
         return prim.attribute(name)?.numbers();
@@ -97,7 +97,7 @@ fn wxyz(rotation: DQuat) -> Vec<f64> {
     vec![rotation.w, rotation.x, rotation.y, rotation.z]
 }
 
-/// A prim's transform into its parent at a time code; `None` for an operation that is not known.
+/// A prim's transform into its parent at a time code; `None` for an unknown operation.
 fn local(prim: &Prim, code: f64) -> Option<DAffine3> {
     let Some(Value::List(order)) = prim.attribute("xformOpOrder") else { return Some(DAffine3::IDENTITY) };
     order.iter().try_fold(DAffine3::IDENTITY, |placed, op| {
@@ -118,11 +118,11 @@ fn operation(name: &str, v: &[f64]) -> Option<DAffine3> {
         "translate" => Some(DAffine3::from_translation(vector()?)),
         "scale" => Some(DAffine3::from_scale(vector()?)),
         "orient" => Some(DAffine3::from_quat(quaternion(v)?)),
-        // Rows of the text are the columns here: USD multiplies row vectors from the left.
+        // USD multiplies row vectors from the left: rows of the text are columns here.
         "transform" => v.try_into().ok().map(|m: [f64; 16]| DAffine3::from_mat4(DMat4::from_cols_array(&m))),
         "rotateX" | "rotateY" | "rotateZ" => Some(DAffine3::from_quat(about(kind.chars().last()?, *v.first()?))),
         _ if kind.len() == 9 && kind.starts_with("rotate") && v.len() == 3 => {
-            // rotateXYZ turns about x first: the last factor in a product of column vectors.
+            // rotateXYZ rotates about x first, which is the last factor for column vectors.
             let turn = kind[6..].chars().fold(DQuat::IDENTITY, |turn, axis| {
                 let idx = "XYZ".find(axis).unwrap_or(2);
                 about(axis, v[idx]) * turn
@@ -134,7 +134,7 @@ fn operation(name: &str, v: &[f64]) -> Option<DAffine3> {
 }
 
 fn frame(camera: &Prim, code: f64, fps: f64, placed: DAffine3) -> Result<PoseFrame, ExportError> {
-    // Scale above the camera changes where it stands, not how it sees.
+    // A scale above the camera changes its position, not its field of view.
     let axes = placed.matrix3;
     let unit = DMat3::from_cols(
         axes.x_axis.normalize_or_zero(),
@@ -154,7 +154,7 @@ fn frame(camera: &Prim, code: f64, fps: f64, placed: DAffine3) -> Result<PoseFra
     Ok(PoseFrame { fov_y_rad, focus_distance: number("focusDistance"), ..PoseFrame::new(code / fps, pose) })
 }
 
-/// Frames without those that only hold a pose up to a cut, which is marked instead.
+/// Frames without those that only hold a pose up to a cut; the frame after such a hold is marked as a cut.
 fn drop_holds(frames: Vec<PoseFrame>, fps: f64) -> Vec<PoseFrame> {
     let mut kept: Vec<PoseFrame> = Vec::with_capacity(frames.len());
     for frame in frames {

@@ -18,7 +18,7 @@ type Samples<'a> = Vec<(f64, &'a PoseFrame)>;
 pub(crate) fn write(track: &PoseTrack) -> String {
     let fps = track.fps.unwrap_or(DEFAULT_FPS);
     let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
-    let samples = held(track, fps);
+    let samples = samples_with_holds(track, fps);
     let end = (track.duration_secs() * fps - 1.0).max(samples.last().map_or(0.0, |(code, _)| *code));
     let [x, y, z, w] = y_up_from_world(track.up).to_array();
     let up = track.up.map_or_else(String::new, |up| {
@@ -94,11 +94,11 @@ fn vector(v: DVec3) -> String {
     format!("({})", joined(v.to_array(), ", "))
 }
 
-/// Frames with their time codes; before each cut one more that holds the pose before it.
-fn held(track: &PoseTrack, fps: f64) -> Samples<'_> {
+/// Frames with their time codes, plus a sample just before each cut that holds the pose up to it.
+fn samples_with_holds(track: &PoseTrack, fps: f64) -> Samples<'_> {
     let mut samples: Samples = Vec::with_capacity(track.frames.len());
     for (secs, frame) in track.since_start() {
-        // Frames of a film fall on whole codes; k / fps * fps alone may miss them by an ulp.
+        // Frames of a film are at whole time codes, which k / fps * fps may miss by an ulp.
         let code = secs * fps;
         let code = if (code - code.round()).abs() < 1e-9 { code.round() } else { code };
         if let Some((_, before)) = samples.last().copied().filter(|_| frame.cut) {
