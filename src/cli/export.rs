@@ -5,7 +5,7 @@ use strum::VariantNames;
 
 use super::failure::Failure;
 use super::{console, formats, outputs};
-use cinesplat::export::{self, Content, ExportSettings, Format, Layout, shot_json};
+use cinesplat::export::{self, Content, EncodedFiles, ExportSettings, Format, Layout, shot_json};
 use cinesplat::trajectory::retimed;
 
 const EXAMPLES: &str = "\
@@ -64,9 +64,9 @@ impl Args {
         let settings = ExportSettings { content, fps: self.fps, layout };
         let encoded = export::encode(format, &shot, &settings);
         let encoded = encoded.map_err(|error| Failure::from(error).in_file(&self.shot))?;
-        match encoded.files.as_slice() {
-            [(_, bytes)] => self.overwrite.write(&self.output, bytes)?,
-            _ => encoded.write(&self.output, self.overwrite.existing())?,
+        match &encoded.files {
+            EncodedFiles::Single(bytes) => self.overwrite.write(&self.output, bytes)?,
+            EncodedFiles::Folder(_) => encoded.write(&self.output, self.overwrite.existing())?,
         }
         for line in &encoded.losses {
             console::note(&format!("warning: {line}"));

@@ -52,10 +52,19 @@ impl Layout {
 /// A shot encoded in a format, not yet written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Encoded {
-    /// Name and bytes of every file: one without a name, or the named files of a folder.
-    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// Content of the file or files.
+    pub files: EncodedFiles,
     /// One line per thing that the format cannot hold.
     pub losses: Vec<String>,
+}
+
+/// Content of an export.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum EncodedFiles {
+    /// The bytes of one file.
+    Single(Vec<u8>),
+    /// Names and bytes of the files of a folder.
+    Folder(Vec<(&'static str, Vec<u8>)>),
 }
 
 /// Encodes a shot in a format.
@@ -68,7 +77,7 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
         Content::Keyframes => PoseTrack::keyframes(shot),
     };
     if format == Format::Shot && settings.content == Content::Keyframes {
-        return Ok(Encoded { files: vec![("", shot_json::write(shot).into_bytes())], losses: Vec::new() });
+        return Ok(Encoded { files: EncodedFiles::Single(shot_json::write(shot).into_bytes()), losses: Vec::new() });
     }
     let mut encoded = encode_poses(format, &track, settings.layout)?;
     if settings.content == Content::Keyframes && shot.keyframes.len() > 2 {
@@ -90,10 +99,10 @@ fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Enc
                 Layout::Binary => colmap::write_binary(track),
                 Layout::Text => colmap::write_text(track),
             };
-            return Ok(Encoded { files: files.into(), losses });
+            return Ok(Encoded { files: EncodedFiles::Folder(files.into()), losses });
         }
         Format::Gltf if layout == Layout::Binary => {
-            return Ok(Encoded { files: vec![("", gltf::write_binary(track))], losses });
+            return Ok(Encoded { files: EncodedFiles::Single(gltf::write_binary(track)), losses });
         }
         Format::Shot => {
             let (shot, assumptions) = track.to_shot()?;
@@ -113,7 +122,7 @@ fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Enc
         Format::Csv => csv::write(track),
         Format::Log => redwood_log::write(track),
     };
-    Ok(Encoded { files: vec![("", text.into_bytes())], losses })
+    Ok(Encoded { files: EncodedFiles::Single(text.into_bytes()), losses })
 }
 
 /// The files that an export to `path` creates.
@@ -147,17 +156,18 @@ pub fn write(
 }
 
 impl Encoded {
-    /// Writes the files to `path`, each whole or not at all.
+    /// Writes the file to `path`, or the files to the folder of `path`; each is written whole or not at all.
     ///
     /// # Errors
     /// [`FileError`] of the first file that cannot be created or written.
     pub fn write(&self, path: &Path, existing: Existing) -> Result<(), FileError> {
-        if let [("", bytes)] = self.files.as_slice() {
-            return cinesplat_files::write(path, bytes, existing);
-        }
+        let files = match &self.files {
+            EncodedFiles::Single(bytes) => return cinesplat_files::write(path, bytes, existing),
+            EncodedFiles::Folder(files) => files,
+        };
         let folder = colmap_folder(path);
         cinesplat_files::create_folder(&folder)?;
-        let paths: Vec<_> = self.files.iter().map(|(name, bytes)| (folder.join(name), bytes)).collect();
+        let paths: Vec<_> = files.iter().map(|(name, bytes)| (folder.join(name), bytes)).collect();
         paths.iter().try_for_each(|(path, _)| cinesplat_files::check_free(path, existing))?;
         paths.iter().try_for_each(|(path, bytes)| cinesplat_files::write(path, bytes, existing))
     }

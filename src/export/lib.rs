@@ -32,7 +32,7 @@ mod transforms;
 mod tum;
 mod usd;
 
-pub use encode::{Content, Encoded, ExportSettings, Layout, encode, output_files, write};
+pub use encode::{Content, Encoded, EncodedFiles, ExportSettings, Layout, encode, output_files, write};
 pub use error::ExportError;
 pub use format::Format;
 pub use import::{Imported, read};

@@ -24,7 +24,8 @@ fn what_is_written_is_read_back() {
     let path = folder.path().join("out.ply");
     for origin in [DVec3::ZERO, DVec3::new(5e5, 5e6, 128.0)] {
         let wanted = some(origin);
-        write_ply(&path, &wanted, &["Vertical Axis: z".to_owned(), "two\nlines".to_owned()], Existing::Replace).unwrap();
+        write_ply(&path, &wanted, &["Vertical Axis: z".to_owned(), "two\nlines".to_owned()], Existing::Replace)
+            .unwrap();
         let scene = load(&path, &LoadOptions::default()).unwrap();
         let found = &scene.gaussians;
         assert_eq!(
