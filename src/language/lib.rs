@@ -58,6 +58,7 @@
 //! # Ok::<(), cinesplat_language::NotationError>(())
 //! ```
 
+mod edit_distance;
 mod effects;
 mod error;
 mod inflection;

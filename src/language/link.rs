@@ -10,7 +10,7 @@ use super::lexicon::Lexicon;
 use super::names::{NameIndex, NameMatch, NamedObject, display_name};
 use super::numbered::numbered_mention_at;
 use super::quantity::{Quantity, quantity_at};
-use super::tokenizer::{Word, tokenize};
+use super::tokenizer::{Word, span_of, tokenize, word_at};
 use super::unknown::{UnknownName, unknown_candidate_at, unknown_name};
 
 /// Most bytes of a prompt.
@@ -123,8 +123,7 @@ impl Linker<'_> {
                     continue;
                 }
             }
-            let words = self.words;
-            self.push(words.get(i).map_or("", |word| word.text.as_str()), i, 1);
+            self.push(word_at(self.words, i), i, 1);
             i += 1;
         }
         Ok(())
@@ -150,7 +149,7 @@ impl Linker<'_> {
     }
 
     fn is_determiner(&self, i: usize) -> bool {
-        self.words.get(i).is_some_and(|word| self.lexicon.determiners.contains(&word.text))
+        self.lexicon.determiners.contains(word_at(self.words, i))
     }
 
     /// A name at word `i`, or after its determiner and adjectives that the label lacks (`the big skull`): the first word
@@ -163,22 +162,23 @@ impl Linker<'_> {
         if !self.is_determiner(i) {
             return None;
         }
-        let adjective = |at: &usize| self.words.get(*at).is_some_and(|w| self.lexicon.adjectives.contains(&w.text));
-        let num_adjectives = (i + 1..i + 4).take_while(adjective).count();
+        let is_adjective = |at: &usize| self.lexicon.adjectives.contains(word_at(self.words, *at));
+        let num_adjectives = (i + 1..i + 4).take_while(is_adjective).count();
         (i + 1..=i + 1 + num_adjectives).find_map(|start| Some((start, self.index.match_at(self.words, start)?)))
     }
 
     /// The unknown name that begins at word `i`: the word after it, and the object if the name is only misspelled. Adds
     /// a misspelled name to the warnings, any other to the unknown names.
     fn unknown_at(&mut self, i: usize) -> Option<(usize, Option<usize>)> {
-        let word = |at: usize| self.words.get(at).map_or("", |word| word.text.as_str());
-        let is_known = |at: usize| self.known_words.contains(word(at)) || self.index.match_at(self.words, at).is_some();
+        let is_known = |at: usize| {
+            self.known_words.contains(word_at(self.words, at)) || self.index.match_at(self.words, at).is_some()
+        };
         let mut candidate = unknown_candidate_at(self.words, i, self.lexicon, &is_known)?;
-        candidate.certain &= !self.follows_object_and_preposition();
+        candidate.certain &= !self.is_after_preposition_of_place();
         let end = candidate.start + candidate.len;
-        let last = self.words.get(end - 1).map(|word| word.text.clone()).unwrap_or_default();
+        let last = word_at(self.words, end - 1);
         if !candidate.certain
-            && let Some(object) = self.index.misspelled(&last)
+            && let Some(object) = self.index.misspelled(last)
         {
             let meant = self.objects.get(object).map(display_name).unwrap_or_default();
             self.linked.warnings.push(format!("\"{last}\" was read as {meant}"));
@@ -189,9 +189,9 @@ impl Linker<'_> {
         Some((end, None))
     }
 
-    /// Whether the linked words so far end in an object and a preposition of place: what follows only says where that
-    /// object is (`the skull on the desk`).
-    fn follows_object_and_preposition(&self) -> bool {
+    /// Whether the words linked so far end in an object and a preposition of place, or in `next to`, `front of`, `top of`:
+    /// the next name only says where an object is (`the skull on the desk`).
+    fn is_after_preposition_of_place(&self) -> bool {
         let mut last = self.linked.tokens_text.rsplit(' ');
         let (first, second) = (last.next().unwrap_or_default(), last.next().unwrap_or_default());
         let is_object = |word: &str| word.starts_with("<obj-");
@@ -219,7 +219,7 @@ impl Linker<'_> {
 
     fn no_such_number(&self, start: usize, len: usize, id: Option<u32>) -> LanguageError {
         let inside = self.words.get(start..start + len).unwrap_or_default();
-        let span = [inside.first().map_or(0, |w| w.span[0]), inside.last().map_or(0, |w| w.span[1])];
+        let span = span_of(inside);
         let mut near: Vec<&NamedObject> = self.objects.iter().collect();
         near.sort_by_key(|object| (id.map_or(object.id, |id| object.id.abs_diff(id)), object.id));
         LanguageError::UnknownObject {
@@ -255,12 +255,14 @@ impl Linker<'_> {
     /// Appends `text` with the bytes of words `start..start + len`.
     fn push(&mut self, text: &str, start: usize, len: usize) {
         let inside = self.words.get(start..start + len).unwrap_or_default();
-        let (Some(first), Some(last)) = (inside.first(), inside.last()) else { return };
+        if inside.is_empty() {
+            return;
+        }
         if !self.linked.tokens_text.is_empty() {
             self.linked.tokens_text.push(' ');
         }
         self.linked.tokens_text.push_str(text);
-        self.linked.spans.push([first.span[0], last.span[1]]);
+        self.linked.spans.push(span_of(inside));
     }
 
     fn finish(self) -> Result<Linked, LanguageError> {

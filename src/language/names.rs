@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use super::edit_distance::edit_distance;
 use super::inflection::stem;
 use super::lexicon::Lexicon;
 use super::tokenizer::{Word, tokenize};
@@ -125,12 +126,12 @@ impl<'a> NameIndex<'a> {
     /// How the words `segment`, which end in `key` after `before`, fit a label; `None` where they do not.
     fn fit(&self, index: usize, before: &[Word], key: &str, segment: &[Word]) -> Option<Fit> {
         let label = self.labels.get(index)?;
+        // `frame` or `track` alone is a word about the camera, not the name of an object.
+        let is_reserved = self.lexicon.camera.contains(key) || self.lexicon.function.contains(key);
         if label.full.len() == segment.len() && label.full.iter().zip(segment).all(|(a, b)| *a == b.stem) {
-            // `frame` or `track` alone is a word about the camera, not the name of an object.
-            let about_camera = self.lexicon.camera.contains(key) || self.lexicon.function.contains(key);
-            return (segment.len() > 1 || !about_camera).then_some(Fit::Full);
+            return (segment.len() > 1 || !is_reserved).then_some(Fit::Full);
         }
-        if self.lexicon.camera.contains(key) || self.lexicon.function.contains(key) {
+        if is_reserved {
             return None;
         }
         let is_in = |word: &Word, stems: &[String]| stems.contains(&word.stem);
@@ -242,33 +243,4 @@ pub(crate) fn display_name(object: &NamedObject) -> String {
 /// Edit distance over the length of the longer text, 0..=1.
 fn relative_distance(a: &str, b: &str) -> f64 {
     edit_distance(a, b) as f64 / a.chars().count().max(b.chars().count()).max(1) as f64
-}
-
-/// Number of edits (insert, delete, replace, swap neighbors) from one word to another: the optimal string alignment
-/// distance. Different words are 41 apart when one has more than 40 letters, which bounds the time.
-pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(41).collect(), b.chars().take(41).collect());
-    if a.len() > 40 || b.len() > 40 {
-        return usize::from(a != b) * 41;
-    }
-    let width = b.len() + 1;
-    let mut table = vec![0usize; (a.len() + 1) * width];
-    let cell = |table: &[usize], i: usize, j: usize| table.get(i * width + j).copied().unwrap_or(0);
-    for i in 0..=a.len() {
-        for j in 0..=b.len() {
-            let value = if i == 0 || j == 0 {
-                i + j
-            } else {
-                let replace = cell(&table, i - 1, j - 1) + usize::from(a.get(i - 1) != b.get(j - 1));
-                let shift = cell(&table, i - 1, j).min(cell(&table, i, j - 1)) + 1;
-                let swapped = i > 1 && j > 1 && a.get(i - 1) == b.get(j - 2) && a.get(i - 2) == b.get(j - 1);
-                let swap = if swapped { cell(&table, i - 2, j - 2) + 1 } else { usize::MAX };
-                replace.min(shift).min(swap)
-            };
-            if let Some(slot) = table.get_mut(i * width + j) {
-                *slot = value;
-            }
-        }
-    }
-    table.last().copied().unwrap_or(0)
 }

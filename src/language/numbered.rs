@@ -1,7 +1,6 @@
 //! Objects mentioned by number: `<obj-3>`, `obj 3`, `object #3`, `#3`.
 
-use super::numerals::word_at;
-use super::tokenizer::Word;
+use super::tokenizer::{Word, word_at};
 
 /// A mention of an object by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

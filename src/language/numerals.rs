@@ -1,6 +1,6 @@
 //! Numbers in digits and in words.
 
-use super::tokenizer::Word;
+use super::tokenizer::{Word, word_at};
 
 const ONES: [&str; 20] = [
     "zero",
@@ -49,11 +49,6 @@ pub(crate) struct Numeral {
     pub(crate) len: usize,
     pub(crate) value: f64,
     pub(crate) form: NumeralForm,
-}
-
-/// Word `i`, or an empty string past the end.
-pub(crate) fn word_at(words: &[Word], i: usize) -> &str {
-    words.get(i).map_or("", |word| word.text.as_str())
 }
 
 /// The numeral that begins at word `i`, fractions and `a` included.

@@ -5,8 +5,8 @@
 //! converted. `twice as close` is the factor 0.5 on the distance, `twice as far` 2, `halfway` 0.5. `twice as big` is 0.5
 //! on the distance, or 2 on the focal length in a sentence about a zoom.
 
-use super::numerals::{Numeral, NumeralForm, cardinal_at, numeral_at, word_at};
-use super::tokenizer::Word;
+use super::numerals::{Numeral, NumeralForm, cardinal_at, numeral_at};
+use super::tokenizer::{Word, word_at};
 
 /// Dimension of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -69,7 +69,7 @@ fn measure_at(words: &[Word], i: usize) -> Option<(usize, Quantity)> {
     let Some((kind, scale)) = unit(word_at(words, unit_idx + whole)) else { return bare_angle_at(words, i, number) };
     let second_is_ordinal = number.form == NumeralForm::Article
         && word_at(words, unit_idx) == "second"
-        && !is_time_before(words, i, unit_idx + 1);
+        && !second_is_time(words, i, unit_idx + 1);
     (!second_is_ordinal).then_some((number.len + whole + 1, quantity(kind, number.value * scale)))
 }
 
@@ -151,7 +151,7 @@ fn bare_angle_at(words: &[Word], i: usize, number: Numeral) -> Option<(usize, Qu
 }
 
 /// Whether `a second`, between word `i` and word `next`, is a time. Otherwise `second` is an ordinal.
-fn is_time_before(words: &[Word], i: usize, next: usize) -> bool {
+fn second_is_time(words: &[Word], i: usize, next: usize) -> bool {
     let before = i.checked_sub(1).map_or("", |p| word_at(words, p));
     matches!(
         before,

@@ -23,6 +23,16 @@ impl Word {
     }
 }
 
+/// The text of word `i`, or an empty string past the end.
+pub(crate) fn word_at(words: &[Word], i: usize) -> &str {
+    words.get(i).map_or("", |word| word.text.as_str())
+}
+
+/// The bytes from the first to the last of some words; `[0, 0]` of none.
+pub(crate) fn span_of(words: &[Word]) -> [usize; 2] {
+    [words.first().map_or(0, |word| word.span[0]), words.last().map_or(0, |word| word.span[1])]
+}
+
 /// Class of a character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Glyph {

@@ -3,10 +3,11 @@
 //! Enters: a place in a prompt where no object is named. Leaves: the words there that look like the name of an object,
 //! if any. Words about the camera, scenery and misspelled function words are not names.
 
+use super::edit_distance::edit_distance;
 use super::inflection::stem;
 use super::lexicon::Lexicon;
-use super::names::{NameIndex, NamedObject, edit_distance};
-use super::tokenizer::Word;
+use super::names::{NameIndex, NamedObject};
+use super::tokenizer::{Word, span_of, word_at};
 
 /// Words in the place of an object's name that match no object of the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -85,7 +86,7 @@ pub(crate) fn unknown_candidate_at(
     lexicon: &Lexicon,
     is_known: &dyn Fn(usize) -> bool,
 ) -> Option<UnknownCandidate> {
-    let text = |j: usize| words.get(j).map_or("", |word| word.text.as_str());
+    let text = |j: usize| word_at(words, j);
     let previous = i.checked_sub(1).map_or("", text);
     let determined = lexicon.determiners.contains(text(i));
     if !determined && !BEFORE_NAMES.contains(&previous) {
@@ -145,7 +146,7 @@ pub(crate) fn unknown_name(
     objects: &[NamedObject],
 ) -> UnknownName {
     let inside = words.get(candidate.start..candidate.start + candidate.len).unwrap_or_default();
-    let span = [inside.first().map_or(0, |w| w.span[0]), inside.last().map_or(0, |w| w.span[1])];
+    let span = span_of(inside);
     let name: Vec<String> = inside.iter().map(|word| word.text.clone()).collect();
     UnknownName {
         name: prompt.get(span[0]..span[1]).unwrap_or_default().to_owned(),

@@ -131,7 +131,7 @@ impl SurfaceText {
             }
             WritingStyle::Lowercase => {}
             WritingStyle::Unpunctuated => {
-                self.chars.retain(|c| c.protected || !matches!(c.char, ',' | ';' | ':' | '\''))
+                self.chars.retain(|c| c.protected || !matches!(c.char, ',' | ';' | ':' | '\''));
             }
             WritingStyle::Uppercase => {
                 for c in &mut self.chars {

@@ -35,13 +35,13 @@ pub(super) fn is_consistent(step: &Step) -> bool {
     if has_repeats(&step.start.subjects) || has_repeats(&step.end.subjects) {
         return false;
     }
-    let sizes = (step.start.size, step.end.size);
-    let nearer = |(a, b): (Option<ShotSize>, Option<ShotSize>)| a.zip(b).is_none_or(|(a, b)| b < a);
-    let farther = |(a, b): (Option<ShotSize>, Option<ShotSize>)| a.zip(b).is_none_or(|(a, b)| b > a);
+    let sizes = step.start.size.zip(step.end.size);
+    let gets_closer = sizes.is_none_or(|(start, end)| end < start);
+    let gets_wider = sizes.is_none_or(|(start, end)| end > start);
     let same_subject = step.start.subjects == step.end.subjects;
     let goes_in = matches!(step.movement, Move::PushIn | Move::ZoomIn);
     let goes_out = matches!(step.movement, Move::PullOut | Move::ZoomOut);
-    if same_subject && (goes_in && !nearer(sizes) || goes_out && !farther(sizes)) {
+    if same_subject && (goes_in && !gets_closer || goes_out && !gets_wider) {
         return false;
     }
     if goes_in && step.start.size.is_some_and(|size| size <= ShotSize::ExtremeCloseUp) && same_subject {
@@ -50,8 +50,7 @@ pub(super) fn is_consistent(step: &Step) -> bool {
     if goes_in && step.end.subjects.is_empty() && step.end.size.is_some_and(|size| size < ShotSize::Long) {
         return false;
     }
-    let height = |angle: Option<ShotAngle>| angle.map(|angle| angle as u8);
-    let angles = height(step.start.angle).zip(height(step.end.angle));
+    let angles = step.start.angle.zip(step.end.angle);
     let rises = angles.is_none_or(|(a, b)| b < a);
     let sinks = angles.is_none_or(|(a, b)| b > a);
     let is_possible = match step.movement {
@@ -69,8 +68,8 @@ pub(super) fn is_consistent(step: &Step) -> bool {
 
 /// The move from one framing of a subject to another; `None` where they do not differ in size or angle.
 pub(super) fn move_between(start: &Framing, end: &Framing) -> Option<Move> {
-    let height = |framing: &Framing| framing.angle.map(|angle| angle as u8);
-    match (start.size.zip(end.size), height(start).zip(height(end))) {
+    // Sizes are ordered from close to wide, angles from high to low.
+    match (start.size.zip(end.size), start.angle.zip(end.angle)) {
         (Some((a, b)), _) if b < a => Some(Move::PushIn),
         (Some((a, b)), _) if b > a => Some(Move::PullOut),
         (None, Some((a, b))) if b < a => Some(Move::CraneUp),
@@ -79,8 +78,8 @@ pub(super) fn move_between(start: &Framing, end: &Framing) -> Option<Move> {
     }
 }
 
-/// Makes the duration of an only step the film's. Rejects steps that take as long as the film while others are open, or
-/// longer than it.
+/// Makes the duration of an only step the film's. Rejects a film length that the durations of the steps already determine
+/// or exceed.
 pub(super) fn normalize_durations(program: &mut Program) -> Option<()> {
     let sum: f64 = program.steps.iter().filter_map(|step| step.duration_secs).sum();
     let open = program.steps.iter().filter(|step| step.duration_secs.is_none()).count();
