@@ -1,11 +1,10 @@
 use std::path::PathBuf;
 
-use clap::CommandFactory;
 use clap_complete::Shell;
 
-use super::console;
 use super::failure::Failure;
 use super::outputs::{self, Overwrite};
+use super::{console, heading};
 
 /// Print a completion script for a shell.
 #[derive(Debug, clap::Args)]
@@ -20,9 +19,9 @@ pub(super) struct CompletionsArgs {
 }
 
 impl CompletionsArgs {
-    pub(super) fn run(self) -> Result<(), Failure> {
+    pub(super) fn run(self, program: &mut clap::Command) -> Result<(), Failure> {
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut super::Cli::command(), "cinesplat", &mut script);
+        clap_complete::generate(self.shell, program, "cinesplat", &mut script);
         console::data_bytes(&script)
     }
 }
@@ -34,16 +33,17 @@ Examples:
   cinesplat man | man -l -
   cinesplat man -o ~/.local/share/man/man1")]
 pub(super) struct ManArgs {
-    /// Folder for cinesplat.1, cinesplat-render.1 and so on, created where it is missing
-    #[arg(short, long, value_name = "DIR")]
+    /// Folder for one page per command [default: one page on stdout]
+    ///
+    /// The pages are cinesplat.1, cinesplat-render.1 and so on. The folder is created where it is missing.
+    #[arg(short, long, value_name = "DIR", help_heading = heading::OUTPUT)]
     output: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
 }
 
 impl ManArgs {
-    pub(super) fn run(self) -> Result<(), Failure> {
-        let mut program = super::Cli::command();
+    pub(super) fn run(self, mut program: clap::Command) -> Result<(), Failure> {
         program.build();
         let Some(folder) = &self.output else { return console::data_bytes(&page(&program)?) };
         let pages: Vec<(PathBuf, Vec<u8>)> = commands(&program)

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use strum::VariantNames;
 
 use super::failure::Failure;
-use super::{console, formats, outputs};
+use super::{console, formats, heading, outputs};
 use cinesplat::export::{self, Content, EncodedFiles, ExportSettings, Format, Layout, shot_json};
 use cinesplat::trajectory::retimed;
 
@@ -26,7 +26,7 @@ pub(super) struct Args {
     /// File to write, a folder for COLMAP, or - for stdout
     ///
     /// The name decides the format unless --to names it.
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", help_heading = heading::OUTPUT)]
     output: PathBuf,
     /// Format to write [default: by the name of the output]
     #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]

@@ -3,5 +3,4 @@
 pub(super) const SCENE: &str = "Scene";
 pub(super) const SHOT: &str = "Shot";
 pub(super) const PICTURE: &str = "Picture";
-pub(super) const FILM: &str = "Film";
 pub(super) const OUTPUT: &str = "Output";

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::choice::choice;
 use super::failure::Failure;
-use super::{console, formats};
+use super::{console, formats, heading};
 use cinesplat::export::{self, Format, shot_json};
 
 const EXAMPLES: &str = "\
@@ -21,7 +21,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Shot to write, or - for stdout
-    #[arg(short, long, value_name = "SHOT.JSON")]
+    #[arg(short, long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT)]
     output: PathBuf,
     /// Format to read [default: by the content of the file]
     #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]

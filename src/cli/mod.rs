@@ -37,7 +37,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use failure::Failure;
 
@@ -48,7 +48,7 @@ struct Cli {
     #[command(subcommand)]
     command: Command,
     /// Print only data and errors: no notes, warnings or progress
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = 900)]
     quiet: bool,
 }
 
@@ -66,35 +66,23 @@ Exit codes: 0 done, 2 wrong arguments, 65 bad data, 66 no such input, 69 codec m
 cinesplat, 71 over a cap, 73 cannot create the output, 74 I/O error, 75 stopped early, 77 permission
 denied, 130 interrupted twice.";
 
+/// The commands; the help of each is that of its arguments.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Print what a scene file contains
     Info(info::Args),
-    /// Find or read the objects of a scene
     Objects(objects::Args),
-    /// Turn a sentence into keyframes
     Plan(plan::Args),
-    /// Render a film from a sentence or a shot
     Render(render::Args),
-    /// Render still pictures from given cameras
     Still(still::Args),
-    /// Write a shot's camera path for another program
     Export(export::Args),
-    /// Turn another program's camera path into a shot
     Import(import::Args),
-    /// Compare two camera paths: absolute and relative pose error
     Eval(eval::Args),
-    /// Train the network that understands sentences
     #[cfg(feature = "training")]
     Train(train::Args),
-    /// Generate training data for that network
     #[cfg(feature = "training")]
     Dataset(dataset::Args),
-    /// Measure time, memory and accuracy
     Bench(bench::Args),
-    /// Print a completion script for a shell
     Completions(completions::CompletionsArgs),
-    /// Print the manual page, or write one page per command
     Man(completions::ManArgs),
 }
 
@@ -114,8 +102,8 @@ impl Command {
             #[cfg(feature = "training")]
             Self::Dataset(args) => args.run(),
             Self::Bench(args) => args.run(),
-            Self::Completions(args) => args.run(),
-            Self::Man(args) => args.run(),
+            Self::Completions(args) => args.run(&mut Cli::command()),
+            Self::Man(args) => args.run(Cli::command()),
         }
     }
 }

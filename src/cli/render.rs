@@ -20,12 +20,13 @@ use cinesplat::video::{self, VideoSettings, X264Preset};
 /// Render a film from a sentence or a shot
 ///
 /// Predicts time and accuracy first, renders, then prints both as measured and the command that reproduces the film.
+/// Ctrl-C ends after the current frame and keeps the finished frames, those of a film as NAME.partial.EXT. A second
+/// Ctrl-C ends at once.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   cinesplat render room.spz -p \"push in on the lamp\" --objects objects.json -o lamp.mp4
-  cinesplat render room.spz --shot shot.json -o frames/%05d.png --frames 0..120 --quality final
-Ctrl-C ends after the current frame and keeps the finished frames (as NAME.partial.EXT); twice ends at once.")]
+  cinesplat render room.spz --shot shot.json -o frames/%05d.png --frames 0..120 --quality final")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
@@ -49,21 +50,21 @@ pub(super) struct Args {
     #[arg(long, value_name = "DB", help_heading = heading::PICTURE, value_parser = parse_decibels, conflicts_with = "quality")]
     min_psnr: Option<f64>,
     /// Print predicted and measured figures as JSON
-    #[arg(long, help_heading = heading::OUTPUT)]
+    #[arg(long, help_heading = heading::OUTPUT, hide_short_help = true)]
     json: bool,
     /// Range of frames to render; B is one past the last
-    #[arg(long, value_name = "A..B", help_heading = heading::FILM, default_value = "..")]
+    #[arg(long, value_name = "A..B", help_heading = heading::OUTPUT, default_value = "..")]
     frames: FrameRange,
     /// Quality of the encoder: lower is better and larger
     ///
     /// At 18 a film is hard to tell from its frames.
-    #[arg(long, value_name = "N", help_heading = heading::FILM, default_value_t = 18)]
+    #[arg(long, value_name = "N", help_heading = heading::OUTPUT, hide_short_help = true, default_value_t = 18)]
     crf: u8,
     /// Effort of the H.264 encoder
-    #[arg(long, value_name = "PRESET", help_heading = heading::FILM, hide_short_help = true, default_value = "medium", value_parser = choice::<X264Preset>())]
+    #[arg(long, value_name = "PRESET", help_heading = heading::OUTPUT, hide_short_help = true, default_value = "medium", value_parser = choice::<X264Preset>())]
     preset: X264Preset,
     /// Write the shot too
-    #[arg(long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT)]
+    #[arg(long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, hide_short_help = true)]
     save_shot: Option<PathBuf>,
     /// Write a contact sheet too: twelve small frames of the film
     #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT)]

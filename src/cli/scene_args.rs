@@ -88,7 +88,7 @@ pub(super) fn print_up_of(up: DVec3, source: &str) {
 /// How pictures are rendered.
 #[derive(Debug, Clone, Args)]
 pub(super) struct PictureArgs {
-    /// Accuracy against time [default: standard for films, final for stills]
+    /// Accuracy [default: standard; final for stills]
     ///
     /// `reference` renders the exact picture in double precision, `final` the same in single precision. `standard` and
     /// `draft` are faster; the program prints how accurate they are.
@@ -115,7 +115,7 @@ pub(super) struct PictureArgs {
     #[arg(long, value_name = "DISTANCE", help_heading = heading::PICTURE, hide_short_help = true, value_parser = parse_distance)]
     near: Option<f64>,
     /// Threads to render with [default: one per core]
-    #[arg(long, value_name = "N", help_heading = heading::PICTURE, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", help_heading = heading::PICTURE, hide_short_help = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 }
 

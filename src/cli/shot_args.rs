@@ -1,12 +1,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use strum::VariantArray;
 
 use super::choice::choice;
 use super::failure::Failure;
 use super::{console, heading, outputs};
 use cinesplat::director::Director;
-use cinesplat::lens::{self, Call, Decision, EffectChoice};
+use cinesplat::lens::{self, Call, Decision, Effect, EffectChoice};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::SolveLevel;
 use cinesplat::pipeline::{self, DirectSettings, Directed, Phase, PhaseTimes};
@@ -31,9 +32,7 @@ pub(super) struct ShotArgs {
     #[arg(long, value_name = "SECS", help_heading = heading::SHOT, value_parser = parse_duration)]
     duration: Option<f64>,
     /// Lens effects: auto, off, or names separated by commas
-    ///
-    /// `auto` takes the effects that the words call for.
-    #[arg(long, value_name = "LIST", help_heading = heading::SHOT, default_value = "auto")]
+    #[arg(long, value_name = "LIST", help_heading = heading::SHOT, default_value = "auto", long_help = effects_help())]
     effects: EffectChoice,
     /// Seed of the camera search [default: 0, or the shot's]
     #[arg(long, value_name = "N", help_heading = heading::SHOT)]
@@ -153,6 +152,13 @@ pub(super) struct SolveArgs {
     /// `off` takes the network's cameras as they are, `fast` and `full` search for better ones.
     #[arg(long = "solve", value_name = "EFFORT", help_heading = heading::SHOT, default_value = "full", value_parser = choice::<SolveLevel>())]
     pub(super) level: SolveLevel,
+}
+
+fn effects_help() -> String {
+    let names = Effect::VARIANTS.iter().map(AsRef::as_ref).collect::<Vec<&str>>().join(" ");
+    format!(
+        "Lens effects: auto, off, or names separated by commas\n\n`auto` takes the effects that the words call for. Names: {names}."
+    )
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -13,12 +13,12 @@ use cinesplat::training::{
     EvaluationSplit, ProgramMetrics, Tally, TrainSettings, TrainingProgress, evaluate_director, train,
 };
 
-/// candle's matrix products run on rayon's pool, whose threads spin: two of our own threads with one each are faster.
+/// candle's matrix products run on rayon's pool, whose threads spin. Worker threads with one rayon thread each are faster.
 const THREADS_VARIABLE: &str = "RAYON_NUM_THREADS";
-/// Keeps freed memory in the process: page faults cost up to a second a step otherwise.
+/// Keeps freed memory in the process; page faults cost up to a second per step otherwise.
 const PURGE_VARIABLE: &str = "MIMALLOC_PURGE_DELAY";
 
-/// Trains the director.
+/// Train the director's network, which understands sentences
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -30,34 +30,36 @@ pub(super) struct Args {
     /// Folder for the model (three files) and its checkpoint
     #[arg(short, long, value_name = "DIR", required_unless_present = "examine")]
     output: Option<PathBuf>,
-    /// Folder of realized shots (`cinesplat dataset`); without it only the words are learned
+    /// Folder of training shots [default: learn from words only]
+    ///
+    /// `cinesplat dataset` writes it.
     #[arg(long, value_name = "DIR")]
     shots: Option<PathBuf>,
-    /// Share of realized shots among the lessons
+    /// Share of these shots among the examples
     #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().shots_frac)]
     shots_frac: f64,
-    /// Model to start from instead of random weights
+    /// Model to start from [default: random weights]
     #[arg(long, value_name = "MODEL")]
     from: Option<PathBuf>,
-    /// Optimizer steps
+    /// Number of optimizer steps
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().steps)]
     steps: u64,
-    /// Lessons a step
+    /// Examples per step
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().batch)]
     batch: usize,
     /// Highest learning rate
     #[arg(long, value_name = "RATE", default_value_t = TrainSettings::default().peak_rate)]
     rate: f32,
-    /// Steps over which the rate rises to it
+    /// Steps of linear warm-up to that rate
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().warm_up)]
     warm_up: u64,
-    /// Tokens of the vocabulary
+    /// Size of the vocabulary in tokens
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().vocabulary)]
     vocabulary: usize,
-    /// Name of the model, as shots carry it
+    /// Name of the model, written into every shot
     #[arg(long, value_name = "NAME", default_value_t = TrainSettings::default().name)]
     name: String,
-    /// Seed of weights, lessons and dropout
+    /// Seed of weights, examples and dropout
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().seed)]
     seed: u64,
     /// Threads that share a batch
@@ -66,10 +68,12 @@ pub(super) struct Args {
     /// Steps between checkpoints
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().checkpoint_every)]
     checkpoint_every: u64,
-    /// Goes on from the checkpoint in the output folder
+    /// Resume from the checkpoint in the output folder
     #[arg(long)]
     resume: bool,
-    /// Examines a model instead, and prints every prompt that it did not understand; `built-in` for the shipped one
+    /// Evaluate a model instead: a folder, or `built-in`
+    ///
+    /// Prints accuracy on each evaluation split and every prompt that the model misunderstands.
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["output", "shots", "from", "resume"])]
     examine: Option<PathBuf>,
 }
@@ -117,7 +121,7 @@ impl Args {
     }
 }
 
-/// Starts this program again with the environment that training needs, and ends as that one ends.
+/// Runs this program again with the environment that training needs, and exits with its exit code.
 fn restart() -> Result<(), Failure> {
     let failed = |error: std::io::Error| Failure::io("the program itself", &error);
     let program = std::env::current_exe().map_err(failed)?;
@@ -131,7 +135,7 @@ fn restart() -> Result<(), Failure> {
     }
 }
 
-/// Lines of a training with the time left.
+/// Progress lines of a training with the time left.
 struct Lines {
     start: Instant,
     first: Option<u64>,
@@ -150,7 +154,7 @@ impl Lines {
                 let step_secs = self.start.elapsed().as_secs_f64() / (done - first).max(1) as f64;
                 let left_mins = step_secs * self.total.saturating_sub(*done) as f64 / 60.0;
                 console::note(&format!(
-                    "step {done}/{}: choices {choice_loss:.4}, poses {pose_loss:.4}, rate {rate:.2e}, {step_secs:.2} s a step, {left_mins:.0} min left",
+                    "step {done}/{}: choices {choice_loss:.4}, poses {pose_loss:.4}, rate {rate:.2e}, {step_secs:.2} s per step, {left_mins:.0} min left",
                     self.total
                 ));
             }

@@ -7,25 +7,28 @@ fn help_shows_every_command_and_examples() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!(answer(folder.path(), &["--help"]), @r#"
     exit 0
-    A splat scene and a sentence become a camera move, filmed
+    Turn a Gaussian-splat scene and a sentence into a camera move, and render it as a film
 
-    Usage: cinesplat <COMMAND>
+    Usage: cinesplat [OPTIONS] <COMMAND>
 
     Commands:
-      info     Says what a scene is: format, Gaussians, bounds, up axis, what was dropped
-      objects  Finds or reads the objects of a scene
-      plan     Makes a sentence into keyframes, without rendering
-      render   Films a sentence or a shot
-      still    Takes still pictures from given cameras
-      export   Writes a shot's camera path for other programs
-      import   Makes a shot of another program's camera path
-      eval     Compares two trajectories: absolute and relative pose error
-      train    Trains the director
-      dataset  Makes the director's training data
-      bench    Measures what accuracy costs in time, and how cost grows with the work
-      help     Print this message or the help of the given subcommand(s)
+      info         Print what a scene file contains
+      objects      Find or read the objects of a scene
+      plan         Turn a sentence into keyframes
+      render       Render a film from a sentence or a shot
+      still        Render still pictures from given cameras
+      export       Write a shot's camera path for another program
+      import       Turn another program's camera path into a shot
+      eval         Compare two camera paths: absolute and relative pose error
+      train        Train the director's network, which understands sentences
+      dataset      Generate training data for the director's network
+      bench        Measure time, memory and accuracy
+      completions  Print a completion script for a shell
+      man          Print the manual page, or write one page per command
+      help         Print this message or the help of the given subcommand(s)
 
     Options:
+      -q, --quiet    Print only data and errors: no notes, warnings or progress
       -h, --help     Print help
       -V, --version  Print version
 
@@ -35,30 +38,48 @@ fn help_shows_every_command_and_examples() {
       cinesplat render room.spz -p "push in on the lamp, then orbit it" --objects objects.json -o lamp.mp4
       cinesplat render synth:demo -p "slowly push in on the sofa" -o sofa.mp4
 
-    SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or synth:room:SEED,
-    synth:tabletop:SEED and synth:demo, which are generated.
-    Exit codes: 0 done, 2 usage, 65 bad data, 66 no such input, 69 codec missing, 70 our fault, 71 over a cap,
-    73 cannot create the output, 74 I/O, 75 stopped early, 77 permission, 130 interrupted twice.
+    SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or a generated scene:
+    synth:demo, synth:room:SEED or synth:tabletop:SEED.
+    Data goes to stdout, notes and progress go to stderr. No file is overwritten without --overwrite.
+    Exit codes: 0 done, 2 wrong arguments, 65 bad data, 66 no such input, 69 codec missing, 70 fault of
+    cinesplat, 71 over a cap, 73 cannot create the output, 74 I/O error, 75 stopped early, 77 permission
+    denied, 130 interrupted twice.
     "#);
-    insta::assert_snapshot!(answer(folder.path(), &["import", "--help"]), @r"
+    insta::assert_snapshot!(answer(folder.path(), &["import", "-h"]), @r"
     exit 0
-    Makes a shot of another program's camera path
+    Turn another program's camera path into a shot
 
     Usage: cinesplat import [OPTIONS] --output <SHOT.JSON> <FILE>
 
     Arguments:
-      <FILE>  The camera path, or a folder with a COLMAP model
+      <FILE>  Camera path to read, or the folder of a COLMAP, EuRoC or nerfstudio capture
 
     Options:
-      -o, --output <SHOT.JSON>  The shot
-          --from <FORMAT>       The format, instead of what the content says
-          --overwrite           Replaces a shot that is already there
-      -h, --help                Print help
+          --from <FORMAT>  Format to read [default: by the content of the file]
+      -q, --quiet          Print only data and errors: no notes, warnings or progress
+      -h, --help           Print help (see more with '--help')
+
+    Output:
+      -o, --output <SHOT.JSON>  Shot to write, or - for stdout
+          --overwrite           Overwrite files that exist already [default: refuse]
 
     Examples:
       cinesplat import camera_path.json -o shot.json
       cinesplat import poses.txt --from kitti -o shot.json
     ");
+}
+
+#[test]
+fn short_help_fits_on_a_screen_and_long_help_says_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let commands =
+        ["info", "objects", "plan", "render", "still", "export", "import", "eval", "train", "dataset", "bench"];
+    for command in commands {
+        let (short, long) = (data(folder.path(), &[command, "-h"]), data(folder.path(), &[command, "--help"]));
+        assert!(short.lines().count() <= 40, "{command}: {} lines", short.lines().count());
+        assert!(long.len() >= short.len() && short.contains("Example"), "{command}");
+    }
+    assert!(data(folder.path(), &["import", "--help"]).contains("\nFormats:\n  tum "));
 }
 
 #[test]

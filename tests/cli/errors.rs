@@ -45,7 +45,7 @@ fn arguments_that_are_no_command() {
     insta::assert_snapshot!(answer(folder.path(), &["inof"]), @r"
     exit 2
     error[USAGE]: unrecognized subcommand 'inof'
-    help: a similar subcommand exists: 'info'; Usage: cinesplat <COMMAND>; --help says more
+    help: a similar subcommand exists: 'info'; Usage: cinesplat [OPTIONS] <COMMAND>; --help says more
     ");
     insta::assert_snapshot!(answer(folder.path(), &["info"]), @r"
     exit 2
@@ -93,7 +93,7 @@ fn outputs_are_checked_before_the_scene_is_read() {
     insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.gif"]), @r#"
     exit 2
     error[VIDEO-FORMAT]: film.gif: the name ends in "gif", expected .mp4 .mkv .webm .mov, or a pattern such as frames/%05d.png
-    help: name the output film.mp4, or frames/%05d.png for one picture a frame
+    help: name the output film.mp4, or frames/%05d.png for one picture per frame
     "#);
     insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "frames/f.png"]), @r"
     exit 2

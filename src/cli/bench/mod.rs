@@ -6,7 +6,7 @@ mod scenes;
 
 use crate::cli::failure::Failure;
 
-/// Measures what accuracy costs in time, and how cost grows with the work.
+/// Measure time, memory and accuracy
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -21,13 +21,9 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Benchmark {
-    /// Scenes at every preset and every knob alone: time, PSNR, SSIM, worst pixel.
     Render(render::Args),
-    /// Time and memory against Gaussians, pixels and layers.
     Scaling(scaling::Args),
-    /// Films against their frames one by one, rendering and encoding alone, and forecasts.
     Films(films::Args),
-    /// The operator: exactness of moves, films of cases, void, accuracy against time, stages.
     Operator(operator::Args),
 }
 

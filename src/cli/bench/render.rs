@@ -11,27 +11,28 @@ use cinesplat::export::cameras_json::StillCameras;
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat_bench::{AccuracyAxis, BenchPlan, BenchRow};
 
-/// Measures scenes at every preset, every knob alone and every output.
+/// Measure every preset, knob and output of the renderer: time, PSNR, SSIM, worst pixel
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example:
   cinesplat bench render room.spz skull.sog --cameras room.cameras.json --cameras auto -o bench
-One line of CSV a scene, camera, size and variant on stdout: median and range of the runs and times of the stages in ms,
-work counts, PSNR, SSIM and worst pixel against `reference` (free knobs: against `standard`). -o keeps it with tables and
-plots. Times are those of pictures in eight bits, as films take them; PSNR and the like are those of the same pictures as
-numbers. Outputs (depth, ids, features, weights, lift) are timed at `standard` in turn with color as numbers; times_color
-is the median ratio of the two. Knobs are measured at the first size alone, `scalar` there once on one camera.")]
+Prints one CSV line per scene, camera, size and variant: median and range of the runs and times of the stages in ms,
+work counts, PSNR, SSIM and worst pixel against `reference` (free knobs: against `standard`). -o keeps the CSV, tables
+and plots. Times are those of 8-bit pictures, as films take them; PSNR, SSIM and worst pixel are those of the same
+pictures as f32. Outputs (depth, ids, features, weights, lift) are timed at `standard`, alternating with f32 color;
+times_color is the median ratio of the two. Knobs are measured at the first size only, `scalar` once on one camera.")]
 pub(crate) struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,
-    /// Sizes of the pictures, or `given` for those of the cameras file; all variants at the first, presets alone at the
-    /// others
+    /// Sizes of the pictures; `given` takes those of the cameras file
+    ///
+    /// All variants are measured at the first size, presets only at the others.
     #[arg(long, value_name = "WxH,..", default_value = "1280x720", value_delimiter = ',', value_parser = parse_size)]
     sizes: Vec<Option<[u32; 2]>>,
-    /// Most cameras of a scene
+    /// Largest number of cameras per scene
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     max_cameras: u16,
-    /// Runs of every picture, after one that is not counted
+    /// Timed runs per picture, after one warm-up run
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
     #[command(flatten)]
@@ -76,13 +77,13 @@ impl Args {
         Ok(())
     }
 
-    /// What is measured at one of the sizes.
+    /// Settings for one of the sizes.
     fn plan(&self, scene: String, size_idx: usize, base: &RenderSettings) -> BenchPlan {
         let variants = if size_idx == 0 { cinesplat_bench::variants(base) } else { cinesplat_bench::presets(base) };
         BenchPlan { scene, variants, num_repeats: usize::from(self.runs) }
     }
 
-    /// Rows of a scene with these cameras.
+    /// Number of rows of a scene with these cameras.
     fn num_rows(&self, file: Option<&StillCameras>) -> usize {
         let num_cameras = file.map_or(NUM_OWN_VIEWS, |file| file.cameras.len()).min(usize::from(self.max_cameras));
         let at = |size_idx| self.plan(String::new(), size_idx, &RenderSettings::default());
@@ -90,7 +91,7 @@ impl Args {
     }
 }
 
-/// The rows so far; each is written as it comes.
+/// The rows so far; each is printed when it is complete.
 struct RowLog {
     rows: Vec<BenchRow>,
     num_rows: usize,
@@ -100,7 +101,7 @@ struct RowLog {
 impl RowLog {
     fn add(&mut self, row: &BenchRow) {
         let line = cinesplat_bench::to_csv(std::slice::from_ref(row));
-        // A reader that has gone is told of at the end.
+        // A closed stdout is reported at the end.
         let _ = console::data(line.split_inclusive('\n').nth(1).unwrap_or_default());
         self.rows.push(row.clone());
         self.progress.show(self.rows.len(), self.num_rows);

@@ -8,24 +8,24 @@ use crate::cli::scene_args::{PictureArgs, SceneArgs};
 use cinesplat::render::Quality;
 use cinesplat_bench::scaling::{self, Growth, ScalingCase};
 
-/// Measures how time and memory grow with Gaussians, pixels and layers.
+/// Measure how time and memory grow with Gaussians, pixels and layers
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example:
   cinesplat bench scaling synth:tabletop:1 -o bench
-One line of CSV a case on stdout, each measured in a process of its own; -o keeps it with a plot.")]
+Prints one CSV line per case. Each case is measured in a process of its own. -o keeps the CSV and a plot.")]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Runs of every picture, after one that is not counted
+    /// Timed runs per picture, after one warm-up run
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    /// Leaves out cases above so many Gaussians, rows of pixels or layers
-    #[arg(long, value_name = "N", default_value_t = u64::MAX)]
+    /// Skip cases with more Gaussians, pixel rows or layers than this [default: none]
+    #[arg(long, value_name = "N", default_value_t = u64::MAX, hide_default_value = true)]
     most: u64,
     #[command(flatten)]
     folder: BenchFolder,
-    /// One case alone, in this process
+    /// Measure one case in this process
     #[arg(long, value_name = "GROWTH:VALUE", hide = true, value_parser = parse_case)]
     case: Option<ScalingCase>,
     #[command(flatten)]

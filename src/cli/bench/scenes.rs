@@ -1,4 +1,4 @@
-//! Scenes of a bench, and the cameras that look at them.
+//! Scenes of a bench with their cameras.
 
 use std::path::{Path, PathBuf};
 
@@ -12,22 +12,23 @@ use cinesplat::geometry::{Camera, Intrinsics, LevelFrame, Pose};
 use cinesplat::render::{Quality, RenderSettings};
 use cinesplat::scene::Scene;
 
-/// Several scenes, each with a cameras file.
+/// Scenes, each with a cameras file.
 #[derive(Debug, clap::Args)]
 pub(super) struct ScenesArgs {
-    /// Scenes, as for the other commands
+    /// Scenes, named as for the other commands
     #[arg(value_name = "SCENE", required = true)]
     scenes: Vec<PathBuf>,
     #[command(flatten)]
     pub(super) options: SceneOptions,
-    /// Cameras of the scene at the same place in the line, the last for all further ones; auto: from two sides and from
-    /// the middle of the scene
+    /// Cameras file per scene; auto: two views from outside, one from the middle
+    ///
+    /// The files are for the scenes in the same order; the last one is for all further scenes.
     #[arg(long, value_name = "CAMERAS.JSON", default_value = "auto")]
     cameras: Vec<PathBuf>,
 }
 
 impl ScenesArgs {
-    /// Every scene with its cameras, `None` for those of its own; read before any work.
+    /// Every scene with its cameras, read before any work; `None` = the views of [`own_views`].
     pub(super) fn read_cameras(&self) -> Result<Vec<(&Path, Option<StillCameras>)>, Failure> {
         let files: Vec<_> = self.cameras.iter().map(|path| read_cameras(path)).collect::<Result<_, _>>()?;
         let file_of = |idx: usize| files.get(idx).or(files.last()).cloned().flatten();
@@ -35,7 +36,7 @@ impl ScenesArgs {
     }
 }
 
-/// Settings for a scene and what its cameras file says.
+/// Render settings for a scene with its cameras file.
 pub(super) fn settings(
     picture: &PictureArgs,
     scene: &Scene,
@@ -55,8 +56,8 @@ fn read_cameras(path: &Path) -> Result<Option<StillCameras>, Failure> {
     Ok(Some(read))
 }
 
-/// The scene's file name without its last extension; of `scene.spz` and `meta.json` the folder's, with the number of
-/// its level where it is only that.
+/// Name of a scene for a table: the file's stem. For `scene.*` and `meta.*` it is the folder's name; a stem that is only
+/// the number of a level follows the folder's name.
 pub(super) fn scene_name(path: &Path) -> String {
     let stem = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let parent = || path.parent().map(stem).filter(|name| !name.is_empty());
@@ -69,7 +70,7 @@ pub(super) fn scene_name(path: &Path) -> String {
     }
 }
 
-/// The picture of a camera at another size: its height decides the scale, the width is cut or widened evenly.
+/// The camera with another image size. The height sets the scale; the width is cropped or extended on both sides.
 pub(super) fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
     let Some([width, height]) = size else { return *camera };
     let given = camera.intrinsics;
@@ -85,7 +86,7 @@ pub(super) fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
     Camera { pose: camera.pose, intrinsics }
 }
 
-/// Cameras that [`own_views`] makes.
+/// Number of cameras of [`own_views`].
 pub(super) const NUM_OWN_VIEWS: usize = 3;
 
 /// One level view from the middle of the scene and two from outside, a quarter turn apart, 16:9 with 60 degrees.

@@ -10,6 +10,9 @@ impl From<FileError> for Failure {
         let is_denied = error.io_error().is_some_and(|error| error.kind() == ErrorKind::PermissionDenied);
         let (exit, help) = match &error {
             FileError::Exists { .. } => (Exit::CannotCreate, "choose another name, or pass --overwrite"),
+            FileError::Create { source, .. } if source.kind() == ErrorKind::IsADirectory => {
+                (Exit::CannotCreate, "name a file in it")
+            }
             FileError::Create { .. } => (Exit::CannotCreate, "create the folder, or choose one that you may write to"),
             FileError::Read { source, .. } if source.kind() == ErrorKind::NotFound => (Exit::NoInput, "check the path"),
             FileError::Read { .. } => (Exit::Io, "check the path and its permissions"),

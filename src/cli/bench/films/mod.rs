@@ -18,35 +18,35 @@ use cinesplat::trajectory::{Easing, Keyframe, SceneRef, Shot};
 use cinesplat::video::VideoSettings;
 use measure::{FilmCase, FilmRow};
 
-/// Frames a second of the films.
+/// Frames per second of the films.
 const RATE_FPS: f64 = 30.0;
-/// Way of a dolly over the size of the scene, unless told.
+/// Default length of the dolly over the size of the scene.
 const TRAVEL_FRAC: f64 = 0.05;
 
-/// Width and height; `None` as given. An option under this name: one that is always there, unlike those that clap knows.
+/// Width and height; `None` = as given. The alias keeps clap from reading `Option` as "may be absent".
 type Size = Option<[u32; 2]>;
 
-/// Measures what a film costs against its frames one by one, beside its encoder, and against its forecast.
+/// Measure films against stills, against encoding alone and against their forecasts
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example:
   cinesplat bench films room.spz synth:demo --cameras room.cameras.json --cameras auto -o bench
-Films a dolly: a straight move along the view axis of the first camera (auto: that in the middle). One line of CSV a
-measurement on stdout, with what it is held against and how much more it takes in percent. All pictures of a film are kept
-in memory to encode them alone. -o keeps films.csv and a table.")]
+Films a dolly: a straight move along the view axis of the first camera (auto: the camera in the middle). Prints one CSV
+line per measurement, with what it is compared with and the difference in percent. All pictures of a film are kept in
+memory to encode them alone. -o keeps films.csv and a table.")]
 pub(crate) struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,
-    /// Size of the pictures, or `given` for that of the cameras file
+    /// Size of the pictures; `given` takes that of the cameras file
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     size: Size,
-    /// Frames of a film
+    /// Frames per film
     #[arg(long, value_name = "N", default_value_t = 240, value_parser = clap::value_parser!(u16).range(2..=10_000))]
     frames: u16,
-    /// Way of the dolly in scene units, instead of a twentieth of the scene's size
-    #[arg(long, value_name = "D", value_parser = parse_way)]
+    /// Length of the dolly in scene units [default: 0.05 of the scene size]
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_way)]
     travel: Option<f64>,
-    /// Qualities that are filmed; the first is compared with stills as well
+    /// Qualities to film; the first is compared with stills as well
     #[arg(
         long, value_name = "Q,..", default_value = "standard,draft,final", value_delimiter = ',',
         value_parser = choice::<Quality>()
@@ -86,7 +86,7 @@ impl Args {
         let case = FilmCase { scene: &scene, name: &name, shot: &shot };
         let mut rows = Vec::new();
         let mut tell = |row: FilmRow| {
-            // A reader that has gone is told of at the end.
+            // A closed stdout is reported at the end.
             let _ = console::data(&report::csv_line(&row));
             rows.push(row);
         };
@@ -103,7 +103,7 @@ impl Args {
     }
 }
 
-/// A straight move at even speed along the view axis.
+/// A straight move along the view axis at constant speed.
 fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot {
     let duration_secs = num_frames as f64 / RATE_FPS;
     let key = |time_secs: f64, way: f64| {

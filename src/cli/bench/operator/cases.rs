@@ -14,19 +14,19 @@ use cinesplat::pipeline::{self, DirectSettings};
 use cinesplat::scene::{LoadOptions, Scene};
 use cinesplat::trajectory::Shot;
 
-/// Which prompts are solved, on which scenes.
+/// Prompts on scenes, and how they are solved.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct CaseArgs {
     /// Cases: JSON lines with id, scene, objects and prompt
     #[arg(long, value_name = "CASES.JSONL")]
     cases: PathBuf,
-    /// Programs by case, instead of the network's reading of the prompts
+    /// Programs by case id [default: the network's reading of each prompt]
     #[arg(long, value_name = "INTENTS.JSON")]
     intents: Option<PathBuf>,
-    /// Part of the ids of the cases that count
-    #[arg(long, value_name = "TEXT", default_value = "")]
+    /// Use the cases whose id contains this text [default: all]
+    #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true)]
     only: String,
-    /// Seed of the search for cameras
+    /// Seed of the camera search
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
 }
@@ -48,7 +48,7 @@ pub(super) struct CaseScene {
     objects: ObjectSet,
 }
 
-/// Scenes that are open, and the director where prompts have to be read.
+/// Opens scenes and turns cases into shots. The director is loaded only where prompts have to be read.
 pub(super) struct CaseDirector {
     director: Option<Director>,
     scenes: BTreeMap<(PathBuf, PathBuf), CaseScene>,
@@ -56,7 +56,7 @@ pub(super) struct CaseDirector {
 }
 
 impl CaseArgs {
-    /// The cases with their programs, and a studio to film them in.
+    /// Reads the cases with their programs.
     pub(super) fn open(&self) -> Result<(Vec<PromptCase>, CaseDirector), Failure> {
         let programs = self.intents.as_deref().map(programs).transpose()?;
         let folder = self.cases.parent().unwrap_or(Path::new("."));

@@ -10,7 +10,7 @@ use cinesplat::operator::{SolveLevel, SolveSettings};
 use cinesplat::plot::{Axis, COLORS, Chart, Marker, Series, grid};
 use cinesplat::trajectory::Shot;
 
-/// Search budgets: a level and the factor on its tries.
+/// Search budgets: a level and the factor on its number of tries.
 const BUDGETS: [(SolveLevel, f64); 9] = [
     (SolveLevel::Off, 1.0),
     (SolveLevel::Fast, 0.05),
@@ -23,19 +23,19 @@ const BUDGETS: [(SolveLevel, f64); 9] = [
     (SolveLevel::Full, 4.0),
 ];
 
-/// Which films, and where the picture goes.
+/// Measure unmet requirements against search time
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
     cases: CaseArgs,
-    /// Writes the curve as a picture
+    /// Plot the curve
     #[arg(long, value_name = "OUT.SVG")]
     plot: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
 }
 
-/// All films of one budget.
+/// Results of all films at one budget.
 #[derive(Debug, Default)]
 struct BudgetOutcome {
     ms: Vec<f64>,
@@ -53,7 +53,7 @@ impl BudgetOutcome {
         self.whole += usize::from(unmet == 0);
     }
 
-    /// Share of the report's lines that are not met.
+    /// Share of unmet lines of the reports.
     fn violated_frac(&self) -> f64 {
         self.unmet as f64 / self.lines.max(1) as f64
     }
@@ -84,7 +84,7 @@ impl Args {
             ))?;
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        let title = format!("what was asked for and not found, {} films", cases.len());
+        let title = format!("unmet requirements, {} films", cases.len());
         let svg = curve_svg(&title, &outcomes);
         self.overwrite.write(plot, svg.as_bytes())?;
         console::note(&format!("{}: the curve", plot.display()));
@@ -92,7 +92,7 @@ impl Args {
     }
 }
 
-/// Lines of the report that are not met against the time of the search, a dot a budget with its name.
+/// Share of unmet report lines against search time, one labeled dot per budget.
 fn curve_svg(title: &str, outcomes: &[BudgetOutcome]) -> String {
     let point = |outcome: &BudgetOutcome| (Summary::of(&outcome.ms).median.max(1e-3), 100.0 * outcome.violated_frac());
     let name = |(level, factor): &(SolveLevel, f64)| format!("{} x {factor}", level.as_ref());

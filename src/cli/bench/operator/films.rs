@@ -7,18 +7,18 @@ use crate::cli::outputs::{self, Overwrite};
 use crate::cli::shot_args::SolveArgs;
 use cinesplat::export::{self, ExportSettings, Format, shot_json};
 
-/// Where the films go.
+/// Write the camera path and the shot of every case
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
     cases: CaseArgs,
     #[command(flatten)]
     solve: SolveArgs,
-    /// Frames a second of the paths
-    #[arg(long, value_name = "F", default_value_t = 10.0)]
+    /// Frames per second of the paths
+    #[arg(long, value_name = "FPS", default_value_t = 10.0)]
     fps: f64,
-    /// Folder for ID.path.json (nerfstudio) and ID.shot.json, made where it is missing
-    #[arg(short, long, value_name = "DIR")]
+    /// Folder for ID.path.json (nerfstudio) and ID.shot.json, created where it is missing
+    #[arg(short, long, value_name = "DIR", help_heading = crate::cli::heading::OUTPUT)]
     output: PathBuf,
     #[command(flatten)]
     overwrite: Overwrite,

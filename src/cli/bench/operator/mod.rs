@@ -1,4 +1,4 @@
-//! `bench operator`: what the operator promises, measured on finished shots by code that knows nothing of how they are made.
+//! `bench operator`: measures on finished shots what the operator promises. No code is shared with the operator.
 
 mod cases;
 mod curve;
@@ -14,7 +14,7 @@ mod void;
 
 use crate::cli::failure::Failure;
 
-/// Measures the operator.
+/// Measure how exact and safe shots are, and how long planning takes
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -24,8 +24,8 @@ Examples:
   cinesplat bench operator curve --cases public.jsonl --intents intents.json --plot curve.svg
   cinesplat bench operator stages room.spz
   cinesplat bench operator pairs kitchen.spz synth:demo > pairs.csv
-Cases are JSON lines with id, scene, objects and prompt, file names relative to the file; intents are one JSON object of
-programs by id, such as {\"a1\": \"push-in end=2 / pan-left end=3\"}, and stand for the network's reading of the prompt.")]
+Cases are JSON lines with id, scene, objects and prompt; file names are relative to the file. Intents are one JSON object
+of programs by case id, such as {\"a1\": \"push-in end=2 / pan-left end=3\"}; they replace the network's programs.")]
 pub(super) struct Args {
     #[command(subcommand)]
     benchmark: OperatorBenchmark,
@@ -33,17 +33,13 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum OperatorBenchmark {
-    /// Exactness of the moves: radius, speed, continuity, dolly zooms, backtracking.
+    /// Measure how exact the moves are: radius, speed, continuity, dolly zooms, reversals
     Moves,
-    /// Writes the camera path and the shot of every case.
     Films(films::Args),
-    /// Share of the picture that no Gaussian covers, per film.
     Void(void::Args),
-    /// What was asked for and not found, against the time of the search.
     Curve(curve::Args),
-    /// Time of every stage of planning.
     Stages(stages::Args),
-    /// Ways between random places: clear of matter, by a plain scan of all Gaussians, and how long they take to find.
+    /// Measure paths between random places: clearance by brute force, and search time
     Pairs(pairs::Args),
 }
 

@@ -10,18 +10,20 @@ use crate::cli::scene_args::SceneArgs;
 use cinesplat::language::program_from_notation;
 use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
 
-/// Which scene, which program.
+/// Measure the time of each stage of planning
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Objects file; without it objects are found
+    /// Objects file [default: the scene's own objects, else a search]
     #[arg(long, value_name = "FILE")]
     objects: Option<PathBuf>,
-    /// Program to solve, in the notation of programs; without it a push, an orbit and a pan about the first objects
+    /// Program to solve, in the notation of programs [default: a push, an orbit and a pan]
+    ///
+    /// The default program is about the first two objects.
     #[arg(long, value_name = "PROGRAM", value_parser = program_from_notation)]
     program: Option<Program>,
-    /// Runs of every stage after loading
+    /// Runs of each stage after loading
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
 }

@@ -10,7 +10,7 @@ use cinesplat::render::{RenderSettings, Renderer};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{CameraPath, Shot};
 
-/// How pictures are looked at.
+/// Measure the share of each picture that no Gaussian covers
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
@@ -20,10 +20,10 @@ pub(super) struct Args {
     /// Height of the pictures in pixels
     #[arg(long, value_name = "N", default_value_t = 72, value_parser = clap::value_parser!(u32).range(16..=2160))]
     height: u32,
-    /// Pictures a second of film
-    #[arg(long, value_name = "F", default_value_t = 2.0)]
+    /// Pictures per second of film
+    #[arg(long, value_name = "FPS", default_value_t = 2.0)]
     fps: f64,
-    /// A pixel is void where more than this share of the light comes from behind all Gaussians
+    /// Transmittance above which a pixel counts as void
     #[arg(long, value_name = "T", default_value_t = 0.5)]
     threshold: f32,
 }
@@ -48,7 +48,7 @@ impl Args {
         Ok(())
     }
 
-    /// Share of void pixels of every picture.
+    /// Share of void pixels per picture.
     fn void_fracs(&self, scene: &Scene, shot: &Shot) -> Result<Vec<f64>, Failure> {
         let path = CameraPath::new(shot)?;
         let renderer = Renderer::new(&scene.gaussians);
@@ -66,7 +66,7 @@ impl Args {
     }
 }
 
-/// Mean and largest.
+/// Mean and largest value.
 fn summary(values: &[f64]) -> (f64, f64) {
     let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
     (mean, values.iter().copied().fold(0.0, f64::max))
