@@ -4,16 +4,16 @@ use super::filter::SplatFilter;
 use super::intake::Collected;
 use super::up::UpPrior;
 
-/// A decoded file before its up axis is settled.
+/// A decoded file, before the choice of its up axis.
 pub(super) struct DecodedScene {
-    /// Human name of the format.
+    /// Name of the format, such as `spz v2`.
     pub(super) format: String,
-    /// Gaussians and what was dropped.
+    /// Gaussians, positions of the dropped ones, notes.
     pub(super) collected: Collected,
-    /// Filter that the file asks for.
+    /// Filter that the file states.
     pub(super) filter: Option<SplatFilter>,
-    /// Up axis that the file states, with its words.
+    /// World up that the file states, with the file's words.
     pub(super) up: Option<(DVec3, String)>,
-    /// Which up axes files of this kind tend to have.
+    /// Prior probabilities of up axes for this kind of file.
     pub(super) up_prior: UpPrior,
 }

@@ -1,15 +1,16 @@
 use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
-/// How the renderer compensates opacity for the dilation of a splat; see the contract "Rendering, exactly".
+/// Antialiasing filter that a scene was trained with. The renderer dilates the 2D covariance of every splat; the filter
+/// decides how far, and whether the opacity compensates for it.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames,
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum SplatFilter {
-    /// 0.3 px dilation, opacity unchanged.
+    /// Dilation 0.3 px, opacity unchanged.
     Classic,
-    /// 0.3 px dilation, opacity times sqrt(det before / det after).
+    /// Dilation 0.3 px, opacity times sqrt(determinant before / determinant after).
     Mip,
-    /// As `Mip` with 0.1 px: for files with Mip-Splatting's own `filter_3D` property.
+    /// As `Mip` with a dilation of 0.1 px, for files with the `filter_3D` property of Mip-Splatting.
     MipSmall,
 }

@@ -2,39 +2,39 @@ use super::bounds::Bounds;
 use super::filter::SplatFilter;
 use super::scene::{Scene, UpSource};
 
-/// What `info` prints about a scene.
+/// Summary of a scene, as `info` prints it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneInfo {
-    /// Human name of the format.
+    /// Name of the format, such as `spz v2`.
     pub format: String,
-    /// SHA-256 of the file in hex.
+    /// SHA-256 of the file in lower-case hexadecimal; empty for a generated scene.
     pub sha256: String,
-    /// Gaussians that are there to draw.
+    /// Number of Gaussians to render.
     pub num_gaussians: usize,
-    /// Gaussians that were dropped on reading.
+    /// Number of Gaussians that the reader dropped.
     pub num_dropped: usize,
     /// Degree of the spherical harmonics, 0..=3.
     pub sh_degree: u8,
-    /// Extent of all means and of the scene's core.
+    /// Bounds of all means and of the scene's core.
     pub bounds: Bounds,
-    /// Scene size: diagonal of the core, scene units.
+    /// Scene size: the diagonal of the core, scene units.
     pub size: f64,
-    /// Filter that `auto` picks.
+    /// Filter that `auto` selects.
     pub filter: SplatFilter,
-    /// Whether the file itself asks for that filter.
+    /// Whether the file states that filter.
     pub filter_is_stated: bool,
     /// World up, unit.
     pub up: [f64; 3],
     /// SourceFile of the up direction.
     pub up_source: UpSource,
-    /// Object ids in the file, 0 not counted.
+    /// Number of distinct object ids in the file, 0 not counted.
     pub num_objects: usize,
-    /// What was dropped or repaired and why, one line each.
+    /// What the reader dropped, repaired or ignored, one line each.
     pub notes: Vec<String>,
 }
 
 impl Scene {
-    /// What there is to say about this scene.
+    /// Summary of the scene.
     pub fn info(&self) -> SceneInfo {
         let bounds = self.bounds();
         let mut ids = self.gaussians.ids.clone();

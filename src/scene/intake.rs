@@ -1,73 +1,80 @@
-//! What becomes of each Gaussian on its way in: checked, normalized, counted.
+//! Validation of decoded Gaussians.
 //!
-//! Enters: decoded values of any codec. Leaves: columns in which every value is finite and every rotation unit.
-//! A Gaussian that cannot be drawn is dropped and counted; one that is merely extreme stays.
+//! Enters: decoded values of any codec. Leaves: columns, the positions of dropped Gaussians and notes. Invariant: every
+//! value in the columns is finite and every rotation has unit length. A Gaussian with extreme but valid values is kept.
 
 use std::path::Path;
 
 use glam::{DQuat, DVec3, Vec3};
+use strum::{Display, EnumCount, VariantArray};
 
 use super::error::SceneError;
 use super::gaussians::{Gaussians, NUM_SH_REST};
 
-/// Y(0,0) = 1 / (2 sqrt(pi)): color = 0.5 + `SH_C0` * `f_dc`.
+/// Spherical harmonic of degree 0, 1 / (2 sqrt(pi)): color = 0.5 + `SH_C0` * `f_dc`.
 pub(super) const SH_C0: f64 = 0.282_094_791_773_878_14;
 
-/// Longest standard deviation kept; longer ones are shortened to it, so that squares stay finite in `f32`.
+/// Largest standard deviation, scene units. Larger ones are clamped, so that squares stay finite in `f32`.
 const MAX_SCALE: f64 = 1e15;
 
-/// How many times the scene's extent its middle may lie from the world's origin before a local origin is used.
-/// At 16, `f32` positions are good to a millionth of the extent.
-const FAR_OFF: f64 = 16.0;
+/// Distance between the scene's median and the world's origin, over the scene's extent, above which the scene gets a local
+/// origin. At 16, `f32` positions are precise to a millionth of the extent.
+const MAX_ORIGIN_DISTANCE: f64 = 16.0;
 
-/// One Gaussian as a codec decodes it: activations applied, nothing checked.
+/// A decoded Gaussian before validation.
 pub(super) struct RawGaussian {
     /// Mean, world.
     pub(super) mean: DVec3,
     /// Linear standard deviations.
     pub(super) scale: DVec3,
-    /// Quaternion of any length, w first.
+    /// Rotation, a quaternion of any length.
     pub(super) rotation_wxyz: [f64; 4],
-    /// Opacity, 0..=1.
+    /// Opacity, nominally 0..=1.
     pub(super) opacity: f64,
-    /// Degree-0 coefficients.
+    /// Coefficients of degree 0.
     pub(super) sh_dc: DVec3,
 }
 
-/// Reasons for which a Gaussian is dropped, in the order in which they are looked for.
-const REASONS: [&str; 5] = [
-    "position is not finite",
-    "scale is not a number or infinite",
-    "rotation is zero or not finite",
-    "opacity is not a number",
-    "color is not finite",
-];
+/// Reason for dropping a Gaussian, in the order of the checks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Display, EnumCount, VariantArray)]
+enum DropReason {
+    #[strum(serialize = "position is not finite")]
+    Position,
+    #[strum(serialize = "scale is not a number or infinite")]
+    Scale,
+    #[strum(serialize = "rotation is zero or not finite")]
+    Rotation,
+    #[strum(serialize = "opacity is not a number")]
+    Opacity,
+    #[strum(serialize = "color is not finite")]
+    Color,
+}
 
-/// Collects Gaussians and what was wrong with the others.
+/// Collects the valid Gaussians of a file and counts the others.
 pub(super) struct Intake {
     means: Vec<DVec3>,
     out: Gaussians,
     num_seen: u32,
     dropped: Vec<u32>,
-    num_by_reason: [usize; REASONS.len()],
-    num_shortened: usize,
+    num_by_reason: [usize; DropReason::COUNT],
+    num_clamped: usize,
 }
 
-/// What an [`Intake`] leaves.
+/// Result of an [`Intake`].
 pub(super) struct Collected {
-    /// The Gaussians that stay.
+    /// The valid Gaussians.
     pub(super) gaussians: Gaussians,
-    /// Positions in the file of those that do not, ascending.
+    /// Positions in the file of the dropped Gaussians, ascending.
     pub(super) dropped: Vec<u32>,
-    /// One line for each thing that was dropped or repaired.
+    /// What was dropped, repaired or ignored, one line each.
     pub(super) notes: Vec<String>,
 }
 
 impl Intake {
-    /// Room for `count` Gaussians of the given degree (0..=3).
+    /// An intake with memory for `count` Gaussians of a degree, 0..=3.
     ///
     /// # Errors
-    /// [`SceneError::OutOfMemory`] when memory does not hold them.
+    /// [`SceneError::OutOfMemory`] when the memory is not available.
     pub(super) fn new(path: &Path, count: usize, sh_degree: u8) -> Result<Self, SceneError> {
         let mut out = Gaussians { sh_degree, ..Gaussians::default() };
         let mut means: Vec<DVec3> = Vec::new();
@@ -81,17 +88,17 @@ impl Intake {
         if reserved.is_err() {
             return Err(SceneError::OutOfMemory { path: path.to_path_buf(), found: count as u64 });
         }
-        Ok(Self { means, out, num_seen: 0, dropped: Vec::new(), num_by_reason: [0; REASONS.len()], num_shortened: 0 })
+        Ok(Self { means, out, num_seen: 0, dropped: Vec::new(), num_by_reason: [0; DropReason::COUNT], num_clamped: 0 })
     }
 
-    /// Takes the next Gaussian of the file, or drops it. `sh_rest` are its coefficients above degree 0.
+    /// Adds or drops the next Gaussian of the file. `sh_rest` holds its coefficients above degree 0.
     pub(super) fn push(&mut self, raw: &RawGaussian, sh_rest: &[Vec3]) {
         let file_idx = self.num_seen;
         self.num_seen += 1;
         match checked(raw, sh_rest) {
             Ok(rotation) => {
-                let shortened = raw.scale.max_element() > MAX_SCALE;
-                self.num_shortened += usize::from(shortened);
+                let clamped = raw.scale.max_element() > MAX_SCALE;
+                self.num_clamped += usize::from(clamped);
                 self.means.push(raw.mean);
                 self.out.scales.push(raw.scale.min(DVec3::splat(MAX_SCALE)).as_vec3());
                 self.out.rotations.push(rotation.as_quat());
@@ -100,56 +107,59 @@ impl Intake {
                 self.out.sh_rest.extend_from_slice(sh_rest);
             }
             Err(reason) => {
-                self.num_by_reason[reason] += 1;
+                self.num_by_reason[reason as usize] += 1;
                 self.dropped.push(file_idx);
             }
         }
     }
 
-    /// The columns, with a local origin where the scene lies far off.
+    /// The columns, with a local origin if the scene is far from the world's origin.
     ///
     /// # Errors
-    /// [`SceneError::Empty`] when no Gaussian is left.
+    /// [`SceneError::Empty`] when no Gaussian is valid.
     pub(super) fn finish(mut self, path: &Path) -> Result<Collected, SceneError> {
-        let drops = self.num_by_reason.iter().zip(REASONS).filter(|(count, _)| **count > 0);
+        let drops = self.num_by_reason.iter().zip(DropReason::VARIANTS).filter(|(count, _)| **count > 0);
         let mut notes: Vec<String> = drops.map(|(count, reason)| format!("{count} dropped: {reason}")).collect();
         if self.means.is_empty() {
             let reason = if notes.is_empty() { "the file holds none".to_owned() } else { notes.join("; ") };
             return Err(SceneError::Empty { path: path.to_path_buf(), found: u64::from(self.num_seen), reason });
         }
-        if self.num_shortened > 0 {
-            notes.push(format!("{} repaired: scale above {MAX_SCALE:e} shortened to that", self.num_shortened));
+        if self.num_clamped > 0 {
+            notes.push(format!("{} repaired: scale above {MAX_SCALE:e} clamped to that", self.num_clamped));
         }
         self.out.origin = local_origin(&self.means);
         if self.out.origin != DVec3::ZERO {
             let o = self.out.origin;
-            notes.push(format!("far off: positions are kept relative to ({}, {}, {})", o.x, o.y, o.z));
+            notes.push(format!(
+                "far from the world's origin: positions are stored relative to ({}, {}, {})",
+                o.x, o.y, o.z
+            ));
         }
         self.out.means = self.means.iter().map(|mean| (*mean - self.out.origin).as_vec3()).collect();
         Ok(Collected { gaussians: self.out, dropped: self.dropped, notes })
     }
 }
 
-/// The unit rotation (w >= 0) of a Gaussian that can be drawn, or the index of the reason why it cannot.
-fn checked(raw: &RawGaussian, sh_rest: &[Vec3]) -> Result<DQuat, usize> {
-    // Comparisons are phrased so that NaN fails them.
+/// The unit rotation (w >= 0) of a valid Gaussian, or the reason to drop it.
+fn checked(raw: &RawGaussian, sh_rest: &[Vec3]) -> Result<DQuat, DropReason> {
+    // NaN fails every comparison.
     if !(raw.mean.abs().max_element() <= f64::from(f32::MAX) && raw.mean.is_finite()) {
-        return Err(0);
+        return Err(DropReason::Position);
     }
     if !(raw.scale.is_finite() && raw.scale.min_element() >= 0.0) {
-        return Err(1);
+        return Err(DropReason::Scale);
     }
-    let rotation = unit_rotation(raw.rotation_wxyz).ok_or(2_usize)?;
+    let rotation = unit_rotation(raw.rotation_wxyz).ok_or(DropReason::Rotation)?;
     if raw.opacity.is_nan() {
-        return Err(3);
+        return Err(DropReason::Opacity);
     }
     let representable = raw.sh_dc.abs().max_element() <= f64::from(f32::MAX) && raw.sh_dc.is_finite();
-    if representable && sh_rest.iter().all(|c| c.is_finite()) { Ok(rotation) } else { Err(4) }
+    if representable && sh_rest.iter().all(|c| c.is_finite()) { Ok(rotation) } else { Err(DropReason::Color) }
 }
 
-/// The unit quaternion along `wxyz` with w >= 0, or `None` where there is none.
+/// The normalized quaternion with w >= 0; `None` if it is zero or not finite.
 fn unit_rotation(wxyz: [f64; 4]) -> Option<DQuat> {
-    // Dividing by the largest part first keeps the squares of 1e-200 and 1e200 from vanishing or overflowing.
+    // Division by the largest component first prevents the squares from underflow and overflow.
     let largest = wxyz.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     if !(largest > 0.0 && largest.is_finite() && wxyz.iter().all(|v| v.is_finite())) {
         return None;
@@ -159,8 +169,8 @@ fn unit_rotation(wxyz: [f64; 4]) -> Option<DQuat> {
     Some(if unit.w < 0.0 { -unit } else { unit })
 }
 
-/// Zero, or a point near the scene's middle where that lies far off in units of the scene's extent. It is a multiple
-/// of a power of two, so that offsets written as round numbers subtract without rounding.
+/// Zero, or a point near the scene's median if that is far from the world's origin in units of the scene's extent. Its
+/// coordinates are multiples of a power of two, so that the subtraction from round positions is exact.
 fn local_origin(means: &[DVec3]) -> DVec3 {
     let axis = |axis: usize| {
         let mut values: Vec<f64> = means.iter().map(|mean| mean[axis]).collect();
@@ -171,7 +181,7 @@ fn local_origin(means: &[DVec3]) -> DVec3 {
     let (x, y, z) = (axis(0), axis(1), axis(2));
     let middle = DVec3::new(x.0, y.0, z.0);
     let extent = DVec3::new(x.1, y.1, z.1).length();
-    if middle.length() <= FAR_OFF * extent || extent == 0.0 && middle.length() < 1e4 {
+    if middle.length() <= MAX_ORIGIN_DISTANCE * extent || extent == 0.0 && middle.length() < 1e4 {
         return DVec3::ZERO;
     }
     let step = if extent > 0.0 { extent.log2().floor().exp2() } else { 1.0 };

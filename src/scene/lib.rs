@@ -1,8 +1,8 @@
-//! Scenes of 3D Gaussians: readers, up axis, bounds, and procedural scenes with known objects.
+//! Scenes of 3D Gaussians: readers for PLY, SPZ, SOG and `.splat`, the up axis and bounds.
 //!
-//! Enters: a file or folder of any supported format, or a seed. Leaves: [`Scene`]. The world stays the file's own: no
-//! axis is flipped, nothing is scaled. What cannot be drawn is dropped, counted and said in [`Scene::notes`]; nothing
-//! that a file claims is believed before the bytes for it are seen.
+//! Enters: a file or folder of a supported format. Leaves: [`Scene`]. The world is the file's own: readers flip no axis and
+//! scale nothing. They drop Gaussians that cannot be rendered, and [`Scene::notes`] reports how many and why. Invariant:
+//! readers check every size that a file claims against the bytes that are present before they allocate for it.
 
 mod bounds;
 mod decoded;

@@ -13,11 +13,11 @@ use super::{ply, sog, splat, spz, up};
 
 /// Reads a scene of any supported format: a file, or the folder or `meta.json` of an unbundled SOG.
 ///
-/// The content decides the format, not the extension. The file is read into memory once; its sizes are checked against
-/// `options` and against the bytes that are there before anything is allocated for them.
+/// The content decides the format, not the extension. The file is read into memory once. The readers check its sizes
+/// against `options` and against the bytes that are present before they allocate for them.
 ///
 /// # Errors
-/// [`SceneError`], one variant a kind of fault; never a panic, whatever the file holds.
+/// [`SceneError`], one variant per kind of fault. No content of the file causes a panic.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let metadata = fs::metadata(path).map_err(|source| SceneError::from_io(path, source))?;
     if metadata.is_dir() {
@@ -31,8 +31,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     load_bytes(path, &read_file(path, options.max_file_bytes)?, options)
 }
 
-/// As [`load`], for a file that is in memory already. `path` names it in errors; a SOG `meta.json` finds its pictures
-/// in the folder of `path`.
+/// As [`load`], for a file that is in memory already. `path` names the file in errors; the pictures of a SOG `meta.json`
+/// are read from the folder of `path`.
 ///
 /// # Errors
 /// As [`load`].
@@ -45,7 +45,7 @@ pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
         SceneFormat::SogBundle => sog::read_bundle(&source)?,
         SceneFormat::SogMeta => sog::read_unbundled(&source)?,
     };
-    let (up, up_source) = settle_up(path, &decoded, options)?;
+    let (up, up_source) = choose_up(path, &decoded, options)?;
     Ok(Scene {
         path: path.to_path_buf(),
         sha256: cinesplat_files::sha256_hex(bytes),
@@ -59,8 +59,8 @@ pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
     })
 }
 
-/// Up by rank of its source: the caller, the file, the estimate.
-fn settle_up(path: &Path, decoded: &DecodedScene, options: &LoadOptions) -> Result<(DVec3, UpSource), SceneError> {
+/// World up and its source: the caller's, else the file's, else the estimate.
+fn choose_up(path: &Path, decoded: &DecodedScene, options: &LoadOptions) -> Result<(DVec3, UpSource), SceneError> {
     if let Some(given) = options.up {
         let bad = || SceneError::BadUp { path: path.to_path_buf(), found: given.to_array() };
         let largest = given.abs().max_element();

@@ -1,13 +1,13 @@
 use glam::DVec3;
 
-/// What a scene may cost, and what the caller knows better than the file.
+/// Limits for reading a scene, and the up direction if the caller knows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadOptions {
-    /// World up, of any length; wins over the file and over the estimate.
+    /// World up, of any length above 0; overrides the file and the estimate.
     pub up: Option<DVec3>,
-    /// Largest file, and largest size after decompression, in bytes.
+    /// Maximum size of the file and of its decompressed content, bytes.
     pub max_file_bytes: u64,
-    /// Most Gaussians.
+    /// Maximum number of Gaussians.
     pub max_gaussians: usize,
 }
 

@@ -7,16 +7,16 @@ use super::bounds::Bounds;
 use super::filter::SplatFilter;
 use super::gaussians::Gaussians;
 
-/// Where the up direction of a scene comes from.
+/// Source of the up direction of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum UpSource {
-    /// Given on the command line.
+    /// The caller: [`LoadOptions::up`](super::LoadOptions::up).
     Flag,
-    /// Said by the objects file.
+    /// The objects file.
     ObjectsFile,
-    /// Said by the scene file: the words it used.
+    /// The scene file, with its own words.
     File(String),
-    /// Estimated from floor and upright planes; 0..=100 how sure.
+    /// An estimate from the scene's floor, with its confidence in percent, 0..=100.
     Estimated(u8),
 }
 
@@ -31,42 +31,42 @@ impl fmt::Display for UpSource {
     }
 }
 
-/// A scene with what its file says about itself.
+/// A scene with the metadata of its file.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Where it was read from; empty for a generated one.
+    /// Path it was read from; the name it was asked for if it is generated.
     pub path: PathBuf,
-    /// SHA-256 of the file (of `meta.json` for unbundled SOG) in hex; empty for a generated one.
+    /// SHA-256 of the file (of `meta.json` for an unbundled SOG), in lower-case hexadecimal; empty for a generated scene.
     pub sha256: String,
-    /// Human name of the format, such as `spz v2`.
+    /// Name of the format, such as `spz v2`.
     pub format: String,
     /// The Gaussians.
     pub gaussians: Gaussians,
-    /// Positions in the file of the Gaussians that were dropped on reading, ascending.
+    /// Positions in the file of the dropped Gaussians, ascending.
     pub dropped: Vec<u32>,
-    /// Filter that the file asks for; `None` when it does not say.
+    /// Filter that the file states; `None` if it states none.
     pub filter: Option<SplatFilter>,
     /// World up, unit.
     pub up: DVec3,
-    /// Where `up` comes from.
+    /// Source of `up`.
     pub up_source: UpSource,
-    /// What was dropped or repaired on reading and why, one line each, such as `3 dropped: position is not finite`.
+    /// What the reader dropped, repaired or ignored, one line each, such as `3 dropped: position is not finite`.
     pub notes: Vec<String>,
 }
 
 impl Scene {
-    /// Bounds of the solid Gaussians.
+    /// Bounds of all Gaussians and of the scene's core.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(&self.gaussians)
     }
 
-    /// Number of Gaussians in the file, those that were dropped included.
+    /// Number of Gaussians in the file, dropped ones included.
     pub fn num_in_file(&self) -> usize {
         self.gaussians.len() + self.dropped.len()
     }
 
-    /// The entries of a column in file order (one a Gaussian of the file, such as labels) that belong to the Gaussians
-    /// that were kept; `None` when the column has another length than the file.
+    /// The entries of a column for the Gaussians that were kept. The column holds one entry per Gaussian in file order, such
+    /// as labels; `None` if its length differs from [`Scene::num_in_file`].
     pub fn kept<T: Copy>(&self, file_order: &[T]) -> Option<Vec<T>> {
         if file_order.len() != self.num_in_file() {
             return None;

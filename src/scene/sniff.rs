@@ -1,21 +1,24 @@
-//! Which format a file has, by its content.
+//! Format detection by content.
+//!
+//! Enters: a file. Leaves: its format, or an error that names the known format without a reader. Only a `.splat`, which
+//! has no magic number, may be decided by its extension.
 
 use super::error::SceneError;
 use super::source_file::SourceFile;
 
-/// Name of the multi-level SOG in errors.
+/// Name of the streamed SOG in errors.
 pub(super) const STREAMED_SOG: &str = "a streamed SOG (lod-meta.json with levels of detail)";
 
 /// Formats that have a reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SceneFormat {
-    /// PLY of INRIA's kind or compressed.
+    /// PLY, INRIA's or compressed.
     Ply,
-    /// Headerless records of 32 bytes.
+    /// `.splat`: records of 32 bytes without a header.
     Splat,
-    /// SPZ of any version and wrapping.
+    /// SPZ of any version, plain or in gzip.
     Spz,
-    /// SOG in a zip.
+    /// SOG in a zip archive.
     SogBundle,
     /// The `meta.json` of a SOG in a folder.
     SogMeta,
@@ -24,8 +27,8 @@ pub(super) enum SceneFormat {
 /// The format of a file.
 ///
 /// # Errors
-/// [`SceneError::NotReadYet`] for formats that are known, [`SceneError::UnknownFormat`] for all else,
-/// [`SceneError::SplatSize`] for a `.splat` that is not whole records.
+/// [`SceneError::NotReadYet`] for a known format without a reader, [`SceneError::UnknownFormat`] for any other content,
+/// [`SceneError::SplatSize`] for a `.splat` whose size is not a multiple of its record size.
 pub(super) fn format_of(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes;
     let not_yet = |format| Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
@@ -48,7 +51,7 @@ pub(super) fn format_of(source: &SourceFile) -> Result<SceneFormat, SceneError> 
     }
 }
 
-/// The error for content of no known kind, with the first bytes.
+/// The error for unknown content, with its first bytes.
 fn unknown(source: &SourceFile) -> SceneError {
     let first: Vec<String> = source.bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
     let found = if first.is_empty() { "an empty file".to_owned() } else { format!("begins with {}", first.join(" ")) };
@@ -59,7 +62,8 @@ fn is_pcd(bytes: &[u8]) -> bool {
     bytes.starts_with(b"# .PCD") || bytes.starts_with(b"VERSION .7") || bytes.starts_with(b"VERSION 0.7")
 }
 
-/// `.ksplat` has no magic: version 0.1 and up, a compression level of 0 to 2, and room for the section headers it claims.
+/// Whether the header reads as `.ksplat`, which has no magic number: version 0.1 to 0.9, compression level 0 to 2, and
+/// space for the section headers that it claims.
 fn is_ksplat(bytes: &[u8]) -> bool {
     let Some(header) = bytes.first_chunk::<24>() else { return false };
     let word = |at: usize| u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
@@ -80,7 +84,7 @@ fn starts_json(bytes: &[u8]) -> bool {
 
 fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(source.bytes);
-    // Binary data may begin like JSON; a .splat does so once in 2^8 files.
+    // Binary data may begin like JSON; one in 256 .splat files does.
     let Ok(value) = serde_json::from_slice::<serde_json::Value>(bytes) else {
         let splat = bytes.len().is_multiple_of(32) && plausible_splat(bytes);
         return if splat { Ok(SceneFormat::Splat) } else { Err(unknown(source)) };
@@ -98,8 +102,7 @@ fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     }
 }
 
-/// Whether the first records of a headerless file read as Gaussians: finite positions, scales above 0 and below the
-/// size of anything.
+/// Whether at least 9 of 10 among the first records read as Gaussians: positions and scales of plausible magnitude.
 fn plausible_splat(bytes: &[u8]) -> bool {
     let records = bytes.chunks_exact(32).take(64);
     let total = records.len();

@@ -5,22 +5,22 @@ use std::path::Path;
 use super::error::SceneError;
 use super::options::LoadOptions;
 
-/// A file in memory, with its name for errors and the limits it is read under.
+/// A file in memory, with its path for errors and the limits of reading.
 #[derive(Clone, Copy)]
 pub(super) struct SourceFile<'a> {
     /// The path as the caller gave it.
     pub(super) path: &'a Path,
-    /// All of the file.
+    /// Content of the file.
     pub(super) bytes: &'a [u8],
-    /// Limits.
+    /// Limits of reading.
     pub(super) options: &'a LoadOptions,
 }
 
 impl SourceFile<'_> {
-    /// Refuses more Gaussians than the caller allows.
+    /// `found` as a count, if the limits allow that many Gaussians.
     ///
     /// # Errors
-    /// [`SceneError::TooManyGaussians`].
+    /// [`SceneError::TooManyGaussians`] when they do not.
     pub(super) fn check_count(&self, found: u64) -> Result<usize, SceneError> {
         let cap = self.options.max_gaussians.min(u32::MAX as usize) as u64;
         if found > cap {
@@ -30,14 +30,14 @@ impl SourceFile<'_> {
     }
 }
 
-/// All bytes of a regular file, at most `cap` of them.
+/// Content of a regular file of at most `cap` bytes.
 ///
 /// # Errors
-/// [`SceneError::NotAFile`] for pipes and devices, which may never end; [`SceneError::TooManyBytes`]; faults of the
-/// file system.
+/// [`SceneError::NotAFile`] for pipes and devices, which may never end; [`SceneError::TooManyBytes`] above `cap`;
+/// [`SceneError::NotFound`], [`SceneError::Permission`] or [`SceneError::Io`] for faults of the file system.
 pub(super) fn read_file(path: &Path, cap: u64) -> Result<Vec<u8>, SceneError> {
     let failed = |source| SceneError::from_io(path, source);
-    // Asked before opening: opening a pipe waits for its other end.
+    // Checked before opening, because opening a pipe waits for a writer.
     let metadata = fs::metadata(path).map_err(failed)?;
     if !metadata.is_file() {
         return Err(SceneError::NotAFile { path: path.to_path_buf() });

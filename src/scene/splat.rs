@@ -1,4 +1,5 @@
-//! `.splat`: records of 32 bytes without a header. Reference: antimatter15/splat `convert.py`.
+//! `.splat`: records of 32 bytes without a header. Enters: bytes. Leaves: Gaussians of degree 0. Reference:
+//! antimatter15/splat `convert.py`.
 
 use glam::DVec3;
 
@@ -8,13 +9,14 @@ use super::intake::{Intake, RawGaussian, SH_C0};
 use super::source_file::SourceFile;
 use super::up::UpPrior;
 
-/// Bytes of a record: position 3 x f32, scale 3 x f32 (linear), rgba 4 x u8, rotation w x y z 4 x u8.
+/// Bytes per record: position 3 x f32, linear scale 3 x f32, rgba 4 x u8, rotation wxyz 4 x u8.
 const RECORD: usize = 32;
 
 /// Gaussians of a `.splat`.
 ///
 /// # Errors
-/// [`SceneError::SplatSize`], [`SceneError::TooManyGaussians`], [`SceneError::Empty`].
+/// [`SceneError::SplatSize`] for a partial record, [`SceneError::TooManyGaussians`], [`SceneError::OutOfMemory`],
+/// [`SceneError::Empty`].
 pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let (records, cut) = source.bytes.as_chunks::<RECORD>();
     if records.is_empty() || !cut.is_empty() {

@@ -105,7 +105,7 @@ fn object_ids_come_from_the_file() {
     assert!(scene.gaussians.ids.is_empty());
     assert_eq!(
         scene.notes,
-        ["property instance_id is not read as object ids: 0.5 at Gaussian 1, expected whole numbers from 0 to 65535"]
+        ["property instance_id is not used as object ids: 0.5 at Gaussian 1, expected whole numbers from 0 to 65535"]
     );
 }
 
@@ -187,5 +187,5 @@ fn bytes_after_the_last_row_are_noted() {
     let (names, values) = one();
     let mut bytes = ply(&names, &[values]);
     bytes.extend([0; 5]);
-    assert_eq!(read("tail", &bytes).unwrap().notes, ["5 bytes after the last element are not read"]);
+    assert_eq!(read("tail", &bytes).unwrap().notes, ["5 bytes after the last element are ignored"]);
 }

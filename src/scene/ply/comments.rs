@@ -1,11 +1,11 @@
-//! What header comments say about the scene: `Vertical Axis: z` (nerfstudio, Brush), `SplatRenderMode: mip` (Brush),
-//! `antialiased 1` (Postshot). Upper and lower case, colons and equal signs do not matter.
+//! Metadata in header comments: `Vertical Axis: z` (nerfstudio, Brush), `SplatRenderMode: mip` (Brush), `antialiased 1`
+//! (Postshot). Matching ignores case, colons, equal signs and underscores.
 
 use glam::DVec3;
 
 use crate::filter::SplatFilter;
 
-/// The filter that the comments ask for; the last one that says so counts.
+/// The filter of the last comment that states one.
 pub(super) fn filter(comments: &[String]) -> Option<SplatFilter> {
     comments.iter().rev().find_map(|comment| {
         let (key, value) = key_and_value(comment)?;
@@ -17,10 +17,10 @@ pub(super) fn filter(comments: &[String]) -> Option<SplatFilter> {
     })
 }
 
-/// World up that the comments state, with their words; the last one that says so counts.
+/// World up of the last comment that states one, with the comment.
 ///
-/// The letter names the file's vertical axis. A sign is taken as written; without one the writers' own convention
-/// holds, which is up along +z for `z` and, since their y axes point down as in every PLY of splats, -y for `y`.
+/// The letter names the vertical axis. A sign gives the direction of up; without a sign the convention of the writing
+/// programs applies: +z for `z`, and -y for `y`, because the y axis of their PLY files points down.
 pub(super) fn up(comments: &[String]) -> Option<(DVec3, String)> {
     comments.iter().rev().find_map(|comment| {
         let (key, value) = key_and_value(comment)?;
@@ -37,7 +37,7 @@ pub(super) fn up(comments: &[String]) -> Option<(DVec3, String)> {
     })
 }
 
-/// A comment's words before its last and the last, in lower case and without the sign between them.
+/// The words of a comment before the last word, and the last word; in lower case.
 fn key_and_value(comment: &str) -> Option<(String, String)> {
     let plain = comment.to_ascii_lowercase().replace([':', '=', '_'], " ");
     let words: Vec<&str> = plain.split_whitespace().collect();

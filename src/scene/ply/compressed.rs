@@ -1,4 +1,5 @@
-//! The compressed PLY of `PlayCanvas`: 256 Gaussians share a `chunk` of bounds, each takes four words of 32 bits.
+//! The compressed PLY of `PlayCanvas`: each Gaussian takes four words of 32 bits, quantized within the bounds of a `chunk`
+//! of 256 Gaussians.
 
 use glam::{DVec3, Vec3};
 
@@ -12,10 +13,10 @@ use crate::intake::{Intake, RawGaussian, SH_C0};
 use crate::source_file::SourceFile;
 use crate::up::UpPrior;
 
-/// Gaussians that share a chunk.
+/// Number of Gaussians per chunk.
 const CHUNK: usize = 256;
 
-/// Chunk properties in the order used here: position bounds, log-scale bounds, color bounds.
+/// Chunk properties in the order of this module: position bounds, log-scale bounds, color bounds.
 const CHUNK_NAMES: [&str; 18] = [
     "min_x",
     "min_y",
@@ -37,10 +38,10 @@ const CHUNK_NAMES: [&str; 18] = [
     "max_b",
 ];
 
-/// Vertex properties in the order used here.
+/// Vertex properties in the order of this module.
 const PACKED_NAMES: [&str; 4] = ["packed_position", "packed_rotation", "packed_scale", "packed_color"];
 
-/// Bounds of a chunk. Old files have no color bounds: 0 to 1.
+/// Bounds of a chunk, [low, high] each. Old files have no color bounds; these are 0 and 1.
 #[derive(Clone, Copy)]
 struct Chunk {
     position: [DVec3; 2],
@@ -48,7 +49,7 @@ struct Chunk {
     color: [DVec3; 2],
 }
 
-/// Whether the elements are those of a compressed PLY.
+/// Whether the header is that of a compressed PLY.
 pub(super) fn is_compressed(header: &Header) -> bool {
     let has = |element: &str, property: &str| header.element(element).is_some_and(|e| e.find(property).is_some());
     has("chunk", "min_x") && has("vertex", "packed_position")
@@ -57,7 +58,8 @@ pub(super) fn is_compressed(header: &Header) -> bool {
 /// Gaussians of a compressed PLY.
 ///
 /// # Errors
-/// [`SceneError`] of the `PLY-*` kinds, and `SCENE-EMPTY`.
+/// [`SceneError`] with a `PLY-*` code, [`SceneError::TooManyGaussians`], [`SceneError::OutOfMemory`],
+/// [`SceneError::Empty`].
 pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene, SceneError> {
     let fault = |reason: String| header.fault(source, reason);
     let (mut chunks, mut packed, mut rest): (Vec<Chunk>, Vec<[u32; 4]>, Vec<u8>) = (Vec::new(), Vec::new(), Vec::new());
@@ -86,10 +88,10 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
     }
     let left = rows.num_left();
     if chunks.len() < packed.len().div_ceil(CHUNK) {
-        return Err(fault(format!("{} chunks for {} vertices, expected one for 256", chunks.len(), packed.len())));
+        return Err(fault(format!("{} chunks for {} vertices, expected one per 256", chunks.len(), packed.len())));
     }
     if num_rest > 0 && rest.len() != packed.len() * num_rest * 3 {
-        return Err(fault(format!("element sh does not have one row for each of {} vertices", packed.len())));
+        return Err(fault(format!("element sh does not have one row per vertex, expected {}", packed.len())));
     }
     let degree = NUM_SH_REST.iter().position(|n| *n == num_rest).unwrap_or(0) as u8;
     let mut intake = Intake::new(source.path, packed.len(), degree)?;
@@ -103,7 +105,7 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
     }
     let mut collected = intake.finish(source.path)?;
     if left > 0 {
-        collected.notes.push(format!("{left} bytes after the last element are not read"));
+        collected.notes.push(format!("{left} bytes after the last element are ignored"));
     }
     Ok(DecodedScene {
         format: "compressed ply".to_owned(),
@@ -114,12 +116,14 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
     })
 }
 
+/// Indices of the chunk properties, with or without color bounds.
 fn chunk_columns(element: &Element) -> Result<Vec<usize>, String> {
     let num = if element.find("min_r").is_some() { CHUNK_NAMES.len() } else { CHUNK_NAMES.len() - 6 };
     let find = |name: &&str| element.find(name).ok_or_else(|| format!("no property {name} in chunk"));
     CHUNK_NAMES[..num].iter().map(find).collect()
 }
 
+/// Indices of the coefficients above degree 0.
 fn rest_columns(element: &Element) -> Result<Vec<usize>, String> {
     let num = element.properties.len();
     if ![9, 24, 45].contains(&num) {
@@ -136,8 +140,8 @@ fn chunk(row: &[f64]) -> Chunk {
     Chunk { position: [at(0), at(3)], log_scale: [at(6), at(9)], color }
 }
 
-/// Unpacks position and scale (11, 10, 11 bits), rotation (2 bits which of w x y z is missing, then 3 x 10 bits), and
-/// color with opacity (4 x 8 bits).
+/// Unpacks position and scale (11, 10, 11 bits), rotation (2 bits for the index of the omitted component of wxyz, then
+/// 3 x 10 bits), and color with opacity (4 x 8 bits).
 fn gaussian([position, rotation, scale, color]: [u32; 4], chunk: &Chunk) -> RawGaussian {
     let lerp = |[low, high]: [DVec3; 2], t: DVec3| low + (high - low) * t;
     let log_scale = lerp(chunk.log_scale, unit_11_10_11(scale));
@@ -151,25 +155,27 @@ fn gaussian([position, rotation, scale, color]: [u32; 4], chunk: &Chunk) -> RawG
     }
 }
 
+/// Three numbers in 0..=1 of 11, 10 and 11 bits.
 fn unit_11_10_11(word: u32) -> DVec3 {
     DVec3::new(f64::from(word >> 21) / 2047.0, f64::from(word >> 11 & 1023) / 1023.0, f64::from(word & 2047) / 2047.0)
 }
 
+/// A quaternion without its largest component, which follows from the unit length.
 fn rotation_wxyz(word: u32) -> [f64; 4] {
-    let missing = (word >> 30) as usize;
+    let omitted = (word >> 30) as usize;
     let mut wxyz = [0.0; 4];
     let mut shift = 20;
     for (idx, value) in wxyz.iter_mut().enumerate() {
-        if idx != missing {
+        if idx != omitted {
             *value = (f64::from(word >> shift & 1023) / 1023.0 - 0.5) * std::f64::consts::SQRT_2;
             shift = if shift == 0 { 0 } else { shift - 10 };
         }
     }
-    wxyz[missing] = (1.0 - wxyz.iter().map(|v| v * v).sum::<f64>()).max(0.0).sqrt();
+    wxyz[omitted] = (1.0 - wxyz.iter().map(|v| v * v).sum::<f64>()).max(0.0).sqrt();
     wxyz
 }
 
-/// A coefficient in -4..=4: the ends are exact, between them a byte stands for the middle of its bucket.
+/// A coefficient in -4..=4: 0 and 255 are the exact ends, every other byte is the center of its bin.
 fn sh_value(byte: u8) -> f32 {
     let unit = match byte {
         0 => 0.0,

@@ -1,23 +1,23 @@
 use crate::error::SceneError;
 use crate::source_file::SourceFile;
 
-/// Longest header that is read.
+/// Maximum size of a header.
 const MAX_HEADER_BYTES: usize = 64 << 10;
 
-/// Type of a number in a PLY.
+/// Number type of a PLY.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scalar {
-    /// Signed, 1 byte.
+    /// Signed integer, 1 byte.
     I8,
-    /// Unsigned, 1 byte.
+    /// Unsigned integer, 1 byte.
     U8,
-    /// Signed, 2 bytes.
+    /// Signed integer, 2 bytes.
     I16,
-    /// Unsigned, 2 bytes.
+    /// Unsigned integer, 2 bytes.
     U16,
-    /// Signed, 4 bytes.
+    /// Signed integer, 4 bytes.
     I32,
-    /// Unsigned, 4 bytes.
+    /// Unsigned integer, 4 bytes.
     U32,
     /// Float, 4 bytes.
     F32,
@@ -26,6 +26,7 @@ pub(super) enum Scalar {
 }
 
 impl Scalar {
+    /// The type of a name, as the header spells it.
     fn named(name: &str) -> Option<Self> {
         Some(match name {
             "char" | "int8" => Self::I8,
@@ -40,7 +41,7 @@ impl Scalar {
         })
     }
 
-    /// Bytes of one number in a binary PLY.
+    /// Bytes per number in a binary PLY.
     pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -51,42 +52,42 @@ impl Scalar {
     }
 }
 
-/// One property of an element.
+/// A property of an element.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Property {
-    /// Its name.
+    /// Name.
     pub(super) name: String,
-    /// Type of its value or, in a list, of its values.
+    /// Type of the value, or of the list's items.
     pub(super) scalar: Scalar,
-    /// Type of the length, for a list.
+    /// Type of the length of a list; `None` for a single value.
     pub(super) list_length: Option<Scalar>,
 }
 
-/// One element: a table of rows.
+/// An element: a table of rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Element {
-    /// Its name.
+    /// Name.
     pub(super) name: String,
-    /// Rows that the header claims.
+    /// Number of rows that the header claims.
     pub(super) count: u64,
     /// Properties in file order.
     pub(super) properties: Vec<Property>,
-    /// Header line that declares it, from 1.
+    /// Header line of its declaration, from 1.
     pub(super) line: usize,
 }
 
 impl Element {
-    /// Index of a property.
+    /// Index of the property of a name.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         self.properties.iter().position(|property| property.name == name)
     }
 
-    /// Bytes a row takes in a binary PLY; `None` when it holds a list.
+    /// Bytes per row in a binary PLY; `None` if a row holds a list.
     pub(super) fn row_bytes(&self) -> Option<usize> {
         self.properties.iter().map(|p| p.list_length.is_none().then(|| p.scalar.size())).sum()
     }
 
-    /// Fewest bytes a row takes: lists empty; in ASCII one digit and one separator a value.
+    /// Minimum bytes per row: with empty lists; in ASCII one digit and one separator per value.
     pub(super) fn least_row_bytes(&self, encoding: Encoding) -> usize {
         let least = |p: &Property| match encoding {
             Encoding::Ascii => 2,
@@ -96,48 +97,49 @@ impl Element {
     }
 }
 
-/// How rows are written.
+/// Encoding of the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     /// Text.
     Ascii,
-    /// Binary, least byte first.
+    /// Binary, little-endian.
     LittleEndian,
-    /// Binary, most byte first.
+    /// Binary, big-endian.
     BigEndian,
 }
 
 /// A parsed header.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Header {
-    /// How rows are written.
+    /// Encoding of the rows.
     pub(super) encoding: Encoding,
     /// Elements in file order.
     pub(super) elements: Vec<Element>,
-    /// Comment lines without the word `comment`.
+    /// Comments, without the keyword.
     pub(super) comments: Vec<String>,
-    /// Byte at which the first row begins.
+    /// Byte position of the first row.
     pub(super) body_start: usize,
     /// Number of header lines.
     pub(super) num_lines: usize,
 }
 
 impl Header {
-    /// The element of that name.
+    /// The element of a name.
     pub(super) fn element(&self, name: &str) -> Option<&Element> {
         self.elements.iter().find(|element| element.name == name)
     }
 
-    /// An error about the header as a whole, at its last line.
+    /// A [`SceneError::PlyHeader`] at the last header line.
     pub(super) fn fault(&self, source: &SourceFile, reason: String) -> SceneError {
         SceneError::PlyHeader { path: source.path.to_path_buf(), line: self.num_lines, reason }
     }
 }
 
-/// Parses the header. Lines end in LF, CR LF or CR; blanks around words are ignored.
+/// Parses the header. Lines end in LF, CR LF or CR; whitespace around words is ignored.
 ///
 /// # Errors
-/// [`SceneError::PlyHeader`] with the line, [`SceneError::PlyCount`] for counts that are no whole number below 2^32.
+/// [`SceneError::PlyHeader`] for an invalid line, [`SceneError::PlyCount`] for a count that is not a whole number below
+/// 2^32.
 pub(super) fn parse(source: &SourceFile) -> Result<Header, SceneError> {
     let mut parser = Parser { source, line: 0, encoding: None, elements: Vec::new(), comments: Vec::new() };
     let mut at = 0;
@@ -166,7 +168,7 @@ impl<'a> Parser<'a> {
         SceneError::PlyHeader { path: self.source.path.to_path_buf(), line: self.line.max(1), reason }
     }
 
-    /// The line that begins at `at`, without its end, and where the next one begins.
+    /// The line that starts at `at`, without its line ending, and the start of the next line.
     fn next_line(&self, at: usize) -> Result<(&'a str, usize), SceneError> {
         let bytes = self.source.bytes;
         let window = &bytes[at.min(bytes.len())..bytes.len().min(MAX_HEADER_BYTES)];
@@ -183,12 +185,13 @@ impl<'a> Parser<'a> {
         let next = at + length + if is_crlf { 2 } else { 1 };
         match std::str::from_utf8(line) {
             Ok(text) if !line.contains(&0) => Ok((text, next)),
-            // Comments may be in any encoding: nothing is read from those that are not UTF-8.
+            // Comments may have any encoding; those that are not UTF-8 are ignored.
             _ if line.starts_with(b"comment") || line.starts_with(b"obj_info") => Ok(("comment", next)),
-            _ => Err(self.fault("bytes that are not text".to_owned())),
+            _ => Err(self.fault("bytes that are not UTF-8 text".to_owned())),
         }
     }
 
+    /// Interprets one header line.
     fn take(&mut self, words: &[&str], text: &str) -> Result<(), SceneError> {
         match *words {
             ["ply"] if self.line == 1 => Ok(()),
@@ -221,7 +224,7 @@ impl<'a> Parser<'a> {
 
     fn element(&mut self, name: &str, count: &str) -> Result<(), SceneError> {
         if self.elements.iter().any(|element| element.name == name) {
-            return Err(self.fault(format!("element {} a second time", shortened(name))));
+            return Err(self.fault(format!("element {} occurs twice", shortened(name))));
         }
         let Some(count) = count.parse::<u32>().ok().map(u64::from) else {
             let path = self.source.path.to_path_buf();
@@ -245,7 +248,7 @@ impl<'a> Parser<'a> {
         };
         if element.find(name).is_some() {
             return Err(self.fault(format!(
-                "property {} a second time in {}",
+                "property {} occurs twice in {}",
                 shortened(name),
                 shortened(&element.name)
             )));
@@ -267,7 +270,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// At most 40 characters of text from a file, on one line.
+/// The first 40 characters of text from a file, with control characters replaced.
 fn shortened(text: &str) -> String {
     text.chars().take(40).map(|c| if c.is_control() { '?' } else { c }).collect()
 }

@@ -1,4 +1,4 @@
-//! The PLY that training programs write: one `vertex` element, a property a number, found by name in any order.
+//! The PLY that training programs write: one `vertex` element with one property per number, found by name.
 
 use glam::{DVec3, Vec3};
 
@@ -13,16 +13,16 @@ use crate::intake::{Intake, RawGaussian, SH_C0};
 use crate::source_file::SourceFile;
 use crate::up::UpPrior;
 
-/// Names under which programs keep an object id, the most telling first.
+/// Names of object-id properties in other programs, the most specific first.
 const ID_NAMES: [&str; 9] =
     ["object_id", "instance_id", "obj_id", "ins_id", "segment_id", "instance", "label", "object", "id"];
 
-/// Largest exponent that is taken as written: `exp` of more is infinite.
+/// Largest log-scale whose `exp` is finite.
 const MAX_LOG_SCALE: f64 = 700.0;
 
-/// Where in a row of read values each attribute begins. Position comes first, at 0.
-struct Layout {
-    /// Property indices to read, in this order.
+/// Positions of the attributes in a row of read values. The mean comes first, at 0.
+struct VertexLayout {
+    /// Indices of the properties to read, in the order of the row.
     wanted: Vec<usize>,
     color: usize,
     opacity: usize,
@@ -30,23 +30,25 @@ struct Layout {
     num_scales: usize,
     rotation: usize,
     rest: usize,
-    /// Coefficients a channel in the file, and those that are kept.
+    /// Coefficients per channel above degree 0 in the file.
     num_rest: usize,
+    /// Coefficients per channel that are kept.
     kept_rest: usize,
     id: Option<usize>,
-    /// Divisor that brings red, green, blue to 0..=1; `None` for `f_dc`.
+    /// Value of full red, green or blue; `None` if the file has `f_dc` instead.
     rgb_peak: Option<f64>,
 }
 
 /// Gaussians of a PLY with INRIA's properties.
 ///
 /// # Errors
-/// [`SceneError`] of the `PLY-*` kinds, and `SCENE-EMPTY`.
+/// [`SceneError`] with a `PLY-*` code, [`SceneError::TooManyGaussians`], [`SceneError::OutOfMemory`],
+/// [`SceneError::Empty`].
 pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene, SceneError> {
     let Some(vertex) = header.element("vertex") else {
         return Err(header.fault(source, "no element vertex".to_owned()));
     };
-    let layout = Layout::of(vertex).map_err(|reason| header.fault(source, reason))?;
+    let layout = VertexLayout::of(vertex).map_err(|reason| header.fault(source, reason))?;
     let mut rows = Rows::new(source, header);
     for element in header.elements.iter().take_while(|element| element.name != "vertex") {
         rows.skip(element)?;
@@ -71,7 +73,7 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
         let name = &vertex.properties[layout.wanted[at]].name;
         match object_ids(&ids, &collected.dropped) {
             Ok(column) => collected.gaussians.ids = column,
-            Err(reason) => notes.push(format!("property {name} is not read as object ids: {reason}")),
+            Err(reason) => notes.push(format!("property {name} is not used as object ids: {reason}")),
         }
     }
     let filter = if vertex.find("filter_3D").is_some() {
@@ -96,8 +98,8 @@ fn format_name(encoding: Encoding) -> &'static str {
     }
 }
 
-impl Layout {
-    /// Finds the attributes by name.
+impl VertexLayout {
+    /// Finds the attributes by name; an error names the missing property.
     fn of(vertex: &Element) -> Result<Self, String> {
         let find = |name: &str| vertex.find(name).ok_or_else(|| format!("no property {name}"));
         let mut wanted: Vec<usize> = ["x", "y", "z"].into_iter().map(find).collect::<Result<_, _>>()?;
@@ -124,7 +126,7 @@ impl Layout {
         Ok(Self { wanted, color, opacity, scale, num_scales, rotation, rest, num_rest, kept_rest, id, rgb_peak })
     }
 
-    /// One row as a Gaussian. A missing third scale is 0: the flat Gaussians of 2DGS.
+    /// The Gaussian of a row. A missing third scale is 0, as for the flat Gaussians of 2DGS.
     fn gaussian(&self, row: &[f64]) -> RawGaussian {
         let at = |start: usize| DVec3::new(row[start], row[start + 1], row[start + 2]);
         let color = at(self.color);
@@ -138,7 +140,7 @@ impl Layout {
         }
     }
 
-    /// Higher coefficients of one row: channel-major in the file, coefficient-major here.
+    /// Copies the coefficients above degree 0 of a row: channel-major in the file, coefficient-major in `rest`.
     fn rest_of(&self, row: &[f64], rest: &mut [Vec3]) {
         let channels: [&[f64]; 3] = std::array::from_fn(|c| &row[self.rest + c * self.num_rest..]);
         for (idx, coefficient) in rest.iter_mut().enumerate() {
@@ -147,12 +149,12 @@ impl Layout {
     }
 }
 
-/// The linear scale of a logarithmic one: 0 of -Inf, infinite of +Inf alone.
+/// The linear scale of a log-scale: 0 for -Inf, infinite only for +Inf.
 fn linear_scale(log_scale: f64) -> f64 {
     if log_scale.is_finite() { log_scale.min(MAX_LOG_SCALE).exp() } else { log_scale.exp() }
 }
 
-/// Adds the three color columns; returns the peak value of red, green, blue where there is no `f_dc`.
+/// Adds the three color columns; returns the value of full red, green or blue if the file has no `f_dc`.
 fn color_columns(vertex: &Element, wanted: &mut Vec<usize>) -> Result<Option<f64>, String> {
     let all = |names: [&str; 3]| names.map(|name| vertex.find(name));
     match all(["f_dc_0", "f_dc_1", "f_dc_2"]) {
@@ -161,7 +163,7 @@ fn color_columns(vertex: &Element, wanted: &mut Vec<usize>) -> Result<Option<f64
             return Ok(None);
         }
         [None, None, None] => (),
-        _ => return Err("f_dc_* is not whole, expected f_dc_0, f_dc_1 and f_dc_2".to_owned()),
+        _ => return Err("f_dc_* is incomplete, expected f_dc_0, f_dc_1 and f_dc_2".to_owned()),
     }
     let [Some(r), Some(g), Some(b)] = all(["red", "green", "blue"]) else {
         return Err("no color: expected f_dc_0 f_dc_1 f_dc_2, or red green blue".to_owned());
@@ -174,7 +176,7 @@ fn color_columns(vertex: &Element, wanted: &mut Vec<usize>) -> Result<Option<f64
     }))
 }
 
-/// Adds the `f_rest_*` columns in numeric order; returns how many coefficients a channel has.
+/// Adds the `f_rest_*` columns in numeric order; returns the number of coefficients per channel.
 fn rest_columns(vertex: &Element, wanted: &mut Vec<usize>) -> Result<usize, String> {
     let found = vertex.properties.iter().filter(|property| property.name.starts_with("f_rest_")).count();
     if ![0, 9, 24, 45, 72].contains(&found) {
@@ -187,34 +189,34 @@ fn rest_columns(vertex: &Element, wanted: &mut Vec<usize>) -> Result<usize, Stri
     Ok(found / 3)
 }
 
-/// Skips the elements after `vertex` and notes bytes that belong to none.
+/// Skips the elements after `vertex`; a note reports bytes after the last element.
 fn skip_the_rest(rows: &mut Rows, header: &Header, notes: &mut Vec<String>) -> Result<(), SceneError> {
     for element in header.elements.iter().skip_while(|element| element.name != "vertex").skip(1) {
         rows.skip(element)?;
     }
     let left = rows.num_left();
     if left > 0 {
-        notes.push(format!("{left} bytes after the last element are not read"));
+        notes.push(format!("{left} bytes after the last element are ignored"));
     }
     Ok(())
 }
 
-/// What the layout says about the kind of scene.
-fn layout_notes(vertex: &Element, layout: &Layout) -> Vec<String> {
+/// Notes on the kind of scene that follow from its layout.
+fn layout_notes(vertex: &Element, layout: &VertexLayout) -> Vec<String> {
     let mut notes = Vec::new();
     if layout.num_scales == 2 {
         notes.push("no scale_2: the Gaussians are flat (2DGS)".to_owned());
     }
     if layout.num_rest > layout.kept_rest {
-        notes.push("spherical harmonics of degree 4 are cut to degree 3".to_owned());
+        notes.push("spherical harmonics of degree 4 are truncated to degree 3".to_owned());
     }
     if vertex.find("filter_3D").is_some() {
-        notes.push("filter_3D: splats are dilated by 0.1 px; sizes and opacities are taken as stored".to_owned());
+        notes.push("filter_3D: splats are dilated by 0.1 px; scales and opacities are used as stored".to_owned());
     }
     notes
 }
 
-/// What single-precision positions far from the origin have lost before they came here.
+/// A note on the quantization of single-precision positions far from the origin; `None` near the origin.
 fn precision_note(vertex: &Element, origin: DVec3) -> Option<String> {
     let is_single = ["x", "y", "z"]
         .iter()
@@ -225,7 +227,7 @@ fn precision_note(vertex: &Element, origin: DVec3) -> Option<String> {
         .then(|| format!("positions are quantized to {step} (stored in single precision far from 0)"))
 }
 
-/// The id column of the Gaussians that are kept; -1 reads as 0, no object.
+/// The object ids of the Gaussians that were kept, or the reason why the property holds none.
 fn object_ids(ids: &[f64], dropped: &[u32]) -> Result<Vec<u16>, String> {
     let mut column = Vec::with_capacity(ids.len());
     let mut next_dropped = dropped.iter().peekable();
@@ -233,7 +235,7 @@ fn object_ids(ids: &[f64], dropped: &[u32]) -> Result<Vec<u16>, String> {
         if next_dropped.next_if(|idx| **idx as usize == file_idx).is_some() {
             continue;
         }
-        // -1 is how some programs write that there is no object.
+        // Some programs write -1 for no object.
         let id = if (-1.0..0.0).contains(id) && id.fract().abs() <= 0.0 { 0.0 } else { *id };
         if !((0.0..=f64::from(u16::MAX)).contains(&id) && id.fract().abs() <= 0.0) {
             return Err(format!("{id} at Gaussian {file_idx}, expected whole numbers from 0 to 65535"));
@@ -244,7 +246,7 @@ fn object_ids(ids: &[f64], dropped: &[u32]) -> Result<Vec<u16>, String> {
     distinct.sort_unstable();
     distinct.dedup();
     if column.len() > 16 && distinct.len() == column.len() {
-        return Err("every Gaussian has its own".to_owned());
+        return Err("every Gaussian has a different value".to_owned());
     }
     Ok(column)
 }

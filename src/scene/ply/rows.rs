@@ -1,4 +1,4 @@
-//! Rows of an element as numbers, whatever their encoding.
+//! Rows of an element as numbers, in any encoding.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::header::{Element, Encoding, Header, Scalar};
 use crate::error::SceneError;
 use crate::source_file::SourceFile;
 
-/// Walks the rows of a PLY body, element by element, front to back.
+/// Reads the rows of a PLY body sequentially, element by element.
 pub(super) struct Rows<'a> {
     source: &'a SourceFile<'a>,
     encoding: Encoding,
@@ -14,12 +14,12 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// A reader that stands at the first row of the first element.
+    /// A reader at the first row of the first element.
     pub(super) fn new(source: &'a SourceFile<'a>, header: &Header) -> Self {
         Self { source, encoding: header.encoding, at: header.body_start.min(source.bytes.len()) }
     }
 
-    /// Bytes after the rows read so far that are not blanks.
+    /// Number of bytes after the rows read so far; in ASCII without surrounding whitespace.
     pub(super) fn num_left(&self) -> usize {
         let rest = &self.source.bytes[self.at..];
         match self.encoding {
@@ -28,13 +28,13 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Checks that the bytes that are left can hold the rows that the element claims.
+    /// Checks that the remaining bytes can hold the rows that the element claims.
     ///
     /// # Errors
-    /// [`SceneError::PlyTruncated`] naming the first row that is not there.
+    /// [`SceneError::PlyTruncated`] with the first missing row.
     pub(super) fn check_room(&self, element: &Element) -> Result<(), SceneError> {
         let least = element.least_row_bytes(self.encoding).max(1) as u64;
-        // The last value of an ASCII file needs no separator after it.
+        // The last value of an ASCII file may have no separator.
         let spare = u64::from(self.encoding == Encoding::Ascii);
         let rows = ((self.source.bytes.len() - self.at) as u64 + spare) / least;
         if rows < element.count {
@@ -44,10 +44,10 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Reads all rows of `element` and calls `visit` with the values of the properties `wanted` (by index) of each.
+    /// Reads all rows of `element` and calls `visit` per row with the values of the properties `wanted`, by index.
     ///
     /// # Errors
-    /// [`SceneError::PlyTruncated`], [`SceneError::PlyValue`].
+    /// [`SceneError::PlyTruncated`] when rows are missing, [`SceneError::PlyValue`] for an invalid value or list length.
     pub(super) fn read(
         &mut self,
         element: &Element,
@@ -81,7 +81,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Rows of fixed size in a binary body; [`Rows::check_room`] has seen that all are there.
+    /// Reads binary rows of fixed size; [`Rows::check_room`] must have succeeded.
     fn read_fixed(
         &mut self,
         element: &Element,
@@ -103,7 +103,7 @@ impl<'a> Rows<'a> {
         self.at = end;
     }
 
-    /// Rows with lists in a binary body. A list's value is its first item, 0 when it is empty.
+    /// Reads binary rows with lists. The value of a list is its first item, or 0 if it is empty.
     fn read_ragged(
         &mut self,
         element: &Element,
@@ -126,7 +126,7 @@ impl<'a> Rows<'a> {
                     items = claimed as usize;
                     self.at = end;
                 }
-                // At most 2^32 items of 8 bytes: no overflow.
+                // At most 2^32 items of 8 bytes: this cannot overflow.
                 let end = self.at + items * property.scalar.size();
                 if end > bytes.len() {
                     return Err(self.truncated(element, row_idx, end as u64));
@@ -143,6 +143,7 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
+    /// Reads ASCII rows. The value of a list is its first item, or 0 if it is empty.
     fn read_ascii(
         &mut self,
         element: &Element,
@@ -159,7 +160,7 @@ impl<'a> Rows<'a> {
                 }
                 *value = 0.0;
                 let mut item = 0.0;
-                // Each turn consumes a word, or the file is out of words and the loop ends in an error.
+                // Every iteration consumes a word, or ends in an error at the end of the file.
                 while item < items {
                     let found = self.ascii_number(element, row_idx, &property.name)?;
                     *value = if item == 0.0 { found } else { *value };
@@ -174,11 +175,11 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    /// The next word of an ASCII body as a number.
+    /// The next word as a number.
     fn ascii_number(&mut self, element: &Element, row_idx: u64, property: &str) -> Result<f64, SceneError> {
         let bytes = self.source.bytes;
-        let blanks = bytes[self.at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
-        let start = self.at + blanks;
+        let num_blanks = bytes[self.at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+        let start = self.at + num_blanks;
         let length = bytes[start..].iter().take_while(|byte| !byte.is_ascii_whitespace()).count();
         if length == 0 {
             return Err(self.truncated(element, row_idx, bytes.len() as u64 + 1));
@@ -213,7 +214,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// A word as C's `printf` and Python write numbers: also `nan`, `-nan(ind)`, `inf`, `1.#INF`.
+/// A number as C's `printf` and Python write it, including `nan`, `-nan(ind)`, `inf` and `1.#INF`.
 fn ascii_value(word: &str) -> Option<f64> {
     word.parse::<f64>().ok().or_else(|| {
         let lower = word.to_ascii_lowercase();
@@ -226,10 +227,10 @@ fn ascii_value(word: &str) -> Option<f64> {
     })
 }
 
-/// The number at the front of `bytes`, which hold at least one.
+/// The number at the start of `bytes`, which must hold at least one.
 fn number(bytes: &[u8], scalar: Scalar, encoding: Encoding) -> f64 {
     if let (Scalar::F32, Encoding::LittleEndian, Some(word)) = (scalar, encoding, bytes.first_chunk()) {
-        // Nearly every value of nearly every file.
+        // The common case.
         return f64::from(f32::from_le_bytes(*word));
     }
     let raw = |size: usize| {

@@ -7,15 +7,16 @@ use glam::{DVec3, Vec3};
 
 use crate::gaussians::{Gaussians, NUM_SH_REST};
 
-/// Writes Gaussians in INRIA's layout: binary little-endian, one property a number, normals 0, logarithmic scales,
-/// opacity logits, quaternions w first.
+/// Writes Gaussians as a PLY in INRIA's layout: binary little-endian, one property per number, normals 0, log-scales,
+/// opacity logits, quaternions wxyz.
 ///
-/// Positions are `float`, or `double` where the scene has a local origin, so that nothing is lost. Object ids, where
-/// there are any, go to a property `object_id`. `comments` become comment lines. The file appears under its name only
-/// when it is whole.
+/// Positions are `float`, or `double` for a scene with a local origin, so that they keep their precision. Object ids, if
+/// any, become the property `object_id`. `comments` become comment lines. The file appears under its name when it is
+/// complete.
 ///
 /// # Errors
-/// [`FileError`] when the file exists already and may not be replaced, or cannot be written.
+/// [`FileError::Exists`] when the file exists and `existing` keeps it, [`FileError::Create`] or [`FileError::Write`] when
+/// the system refuses.
 pub fn write_ply(path: &Path, gaussians: &Gaussians, comments: &[String], existing: Existing) -> Result<(), FileError> {
     let new = NewFile::create(path, existing)?;
     write_rows(new.file(), gaussians, comments).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
@@ -78,7 +79,7 @@ fn push_all(row: &mut Vec<u8>, values: &[f32]) {
     row.extend(values.iter().flat_map(|value| value.to_le_bytes()));
 }
 
-/// ln(a / (1 - a)), infinite at 0 and 1.
+/// The logit ln(a / (1 - a)) of an opacity a; infinite at 0 and 1.
 fn opacity_logit(opacity: f32) -> f32 {
     let opacity = f64::from(opacity);
     (opacity.ln() - (-opacity).ln_1p()) as f32

@@ -6,12 +6,12 @@ use crate::error::SceneError;
 use crate::filter::SplatFilter;
 use crate::source_file::SourceFile;
 
-/// How a byte becomes a value.
+/// Mapping from bytes to values.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Codes {
-    /// Version 2: the byte is an index.
-    Book(Vec<f64>),
-    /// Version 1: the byte runs from `mins` to `maxs`, channel by channel.
+pub(super) enum Dequantizer {
+    /// Version 2: a value per byte.
+    Codebook(Vec<f64>),
+    /// Version 1: a linear range per channel.
     Range {
         /// Value of byte 0.
         mins: Vec<f64>,
@@ -20,56 +20,56 @@ pub(super) enum Codes {
     },
 }
 
-impl Codes {
-    /// The values of all bytes of one channel.
+impl Dequantizer {
+    /// The value of every byte in a channel; NaN for bytes beyond a short codebook.
     pub(super) fn table(&self, channel: usize) -> [f64; 256] {
         std::array::from_fn(|byte| match self {
-            // A version 2 writer that found fewer values writes a shorter book; the bytes beyond it are not used.
-            Self::Book(book) => book.get(byte).copied().unwrap_or(f64::NAN),
+            // Writers that need fewer values write a shorter codebook and use no byte beyond it.
+            Self::Codebook(values) => values.get(byte).copied().unwrap_or(f64::NAN),
             Self::Range { mins, maxs } => mins[channel] + (maxs[channel] - mins[channel]) * byte as f64 / 255.0,
         })
     }
 }
 
-/// Coefficients above degree 0: a palette of them, and which entry each Gaussian takes.
+/// Palette of coefficients above degree 0.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Palette {
-    /// How a byte becomes a coefficient.
-    pub(super) codes: Codes,
-    /// Degree, 1..=3; `None` in version 1, where the width of the picture tells it.
+    /// Bytes to coefficients.
+    pub(super) dequantizer: Dequantizer,
+    /// Degree, 1..=3; `None` in version 1, where the width of the picture decides.
     pub(super) degree: Option<u8>,
     /// Name of the picture of the entries.
     pub(super) entries: String,
-    /// Name of the picture of the indices.
+    /// Name of the picture of the entry per Gaussian.
     pub(super) labels: String,
 }
 
-/// A checked `meta.json`.
+/// A validated `meta.json`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Meta {
-    /// 1 or 2.
+    /// Version, 1 or 2.
     pub(super) version: u32,
     /// Number of Gaussians.
     pub(super) count: u64,
-    /// Bounds of the means, in the logarithmic domain.
+    /// Lowest and highest mean, in the logarithmic domain.
     pub(super) mean_bounds: [DVec3; 2],
-    /// Names of the pictures of the means' low and high bytes.
+    /// Names of the pictures of the low and of the high bytes of the means.
     pub(super) means: [String; 2],
-    /// How a byte becomes a log-scale.
-    pub(super) scale_codes: Codes,
+    /// Bytes to log-scales.
+    pub(super) scale_dequantizer: Dequantizer,
     /// Name of the picture of the scales.
     pub(super) scales: String,
     /// Name of the picture of the rotations.
     pub(super) quats: String,
-    /// How a byte becomes a degree-0 coefficient and, in version 1, an opacity logit (channel 3).
-    pub(super) color_codes: Codes,
+    /// Bytes to coefficients of degree 0 and, in version 1, to opacity logits (channel 3).
+    pub(super) color_dequantizer: Dequantizer,
     /// Name of the picture of colors and opacities.
     pub(super) sh0: String,
-    /// Coefficients above degree 0.
+    /// Coefficients above degree 0; `None` without them.
     pub(super) palette: Option<Palette>,
-    /// Filter that the file asks for.
+    /// Filter that the file states.
     pub(super) filter: Option<SplatFilter>,
-    /// What was odd.
+    /// Notes for [`Scene::notes`](crate::Scene::notes).
     pub(super) notes: Vec<String>,
 }
 
@@ -99,10 +99,10 @@ struct RawPart {
 }
 
 impl Meta {
-    /// Parses and checks a `meta.json`.
+    /// Parses and validates a `meta.json`.
     ///
     /// # Errors
-    /// [`SceneError::SogMeta`].
+    /// [`SceneError::SogMeta`] for invalid JSON, and for a missing or invalid field.
     pub(super) fn parse(source: &SourceFile, json: &[u8]) -> Result<Self, SceneError> {
         let fault = |reason: String| SceneError::SogMeta { path: source.path.to_path_buf(), reason };
         let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
@@ -124,7 +124,7 @@ impl Meta {
         let mean_bounds = [bounds(&raw.means.mins, "mins")?, bounds(&raw.means.maxs, "maxs")?];
         let mut notes = Vec::new();
         if raw.model.as_deref() == Some("2dgs") {
-            notes.push("model 2dgs: drawn as 3D Gaussians".to_owned());
+            notes.push("model 2dgs: rendered as 3D Gaussians".to_owned());
         }
         let is_mip = raw.antialias == Some(true) || raw.model.as_deref() == Some("antialiased");
         let filter = if is_mip { Some(SplatFilter::Mip) } else { raw.antialias.map(|_| SplatFilter::Classic) };
@@ -134,10 +134,10 @@ impl Meta {
             count,
             mean_bounds,
             means: [raw.means.file(0, "means")?, raw.means.file(1, "means")?],
-            scale_codes: raw.scales.codes("scales", 3)?,
+            scale_dequantizer: raw.scales.dequantizer("scales", 3)?,
             scales: raw.scales.file(0, "scales")?,
             quats: raw.quats.file(0, "quats")?,
-            color_codes: raw.sh0.codes("sh0", num_colors)?,
+            color_dequantizer: raw.sh0.dequantizer("sh0", num_colors)?,
             sh0: raw.sh0.file(0, "sh0")?,
             palette: raw.sh_rest.map(|part| palette(&part, version)).transpose()?.flatten(),
             filter,
@@ -146,6 +146,7 @@ impl Meta {
     }
 }
 
+/// The palette of the `shN` section; `None` for degree 0.
 fn palette(part: &RawPart, version: u32) -> Result<Option<Palette>, String> {
     let degree = match (version, part.bands) {
         (1, None) => None,
@@ -153,17 +154,17 @@ fn palette(part: &RawPart, version: u32) -> Result<Option<Palette>, String> {
         (_, Some(bands @ 1..=3)) => Some(bands as u8),
         (_, bands) => return Err(format!("shN.bands {bands:?}, expected 1, 2 or 3")),
     };
-    let codes = part.codes("shN", 3)?;
-    Ok(Some(Palette { codes, degree, entries: part.file(0, "shN")?, labels: part.file(1, "shN")? }))
+    let dequantizer = part.dequantizer("shN", 3)?;
+    Ok(Some(Palette { dequantizer, degree, entries: part.file(0, "shN")?, labels: part.file(1, "shN")? }))
 }
 
 impl RawPart {
-    /// The code book where there is one, else the ranges.
-    fn codes(&self, part: &str, channels: usize) -> Result<Codes, String> {
-        if let Some(book) = &self.codebook {
-            let good = !book.is_empty() && book.len() <= 256 && book.iter().all(|v| v.is_finite());
-            return if good {
-                Ok(Codes::Book(book.clone()))
+    /// The codebook if there is one, else the ranges.
+    fn dequantizer(&self, part: &str, channels: usize) -> Result<Dequantizer, String> {
+        if let Some(values) = &self.codebook {
+            let is_valid = !values.is_empty() && values.len() <= 256 && values.iter().all(|v| v.is_finite());
+            return if is_valid {
+                Ok(Dequantizer::Codebook(values.clone()))
             } else {
                 Err(format!("{part}.codebook, expected 1 to 256 numbers"))
             };
@@ -172,10 +173,10 @@ impl RawPart {
             numbers(value.as_ref(), channels)
                 .ok_or(format!("{part}.{name}, expected {channels} numbers, or a codebook"))
         };
-        Ok(Codes::Range { mins: range(&self.mins, "mins")?, maxs: range(&self.maxs, "maxs")? })
+        Ok(Dequantizer::Range { mins: range(&self.mins, "mins")?, maxs: range(&self.maxs, "maxs")? })
     }
 
-    /// The name of a picture, which must lie in the same folder.
+    /// The name of a picture: a plain file name, without a folder.
     fn file(&self, idx: usize, part: &str) -> Result<String, String> {
         let name = self.files.get(idx).ok_or(format!("{part}.files, expected {} names or more", idx + 1))?;
         let is_plain = !name.is_empty() && !name.contains(['/', '\\', ':', '\0']) && name != "." && name != "..";
@@ -187,7 +188,7 @@ impl RawPart {
     }
 }
 
-/// `count` finite numbers: an array of as many or more, or one number for all.
+/// `count` finite numbers: the first ones of an array, or copies of a single number.
 fn numbers(value: Option<&Value>, count: usize) -> Option<Vec<f64>> {
     let found: Vec<f64> = match value? {
         Value::Array(items) => items.iter().take(count).map(Value::as_f64).collect::<Option<_>>()?,

@@ -7,17 +7,18 @@ use zip::ZipArchive;
 use crate::error::SceneError;
 use crate::source_file::{SourceFile, read_file};
 
-/// Longest `meta.json` in a bundle.
+/// Maximum size of `meta.json` in a bundle.
 const MAX_META_BYTES: u64 = 4 << 20;
 
-/// Side that a picture may have whatever the count: a palette of 65536 entries is 960 x 1024, an image row may be padded.
-const FREE_AREA: u64 = 1 << 20;
+/// Texels that a picture may have beyond twice the required number: a palette of 65536 entries has 960 x 1024 texels, and
+/// rows may be padded.
+const EXTRA_AREA: u64 = 1 << 20;
 
-/// Where the pictures of a SOG are.
-pub(super) enum Files<'a> {
-    /// Entries of a zip.
+/// Location of the pictures of a SOG.
+pub(super) enum PictureFiles<'a> {
+    /// A zip archive.
     Zip(Box<ZipArchive<Cursor<&'a [u8]>>>),
-    /// Files of a folder.
+    /// A folder.
     Folder(PathBuf),
 }
 
@@ -27,15 +28,15 @@ pub(super) struct Picture {
     pub(super) width: usize,
     /// Height in texels.
     pub(super) height: usize,
-    /// Texels row by row.
+    /// Texels, row by row.
     pub(super) rgba: Vec<[u8; 4]>,
 }
 
-impl<'a> Files<'a> {
-    /// The entries of a bundle.
+impl<'a> PictureFiles<'a> {
+    /// The pictures of a bundle.
     ///
     /// # Errors
-    /// [`SceneError::SogPicture`] naming the bundle's own directory.
+    /// [`SceneError::SogPicture`] when the zip directory is damaged.
     pub(super) fn in_zip(source: &SourceFile<'a>) -> Result<Self, SceneError> {
         let archive = ZipArchive::new(Cursor::new(source.bytes));
         archive
@@ -43,18 +44,18 @@ impl<'a> Files<'a> {
             .map_err(|fault| picture_fault(source, "zip directory", fault.to_string()))
     }
 
-    /// The bytes of `meta.json`, which may lie in a folder inside the bundle.
+    /// Content of `meta.json`, which may be in a folder inside the bundle.
     ///
     /// # Errors
-    /// [`SceneError::SogPicture`] when there is none, or when it is damaged.
+    /// [`SceneError::SogPicture`] when it is missing or damaged.
     pub(super) fn meta(&mut self, source: &SourceFile) -> Result<Vec<u8>, SceneError> {
         self.bytes(source, "meta.json", MAX_META_BYTES)
     }
 
-    /// Decodes a picture that must hold `least` texels.
+    /// Decodes a picture that must have at least `least` texels.
     ///
     /// # Errors
-    /// [`SceneError::SogPicture`] when it is missing, damaged, too small, or larger than anything it could hold.
+    /// [`SceneError::SogPicture`] when it is missing, damaged, too small or implausibly large.
     pub(super) fn picture(&mut self, source: &SourceFile, name: &str, least: usize) -> Result<Picture, SceneError> {
         let fault = |reason: String| picture_fault(source, name, reason);
         let bytes = self.bytes(source, name, source.options.max_file_bytes)?;
@@ -62,7 +63,7 @@ impl<'a> Files<'a> {
             || ImageReader::new(Cursor::new(&bytes)).with_guessed_format().map_err(|error| fault(error.to_string()));
         let (width, height) = open()?.into_dimensions().map_err(|error| fault(error.to_string()))?;
         let area = u64::from(width) * u64::from(height);
-        let most = 2 * least as u64 + FREE_AREA;
+        let most = 2 * least as u64 + EXTRA_AREA;
         if area < least as u64 || area > most {
             return Err(fault(format!("{width} x {height} texels, expected {least} to {most}")));
         }
@@ -75,7 +76,7 @@ impl<'a> Files<'a> {
         Ok(Picture { width: width as usize, height: height as usize, rgba: rgba.as_chunks::<4>().0.to_vec() })
     }
 
-    /// The bytes of one file, at most `cap`.
+    /// Content of a file of at most `cap` bytes.
     fn bytes(&mut self, source: &SourceFile, name: &str, cap: u64) -> Result<Vec<u8>, SceneError> {
         match self {
             Self::Folder(folder) => read_file(&folder.join(name), cap),
@@ -91,15 +92,15 @@ fn zip_bytes(
     cap: u64,
 ) -> Result<Vec<u8>, SceneError> {
     let fault = |reason: String| picture_fault(source, name, reason);
-    // Some programs zip the folder instead of what is in it.
+    // Some programs zip the folder instead of its content.
     let nested =
         || archive.file_names().flatten().find(|entry| entry.rsplit('/').next() == Some(name)).map(String::from);
     let found = if archive.index_for_name(name).is_some() { Some(name.to_owned()) } else { nested() };
     let Some(found) = found else {
-        return Err(fault("not in the bundle, expected it there".to_owned()));
+        return Err(fault("missing in the bundle".to_owned()));
     };
     let entry = archive.by_name(&found).map_err(|error| fault(error.to_string()))?;
-    // What is stored is compressed pictures: an entry that unpacks to many times the bundle is not one of them.
+    // Pictures are compressed already, so an entry that unpacks to many times the bundle's size is not a picture.
     let cap = cap.min(32 * source.bytes.len() as u64 + (1 << 20));
     let mut bytes = Vec::new();
     entry.take(cap + 1).read_to_end(&mut bytes).map_err(|error| fault(error.to_string()))?;

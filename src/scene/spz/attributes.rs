@@ -7,13 +7,13 @@ use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Collected, Intake, RawGaussian};
 use crate::source_file::SourceFile;
 
-/// Range of the degree-0 coefficients: a byte holds 0.5 + 0.15 * `f_dc`.
+/// Scale of the degree-0 coefficients: a byte encodes 0.5 + 0.15 * `f_dc`.
 const COLOR_SCALE: f64 = 0.15;
 
 /// Decodes all Gaussians.
 ///
 /// # Errors
-/// [`SceneError::OutOfMemory`], [`SceneError::Empty`].
+/// [`SceneError::OutOfMemory`] when the Gaussians do not fit into memory, [`SceneError::Empty`] when none is valid.
 pub(super) fn decode(source: &SourceFile, container: &Container) -> Result<Collected, SceneError> {
     let header = container.header;
     let [positions, alphas, colors, scales, rotations, sh] = &container.attributes;
@@ -41,7 +41,7 @@ pub(super) fn decode(source: &SourceFile, container: &Container) -> Result<Colle
     intake.finish(source.path)
 }
 
-/// A mean: three half floats in version 1, three fixed-point numbers of 24 bits later.
+/// A mean: three half floats in version 1, three fixed-point numbers of 24 bits in later versions.
 fn mean(header: SpzHeader, positions: &[u8], idx: usize) -> DVec3 {
     if header.version == 1 {
         let at = |axis: usize| {
@@ -52,15 +52,15 @@ fn mean(header: SpzHeader, positions: &[u8], idx: usize) -> DVec3 {
     let step = (-f64::from(header.fractional_bits)).exp2();
     let at = |axis: usize| {
         let byte = 9 * idx + 3 * axis;
-        // The three bytes become the upper ones of a word, so that shifting back extends the sign.
+        // The three bytes become the upper bytes of a word, so that the right shift extends the sign.
         let word = i32::from_le_bytes([0, positions[byte], positions[byte + 1], positions[byte + 2]]);
         f64::from(word >> 8) * step
     };
     DVec3::new(at(0), at(1), at(2))
 }
 
-/// A quaternion, w first. Three bytes: x, y, z, with w >= 0 left out. Four bytes: two bits name the part of x, y, z, w
-/// that is left out, then each other part has a sign and 9 bits in units of sqrt(1/2) / 511, the first one highest.
+/// A quaternion wxyz. Three bytes hold x, y, z and omit w >= 0. Four bytes hold two bits for the index of the omitted
+/// component of xyzw; then each other component has a sign and 9 bits in units of sqrt(1/2) / 511, the first one highest.
 fn rotation_wxyz(packed: &[u8]) -> [f64; 4] {
     let rebuilt = |sum: f64| (1.0 - sum).max(0.0).sqrt();
     if let Some(&[x, y, z]) = packed.as_array() {
@@ -68,15 +68,15 @@ fn rotation_wxyz(packed: &[u8]) -> [f64; 4] {
         return [rebuilt(x * x + y * y + z * z), x, y, z];
     }
     let word = packed.first_chunk().map_or(0, |chunk| u32::from_le_bytes(*chunk));
-    let missing = (word >> 30) as usize;
+    let omitted = (word >> 30) as usize;
     let mut xyzw = [0.0; 4];
     let mut bits = word;
-    for idx in (0..4).rev().filter(|idx| *idx != missing) {
+    for idx in (0..4).rev().filter(|idx| *idx != omitted) {
         let size = f64::from(bits & 511) / 511.0 * std::f64::consts::FRAC_1_SQRT_2;
         xyzw[idx] = if bits & 512 == 0 { size } else { -size };
         bits >>= 10;
     }
-    xyzw[missing] = rebuilt(xyzw.iter().map(|v| v * v).sum());
+    xyzw[omitted] = rebuilt(xyzw.iter().map(|v| v * v).sum());
     let [x, y, z, w] = xyzw;
     [w, x, y, z]
 }

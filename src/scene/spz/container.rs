@@ -1,4 +1,7 @@
-//! From the file to one run of bytes an attribute: unwrapping, checking sizes, never more memory than the file can fill.
+//! The SPZ container.
+//!
+//! Enters: a file of any version. Leaves: its header and one byte slice per attribute, decompressed. Invariant: no
+//! allocation is larger than the compressed bytes can fill.
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -10,21 +13,22 @@ use super::flags::{HAS_EXTENSIONS, LOD_TREE};
 use crate::error::SceneError;
 use crate::source_file::SourceFile;
 
-/// Header of versions 1-3, and of version 4.
+/// Bytes of the header of versions 1-3, and of version 4.
 const SHORT_HEADER: usize = 16;
 const LONG_HEADER: usize = 32;
 
-/// Decompressed size up to which any ratio is accepted, and the ratio accepted above it. Real scenes reach 3.
+/// Decompressed size up to which any compression ratio is accepted, and the maximum ratio above it. Real scenes reach a
+/// ratio of 3.
 const FREE_BYTES: u64 = 256 << 20;
 const MAX_RATIO: u64 = 100;
 
-/// Most bytes accepted after the attributes of a gzipped file.
+/// Maximum number of bytes after the attributes of a gzip file.
 const MAX_TRAILER: u64 = 1 << 20;
 
-/// Coefficients above degree 0 that the file stores for degrees 0..=4.
+/// Number of coefficients above degree 0 in the file, for degrees 0..=4.
 const STORED_SH: [usize; 5] = [0, 3, 8, 15, 24];
 
-/// What the header says.
+/// A validated header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct SpzHeader {
     /// Version, 1..=4.
@@ -33,43 +37,45 @@ pub(super) struct SpzHeader {
     pub(super) count: usize,
     /// Degree of the spherical harmonics, 0..=4.
     pub(super) sh_degree: u8,
-    /// Bits after the binary point of a coordinate.
+    /// Fractional bits of a coordinate.
     pub(super) fractional_bits: u8,
-    /// Flags.
+    /// Flags, see `flags`.
     pub(super) flags: u8,
 }
 
 impl SpzHeader {
-    /// Bytes of each attribute, in file order: positions, alphas, colors, scales, rotations, spherical harmonics.
+    /// Bytes per attribute, in file order: positions, alphas, colors, scales, rotations, spherical harmonics.
     fn sizes(&self) -> [usize; 6] {
         let position = if self.version == 1 { 6 } else { 9 };
         let rotation = if self.version < 3 { 3 } else { 4 };
         [position, 1, 3, 3, rotation, 3 * self.stored_sh()].map(|bytes| bytes * self.count)
     }
 
-    /// Coefficients above degree 0 that the file stores.
+    /// Number of coefficients above degree 0 in the file.
     pub(super) fn stored_sh(&self) -> usize {
         STORED_SH[usize::from(self.sh_degree.min(4))]
     }
 }
 
-/// An unwrapped file.
+/// A decompressed file.
 pub(super) struct Container<'a> {
-    /// What the header says.
+    /// Header.
     pub(super) header: SpzHeader,
-    /// Bytes of each attribute, in file order.
+    /// Content of each attribute, in file order.
     pub(super) attributes: [Cow<'a, [u8]>; 6],
-    /// Extension records.
+    /// Extension records, undecoded.
     pub(super) extensions: Vec<u8>,
-    /// What was odd.
+    /// Notes for [`Scene::notes`](crate::Scene::notes).
     pub(super) notes: Vec<String>,
 }
 
 impl<'a> Container<'a> {
-    /// Unwraps a file of any version.
+    /// Opens a file of any version.
     ///
     /// # Errors
-    /// [`SceneError::SpzHeader`], [`SceneError::SpzCorrupt`], [`SceneError::SpzBomb`], [`SceneError::NotReadYet`], caps.
+    /// [`SceneError::SpzHeader`] for an invalid header, [`SceneError::SpzCorrupt`] for damaged or missing data,
+    /// [`SceneError::SpzBomb`] for an implausible compression ratio, [`SceneError::NotReadYet`] for a level-of-detail
+    /// tree, [`SceneError::TooManyGaussians`].
     pub(super) fn open(source: &'a SourceFile) -> Result<Self, SceneError> {
         let bytes = source.bytes;
         if bytes.starts_with(&[0x1f, 0x8b]) {
@@ -89,14 +95,15 @@ fn corrupt(source: &SourceFile, reason: String) -> SceneError {
 }
 
 fn short_header(source: &SourceFile, found: usize) -> SceneError {
-    corrupt(source, format!("{found} bytes, expected a header of {SHORT_HEADER} at least"))
+    corrupt(source, format!("{found} bytes, expected at least {SHORT_HEADER} of the header"))
 }
 
+/// The little-endian word at a byte position.
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
     bytes.get(at..at + 4).and_then(<[u8]>::first_chunk).map(|chunk| u32::from_le_bytes(*chunk))
 }
 
-/// Parses and checks what all versions share: magic, version, count, degree, fractional bits, flags.
+/// Parses and validates the fields that all versions share: magic, version, count, degree, fractional bits, flags.
 fn parse_header(source: &SourceFile, bytes: &[u8]) -> Result<SpzHeader, SceneError> {
     let (Some(magic), Some(version), Some(count), Some(&[sh_degree, fractional_bits, flags, _])) =
         (word(bytes, 0), word(bytes, 4), word(bytes, 8), bytes.get(12..16).and_then(<[u8]>::first_chunk))
@@ -125,18 +132,18 @@ fn parse_header(source: &SourceFile, bytes: &[u8]) -> Result<SpzHeader, SceneErr
     Ok(SpzHeader { version, count, sh_degree, fractional_bits, flags })
 }
 
-/// Refuses sizes that the compressed bytes cannot have been honest about.
+/// Rejects a decompressed size that is implausible for the compressed size.
 fn check_ratio(source: &SourceFile, unpacked: u64) -> Result<(), SceneError> {
-    let honest = (source.bytes.len() as u64).saturating_mul(MAX_RATIO).max(FREE_BYTES);
-    // Deflate cannot do better than 1032 : 1, Zstandard's run-length blocks can: those fall under the free bytes.
-    let cap = honest.min(source.options.max_file_bytes);
+    let plausible = (source.bytes.len() as u64).saturating_mul(MAX_RATIO).max(FREE_BYTES);
+    // Deflate compresses at most 1032 : 1. Run-length blocks of Zstandard exceed that; FREE_BYTES bounds them.
+    let cap = plausible.min(source.options.max_file_bytes);
     if unpacked > cap {
         return Err(SceneError::SpzBomb { path: source.path.to_path_buf(), found: unpacked, cap });
     }
     Ok(())
 }
 
-/// Versions 1-3 without gzip.
+/// Opens versions 1-3 without gzip.
 fn open_plain<'a>(source: &'a SourceFile) -> Result<Container<'a>, SceneError> {
     let header = parse_header(source, source.bytes)?;
     let sizes = header.sizes();
@@ -152,7 +159,7 @@ fn open_plain<'a>(source: &'a SourceFile) -> Result<Container<'a>, SceneError> {
     Ok(Container { header, attributes: split(&sizes, |from, to| Cow::Borrowed(&body[from..to])), extensions, notes })
 }
 
-/// Versions 1-3 in gzip: the header first, then exactly as much as it announces, then the checksum.
+/// Opens versions 1-3 in gzip: reads the header, then the attributes it announces, then the trailer with the checksum.
 fn open_gzip<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     let mut decoder = GzDecoder::new(source.bytes);
     let mut first = Vec::new();
@@ -164,7 +171,7 @@ fn open_gzip<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     let sizes = header.sizes();
     let needed = sizes.iter().sum::<usize>();
     check_ratio(source, needed as u64)?;
-    // A gzip byte stands for at most 1032 bytes: what cannot come is not allocated for.
+    // A gzip byte expands to at most 1032 bytes, which bounds the allocation.
     let possible = source.bytes.len().saturating_mul(1032);
     let mut body = Vec::new();
     if needed > possible || body.try_reserve_exact(needed).is_err() {
@@ -182,7 +189,7 @@ fn open_gzip<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
         ));
     }
     let mut rest = Vec::new();
-    // One byte more than is accepted, and so up to the end and its checksum where the file is honest.
+    // One byte above the limit: within the limit this reads to the end, which verifies the checksum.
     read_up_to(source, &mut decoder, MAX_TRAILER + 1, &mut rest)?;
     let unpacked = (SHORT_HEADER + needed + rest.len()) as u64;
     if rest.len() as u64 > MAX_TRAILER {
@@ -192,13 +199,13 @@ fn open_gzip<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     let (extensions, mut notes) = trailer(header, &rest);
     let after = decoder.into_inner().len();
     if after > 0 {
-        notes.push(format!("{after} bytes after the compressed data are not read"));
+        notes.push(format!("{after} bytes after the compressed data are ignored"));
     }
     let attributes = split(&sizes, |from, to| Cow::Owned(body[from..to].to_vec()));
     Ok(Container { header, attributes, extensions, notes })
 }
 
-/// Version 4: a plain header, extension records, a table of sizes, and a Zstandard frame an attribute that is not empty.
+/// Opens version 4: a plain header, extension records, a table of sizes, and one Zstandard frame per non-empty attribute.
 fn open_v4<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     let bytes = source.bytes;
     let header = parse_header(source, bytes)?;
@@ -242,14 +249,14 @@ fn open_v4<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     let extensions =
         if header.flags & HAS_EXTENSIONS != 0 { bytes[LONG_HEADER..table_at].to_vec() } else { Vec::new() };
     let left = bytes.len() - at;
-    let notes = if left > 0 { vec![format!("{left} bytes after the last stream are not read")] } else { Vec::new() };
+    let notes = if left > 0 { vec![format!("{left} bytes after the last stream are ignored")] } else { Vec::new() };
     Ok(Container { header, attributes, extensions, notes })
 }
 
-/// One Zstandard frame that must unpack to exactly `size` bytes.
+/// Decompresses a Zstandard frame, which must give exactly `size` bytes.
 fn unpack_frame(source: &SourceFile, packed: &[u8], size: usize) -> Result<Vec<u8>, SceneError> {
     let damaged = |what: &dyn std::fmt::Display| corrupt(source, format!("Zstandard data is damaged ({what})"));
-    // A window no larger than the stream: the header cannot ask for more memory than the output takes.
+    // The window is limited to the output's size, so the frame header cannot request more memory than the output.
     let window = (size as u64).next_power_of_two().max(8 << 20);
     let mut decoder = StreamingDecoder::new_with_max_window_size(packed, window).map_err(|fault| damaged(&fault))?;
     let mut out = Vec::new();
@@ -270,13 +277,13 @@ fn unpack_frame(source: &SourceFile, packed: &[u8], size: usize) -> Result<Vec<u
     Ok(out)
 }
 
-/// Appends at most `most` bytes of a stream.
+/// Reads at most `most` bytes of a stream and appends them.
 fn read_up_to(source: &SourceFile, decoder: &mut impl Read, most: u64, out: &mut Vec<u8>) -> Result<(), SceneError> {
     let read = decoder.by_ref().take(most).read_to_end(out);
     read.map(drop).map_err(|fault| corrupt(source, format!("gzip data is damaged or cut ({fault})")))
 }
 
-/// Cuts a body into attributes.
+/// Splits a body into attributes.
 fn split<'a>(sizes: &[usize; 6], piece: impl Fn(usize, usize) -> Cow<'a, [u8]>) -> [Cow<'a, [u8]>; 6] {
     let mut from = 0;
     sizes.map(|size| {
@@ -286,13 +293,13 @@ fn split<'a>(sizes: &[usize; 6], piece: impl Fn(usize, usize) -> Cow<'a, [u8]>) 
     })
 }
 
-/// Extension records after the attributes of versions 1-3, or a note on bytes that are none.
+/// Extension records after the attributes of versions 1-3, or a note on other bytes there.
 fn trailer(header: SpzHeader, rest: &[u8]) -> (Vec<u8>, Vec<String>) {
     if header.flags & HAS_EXTENSIONS != 0 {
         (rest.to_vec(), Vec::new())
     } else if rest.is_empty() {
         (Vec::new(), Vec::new())
     } else {
-        (Vec::new(), vec![format!("{} bytes after the last attribute are not read", rest.len())])
+        (Vec::new(), vec![format!("{} bytes after the last attribute are ignored", rest.len())])
     }
 }

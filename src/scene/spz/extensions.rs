@@ -1,37 +1,38 @@
-//! Extension records: u32 type, u32 length, payload. Reference: nianticlabs/spz `extensions/README.md`.
+//! Extension records: type u32, length u32, payload. Enters: their bytes. Leaves: the up axis, and notes. Reference: nianticlabs/spz `extensions/README.md`.
 
 use glam::DVec3;
 
-/// Type of Adobe's record that names the coordinate system.
+/// Type of Adobe's record of the coordinate system.
 const COORDINATE_SYSTEM: u32 = 0xADBE_0003;
-/// Type of Adobe's record that limits an orbiting camera; it says nothing about the scene itself.
+/// Type of Adobe's record that limits an orbiting camera. It has no information about the scene.
 const SAFE_ORBIT: u32 = 0xADBE_0002;
 
-/// Names of the coordinate systems by number: where x, y and z point.
+/// Names of the coordinate systems by number: the directions of x, y and z as initials (left, right, up, down, forward,
+/// back).
 const SYSTEMS: [&str; 17] = [
     "", "LDB", "RDB", "LUB", "RUB", "LDF", "RDF", "LUF", "RUF", "LBD", "RBD", "LBU", "RBU", "LFD", "RFD", "LFU", "RFU",
 ];
 
-/// What the records say.
+/// Content of the records.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Extensions {
-    /// World up, with the words for it.
+    /// World up and the name of the coordinate system.
     pub(super) up: Option<(DVec3, String)>,
-    /// What was not understood.
+    /// Notes for [`Scene::notes`](crate::Scene::notes).
     pub(super) notes: Vec<String>,
 }
 
-/// Reads the records; unknown types are skipped and noted.
+/// Reads the records. Unknown types are skipped with a note.
 pub(super) fn read(mut bytes: &[u8]) -> Extensions {
     let mut found = Extensions::default();
-    // Each turn consumes the 8 bytes of a record's head or ends.
+    // Every iteration consumes the 8 bytes of a record's head, or ends the loop.
     while let Some((head, rest)) = bytes.split_at_checked(8) {
         let word = |at: usize| u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
         let Some((payload, rest)) = rest.split_at_checked(word(4) as usize) else { break };
         match (word(0), payload.first_chunk()) {
             (COORDINATE_SYSTEM, Some(chunk)) => take_system(&mut found, u32::from_le_bytes(*chunk)),
             (SAFE_ORBIT, _) => (),
-            (kind, _) => found.notes.push(format!("extension {kind:#010x} is not known and not heeded")),
+            (kind, _) => found.notes.push(format!("extension {kind:#010x} is unknown and ignored")),
         }
         bytes = rest;
     }
@@ -41,9 +42,10 @@ pub(super) fn read(mut bytes: &[u8]) -> Extensions {
     found
 }
 
+/// Takes the up axis of a coordinate system.
 fn take_system(found: &mut Extensions, number: u32) {
     let Some(name) = SYSTEMS.get(number as usize).filter(|name| !name.is_empty()) else {
-        found.notes.push(format!("coordinate system {number} is not known and not heeded"));
+        found.notes.push(format!("coordinate system {number} is unknown and ignored"));
         return;
     };
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -55,7 +57,7 @@ fn take_system(found: &mut Extensions, number: u32) {
     }
 }
 
-/// The direction of a letter seen by a viewer whose x points right, y up and z back.
+/// The direction of a letter in the frame of a viewer: x right, y up, z back.
 fn direction(letter: char) -> DVec3 {
     match letter {
         'R' => DVec3::X,

@@ -1,7 +1,7 @@
-//! SPZ versions 1 to 4. Reference: nianticlabs/spz README.md and `load-spz.cc`.
+//! SPZ, versions 1 to 4.
 //!
-//! Enters: bytes, plain, gzipped (versions 1-3) or as Zstandard streams (version 4). Leaves: Gaussians, in the numbers
-//! that the file holds: no axis is flipped.
+//! Enters: bytes, plain, in gzip (versions 1-3) or as Zstandard streams (version 4). Leaves: Gaussians. Invariant: the
+//! coordinates are those of the file, no axis is flipped. Reference: nianticlabs/spz README.md and `load-spz.cc`.
 
 mod attributes;
 mod container;
@@ -19,25 +19,25 @@ use flags::{ANTIALIASED, HAS_EXTENSIONS};
 /// Gaussians of an SPZ.
 ///
 /// # Errors
-/// [`SceneError`] of the `SPZ-*` kinds, [`SceneError::NotReadYet`] for level-of-detail trees, and the caps.
+/// [`SceneError`] with an `SPZ-*` code, [`SceneError::NotReadYet`] for a level-of-detail tree, and those of the limits.
 pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let container = Container::open(source)?;
     let header = container.header;
     let mut collected = attributes::decode(source, &container)?;
     collected.notes.extend(container.notes.iter().cloned());
     if header.sh_degree > 3 {
-        collected.notes.push("spherical harmonics of degree 4 are cut to degree 3".to_owned());
+        collected.notes.push("spherical harmonics of degree 4 are truncated to degree 3".to_owned());
     }
     let unknown = header.flags & !(ANTIALIASED | HAS_EXTENSIONS);
     if unknown != 0 {
-        collected.notes.push(format!("header flags {unknown:#04x} are not known and not heeded"));
+        collected.notes.push(format!("header flags {unknown:#04x} are unknown and ignored"));
     }
     let found = extensions::read(&container.extensions);
     collected.notes.extend(found.notes);
     Ok(DecodedScene {
         format: format!("spz v{}", header.version),
         collected,
-        // A flag that is not set says nothing: writers that know no antialiasing leave it so.
+        // A cleared flag states no filter: writers without antialiasing support leave it cleared.
         filter: (header.flags & ANTIALIASED != 0).then_some(SplatFilter::Mip),
         up: found.up,
         up_prior: UpPrior::Spz,

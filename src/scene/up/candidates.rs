@@ -1,21 +1,23 @@
 use glam::DVec3;
 
 use super::facets::{Facet, fit_plane};
-use super::sample::Sample;
+use super::sample::PatchSample;
 
-/// Most directions taken from the scene's surfaces.
+/// Maximum number of directions from the scene's surfaces.
 const MAX_PEAKS: usize = 8;
 
-/// Angle within which normals belong to one peak, and within which two peaks are one (cosines of 12 and 20 degrees).
+/// Cosines of the angle within which normals belong to one peak (12 degrees), and within which two peaks count as one
+/// (20 degrees).
 const PEAK_COS: f64 = 0.978;
 const APART_COS: f64 = 0.94;
 
-/// Normals looked at, and those tried as the start of a peak.
+/// Maximum number of normals, and of normals that start a mean shift.
 const MAX_NORMALS: usize = 4000;
 const MAX_STARTS: usize = 200;
 
-/// Directions that many surfaces face, of either sign, strongest first: peaks of the histogram of normals.
-pub(super) fn normal_peaks(sample: &Sample, facets: &[Facet]) -> Vec<DVec3> {
+/// Frequent surface normals, of arbitrary sign, strongest first. They are the modes of the distribution of normals: first
+/// those of the facets, then new ones of the patches.
+pub(super) fn normal_peaks(sample: &PatchSample, facets: &[Facet]) -> Vec<DVec3> {
     let facet_normals: Vec<DVec3> = facets.iter().map(|f| f.normal).filter(|n| *n != DVec3::ZERO).collect();
     let patch_normals: Vec<DVec3> = sample.patches.iter().map(|p| p.normal).filter(|n| *n != DVec3::ZERO).collect();
     let mut peaks: Vec<DVec3> = Vec::new();
@@ -28,11 +30,12 @@ pub(super) fn normal_peaks(sample: &Sample, facets: &[Facet]) -> Vec<DVec3> {
     peaks
 }
 
+/// Modes of a distribution of normals.
 fn peaks_of(normals: &[DVec3]) -> Vec<DVec3> {
     let stride = normals.len().div_ceil(MAX_NORMALS).max(1);
     let normals: Vec<DVec3> = normals.iter().copied().step_by(stride).collect();
     let start_stride = normals.len().div_ceil(MAX_STARTS).max(1);
-    // Mean shift on the sphere of directions without sign: towards the mean of the normals nearby.
+    // Mean shift on the unit sphere, with opposite directions identified.
     let shifted = |start: DVec3| {
         let near = normals.iter().filter(|normal| normal.dot(start).abs() > PEAK_COS);
         let mean = near.map(|normal| *normal * normal.dot(start).signum()).sum::<DVec3>();
@@ -56,9 +59,9 @@ fn peaks_of(normals: &[DVec3]) -> Vec<DVec3> {
     peaks
 }
 
-/// The normal, near `up`, of the plane through the matter about a height: fitted, trimmed and fitted again, so that feet
-/// of furniture and noise below the floor do not tilt it.
-pub(super) fn level(sample: &Sample, up: DVec3, height: f64) -> DVec3 {
+/// Normal, near `up`, of the plane through the patches around a height. Repeated fitting and trimming excludes the feet of
+/// furniture and noise below the floor.
+pub(super) fn level(sample: &PatchSample, up: DVec3, height: f64) -> DVec3 {
     let mut reach = sample.size / 50.0;
     let (mut normal, mut offset) = (up, height);
     for _ in 0..8 {
@@ -69,7 +72,7 @@ pub(super) fn level(sample: &Sample, up: DVec3, height: f64) -> DVec3 {
         }
         let plane = fit_plane(&points);
         let turned = plane.normal * plane.normal.dot(up).signum();
-        // A slab that is no plane (a pole, a ball) must not turn the world over.
+        // Patches that do not form a plane (a pole, a ball) keep `up`.
         if turned.dot(up) < APART_COS {
             return up;
         }

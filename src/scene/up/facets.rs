@@ -1,32 +1,34 @@
-//! Local planes: what the surface looks like in each small cube of the scene, whatever shape its Gaussians have.
+//! Local planes of a scene, independent of the shapes of its Gaussians.
+//!
+//! Enters: patches. Leaves: one facet per cube of a regular grid, with the normal of a least-squares plane.
 
 use glam::{DMat3, DVec3};
 
-use super::sample::Sample;
+use super::sample::PatchSample;
 
-/// Cubes across the scene size.
+/// Cubes per scene size.
 const CUBES: f64 = 48.0;
 
-/// Fewest patches that make a facet.
+/// Minimum number of patches per facet.
 const MIN_PATCHES: usize = 6;
 
 /// Thickness over width below which a facet is planar.
 const FLATNESS: f64 = 0.25;
 
-/// Width over cube side above which its flatness means something.
-const LEAST_WIDTH: f64 = 0.08;
+/// Width over the cube's side above which a facet can be planar.
+const MIN_WIDTH: f64 = 0.08;
 
-/// The matter in one cube.
+/// The patches of a cube.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Facet {
-    /// Mean of its patches, relative to the middle of the scene.
+    /// Mean of the patches, relative to the center of the scene's core.
     pub(super) position: DVec3,
-    /// Unit normal, of either sign; zero where the matter does not lie in a plane.
+    /// Unit normal of arbitrary sign; zero if the patches do not lie in a plane.
     pub(super) normal: DVec3,
 }
 
-/// Facets of a sample, in the order of their cubes.
-pub(super) fn find(sample: &Sample) -> Vec<Facet> {
+/// Facets of a sample, ordered by cube.
+pub(super) fn find_facets(sample: &PatchSample) -> Vec<Facet> {
     let side = sample.size / CUBES;
     let cube = |p: DVec3| (p / side).floor().as_i64vec3().to_array();
     let mut by_cube: Vec<([i64; 3], DVec3)> = sample.patches.iter().map(|p| (cube(p.position), p.position)).collect();
@@ -38,24 +40,24 @@ pub(super) fn find(sample: &Sample) -> Vec<Facet> {
 fn facet(group: &[([i64; 3], DVec3)], side: f64) -> Facet {
     let points: Vec<DVec3> = group.iter().map(|(_, p)| *p).collect();
     let plane = fit_plane(&points);
-    let is_planar = plane.thickness < FLATNESS * plane.width && plane.width > LEAST_WIDTH * side;
+    let is_planar = plane.thickness < FLATNESS * plane.width && plane.width > MIN_WIDTH * side;
     Facet { position: plane.middle, normal: if is_planar { plane.normal } else { DVec3::ZERO } }
 }
 
-/// The plane of least squares through some points.
+/// A least-squares plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     /// Mean of the points.
     pub(super) middle: DVec3,
-    /// Unit normal, of either sign.
+    /// Unit normal of arbitrary sign.
     pub(super) normal: DVec3,
-    /// Standard deviation across the plane.
+    /// Standard deviation along the normal.
     pub(super) thickness: f64,
-    /// Smaller standard deviation along the plane.
+    /// Smaller standard deviation within the plane.
     pub(super) width: f64,
 }
 
-/// Fits a plane to points; to none of them, the plane z = 0.
+/// Fits a plane to points; without points it is z = 0.
 pub(super) fn fit_plane(points: &[DVec3]) -> Plane {
     let n = points.len().max(1) as f64;
     let middle = points.iter().copied().sum::<DVec3>() / n;
@@ -74,11 +76,11 @@ pub(super) fn fit_plane(points: &[DVec3]) -> Plane {
     }
 }
 
-/// Eigenvectors (columns) and eigenvalues of a symmetric matrix: Jacobi's rotations, each of which clears one entry off
-/// the diagonal (Golub and Van Loan, "Matrix Computations", section 8.5).
+/// Eigenvectors (columns) and eigenvalues of a symmetric matrix, by Jacobi rotations (Golub and Van Loan, "Matrix
+/// Computations", section 8.5).
 fn eigen(symmetric: DMat3) -> (DMat3, DVec3) {
     let (mut a, mut vectors) = (symmetric, DMat3::IDENTITY);
-    // Convergence is quadratic: six sweeps reach the last bit.
+    // Convergence is quadratic: six sweeps reach full precision.
     for _ in 0..6 {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             let off = a.col(q)[p];

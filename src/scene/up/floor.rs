@@ -1,84 +1,84 @@
 use glam::DVec3;
 
 use super::facets::Facet;
-use super::sample::Sample;
+use super::sample::PatchSample;
 
-/// Slabs across the scene size; a floor is looked for in two neighbors together.
+/// Slabs per scene size. A floor takes two adjacent slabs.
 const SLABS: f64 = 80.0;
 
-/// Footprint cells across the scene size, and cells of the grid that holds any footprint.
+/// Footprint cells per scene size, and cells per side of the grid that contains every footprint.
 const CELLS: f64 = 32.0;
 const GRID: usize = 64;
 const WORDS: usize = GRID * GRID / 64;
 
-/// Patches looked at for a footprint.
+/// Maximum number of patches for a footprint.
 const MAX_PATCHES: usize = 10_000;
 
-/// Share of matter below a slab from which it is no floor.
-const MOST_BELOW: f64 = 0.2;
+/// Share of patches below a slab from which the slab is not a floor.
+const MAX_SHARE_BELOW: f64 = 0.2;
 
-/// Cosine of the angle between a piece of floor and the floor: 20 degrees, wide enough for rough captures.
-const FLUSH_COS: f64 = 0.94;
+/// Cosine of the angle to `up` within which a normal counts as level: 20 degrees, wide enough for noisy captures.
+const LEVEL_COS: f64 = 0.94;
 
-/// Share of directions within that angle by chance.
-const FLUSH_CHANCE: f64 = 0.06;
+/// Share of random directions within that angle.
+const LEVEL_CHANCE: f64 = 0.06;
 
-/// Values at which coverage, mass and flushness count in full. Of the scenes with a known floor the weakest (a furnished
-/// kitchen, cluttered to the walls) has 0.53, 0.20 and 0.31; the strongest wall (of a living room) has 0.48, 0.25, 0.93.
+/// Coverage, mass and levelness from which each counts fully. Among the scenes with a known floor, the weakest floor (a
+/// cluttered kitchen) has 0.53, 0.20 and 0.31; the strongest wall (of a living room) has 0.48, 0.25 and 0.93.
 const FULL_COVERAGE: f64 = 0.7;
 const FULL_MASS: f64 = 0.15;
-const FULL_FLUSH: f64 = 0.3;
+const FULL_LEVELNESS: f64 = 0.3;
 
-/// Patches from which shares of them are believed in full.
+/// Number of patches from which the shares are reliable.
 const FULL_PATCHES: f64 = 1000.0;
 
-/// What a direction looks like as world up: the best floor across it.
+/// The best floor perpendicular to a direction.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Floor {
-    /// 0..=1: how much there is a floor. The product of what it covers, holds and how level its pieces are.
+    /// Evidence for the floor, 0..=1: the product of coverage, mass and levelness.
     pub(super) evidence: f64,
-    /// Height of the floor's middle along the direction, from the middle of the scene.
+    /// Height of the floor along the direction, from the center of the scene's core.
     pub(super) height: f64,
-    /// Mean height of the matter between floor and top, 0..=1; 0.5 where there is none.
+    /// Mean height of the patches between the floor (0) and the top (1); 0.5 without patches there.
     pub(super) mean_height: f64,
 }
 
-/// Looks for the floor across the unit direction `up`: the slab that covers most of the scene's footprint with little
-/// matter below it.
-pub(super) fn look(sample: &Sample, facets: &[Facet], up: DVec3) -> Floor {
+/// Finds the floor perpendicular to the unit direction `up`: the slab that covers most of the scene's footprint and has few
+/// patches below it.
+pub(super) fn find_floor(sample: &PatchSample, facets: &[Facet], up: DVec3) -> Floor {
     let slabs = Slabs::cut(sample, up);
     let Some((idx, coverage)) = slabs.best() else { return Floor { mean_height: 0.5, ..Floor::default() } };
     let mass = (slabs.counts[idx] + slabs.counts[idx + 1]) / slabs.total();
     let height = slabs.low + (idx as f64 + 1.0) * slabs.thickness;
-    let flush = flushness(sample, facets, up, height, slabs.thickness);
+    let levelness = levelness(sample, facets, up, height, slabs.thickness);
     let evidence = (sample.patches.len() as f64 / FULL_PATCHES).min(1.0)
         * (coverage / FULL_COVERAGE).min(1.0)
         * (mass / FULL_MASS).min(1.0)
-        * ((flush - FLUSH_CHANCE) / FULL_FLUSH).clamp(0.0, 1.0);
+        * ((levelness - LEVEL_CHANCE) / FULL_LEVELNESS).clamp(0.0, 1.0);
     Floor { evidence, height, mean_height: slabs.mean_height(idx) }
 }
 
-/// A scene cut into slabs across a direction.
+/// Slabs of a scene perpendicular to a direction.
 struct Slabs {
-    /// Height of the lowest slab's bottom.
+    /// Height of the bottom of the lowest slab.
     low: f64,
     /// Thickness of a slab.
     thickness: f64,
-    /// Patches in each slab.
+    /// Number of patches per slab.
     counts: Vec<f64>,
-    /// Footprint of each slab, one bit a cell.
+    /// Footprint per slab, one bit per cell.
     cells: Vec<[u64; WORDS]>,
 }
 
 impl Slabs {
-    fn cut(sample: &Sample, up: DVec3) -> Self {
+    fn cut(sample: &PatchSample, up: DVec3) -> Self {
         let thickness = sample.size / SLABS;
         let stride = sample.patches.len().div_ceil(MAX_PATCHES).max(1);
         let patches = || sample.patches.iter().step_by(stride);
         let heights = || patches().map(|patch| patch.position.dot(up));
         let low = heights().fold(f64::INFINITY, f64::min);
         let high = heights().fold(f64::NEG_INFINITY, f64::max);
-        // The sample's box has a diagonal of at most 1.2 scene sizes: never more than 100 slabs.
+        // The diagonal of the sample is at most 1.2 scene sizes, so there are at most 100 slabs.
         let num = if high >= low { ((high - low) / thickness) as usize + 2 } else { 2 };
         let (mut counts, mut cells) = (vec![0.0; num], vec![[0_u64; WORDS]; num]);
         let east = up.any_orthonormal_vector();
@@ -98,8 +98,7 @@ impl Slabs {
         self.counts.iter().sum::<f64>().max(1.0)
     }
 
-    /// Lower index of the pair of slabs that is the best floor, and its share of the footprint less what matter below it
-    /// takes from it.
+    /// Index of the lower slab of the best floor, and its coverage of the footprint, reduced for patches below it.
     fn best(&self) -> Option<(usize, f64)> {
         let ones = |words: &[u64; WORDS]| f64::from(words.iter().map(|word| word.count_ones()).sum::<u32>());
         let union = |a: &[u64; WORDS], b: &[u64; WORDS]| std::array::from_fn(|idx| a[idx] | b[idx]);
@@ -108,35 +107,34 @@ impl Slabs {
         let mut best: Option<(usize, f64)> = None;
         for (idx, pair) in self.cells.windows(2).enumerate() {
             let coverage = ones(&union(&pair[0], &pair[1])) / footprint.max(1.0);
-            let merit = coverage * (1.0 - below / self.total() / MOST_BELOW);
-            if merit > best.map_or(0.0, |(_, merit)| merit) {
-                best = Some((idx, merit));
+            let score = coverage * (1.0 - below / self.total() / MAX_SHARE_BELOW);
+            if score > best.map_or(0.0, |(_, score)| score) {
+                best = Some((idx, score));
             }
             below += self.counts[idx];
         }
         best
     }
 
-    /// Mean height of the matter off the floor and off the topmost slabs, where a ceiling may be.
+    /// Mean height of the patches above the floor and below the topmost slabs, which may hold a ceiling.
     fn mean_height(&self, floor_idx: usize) -> f64 {
         let between = floor_idx + 3..self.counts.len().saturating_sub(4);
         let span = (between.len().max(2) - 1) as f64;
-        let matter = self.counts.get(between).unwrap_or_default();
-        let sum: f64 = matter.iter().sum();
-        let weighted: f64 = matter.iter().enumerate().map(|(idx, count)| count * idx as f64 / span).sum();
+        let num_patches = self.counts.get(between).unwrap_or_default();
+        let sum: f64 = num_patches.iter().sum();
+        let weighted: f64 = num_patches.iter().enumerate().map(|(idx, count)| count * idx as f64 / span).sum();
         if sum > 0.0 { weighted / sum } else { 0.5 }
     }
 }
 
-/// Share of the matter about a height that lies level: by facets where there are enough of them, or by the Gaussians' own
-/// normals, whichever says more.
-fn flushness(sample: &Sample, facets: &[Facet], up: DVec3, height: f64, thickness: f64) -> f64 {
+/// Share of level normals around a height: that of the facets or that of the patches, whichever is larger.
+fn levelness(sample: &PatchSample, facets: &[Facet], up: DVec3, height: f64, thickness: f64) -> f64 {
     let share = |pieces: &mut dyn Iterator<Item = (DVec3, DVec3)>| {
         let (mut level, mut all) = (0_usize, 0_usize);
         for (position, normal) in pieces {
             if (position.dot(up) - height).abs() < 1.5 * thickness {
                 all += 1;
-                level += usize::from(normal.dot(up).abs() > FLUSH_COS);
+                level += usize::from(normal.dot(up).abs() > LEVEL_COS);
             }
         }
         if all < 8 { 0.0 } else { level as f64 / all as f64 }

@@ -1,10 +1,10 @@
-//! World up of a scene whose file does not say it.
+//! Estimation of world up, for files that do not state it.
 //!
-//! Enters: Gaussians. Leaves: a unit direction and how sure it is. A direction is judged by the floor that lies across
-//! it ([`floor`]) and by what files of its kind tend to have ([`UpPrior`]). Candidates are the six coordinate axes and
-//! the directions that many surfaces face ([`candidates`]); a floor that is found is leveled by fitting a plane to it.
+//! Enters: Gaussians and the prior of the kind of file. Leaves: a unit direction with a confidence. The candidates are the
+//! six coordinate axes and the frequent surface normals ([`candidates`]). The score of a candidate combines the evidence
+//! for a floor perpendicular to it ([`floor`]) with the prior ([`UpPrior`]). A plane fit levels the floor of a candidate.
 //!
-//! Ties are broken by the prior, then by the order -y, +y, +z, -z, x, and directions off the axes last.
+//! Invariant: the result is deterministic. Of equal scores the first wins: -y, +y, +z, -z, x, -x, then other directions.
 
 mod candidates;
 mod facets;
@@ -16,7 +16,7 @@ use glam::DVec3;
 
 use super::gaussians::Gaussians;
 use prior::AXES;
-use sample::Sample;
+use sample::PatchSample;
 
 pub use prior::UpPrior;
 
@@ -25,41 +25,42 @@ pub use prior::UpPrior;
 pub struct UpEstimate {
     /// World up, unit.
     pub up: DVec3,
-    /// 0..=100: share of the weight of all candidates within 15 degrees of this one.
+    /// Confidence in percent, 0..=100: the odds of this candidate over the sum of the odds of all candidates, where those
+    /// within 15 degrees of a better one do not count.
     pub percent_sure: u8,
 }
 
-/// What a floor beyond doubt is worth, as logarithm of odds.
+/// Score of full evidence for a floor, as the logarithm of odds.
 const FLOOR_WEIGHT: f64 = 6.0;
 
-/// What it is worth that matter lies near the floor rather than near the ceiling.
+/// Score for matter that is concentrated near the floor rather than near the ceiling.
 const HEIGHT_WEIGHT: f64 = 3.0;
 
-/// Evidence below which leveling is not tried.
-const LEAST_EVIDENCE: f64 = 0.03;
+/// Evidence for a floor below which the candidate is not leveled.
+const MIN_EVIDENCE: f64 = 0.03;
 
-/// Evidence from which a floor is used to level the scene.
+/// Evidence for the leveled floor from which the leveled direction replaces the candidate.
 const LEVELING_EVIDENCE: f64 = 0.25;
 
-/// Tilt below which a leveled direction is the coordinate axis itself (cosine of 0.5 degrees).
+/// Cosine of the angle within which a leveled direction snaps to a coordinate axis (0.5 degrees).
 const SNAP_COS: f64 = 0.999_962;
 
-/// Angle within which candidates mean the same direction (cosine of 15 degrees).
+/// Cosine of the angle within which two candidates count as one direction (15 degrees).
 const SAME_COS: f64 = 0.966;
 
-/// World up of a scene by its floor, else by what its kind of file tends to have. Deterministic.
+/// Estimates world up from the floor of a scene; without a floor the prior decides.
 pub fn estimate(gaussians: &Gaussians, prior: UpPrior) -> UpEstimate {
-    let judged = match Sample::of(gaussians) {
-        Some(sample) => judge_all(&sample, prior),
+    let scored = match PatchSample::of(gaussians) {
+        Some(sample) => score_candidates(&sample, prior),
         None => AXES.into_iter().map(|up| (up, prior.of_axis(up))).collect(),
     };
-    // The first of equals wins.
-    let best = judged.iter().copied().reduce(|best, next| if next.1 > best.1 { next } else { best });
-    let (up, merit) = best.unwrap_or((DVec3::NEG_Y, 0.0));
-    let odds = |(_, other): &(DVec3, f64)| (other - merit).exp();
-    // Directions that mean the same must not outvote the others by number: each group counts once, by its best.
+    // Of equal scores the first wins.
+    let best = scored.iter().copied().reduce(|best, next| if next.1 > best.1 { next } else { best });
+    let (up, score) = best.unwrap_or((DVec3::NEG_Y, 0.0));
+    let odds = |(_, other): &(DVec3, f64)| (other - score).exp();
+    // Each group of nearby directions counts once, by its best, so that a crowded group does not dominate the sum.
     let mut groups: Vec<(DVec3, f64)> = Vec::new();
-    let mut ranked = judged.clone();
+    let mut ranked = scored.clone();
     ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
     for candidate in ranked {
         if groups.iter().all(|known| known.0.dot(candidate.0) < SAME_COS) {
@@ -70,35 +71,35 @@ pub fn estimate(gaussians: &Gaussians, prior: UpPrior) -> UpEstimate {
     UpEstimate { up, percent_sure: percent.round() as u8 }
 }
 
-/// All candidates with their merits: the axes, and other directions that have a floor.
-fn judge_all(sample: &Sample, prior: UpPrior) -> Vec<(DVec3, f64)> {
-    let facets = facets::find(sample);
+/// All candidates with their scores: the axes, and other directions with a floor.
+fn score_candidates(sample: &PatchSample, prior: UpPrior) -> Vec<(DVec3, f64)> {
+    let facets = facets::find_facets(sample);
     let peaks = candidates::normal_peaks(sample, &facets);
-    let judged = |up: DVec3| judge(sample, &facets, prior, up);
+    let scored = |up: DVec3| score_direction(sample, &facets, prior, up);
     let off_axis =
-        peaks.into_iter().flat_map(|peak| [peak, -peak]).map(judged).filter(|judged| judged.2 >= LEVELING_EVIDENCE);
-    AXES.into_iter().map(judged).chain(off_axis).map(|(up, merit, _)| (up, merit)).collect()
+        peaks.into_iter().flat_map(|peak| [peak, -peak]).map(scored).filter(|scored| scored.2 >= LEVELING_EVIDENCE);
+    AXES.into_iter().map(scored).chain(off_axis).map(|(up, score, _)| (up, score)).collect()
 }
 
-/// A candidate, leveled where it has a floor, with its merit and the evidence for the floor.
-fn judge(sample: &Sample, facets: &[facets::Facet], prior: UpPrior, up: DVec3) -> (DVec3, f64, f64) {
-    let judged = |direction: DVec3, floor: floor::Floor| {
-        // Only next to a floor does it tell anything where the rest of the matter lies.
+/// A candidate, leveled if it has a floor, with its score and the evidence for the floor.
+fn score_direction(sample: &PatchSample, facets: &[facets::Facet], prior: UpPrior, up: DVec3) -> (DVec3, f64, f64) {
+    let scored = |direction: DVec3, floor: floor::Floor| {
+        // The height of the matter is informative only relative to a floor.
         let low_lying = HEIGHT_WEIGHT * floor.evidence * (0.5 - floor.mean_height);
         (direction, prior.of(direction) + FLOOR_WEIGHT * floor.evidence + low_lying, floor.evidence)
     };
-    let first = floor::look(sample, facets, up);
-    if first.evidence < LEAST_EVIDENCE {
-        return judged(up, first);
+    let first = floor::find_floor(sample, facets, up);
+    if first.evidence < MIN_EVIDENCE {
+        return scored(up, first);
     }
-    // A floor that is tilted against the candidate shows only in part: level what is there, then look again.
+    // A floor that is tilted against the candidate gives weak evidence. Level the candidate to it and search again.
     let leveled = snapped(candidates::level(sample, up, first.height));
-    let second = floor::look(sample, facets, leveled);
+    let second = floor::find_floor(sample, facets, leveled);
     let is_better = second.evidence >= LEVELING_EVIDENCE && second.evidence >= 0.9 * first.evidence;
-    if is_better { judged(leveled, second) } else { judged(up, first) }
+    if is_better { scored(leveled, second) } else { scored(up, first) }
 }
 
-/// The direction, or the coordinate axis it lies next to.
+/// The nearby coordinate axis if there is one, else the direction.
 fn snapped(direction: DVec3) -> DVec3 {
     AXES.into_iter().find(|axis| axis.dot(direction) > SNAP_COS).unwrap_or(direction)
 }

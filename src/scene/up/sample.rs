@@ -3,32 +3,32 @@ use glam::{DMat3, DVec3};
 use crate::bounds::Bounds;
 use crate::gaussians::{Gaussians, SOLID_OPACITY};
 
-/// Most points looked at; more of them change the answer by less than the answer is good to.
-const MAX_POINTS: usize = 40_000;
+/// Maximum number of patches. More of them change the estimate by less than its precision.
+const MAX_PATCHES: usize = 40_000;
 
-/// Thinnest over middle standard deviation below which a Gaussian is a piece of surface with a normal.
-const FLAT: f32 = 0.4;
+/// Smallest over middle standard deviation, below which a Gaussian is flat and has a normal.
+const FLATNESS: f32 = 0.4;
 
-/// A piece of matter.
+/// A sampled Gaussian.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Patch {
-    /// Mean relative to the middle of the scene.
+    /// Mean relative to the center of the scene's core.
     pub(super) position: DVec3,
-    /// Unit normal of a flat one, of either sign; zero for a round one.
+    /// Unit normal of a flat Gaussian, of arbitrary sign; zero for a round one.
     pub(super) normal: DVec3,
 }
 
-/// The solid core of a scene as a bounded number of patches.
-pub(super) struct Sample {
+/// A bounded number of Gaussians from the solid core of a scene.
+pub(super) struct PatchSample {
     /// Patches in file order.
     pub(super) patches: Vec<Patch>,
     /// Scene size, above 0.
     pub(super) size: f64,
 }
 
-impl Sample {
-    /// Every n-th solid Gaussian of the scene's core; every n-th of all where hardly any is solid. `None` for scenes
-    /// without extent.
+impl PatchSample {
+    /// Every n-th solid Gaussian of the core, or every n-th of all Gaussians there if less than 5 % are solid. `None` for a
+    /// scene without extent.
     pub(super) fn of(gaussians: &Gaussians) -> Option<Self> {
         let bounds = Bounds::of(gaussians);
         let (size, middle) = (bounds.size(), bounds.center());
@@ -44,7 +44,7 @@ impl Sample {
         let core: Vec<usize> = (0..gaussians.len()).filter(is_core).collect();
         let solid: Vec<usize> = core.iter().copied().filter(|&idx| gaussians.opacities[idx] >= SOLID_OPACITY).collect();
         let chosen = if solid.len() < core.len() / 20 { core } else { solid };
-        let stride = chosen.len().div_ceil(MAX_POINTS).max(1);
+        let stride = chosen.len().div_ceil(MAX_PATCHES).max(1);
         Some(Self { patches: chosen.iter().step_by(stride).map(|&idx| patch(gaussians, idx, middle)).collect(), size })
     }
 }
@@ -54,6 +54,6 @@ fn patch(gaussians: &Gaussians, idx: usize, middle: DVec3) -> Patch {
     let mut sorted = scale.to_array();
     sorted.sort_unstable_by(f32::total_cmp);
     let axes = DMat3::from_quat(gaussians.rotations[idx].as_dquat());
-    let normal = if sorted[0] < FLAT * sorted[1] { axes.col(scale.min_position()) } else { DVec3::ZERO };
+    let normal = if sorted[0] < FLATNESS * sorted[1] { axes.col(scale.min_position()) } else { DVec3::ZERO };
     Patch { position: gaussians.mean_world(idx) - middle, normal }
 }
