@@ -1,43 +1,43 @@
 //! Alpha shapes of points in a picture.
 //!
-//! Enters: points in px. Leaves: for any radius the points that carry the shape's border, and for every pixel the
-//! radius from which the shape covers it. The alpha shape of radius r is the union of the Delaunay triangles whose
-//! circumcircle is no larger (Edelsbrunner, Kirkpatrick, Seidel 1983): nothing at 0, the convex hull at infinity.
+//! Enters: points in px. Leaves: for any radius the points on the shape's border, and for every pixel the least radius
+//! at which the shape covers it. The alpha shape of radius r is the union of the Delaunay triangles of circumradius r
+//! or less (Edelsbrunner, Kirkpatrick, Seidel 1983): empty at 0, the convex hull at infinity.
 
 use glam::DVec2;
 
 use super::delaunay::{GRID_MAX, GridPoint, Triangulation, doubled_area, squared_distance};
 
-/// All alpha shapes of a set of points at once.
+/// The alpha shapes of a set of points, for all radii.
 #[derive(Debug, Clone)]
 pub struct AlphaShapes {
-    /// Distinct points on the grid.
+    /// The distinct points, snapped to the grid.
     vertices: Vec<GridPoint>,
-    /// Index in `vertices` of each point that was given.
+    /// Index in `vertices` of each input point.
     vertex_from_point: Vec<usize>,
     origin_px: DVec2,
-    /// Pixels a grid unit.
+    /// Pixels per grid unit.
     unit_px: f64,
     span: Span,
 }
 
-/// Grid units off a line that rounding to the grid can make of points on it.
+/// Distance, in grid units, by which rounding to the grid can move points off their common line.
 const ON_LINE: f64 = 1.5;
 
-/// What the points span.
+/// The dimension of the points' affine hull.
 #[derive(Debug, Clone)]
 enum Span {
-    /// At most one point: no shape, its border is the point.
+    /// At most one point: the shape is empty, and its border is the point.
     Point,
-    /// A line: vertices in order along it.
+    /// A line: the vertices in order along it.
     Line(Vec<usize>),
     /// An area.
     Plane(Triangulation),
 }
 
 impl AlphaShapes {
-    /// Triangulates points (px, finite). They are moved to a grid of 2^20 steps over their extent first, which makes every
-    /// later decision exact; coincident points become one.
+    /// Triangulates points (px, finite). They are first snapped to a grid of 2^20 steps over their extent, which makes
+    /// all predicates exact. Coincident points become one vertex.
     pub fn new(points_px: &[DVec2]) -> Self {
         let low = points_px.iter().copied().reduce(DVec2::min).unwrap_or_default();
         let high = points_px.iter().copied().reduce(DVec2::max).unwrap_or_default();
@@ -53,9 +53,10 @@ impl AlphaShapes {
         Self { vertices, vertex_from_point, origin_px: low, unit_px, span }
     }
 
-    /// Positions of the given points that carry the border of the shape of a radius (px), ascending.
+    /// Indices of the input points on the border of the shape of a radius (px), ascending.
     ///
-    /// On a line the shape is made of the gaps no longer than twice the radius, and its border of their ends.
+    /// For points on a line, the shape is the union of the gaps of at most twice the radius, and its border is the ends
+    /// of that union.
     pub fn border(&self, radius_px: f64) -> Vec<usize> {
         let radius = radius_px / self.unit_px;
         let vertices = match &self.span {
@@ -63,14 +64,15 @@ impl AlphaShapes {
             Span::Line(order) => self.line_ends(order, radius),
             Span::Plane(triangulation) => triangulation.border(radius),
         };
-        let mut carries = vec![false; self.vertices.len()];
+        let mut on_border = vec![false; self.vertices.len()];
         for vertex in vertices {
-            carries[vertex] = true;
+            on_border[vertex] = true;
         }
-        (0..self.vertex_from_point.len()).filter(|&point| carries[self.vertex_from_point[point]]).collect()
+        (0..self.vertex_from_point.len()).filter(|&point| on_border[self.vertex_from_point[point]]).collect()
     }
 
-    /// Radius (px) from which the shape covers each pixel's center, row-major; infinite outside the hull.
+    /// The least radius (px) at which the shape covers each pixel's center, row-major; infinite outside the convex
+    /// hull.
     pub fn covering_radii_px(&self, width: usize, height: usize) -> Vec<f32> {
         let mut radii = vec![f32::INFINITY; width * height];
         let Span::Plane(triangulation) = &self.span else { return radii };
@@ -101,8 +103,8 @@ impl AlphaShapes {
     }
 }
 
-/// Rank first. Points on a slanted line leave it by less than a unit when they are moved to the grid, so that all
-/// within [`ON_LINE`] units of the line through two far ends count as on it.
+/// Tests for a line before triangulating. Snapping moves points off a slanted line by less than a unit, so that points
+/// within [`ON_LINE`] units of the line through two far points count as on it.
 fn span_of(vertices: &[GridPoint]) -> Span {
     let Some(&start) = vertices.first().filter(|_| vertices.len() > 1) else { return Span::Point };
     let farthest_from = |from: GridPoint| vertices.iter().copied().max_by_key(|&p| squared_distance(from, p));
@@ -118,7 +120,7 @@ fn span_of(vertices: &[GridPoint]) -> Span {
     Span::Line(order)
 }
 
-/// Lowers `values` to `value` at every pixel whose center lies in the triangle or on its edge.
+/// Lowers `values` to at most `value` at every pixel whose center lies in the triangle or on its edge.
 fn fill_triangle(corners_px: [DVec2; 3], value: f32, values: &mut [f32], width: usize) {
     let [a, b, c] = corners_px;
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));

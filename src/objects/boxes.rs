@@ -1,23 +1,23 @@
-//! Boxes from Gaussians and Gaussians from boxes.
+//! Upright boxes from labeled Gaussians, and labels from boxes.
 //!
-//! Enters: labels or boxes. Leaves: the other of the two. Boxes stand upright: their y axis is the world's up.
+//! The y axis of a box is the world's up.
 
 use std::collections::BTreeMap;
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use super::{Object, ObjectSet};
+use super::object::{Object, ObjectSet};
 use cinesplat_geometry::LevelFrame;
 use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
-/// Share of an object's solid Gaussians cut off at either end of each axis: floaters must not stretch a box.
+/// Share of an object's solid Gaussians trimmed at both ends of each axis, so that floaters do not enlarge the box.
 const TRIM_FRAC: f64 = 0.005;
 
-/// Steps of the search for the tightest yaw over 90 degrees: half a degree each.
+/// Steps of the search for the tightest yaw in 90 degrees, half a degree each.
 const NUM_YAWS: usize = 180;
 
-/// A level yaw is kept unless another makes the box's footprint smaller by more than this share, so that boxes of
-/// round things and noise do not turn at random.
+/// Least relative reduction of the footprint's area for a yaw other than 0, so that boxes of round or noisy objects do
+/// not turn at random.
 const YAW_GAIN: f64 = 0.04;
 
 /// An upright box.
@@ -28,13 +28,13 @@ pub(crate) struct UprightBox {
     pub(crate) rotation: DQuat,
 }
 
-/// Positions in file order of the Gaussians with an id.
+/// Indices in file order of the Gaussians with an id.
 pub(crate) fn members(labels: &[u16], id: u32) -> Vec<usize> {
     (0..labels.len()).filter(|&i| u32::from(labels[i]) == id).collect()
 }
 
-/// The upright box of some Gaussians: 0.5 % trimmed off each end of each axis (of the solid ones where there are
-/// any), the yaw with the smallest footprint. `None` without Gaussians.
+/// The upright box of some Gaussians: the yaw of the smallest footprint, with 0.5 % trimmed at both ends of each axis.
+/// Only solid Gaussians count where they are at least a tenth. `None` without Gaussians.
 pub(crate) fn fit(gaussians: &Gaussians, members: &[usize], up: DVec3) -> Option<UprightBox> {
     let solid: Vec<usize> = members.iter().copied().filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY).collect();
     let chosen = if solid.len() * 10 >= members.len() { &solid } else { members };
@@ -42,7 +42,7 @@ pub(crate) fn fit(gaussians: &Gaussians, members: &[usize], up: DVec3) -> Option
     fit_points(&points, up)
 }
 
-/// As [`fit`], of points.
+/// As [`fit`], for points.
 pub(crate) fn fit_points(points: &[DVec3], up: DVec3) -> Option<UprightBox> {
     let anchor = *points.first()?;
     let axes = upright_axes(up);
@@ -57,7 +57,7 @@ pub(crate) fn fit_points(points: &[DVec3], up: DVec3) -> Option<UprightBox> {
     Some(UprightBox { center, half_extents, rotation: DQuat::from_mat3(&turned).normalize() })
 }
 
-/// Right-handed axes whose y is up and whose x and z follow the world's axes as nearly as they can.
+/// Right-handed axes with y along up, and x and z as close to the world's axes as possible.
 pub(crate) fn upright_axes(up: DVec3) -> DMat3 {
     let up = up.try_normalize().unwrap_or(DVec3::Y);
     if up.dot(DVec3::Y).abs() > 0.5 {
@@ -69,7 +69,7 @@ pub(crate) fn upright_axes(up: DVec3) -> DMat3 {
 
 /// The yaw (rad, 0..pi/2) at which the trimmed footprint is smallest, with its corners in the turned frame.
 fn tightest_yaw(flat: &[DVec2]) -> (f64, DVec2, DVec2) {
-    // A few thousand points tell the yaw; all of them give the extent.
+    // A sample of a few thousand points decides the yaw; all points give the extent.
     let stride = flat.len().div_ceil(4096);
     let sample: Vec<DVec2> = flat.iter().copied().step_by(stride.max(1)).collect();
     let yaw_of = |step: usize| step as f64 * std::f64::consts::FRAC_PI_2 / NUM_YAWS as f64;
@@ -93,7 +93,7 @@ fn footprint(flat: &[DVec2], yaw_rad: f64) -> (DVec2, DVec2) {
     (DVec2::new(x.0, z.0), DVec2::new(x.1, z.1))
 }
 
-/// Smallest and largest value after trimming; 0 of none.
+/// Smallest and largest value after trimming; 0 for none.
 fn trimmed(mut values: Vec<f64>) -> (f64, f64) {
     let Some(last) = values.len().checked_sub(1) else { return (0.0, 0.0) };
     let cut = (values.len() as f64 * TRIM_FRAC) as usize;
@@ -102,7 +102,7 @@ fn trimmed(mut values: Vec<f64>) -> (f64, f64) {
     (low, high)
 }
 
-/// One id a Gaussian: that of the smallest box which holds the mean of a solid Gaussian, else 0.
+/// One id per Gaussian: for a solid one that of the smallest box that contains its mean, else 0.
 pub(crate) fn labels_from_boxes(gaussians: &Gaussians, objects: &[Object]) -> Vec<u16> {
     let mut by_volume: Vec<&Object> = objects.iter().collect();
     by_volume.sort_by(|a, b| a.half_extents.element_product().total_cmp(&b.half_extents.element_product()));
@@ -125,7 +125,7 @@ pub(crate) fn count_members(set: &mut ObjectSet) {
     }
 }
 
-/// Positions in file order of the Gaussians of every id above 0.
+/// Indices in file order of the Gaussians of every id above 0.
 pub(crate) fn members_by_id(labels: &[u16]) -> BTreeMap<u32, Vec<usize>> {
     let mut members: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (i, &label) in labels.iter().enumerate().filter(|(_, label)| **label > 0) {

@@ -1,41 +1,44 @@
-//! Sparse clouds: the few points that stand for an object's shape.
+//! Sparse clouds: the few points that represent an object's shape.
 //!
-//! Enters: a scene and its objects with Gaussians. Leaves: on every object the points that carry the border of its
-//! alpha shape in some view of a ring, the one radius of these shapes, and how well they cover the rendered masks.
+//! Enters: a scene and its objects with Gaussians. Leaves: for every object the points on the border of its alpha shape
+//! in at least one view of a ring of cameras, the common radius of these shapes, and their overlap with the rendered
+//! masks.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::alpha_shape::AlphaShapes;
+use super::error::ObjectsError;
+use super::object::{Object, ObjectSet};
 use super::sampling::{farthest_points, in_canonical_order};
-use super::{Object, ObjectSet, ObjectsError, boxes, radius_search, views};
+use super::{boxes, radius_search, views};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Quality, RenderSettings, Renderer};
 use cinesplat_scene::{Gaussians, SOLID_OPACITY, Scene, SplatFilter};
 
-/// Gaussians farther out of the box than this share of its radius are floaters and left out.
+/// Gaussians farther outside the box than this share of its radius are dropped as floaters.
 const FLOATER_FRAC: f64 = 0.1;
 
-/// Points below which a border encloses no volume: then all points stand for the object.
+/// Least number of border points that can enclose a volume. With fewer, all points represent the object.
 const MIN_BORDER: usize = 4;
 
 /// Transmittance below which a pixel belongs to the object's mask.
 const MASK_TRANSMITTANCE: f32 = 0.5;
 
-/// How much work goes into a cloud. More of anything is slower and nearer to the silhouettes.
+/// Settings of [`fill_clouds`]. Larger values are slower and follow the silhouettes more closely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CloudSettings {
-    /// Cameras about the object at each elevation.
+    /// Cameras around the object per elevation.
     pub num_azimuths: usize,
-    /// Elevations of the rings above the object's middle, rad.
+    /// Elevations of the rings, seen from the object's middle, rad.
     pub elevations_rad: Vec<f64>,
-    /// Width and height of the masks.
+    /// Width and height of the masks, at least 8.
     pub mask_size_px: u32,
-    /// Of several Gaussians in a square of this side one is triangulated; 0 = all of them.
+    /// Side of a square from which one Gaussian is triangulated; 0 triangulates all.
     pub thinning_px: f64,
-    /// Radii tried against the masks.
+    /// Limit on the radii that are compared with the masks.
     pub search_budget: usize,
-    /// Points kept of an object, by farthest point sampling.
+    /// Limit on the points per object, by farthest point sampling.
     pub max_points: usize,
 }
 
@@ -52,15 +55,15 @@ impl Default for CloudSettings {
     }
 }
 
-/// Gives every object without points its sparse cloud; clear `points` to have one made anew.
+/// Computes the sparse cloud of every object without points. Clear `points` to recompute a cloud.
 ///
-/// The radius is searched without derivatives for the largest mean overlap (intersection over union) of alpha shapes
-/// and masks over all views. The result depends on the set of Gaussians, not on their order or on repeated ones, and
-/// turns with object and world. An object without Gaussians gets the corners of its box; one whose border
-/// has fewer than four points gets all its distinct points.
+/// A derivative-free search finds the radius of the largest mean overlap (intersection over union) of alpha shapes and
+/// masks over all views. The result depends on the set of Gaussians, not on their order or on duplicates, and rotates
+/// with object and world. An object without Gaussians gets the corners of its box. An object whose border has fewer
+/// than four points gets all its distinct points.
 ///
 /// # Errors
-/// [`ObjectsError::Picture`] when a mask cannot be rendered.
+/// [`ObjectsError::Picture`] where a mask cannot be rendered.
 pub fn fill_clouds(scene: &Scene, set: &mut ObjectSet, settings: &CloudSettings) -> Result<(), ObjectsError> {
     let ObjectSet { objects, labels } = set;
     let members = boxes::members_by_id(labels);
@@ -84,7 +87,7 @@ struct Cloud {
     mask_iou: f64,
 }
 
-/// The Gaussians of an object on their own, without floaters.
+/// The Gaussians of an object, without floaters.
 fn near_box(gaussians: &Gaussians, members: &[usize], object: &Object) -> Gaussians {
     let margin = FLOATER_FRAC * object.radius();
     let near = |&i: &usize| object.contains(gaussians.mean_world(i), margin);
@@ -128,19 +131,19 @@ fn cloud_of(
     on_border.sort_unstable();
     on_border.dedup();
     let border: Vec<DVec3> = on_border.into_iter().map(|i| points[i]).collect();
-    let carriers = if border.len() < MIN_BORDER { &points } else { &border };
-    let points = farthest_points(carriers, settings.max_points);
+    let chosen = if border.len() < MIN_BORDER { &points } else { &border };
+    let points = farthest_points(chosen, settings.max_points);
     Ok(Cloud { points, shape_radius: found.radius * unit, mask_iou: found.value })
 }
 
-/// Distinct means of the solid Gaussians in an order of their own; of all of them where hardly any is solid.
+/// Distinct means of the solid Gaussians in canonical order; of all Gaussians where fewer than a tenth are solid.
 fn solid_points(gaussians: &Gaussians) -> Vec<DVec3> {
     let means = |least: f32| (0..gaussians.len()).filter(move |&i| gaussians.opacities[i] >= least);
     let least = if means(SOLID_OPACITY).count() * 10 >= gaussians.len() { SOLID_OPACITY } else { 0.0 };
     in_canonical_order(means(least).map(|i| gaussians.mean_world(i)).collect())
 }
 
-/// Which pixels the object covers.
+/// The pixels that the object covers.
 fn mask(renderer: &Renderer, camera: &Camera, filter: SplatFilter) -> Result<Vec<bool>, ObjectsError> {
     let settings = RenderSettings { quality: Quality::Standard, filter, near: 0.0, ..RenderSettings::default() };
     let picture = renderer.render(camera, &settings);
@@ -151,11 +154,11 @@ fn mask(renderer: &Renderer, camera: &Camera, filter: SplatFilter) -> Result<Vec
 /// One view of an object: the alpha shapes of its points and its rendered mask.
 struct Silhouette {
     shapes: AlphaShapes,
-    /// Position in the object's points of each point of the shapes.
+    /// Index of the object's point of each point of the shapes.
     point_from_shape: Vec<usize>,
-    /// Radius (px) from which the shape covers a pixel of the mask, ascending.
+    /// Least radius (px) at which the shape covers each pixel of the mask, ascending.
     inside_px: Vec<f32>,
-    /// The same of pixels out of the mask.
+    /// The same for the pixels outside the mask.
     outside_px: Vec<f32>,
 }
 
@@ -174,7 +177,7 @@ impl Silhouette {
         Self { inside_px: of(true), outside_px: of(false), shapes, point_from_shape }
     }
 
-    /// Intersection over union of the shape of a radius with the mask.
+    /// Intersection over union of the mask and the shape of a radius.
     fn overlap(&self, radius_px: f64) -> f64 {
         let covered = |radii: &[f32]| radii.partition_point(|&r| f64::from(r) <= radius_px) as f64;
         let union = self.inside_px.len() as f64 + covered(&self.outside_px);
@@ -186,8 +189,7 @@ impl Silhouette {
     }
 }
 
-/// Points in front of the camera in px, one for each square of `thinning_px`: the first in order. With their positions
-/// in `points`.
+/// Indices and pixel positions of the points in front of the camera: the first one per square of side `thinning_px`.
 fn project(points: &[DVec3], camera: &Camera, thinning_px: f64) -> (Vec<usize>, Vec<DVec2>) {
     let seen = points.iter().enumerate().filter_map(|(i, &p)| camera.project(p).map(|(px, _)| (i, px)));
     if thinning_px.is_nan() || thinning_px <= 0.0 {
@@ -201,7 +203,7 @@ fn project(points: &[DVec3], camera: &Camera, thinning_px: f64) -> (Vec<usize>, 
 }
 
 /// The radius (px) with the largest mean overlap over all views, between half a pixel and the picture's diagonal.
-fn best_radius(silhouettes: &[Silhouette], settings: &CloudSettings) -> radius_search::Found {
+fn best_radius(silhouettes: &[Silhouette], settings: &CloudSettings) -> radius_search::RadiusMaximum {
     let high = 2.0 * f64::from(settings.mask_size_px.max(8));
     let num_views = silhouettes.len().max(1) as f64;
     let mean = |radius_px: f64| silhouettes.iter().map(|view| view.overlap(radius_px)).sum::<f64>() / num_views;

@@ -1,8 +1,9 @@
-//! Colors as people tell them apart: CIE Lab and the basic names.
+//! Perceived colors: CIE Lab and the basic color terms.
 
 use glam::{Mat3, Vec3};
 
-/// Basic color terms (Berlin and Kay 1969, with teal, cyan, beige and gold that interiors need) as sRGB.
+/// Basic color terms as sRGB (Berlin and Kay 1969, with shades and with beige, gold, teal and turquoise, which are
+/// common in interiors).
 const NAMES: [(&str, [u8; 3]); 26] = [
     ("black", [25, 25, 27]),
     ("dark gray", [75, 75, 78]),
@@ -39,7 +40,7 @@ const XYZ_FROM_RGB: Mat3 = Mat3::from_cols(
     Vec3::new(0.180_437, 0.072_175, 0.950_304),
 );
 
-/// White of D65 in XYZ.
+/// The white point D65 in XYZ.
 const WHITE_XYZ: Vec3 = Vec3::new(0.950_47, 1.0, 1.088_83);
 
 /// CIE Lab (L 0..100) of an sRGB color, 0..=1.
@@ -50,12 +51,12 @@ pub(crate) fn lab(rgb: Vec3) -> Vec3 {
     Vec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))
 }
 
-/// How different two colors (CIE Lab) are as paint: lightness counts half, since light and shade change it most.
+/// Difference of two colors (CIE Lab). Lightness counts half, because light and shade change it most.
 pub(crate) fn difference(a: Vec3, b: Vec3) -> f32 {
     ((a - b) * Vec3::new(0.5, 1.0, 1.0)).length()
 }
 
-/// The name of the nearest basic color. Lightness counts half: shade must not turn white things gray so soon.
+/// The name of the nearest basic color. Lightness is weighted by 0.6, so that a white object in the shade stays white.
 pub(crate) fn name(color_lab: Vec3) -> &'static str {
     let weights = Vec3::new(0.6, 1.0, 1.0);
     let distance = |rgb: [u8; 3]| {
@@ -63,4 +64,14 @@ pub(crate) fn name(color_lab: Vec3) -> &'static str {
         ((named - color_lab) * weights).length_squared()
     };
     NAMES.iter().min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))).map_or("gray", |named| named.0)
+}
+
+/// Median of some colors, channel by channel; black for none.
+pub(crate) fn median(colors: &[Vec3]) -> Vec3 {
+    let channel = |channel: usize| {
+        let mut values: Vec<f32> = colors.iter().map(|color| color[channel]).collect();
+        let middle = values.len() / 2;
+        if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f32::total_cmp).1 }
+    };
+    Vec3::new(channel(0), channel(1), channel(2))
 }

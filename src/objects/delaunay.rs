@@ -1,44 +1,44 @@
 //! Exact planar Delaunay triangulation on an integer grid.
 //!
-//! Enters: points with coordinates 0..2^20. Leaves: triangles that are Delaunay without exception, and their
-//! circumradii. Scanned and quantized scenes project to grids full of collinear and cocircular points, where plain
-//! floating point decides a sixth of the orientation tests wrongly; on a grid of 20 bits every predicate is exact:
-//! `delaunator` proposes, adaptive predicates (Shewchuk 1997, crate `robust`) and edge flips (Lawson 1977) correct.
+//! Enters: points with coordinates in 0..2^20. Leaves: triangles that all satisfy the Delaunay condition, and their
+//! circumradii. Scanned and quantized scenes project to many collinear and cocircular points, for which plain floating
+//! point decides a sixth of the orientation tests wrongly. On a grid of 20 bits every predicate is exact. `delaunator`
+//! triangulates; edge flips (Lawson 1977) with adaptive predicates (Shewchuk 1997, crate `robust`) correct its errors.
 
 use delaunator::{EMPTY, Point};
 use robust::Coord;
 
-/// Coordinates are whole numbers from 0 to this.
+/// Largest coordinate of a point; the smallest is 0.
 pub const GRID_MAX: i64 = (1 << 20) - 1;
 
-/// A point on the grid.
+/// A point on the grid, `[x, y]`.
 pub type GridPoint = [i64; 2];
 
-/// Triangles over distinct grid points that are not all on one line.
+/// A triangulation of distinct grid points.
 #[derive(Debug, Clone, Default)]
 pub struct Triangulation {
-    /// Corners, three a triangle, as positions in the input.
+    /// Corners, three per triangle, as indices of the input points.
     pub corners: Vec<usize>,
-    /// For each corner's edge to the next corner: the corner whose edge is the same one seen from the other side.
+    /// For each half-edge (from a corner to the next one) the opposite half-edge; `None` on the convex hull.
     twins: Vec<Option<usize>>,
-    /// Circumradius of each triangle in grid units: the root of its square rounded up to a whole number, so that
-    /// triangles on one circle have exactly one radius.
+    /// Circumradius of each triangle in grid units. Its square is rounded up to a whole number, so that triangles on
+    /// one circle have exactly the same radius.
     pub radii: Vec<f64>,
 }
 
 impl Triangulation {
-    /// The Delaunay triangulation of distinct points; empty where all lie on one line.
+    /// The Delaunay triangulation of distinct points; empty for points on one line.
     pub fn new(points: &[GridPoint]) -> Self {
         let exact: Vec<Point> = points.iter().map(|p| Point { x: p[0] as f64, y: p[1] as f64 }).collect();
-        let draft = delaunator::triangulate(&exact);
-        let twins = draft.halfedges.iter().map(|&twin| (twin != EMPTY).then_some(twin)).collect();
-        let mut triangulation = Self { corners: draft.triangles, twins, radii: Vec::new() };
+        let proposed = delaunator::triangulate(&exact);
+        let twins = proposed.halfedges.iter().map(|&twin| (twin != EMPTY).then_some(twin)).collect();
+        let mut triangulation = Self { corners: proposed.triangles, twins, radii: Vec::new() };
         triangulation.repair(points);
         triangulation.radii = triangulation.corners.chunks_exact(3).map(|t| circumradius(points, t)).collect();
         triangulation
     }
 
-    /// Positions of the points on the border of the union of all triangles up to a circumradius, ascending.
+    /// Indices of the points on the border of the union of all triangles of at most a circumradius, ascending.
     pub fn border(&self, max_radius: f64) -> Vec<usize> {
         let keeps = |triangle: usize| self.radii[triangle] <= max_radius;
         let mut on_border = Vec::new();
@@ -52,10 +52,10 @@ impl Triangulation {
         on_border
     }
 
-    /// Flips edges until no triangle's circle holds the point across any of its edges.
+    /// Flips edges until no circumcircle contains the opposite corner of a neighboring triangle.
     fn repair(&mut self, points: &[GridPoint]) {
         let mut suspects: Vec<usize> = (0..self.corners.len()).collect();
-        // Exact flips end by themselves; the budget is for triangles without area, should the draft hold any.
+        // Flips with exact predicates terminate. The budget guards against triangles without area from `delaunator`.
         let mut budget = 64 * suspects.len();
         while let Some(edge) = suspects.pop() {
             let Some(twin) = self.twins[edge].filter(|&twin| self.must_flip(points, edge, twin)) else { continue };
@@ -73,7 +73,7 @@ impl Triangulation {
         if robust::orient2d(a, b, c) > 0.0 { inside > 0.0 } else { inside < 0.0 }
     }
 
-    /// Replaces the edge shared by two triangles with the other diagonal of their quadrangle.
+    /// Replaces the edge shared by two triangles with the other diagonal of their quadrilateral.
     fn flip(&mut self, edge: usize, twin: usize) {
         let (before, twin_before) = (previous(edge), previous(twin));
         let (outer, twin_outer) = (self.twins[before], self.twins[twin_before]);
@@ -115,8 +115,8 @@ pub(crate) fn squared_distance(a: GridPoint, b: GridPoint) -> i64 {
     (a[0] - b[0]).pow(2) + (a[1] - b[1]).pow(2)
 }
 
-/// `abc / 4A` in grid units. On a 20-bit grid `(abc)^2` stays below 2^123, so that the quotient of whole numbers is
-/// exact. Infinite without area.
+/// `abc / 4A` in grid units, with sides a, b, c and area A; infinite without area. On a 20-bit grid `(abc)^2` stays
+/// below 2^123, so that its integer quotient is exact.
 fn circumradius(points: &[GridPoint], triangle: &[usize]) -> f64 {
     let [a, b, c] = [points[triangle[0]], points[triangle[1]], points[triangle[2]]];
     let sides = [squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)];

@@ -1,22 +1,22 @@
-//! Lines and letters on a picture.
+//! Lines, rectangles and text on a picture.
 
 use font8x8::legacy::BASIC_LEGACY;
 use glam::DVec2;
 use image::{Rgb, RgbImage};
 
-/// Side of a letter of the font before it is scaled.
+/// Side of a letter of the font at scale 1.
 const LETTER_PX: i64 = 8;
 
-/// A color of eight bits a channel.
+/// A color with 8 bits per channel.
 pub(crate) type Ink = Rgb<u8>;
 
-/// Width and height of a text with letters `scale` times 8 px.
+/// Width and height of a text whose letters have a side of `scale` times 8 px.
 pub(crate) fn text_size_px(text: &str, scale: i64) -> (i64, i64) {
     (text.chars().count() as i64 * LETTER_PX * scale, LETTER_PX * scale)
 }
 
-/// Writes a text with its upper left corner at a pixel; what falls outside is left out, letters that are not ASCII
-/// become question marks.
+/// Writes a text with its upper left corner at a pixel, clipped to the picture. Letters outside ASCII become question
+/// marks.
 pub(crate) fn text(image: &mut RgbImage, at: (i64, i64), scale: i64, ink: Ink, text: &str) {
     for (column, letter) in text.chars().enumerate() {
         let code = if letter.is_ascii_graphic() || letter == ' ' { letter as usize } else { '?' as usize };
@@ -30,14 +30,14 @@ pub(crate) fn text(image: &mut RgbImage, at: (i64, i64), scale: i64, ink: Ink, t
     }
 }
 
-/// A text on a plate of another color, `scale` px wider on every side.
+/// Writes a text on a rectangle of another color that is `scale` px larger on every side. `inks`: text, rectangle.
 pub(crate) fn tag(image: &mut RgbImage, at: (i64, i64), scale: i64, inks: (Ink, Ink), words: &str) {
     let (width, height) = text_size_px(words, scale);
     fill(image, (at.0 - scale, at.1 - scale), (width + 2 * scale, height + 2 * scale), inks.1);
     text(image, at, scale, inks.0, words);
 }
 
-/// Fills a rectangle.
+/// Fills a rectangle, clipped to the picture.
 pub(crate) fn fill(image: &mut RgbImage, at: (i64, i64), size: (i64, i64), ink: Ink) {
     let range = |start: i64, length: i64, limit: u32| {
         let limit = i64::from(limit);
@@ -50,7 +50,7 @@ pub(crate) fn fill(image: &mut RgbImage, at: (i64, i64), size: (i64, i64), ink: 
     }
 }
 
-/// A straight line two pixels thick.
+/// Draws a straight line two pixels thick, clipped to the picture.
 pub(crate) fn line(image: &mut RgbImage, from: DVec2, to: DVec2, ink: Ink) {
     let Some((from, to)) = clipped(from, to, DVec2::new(f64::from(image.width()), f64::from(image.height()))) else {
         return;
@@ -62,7 +62,7 @@ pub(crate) fn line(image: &mut RgbImage, from: DVec2, to: DVec2, ink: Ink) {
     }
 }
 
-/// The part of a segment inside `0..size` (Liang and Barsky 1984).
+/// The part of a line segment inside `0..size` (Liang and Barsky 1984); `None` where it is empty.
 fn clipped(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
     let step = to - from;
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);

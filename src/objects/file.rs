@@ -1,8 +1,7 @@
-//! objects.json, version 1, and its label array.
+//! Reading and writing `objects.json`, version 1, and its label array.
 //!
-//! Enters: a file by hand or by another tool, where an object needs only an `id` and a box or labels. Leaves: an
-//! [`ObjectSet`] in which every object has a box and, where the scene shows them, its Gaussians. Unknown keys are
-//! ignored.
+//! Enters: a file, possibly from another tool, in which an object needs only an `id` and a box or labels. Leaves: an
+//! [`ObjectSet`] in which every object has a box and, where the scene has them, Gaussians. Unknown keys are ignored.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,33 +9,37 @@ use std::path::{Path, PathBuf};
 use glam::{DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
-use super::{Object, ObjectSet, ObjectsError, boxes};
+use super::boxes;
+use super::error::ObjectsError;
+use super::object::{Object, ObjectSet};
 use cinesplat_files::{Existing, FileError, beside, check_free, npy, relative_to};
 use cinesplat_scene::Scene;
 
 /// Value of the key `format`.
 const FORMAT: &str = "cinesplat.objects";
 
-/// The one version there is.
+/// The only supported version.
 const VERSION: u64 = 1;
 
-/// What an objects file says.
+/// The contents of an objects file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObjectsFile {
     /// The objects, every one with a box.
     pub set: ObjectSet,
-    /// World up, unit, where the file gives it: it goes before the scene's own estimate.
+    /// World up, unit, where the file states it. It takes precedence over the scene's own up.
     pub up: Option<DVec3>,
 }
 
 /// Reads an objects file for a scene.
 ///
-/// Labels decide membership where the file names some, else the ids that the scene file carries, else the boxes: then
-/// the solid Gaussians (opacity >= 0.5) whose mean lies in a turned box belong to it, to the smallest where boxes
-/// overlap. An object without a box gets one from its Gaussians; one with a box keeps it.
+/// The membership of Gaussians comes from the file's labels, or else from the ids in the scene file, or else from the
+/// boxes: a solid Gaussian then belongs to the smallest box that contains its mean. An object without a box gets the
+/// box of its Gaussians.
 ///
 /// # Errors
-/// Any [`ObjectsError`] except `Picture`; each names the file, the entry and the field.
+/// [`ObjectsError::File`] where a file cannot be read, [`ObjectsError::NotJson`], [`ObjectsError::WrongKind`] for
+/// another format or version, [`ObjectsError::BadField`], [`ObjectsError::DuplicateId`], and
+/// [`ObjectsError::BadLabels`]. Each names the file, the entry and the field.
 pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
     let bytes = cinesplat_files::read(path)?;
     let root: Value = serde_json::from_slice(&bytes)
@@ -54,11 +57,11 @@ pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
     Ok(ObjectsFile { set, up })
 }
 
-/// Reads a label array of a scene: one id a Gaussian in file order, 0 = no object. Ids of Gaussians that were dropped on
-/// reading the scene are dropped too.
+/// Reads a label array of a scene: one id per Gaussian in file order, 0 for no object. The ids of Gaussians that the
+/// scene's reader dropped are dropped too.
 ///
 /// # Errors
-/// [`ObjectsError::File`], or [`ObjectsError::BadLabels`] for another type or shape, or a count that is not the file's.
+/// [`ObjectsError::File`] where the file cannot be read, [`ObjectsError::BadLabels`] for another type, shape or count.
 pub fn read_labels(path: &Path, scene: &Scene) -> Result<Vec<u16>, ObjectsError> {
     let expected = format!("one u8, u16 or u32 id (at most 65535) for each of {} Gaussians", scene.num_in_file());
     let bad = |found: String| ObjectsError::BadLabels { path: path.to_owned(), found, expected: expected.clone() };
@@ -66,7 +69,7 @@ pub fn read_labels(path: &Path, scene: &Scene) -> Result<Vec<u16>, ObjectsError>
     scene.kept(&ids).ok_or_else(|| bad(format!("{} ids", ids.len())))
 }
 
-/// The ids of a vector: an array of one axis, or of two of which one has length 1.
+/// The ids of a vector: an array of one axis, or of two axes of which one has length 1.
 fn decode_ids(bytes: &[u8]) -> Result<Vec<u16>, String> {
     let array = npy::Array::parse(bytes).map_err(|error| error.to_string())?;
     if !matches!(array.shape.as_slice(), [_] | [_, 1] | [1, _]) {
@@ -77,7 +80,7 @@ fn decode_ids(bytes: &[u8]) -> Result<Vec<u16>, String> {
     values.into_iter().enumerate().map(narrow).collect()
 }
 
-/// The ids with a 0 for every Gaussian of the file that was dropped on reading.
+/// The ids, with a 0 for every Gaussian of the file that the scene's reader dropped.
 fn in_file_order(labels: &[u16], scene: &Scene) -> Vec<u16> {
     let mut kept = labels.iter().copied();
     let id = |file_idx: usize| {
@@ -87,7 +90,8 @@ fn in_file_order(labels: &[u16], scene: &Scene) -> Vec<u16> {
     (0..scene.num_in_file()).map(id).collect()
 }
 
-/// The text of an objects file that will lie at `path`, with the name of its label array where it has one.
+/// The text of an objects file at `path`, which decides the relative path of the scene. `labels` is the file name of
+/// the label array, where there is one.
 pub fn to_json(path: &Path, set: &ObjectSet, scene: &Scene, labels: Option<&str>) -> String {
     let mut root = json!({
         "format": FORMAT,
@@ -102,16 +106,16 @@ pub fn to_json(path: &Path, set: &ObjectSet, scene: &Scene, labels: Option<&str>
     format!("{root:#}\n")
 }
 
-/// The label array that [`write()`] puts beside an objects file: `NAME.labels.npy`.
+/// Path of the label array that [`write()`] writes beside an objects file: `NAME.labels.npy`.
 pub fn labels_path(path: &Path) -> PathBuf {
     path.with_extension("labels.npy")
 }
 
-/// Writes an objects file, and its labels to [`labels_path`] where there are some. Nothing is written if one of the two
-/// exists and may not be replaced.
+/// Writes an objects file, and its labels to [`labels_path`] where it has any. Writes neither where one of them exists
+/// and `existing` forbids replacing it.
 ///
 /// # Errors
-/// [`FileError`] of the file that exists already or cannot be written.
+/// [`FileError`] where a file exists already or cannot be written.
 pub fn write(path: &Path, set: &ObjectSet, scene: &Scene, existing: Existing) -> Result<(), FileError> {
     let labels = (!set.labels.is_empty()).then(|| labels_path(path));
     std::iter::once(path).chain(labels.as_deref()).try_for_each(|path| check_free(path, existing))?;
@@ -137,7 +141,7 @@ fn entry_json(object: &Object) -> Value {
     })
 }
 
-/// One JSON object of the file and where it stands.
+/// A JSON object of the file, and its place for error messages.
 struct Entry<'a> {
     path: &'a Path,
     name: String,
@@ -155,7 +159,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// A field that is there and not null.
+    /// A field that is present and not null.
     fn get(&self, field: &str) -> Option<&'a Value> {
         self.fields.get(field).filter(|value| !value.is_null())
     }
@@ -205,7 +209,7 @@ impl<'a> Entry<'a> {
         Err(self.bad("rotation_xyzw", format!("{xyzw:?}"), expected))
     }
 
-    /// Center and half extents; both or neither have to be there.
+    /// Center and half extents: both, or neither.
     fn extent(&self) -> Result<Option<(DVec3, DVec3)>, ObjectsError> {
         match (self.vector("center")?, self.vector("half_extents")?) {
             (Some(_), Some(half)) if half.min_element() < 0.0 => {
@@ -227,8 +231,8 @@ impl<'a> Entry<'a> {
     }
 }
 
-/// An object as the file has it: the box may be missing.
-struct Draft {
+/// An object as in the file, where the box may be missing.
+struct FileObject {
     object: Object,
     has_box: bool,
 }
@@ -238,7 +242,7 @@ fn numbers_of<const N: usize>(value: &Value) -> Option<[f64; N]> {
     <[f64; N]>::try_from(list?).ok().filter(|numbers| numbers.iter().all(|n| n.is_finite()))
 }
 
-/// Long values are cut so that an error stays one line.
+/// Truncates long values, so that an error stays one line.
 fn shortened(text: String) -> String {
     if text.chars().count() <= 60 { text } else { text.chars().take(57).chain("...".chars()).collect() }
 }
@@ -267,14 +271,14 @@ fn check_kind(top: &Entry) -> Result<(), ObjectsError> {
     Ok(())
 }
 
-fn entries(top: &Entry) -> Result<Vec<Draft>, ObjectsError> {
+fn entries(top: &Entry) -> Result<Vec<FileObject>, ObjectsError> {
     let found = top.get("objects").map_or_else(|| "missing".to_owned(), Value::to_string);
     let list = top.get("objects").and_then(Value::as_array);
     let list = list.ok_or_else(|| top.bad("objects", found, "a list of objects"))?;
-    list.iter().enumerate().map(|(i, value)| draft(top.path, i + 1, value)).collect()
+    list.iter().enumerate().map(|(i, value)| file_object(top.path, i + 1, value)).collect()
 }
 
-fn draft(path: &Path, position: usize, value: &Value) -> Result<Draft, ObjectsError> {
+fn file_object(path: &Path, position: usize, value: &Value) -> Result<FileObject, ObjectsError> {
     let name = format!("object {position}");
     let mut entry = Entry { path, fields: object_of(path, &name, value)?, name };
     let id = entry.id()?;
@@ -292,13 +296,13 @@ fn draft(path: &Path, position: usize, value: &Value) -> Result<Draft, ObjectsEr
         shape_radius: entry.amount("shape_radius")?,
         mask_iou: entry.amount("mask_iou")?,
     };
-    Ok(Draft { object, has_box: extent.is_some() })
+    Ok(FileObject { object, has_box: extent.is_some() })
 }
 
-fn check_ids(path: &Path, drafts: &[Draft]) -> Result<(), ObjectsError> {
+fn check_ids(path: &Path, objects_in_file: &[FileObject]) -> Result<(), ObjectsError> {
     let mut seen = BTreeMap::new();
-    for (second, draft) in drafts.iter().enumerate() {
-        let id = draft.object.id;
+    for (second, entry) in objects_in_file.iter().enumerate() {
+        let id = entry.object.id;
         if let Some(first) = seen.insert(id, second) {
             return Err(ObjectsError::DuplicateId { path: path.to_owned(), id, first: first + 1, second: second + 1 });
         }
@@ -306,17 +310,17 @@ fn check_ids(path: &Path, drafts: &[Draft]) -> Result<(), ObjectsError> {
     Ok(())
 }
 
-/// Gives every object its Gaussians and a box; the objects leave in order of id.
+/// The objects in order of id, each with its Gaussians and a box.
 fn complete(
     top: &Entry,
-    drafts: Vec<Draft>,
+    objects_in_file: Vec<FileObject>,
     labels: Vec<u16>,
     world: (&Scene, DVec3),
 ) -> Result<ObjectSet, ObjectsError> {
     let (scene, up) = world;
     let has_labels = !labels.is_empty();
-    let mut objects = Vec::with_capacity(drafts.len());
-    for (i, Draft { mut object, has_box }) in drafts.into_iter().enumerate() {
+    let mut objects = Vec::with_capacity(objects_in_file.len());
+    for (i, FileObject { mut object, has_box }) in objects_in_file.into_iter().enumerate() {
         if !has_box {
             let members = boxes::members(&labels, object.id);
             let Some(fitted) = boxes::fit(&scene.gaussians, &members, up) else {

@@ -1,30 +1,32 @@
+//! An object, and all objects of a scene.
+
 use glam::{DQuat, DVec3};
 
-/// One object of a scene: a box, a name, and the sparse cloud that stands for its shape.
+/// One object of a scene: a box, a name, and a sparse cloud of its shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
     /// Identity, 1..=65535; `<obj-N>` in a prompt.
     pub id: u32,
-    /// Name for people, such as `microwave`; empty when unknown.
+    /// Name, such as `microwave`; empty where unknown. A prompt may refer to the object by it.
     pub label: String,
     /// Box center, world.
     pub center: DVec3,
-    /// Half of the box's extent along its own axes.
+    /// Half of the box's extent along its own axes, scene units.
     pub half_extents: DVec3,
     /// Box axes to world.
     pub rotation: DQuat,
-    /// Number of Gaussians that belong to it; 0 when only the box is known.
+    /// Number of Gaussians that belong to it; 0 where only the box is known.
     pub num_gaussians: usize,
-    /// Sparse cloud: points of its silhouettes, world.
+    /// Sparse cloud: points on its silhouettes, world.
     pub points: Vec<DVec3>,
-    /// Radius of the alpha shapes that the cloud comes from, scene units; 0 without a cloud.
+    /// Radius of the alpha shapes of the cloud, scene units; 0 without a cloud.
     pub shape_radius: f64,
-    /// Overlap of the alpha shapes with the object's rendered masks, 0..=1; 0 without a cloud.
+    /// Mean overlap (intersection over union) of the alpha shapes and the rendered masks, 0..=1; 0 without a cloud.
     pub mask_iou: f64,
 }
 
 impl Object {
-    /// Half the diagonal of the box.
+    /// Half the diagonal of the box, scene units.
     pub fn radius(&self) -> f64 {
         self.half_extents.length()
     }
@@ -37,24 +39,24 @@ impl Object {
         })
     }
 
-    /// Whether a world point lies in the box, grown by `margin` on every side.
+    /// Whether a world point lies in the box, which is extended by `margin` on every side.
     pub fn contains(&self, point: DVec3, margin: f64) -> bool {
         let local = self.rotation.conjugate() * (point - self.center);
         local.abs().cmple(self.half_extents + margin).all()
     }
 }
 
-/// All objects of a scene, and which Gaussian belongs to which.
+/// All objects of a scene, and the object of every Gaussian.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ObjectSet {
     /// The objects, in order of id.
     pub objects: Vec<Object>,
-    /// One object id a Gaussian in file order, 0 = none; empty when only boxes are known.
+    /// One object id per Gaussian in file order, 0 for none; empty where only boxes are known.
     pub labels: Vec<u16>,
 }
 
 impl ObjectSet {
-    /// The object with an id.
+    /// The object with an id; `None` where there is none.
     pub fn get(&self, id: u32) -> Option<&Object> {
         self.objects.iter().find(|object| object.id == id)
     }

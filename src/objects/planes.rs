@@ -1,7 +1,7 @@
-//! The large level and upright planes of a scene: what holds it together and what things stand on.
+//! The large level and upright planes of a scene: floor, ceiling, walls, and support planes such as table tops.
 //!
-//! Enters: voxels with normals. Leaves: planes with their voxels, found by seeded random sampling (RANSAC, Fischler
-//! and Bolles 1981). Gravity is known, so that one voxel with its normal already gives a plane.
+//! Enters: voxels with normals. Leaves: planes with their voxels, by seeded RANSAC (Fischler and Bolles 1981). Up is
+//! known, so that one voxel with its normal defines a candidate plane.
 
 use glam::Vec3;
 use rand::{Rng, SeedableRng};
@@ -9,16 +9,16 @@ use rand_pcg::Pcg64Mcg;
 
 use super::voxels::{Voxel, VoxelGrid};
 
-/// What a plane is for the scene.
+/// The role of a plane in the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PlaneKind {
     /// Lowest level plane.
     Floor,
     /// Highest level plane.
     Ceiling,
-    /// Upright plane with the scene on one side.
+    /// Upright plane with the scene on one side only.
     Wall,
-    /// Any other level plane: tables, counters, shelves.
+    /// Any other level plane: a table, counter or shelf.
     Support,
 }
 
@@ -26,63 +26,62 @@ pub(crate) enum PlaneKind {
 #[derive(Debug, Clone)]
 pub(crate) struct ScenePlane {
     pub(crate) kind: PlaneKind,
-    /// Unit normal, toward the scene for floor, ceiling and walls.
+    /// Unit normal; that of floor, ceiling and walls points into the scene.
     pub(crate) normal: Vec3,
-    /// `normal . p` of the points on it.
+    /// `normal . p` for the points p on it.
     pub(crate) offset: f32,
-    /// Ranges in the plane outside of which it ends: of a wall along `up x normal` (and without end upward), of a level
-    /// plane along x and z.
-    pub(crate) reach: [(f32, f32); 2],
+    /// Extent in the plane: of a wall along `up x normal` (unbounded along up), of a level plane along x and z.
+    pub(crate) extent: [(f32, f32); 2],
     pub(crate) voxels: Vec<usize>,
 }
 
 impl ScenePlane {
-    /// Distance of a local position along the normal.
+    /// Signed distance of a local position along the normal.
     pub(crate) fn height(&self, local: Vec3) -> f32 {
         self.normal.dot(local) - self.offset
     }
 
-    /// The same plane seen from behind.
+    /// The same plane with the opposite normal.
     fn flipped(&self) -> Self {
-        let [run, other] = self.reach;
-        let reach = if self.is_level() { self.reach } else { [(-run.1, -run.0), other] };
-        Self { normal: -self.normal, offset: -self.offset, reach, ..self.clone() }
+        let [run, other] = self.extent;
+        let extent = if self.is_level() { self.extent } else { [(-run.1, -run.0), other] };
+        Self { normal: -self.normal, offset: -self.offset, extent, ..self.clone() }
     }
 
     fn is_level(&self) -> bool {
         self.normal.y.abs() > 0.5
     }
 
-    /// Whether a local position lies before or behind the plane, not beside it.
+    /// Whether the projection of a local position onto the plane lies in the plane's extent.
     pub(crate) fn spans(&self, local: Vec3) -> bool {
         let along = if self.is_level() { Vec3::X } else { Vec3::Y.cross(self.normal) };
         let holds = |range: (f32, f32), value: f32| range.0 <= value && value <= range.1;
-        holds(self.reach[0], along.dot(local)) && (!self.is_level() || holds(self.reach[1], local.z))
+        holds(self.extent[0], along.dot(local)) && (!self.is_level() || holds(self.extent[1], local.z))
     }
 }
 
-/// A range without ends.
-const ENDLESS: (f32, f32) = (f32::NEG_INFINITY, f32::INFINITY);
+/// An unbounded range.
+const UNBOUNDED: (f32, f32) = (f32::NEG_INFINITY, f32::INFINITY);
 
-/// Cells off a plane within which a voxel is on it.
+/// Largest distance of an inlier from its plane, cells.
 const ON_PLANE_CELLS: f32 = 1.2;
 
-/// Cosine between a voxel's normal and the plane's from which the two agree.
+/// Least cosine between the normals of an inlier and its plane.
 const AGREEMENT: f32 = 0.85;
 
-/// Planes tried before the search ends.
+/// Limit on the planes per scene.
 const MAX_PLANES: usize = 40;
 
-/// Candidates drawn for each plane.
-const NUM_DRAWS: usize = 160;
+/// Candidates per plane.
+const NUM_CANDIDATES: usize = 160;
 
-/// Voxels on which candidates are compared.
-const NUM_JUDGES: usize = 4000;
+/// Voxels on which candidates are scored.
+const NUM_SCORED: usize = 4000;
 
-/// Share of all voxels off the far side of a wall, under a floor or over a ceiling that may be there all the same.
+/// Largest share of voxels behind a wall, under a floor or over a ceiling.
 const BEYOND_FRAC: f32 = 0.06;
 
-/// The planes with at least `min_voxels` voxels, largest first; upright ones only where they are walls.
+/// The planes with at least `min_voxels` voxels, largest first. Upright planes that are not walls are dropped.
 pub(crate) fn find_planes(grid: &VoxelGrid, min_voxels: usize, seed: u64) -> Vec<ScenePlane> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut free: Vec<usize> = (0..grid.voxels.len()).filter(|&v| gravity_normal(&grid.voxels[v]).is_some()).collect();
@@ -91,7 +90,7 @@ pub(crate) fn find_planes(grid: &VoxelGrid, min_voxels: usize, seed: u64) -> Vec
         if free.len() < min_voxels {
             break;
         }
-        let Some((normal, offset)) = best_draw(grid, &free, &mut random) else { break };
+        let Some((normal, offset)) = best_candidate(grid, &free, &mut random) else { break };
         let plane = refined(grid, &free, normal, offset);
         if plane.voxels.len() < min_voxels {
             break;
@@ -102,7 +101,7 @@ pub(crate) fn find_planes(grid: &VoxelGrid, min_voxels: usize, seed: u64) -> Vec
     classify(grid, planes)
 }
 
-/// The normal of a voxel turned level or upright where it nearly is; `None` for slanted ones.
+/// The normal of a voxel, snapped to up or to horizontal where it is close to it; `None` for slanted ones.
 fn gravity_normal(voxel: &Voxel) -> Option<Vec3> {
     let rise = voxel.normal.y.abs();
     if rise > 0.93 {
@@ -118,22 +117,22 @@ fn on_plane(grid: &VoxelGrid, voxel: usize, normal: Vec3, offset: f32) -> bool {
     off <= ON_PLANE_CELLS * grid.cell && voxel.normal.dot(normal).abs() >= AGREEMENT
 }
 
-fn best_draw(grid: &VoxelGrid, free: &[usize], random: &mut Pcg64Mcg) -> Option<(Vec3, f32)> {
-    let judges: Vec<usize> = free.iter().copied().step_by(free.len().div_ceil(NUM_JUDGES)).collect();
+fn best_candidate(grid: &VoxelGrid, free: &[usize], random: &mut Pcg64Mcg) -> Option<(Vec3, f32)> {
+    let scored: Vec<usize> = free.iter().copied().step_by(free.len().div_ceil(NUM_SCORED)).collect();
     let mut best = (0, None);
-    for _ in 0..NUM_DRAWS {
+    for _ in 0..NUM_CANDIDATES {
         let voxel = &grid.voxels[free[(random.next_u64() % free.len() as u64) as usize]];
         let Some(normal) = gravity_normal(voxel) else { continue };
         let offset = normal.dot(voxel.position);
-        let votes = judges.iter().filter(|&&v| on_plane(grid, v, normal, offset)).count();
-        if votes > best.0 {
-            best = (votes, Some((normal, offset)));
+        let num_inliers = scored.iter().filter(|&&v| on_plane(grid, v, normal, offset)).count();
+        if num_inliers > best.0 {
+            best = (num_inliers, Some((normal, offset)));
         }
     }
     best.1
 }
 
-/// The plane through the middle of its voxels; an upright one is also turned to fit them, three times over.
+/// The plane refitted to its inliers in three iterations: the offset, and the heading of an upright plane.
 fn refined(grid: &VoxelGrid, free: &[usize], normal: Vec3, offset: f32) -> ScenePlane {
     let (mut normal, mut offset) = (normal, offset);
     for _ in 0..3 {
@@ -152,10 +151,10 @@ fn refined(grid: &VoxelGrid, free: &[usize], normal: Vec3, offset: f32) -> Scene
         offset = normal.dot(mean);
     }
     let voxels = free.iter().copied().filter(|&v| on_plane(grid, v, normal, offset)).collect();
-    ScenePlane { kind: PlaneKind::Support, normal, offset, reach: [ENDLESS; 2], voxels }
+    ScenePlane { kind: PlaneKind::Support, normal, offset, extent: [UNBOUNDED; 2], voxels }
 }
 
-/// Extent of the scene between its outer percents, along a direction.
+/// Extent of some voxels along a direction, without the outer 2 % at both ends.
 fn extent_along(grid: &VoxelGrid, voxels: impl Iterator<Item = usize>, direction: Vec3) -> (f32, f32) {
     let mut values: Vec<f32> = voxels.map(|v| direction.dot(grid.voxels[v].position)).collect();
     values.sort_unstable_by(f32::total_cmp);
@@ -167,32 +166,32 @@ fn length((low, high): (f32, f32)) -> f32 {
     high - low
 }
 
-/// Names what each plane is; upright planes that are no walls are dropped.
+/// Determines the kind of each plane. Upright planes that are not walls are dropped.
 fn classify(grid: &VoxelGrid, planes: Vec<ScenePlane>) -> Vec<ScenePlane> {
     let footprint = {
         let (x, z) =
             (extent_along(grid, 0..grid.voxels.len(), Vec3::X), extent_along(grid, 0..grid.voxels.len(), Vec3::Z));
         length(x) * length(z) / (grid.cell * grid.cell)
     };
-    let mut named = Vec::new();
+    let mut classified = Vec::new();
     for mut plane in planes {
         if plane.is_level() {
             let ends = |axis| extent_along(grid, plane.voxels.iter().copied(), axis);
-            plane.reach = [ends(Vec3::X), ends(Vec3::Z)];
+            plane.extent = [ends(Vec3::X), ends(Vec3::Z)];
             plane.kind = level_kind(grid, &plane, footprint);
             plane.normal = if plane.kind == PlaneKind::Ceiling { Vec3::NEG_Y } else { Vec3::Y };
             plane.offset = plane.voxels.iter().map(|&v| plane.normal.dot(grid.voxels[v].position)).sum::<f32>()
                 / plane.voxels.len() as f32;
-            named.push(plane);
+            classified.push(plane);
         } else if let Some(wall) = as_wall(grid, plane) {
-            named.push(wall);
+            classified.push(wall);
         }
     }
-    named
+    classified
 }
 
-/// Share of the voxels before and behind a plane that are just behind it, on the side of `-normal`: from two cells to
-/// an eighth of the scene's longest side. What is farther off may be the view out of a window.
+/// Of the voxels over the plane's extent, the share just behind it, on the side of `-normal`: from two cells to an
+/// eighth of the scene's longest side. Voxels farther behind may be the view through a window.
 fn share_behind(grid: &VoxelGrid, plane: &ScenePlane) -> f32 {
     let sides = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| length(extent_along(grid, 0..grid.voxels.len(), axis)));
     let near = -2.0 * grid.cell;
@@ -202,8 +201,8 @@ fn share_behind(grid: &VoxelGrid, plane: &ScenePlane) -> f32 {
     behind as f32 / heights().count().max(1) as f32
 }
 
-/// A level plane below or above the scene's middle is floor or ceiling when next to nothing lies beyond it and it spans
-/// a seventh of the scene's plan.
+/// A level plane is a floor below the scene's middle, or a ceiling above it, where few voxels lie beyond it and it
+/// covers a seventh of the scene's footprint.
 fn level_kind(grid: &VoxelGrid, plane: &ScenePlane, footprint: f32) -> PlaneKind {
     let wide = plane.voxels.len() as f32 > footprint / 7.0;
     let is_low = plane.offset < 0.0;
@@ -216,8 +215,8 @@ fn level_kind(grid: &VoxelGrid, plane: &ScenePlane, footprint: f32) -> PlaneKind
     }
 }
 
-/// An upright plane is a wall when next to nothing lies behind it, it is at least half as high as the scene and a
-/// quarter as long, and the scene before it is at least a third as deep as it is long: sides of objects are not.
+/// An upright plane is a wall where few voxels lie behind it, it is at least half as high as the scene and a quarter as
+/// long, and the scene before it is at least a third as deep as the plane is long. Sides of objects do not meet this.
 fn as_wall(grid: &VoxelGrid, plane: ScenePlane) -> Option<ScenePlane> {
     let all = || 0..grid.voxels.len();
     let along = Vec3::Y.cross(plane.normal);
@@ -230,9 +229,9 @@ fn as_wall(grid: &VoxelGrid, plane: ScenePlane) -> Option<ScenePlane> {
     if !(large && covered) {
         return None;
     }
-    // The extent leaves out the outer percents; with them the wall reaches its corners.
+    // `extent_along` drops the outer 2 %: the margin extends the wall to its corners.
     let margin = 0.03 * run + 2.0 * grid.cell;
-    let facing = ScenePlane { kind: PlaneKind::Wall, reach: [(ends.0 - margin, ends.1 + margin), ENDLESS], ..plane };
+    let facing = ScenePlane { kind: PlaneKind::Wall, extent: [(ends.0 - margin, ends.1 + margin), UNBOUNDED], ..plane };
     let away = facing.flipped();
     let (behind, before) = (share_behind(grid, &facing), share_behind(grid, &away));
     (behind.min(before) < BEYOND_FRAC).then_some(if behind <= before { facing } else { away })

@@ -1,8 +1,8 @@
-//! Choosing few of many points.
+//! Subsets of points.
 
 use glam::DVec3;
 
-/// Distinct points, sorted by coordinates: an order that does not depend on the one they come in.
+/// Distinct points, sorted by coordinates: the result does not depend on the order of the input.
 pub(crate) fn in_canonical_order(mut points: Vec<DVec3>) -> Vec<DVec3> {
     let order = |a: &DVec3, b: &DVec3| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z));
     points.sort_unstable_by(order);
@@ -10,9 +10,9 @@ pub(crate) fn in_canonical_order(mut points: Vec<DVec3>) -> Vec<DVec3> {
     points
 }
 
-/// At most `max_points` of the points, spread out: first the one farthest from their middle, then again and again the
-/// one farthest from all chosen so far (Gonzalez 1985); earlier points win ties.
-pub fn farthest_points(points: &[DVec3], max_points: usize) -> Vec<DVec3> {
+/// At most `max_points` points by farthest point sampling (Gonzalez 1985): first the point farthest from the mean, then
+/// repeatedly the point farthest from all chosen ones. Ties go to the earlier point.
+pub(crate) fn farthest_points(points: &[DVec3], max_points: usize) -> Vec<DVec3> {
     if points.is_empty() || max_points == 0 {
         return Vec::new();
     }

@@ -1,24 +1,25 @@
-//! The contact sheet: one picture that shows every object with its id and its label.
+//! The contact sheet: one picture that shows every object with its id and label.
 //!
-//! Enters: a scene and its objects. Leaves: an RGB picture, an overview above a tile for each object.
+//! Enters: a scene and its objects. Leaves: an RGB picture with an overview above one tile per object.
 
 use glam::DVec2;
 use image::{Rgb, RgbImage, imageops};
 use rayon::prelude::*;
 
 use super::drawing::{self, Ink};
-use super::viewpoints::{IdPicture, Surveyor};
-use super::{Object, ObjectSet, ObjectsError};
+use super::error::ObjectsError;
+use super::object::{Object, ObjectSet};
+use super::viewpoints::{IdPicture, ViewpointSearch};
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{Quality, RenderSettings, Renderer};
 use cinesplat_scene::{Scene, SplatFilter};
 
-/// Size and layout of a sheet.
+/// Settings of [`sheet`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetSettings {
-    /// Tiles side by side.
+    /// Tiles per row, at least 1.
     pub num_columns: u32,
-    /// Width of a tile; its picture is three quarters as high.
+    /// Width of a tile, at least 64; its picture is three quarters as high.
     pub tile_width_px: u32,
     /// Quality of the pictures.
     pub quality: Quality,
@@ -34,8 +35,9 @@ const BACKGROUND: Ink = Rgb([24, 24, 28]);
 const PAPER: Ink = Rgb([245, 245, 245]);
 const INK: Ink = Rgb([12, 12, 14]);
 
-/// Vertical fields of view: wide for the overview, that of a normal lens for the tiles.
+/// Vertical field of view of the overview.
 const OVERVIEW_FOV_RAD: f64 = 1.15;
+/// Vertical field of view of the tiles: a normal lens.
 const TILE_FOV_RAD: f64 = 0.7;
 
 /// Height of the two lines of text under a tile.
@@ -44,23 +46,23 @@ const CAPTION_PX: u32 = 44;
 /// Space between tiles.
 const GAP_PX: u32 = 6;
 
-/// Share of an object that has to be seen; a tile of one more hidden is cut open in front of it.
-const SEEN_FRAC: f64 = 0.5;
+/// Least visible share of an object. Where less is visible, its tile is clipped in front of the object.
+const MIN_VISIBLE_FRAC: f64 = 0.5;
 
-/// Share of the scene's size up to which an object's box is drawn in the overview.
+/// Diagonal of a box, over the scene size, below which the overview draws it.
 const BOXED_FRAC: f64 = 0.3;
 
-/// Pixels of the coarse picture from which an object is named in the overview.
+/// Least number of pixels of the coarse picture for an id in the overview.
 const NAMED_PIXELS: usize = 6;
 
-/// Draws the sheet. Each tile shows its object within the scene, framed by its box, from the side where least hides it;
-/// where more than half stays hidden, what stands before it is cut away and the tile says so.
+/// Draws the sheet. Each tile shows its object in the scene, with its box, from the direction in which it is least
+/// occluded. Where more than half stays occluded, the near plane clips what is in front, and the tile says so.
 ///
 /// # Errors
-/// [`ObjectsError::Picture`] when the scene cannot be rendered.
+/// [`ObjectsError::Picture`] where the scene cannot be rendered.
 pub fn sheet(scene: &Scene, set: &ObjectSet, settings: &SheetSettings) -> Result<RgbImage, ObjectsError> {
     let no_extent = || ObjectsError::Picture { reason: "the scene has no extent".to_owned() };
-    let surveyor = Surveyor::new(scene, set).ok_or_else(no_extent)?;
+    let viewpoints = ViewpointSearch::new(scene, set).ok_or_else(no_extent)?;
     let columns = settings.num_columns.max(1);
     let tile_width = settings.tile_width_px.max(64);
     let picture_height = tile_width * 3 / 4;
@@ -69,10 +71,11 @@ pub fn sheet(scene: &Scene, set: &ObjectSet, settings: &SheetSettings) -> Result
     let row_height = picture_height + CAPTION_PX + GAP_PX;
     let num_rows = (set.objects.len() as u32).div_ceil(columns);
     let mut page = RgbImage::from_pixel(width, overview_height + GAP_PX + num_rows * row_height, BACKGROUND);
-    let studio = Studio { scene, surveyor, renderer: Renderer::new(&scene.gaussians), quality: settings.quality };
-    imageops::replace(&mut page, &studio.overview(set, width, overview_height)?, 0, 0);
+    let painter =
+        SheetPainter { scene, viewpoints, renderer: Renderer::new(&scene.gaussians), quality: settings.quality };
+    imageops::replace(&mut page, &painter.overview(set, width, overview_height)?, 0, 0);
     let tiles: Result<Vec<RgbImage>, ObjectsError> =
-        set.objects.par_iter().map(|object| studio.tile(object, tile_width, picture_height)).collect();
+        set.objects.par_iter().map(|object| painter.tile(object, tile_width, picture_height)).collect();
     for (i, tile) in tiles?.iter().enumerate() {
         let (column, row) = (i as u32 % columns, i as u32 / columns);
         let left = GAP_PX + column * (tile_width + GAP_PX);
@@ -81,27 +84,25 @@ pub fn sheet(scene: &Scene, set: &ObjectSet, settings: &SheetSettings) -> Result
     Ok(page)
 }
 
-/// What every picture of the sheet needs.
-struct Studio<'a> {
+/// The inputs of every picture of the sheet.
+struct SheetPainter<'a> {
     scene: &'a Scene,
-    surveyor: Surveyor<'a>,
+    viewpoints: ViewpointSearch<'a>,
     renderer: Renderer<'a>,
     quality: Quality,
 }
 
-impl Studio<'_> {
+impl SheetPainter<'_> {
     fn overview(&self, set: &ObjectSet, width: u32, height: u32) -> Result<RgbImage, ObjectsError> {
-        let camera = self.surveyor.overview(Intrinsics::from_fov_y(width, height, OVERVIEW_FOV_RAD));
+        let camera = self.viewpoints.overview(Intrinsics::from_fov_y(width, height, OVERVIEW_FOV_RAD));
         let mut image = self.photo(&camera, self.scene.bounds().default_near())?;
-        let survey = self.surveyor.survey(&camera);
+        let ids = self.viewpoints.id_picture(&camera);
         let seen: Vec<(&Object, DVec2)> = set
             .objects
             .iter()
-            .filter_map(|object| {
-                Some((object, visible_middle(&survey, object.id)? * f64::from(width) / survey.width as f64))
-            })
+            .filter_map(|object| Some((object, visible_middle(&ids, object.id)? * f64::from(width) / ids.width as f64)))
             .collect();
-        // Boxes of counters and shelves would cover the picture.
+        // The boxes of large objects would cover the picture.
         let size = self.scene.bounds().size();
         for (object, _) in seen.iter().filter(|(object, _)| 2.0 * object.radius() < BOXED_FRAC * size) {
             draw_box(&mut image, &camera, object, 0.0);
@@ -117,10 +118,10 @@ impl Studio<'_> {
     }
 
     fn tile(&self, object: &Object, width: u32, height: u32) -> Result<RgbImage, ObjectsError> {
-        let (camera, seen) = self.surveyor.closeup(object, Intrinsics::from_fov_y(width, height, TILE_FOV_RAD));
+        let (camera, seen) = self.viewpoints.closeup(object, Intrinsics::from_fov_y(width, height, TILE_FOV_RAD));
         let near = self.scene.bounds().default_near();
         let distance = (object.center - camera.pose.position).length();
-        let is_cut = seen < SEEN_FRAC;
+        let is_cut = seen < MIN_VISIBLE_FRAC;
         let near = if is_cut { near.max(distance - 1.05 * object.radius()) } else { near };
         let mut photo = self.photo(&camera, near)?;
         draw_box(&mut photo, &camera, object, near);
@@ -149,7 +150,7 @@ impl Studio<'_> {
     }
 }
 
-/// Middle of an object's pixels in the coarse picture; `None` when there are next to none.
+/// Mean position of an object's pixels in the coarse picture; `None` below [`NAMED_PIXELS`].
 fn visible_middle(survey: &IdPicture, id: u32) -> Option<DVec2> {
     let pixels = || survey.ids.iter().enumerate().filter(|(_, other)| u32::from(**other) == id).map(|(i, _)| i);
     let count = pixels().count();
@@ -158,7 +159,7 @@ fn visible_middle(survey: &IdPicture, id: u32) -> Option<DVec2> {
     (count >= NAMED_PIXELS).then(|| sum / count as f64)
 }
 
-/// Upper left corner for an id near a pixel, moved down past the ids already there.
+/// Upper left corner of an id near a pixel, moved down past the ids placed before.
 fn free_place(taken: &mut Vec<(i64, i64, i64)>, middle_px: DVec2, words: &str) -> (i64, i64) {
     let (width, height) = drawing::text_size_px(words, 2);
     let (x, mut y) = (middle_px.x as i64 - width / 2, middle_px.y as i64 - height / 2);
@@ -171,7 +172,7 @@ fn free_place(taken: &mut Vec<(i64, i64, i64)>, middle_px: DVec2, words: &str) -
     (x, y)
 }
 
-/// The edges of an object's box that lie wholly before the camera.
+/// Draws the edges of an object's box whose two ends are beyond the near plane.
 fn draw_box(image: &mut RgbImage, camera: &Camera, object: &Object, near: f64) {
     let corners = object.corners().map(|corner| camera.project(corner).filter(|(_, depth)| *depth > near));
     for a in 0..8_usize {
@@ -183,14 +184,14 @@ fn draw_box(image: &mut RgbImage, camera: &Camera, object: &Object, near: f64) {
     }
 }
 
-/// Bright colors that neighbors in id do not share: hues by the golden angle.
+/// A bright color per id; the hues of consecutive ids differ by the golden angle.
 fn ink_of(id: u32) -> Ink {
     let hue = f64::from(id) * 137.508 / 60.0 % 6.0;
     let channel = |shift: f64| (2.0 - ((hue + shift) % 6.0 - 3.0).abs()).clamp(0.0, 1.0);
     Rgb([channel(5.0), channel(3.0), channel(1.0)].map(|v| (80.0 + 175.0 * (1.0 - v)) as u8))
 }
 
-/// Words in lines of at most `per_line` letters; longer words are cut.
+/// Text in lines of at most `per_line` letters; longer words are truncated.
 fn wrapped(words: &str, per_line: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in words.split_whitespace() {

@@ -1,38 +1,38 @@
-//! Where to stand to see an object, or as many of them as can be.
+//! Viewpoints that show one object, or as many objects as possible.
 //!
-//! Enters: a scene with labels. Leaves: cameras, chosen by a coarse picture of ids that is drawn from sparse points with
-//! a depth buffer: good enough to compare viewpoints, far cheaper than rendering each.
+//! Enters: a scene with labels. Leaves: cameras. Candidates are compared on coarse pictures of object ids, drawn from
+//! sparse points with a depth buffer, which is much cheaper than rendering.
 
 use glam::DVec3;
 
-use super::{Object, ObjectSet};
+use super::object::{Object, ObjectSet};
 use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
 use cinesplat_scene::Scene;
 
-/// Opacity from which a Gaussian hides what is behind it.
+/// Least opacity of an occluding Gaussian.
 const OCCLUDER_OPACITY: f32 = 0.3;
 
-/// Most Gaussians drawn into a coarse picture.
+/// Limit on the Gaussians drawn into a coarse picture.
 const MAX_POINTS: usize = 40_000;
 
 /// Height of the coarse pictures.
 const COARSE_HEIGHT_PX: u32 = 60;
 
-/// Largest splat in a coarse picture, half its side.
+/// Largest half side of a splat in a coarse picture.
 const MAX_SPLAT_PX: i64 = 5;
 
-/// Distance to the nearest matter, as a share of the scene's size, below which a viewpoint counts as blocked.
+/// Distance to the nearest Gaussian, over the scene size, below which a viewpoint counts as blocked.
 const CLEARANCE_FRAC: f64 = 0.04;
 
-/// A coarse picture: which object is seen in each pixel, and how far off.
+/// A coarse picture: object id and depth per pixel.
 pub(crate) struct IdPicture {
     pub(crate) width: usize,
     pub(crate) ids: Vec<u16>,
     pub(crate) depths: Vec<f32>,
 }
 
-/// The solid points of a scene, few enough to be drawn often.
-pub(crate) struct Surveyor<'a> {
+/// A search for viewpoints of a scene, on a sparse subset of its Gaussians.
+pub(crate) struct ViewpointSearch<'a> {
     set: &'a ObjectSet,
     frame: LevelFrame,
     center: DVec3,
@@ -42,14 +42,14 @@ pub(crate) struct Surveyor<'a> {
     points: Vec<(DVec3, f64, u16)>,
 }
 
-impl<'a> Surveyor<'a> {
+impl<'a> ViewpointSearch<'a> {
     /// `None` for a scene without extent or up.
     pub(crate) fn new(scene: &Scene, set: &'a ObjectSet) -> Option<Self> {
         let bounds = scene.bounds();
         let gaussians = &scene.gaussians;
         let solid: Vec<usize> = (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= OCCLUDER_OPACITY).collect();
         let stride = solid.len().div_ceil(MAX_POINTS).max(1);
-        // Fewer points have to cover more each.
+        // Each point of a sparser subset covers more area.
         let growth = (stride as f64).sqrt();
         let point = |&i: &usize| {
             let id = set.labels.get(i).copied().unwrap_or(0);
@@ -57,8 +57,8 @@ impl<'a> Surveyor<'a> {
         };
         let points = solid.iter().step_by(stride).map(point).collect();
         let frame = LevelFrame::new(scene.up).ok()?;
-        let known = bounds.size() > 0.0;
-        known.then(|| Self {
+        let has_extent = bounds.size() > 0.0;
+        has_extent.then(|| Self {
             set,
             frame,
             center: bounds.center(),
@@ -68,8 +68,8 @@ impl<'a> Surveyor<'a> {
         })
     }
 
-    /// Draws ids and depths as a camera sees them.
-    pub(crate) fn survey(&self, camera: &Camera) -> IdPicture {
+    /// Draws the coarse picture of a camera.
+    pub(crate) fn id_picture(&self, camera: &Camera) -> IdPicture {
         let intrinsics = camera.intrinsics.scaled(f64::from(COARSE_HEIGHT_PX) / f64::from(camera.intrinsics.height));
         let camera = Camera { intrinsics, ..*camera };
         let (width, height) = (intrinsics.width as usize, intrinsics.height as usize);
@@ -84,7 +84,7 @@ impl<'a> Surveyor<'a> {
         picture
     }
 
-    /// The camera that sees the most: objects, each by how large it is, little void, nothing close in front.
+    /// The camera that shows the most objects, with little void and nothing close before the lens.
     pub(crate) fn overview(&self, intrinsics: Intrinsics) -> Camera {
         let target = self.middle_of_objects();
         let mut best = (f64::NEG_INFINITY, self.camera_at(self.center, target, intrinsics));
@@ -104,7 +104,7 @@ impl<'a> Surveyor<'a> {
         best.1
     }
 
-    /// A camera that shows one object best, and how much of it can be seen, 0..=1.
+    /// The camera that shows most of one object, and the visible share of it, 0..=1.
     pub(crate) fn closeup(&self, object: &Object, intrinsics: Intrinsics) -> (Camera, f64) {
         let narrow = intrinsics.fov_y_rad() * intrinsics.aspect().min(1.0);
         let distance = object.radius().max(0.01 * self.size) * 1.15 / (narrow / 2.0).sin();
@@ -114,7 +114,7 @@ impl<'a> Surveyor<'a> {
                 let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 12.0);
                 let away = away * elevation_rad.cos() + self.frame.up * elevation_rad.sin();
                 let camera = self.camera_at(object.center + away * distance, object.center, intrinsics);
-                let seen = self.seen_frac(object, &camera);
+                let seen = self.visible_frac(object, &camera);
                 if seen > best.0 + 1e-9 {
                     best = (seen, camera);
                 }
@@ -140,7 +140,7 @@ impl<'a> Surveyor<'a> {
         if self.points.iter().any(|(mean, ..)| mean.distance_squared(eye) < clearance * clearance) {
             return f64::NEG_INFINITY;
         }
-        let picture = self.survey(camera);
+        let picture = self.id_picture(camera);
         let mut counts = vec![0_u32; usize::from(u16::MAX) + 1];
         for &id in &picture.ids {
             counts[usize::from(id)] += 1;
@@ -155,13 +155,15 @@ impl<'a> Surveyor<'a> {
         seen - (void + close) * (1.0 + 0.5 * self.set.objects.len() as f64)
     }
 
-    /// Share of an object's pixels, drawn alone, that are its own with the scene around it.
-    fn seen_frac(&self, object: &Object, camera: &Camera) -> f64 {
-        let picture = self.survey(camera);
+    /// Visible share of an object: its pixels in the scene over its pixels when drawn alone.
+    fn visible_frac(&self, object: &Object, camera: &Camera) -> f64 {
+        let picture = self.id_picture(camera);
         let own = picture.ids.iter().filter(|id| u32::from(**id) == object.id).count();
-        let alone =
-            Surveyor { points: self.points.iter().copied().filter(|p| u32::from(p.2) == object.id).collect(), ..*self };
-        let all = alone.survey(camera).ids.iter().filter(|id| **id > 0).count();
+        let alone = ViewpointSearch {
+            points: self.points.iter().copied().filter(|p| u32::from(p.2) == object.id).collect(),
+            ..*self
+        };
+        let all = alone.id_picture(camera).ids.iter().filter(|id| **id > 0).count();
         own as f64 / all.max(1) as f64
     }
 }

@@ -1,19 +1,19 @@
-//! Virtual cameras about an object.
+//! Virtual cameras around an object.
 
 use glam::DVec3;
 
-use super::Object;
+use super::object::Object;
 use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
 
-/// Vertical field of view of the virtual cameras: narrow, so that a silhouette is nearly the object's outline.
+/// Vertical field of view of the virtual cameras: narrow, so that the projection is nearly orthographic.
 const FOV_Y_RAD: f64 = 0.5;
 
-/// Room left about the object's box on every side, as a factor on the distance.
+/// Factor on the distance at which the box just fits into the frame.
 const MARGIN: f64 = 1.1;
 
-/// Square cameras on a ring about an object: `num_azimuths` at each elevation (rad above its middle), aimed at its
-/// middle, at one distance from which the whole box is seen. Azimuth 0 is the heading of the box, so that the views
-/// turn with the object.
+/// Cameras with square frames on rings around an object: `num_azimuths` per elevation (rad, seen from its middle),
+/// aimed at its middle, at a common distance that shows the whole box. Azimuth 0 is the heading of the box, so that the
+/// views rotate with the object.
 pub(crate) fn ring(
     object: &Object,
     up: DVec3,
@@ -37,7 +37,7 @@ pub(crate) fn ring(
     cameras
 }
 
-/// Scene units a pixel at an object's middle, seen from a ring's camera.
+/// Scene units per pixel at the middle of an object, for a camera of its ring.
 pub(crate) fn unit_per_px(camera: &Camera, object: &Object) -> f64 {
     (object.center - camera.pose.position).length() / camera.intrinsics.fy_px
 }

@@ -1,7 +1,7 @@
-//! A scene as occupied cells of a grid, each with its color and the direction of its surface.
+//! A scene as occupied cells of a grid, each with a color and a surface normal.
 //!
-//! Enters: Gaussians. Leaves: cells in a frame whose y axis is up. A Gaussian fills every cell within one of its
-//! standard deviations, so that the large ones of plain surfaces leave no holes.
+//! Enters: Gaussians. Leaves: cells in a frame whose y axis is up. A Gaussian fills every cell within one standard
+//! deviation, so that the large Gaussians of plain surfaces leave no holes.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -12,23 +12,23 @@ use rayon::prelude::*;
 use super::color;
 use cinesplat_scene::Gaussians;
 
-/// Opacity below which a Gaussian fills nothing.
+/// Least opacity of a Gaussian that fills cells.
 const FAINT_OPACITY: f32 = 0.1;
 
-/// Opacity that has to come together in a cell: one clearly visible Gaussian or a few faint ones.
+/// Least sum of opacities in an occupied cell: one clearly visible Gaussian or a few faint ones.
 const OCCUPIED_MASS: f32 = 0.5;
 
-/// Standard deviations out to which a Gaussian fills cells.
+/// Number of standard deviations out to which a Gaussian fills cells.
 const REACH_SIGMA: f32 = 1.0;
 
-/// Most samples of a Gaussian along one of its axes.
+/// Limit on the samples of a Gaussian along each half axis.
 const MAX_STEPS: i32 = 4;
 
 /// Positions of cells by key.
 type CellIndex = HashMap<[i32; 3], u32, BuildHasherDefault<CellHasher>>;
 
-/// A hash of three small whole numbers: they are mixed by odd constants, far quicker than the default's keyed hash.
-/// Keys come from a grid of our own size, so that nobody gains from collisions.
+/// A hash of three small integers, mixed by odd constants: much faster than the default's keyed hash. The keys come
+/// from the scene's own grid, so that a keyed hash has nothing to protect.
 #[derive(Default)]
 struct CellHasher(u64);
 
@@ -53,7 +53,7 @@ impl Hasher for CellHasher {
     }
 
     fn write_usize(&mut self, _: usize) {
-        // The length of an array of three: always the same.
+        // The length prefix of the array is always 3.
     }
 }
 
@@ -62,11 +62,11 @@ impl Hasher for CellHasher {
 pub(crate) struct Voxel {
     /// Cell coordinates; y is up.
     pub(crate) key: [i32; 3],
-    /// Mean position of what fills it, local frame.
+    /// Opacity-weighted mean position of its samples, local frame.
     pub(crate) position: Vec3,
-    /// Mean color, CIE Lab.
+    /// Opacity-weighted mean color, CIE Lab.
     pub(crate) color_lab: Vec3,
-    /// Unit direction across the surface, sign open; zero where there is no surface.
+    /// Unit normal of the surface, of either sign; zero where there is no surface.
     pub(crate) normal: Vec3,
 }
 
@@ -81,18 +81,19 @@ pub(crate) struct VoxelGrid {
     local_from_world: DMat3,
 }
 
-/// What has fallen into a cell so far.
+/// Sums over the samples in a cell, weighted by opacity.
 #[derive(Clone, Copy)]
 struct Moments {
     mass: f32,
-    /// Sum of positions from the middle of the cell: near it, so that squares keep their precision.
+    /// Sum of positions relative to the middle of the cell, which keeps the precision of the squares.
     offset: Vec3,
     square: Mat3,
     color_lab: Vec3,
 }
 
 impl VoxelGrid {
-    /// Cells with edge `cell` about `center`; the columns of `axes` are the local axes in the world.
+    /// Cells with edge `cell`; the local frame has its origin at `center` and the columns of `axes` as its axes in the
+    /// world.
     pub(crate) fn new(gaussians: &Gaussians, cell: f64, center: DVec3, axes: DMat3) -> Self {
         let empty = Self {
             cell: cell as f32,
@@ -121,7 +122,7 @@ impl VoxelGrid {
         (self.local_from_world * (point - self.center)).as_vec3()
     }
 
-    /// The cell that a local position falls into.
+    /// The cell that contains a local position.
     pub(crate) fn key_at(&self, local: Vec3) -> [i32; 3] {
         (local / self.cell).floor().as_ivec3().to_array()
     }
@@ -130,23 +131,23 @@ impl VoxelGrid {
         (IVec3::from_array(key).as_vec3() + 0.5) * self.cell
     }
 
-    /// Position in `voxels` of an occupied cell.
+    /// Index in `voxels` of a cell; `None` where it is empty.
     pub(crate) fn find(&self, key: [i32; 3]) -> Option<usize> {
         self.index.get(&key).map(|&i| i as usize)
     }
 
-    /// Occupied cells no farther than `reach` cells along any axis, the cell itself left out.
+    /// Occupied cells at most `reach` cells away along every axis, without the cell itself.
     pub(crate) fn neighbors(&self, voxel: usize, reach: i32) -> impl Iterator<Item = usize> + '_ {
         self.around(self.voxels[voxel].key, reach).filter(move |&other| other != voxel)
     }
 
-    /// Occupied cells no farther than `reach` cells from a cell along any axis.
+    /// Occupied cells at most `reach` cells away from a cell along every axis.
     pub(crate) fn around(&self, key: [i32; 3], reach: i32) -> impl Iterator<Item = usize> + '_ {
         let [x, y, z] = key;
         offsets(reach).filter_map(move |[a, b, c]| self.find([x + a, y + b, z + c]))
     }
 
-    /// What falls into each cell, in order of Gaussians: sums do not depend on threads.
+    /// The sums of every cell. Gaussians are added in order, so that the sums do not depend on the number of threads.
     fn accumulated(&self, gaussians: &Gaussians) -> (CellIndex, Vec<([i32; 3], Moments)>) {
         let turn = Quat::from_mat3(&self.local_from_world.as_mat3());
         let mut index = CellIndex::default();
@@ -169,12 +170,13 @@ impl VoxelGrid {
         (index, cells)
     }
 
-    /// The cells that one Gaussian fills, each once, with a position in it.
+    /// The cells that one Gaussian fills, each once, with a sample position in it.
     fn fill(&self, gaussians: &Gaussians, i: usize, turn: Quat, filled: &mut Vec<([i32; 3], Vec3)>) {
         let mean = self.to_local(gaussians.mean_world(i));
         let axes =
             Mat3::from_quat(turn * gaussians.rotations[i]) * Mat3::from_diagonal(gaussians.scales[i] * REACH_SIGMA);
-        // An axis shorter than a cell adds nothing: sampling it would make every surface two cells thick.
+        // An axis shorter than a cell is not sampled, because samples along it would make every surface two cells
+        // thick.
         let reach = gaussians.scales[i] * REACH_SIGMA / self.cell;
         let steps = (reach * 2.0).floor().min(Vec3::splat(MAX_STEPS as f32)).as_ivec3();
         filled.clear();
@@ -195,7 +197,7 @@ impl VoxelGrid {
 }
 
 impl Moments {
-    /// Nothing. (glam's default matrix is the identity.)
+    /// No samples. `Default` does not serve, because glam's default matrix is the identity.
     const EMPTY: Self = Self { mass: 0.0, offset: Vec3::ZERO, square: Mat3::ZERO, color_lab: Vec3::ZERO };
 
     fn add(&mut self, other: &Self) {
@@ -205,7 +207,7 @@ impl Moments {
         self.color_lab += other.color_lab;
     }
 
-    /// The same about the middle of another cell, from which this one's lies at `step`.
+    /// The sums relative to the middle of another cell; this cell's middle is at `step` from it.
     fn shifted(&self, step: Vec3) -> Self {
         let square = self.square + outer(self.offset, step) + outer(step, self.offset) + outer(step, step) * self.mass;
         Self { offset: self.offset + step * self.mass, square, ..*self }
@@ -217,13 +219,13 @@ fn outer(a: Vec3, b: Vec3) -> Mat3 {
     Mat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
-/// All steps of at most `reach` cells along each axis.
+/// All offsets of at most `reach` cells along every axis.
 fn offsets(reach: i32) -> impl Iterator<Item = [i32; 3]> {
     let range = move || -reach..=reach;
     range().flat_map(move |x| range().flat_map(move |y| range().map(move |z| [x, y, z])))
 }
 
-/// The direction of least spread of a cell and the cells around it; zero where they spread in no plane.
+/// The direction of least variance of the samples in a cell and its neighbors; zero where they do not lie in a plane.
 fn surface_normal(key: [i32; 3], cell: f32, cells: &[([i32; 3], Moments)], index: &CellIndex) -> Vec3 {
     let mut sum = Moments::EMPTY;
     for [a, b, c] in offsets(1) {
@@ -237,7 +239,7 @@ fn surface_normal(key: [i32; 3], cell: f32, cells: &[([i32; 3], Moments)], index
     if values[0] < FLAT_RATIO * values[1] { axes.x_axis } else { Vec3::ZERO }
 }
 
-/// Least over middle spread (variances) below which cells lie on a surface.
+/// Ratio of least to middle variance below which samples lie on a surface.
 const FLAT_RATIO: f32 = 0.35;
 
 /// Eigenvalues, ascending, and eigenvectors of a symmetric matrix by Jacobi rotations.

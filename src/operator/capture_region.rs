@@ -17,8 +17,8 @@ use cinesplat_scene::Bounds;
 const INDOOR_HIT_FRAC: f64 = 0.5;
 /// Viewpoints per scene.
 const NUM_VIEWPOINTS: usize = 24;
-/// Share of the viewpoints that must see a point of the region. A few viewpoints see through a window or a hole in a wall;
-/// more of them see even a niche of their own room.
+/// Share of the viewpoints that must see a point of the region. A few viewpoints see through a window or a hole in a
+/// wall; more of them see even a niche of their own room.
 const SEEN_BY_FRAC: f64 = 0.25;
 /// Grounded share of a point's view, over the mean of the viewpoints, from which the point sees front faces.
 const GROUNDED_OF_VIEWPOINTS_FRAC: f64 = 0.62;
@@ -37,8 +37,8 @@ pub(super) struct CaptureRegion {
 }
 
 impl CaptureRegion {
-    /// Estimates the region of a scene. No viewpoint lies inside one of the `objects`: their inside is enclosed like a room,
-    /// but it was not captured.
+    /// Estimates the region of a scene. No viewpoint lies inside one of the `objects`: their inside is enclosed like a
+    /// room, but it was not captured.
     pub(super) fn of(
         matter: &OpacityGrid,
         clearance: &ClearanceIndex,
@@ -109,8 +109,8 @@ fn viewpoints(
     }
 }
 
-/// Candidate viewpoints: a lattice over the core box and a margin around it, where the camera of a capture of one side of a
-/// room may have stood.
+/// Candidate viewpoints: a lattice over the core box and a margin around it, where the camera of a capture of one side
+/// of a room may have stood.
 fn lattice(bounds: &Bounds, frame: &LevelFrame) -> Vec<DVec3> {
     const N: usize = 12;
     let upright = frame.up.abs();
@@ -139,8 +139,8 @@ fn openness(matter: &OpacityGrid, point: DVec3, size: f64) -> (f64, f64) {
     (hits.len() as f64 / rays.len() as f64, spread / size)
 }
 
-/// Share of a point's hits that have ground below the space before them. A capture contains the floor in front of a wall,
-/// not behind it: from the wrong side of a surface there is no ground before it.
+/// Share of a point's hits that have ground below the space before them. A capture contains the floor in front of a
+/// wall, not behind it: from the wrong side of a surface there is no ground before it.
 fn grounded_frac(matter: &OpacityGrid, point: DVec3, up: DVec3, size: f64, num_rays: usize) -> f64 {
     let (mut hits, mut grounded) = (0.0_f64, 0.0);
     for ray in sphere_directions(num_rays) {

@@ -63,8 +63,8 @@ pub(super) enum ConstraintKind {
     DistanceRatio(DVec3, (f64, f64)),
     /// Tangent of half the field of view at the end over that at the start is in this range.
     LensRatio((f64, f64)),
-    /// Travel in a direction, over the distance to the point at the start, is at least this much, and at least 0.9 of the
-    /// whole displacement.
+    /// Travel in a direction, over the distance to the point at the start, is at least this much, and at least 0.9 of
+    /// the whole displacement.
     Travel(TravelDirection, DVec3, f64),
 }
 

@@ -16,9 +16,9 @@ const SEARCH_INTERVALS: usize = 400;
 /// Cost above which a segment cannot win, so that the expensive terms are skipped.
 const REJECT_COST: f64 = 9.0;
 
-/// Cost of a segment; costs add up over a film. It is between 0 and 3 where every constraint is met, and above 3 where one
-/// is violated. Cheap terms are evaluated first: above [`REJECT_COST`] a constant stands for the others. The director's
-/// camera, where given, attracts the first state.
+/// Cost of a segment; costs add up over a film. It is between 0 and 3 where every constraint is met, and above 3 where
+/// one is violated. Cheap terms are evaluated first: above [`REJECT_COST`] a constant stands for the others. The
+/// director's camera, where given, attracts the first state.
 pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&CameraState>) -> f64 {
     let path = path_of(world, segment);
     let states = sampled(&path, segment, if segment.states.len() > 2 { 11 } else { 9 });
@@ -60,8 +60,8 @@ fn clearance_cost(world: &World, path: &CameraPath) -> f64 {
     if short > 0.0 { 6.0 + 6.0 * short } else { 0.0 }
 }
 
-/// Cost of positions from which the capture shows back faces, and a milder one of positions far outside the scene's core
-/// box.
+/// Cost of positions from which the capture shows back faces, and a milder one of positions far outside the scene's
+/// core box.
 fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     let position = |state: &CameraState| state.pose.position;
     let sunk = states.iter().map(|s| world.sunk_frac(position(s))).fold(0.0, f64::max);
@@ -84,8 +84,8 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
 }
 
 /// How far a point lies outside the scene's core box along both horizontal axes at once: the smaller distance over the
-/// scene size. A room is often captured through an open side. The camera may stand in front of that side, but beyond the
-/// planes of the walls next to it, it would see their back faces.
+/// scene size. A room is often captured through an open side. The camera may stand in front of that side, but beyond
+/// the planes of the walls next to it, it would see their back faces.
 fn beyond_corner_frac(world: &World, point: DVec3) -> f64 {
     let bounds = &world.bounds;
     let outside = (bounds.core_min - point).max(point - bounds.core_max).max(DVec3::ZERO);

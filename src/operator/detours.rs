@@ -1,7 +1,7 @@
 //! Detours around matter, and the clearance certificate of the finished film.
 //!
-//! Only segments whose shape the prompt leaves open (follow, fly through, back to the start) take a detour. Where a move
-//! fixes the geometry, the search has already varied radius, height and length for clearance.
+//! Only segments whose shape the prompt leaves open (follow, fly through, back to the start) take a detour. Where a
+//! move fixes the geometry, the search has already varied radius, height and length for clearance.
 
 use super::clearance::{ClearanceIndex, ClearanceQuery, SIGMA_LEVEL, least_clearance, prove};
 use super::cost::{cost, path_of};

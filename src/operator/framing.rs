@@ -69,8 +69,8 @@ fn middle(points: &[DVec3]) -> DVec3 {
     (low + high) / 2.0
 }
 
-/// The point to aim at for a part of a subject: 60 % of the way from its middle to that end. Left and right give the middle,
-/// because they depend on the camera's position ([`aimed_at_side`](super::view::aimed_at_side)).
+/// The point to aim at for a part of a subject: 60 % of the way from its middle to that end. Left and right give the
+/// middle, because they depend on the camera's position ([`aimed_at_side`](super::view::aimed_at_side)).
 fn part_point(world: &World, subject: &Subject, part: SubjectPart) -> DVec3 {
     let heights = || subject.corners.iter().map(|&c| world.frame.height(c - subject.center));
     let rise = match part {
@@ -81,16 +81,16 @@ fn part_point(world: &World, subject: &Subject, part: SubjectPart) -> DVec3 {
     subject.center + world.frame.up * rise * 0.6
 }
 
-/// Position in the frame as fractions of its width and height from the middle (right and up positive), and the depth along
-/// the view axis. `None` for points at or behind the camera.
+/// Position in the frame as fractions of its width and height from the middle (right and up positive), and the depth
+/// along the view axis. `None` for points at or behind the camera.
 pub(super) fn frame_position(state: &CameraState, point: DVec3) -> Option<(DVec2, f64)> {
     let p = state.pose.to_camera(point);
     let tan = (state.fov_y_rad / 2.0).tan();
     (p.z > 1e-9).then(|| (DVec2::new(p.x / (2.0 * p.z * tan * DEFAULT_ASPECT), -p.y / (2.0 * p.z * tan)), p.z))
 }
 
-/// Distance of a point from the frame's middle: the larger of |x| over the width and |y| over the height. Infinite behind
-/// the camera.
+/// Distance of a point from the frame's middle: the larger of |x| over the width and |y| over the height. Infinite
+/// behind the camera.
 pub(super) fn off_center(state: &CameraState, point: DVec3) -> f64 {
     frame_position(state, point).map_or(f64::INFINITY, |(at, _)| at.abs().max_element())
 }
@@ -112,8 +112,8 @@ pub(super) fn in_frame_frac(state: &CameraState, points: &[DVec3], margin: f64) 
     points.iter().filter(inside).count() as f64 / points.len().max(1) as f64
 }
 
-/// Visible share of a subject's points in the frame: those with a transmittance of at least 0.5. 0 where no point is in the
-/// frame.
+/// Visible share of a subject's points in the frame: those with a transmittance of at least 0.5. 0 where no point is in
+/// the frame.
 pub(super) fn unoccluded_frac(state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
     let stride = (subject.points.len() / num_points).max(1);
     let (mut framed, mut seen) = (0, 0);
@@ -162,8 +162,8 @@ impl Fill {
     }
 }
 
-/// The distance at which a target fills the frame as wanted, seen from a bearing. The projection shrinks with the distance:
-/// 40 bisections find it to 1e-9 of the range.
+/// The distance at which a target fills the frame as wanted, seen from a bearing. The projection shrinks with the
+/// distance: 40 bisections find it to 1e-9 of the range.
 pub(super) fn distance_for(world: &World, target: &Target, bearing: Bearing, fill: Fill, fov_y_rad: f64) -> f64 {
     let reached = |d: f64| fill.reached(&view_at(world, target.aim, bearing, d, fov_y_rad), &target.corners);
     let (mut near, mut far) = (0.2 * target.radius, 200.0 * target.radius.max(1e-9));

@@ -4,8 +4,8 @@ use glam::{DVec3, IVec3, UVec3};
 
 use cinesplat_scene::Bounds;
 
-/// Cells along the scene's size. Time and memory grow with its cube; a coarser grid closes narrow gaps. At 110 a room of
-/// 7 m has cells of 6 cm, which resolve table legs and bottles.
+/// Cells along the scene's size. Time and memory grow with its cube; a coarser grid closes narrow gaps. At 110 a room
+/// of 7 m has cells of 6 cm, which resolve table legs and bottles.
 const CELLS_ALONG_SIZE: f64 = 110.0;
 /// Margin for the camera around the scene's core box (of the middle 96 % of the solid Gaussians), over the scene size:
 /// sideways, and along up.

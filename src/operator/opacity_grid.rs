@@ -1,7 +1,7 @@
 //! The scene's opacity on a grid, for occlusion.
 //!
-//! Rays march through the cells and skip blocks of empty cells. Each cell holds the highest opacity of the Gaussians that
-//! reach it.
+//! Rays march through the cells and skip blocks of empty cells. Each cell holds the highest opacity of the Gaussians
+//! that reach it.
 
 use glam::{DVec3, IVec3, UVec3};
 
@@ -40,8 +40,8 @@ impl OpacityGrid {
         made
     }
 
-    /// Transmittance from `target` to `eye`, without the two cells next to the target, 0..1. A cell of opacity a transmits
-    /// 1 - min(a, 0.99) per cell edge of path length. The march stops below exp(-6).
+    /// Transmittance from `target` to `eye`, without the two cells next to the target, 0..1. A cell of opacity a
+    /// transmits 1 - min(a, 0.99) per cell edge of path length. The march stops below exp(-6).
     pub(super) fn transmittance(&self, eye: DVec3, target: DVec3) -> f64 {
         let way = target - eye;
         let length = way.length();
@@ -65,8 +65,8 @@ impl OpacityGrid {
         self.hit_distance(a, (b - a) / length.max(f64::MIN_POSITIVE), length).is_none()
     }
 
-    /// Distance along a ray of unit `direction` at which its transmittance falls below a half; `None` where it stays above
-    /// within `reach`.
+    /// Distance along a ray of unit `direction` at which its transmittance falls below a half; `None` where it stays
+    /// above within `reach`.
     pub(super) fn hit_distance(&self, eye: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
         let step = 0.7 * self.grid.cell;
         let mut log_light = 0.0_f64;
@@ -76,8 +76,8 @@ impl OpacityGrid {
         })
     }
 
-    /// Calls `visit` with the distance and the log transmittance of every sample of a ray (unit `direction`) in an occupied
-    /// cell, in order. Returns the distance at which `visit` returns true. Empty blocks are skipped.
+    /// Calls `visit` with the distance and the log transmittance of every sample of a ray (unit `direction`) in an
+    /// occupied cell, in order. Returns the distance at which `visit` returns true. Empty blocks are skipped.
     fn march(
         &self,
         eye: DVec3,

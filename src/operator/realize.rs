@@ -33,8 +33,8 @@ pub struct Solution {
 
 /// Solves a program: keyframes whose path carries out every step.
 ///
-/// `prompt` is the sentence that the report quotes. `suggestions` holds the director's cameras, one entry per step; it may
-/// be shorter than the program. An empty program gives a static view of the scene.
+/// `prompt` is the sentence that the report quotes. `suggestions` holds the director's cameras, one entry per step; it
+/// may be shorter than the program. An empty program gives a static view of the scene.
 pub fn realize(
     world: &World,
     program: &Program,

@@ -1,7 +1,8 @@
-//! The search over a program's open parameters: a beam search over the steps, then a local search on the best candidate.
+//! The search over a program's open parameters: a beam search over the steps, then a local search on the best
+//! candidate.
 //!
-//! The search is bounded and deterministic: the level fixes the number of candidates, every random number comes from the
-//! seed in a fixed order, and ties go to the earlier candidate. The best candidate so far is always kept.
+//! The search is bounded and deterministic: the level fixes the number of candidates, every random number comes from
+//! the seed in a fixed order, and ties go to the earlier candidate. The best candidate so far is always kept.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -52,8 +52,8 @@ pub(super) fn lerp(range: (f64, f64), t: f64) -> f64 {
     range.0 + (range.1 - range.0) * t
 }
 
-/// A view of `target` as `framing` requires it. Parameters 0 to 4 choose azimuth, elevation, size, lens, and the preferred
-/// azimuth.
+/// A view of `target` as `framing` requires it. Parameters 0 to 4 choose azimuth, elevation, size, lens, and the
+/// preferred azimuth.
 pub(super) fn opening_view(
     world: &World,
     target: &Target,

@@ -1,4 +1,5 @@
-//! A scene prepared for planning: subjects to frame, matter to avoid, occlusion, and the region that the capture covers.
+//! A scene prepared for planning: subjects to frame, matter to avoid, occlusion, and the region that the capture
+//! covers.
 
 use std::collections::BTreeMap;
 
@@ -102,7 +103,8 @@ impl World {
         self.frame.height(self.bounds.core_min).min(self.frame.height(self.bounds.core_max))
     }
 
-    /// How far a point is below the height of a camera that lies on the floor, over the scene size; 0 above that height.
+    /// How far a point is below the height of a camera that lies on the floor, over the scene size; 0 above that
+    /// height.
     pub(super) fn sunk_frac(&self, point: DVec3) -> f64 {
         (self.floor_height() + self.camera_radius - self.frame.height(point)).max(0.0) / self.bounds.size()
     }

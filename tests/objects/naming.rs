@@ -1,11 +1,11 @@
-use cinesplat::objects::{self, nearest_labels};
+use cinesplat::objects;
 use cinesplat::scene::Gaussians;
 use glam::{DVec3, Vec3};
 
 use super::{push_box, scene_of};
 
 #[test]
-fn labels_say_what_is_measured_and_are_unique() {
+fn labels_describe_size_color_and_shape_and_are_unique() {
     let mut gaussians = Gaussians::default();
     let mut labels = Vec::new();
     let things = [
@@ -25,6 +25,4 @@ fn labels_say_what_is_measured_and_are_unique() {
         said,
         ["large white object", "small red object", "small red object 2", "small tall green object", "black panel"]
     );
-    assert_eq!(nearest_labels("smal RED objekt", &set.objects, 2), ["small red object", "small red object 2"]);
-    assert_eq!(nearest_labels("", &set.objects, 9).len(), 5);
 }

@@ -1,9 +1,10 @@
 //! Certificates of the distance between matter and a whole path, by branch and bound.
 //!
-//! An interval of a path lies in a ball about its midpoint ([`CameraPath::bounding_ball`]), and the distance to matter is
-//! 1-Lipschitz: where the midpoint is `d` from matter and the ball's radius is `r`, the whole interval is at least `d - r`
-//! from it. Intervals whose bound is too loose are bisected, the one of least bound first. The result is a lower bound for
-//! every moment, because the intervals cover the path. The nearest midpoint is a witness of how tight the bound is.
+//! An interval of a path lies in a ball about its midpoint ([`CameraPath::bounding_ball`]), and the distance to matter
+//! is 1-Lipschitz: where the midpoint is `d` from matter and the ball's radius is `r`, the whole interval is at least
+//! `d - r` from it. Intervals whose bound is too loose are bisected, the one of least bound first. The result is a
+//! lower bound for every moment, because the intervals cover the path. The nearest midpoint is a witness of how tight
+//! the bound is.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -35,8 +36,8 @@ pub(crate) struct ClearanceQuery {
 pub(crate) struct ClearanceBound {
     /// Every point of the path is at least this far from matter, scene units; at most [`ClearanceQuery::enough`].
     pub(crate) bound: f64,
-    /// The interval whose midpoint is nearest to matter, and the matter. `None` where every midpoint is at least `enough`
-    /// away.
+    /// The interval whose midpoint is nearest to matter, and the matter. `None` where every midpoint is at least
+    /// `enough` away.
     pub(crate) witness: Option<(PathInterval, Nearest)>,
     /// Intervals examined.
     pub(crate) num_intervals: usize,
@@ -84,8 +85,8 @@ struct BranchAndBound<'a> {
 }
 
 impl BranchAndBound<'_> {
-    /// Examines an interval that is known to be at least `floor` from matter. Keeps it where it may come nearer than the
-    /// witness.
+    /// Examines an interval that is known to be at least `floor` from matter. Keeps it where it may come nearer than
+    /// the witness.
     fn examine(&mut self, interval: PathInterval, floor: f64) {
         self.num_intervals += 1;
         let ball = self.path.bounding_ball(interval);

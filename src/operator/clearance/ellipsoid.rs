@@ -1,14 +1,16 @@
 //! The distance from a point to an ellipsoid.
 //!
-//! For a point `y` outside an ellipsoid of semi-axes `e`, in the ellipsoid's frame, the nearest point is `x_i = e_i^2 y_i / (t + e_i^2)` with the
-//! `t > 0` at which `x` lies on the surface: `N(t) = |e_i y_i / (t + e_i^2)| = 1` (Eberly, "Distance from a Point to an
-//! Ellipse, an Ellipsoid, or a Hyperellipsoid", 2013). `1 / N` is concave in `t`, so Newton's method on it, started left of
-//! the root, never passes it (Conn, Gould and Toint, "Trust-Region Methods", 2000, 7.3.3), and the distance
-//! `|t y_i / (t + e_i^2)|` grows with `t`: every iterate is a lower bound on the distance, for every shape.
+//! For a point `y` outside an ellipsoid of semi-axes `e`, in the ellipsoid's frame, the nearest point is `x_i = e_i^2
+//! y_i / (t + e_i^2)` with the `t > 0` at which `x` lies on the surface: `N(t) = |e_i y_i / (t + e_i^2)| = 1` (Eberly,
+//! "Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid", 2013). `1 / N` is concave in `t`, so
+//! Newton's method on it, started left of the root, never passes it (Conn, Gould and Toint, "Trust-Region Methods",
+//! 2000, 7.3.3), and the distance `|t y_i / (t + e_i^2)|` grows with `t`: every iterate is a lower bound on the
+//! distance, for every shape.
 
 use glam::{DVec3, Quat, Vec3};
 
-/// Smallest semi-axis over the largest. Smaller ones are raised to it, which changes less than the rounding of positions.
+/// Smallest semi-axis over the largest. Smaller ones are raised to it, which changes less than the rounding of
+/// positions.
 const THINNEST_FRAC: f64 = 1e-9;
 /// Limit on Newton steps; ten are rare.
 const MAX_STEPS: usize = 64;
@@ -26,8 +28,8 @@ pub(super) struct Ellipsoid {
 }
 
 impl Ellipsoid {
-    /// Distance from a point (relative to the scene's origin) to the ellipsoid of `sigma` standard deviations; 0 inside.
-    /// `None` where it is `cutoff` or more. Never above the true distance by more than rounding.
+    /// Distance from a point (relative to the scene's origin) to the ellipsoid of `sigma` standard deviations; 0
+    /// inside. `None` where it is `cutoff` or more. Never above the true distance by more than rounding.
     pub(super) fn distance_below(&self, point: DVec3, sigma: f64, cutoff: f64) -> Option<f64> {
         let away = point - self.mean.as_dvec3();
         let semi_axes = self.scales.as_dvec3() * sigma;
@@ -59,7 +61,8 @@ fn unrotated(rotation: Quat, v: DVec3) -> DVec3 {
     v + twice * w + axis.cross(twice)
 }
 
-/// As [`Ellipsoid::distance_below`], for a point in the first octant. The semi-axes `e` are all above zero, or all zero.
+/// As [`Ellipsoid::distance_below`], for a point in the first octant. The semi-axes `e` are all above zero, or all
+/// zero.
 fn distance_below(y: DVec3, e: DVec3, cutoff: f64) -> Option<f64> {
     if e.max_element() <= 0.0 {
         return Some(y.length()).filter(|&distance| distance < cutoff);

@@ -1,8 +1,8 @@
 //! The ellipsoid nearest to a point, by a bounding volume hierarchy with eight boxes per node in flat arrays.
 //!
-//! The ellipsoids are sorted by size class, then by the Morton code of their means, so that large ones do not enlarge the
-//! boxes of small ones. Every eight neighbors share a node, and every eight nodes share a parent. The boxes are `f32`,
-//! widened by more than the rounding error of a query: a box is never farther from a point than its contents.
+//! The ellipsoids are sorted by size class, then by the Morton code of their means, so that large ones do not enlarge
+//! the boxes of small ones. Every eight neighbors share a node, and every eight nodes share a parent. The boxes are
+//! `f32`, widened by more than the rounding error of a query: a box is never farther from a point than its contents.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use super::ellipsoid::Ellipsoid;
 use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
-/// Number of standard deviations of a Gaussian that count as matter. There its opacity has fallen to a third of its peak:
-/// a Gaussian of opacity 0.5 hides a sixth of the light.
+/// Number of standard deviations of a Gaussian that count as matter. There its opacity has fallen to a third of its
+/// peak: a Gaussian of opacity 0.5 hides a sixth of the light.
 pub const SIGMA_LEVEL: f64 = 1.5;
 /// Children per node.
 const WIDTH: usize = 8;
@@ -42,7 +42,8 @@ pub struct Nearest {
     pub gaussian_idx: u32,
 }
 
-/// The boxes of eight children, axis by axis. A missing child has an empty box, which is infinitely far from every point.
+/// The boxes of eight children, axis by axis. A missing child has an empty box, which is infinitely far from every
+/// point.
 #[derive(Debug, Clone, Copy)]
 struct BoxNode {
     low: [[f32; WIDTH]; 3],
@@ -52,7 +53,8 @@ struct BoxNode {
 const EMPTY: BoxNode = BoxNode { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
 
 impl ClearanceIndex {
-    /// Indexes the ellipsoids of all Gaussians of at least [`SOLID_OPACITY`], out to [`SIGMA_LEVEL`] standard deviations.
+    /// Indexes the ellipsoids of all Gaussians of at least [`SOLID_OPACITY`], out to [`SIGMA_LEVEL`] standard
+    /// deviations.
     pub fn new(gaussians: &Gaussians) -> Self {
         let ellipsoid = |i: u32| {
             let i = i as usize;

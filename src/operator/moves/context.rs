@@ -83,8 +83,8 @@ impl<'a> StepContext<'a> {
         Framing { angle: self.step.end.angle, ..Framing::default() }
     }
 
-    /// An opening view of `target`. `fill` and `fov_deg` are the ranges of size and field of view where the prompt states no
-    /// size.
+    /// An opening view of `target`. `fill` and `fov_deg` are the ranges of size and field of view where the prompt
+    /// states no size.
     pub(super) fn view(
         &self,
         target: &Target,
@@ -109,7 +109,8 @@ impl<'a> StepContext<'a> {
         }
     }
 
-    /// The camera turned in place to a point, and a join for the turn. A camera that already aims at the point stays as it is.
+    /// The camera turned in place to a point, and a join for the turn. A camera that already aims at the point stays as
+    /// it is.
     pub(super) fn turned_to(&self, before: &CameraState, point: DVec3) -> (Vec<MotionSegment>, CameraState) {
         let turned = aimed(self.world, before, point);
         if off_center(before, point) < 0.03 {
@@ -122,8 +123,8 @@ impl<'a> StepContext<'a> {
         (vec![join], turned)
     }
 
-    /// A segment of the step's move, with its easing. It lasts as long as the prompt says, or `natural_secs` times the factor
-    /// of the step's speed.
+    /// A segment of the step's move, with its easing. It lasts as long as the prompt says, or `natural_secs` times the
+    /// factor of the step's speed.
     pub(super) fn segment(&self, states: Vec<CameraState>, natural_secs: f64) -> MotionSegment {
         let mut segment =
             MotionSegment::new(self.index, self.step.movement, states, natural_secs * pace(self.step.speed));
@@ -173,8 +174,8 @@ pub(super) fn require_visible(mut segment: MotionSegment, target: &Target, scope
     segment
 }
 
-/// Range of the vertical field of view of a normal view, degrees: 35 to 60 mm on full frame, which renders rooms and objects
-/// with a natural perspective.
+/// Range of the vertical field of view of a normal view, degrees: 35 to 60 mm on full frame, which renders rooms and
+/// objects with a natural perspective.
 pub(super) const NORMAL_LENS_DEG: (f64, f64) = (32.0, 56.0);
 
 /// Factor on a step's duration.
@@ -186,8 +187,8 @@ fn pace(speed: Speed) -> f64 {
     }
 }
 
-/// Azimuths of the camera, seen from its subject, that suit this step and those after it up to a cut: across the line between
-/// start and end of each, and toward the best viewpoint.
+/// Azimuths of the camera, seen from its subject, that suit this step and those after it up to a cut: across the line
+/// between start and end of each, and toward the best viewpoint.
 fn preferred_azimuths(world: &World, program: &Program, index: usize) -> Vec<f64> {
     let mut out = Vec::new();
     for (i, step) in program.steps.iter().enumerate().skip(index) {

@@ -81,7 +81,8 @@ fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inwar
     }
 }
 
-/// Travels along the line to the subject while the lens keeps the subject's height in the frame: d tan(fov / 2) is constant.
+/// Travels along the line to the subject while the lens keeps the subject's height in the frame: d tan(fov / 2) is
+/// constant.
 pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
     let inward =

@@ -29,12 +29,14 @@ pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
     vec![require_visible(segment, &end, Scope::End)]
 }
 
-/// A view of the step's end target with the field of view of its start, so that only the camera's travel changes the picture.
+/// A view of the step's end target with the field of view of its start, so that only the camera's travel changes the
+/// picture.
 fn end_view(context: &StepContext, end: &Target, first: &CameraState) -> CameraState {
     let world = context.world;
     let near = bearing_of(world, end.aim, first.pose.position);
     let parameters = context.parameters;
-    // The density peaks at the bearing that the camera comes from: the shortest path shows the side that it already sees.
+    // The density peaks at the bearing that the camera comes from: the shortest path shows the side that it already
+    // sees.
     let spread = |parameter: f64| (parameter * 2.0 - 1.0) * (parameter * 2.0 - 1.0).abs();
     let band = context.step.end.angle.map(|angle| {
         let (low, high) = pitch_band_deg(angle);

@@ -56,8 +56,8 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
-/// The target that a pull-out without a start framing pulls away from: that of an earlier step, else the first subject of its
-/// end.
+/// The target that a pull-out without a start framing pulls away from: that of an earlier step, else the first subject
+/// of its end.
 fn pulled_from(context: &StepContext) -> Target {
     let first = Framing { subjects: context.step.end.subjects.iter().take(1).copied().collect(), ..Framing::default() };
     let first = || Target::of(context.world, &first);

@@ -46,11 +46,12 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
 
 /// Distance of the thirds from the frame's middle, over its width.
 const THIRD: f64 = 1.0 / 6.0;
-/// Largest width of a subject that is placed on a third, over the frame's width: a wider one would nearly touch the edge.
+/// Largest width of a subject that is placed on a third, over the frame's width: a wider one would nearly touch the
+/// edge.
 const MAX_THIRD_WIDTH: f64 = 0.5;
 
-/// Whether the composition of a held view is free: one subject, no stated size, part or angle, and no later step that needs
-/// the subject in the middle.
+/// Whether the composition of a held view is free: one subject, no stated size, part or angle, and no later step that
+/// needs the subject in the middle.
 fn is_free(context: &StepContext, framing: &Framing) -> bool {
     let alone = framing.subjects.len() <= 1 && !framing.whole && framing.part == SubjectPart::Middle;
     alone && framing.size.is_none() && framing.angle.is_none() && context.is_last
@@ -160,8 +161,8 @@ fn turned(context: &StepContext, state: &CameraState, yaw_rad: f64, pitch_rad: f
     CameraState { pose: Pose { rotation: frame.rotation(turned), ..state.pose }, ..*state }
 }
 
-/// A turn in place. `by` turns a camera by an angle in the step's direction; `limits` gives the constraints along and across
-/// the turn.
+/// A turn in place. `by` turns a camera by an angle in the step's direction; `limits` gives the constraints along and
+/// across the turn.
 fn turn(
     context: &StepContext,
     sign: f64,
@@ -209,7 +210,8 @@ fn turn(
     segments
 }
 
-/// A turn that ends on a target: from the start target, from the camera before, or from a view turned away from the target.
+/// A turn that ends on a target: from the start target, from the camera before, or from a view turned away from the
+/// target.
 fn onto(
     context: &StepContext,
     end: &Target,

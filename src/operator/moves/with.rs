@@ -12,8 +12,8 @@ use cinesplat_trajectory::{CameraState, Move};
 /// Least number of keyframes of a combined move, whose path is curved.
 const NUM_KEYS: usize = 5;
 
-/// Adds the step's second move to its last segment. The segment keeps its constraints, except those that the second move
-/// inevitably violates.
+/// Adds the step's second move to its last segment. The segment keeps its constraints, except those that the second
+/// move inevitably violates.
 pub(super) fn add_second_move(context: &StepContext, segments: &mut [MotionSegment]) {
     let named_direction = matches!(context.step.movement, Move::WhipPan | Move::Reveal);
     let Some(second) = context.step.with.filter(|second| *second != context.step.movement && !named_direction) else {

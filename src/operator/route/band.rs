@@ -14,7 +14,8 @@ const SWEEPS: usize = 24;
 /// Distance below which matter repels the band, over the required room.
 const REPELLED_WITHIN: f64 = 1.8;
 
-/// Evenly spaced points along a path, moved so that it bends gently and keeps away from matter. Every point keeps its room.
+/// Evenly spaced points along a path, moved so that it bends gently and keeps away from matter. Every point keeps its
+/// room.
 pub(super) fn smoothed(world: &World, path: &[DVec3], room: f64) -> Vec<DVec3> {
     let length: f64 = path.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let count = ((length / world.bounds.size() * POINTS_PER_SIZE) as usize).clamp(POINTS.0, POINTS.1);
@@ -91,7 +92,8 @@ impl ClearanceProbe<'_> {
         (next.free >= needed && meets(before) && meets(after)).then_some(next)
     }
 
-    /// Gradient of the distance to matter, by forward differences; of length 1 at most, less in the middle between walls.
+    /// Gradient of the distance to matter, by forward differences; of length 1 at most, less in the middle between
+    /// walls.
     fn away_from_matter(&self, here: BandPoint, step: f64) -> DVec3 {
         let slope = |axis: DVec3| (self.at(here.point + axis * step).free - here.free) / step;
         DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z)).clamp_length_max(1.0)

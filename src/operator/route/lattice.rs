@@ -1,5 +1,5 @@
-//! The cheapest path over a lattice of free points (A*; Hart, Nilsson and Raphael 1968). Points next to matter cost more,
-//! so that the camera keeps away from walls where the detour is short.
+//! The cheapest path over a lattice of free points (A*; Hart, Nilsson and Raphael 1968). Points next to matter cost
+//! more, so that the camera keeps away from walls where the detour is short.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

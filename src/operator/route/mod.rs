@@ -1,9 +1,9 @@
 //! A collision-free path between two cameras.
 //!
 //! Enters: a start and a goal. Leaves: cameras whose path is certified to be clear of matter, or why there is none. The
-//! straight path is taken where it is clear. Otherwise A* on a lattice of free points (`lattice`) finds a path, which is
-//! shortened (`straight`), smoothed and pushed off the walls (`band`), and interpolated through the fewest keyframes that
-//! stay clear. The search is deterministic, and the number of lattice points that it expands is bounded.
+//! straight path is taken where it is clear. Otherwise A* on a lattice of free points (`lattice`) finds a path, which
+//! is shortened (`straight`), smoothed and pushed off the walls (`band`), and interpolated through the fewest keyframes
+//! that stay clear. The search is deterministic, and the number of lattice points that it expands is bounded.
 
 mod band;
 mod lattice;
@@ -18,8 +18,8 @@ use super::world::World;
 use cinesplat_geometry::{LevelAngles, Pose};
 use cinesplat_trajectory::{CameraPath, CameraState, ClearanceProof, Easing, Keyframe, Move, retime};
 
-/// Lattices to try, coarse ones first: edge of a cell over the scene size, and clearance beyond the camera's radius over
-/// that radius. The last one finds gaps a few percent wider than the camera.
+/// Lattices to try, coarse ones first: edge of a cell over the scene size, and clearance beyond the camera's radius
+/// over that radius. The last one finds gaps a few percent wider than the camera.
 const ATTEMPTS: [(f64, f64); 4] = [(1.0 / 36.0, 1.0), (1.0 / 72.0, 0.4), (1.0 / 144.0, 0.2), (1.0 / 144.0, 0.04)];
 /// Points of the band per keyframe of the path, from few keyframes to many.
 const STRIDES: [usize; 5] = [16, 8, 4, 2, 1];
@@ -132,7 +132,8 @@ fn bare_keys(states: &[CameraState], secs: f64) -> Vec<Keyframe> {
     keyframes(&[segment], &[StepLabels::default()])
 }
 
-/// Cameras at points along a path. Yaw, pitch, roll and field of view go linearly from start to goal with the path length.
+/// Cameras at points along a path. Yaw, pitch, roll and field of view go linearly from start to goal with the path
+/// length.
 fn states_along(world: &World, (start, goal): (&CameraState, &CameraState), points: &[DVec3]) -> Vec<CameraState> {
     let frame = &world.frame;
     let (a, b) = (frame.angles(start.pose.rotation), frame.angles(goal.pose.rotation));

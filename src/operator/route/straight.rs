@@ -7,9 +7,9 @@ use crate::world::World;
 /// Limit on the steps along one line.
 const MAX_STEPS: usize = 400;
 
-/// Whether a ball of radius `room` can move straight from `a` to `b`. Each step is as long as the free distance around the
-/// ball (sphere tracing), so that balls known to be free cover the line. A line with less than a hundredth of `room` to
-/// spare counts as blocked.
+/// Whether a ball of radius `room` can move straight from `a` to `b`. Each step is as long as the free distance around
+/// the ball (sphere tracing), so that balls known to be free cover the line. A line with less than a hundredth of
+/// `room` to spare counts as blocked.
 pub(super) fn is_clear(world: &World, a: DVec3, b: DVec3, room: f64) -> bool {
     let length = a.distance(b);
     let (mut at, least) = (0.0, 0.01 * room);

@@ -46,15 +46,16 @@ pub(super) struct PairResult {
     pub(super) solve_time: Duration,
     /// The route.
     pub(super) route: Result<Route, NoRoute>,
-    /// Samples of the path that the scan finds nearer to matter than the camera's radius; `None` without a route or scan.
+    /// Samples of the path that the scan finds nearer to matter than the camera's radius; `None` without a route or
+    /// scan.
     pub(super) num_violations: Option<usize>,
     /// Least distance that the scan finds, at most 1.5 camera radii; `None` without a route or scan.
     pub(super) scanned_least: Option<f64>,
 }
 
 impl PairTrial {
-    /// Routes between pairs of free places inside the captured region. Every second pair is redrawn until the straight line
-    /// between its ends is blocked. `clock` returns the time since an arbitrary moment.
+    /// Routes between pairs of free places inside the captured region. Every second pair is redrawn until the straight
+    /// line between its ends is blocked. `clock` returns the time since an arbitrary moment.
     pub(super) fn run(&self, world: &World, gaussians: &Gaussians, clock: impl Fn() -> Duration) -> Vec<PairResult> {
         let mut rng = Pcg64Mcg::seed_from_u64(self.seed);
         let mut results = Vec::with_capacity(self.num_pairs);

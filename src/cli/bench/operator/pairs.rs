@@ -107,8 +107,8 @@ fn summary(results: &[PairResult]) -> String {
     let straight = results.iter().filter(|r| r.route.as_ref().is_ok_and(Route::is_straight)).count();
     let found = results.iter().filter(|r| r.route.is_ok()).count();
     let violating = results.iter().filter(|r| r.num_violations.is_some_and(|count| count > 0)).count();
-    // A scan that finds less than what was proved would break the proof, even where the camera has room. It stops looking
-    // at 1.5 radii.
+    // A scan that finds less than what was proved would break the proof, even where the camera has room. It stops
+    // looking at 1.5 radii.
     let untrue = results.iter().filter(|r| {
         let proved =
             r.route.as_ref().map_or(0.0, |route| route.proof.min_distance.min(1.5 * route.proof.camera_radius));

@@ -49,7 +49,8 @@ impl<'a> Sampled<'a> {
         steps.windows(2).filter(|pair| pair[0].dot(pair[1]) < 0.0).count()
     }
 
-    /// Largest jump of the velocity and of the angular velocity at an inner key without a cut, over the highest of each.
+    /// Largest jump of the velocity and of the angular velocity at an inner key without a cut, over the highest of
+    /// each.
     pub(super) fn velocity_jumps(&self) -> (f64, f64) {
         let (mut jump, mut turn_jump) = (0.0_f64, 0.0_f64);
         let (mut peak, mut turn_peak) = (f64::MIN_POSITIVE, f64::MIN_POSITIVE);

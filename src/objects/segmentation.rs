@@ -1,23 +1,23 @@
-//! Groups of voxels: what touches, and what within it differs in color.
+//! Segmentation of voxels: connected components, and regions of similar color and direction.
 
 use super::color;
 use super::voxels::VoxelGrid;
 
-/// Disjoint sets with sizes (Tarjan 1975).
+/// Disjoint sets with sizes (union-find, Tarjan 1975).
 #[derive(Debug, Clone)]
-pub(crate) struct Sets {
+struct DisjointSets {
     parents: Vec<usize>,
     sizes: Vec<usize>,
 }
 
-impl Sets {
-    /// `len` sets of one.
-    pub(crate) fn new(len: usize) -> Self {
+impl DisjointSets {
+    /// `len` sets of one item.
+    fn new(len: usize) -> Self {
         Self { parents: (0..len).collect(), sizes: vec![1; len] }
     }
 
-    /// The one member that stands for an item's set.
-    pub(crate) fn find(&mut self, mut item: usize) -> usize {
+    /// The representative of an item's set.
+    fn find(&mut self, mut item: usize) -> usize {
         while self.parents[item] != item {
             self.parents[item] = self.parents[self.parents[item]];
             item = self.parents[item];
@@ -26,13 +26,13 @@ impl Sets {
     }
 
     /// Number of items in an item's set.
-    pub(crate) fn size(&mut self, item: usize) -> usize {
+    fn size(&mut self, item: usize) -> usize {
         let root = self.find(item);
         self.sizes[root]
     }
 
-    /// Makes one set of two; returns the member that stands for it.
-    pub(crate) fn join(&mut self, a: usize, b: usize) -> usize {
+    /// Joins two sets; returns the representative of the union.
+    fn join(&mut self, a: usize, b: usize) -> usize {
         let (a, b) = (self.find(a), self.find(b));
         let (small, large) = if (self.sizes[a], b) < (self.sizes[b], a) { (a, b) } else { (b, a) };
         if small != large {
@@ -42,8 +42,8 @@ impl Sets {
         large
     }
 
-    /// The sets among `items`, each in order of `items`, in order of their first members.
-    pub(crate) fn groups(&mut self, items: &[usize]) -> Vec<Vec<usize>> {
+    /// The sets of `items`, sorted by their first members; each keeps the order of `items`.
+    fn groups(&mut self, items: &[usize]) -> Vec<Vec<usize>> {
         let mut group_of_root = vec![usize::MAX; self.parents.len()];
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for &item in items {
@@ -58,13 +58,13 @@ impl Sets {
     }
 }
 
-/// The connected parts of some voxels: two are neighbors when they are at most `reach` cells apart.
+/// The connected components of some voxels; neighbors are at most `reach` cells apart.
 pub(crate) fn components(grid: &VoxelGrid, voxels: &[usize], reach: i32) -> Vec<Vec<usize>> {
     let mut chosen = vec![false; grid.voxels.len()];
     for &voxel in voxels {
         chosen[voxel] = true;
     }
-    let mut sets = Sets::new(grid.voxels.len());
+    let mut sets = DisjointSets::new(grid.voxels.len());
     for &voxel in voxels {
         for other in grid.neighbors(voxel, reach).filter(|&other| other < voxel && chosen[other]) {
             sets.join(voxel, other);
@@ -74,11 +74,12 @@ pub(crate) fn components(grid: &VoxelGrid, voxels: &[usize], reach: i32) -> Vec<
 }
 
 /// Splits touching voxels where color or direction changes, by the graph-based segmentation of Felzenszwalb and
-/// Huttenlocher (2004): two parts stay apart when the weakest edge between them is stronger than the strongest needed
-/// inside either, plus `scale` over its size. Parts of fewer than `min_voxels` join the neighbor most like them.
+/// Huttenlocher (2004): two regions stay separate where the weakest edge between them exceeds the strongest edge of the
+/// spanning tree of either, plus `scale` over its size. Regions of fewer than `min_voxels` join their most similar
+/// neighbor.
 pub(crate) fn split_by_color(grid: &VoxelGrid, voxels: &[usize], scale: f32, min_voxels: usize) -> Vec<Vec<usize>> {
     let edges = edges(grid, voxels);
-    let mut sets = Sets::new(grid.voxels.len());
+    let mut sets = DisjointSets::new(grid.voxels.len());
     let mut thresholds = vec![scale; grid.voxels.len()];
     for &(weight, a, b) in &edges {
         let (a, b) = (sets.find(a), sets.find(b));
@@ -95,12 +96,12 @@ pub(crate) fn split_by_color(grid: &VoxelGrid, voxels: &[usize], scale: f32, min
     sets.groups(voxels)
 }
 
-/// Color units that a right angle between two surfaces counts for. Heavier (20), the folds of a curtain and the sides of
-/// a chair fell apart; at 0, a white cupboard could not be told from the white wall beside it.
+/// Weight of a right angle between two surfaces, in color units. At 20 the folds of a curtain and the sides of a chair
+/// became separate objects; at 0 a white cupboard merged with the white wall beside it.
 const TURN_WEIGHT: f32 = 6.0;
 
-/// Edges between touching voxels of a set, weakest first: `(difference, voxel, voxel)`. The difference is that of the
-/// colors (CIE Lab) and of the surfaces' directions, where a right angle counts [`TURN_WEIGHT`].
+/// Edges between touching voxels of a set, weakest first: `(weight, voxel, voxel)`. The weight is the color difference
+/// plus the difference of the surfaces' directions, where a right angle counts [`TURN_WEIGHT`].
 fn edges(grid: &VoxelGrid, voxels: &[usize]) -> Vec<(f32, usize, usize)> {
     let mut chosen = vec![false; grid.voxels.len()];
     for &voxel in voxels {
