@@ -22,7 +22,7 @@ pub struct Difference {
 
 impl Difference {
     /// The difference of pictures that cannot be compared: all NaN.
-    pub const UNKNOWN: Self = Self { psnr_db: f64::NAN, ssim: f64::NAN, worst: f64::NAN };
+    pub(super) const UNKNOWN: Self = Self { psnr_db: f64::NAN, ssim: f64::NAN, worst: f64::NAN };
 }
 
 /// The difference of two pictures; all NaN for different sizes.

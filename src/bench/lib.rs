@@ -15,7 +15,7 @@ pub mod scaling;
 mod variants;
 
 pub use difference::{Difference, difference};
-pub use measure::{BenchPlan, BenchRow, Timing, measure, time};
+pub use measure::{BenchPlan, BenchRow, Timing, measure};
 pub use output::RenderOutput;
 pub use pareto::{AccuracyAxis, pareto_svg};
 pub use report::{to_csv, to_table};

@@ -164,7 +164,7 @@ fn time_beside_color(
 ///
 /// # Errors
 /// Those of [`Renderer::render`].
-pub fn time(
+pub(super) fn time(
     renderer: &Renderer<'_>,
     camera: &Camera,
     (settings, num_repeats): (&RenderSettings, usize),

@@ -8,8 +8,9 @@ use std::fmt::Write as _;
 
 use glam::{DQuat, DVec3, Quat, Vec3};
 
+use super::Timing;
+use super::measure::time;
 use super::report::ms;
-use super::{Timing, time};
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 use cinesplat_plot::{Axis, COLORS, Chart, LegendEntry, LegendSymbol, Marker, Series, grid};
 use cinesplat_render::{RenderError, RenderSettings, Renderer, memory_target_bytes};
@@ -175,7 +176,7 @@ fn camera([width, height]: [u32; 2], position: DVec3) -> Camera {
 
 impl ScalingRow {
     /// Memory target of the renderer for this scene and picture; see [`memory_target_bytes`].
-    pub fn allowed_bytes(&self) -> u64 {
+    fn allowed_bytes(&self) -> u64 {
         memory_target_bytes(self.num_gaussians, self.num_pixels)
     }
 }

@@ -38,7 +38,7 @@ pub enum KnobKind {
 
 impl KnobKind {
     /// Whether the knob trades accuracy for time.
-    pub fn costs_accuracy(self) -> bool {
+    pub(super) fn costs_accuracy(self) -> bool {
         !matches!(self, Self::Output | Self::Free)
     }
 }

@@ -55,7 +55,7 @@ impl VideoSettings {
     ///
     /// # Errors
     /// [`VideoError::BadSetting`] names the first setting that is out of range.
-    pub fn validated(self, format: &VideoFormat) -> Result<Self, VideoError> {
+    pub(super) fn validated(self, format: &VideoFormat) -> Result<Self, VideoError> {
         let bad = |what, found: String, expected| Err(VideoError::BadSetting { what, found, expected });
         if !(1..=16384).contains(&self.width) || !(1..=16384).contains(&self.height) {
             return bad("frame size", format!("{}x{}", self.width, self.height), "1 to 16384 pixels each way");
