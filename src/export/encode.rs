@@ -81,7 +81,7 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
     }
     let mut encoded = encode_poses(format, &track, settings.layout)?;
     if settings.content == Content::Keyframes && shot.keyframes.len() > 2 {
-        let what = "joins the keys by a curve of its own: export without --keyframes for the film's path";
+        let what = "interpolates between keyframes with its own curve: export every frame for the path of the film";
         encoded.losses.push(format!("{format} {what}"));
     }
     Ok(encoded)

@@ -60,7 +60,7 @@ impl Imported {
 ///
 /// # Errors
 /// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is none
-/// of the formats, and what each format's reader finds wrong.
+/// of the known formats, and the errors of the format's reader.
 pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError> {
     let path = &file_of(path)?;
     let bytes = read_bytes(path)?;

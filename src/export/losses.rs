@@ -8,7 +8,7 @@ use super::{lichtfeld, opengl};
 use cinesplat_geometry::LevelFrame;
 use cinesplat_trajectory::Easing;
 
-/// Largest number of keys of a camera animation in SuperSplat's editor.
+/// Largest number of keys in a camera animation of SuperSplat's editor.
 const SUPERSPLAT_MAX_KEYS: usize = 1000;
 /// Roll below which a camera counts as level, rad.
 const LEVEL_RAD: f64 = 1e-3;
@@ -26,20 +26,23 @@ pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
     let start = track.frames.first().map_or(0.0, |first| first.time_secs);
     lost(track.timed && !holds.times, "holds no times: only the order of the frames is kept".into());
     lost(holds.times && !holds.clock && start != 0.0, format!("counts times from 0: {start} s is subtracted"));
-    lost(!holds.fov && any(|f| f.fov_y_rad.is_some()), format!("holds no field of view: {} is lost", fov_range(track)));
+    lost(
+        !holds.fov && any(|f| f.fov_y_rad.is_some()),
+        format!("holds no field of view: {} are lost", fov_range(track)),
+    );
     lost(!holds.size && track.size_px.is_some(), "holds no image size".into());
     lost(!holds.focus && any(|f| f.focus_distance.is_some()), "holds no focus distance".into());
     lost(!holds.easing && any(|f| f.easing != Easing::Linear), "holds no easing".into());
     let has_curve = any(|f| f.easing != f.easing.as_cruise());
     lost(
         format == Format::Lichtfeld && has_curve,
-        "has four easings: others become the one with the same rests".into(),
+        "has four easings: each other easing becomes the one that rests at the same ends".into(),
     );
-    lost(!holds.cuts && any(|f| f.cut), "holds no cuts: a reader may sweep across them".into());
+    lost(!holds.cuts && any(|f| f.cut), "holds no cuts: other programs may interpolate across them".into());
     let roll = if holds.roll { 0.0 } else { largest_roll_rad(track, DVec3::NEG_Y) };
     lost(
         roll > LEVEL_RAD,
-        format!("holds no roll: up to {:.1} degrees against its up (-y) are lost", roll.to_degrees()),
+        format!("holds no roll: up to {:.1} degrees relative to its up (-y) are lost", roll.to_degrees()),
     );
     lines.extend(out_of_range(format, track));
     lines
@@ -55,7 +58,7 @@ fn out_of_range(format: Format, track: &PoseTrack) -> Option<String> {
             outside.then(|| format!("lichtfeld takes focal lengths of {low} to {high} mm and clamps the others"))
         }
         Format::Supersplat if track.frames.len() > SUPERSPLAT_MAX_KEYS => {
-            Some(format!("supersplat's editor takes at most {SUPERSPLAT_MAX_KEYS} keys: lower --fps"))
+            Some(format!("supersplat's editor takes at most {SUPERSPLAT_MAX_KEYS} keys: export at a lower frame rate"))
         }
         Format::Gltf | Format::Usd => opengl::unknown_up(format, track.up),
         Format::Blender if track.up.is_none() => Some("blender takes +z as up: the scene's up is not known".into()),

@@ -3,7 +3,7 @@ use cinesplat::geometry::Pose;
 use glam::{DQuat, DVec3};
 
 fn stamped(times: &[f64]) -> Trajectory {
-    // The position tells which pose it is.
+    // The x coordinate identifies the pose.
     let poses: Vec<Pose> = (0..times.len()).map(|idx| Pose::new(DVec3::X * idx as f64, DQuat::IDENTITY)).collect();
     Trajectory::from_poses(Some(times.to_vec()), &poses)
 }
@@ -22,14 +22,14 @@ fn nearest_stamps_within_the_bound() {
 
 #[test]
 fn a_pose_is_used_once() {
-    // Both estimates are nearest to the stamp at 1; the closer one gets it, the other the stamp at 0.
+    // Time stamp 1 is the nearest to both estimates: it is matched with the closer one, time stamp 0 with the other.
     assert_eq!(matched(&[0.0, 1.0], &[0.6, 0.9], 1.0), (vec![0, 1], vec![0, 1]));
     assert_eq!(matched(&[1.0], &[0.95, 1.01, 1.2], 1.0), (vec![0], vec![1]));
 }
 
 #[test]
 fn matches_never_cross() {
-    // 9.5 goes to 10; the stamps left, 0 and 11, would cross it.
+    // 9.5 is matched with 10. A match of 11 with 0, the only ones left, would cross it.
     assert_eq!(matched(&[0.0, 10.0], &[9.5, 11.0], 20.0), (vec![1], vec![0]));
 }
 

@@ -1,4 +1,4 @@
-//! Paths that position-only alignment cannot decide: straight, still, turning only, short.
+//! Paths that positions alone cannot align: straight, standing still, turning in place, one pose.
 
 use cinesplat::evaluation::{Align, EvalSettings, Evaluation, Relation, Trajectory, evaluate};
 use cinesplat::geometry::{Pose, rotation};
@@ -7,7 +7,7 @@ use strum::VariantArray;
 
 use super::paths::{at_30_fps, through};
 
-/// The path moved by a known rigid motion and scale: what alignment has to undo.
+/// The path after a known rotation, scale and translation, which the alignment has to invert.
 fn displaced(path: &Trajectory, turn: DQuat, shift: DVec3, scale: f64) -> Trajectory {
     let mut out = path.clone();
     out.positions.iter_mut().for_each(|p| *p = turn * (*p * scale) + shift);
@@ -37,7 +37,7 @@ fn a_straight_dolly_aligns_to_itself_with_its_roll() {
 
 #[test]
 fn noise_on_a_straight_line_does_not_choose_the_roll() {
-    // A millionth of the length aside: evo accepts this and rolls the camera anywhere.
+    // Lateral noise of a millionth of the length: evo accepts it, and the noise determines the roll.
     let mut seed = 1_u64;
     let mut noise = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -85,7 +85,7 @@ fn yaw_turns_about_up_alone() {
     let heading = DQuat::from_rotation_y(1.2);
     let result = full(&bent, &displaced(&bent, heading, DVec3::new(3.0, -1.0, 2.0), 1.0), Align::Yaw);
     assert!(result.statistics.max < 1e-12 && result.notes.is_empty());
-    // A tilt is not undone: the up axis stays what it was.
+    // Yaw alignment does not correct a tilt: the up axis is unchanged.
     let tilted = full(&bent, &displaced(&bent, DQuat::from_rotation_x(0.2), DVec3::ZERO, 1.0), Align::Yaw);
     assert!((tilted.alignment.rotation * DVec3::Y - DVec3::Y).length() < 1e-12);
     assert!(tilted.statistics.rmse > 0.1);

@@ -1,4 +1,4 @@
-//! Equal to evo 1.38.1 in how relative errors choose their pairs: numbers that `evo.core.metrics.RPE` printed for
+//! Pairs of relative errors against evo 1.38.1: the results of `evo.core.metrics.RPE` for
 //! `freiburg1_xyz-rgbdslam_drift.txt` against the ground truth after a Sim3 alignment, for every unit of delta.
 
 use cinesplat::evaluation::{Align, Delta, DeltaUnit, EvalSettings, EvaluationError, Metric, PairSettings, evaluate};

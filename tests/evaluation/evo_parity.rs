@@ -1,4 +1,4 @@
-//! Equal to evo 1.38.1 on recorded paths: `expected_evo_1.38.1.json` holds what its ordinary package computed.
+//! Errors of recorded paths against evo 1.38.1, whose results are in `expected_evo_1.38.1.json`.
 
 use cinesplat::evaluation::{Align, EvalSettings, Evaluation, Metric, PairSettings, evaluate};
 use serde_json::Value;
@@ -9,9 +9,9 @@ use crate::support::shared;
 /// Relative difference that counts as equal.
 const TOLERANCE: f64 = 1e-9;
 
-/// Compares one block of statistics; returns how many numbers it held.
+/// Compares one block of statistics and returns the number of compared values.
 fn compare(result: &Evaluation, expected: &Value, where_: &str) -> usize {
-    // Exact zeros differ by rounding: differences count relative to the largest error of the block.
+    // Exact zeros differ by rounding, so the tolerance is relative to the largest error of the block.
     let scale = expected["max"].as_f64().unwrap();
     for (name, got) in result.statistics.named() {
         let wanted = expected[name].as_f64().unwrap();
@@ -101,7 +101,7 @@ fn the_json_result_has_the_promised_keys_at_its_top_level() {
         (Some(32), Some("trans"), Some("sim3"))
     );
     assert_eq!((json["rotation"][2].as_array().unwrap().len(), json["translation"].as_array().unwrap().len()), (3, 3));
-    // What the object says of the alignment does align: mean of R s p + t is the mean of the reference.
+    // The alignment in the JSON maps the mean of the estimate to the mean of the reference: R s p + t.
     let row =
         |idx: usize| json["rotation"][idx].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect::<Vec<_>>();
     let original = evaluate(&reference, &estimate, &EvalSettings::default()).unwrap().matches;

@@ -1,4 +1,4 @@
-//! Tests of `src/evaluation`, one file a concept.
+//! Tests of `src/evaluation`, one file per concept.
 #![allow(clippy::float_cmp, reason = "counts, times and exact cases are compared bit by bit")]
 
 mod associate;

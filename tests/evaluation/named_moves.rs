@@ -1,4 +1,4 @@
-//! Moves that other projects published under a name get that name.
+//! Published camera paths with the name of a move are recognized as that move.
 
 use cinesplat::evaluation::{Trajectory, name_move};
 use cinesplat::geometry::Pose;
@@ -13,13 +13,13 @@ fn json(path: &std::path::Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// A camera of ReCamMaster's file: rows are the axes forward, right, up and the position, world z up.
+/// A camera of ReCamMaster's file: the rows are forward, right, up and position, in a world with z up.
 fn recammaster(file: &Value, camera: usize) -> Trajectory {
     let pose = |frame: usize| {
         let text = file[format!("frame{frame}")][format!("cam{camera:02}")].as_str().unwrap();
         let numbers: Vec<f64> = text.replace(['[', ']'], " ").split_whitespace().map(|n| n.parse().unwrap()).collect();
         let row = |idx: usize| DVec3::new(numbers[4 * idx], numbers[4 * idx + 1], numbers[4 * idx + 2]);
-        // Their frame is left-handed (y to the right with x ahead and z up): mirror y to see it as it was meant.
+        // The frame is left-handed (x forward, y right, z up), so y is mirrored.
         let mirrored = |v: DVec3| DVec3::new(v.x, -v.y, v.z);
         let axes = DMat3::from_cols(mirrored(row(1)), -mirrored(row(2)), mirrored(row(0)));
         Pose::new(mirrored(row(3)), DQuat::from_mat3(&axes))
@@ -31,7 +31,7 @@ fn recammaster(file: &Value, camera: usize) -> Trajectory {
 fn the_ten_moves_of_recammaster() {
     let Some(path) = shared("data/camera_moves/recammaster/camera_extrinsics.json") else { return };
     let file = json(&path);
-    // Seven and eight rise and fall while they keep their aim.
+    // Paths seven and eight rise and fall with a fixed aim.
     let wanted = [
         Move::PanRight,
         Move::PanLeft,
@@ -76,7 +76,7 @@ fn the_named_poses_of_motionctrl() {
             let mut m = [0.0; 16];
             m[15] = 1.0;
             rows.as_array().unwrap().iter().zip(&mut m).for_each(|(v, slot)| *slot = v.as_f64().unwrap());
-            // 3 x 4 camera_from_world, row by row.
+            // 3 x 4 camera_from_world in row-major order.
             Pose::from_matrix(DMat4::from_cols_array(&m).transpose().inverse()).unwrap()
         };
         let path = at_30_fps(&file.as_array().unwrap().iter().map(pose).collect::<Vec<_>>());
@@ -85,7 +85,7 @@ fn the_named_poses_of_motionctrl() {
     }
 }
 
-/// A path at 30 frames a second with a lens.
+/// A path at 30 frames per second with fields of view.
 fn with_lens(points: impl Iterator<Item = DVec3>, fov_deg: impl Fn(f64) -> f64) -> Trajectory {
     let path = through(points, DQuat::IDENTITY);
     let share = |idx: usize| idx as f64 / (path.len() as f64 - 1.0);
@@ -117,7 +117,7 @@ fn a_full_circle_is_an_orbit_and_a_wander_is_nothing() {
         Trajectory { up: Some(DVec3::NEG_Y), ..at_30_fps(&(0..=120).map(pose).collect::<Vec<_>>()) }
     };
     let orbit = name_move(&around(&|_| 2.0), 0.0).unwrap();
-    // From in front (at -z, looking along +z) toward +x: the operator's right.
+    // From -z, looking along +z, toward +x, which is the operator's right.
     assert_eq!(orbit.name, Move::OrbitRight);
     assert!((orbit.amount - std::f64::consts::TAU).abs() < 1e-9);
     assert_eq!(name_move(&around(&|angle| 2.0 + angle.sin()), 0.0), None);

@@ -3,7 +3,7 @@ use glam::{DQuat, DVec3};
 
 use super::paths::through;
 
-/// Checks that tags nest and close, as an XML parser would.
+/// Checks that tags are nested and closed, as an XML parser does.
 fn is_well_formed(svg: &str) -> bool {
     let mut open: Vec<&str> = Vec::new();
     for tag in svg.split('<').skip(1) {

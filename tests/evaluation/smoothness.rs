@@ -1,4 +1,4 @@
-//! Against numbers that numpy gave for the published definitions (the reference implementation's defaults: padding 4,
+//! Smoothness against numpy's results for the published definitions (the reference implementation's defaults: padding 4,
 //! 10 Hz, 0.05) on the same samples.
 
 use cinesplat::evaluation::{Smoothness, smoothness};
@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::paths::{at_30_fps, through};
 
-/// 8 s at 30 frames a second along x by a function of the share of the time.
+/// 8 s at 30 frames per second along x, as a function of the fraction of the time.
 fn moved(x: impl Fn(f64) -> f64) -> Smoothness {
     smoothness(&through((0..=240).map(|k| DVec3::X * x(f64::from(k) / 240.0)), DQuat::IDENTITY)).unwrap()
 }
@@ -41,7 +41,7 @@ fn an_even_speed_has_no_ripple_and_a_ramp_is_no_cruise() {
     let even = moved(|s| s);
     assert!(even.speed_ripple.unwrap() < 1e-12 && even.jerk_rms.unwrap() < 1e-9);
     assert_eq!(even.log_dimensionless_jerk, None);
-    // A fifth of the time up to speed, three fifths even, a fifth down.
+    // A fifth of the time to accelerate, three fifths at even speed, a fifth to slow down.
     let ramped = moved(|s| {
         if s < 0.2 {
             s * s / 0.4

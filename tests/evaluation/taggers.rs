@@ -46,7 +46,7 @@ fn every_turn_has_its_word() {
             (0..40).map(|k| Pose::new(DVec3::ONE, DQuat::from_scaled_axis(axis * 0.01 * f64::from(k)))).collect();
         at_30_fps(&poses)
     };
-    // OpenCV axes: about x the view goes up, about y (down) it goes right, about z the right side dips.
+    // In OpenCV axes a rotation about x tilts the view up, about y (down) pans it right, about z dips the right side.
     let cases = [
         (DVec3::X, "pitch up"),
         (DVec3::NEG_X, "pitch down"),
@@ -63,7 +63,8 @@ fn every_turn_has_its_word() {
 
 #[test]
 fn short_chunks_go_to_their_neighbors() {
-    // 30 motions right, 9 up, 30 forward: the filter of 15 leaves the nine, which are then shared, the odd one to the first.
+    // 30 motions right, 9 up, 30 forward: the filter of 15 keeps the nine. They are split between the neighbors, with the
+    // odd one in the first half.
     let steps = (0..69).map(|k| {
         if k < 30 {
             DVec3::X

@@ -23,7 +23,7 @@ fn reads_the_golden_cameras() {
     let file = read(&std::fs::read_to_string(path).unwrap()).unwrap();
     assert_eq!(file.filter, Some(FilterChoice::Mip));
     assert_eq!(file.cameras.len(), 3);
-    // The kitchen's up is +y: a camera's own up has a positive y.
+    // The kitchen's up is +y, so every camera's up has a positive y.
     assert!(file.cameras.iter().all(|c| c.camera.pose.up().y > 0.9));
 }
 

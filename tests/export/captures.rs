@@ -11,9 +11,9 @@ fn instant_ngps_fox() {
     let imported = read(&path, None).unwrap();
     let track = imported.track;
     assert_eq!((imported.format, track.frames.len(), track.size_px), (Format::Transforms, 67, Some((1080, 1920))));
-    // The file itself gives the angle: camera_angle_y, 1.2193576.
+    // The file states camera_angle_y as 1.2193576.
     assert!((track.frames[0].fov_y_rad.unwrap() - 1.219_357_612_194_485_6).abs() < 1e-4);
-    // All cameras look inward: view axes meet near one point, the fox's head.
+    // All cameras look inward: their view axes pass near one point, the fox's head.
     let middle = track.frames.iter().map(|f| f.pose.position).sum::<DVec3>() / 67.0;
     let mean_axis = track.frames.iter().map(|f| f.pose.forward()).sum::<DVec3>().normalize();
     assert!(track.frames.iter().all(|f| f.pose.forward().dot(mean_axis) > 0.3), "{middle}");
@@ -25,7 +25,7 @@ fn the_lund_door_as_colmap_text() {
     let imported = read(&folder, None).unwrap();
     let track = imported.track;
     assert_eq!((imported.format, track.frames.len(), track.size_px), (Format::Colmap, 12, Some((1296, 1936))));
-    // The points that were triangulated from these images lie ahead of every camera.
+    // The points triangulated from these images are in front of every camera.
     let points = std::fs::read_to_string(folder.join("sparse/points3D.txt")).unwrap();
     let points: Vec<DVec3> = points
         .lines()

@@ -21,7 +21,7 @@ fn csv_columns_may_stand_in_any_order_and_number() {
 
 #[test]
 fn euroc_counts_nanoseconds_and_puts_w_first() {
-    // A line of the data set's own ground truth.
+    // A line of the data set's ground truth.
     let line = "1403636580838555648,4.688319,-1.786938,0.783338,0.534108,-0.153029,-0.827383,-0.082152,-0.027876,0.033207,0.800006,-0.003172,0.021267,0.078502,-0.025266,0.136696,0.075593\n";
     let (path, _folder) = file("data.csv", line.as_bytes());
     let frame = read(&path, None).unwrap().track.frames[0].clone();

@@ -23,7 +23,7 @@ fn a_zoom_is_animated_through_the_pointer_extension() {
 
 #[test]
 fn a_cut_adds_one_key_that_holds() {
-    // 72 frames and one key before the cut.
+    // 72 frames, and one key that holds the pose before the cut.
     assert_eq!(gltf()["accessors"][0]["count"], 73);
 }
 
@@ -37,7 +37,8 @@ fn the_node_above_takes_the_scenes_up_to_plus_y() {
 
 #[test]
 fn reads_a_camera_that_hangs_under_a_moved_node() {
-    // No animation: one frame. The parent is half a turn about y and at x = 10; the camera looks along its -z.
+    // Without animation there is one frame. The parent is rotated by half a turn about y, at x = 10; the camera looks along
+    // its -z axis.
     let text = br#"{"asset": {"version": "2.0"}, "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
       "nodes": [{"camera": 0, "translation": [1, 0, 0]}, {"children": [0], "translation": [10, 0, 0], "rotation": [0, 1, 0, 0]}],
       "scenes": [{"nodes": [1]}]}"#;
@@ -51,7 +52,7 @@ fn reads_a_camera_that_hangs_under_a_moved_node() {
 
 #[test]
 fn reads_usd_of_other_writers() {
-    // Matrices in rows, rotations by axis, a parent, metadata, comments and a variant set.
+    // A matrix by rows, rotations by axis, a parent, metadata, comments and a variant set.
     let text = br#"#usda 1.0
 ( """a comment"""
   upAxis = "Z"
@@ -77,7 +78,7 @@ def Xform "rig" ( kind = "component" prepend variantSets = "v" ) {
     let (path, _folder) = file("a.usda", text);
     let track = read(&path, None).unwrap().track;
     let pose = track.frames[1].pose;
-    // By hand: a quarter turn about x takes (4, 2, 3) to (4, -3, 2), looking along -z becomes +y.
+    // By hand: a quarter turn about x maps (4, 2, 3) to (4, -3, 2), and the view direction -z to +y.
     assert!((pose.position - DVec3::new(4.0, -3.0, 7.0)).length() < 1e-12, "{}", pose.position);
     assert!((pose.forward() - DVec3::Y).length() < 1e-12 && (pose.up() - DVec3::Z).length() < 1e-12);
     assert_eq!((track.frames[1].time_secs, track.fps, track.up), (2.0, Some(10.0), Some(DVec3::Z)));

@@ -1,10 +1,10 @@
-//! Files that are cut off, lie about counts or nest too deeply end in one error, without allocating what they claim.
+//! Files that are cut off, claim false counts or nest too deeply are an error, and no claimed count is allocated.
 
 use cinesplat::export::{Content, Format, read};
 
 use super::sample_shot::{file, there_and_back, with_cut};
 
-/// Every format, cut off at many places: an error or a shorter path, never a panic.
+/// A file of every format, cut off at 40 places, is an error or a shorter path, never a panic.
 #[test]
 fn truncated_files_never_panic() {
     let names = [
@@ -47,7 +47,7 @@ fn truncated_files_never_panic() {
 }
 
 #[test]
-fn counts_that_lie_are_refused() {
+fn false_counts_are_refused() {
     let (path, _folder) = file("images.bin", &u64::MAX.to_le_bytes());
     insta::assert_snapshot!(read(&path, None).unwrap_err(), @"byte 8: found the end of the file, expected an image id");
     let gltf = br#"{"asset": {"version": "2.0"}, "cameras": [{"perspective": {"yfov": 1}}], "nodes": [{"camera": 0}],
@@ -59,7 +59,7 @@ fn counts_that_lie_are_refused() {
 }
 
 #[test]
-fn deep_nesting_and_far_files_are_refused() {
+fn deep_nesting_and_files_elsewhere_are_refused() {
     let (path, _folder) =
         file("a.usda", format!("#usda 1.0\ndef X \"a\" {{ float a = {} }}", "(".repeat(100_000)).as_bytes());
     assert!(read(&path, None).unwrap_err().to_string().contains("expected less nesting"));

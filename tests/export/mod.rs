@@ -1,4 +1,4 @@
-//! Tests of `src/export`, one file a format or concept.
+//! Tests of `src/export`, one file per format or concept.
 #![allow(clippy::float_cmp, reason = "numbers written and read back keep their bits")]
 
 mod cameras_json;

@@ -23,7 +23,7 @@ fn holds_every_key_that_ns_render_and_the_viewer_read() {
     }
     assert_eq!(path["camera_type"], "perspective");
     assert_eq!((path["camera_path"].as_array().unwrap().len(), path["keyframes"].as_array().unwrap().len()), (72, 4));
-    // ns-render's rate is the number of frames over the seconds.
+    // The frame rate of ns-render is the number of frames over the seconds.
     assert_eq!(path["seconds"].as_f64().unwrap(), 3.0);
     let key = &path["keyframes"][1];
     assert_eq!(key["override_transition_sec"], 1.0);
@@ -39,7 +39,7 @@ fn the_rate_can_be_chosen() {
 
 #[test]
 fn cameras_look_along_minus_z_with_y_up() {
-    // Standing at (1, 2, 3), looking along world +x with world +y up.
+    // At (1, 2, 3), looking along world +x with world +y up.
     let looking = Pose::look_at(DVec3::new(1.0, 2.0, 3.0), DVec3::new(9.0, 2.0, 3.0), DVec3::Y, None).unwrap();
     let shot = shot(vec![key(0.0, looking.position, looking.rotation, 50.0)], DVec3::Y);
     let folder = tempfile::tempdir().unwrap();
@@ -64,7 +64,7 @@ fn cameras_look_along_minus_z_with_y_up() {
 
 #[test]
 fn reads_files_of_other_writers() {
-    // nerfview leaves out camera_type and crop; the Blender add-on writes key matrices as strings, column by column.
+    // nerfview omits camera_type and crop; the Blender add-on writes key matrices as strings in column-major order.
     let text = br#"{"render_width": 640.0, "render_height": 360, "fps": 30, "seconds": 0.5, "camera_path": [
         {"camera_to_world": [1,0,0,4, 0,-1,0,5, 0,0,-1,6, 0,0,0,1], "fov": 60.0, "aspect": 1.7}],
       "keyframes": [{"matrix": "[1.0,0,0,0, 0,-1,0,0, 0,0,-1,0, 4,5,7,1]", "fov": 60.0, "properties": "[]"}]}"#;

@@ -1,4 +1,4 @@
-//! What is written comes back: over random shots, to the precision that each format holds.
+//! Random shots read back from every format, to the precision of the format.
 
 use cinesplat::export::{Content, Format, PoseTrack};
 use cinesplat::geometry::rotation;
@@ -9,7 +9,7 @@ use proptest::test_runner::RngSeed;
 
 use super::sample_shot::{key, shot, there_and_back, with_cut};
 
-/// A format, the name to write to, and what of a camera it keeps.
+/// A format, a file name, and the properties that the format keeps.
 struct Row {
     format: Format,
     name: &'static str,
@@ -83,7 +83,7 @@ fn check(shot: &Shot, row: &Row, content: Content) {
         let zoomed = b.fov_y_rad.map(|fov| (fov - a.fov_y_rad.unwrap()).abs());
         assert_eq!(zoomed.is_some_and(|zoomed| zoomed < 10.0 * row.tolerance), row.keeps_fov, "{name}: {zoomed:?}");
         let late = (a.time_secs - b.time_secs).abs();
-        // Key times of nerfstudio are sums of transitions, those of EuRoC whole nanoseconds.
+        // Key times are sums of transitions in nerfstudio and whole nanoseconds in EuRoC.
         assert!(!row.keeps_times || late < 1e-9_f64.max(row.tolerance), "{name}: {late} s late");
     }
 }
@@ -107,7 +107,7 @@ proptest! {
 }
 
 #[test]
-fn cuts_stay_cuts_where_the_format_holds_them() {
+fn cuts_read_back_from_formats_that_hold_them() {
     let cuts = |track: &PoseTrack| track.frames.iter().map(|frame| frame.cut).collect::<Vec<_>>();
     let wanted = PoseTrack::sampled(&with_cut(), None).unwrap();
     assert_eq!(cuts(&wanted).iter().position(|cut| *cut), Some(48));
@@ -119,7 +119,7 @@ fn cuts_stay_cuts_where_the_format_holds_them() {
 }
 
 #[test]
-fn focus_distances_stay_where_the_format_holds_them() {
+fn focus_distances_read_back_from_formats_that_hold_them() {
     for name in ["a.usda", "a.py", "a.csv", "a.shot.json"] {
         let format = Format::from_path(name.as_ref()).unwrap();
         let (imported, _, _folder) = there_and_back(&with_cut(), format, name, Content::Keyframes);

@@ -1,4 +1,4 @@
-//! Shots that the tests of this folder share.
+//! Shots for the tests of this folder.
 
 use cinesplat::files::Existing;
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ pub(super) fn shot(keyframes: Vec<Keyframe>, up: DVec3) -> Shot {
     }
 }
 
-/// Three keys with a zoom, focus distances and a cut at 2 s; y-down world.
+/// Keys with a zoom, focus distances and a cut at 2 s, in a world with y down.
 pub(super) fn with_cut() -> Shot {
     let turn = |x: f64, y: f64, z: f64| rotation::exp(DVec3::new(x, y, z));
     let mut keys = vec![
@@ -53,7 +53,7 @@ pub(super) fn with_cut() -> Shot {
     shot(keys, DVec3::NEG_Y)
 }
 
-/// Writes, reads back by content alone, and returns what was read, the warnings, and the folder that keeps the file.
+/// Writes a shot, reads it back without naming the format, and returns the result, the warnings and the file's folder.
 pub(super) fn there_and_back(
     shot: &Shot,
     format: Format,
@@ -74,7 +74,7 @@ pub(super) fn there_and_back(
     (imported, warnings, folder)
 }
 
-/// A file with this text, and the folder that keeps it.
+/// A file with the given bytes, and its folder.
 pub(super) fn file(name: &str, text: &[u8]) -> (PathBuf, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path: PathBuf = Path::new(folder.path()).join(name);

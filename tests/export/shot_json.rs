@@ -3,7 +3,7 @@ use cinesplat::geometry::{LevelFrame, Pose};
 use cinesplat::trajectory::{ClearanceFailure, ClearanceProof, Move, Shot, ShotAngle, ShotSize};
 use glam::{DQuat, DVec3};
 
-/// The example of the format's description with numbers filled in.
+/// The example of the format's description, with numbers.
 const EXAMPLE: &str = r#"{ "format":"cinesplat.shot", "version":1,
   "scene":{"path":"room.spz","sha256":"ab","up":[0,1,0]}, "prompt":"close-up of the cup", "seed":7, "model":{"name":"m","sha256":"cd"},
   "width":1280, "height":720, "fps":30, "duration_secs":8.0, "added_later": {"x": [1, 2]},
@@ -42,7 +42,7 @@ fn what_is_written_reads_back_the_same() {
     assert_eq!(write(&shot), write(&read(&write(&shot)).unwrap()));
 }
 
-/// Equal but for degrees, which lose the last bit.
+/// Checks that two shots are equal, except for the last bit of angles, which are stored in degrees.
 fn assert_same(a: &Shot, b: &Shot) {
     let without_fov = |shot: &Shot| {
         let mut shot = shot.clone();
@@ -118,7 +118,7 @@ fn what_was_proved_is_kept_until_somebody_edits_a_key() {
     let text = write(&shot);
     assert_eq!(read(&text).unwrap().clearance, shot.clearance);
     assert!(text.contains("\"proved\": false"));
-    // Whoever moves a key by hand leaves the rest of the file as it was.
+    // A person who moves a key leaves the stale proof in the file.
     let moved = text.replacen("\"time_secs\": 2.5", "\"time_secs\": 2.25", 1);
     assert_ne!(moved, text);
     assert_eq!(read(&moved).unwrap().clearance, None);

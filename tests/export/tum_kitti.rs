@@ -24,7 +24,7 @@ fn kitti_lines_are_rows_of_world_from_camera() {
     let (_, _, folder) = there_and_back(&shot(vec![turned], DVec3::Y), Format::Kitti, "a.kitti", Content::Keyframes);
     let text = std::fs::read_to_string(folder.path().join("a.kitti")).unwrap();
     let rows: Vec<f64> = text.split_whitespace().map(|number| number.parse().unwrap()).collect();
-    // A quarter turn about y takes z to x.
+    // A quarter turn about y maps z to x.
     let wanted = [0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, -2.5, -1.0, 0.0, 0.0, 0.125];
     assert!(rows.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-15), "{rows:?}");
 }
@@ -40,7 +40,7 @@ fn reads_the_benchmarks_own_files() {
     let first = &tum.track.frames[0];
     assert_eq!(first.time_secs, 1_305_031_098.665_9);
     assert_eq!(first.pose.position, DVec3::new(1.3563, 0.6305, 1.6380));
-    // The data set's own description gives sequence 00 a length of 3724 m.
+    // The description of the data set states a length of 3724 m for sequence 00.
     let steps = kitti.track.frames.windows(2).map(|pair| (pair[1].pose.position - pair[0].pose.position).length());
     assert!((steps.sum::<f64>() - 3724.2).abs() < 0.5);
 }

@@ -1,4 +1,4 @@
-//! Yaw, pitch, roll and look-at: signs as the contract gives them, and no jump at the zenith.
+//! Yaw, pitch, roll and look-at: signs of the file format, and a defined heading at the zenith.
 
 use cinesplat::geometry::{LevelAngles, LevelFrame, Pose, rotation};
 use glam::DVec3;

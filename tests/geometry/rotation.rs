@@ -1,4 +1,4 @@
-//! Rotations near 0 and 180 degrees, where textbook formulas lose everything.
+//! Rotations near 0 and 180 degrees, where textbook formulas lose all digits.
 
 use cinesplat::geometry::{Pose, frames, rotation};
 use glam::{DMat3, DMat4, DQuat, DVec3};

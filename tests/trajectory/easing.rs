@@ -1,4 +1,4 @@
-//! Easings by their published formulas, and what they do where segments meet.
+//! Easings against their published formulas, and their speeds where segments meet.
 
 use std::f64::consts::FRAC_PI_2;
 use strum::VariantArray;
@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::{key, shot};
 
-/// Share of the way at `count + 1` even times of one straight segment.
+/// Fraction of the length at `count + 1` even times of a straight segment.
 fn progress(easing: Easing, count: usize) -> Vec<f64> {
     let keys = vec![Keyframe { easing, ..key(0.0, DVec3::ZERO) }, key(2.0, DVec3::X)];
     let path = CameraPath::new(&shot(keys)).unwrap();

@@ -1,4 +1,4 @@
-//! Keys that break splines: uneven, close, single, equal, half turns, the zenith.
+//! Keys that are hard for splines: uneven, close, single, equal, half turns, the zenith.
 
 use cinesplat::geometry::{LevelAngles, LevelFrame, Pose, rotation};
 use cinesplat::trajectory::{CameraPath, Easing, TrajectoryError, retimed};
@@ -7,7 +7,7 @@ use strum::VariantArray;
 
 use super::{key, positions, shot};
 
-/// Keys 1, 0.2 and 3.8 units apart with even times: where a looping editor spline runs backward.
+/// Keys 1, 0.2 and 3.8 units apart at even times, for which a uniform spline runs backward.
 fn uneven() -> cinesplat::trajectory::Shot {
     shot([0.0, 1.0, 1.2, 5.0].iter().enumerate().map(|(i, &x)| key(i as f64, DVec3::X * x)).collect())
 }
@@ -50,7 +50,7 @@ fn retimed_keys_cruise_evenly() {
 }
 
 #[test]
-fn close_keys_do_not_make_a_loop() {
+fn close_keys_make_no_loop() {
     let points = [DVec3::ZERO, DVec3::X * 10.0, DVec3::new(10.0, 0.2, 0.0), DVec3::new(0.0, 0.2, 0.0)];
     let shot = shot(points.iter().enumerate().map(|(i, &p)| key(i as f64, p)).collect());
     let path = CameraPath::new(&shot).unwrap();
@@ -124,7 +124,7 @@ fn times_must_increase_and_numbers_be_finite() {
     assert!(matches!(CameraPath::new(&shot(vec![])), Err(TrajectoryError::NoKeyframes)));
 }
 
-/// Shots of seven keys at random places, turns, lenses and uneven times, some keys equal to the one before.
+/// Shots of seven keys with random positions, rotations, fields of view and times; some keys equal the previous one.
 fn random_shots() -> impl Iterator<Item = cinesplat::trajectory::Shot> {
     use rand::{RngExt, SeedableRng};
     let mut rng = rand_pcg::Pcg64::seed_from_u64(4);

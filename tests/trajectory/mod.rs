@@ -12,7 +12,7 @@ use glam::DVec3;
 
 pub use crate::support::shot_over as shot;
 
-/// A key at a place, level, heading at yaw 0.
+/// A level key at a position, with yaw 0.
 pub fn key(time_secs: f64, position: DVec3) -> Keyframe {
     let frame = LevelFrame::new(DVec3::Y).unwrap();
     let rotation = frame.rotation(LevelAngles::default());

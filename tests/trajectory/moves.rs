@@ -1,4 +1,4 @@
-//! Shapes that keys with intents make: circles, dolly zooms, pans, cuts.
+//! Paths of keys with intents: circles, dolly zooms, pans, cuts.
 
 use cinesplat::geometry::{Pose, rotation};
 use cinesplat::trajectory::{CameraPath, Intent, Keyframe, Move};
@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use super::{key, positions, shot};
 
-/// Keys of an orbit to the right about `pivot`, counter-clockwise from above, evenly over `degrees`.
+/// Keys of an orbit to the right about `pivot` (counter-clockwise from above), evenly spaced over `degrees`.
 fn orbit(pivot: DVec3, radius: f64, degrees: f64, count: usize) -> Vec<Keyframe> {
     let at = |i: usize| {
         let angle = (degrees * i as f64 / (count - 1) as f64).to_radians();
-        // Seen from above (down the y axis) counter-clockwise takes +z to +x.
+        // Counter-clockwise seen from above maps +z to +x.
         let position = pivot + DVec3::new(angle.sin(), 0.35, angle.cos()) * radius;
         let pose = Pose::look_at(position, pivot, DVec3::Y, None).unwrap();
         let intent = Intent { movement: Some(Move::OrbitRight), pivot: Some(pivot), ..Intent::default() };
