@@ -1,7 +1,8 @@
-//! Training of the director: sampled sentences, realized shots, the training loop, evaluation.
+//! Training of the director: sampled prompts, realized shots, the training loop, evaluation.
 //!
-//! [`write_dataset`] makes shards of realized shots, [`train`] trains a network on sampled sentences and these shots, and
-//! [`evaluate_director`] measures how well a director understands prompts.
+//! [`PromptSampler`] samples prompts labeled with the programs that they mean, [`exam()`] gives prompts written by people.
+//! [`write_dataset`] makes shards of realized shots, [`train`] trains a network on sampled prompts and these shards, and
+//! [`evaluate_director`] measures how well a director understands prompts. Equal seeds give equal prompts.
 
 mod dataset;
 mod sampler;
