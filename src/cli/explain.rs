@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 use strum::VariantArray;
 
-use cinesplat::lens::{Decision, Effect};
+use cinesplat::lens::{Decision, Effect, EffectKind};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{Amount, Framing, Speed, Step, SubjectPart};
 use cinesplat::pipeline::Directed;
@@ -29,11 +29,11 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     text.extend(directed.shot.clearance.as_ref().map(clearance));
     text.push_str("\neffects\n");
     for effect in Effect::VARIANTS {
-        let decided = directed.effects.iter().find(|decision| decision.call.kind == effect.as_ref());
-        let sentence = decided.map_or_else(|| format!("{}: not called for", effect.as_ref()), Decision::sentence);
+        let decided = directed.effects.iter().find(|decision| decision.call.kind == EffectKind::Known(*effect));
+        let sentence = decided.map_or_else(|| format!("{}: not requested", effect.as_ref()), Decision::sentence);
         let _ = writeln!(text, "  {sentence}");
     }
-    for decision in directed.effects.iter().filter(|decision| decision.call.kind.parse::<Effect>().is_err()) {
+    for decision in directed.effects.iter().filter(|decision| matches!(decision.call.kind, EffectKind::Other(_))) {
         let _ = writeln!(text, "  {}", decision.sentence());
     }
     text

@@ -7,7 +7,7 @@ use super::choice::choice;
 use super::failure::Failure;
 use super::{console, heading, outputs};
 use cinesplat::director::Director;
-use cinesplat::lens::{self, Call, Decision, Effect, EffectChoice};
+use cinesplat::lens::{self, Decision, Effect, EffectCall, EffectChoice};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::SolveLevel;
 use cinesplat::pipeline::{self, DirectSettings, Directed, Phase, PhaseTimes};
@@ -87,9 +87,11 @@ impl ShotArgs {
         let mut shot = self.changed(shot);
         shot.clearance = Some(pipeline::prove_clearance(scene, &shot)?);
         print_clearance(&shot);
-        let calls = shot.effects.iter().map(|e| Call { kind: e.kind.clone(), because: e.because.clone() });
+        let calls =
+            shot.effects.iter().map(|e| EffectCall { kind: e.kind.as_str().into(), because: e.because.clone() });
         let decisions = lens::decide(&self.effects, &calls.collect::<Vec<_>>());
-        shot.effects.retain(|effect| decisions.iter().any(|d| d.call.kind == effect.kind && d.request().is_some()));
+        let requested: Vec<_> = decisions.iter().filter_map(Decision::request).collect();
+        shot.effects.retain(|effect| requested.iter().any(|request| request.kind == effect.kind));
         print_effects(&decisions);
         Ok(shot)
     }

@@ -1,90 +1,124 @@
-use super::{Effect, EffectChoice};
+//! Decisions on requested effects.
+
+use std::fmt;
+
+use super::effect::{Effect, EffectChoice};
 use cinesplat_trajectory::{EffectRequest, ReportLine};
 
-/// Something beside the camera's path that is called for.
+/// What is requested beside the camera's path.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Call {
-    /// Name of the effect, or of a thing that no camera can do (`music`).
-    pub kind: String,
-    /// Whose words call for it.
+pub enum EffectKind {
+    /// An effect of the lens or the film stock.
+    Known(Effect),
+    /// Anything else, by its name, such as `music`.
+    Other(String),
+}
+
+impl From<&str> for EffectKind {
+    fn from(name: &str) -> Self {
+        name.parse().map_or_else(|_| Self::Other(name.to_owned()), Self::Known)
+    }
+}
+
+impl fmt::Display for EffectKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Known(effect) => effect.fmt(f),
+            Self::Other(name) => name.fmt(f),
+        }
+    }
+}
+
+/// A request for an effect.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EffectCall {
+    /// What is requested.
+    pub kind: EffectKind,
+    /// The words of the prompt, or the flag, that request it.
     pub because: String,
 }
 
-/// What becomes of a call.
+/// What happens to a requested effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
-    /// `--effects` leaves it out.
-    LeftOut,
-    /// An effect of the lens that this program does not have yet: the picture is without it.
-    NotBuilt,
-    /// Nothing that a camera can do.
-    NotOfTheLens,
+pub enum Verdict {
+    /// `--effects` excludes it.
+    Disabled,
+    /// The renderer does not implement it: the film is rendered without it.
+    NotImplemented,
+    /// It is no effect of the lens or the film stock.
+    NotAnEffect,
 }
 
-/// A call and what becomes of it.
+/// A request and its verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decision {
-    /// The call.
-    pub call: Call,
-    /// What becomes of it.
-    pub outcome: Outcome,
+    /// The request.
+    pub call: EffectCall,
+    /// What happens to it.
+    pub verdict: Verdict,
 }
 
-/// Decides on every call of the words and of `--effects`, in that order, one decision a kind.
+/// Decides on every request of the prompt and then of `--effects`, in that order.
 ///
 /// ```
-/// use cinesplat::lens::{Call, EffectChoice, Outcome, decide};
-/// let call = Call { kind: "depth-of-field".into(), because: "shallow focus".into() };
+/// use cinesplat::lens::{EffectCall, EffectChoice, Verdict, decide};
+/// let call = EffectCall { kind: "depth-of-field".into(), because: "shallow focus".into() };
 /// let decided = decide(&EffectChoice::Auto, std::slice::from_ref(&call));
-/// assert_eq!(decided[0].outcome, Outcome::NotBuilt);
-/// assert_eq!(decide(&EffectChoice::Off, &[call])[0].outcome, Outcome::LeftOut);
+/// assert_eq!(decided[0].verdict, Verdict::NotImplemented);
+/// assert_eq!(decide(&EffectChoice::Off, &[call])[0].verdict, Verdict::Disabled);
 /// ```
-pub fn decide(choice: &EffectChoice, calls: &[Call]) -> Vec<Decision> {
+pub fn decide(choice: &EffectChoice, calls: &[EffectCall]) -> Vec<Decision> {
     let mut decisions: Vec<Decision> = Vec::new();
     let chosen = match choice {
         EffectChoice::These(effects) => effects.as_slice(),
         EffectChoice::Auto | EffectChoice::Off => &[],
     };
     for call in calls {
-        let outcome = match (call.kind.parse::<Effect>().ok(), choice) {
-            (None, _) => Outcome::NotOfTheLens,
-            (Some(_), EffectChoice::Auto) => Outcome::NotBuilt,
-            (Some(effect), _) if chosen.contains(&effect) => Outcome::NotBuilt,
-            (Some(_), _) => Outcome::LeftOut,
+        let verdict = match (&call.kind, choice) {
+            (EffectKind::Other(_), _) => Verdict::NotAnEffect,
+            (EffectKind::Known(_), EffectChoice::Auto) => Verdict::NotImplemented,
+            (EffectKind::Known(effect), _) if chosen.contains(effect) => Verdict::NotImplemented,
+            (EffectKind::Known(_), _) => Verdict::Disabled,
         };
-        decisions.push(Decision { call: call.clone(), outcome });
+        decisions.push(Decision { call: call.clone(), verdict });
     }
-    for effect in chosen {
-        if !decisions.iter().any(|decision| decision.call.kind == effect.as_ref()) {
-            let call = Call { kind: effect.as_ref().to_owned(), because: "--effects".to_owned() };
-            decisions.push(Decision { call, outcome: Outcome::NotBuilt });
+    for &effect in chosen {
+        let kind = EffectKind::Known(effect);
+        if !decisions.iter().any(|decision| decision.call.kind == kind) {
+            let call = EffectCall { kind, because: "--effects".to_owned() };
+            decisions.push(Decision { call, verdict: Verdict::NotImplemented });
         }
     }
     decisions
 }
 
 impl Decision {
-    /// One sentence for a person.
+    /// The decision as one sentence.
     pub fn sentence(&self) -> String {
-        let Call { kind, because } = &self.call;
-        match self.outcome {
-            Outcome::LeftOut => format!("{kind} is called for by '{because}' but left out by --effects"),
-            Outcome::NotBuilt => format!("{kind} is called for by '{because}' but not built: absent"),
-            Outcome::NotOfTheLens => format!("{kind} is called for by '{because}' but no camera does that: absent"),
-        }
+        let EffectCall { kind, because } = &self.call;
+        let verdict = match self.verdict {
+            Verdict::Disabled => "disabled by --effects",
+            Verdict::NotImplemented => "not implemented, rendered without it",
+            Verdict::NotAnEffect => "not an effect of the lens, rendered without it",
+        };
+        format!("{kind} requested by '{because}': {verdict}")
     }
 
-    /// The effect as a value of the shot, where it is one of the lens and wanted.
+    /// The effect as an entry of the shot; `None` where it is disabled or no effect.
     pub fn request(&self) -> Option<EffectRequest> {
-        let Call { kind, because } = self.call.clone();
-        (self.outcome == Outcome::NotBuilt).then(|| EffectRequest { kind, because, settings: Vec::new() })
+        let EffectCall { kind, because } = &self.call;
+        (self.verdict == Verdict::NotImplemented).then(|| EffectRequest {
+            kind: kind.to_string(),
+            because: because.clone(),
+            settings: Vec::new(),
+        })
     }
 
-    /// The line of the shot's report; none for what a person left out.
+    /// The line of the shot's report; `None` for a disabled effect.
     pub fn report_line(&self) -> Option<ReportLine> {
-        (self.outcome != Outcome::LeftOut).then(|| ReportLine {
+        (self.verdict != Verdict::Disabled).then(|| ReportLine {
             clause: self.call.because.clone(),
-            wanted: self.call.kind.clone(),
+            wanted: self.call.kind.to_string(),
             got: 0.0,
             met: false,
             note: self.sentence(),

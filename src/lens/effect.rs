@@ -1,8 +1,10 @@
+//! The effects, and the choice among them.
+
 use std::str::FromStr;
 
 use thiserror::Error;
 
-/// An effect of the lens or the film stock, by its name in `--effects` and in `shot.json`.
+/// An effect of the lens or the film stock. Its name is the same in `--effects` and in `shot.json`.
 #[derive(
     Debug,
     Clone,
@@ -21,53 +23,53 @@ use thiserror::Error;
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Effect {
-    /// What is out of focus blurs.
+    /// Blur outside the focus distance.
     DepthOfField,
-    /// The focus travels from one subject to another.
+    /// The focus distance moves from one subject to another.
     RackFocus,
-    /// What moves during the exposure smears.
+    /// Blur of motion during the exposure.
     MotionBlur,
-    /// Small unsteady motion of the camera.
+    /// Small, unsteady motion of the camera.
     Handheld,
-    /// Rows of the picture are taken one after another.
+    /// The rows of a picture are exposed one after another.
     RollingShutter,
-    /// Straight lines bend as in a real lens.
+    /// Radial distortion of a lens.
     LensDistortion,
-    /// A very wide lens that maps angles to distances.
+    /// A very wide lens that maps angles to distances in the picture.
     Fisheye,
     /// All directions in one picture.
     Panorama,
-    /// An oval, stretched look.
+    /// Horizontally squeezed optics: oval bokeh, streaked flares.
     Anamorphic,
-    /// Only a thin slanted plane is sharp.
+    /// A tilted focal plane.
     TiltShift,
-    /// Distance fades into haze.
+    /// Haze that grows with the distance.
     Fog,
     /// Noise of film stock.
     FilmGrain,
-    /// Corners are darker.
+    /// Darker corners.
     Vignette,
-    /// Light sources throw ghosts.
+    /// Ghosts of light sources.
     LensFlare,
-    /// Bright parts glow.
+    /// Glow around bright areas.
     Bloom,
-    /// Colors part toward the corners.
+    /// Color fringes toward the corners.
     ChromaticAberration,
 }
 
-/// Which effects a person wants.
+/// The effects that the user allows.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum EffectChoice {
-    /// Those that the words call for.
+    /// Those that the prompt requests.
     #[default]
     Auto,
-    /// None, whatever the words say.
+    /// None, whatever the prompt requests.
     Off,
-    /// These and no others.
+    /// These and no others, whether the prompt requests them or not.
     These(Vec<Effect>),
 }
 
-/// A name in `--effects` that is no effect.
+/// A name in `--effects` that is not an effect.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no effect is named {found:?}, expected auto, off, or a list of: {}", <Effect as strum::VariantNames>::VARIANTS.join(" "))]
 pub struct UnknownEffect {
@@ -78,7 +80,7 @@ pub struct UnknownEffect {
 impl FromStr for EffectChoice {
     type Err = UnknownEffect;
 
-    /// `auto`, `off`, or names with commas between them.
+    /// Parses `auto`, `off`, or a comma-separated list of names.
     fn from_str(text: &str) -> Result<Self, UnknownEffect> {
         match text.trim() {
             "auto" => Ok(Self::Auto),

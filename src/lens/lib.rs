@@ -1,11 +1,11 @@
-//! Effects of the lens that a shot calls for: which ones there are, and what becomes of each.
+//! Effects of the lens and the film stock that a shot requests, and the decision on each.
 //!
-//! Enters: what the words call for, and what a person chose with `--effects`. Leaves: one decision an effect, as a
-//! value of the shot and a line of its report. The invariant: an effect that was called for is either in the picture or
-//! named as absent.
+//! Enters: the effects that the prompt requests, and those that the user chose with `--effects`. Leaves: one decision
+//! per request, as an entry of the shot and a line of its report. The invariant: every requested effect is either in
+//! the picture or reported as missing.
 
 mod decision;
 mod effect;
 
-pub use decision::{Call, Decision, Outcome, decide};
+pub use decision::{Decision, EffectCall, EffectKind, Verdict, decide};
 pub use effect::{Effect, EffectChoice, UnknownEffect};

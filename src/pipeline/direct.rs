@@ -2,7 +2,7 @@ use super::error::PipelineError;
 use super::phases::{Phase, PhaseTimes};
 use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{Linked, NamedObject};
-use cinesplat_lens::{Call, Decision, EffectChoice};
+use cinesplat_lens::{Decision, EffectCall, EffectChoice, EffectKind};
 use cinesplat_objects::{CloudSettings, ObjectSet};
 use cinesplat_operator::{Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
@@ -109,7 +109,8 @@ pub fn direct(
     let ids = direction.program.object_ids();
     let world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
     let mut calls = calls(&linked)?;
-    let dutch = calls.iter().position(|call| call.kind == DUTCH).map(|at| calls.remove(at));
+    let dutch =
+        calls.iter().position(|call| call.kind == EffectKind::Other(DUTCH.to_owned())).map(|at| calls.remove(at));
     let dutch_deg = dutch.map(|_| DUTCH_DEG);
     let (level, seed) = (settings.solve, settings.seed);
     let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
@@ -161,9 +162,9 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     Ok(set)
 }
 
-fn calls(linked: &Linked) -> Result<Vec<Call>, PipelineError> {
+fn calls(linked: &Linked) -> Result<Vec<EffectCall>, PipelineError> {
     let called = cinesplat_language::effect_mentions(linked)?;
-    Ok(called.into_iter().map(|call| Call { kind: call.kind, because: call.words }).collect())
+    Ok(called.into_iter().map(|call| EffectCall { kind: call.kind.as_str().into(), because: call.words }).collect())
 }
 
 fn unknown_name(unknown: &cinesplat_language::UnknownName) -> ReportLine {

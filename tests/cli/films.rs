@@ -61,8 +61,11 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     let output = run(folder.path(), &plan);
     let (explained, said) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert!(output.status.success(), "{said}");
-    assert!(explained.contains("push-in") && explained.contains("film-grain is called for"), "{explained}");
-    assert!(said.contains("effect: film-grain is called for by 'film grain' but not built: absent"), "{said}");
+    assert!(explained.contains("push-in") && explained.contains("film-grain requested by"), "{explained}");
+    assert!(
+        said.contains("effect: film-grain requested by 'film grain': not implemented, rendered without it"),
+        "{said}"
+    );
     let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
     let shot: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(shot["scene"]["path"], SMALL_SCENE);
@@ -74,7 +77,7 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     assert_eq!(data(folder.path(), &again), text, "the same sentence gives the same shot");
     let said =
         answer(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4", "--frames", "0..2"]);
-    assert!(said.contains("effect: film-grain is called for"), "{said}");
+    assert!(said.contains("effect: film-grain requested by"), "{said}");
 }
 
 #[test]
