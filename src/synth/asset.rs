@@ -5,10 +5,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec3};
 
 use super::color::NamedColor;
+use super::faces;
 use super::lights::Lamp;
 use super::material::Material;
 use super::placement::Placement;
-use super::primitive::{ALL_FACES, Primitive, Shape, Surface, Visibility};
+use super::primitive::{Primitive, Shape, Surface, Visibility};
 
 /// A horizontal rectangle on which other objects can stand, in the asset's frame.
 #[derive(Debug, Clone, Copy)]
@@ -63,7 +64,7 @@ impl Asset {
     /// Adds a box with rounded edges.
     pub(super) fn block(&mut self, center: [f64; 3], size: [f64; 3], round: f64, material: Material) -> &mut Primitive {
         let half = DVec3::from(size) / 2.0;
-        self.push(Shape::Block { half, round, faces: ALL_FACES }, center.into(), material)
+        self.push(Shape::Block { half, round, faces: faces::ALL }, center.into(), material)
     }
 
     /// Adds a superellipsoid.

@@ -2,13 +2,11 @@ use glam::{DVec2, DVec3, Vec3};
 
 use super::asset::Asset;
 use super::color::Palette;
+use super::faces;
 use super::material::{Material, Pattern};
 use super::noise;
 use super::rng::SceneRng;
 use super::shell::{Flooring, Shell};
-
-/// The upper face of a block.
-const UP: u8 = 0b00_1000;
 
 /// Overlap of floor, walls and ceiling beyond the corners, m: closes the corners against light.
 pub(super) const LAP: f64 = 0.06;
@@ -17,7 +15,7 @@ pub(super) const LAP: f64 = 0.06;
 pub(super) fn lay(asset: &mut Asset, shell: &Shell, rng: &mut SceneRng, palette: &Palette) {
     let (x, z) = (2.0 * shell.half.x + LAP, 2.0 * shell.half.y + LAP);
     let gap = Material::plain(palette.floor.linear * if shell.flooring == Flooring::Tiles { 0.9 } else { 0.22 });
-    asset.block([0.0, -0.054, 0.0], [x, 0.1, z], 0.0, gap).only(UP).cell_scale(2.0);
+    asset.block([0.0, -0.054, 0.0], [x, 0.1, z], 0.0, gap).only(faces::TOP).cell_scale(2.0);
     match shell.flooring {
         Flooring::Boards => boards(asset, shell.half, palette, rng),
         Flooring::Tiles => tiles(asset, shell.half, palette, rng.seed()),
@@ -51,7 +49,7 @@ fn boards(asset: &mut Asset, half: DVec2, palette: &Palette, rng: &mut SceneRng)
                 0.0,
                 material,
             );
-            board.only(UP).stretched(1.8).no_shadow();
+            board.only(faces::TOP).stretched(1.8).no_shadow();
         }
     }
 }
@@ -102,7 +100,7 @@ fn tiles(asset: &mut Asset, half: DVec2, palette: &Palette, seed: u32) {
             let (middle, size) = ((low + high) / 2.0, high - low - 0.006);
             asset
                 .block([middle.x, -0.01, middle.y], [size.x, 0.02, size.y], 0.0, material)
-                .only(UP)
+                .only(faces::TOP)
                 .cell_scale(1.15)
                 .no_shadow();
         }

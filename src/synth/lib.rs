@@ -18,6 +18,7 @@ mod bake;
 mod bake_quality;
 mod bvh;
 mod color;
+mod faces;
 mod flooring;
 mod footprint;
 mod generate;

@@ -26,9 +26,6 @@ pub(super) enum Shape {
     Sheet { surface: Surface, size: DVec2 },
 }
 
-/// All faces of a block.
-pub(super) const ALL_FACES: u8 = 0x3f;
-
 /// How a primitive takes part in the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Visibility {

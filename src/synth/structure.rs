@@ -4,17 +4,13 @@ use glam::{DVec3, Vec3};
 
 use super::asset::Asset;
 use super::color::Palette;
+use super::faces;
 use super::flooring::{self, LAP, tinted};
 use super::material::{Material, Pattern};
 use super::noise;
 use super::rng::SceneRng;
 use super::shell::{Finish, Opening, Shell, Wall};
 use strum::VariantArray;
-
-/// Faces of a block: up, down, toward +z.
-const UP: u8 = 0b00_1000;
-const DOWN: u8 = 0b00_0100;
-const INTO: u8 = 0b10_0000;
 
 impl Shell {
     /// The whole structure as one asset in the world's frame, with the object id 0.
@@ -29,7 +25,7 @@ impl Shell {
         let (x, z) = (2.0 * self.half.x + LAP, 2.0 * self.half.y + LAP);
         let white = Material::plain(Vec3::new(0.8, 0.79, 0.76));
         if self.ceiling {
-            asset.block([0.0, self.height + 0.05, 0.0], [x, 0.1, z], 0.0, white).only(DOWN).cell_scale(2.2);
+            asset.block([0.0, self.height + 0.05, 0.0], [x, 0.1, z], 0.0, white).only(faces::BOTTOM).cell_scale(2.2);
         } else {
             asset.block([0.0, self.height + 0.05, 0.0], [x, 0.1, z], 0.0, white).only(0);
         }
@@ -53,7 +49,9 @@ impl Shell {
         let own: Vec<&Opening> = self.openings.iter().filter(|o| o.wall == wall).collect();
         let mut piece = |low: [f64; 2], high: [f64; 2]| {
             let center = [f64::midpoint(low[0], high[0]), f64::midpoint(low[1], high[1]), -0.05];
-            side.block(center, [high[0] - low[0], high[1] - low[1], 0.1], 0.0, material).only(INTO).cell_scale(coarse);
+            side.block(center, [high[0] - low[0], high[1] - low[1], 0.1], 0.0, material)
+                .only(faces::FRONT)
+                .cell_scale(coarse);
         };
         let mut from = -half - LAP;
         let mut sorted = own.clone();
@@ -79,26 +77,30 @@ impl Shell {
     fn add_trims(&self, side: &mut Asset, half: f64, finish: Finish, openings: &[&Opening]) {
         let material = Material::plain(Vec3::new(0.76, 0.74, 0.7)).gloss(0.2);
         let length = 2.0 * half;
-        side.block([0.0, 0.05, 0.004], [length, 0.1, 0.02], 0.005, material).only(0b10_1000).stretched(2.0);
+        side.block([0.0, 0.05, 0.004], [length, 0.1, 0.02], 0.005, material)
+            .only(faces::FRONT | faces::TOP)
+            .stretched(2.0);
         if self.ceiling {
             side.block([0.0, self.height - 0.03, 0.01], [length, 0.06, 0.03], 0.012, material)
-                .only(0b10_0100)
+                .only(faces::FRONT | faces::BOTTOM)
                 .stretched(2.0);
         }
         if finish == Finish::Paneled && openings.is_empty() {
-            side.block([0.0, 0.98, 0.006], [length, 0.045, 0.03], 0.01, material).only(0b10_1100).stretched(2.0);
-            side.block([0.0, 0.53, -0.046], [length, 0.86, 0.1], 0.0, material).only(INTO).cell_scale(1.5);
+            side.block([0.0, 0.98, 0.006], [length, 0.045, 0.03], 0.01, material)
+                .only(faces::FRONT | faces::TOP | faces::BOTTOM)
+                .stretched(2.0);
+            side.block([0.0, 0.53, -0.046], [length, 0.86, 0.1], 0.0, material).only(faces::FRONT).cell_scale(1.5);
             let count = (length / 0.62).round();
             for i in 0..count as u32 {
                 let x = (f64::from(i) + 0.5) * length / count - half;
                 let [w, h] = [length / count - 0.14, 0.62];
                 for s in [-1.0, 1.0] {
                     side.block([x + s * w / 2.0, 0.54, 0.006], [0.02, h + 0.02, 0.014], 0.004, material)
-                        .only(0b10_1111)
+                        .only(faces::FRONT | faces::SIDES)
                         .cell_scale(0.8)
                         .no_shadow();
                     side.block([x, 0.54 + s * h / 2.0, 0.006], [w, 0.02, 0.014], 0.004, material)
-                        .only(0b10_1111)
+                        .only(faces::FRONT | faces::SIDES)
                         .cell_scale(0.8)
                         .no_shadow();
                 }
@@ -125,10 +127,10 @@ fn add_reveal(side: &mut Asset, opening: &Opening) {
     let ([width, height], deep) = (opening.size, 0.14);
     let (x, y) = (opening.at, opening.sill + height / 2.0);
     let z = -deep / 2.0;
-    side.block([x - width / 2.0 - 0.02, y, z], [0.04, height, deep], 0.0, material).only(0b00_0010);
-    side.block([x + width / 2.0 + 0.02, y, z], [0.04, height, deep], 0.0, material).only(0b00_0001);
-    side.block([x, y - height / 2.0 - 0.02, z], [width, 0.04, deep], 0.0, material).only(UP);
-    side.block([x, y + height / 2.0 + 0.02, z], [width, 0.04, deep], 0.0, material).only(DOWN);
+    side.block([x - width / 2.0 - 0.02, y, z], [0.04, height, deep], 0.0, material).only(faces::RIGHT);
+    side.block([x + width / 2.0 + 0.02, y, z], [0.04, height, deep], 0.0, material).only(faces::LEFT);
+    side.block([x, y - height / 2.0 - 0.02, z], [width, 0.04, deep], 0.0, material).only(faces::TOP);
+    side.block([x, y + height / 2.0 + 0.02, z], [width, 0.04, deep], 0.0, material).only(faces::BOTTOM);
 }
 
 /// Adds rows of single bricks over a wall.
@@ -151,7 +153,7 @@ fn brickwork(side: &mut Asset, half: f64, height: f64, seed: u32) {
                 .seeded(seed ^ (row * 67 + column) as u32);
             let center = [f64::midpoint(low, high), f64::midpoint(bottom, top), -0.004];
             side.block(center, [high - low - 0.012, top - bottom - 0.011, 0.02], 0.0, material)
-                .only(INTO)
+                .only(faces::FRONT)
                 .cell_scale(1.25)
                 .stretched(1.6)
                 .no_shadow();

@@ -58,7 +58,7 @@ pub(crate) fn bed(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A folded throw across the foot end.
+/// Adds a folded throw across the foot end.
 fn throw_over(asset: &mut Asset, width: f64, length: f64, palette: &Palette) {
     let tone = palette.accent.linear;
     let material = Material::patterned(Pattern::Stripes, tone, tone * 0.6 + 0.15, 0.09).two_sided();

@@ -1,4 +1,4 @@
-//! Things to look at.
+//! Decoration.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3};
 use super::plants;
 use crate::asset::Asset;
 use crate::color::{NamedColor, Palette};
+use crate::faces;
 use crate::material::{Material, Pattern};
 use crate::rng::SceneRng;
 
@@ -71,7 +72,7 @@ pub(crate) fn sculpture(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.scale_cells(0.4).centered()
 }
 
-/// A trefoil knot of bronze.
+/// Adds a trefoil knot.
 fn loops(asset: &mut Asset, material: Material) {
     let point = |k: u32| {
         let t = TAU * f64::from(k) / 36.0;
@@ -83,7 +84,7 @@ fn loops(asset: &mut Asset, material: Material) {
     asset.rod([0.0, 0.04, 0.0], [0.0, 0.1, 0.0], [0.01, 0.01], material);
 }
 
-/// A bust: shoulders, neck, head.
+/// Adds a bust: shoulders, neck, head.
 fn head(asset: &mut Asset, material: Material) {
     let shoulders = [[0.05, 0.04], [0.1, 0.09], [0.09, 0.13], [0.04, 0.16], [0.036, 0.2]];
     asset.smooth_lathe([0.0; 3], &shoulders, material);
@@ -137,11 +138,11 @@ pub(crate) fn easel(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let side = Material::plain(Vec3::splat(0.7));
     asset
         .block([0.0, y, 0.13 - (y - 0.72) * lean], [width, height, 0.028], 0.002, side)
-        .only(0b01_1111)
+        .only(faces::BACK | faces::SIDES)
         .rotate(DVec3::X, -lean);
     asset
         .block([0.0, y, 0.132 - (y - 0.72) * lean], [width, height, 0.028], 0.0, canvas)
-        .only(0b10_0000)
+        .only(faces::FRONT)
         .cell_scale(0.6)
         .rotate(DVec3::X, -lean);
     asset.centered()

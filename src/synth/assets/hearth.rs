@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use crate::asset::Asset;
 use crate::color::Palette;
+use crate::faces;
 use crate::material::{Material, Pattern};
 use crate::noise;
 use crate::rng::SceneRng;
@@ -44,7 +45,7 @@ pub(crate) fn fireplace(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// Courses of single bricks around an opening.
+/// Adds rows of single bricks around an opening.
 fn bricks(asset: &mut Asset, size: [f64; 3], open: [f64; 2], seed: u32) {
     let [width, height, depth] = size;
     let (long, tall) = (width / 6.0, height / 14.0);
@@ -75,12 +76,15 @@ fn bricks(asset: &mut Asset, size: [f64; 3], open: [f64; 2], seed: u32) {
                 * (0.75 + 0.5 * noise::unit_hash(column, row, seed) as f32);
             let material = Material::patterned(Pattern::Speckle, tone, tone * 0.75, 0.03).seeded(seed ^ row as u32);
             let brick = [high - low - 0.01, tall - 0.01, depth];
-            asset.block([f64::midpoint(low, high), y, 0.0], brick, 0.004, material).only(0b10_0011).cell_scale(1.3);
+            asset
+                .block([f64::midpoint(low, high), y, 0.0], brick, 0.004, material)
+                .only(faces::FRONT | faces::RIGHT | faces::LEFT)
+                .cell_scale(1.3);
         }
     }
 }
 
-/// The part of a stretch that lies beside the opening `-half..half`.
+/// The part of the interval `low..high` beside the opening `-half..half`; empty inside it.
 fn outside(low: f64, high: f64, half: f64) -> (f64, f64) {
     if low < -half {
         (low, high.min(-half))
@@ -91,6 +95,7 @@ fn outside(low: f64, high: f64, half: f64) -> (f64, f64) {
     }
 }
 
+/// Adds logs, embers, flames and their light.
 fn logs(asset: &mut Asset, rng: &mut SceneRng) {
     let bark = Material::patterned(Pattern::Speckle, Vec3::new(0.07, 0.045, 0.03), Vec3::new(0.16, 0.1, 0.06), 0.03);
     for (x, y, z, lean) in [(-0.02, 0.11, 0.02, 0.02), (0.03, 0.1, -0.08, -0.03), (0.0, 0.19, -0.03, 0.05)] {

@@ -6,11 +6,12 @@ use glam::{DVec3, Vec3};
 
 use crate::asset::Asset;
 use crate::color::Palette;
+use crate::faces;
 use crate::material::Material;
 use crate::placement::Placement;
 use crate::rng::SceneRng;
 
-/// Half width of a guitar's body at height `t` 0..=1 from the lower to the upper bout, m.
+/// Half width of a guitar's body, m, at the height `t` in 0..=1 from the lower to the upper bout.
 fn outline(t: f64) -> f64 {
     let lower = 0.185 * (1.0 - ((t - 0.3) / 0.34).powi(2)).max(0.0).sqrt();
     let upper = 0.138 * (1.0 - ((t - 0.78) / 0.225).powi(2)).max(0.0).sqrt();
@@ -18,7 +19,7 @@ fn outline(t: f64) -> f64 {
     lower.max(upper).max(waist) * (t / 0.02).min(1.0).sqrt() * ((1.0 - t) / 0.02).min(1.0).sqrt()
 }
 
-/// An acoustic guitar leaning back on a stand.
+/// An acoustic guitar on a stand.
 pub(crate) fn guitar(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut body = Asset::new("guitar");
     let (tall, deep) = (0.5, 0.1);
@@ -48,7 +49,7 @@ pub(crate) fn guitar(rng: &mut SceneRng, palette: &Palette) -> Asset {
         0.0,
         Material::plain(Vec3::new(0.03, 0.02, 0.015)),
     )
-    .only(0b10_0000)
+    .only(faces::FRONT)
     .cell_scale(0.6);
     for fret in 0..14 {
         let y = 0.98 - 0.6 * (1.0 - 0.5_f64.powf(f64::from(fret) / 12.0));
@@ -87,6 +88,7 @@ pub(crate) fn guitar(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.scale_cells(0.62).centered()
 }
 
+/// Adds the stand.
 fn stand(asset: &mut Asset, palette: &Palette) {
     let metal = Material::metal(palette.dark.linear);
     for x in [-1.0, 1.0] {

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use crate::asset::Asset;
 use crate::color::NamedColor;
+use crate::faces;
 use crate::material::{Material, Pattern};
 use crate::rng::SceneRng;
 
@@ -11,7 +12,7 @@ fn steel() -> Material {
     Material::metal(Vec3::splat(0.42))
 }
 
-/// A run of base units `width` m long, with doors, drawers, a worktop and a sink with a tap.
+/// A row of base units, `width` m long, with doors, a worktop and a sink with a tap.
 pub(crate) fn counter(rng: &mut SceneRng, color: &NamedColor, width: f64) -> Asset {
     let mut asset = Asset::colored("kitchen counter", color);
     let (height, depth) = (0.9, 0.6);
@@ -27,7 +28,7 @@ pub(crate) fn counter(rng: &mut SceneRng, color: &NamedColor, width: f64) -> Ass
     asset.block([sink, rim, 0.02], [0.5, 0.006, 0.38], 0.003, steel());
     asset
         .block([sink, rim - 0.001, 0.02], [0.44, 0.01, 0.32], 0.0, Material::plain(Vec3::splat(0.12)).gloss(0.6))
-        .only(0b00_1000);
+        .only(faces::TOP);
     let tap = [
         [sink, height, -0.22],
         [sink, height + 0.26, -0.22],
@@ -39,7 +40,7 @@ pub(crate) fn counter(rng: &mut SceneRng, color: &NamedColor, width: f64) -> Ass
     asset.centered()
 }
 
-/// Doors side by side between two heights.
+/// Adds a row of doors between two heights.
 fn units(asset: &mut Asset, width: f64, [low, high, face]: [f64; 3], material: Material) {
     let count = (width / 0.5).round().max(1.0) as u32;
     let each = width / f64::from(count);
@@ -53,7 +54,7 @@ fn units(asset: &mut Asset, width: f64, [low, high, face]: [f64; 3], material: M
     }
 }
 
-/// Cabinets on the wall, `width` m long; the back is at -z.
+/// Wall cabinets, `width` m long; the back is at -z.
 pub(crate) fn wall_cabinet(color: &NamedColor, width: f64) -> Asset {
     let mut asset = Asset::colored("wall cabinet", color);
     let material = Material::plain(color.linear).gloss(0.25);
@@ -85,7 +86,7 @@ pub(crate) fn fridge(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     asset.centered()
 }
 
-/// A stove with an oven door and four plates.
+/// A stove with an oven and four hot plates.
 pub(crate) fn stove(color: &NamedColor) -> Asset {
     let mut asset = Asset::new("stove");
     let (width, height, depth) = (0.6, 0.9, 0.6);

@@ -1,4 +1,4 @@
-//! Lamps: each carries its light.
+//! Lamps, each with its light.
 
 use glam::Vec3;
 
@@ -19,7 +19,7 @@ fn metal(palette: &Palette, rng: &mut SceneRng) -> Material {
     Material::metal(if rng.chance(0.5) { brass } else { palette.dark.linear })
 }
 
-/// A lamp standing on the floor: drum shade on a stem, tripod, or an arc.
+/// A floor lamp: a shade on a stem, on a tripod or on an arc.
 pub(crate) fn floor_lamp(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut asset = Asset::new("floor lamp");
     let height = rng.range(1.45, 1.65);
@@ -66,7 +66,7 @@ pub(crate) fn floor_lamp(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A lamp with a ceramic foot for tables.
+/// A table lamp with a ceramic base.
 pub(crate) fn table_lamp(rng: &mut SceneRng, color: &NamedColor, palette: &Palette) -> Asset {
     let mut asset = Asset::new("table lamp");
     let foot = Material::plain(color.linear).gloss(0.6);
@@ -82,7 +82,7 @@ pub(crate) fn table_lamp(rng: &mut SceneRng, color: &NamedColor, palette: &Palet
     asset.scale_cells(0.7).centered()
 }
 
-/// A lamp hanging from the ceiling: its highest point is the mount.
+/// A pendant lamp; its highest point is the ceiling mount.
 pub(crate) fn pendant(rng: &mut SceneRng, color: &NamedColor, drop: f64) -> Asset {
     let mut asset = Asset::colored("pendant lamp", color);
     let cord = Material::plain(Vec3::splat(0.03));
@@ -93,7 +93,7 @@ pub(crate) fn pendant(rng: &mut SceneRng, color: &NamedColor, drop: f64) -> Asse
     } else {
         vec![[radius * 0.8, 0.0], [radius, 0.1], [radius * 0.85, 0.2], [0.03, 0.27]]
     };
-    // The shade is hollow: only its crown stops light, so that the bulb shines down and out.
+    // The shade is hollow: only its crown casts a shadow, so that the bulb lights the room below.
     asset.smooth_lathe([0.0; 3], &profile, outside).no_shadow();
     asset.superellipsoid([0.0, 0.16, 0.0], [radius * 1.3, 0.05, radius * 1.3], 2.0, outside).shadow_only();
     asset.superellipsoid([0.0, 0.05, 0.0], [0.11, 0.11, 0.11], 2.0, shade_material(Vec3::ONE)).cell_scale(0.6);
@@ -103,7 +103,7 @@ pub(crate) fn pendant(rng: &mut SceneRng, color: &NamedColor, drop: f64) -> Asse
     asset.scale_cells(0.8).centered()
 }
 
-/// A jointed lamp for desks.
+/// A jointed desk lamp.
 pub(crate) fn desk_lamp(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     let mut asset = Asset::colored("desk lamp", color);
     let material = Material::plain(color.linear).gloss(0.6);

@@ -1,4 +1,4 @@
-//! The catalog: one function an object, each throwing its own proportions.
+//! The catalog of assets: one function per object, which draws its own proportions. Lengths in m.
 
 pub(super) mod beds;
 pub(super) mod decor;

@@ -1,4 +1,4 @@
-//! Windows and doors; backs at -z, which lies in the plane of the wall.
+//! Windows and doors. The back is at -z, in the plane of the wall.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::color::NamedColor;
 use crate::material::Material;
 use crate::rng::SceneRng;
 
-/// Frame, bars and sill of a window of a size.
+/// A window of a given size: frame, bars and sill.
 pub(crate) fn window(size: [f64; 2], bars: [u32; 2]) -> Asset {
     let mut asset = Asset::new("window");
     let [width, height] = size;

@@ -9,15 +9,15 @@ use crate::color::{NamedColor, Palette};
 use crate::material::{Material, Pattern};
 use crate::rng::SceneRng;
 
-/// A leaf to be: root, direction of growth, size, droop and paint.
+/// Shape of a leaf.
 struct Leaf {
     root: DVec3,
     yaw: f64,
-    /// Angle above the horizontal at the root, rad.
+    /// Elevation of the leaf at its root, rad.
     lift: f64,
     length: f64,
     width: f64,
-    /// How far the tip bends down, rad.
+    /// Bend of the tip below the direction at the root, rad.
     droop: f64,
 }
 
@@ -25,7 +25,7 @@ fn leaf(asset: &mut Asset, shape: &Leaf, material: Material) {
     let Leaf { root, yaw, lift, length, width, droop } = *shape;
     let turn = DQuat::from_rotation_y(yaw);
     let sheet = asset.sheet([width, length], material, move |u, v| {
-        // An arc whose slope falls from `lift` by `droop` toward the tip.
+        // The slope decreases from `lift` by `droop` toward the tip.
         let slope = lift - droop * v * 0.5;
         let along = length * v;
         let half = width / 2.0 * (PI * v.powf(0.8)).sin().max(0.03);
@@ -42,7 +42,7 @@ fn green(rng: &mut SceneRng) -> Material {
     Material::patterned(Pattern::Leaf, tone, tone * 1.9 + Vec3::new(0.02, 0.03, 0.0), 0.05).two_sided().gloss(0.35)
 }
 
-/// A pot with soil; returns the height of the soil.
+/// Adds a pot with soil; returns the height of the soil.
 fn pot(asset: &mut Asset, radius: f64, height: f64, color: &NamedColor) -> f64 {
     let clay = Material::plain(color.linear).gloss(0.25);
     let profile = [
@@ -59,7 +59,7 @@ fn pot(asset: &mut Asset, radius: f64, height: f64, color: &NamedColor) -> f64 {
     height * 0.9
 }
 
-/// A tall plant in a pot on the floor: fig, palm or snake plant.
+/// A tall potted plant for the floor: fig, palm or snake plant.
 pub(crate) fn potted_plant(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     let mut asset = Asset::colored("potted plant", color);
     let (radius, height) = (rng.range(0.16, 0.2), rng.range(0.28, 0.36));
@@ -135,7 +135,7 @@ fn snake_plant(asset: &mut Asset, [soil, radius, tall]: [f64; 3], rng: &mut Scen
     }
 }
 
-/// A small plant for tables and sills.
+/// A small potted plant.
 pub(crate) fn small_plant(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     let mut asset = Asset::colored("small plant", color);
     let soil = pot(&mut asset, 0.06, 0.1, color);
@@ -168,7 +168,7 @@ pub(crate) fn cactus(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     asset.scale_cells(0.45).centered()
 }
 
-/// Round blossoms on stems out of a vase.
+/// Adds round flowers on stems in a vase.
 pub(super) fn flowers(asset: &mut Asset, base: [f64; 3], palette: &Palette, rng: &mut SceneRng) {
     let stem = Material::plain(Vec3::new(0.08, 0.17, 0.05));
     let root = DVec3::from(base);
@@ -194,7 +194,7 @@ pub(super) fn flowers(asset: &mut Asset, base: [f64; 3], palette: &Palette, rng:
     }
 }
 
-/// Leafy branches out of a vase.
+/// Adds branches with leaves in a vase.
 pub(super) fn branches(asset: &mut Asset, base: [f64; 3], rng: &mut SceneRng) {
     let bark = Material::plain(Vec3::new(0.16, 0.11, 0.07));
     let root = DVec3::from(base);

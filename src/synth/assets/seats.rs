@@ -42,10 +42,10 @@ pub(crate) fn sofa(rng: &mut SceneRng, palette: &Palette) -> Asset {
         lean.rotate(DVec3::X, -0.2);
     }
     let inside = width / 2.0 - arm - 0.2;
-    throw(&mut asset, [-inside, seat_height + 0.22, 0.05], &palette.accent, rng);
-    throw(&mut asset, [inside, seat_height + 0.22, 0.04], &palette.second, rng);
+    throw_pillow(&mut asset, [-inside, seat_height + 0.22, 0.05], &palette.accent, rng);
+    throw_pillow(&mut asset, [inside, seat_height + 0.22, 0.04], &palette.second, rng);
     if rng.chance(0.5) {
-        throw(&mut asset, [-inside + 0.26, seat_height + 0.19, 0.12], &palette.light, rng);
+        throw_pillow(&mut asset, [-inside + 0.26, seat_height + 0.19, 0.12], &palette.light, rng);
     }
     if rng.chance(0.6) {
         blanket(&mut asset, [width / 2.0 - arm / 2.0, arm_height, arm], depth, &palette.light);
@@ -53,8 +53,8 @@ pub(crate) fn sofa(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A throw pillow leaning on a back.
-fn throw(asset: &mut Asset, center: [f64; 3], color: &NamedColor, rng: &mut SceneRng) {
+/// Adds a throw pillow against a backrest.
+fn throw_pillow(asset: &mut Asset, center: [f64; 3], color: &NamedColor, rng: &mut SceneRng) {
     let size = rng.range(0.36, 0.44);
     let material = if rng.chance(0.35) {
         Material::patterned(Pattern::Stripes, color.linear, color.linear * 0.45 + 0.25, 0.045)
@@ -66,7 +66,7 @@ fn throw(asset: &mut Asset, center: [f64; 3], color: &NamedColor, rng: &mut Scen
     primitive.rotate(DVec3::Z, tilt).rotate(DVec3::X, -0.42).rotate(DVec3::Y, -tilt).cell_scale(0.8);
 }
 
-/// A blanket over an arm rest: middle x, height and width of the arm.
+/// Adds a blanket over an armrest, given by its center x, height and width.
 fn blanket(asset: &mut Asset, [x, height, arm]: [f64; 3], depth: f64, color: &NamedColor) {
     let material = Material::patterned(Pattern::Stripes, color.linear, color.linear * 0.62, 0.11).two_sided();
     let (wide, drop) = (0.42, 0.3);
@@ -87,7 +87,7 @@ fn blanket(asset: &mut Asset, [x, height, arm]: [f64; 3], depth: f64, color: &Na
     sheet.no_shadow();
 }
 
-/// An armchair: plump, or a shell on wooden legs.
+/// An armchair: upholstered, or with wooden armrests.
 pub(crate) fn armchair(rng: &mut SceneRng, color: &NamedColor, palette: &Palette) -> Asset {
     let mut asset = Asset::colored("armchair", color);
     let cloth = Material::cloth(color.linear, rng.seed());
@@ -112,12 +112,12 @@ pub(crate) fn armchair(rng: &mut SceneRng, color: &NamedColor, palette: &Palette
         }
     }
     if rng.chance(0.7) {
-        throw(&mut asset, [0.0, leg + 0.45, -0.06], &palette.light, rng);
+        throw_pillow(&mut asset, [0.0, leg + 0.45, -0.06], &palette.light, rng);
     }
     asset.centered()
 }
 
-/// A dining or desk chair of wood with a slatted or upholstered back.
+/// A wooden chair with a slatted or upholstered back.
 pub(crate) fn chair(style: u32, wood: Material, seat: Material) -> Asset {
     let mut asset = Asset::new("chair");
     let (half, height) = (0.2, 0.45);

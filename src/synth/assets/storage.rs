@@ -1,30 +1,35 @@
-//! Shelves, cabinets and what fills them.
+//! Shelves and cabinets with their contents.
 
 use glam::{DVec3, Vec3};
 
 use crate::asset::Asset;
 use crate::color::{NUM_MUTED_COLORS, NamedColor, Palette, muted_color};
+use crate::faces;
 use crate::material::{Material, Pattern};
 use crate::rng::SceneRng;
 
-/// Faces of a book that can be seen in a shelf: front, left, right, top.
-const BOOK_FACES: u8 = 0b10_1011;
+/// Faces of a book that are visible in a shelf.
+const BOOK_FACES: u8 = faces::FRONT | faces::TOP | faces::RIGHT | faces::LEFT;
 
-/// Extent of a row of books: left end, floor, front, room to the right and above.
-struct Row {
+/// Space for a row of books.
+struct BookRow {
+    /// Left end.
     left: f64,
+    /// Height of the shelf.
     floor: f64,
+    /// Front edge of the shelf.
     front: f64,
     width: f64,
-    room: f64,
+    /// Free height.
+    headroom: f64,
 }
 
-/// Books side by side, their spines toward +z.
-fn books(asset: &mut Asset, row: &Row, palette: &Palette, rng: &mut SceneRng) {
+/// Adds a row of books, their spines toward +z.
+fn books(asset: &mut Asset, row: &BookRow, palette: &Palette, rng: &mut SceneRng) {
     let mut x = row.left;
     let family = rng.index(3);
     while x < row.left + row.width - 0.05 {
-        let (thick, tall) = (rng.range(0.018, 0.045), row.room.min(rng.range(0.17, 0.27)));
+        let (thick, tall) = (rng.range(0.018, 0.045), row.headroom.min(rng.range(0.17, 0.27)));
         let color = match rng.index(6) {
             0 => palette.accent.linear * 0.7,
             1 => palette.dark.linear * 2.0,
@@ -47,7 +52,7 @@ fn books(asset: &mut Asset, row: &Row, palette: &Palette, rng: &mut SceneRng) {
             x += rng.range(0.05, 0.14);
         }
     }
-    let (tall, plain) = (row.room.min(0.21), Material::plain(Vec3::ONE));
+    let (tall, plain) = (row.headroom.min(0.21), Material::plain(Vec3::ONE));
     let middle = [row.left + row.width / 2.0, row.floor + tall / 2.0, row.front - 0.13];
     asset.block(middle, [row.width, tall, 0.16], 0.0, plain).shadow_only();
 }
@@ -64,18 +69,18 @@ pub(crate) fn bookshelf(rng: &mut SceneRng, palette: &Palette) -> Asset {
     }
     asset
         .block([0.0, height / 2.0, -depth / 2.0 + 0.008], [width - 0.05, height - 0.02, 0.012], 0.0, wood)
-        .only(0b10_0000);
+        .only(faces::FRONT);
     for i in 0..=shelves {
         let y = 0.08 + gap * f64::from(i);
         asset.block([0.0, y, 0.005], [width - 0.05, 0.025, depth - 0.01], 0.004, wood);
     }
-    asset.block([0.0, 0.035, 0.01], [width - 0.05, 0.07, depth - 0.03], 0.0, wood).only(0b10_0000);
+    asset.block([0.0, 0.035, 0.01], [width - 0.05, 0.07, depth - 0.03], 0.0, wood).only(faces::FRONT);
     for i in 0..shelves {
         let floor = 0.0925 + gap * f64::from(i);
         let inner = width - 0.07;
         let full = rng.range(0.55, 1.0);
         let left = if rng.chance(0.5) { -inner / 2.0 } else { inner / 2.0 - inner * full };
-        let row = Row { left, floor, front: depth / 2.0, width: inner * full, room: gap - 0.06 };
+        let row = BookRow { left, floor, front: depth / 2.0, width: inner * full, headroom: gap - 0.06 };
         books(&mut asset, &row, palette, rng);
         if full < 0.84 {
             let x = if left > -inner / 2.0 + 0.01 { -inner / 2.0 + 0.1 } else { inner / 2.0 - 0.1 };
@@ -86,7 +91,7 @@ pub(crate) fn bookshelf(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A small thing that belongs to the shelf.
+/// Adds a small ornament on a shelf.
 fn ornament(asset: &mut Asset, [x, y, z]: [f64; 3], palette: &Palette, rng: &mut SceneRng) {
     let color = if rng.chance(0.5) { palette.accent } else { palette.light };
     let material = Material::plain(color.linear).gloss(0.4);
@@ -107,7 +112,7 @@ fn ornament(asset: &mut Asset, [x, y, z]: [f64; 3], palette: &Palette, rng: &mut
     }
 }
 
-/// Books lying on each other.
+/// A stack of books.
 pub(crate) fn book_stack(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut asset = Asset::new("stack of books");
     let mut y = 0.0;
@@ -132,7 +137,7 @@ pub(crate) fn book_stack(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.scale_cells(0.45).centered()
 }
 
-/// A long low cabinet with doors.
+/// A sideboard with three or four doors.
 pub(crate) fn sideboard(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut asset = Asset::new("sideboard");
     let wood = Material::wood(palette.wood.linear, rng.seed()).gloss(0.45);
@@ -208,7 +213,7 @@ pub(crate) fn dresser(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A board on the wall with things on it; its back is at -z.
+/// A wall shelf with books and ornaments; its back is at -z.
 pub(crate) fn wall_shelf(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut asset = Asset::new("wall shelf");
     let wood = Material::wood(palette.wood.linear, rng.seed());
@@ -219,7 +224,8 @@ pub(crate) fn wall_shelf(rng: &mut SceneRng, palette: &Palette) -> Asset {
             .block([x * width, 0.07, -depth / 2.0 + 0.05], [0.02, 0.14, 0.1], 0.004, Material::metal(Vec3::splat(0.04)))
             .cell_scale(0.7);
     }
-    let row = Row { left: -width / 2.0 + 0.04, floor: 0.165, front: depth / 2.0, width: width * 0.5, room: 0.3 };
+    let row =
+        BookRow { left: -width / 2.0 + 0.04, floor: 0.165, front: depth / 2.0, width: width * 0.5, headroom: 0.3 };
     books(&mut asset, &row, palette, rng);
     ornament(&mut asset, [width * 0.2, 0.165, 0.0], palette, rng);
     ornament(&mut asset, [width * 0.4, 0.165, 0.0], palette, rng);

@@ -38,7 +38,7 @@ pub(crate) fn coffee_table(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A round board of 4 cm whose upper side is at `height`.
+/// Adds a round table top, 4 cm thick, whose upper side is at `height`.
 fn disc_top(asset: &mut Asset, radius: f64, height: f64, material: Material) {
     let profile =
         [[0.0, 0.0], [radius - 0.01, 0.0], [radius, 0.01], [radius, 0.03], [radius - 0.01, 0.04], [0.0, 0.04]];
@@ -107,7 +107,7 @@ pub(crate) fn desk(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A low cabinet beside a bed.
+/// A nightstand.
 pub(crate) fn nightstand(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut asset = Asset::new("nightstand");
     let wood = polished(palette, rng);
@@ -131,7 +131,7 @@ pub(crate) fn nightstand(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.scale_cells(0.9).centered()
 }
 
-/// A heavy bench for work, with a vise and a pegboard's worth of shelf below.
+/// A workbench with a vise and boxes on a shelf below.
 pub(crate) fn workbench(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut asset = Asset::new("workbench");
     let wood = Material::wood(palette.floor.linear, rng.seed());
@@ -162,8 +162,8 @@ pub(crate) fn workbench(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.centered()
 }
 
-/// A plain board on legs that a tabletop scene stands on.
-pub(crate) fn stage_table(rng: &mut SceneRng, palette: &Palette) -> Asset {
+/// The plain table of a tabletop scene.
+pub(crate) fn still_life_table(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let mut asset = Asset::new("table");
     let wood = polished(palette, rng);
     let (length, depth, height) = (rng.range(1.5, 1.8), rng.range(0.95, 1.15), 0.75);

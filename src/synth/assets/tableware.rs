@@ -1,4 +1,4 @@
-//! What stands on tables.
+//! Tableware.
 
 use std::f64::consts::TAU;
 
@@ -49,7 +49,7 @@ pub(crate) fn mug(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     asset.scale_cells(0.3).centered()
 }
 
-/// A bowl heaped with fruit.
+/// A bowl of fruit.
 pub(crate) fn fruit_bowl(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     let mut asset = Asset::colored("bowl of fruit", color);
     let (r, h) = (rng.range(0.14, 0.17), rng.range(0.08, 0.1));
@@ -79,6 +79,7 @@ pub(crate) fn fruit_bowl(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     asset.scale_cells(0.38).centered()
 }
 
+/// Adds one fruit with its stem.
 fn fruit(asset: &mut Asset, at: DVec3, size: f64, skin: Vec3) {
     let material =
         Material::patterned(Pattern::Speckle, skin, skin * 0.8 + 0.03, 0.02).gloss(0.5).seeded(at.x.to_bits() as u32);
@@ -114,7 +115,7 @@ pub(crate) fn teapot(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     asset.scale_cells(0.34).centered()
 }
 
-/// A plate with something baked on it.
+/// A plate with pastries.
 pub(crate) fn plate(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     let mut asset = Asset::colored("plate", color);
     let r = rng.range(0.11, 0.13);
@@ -129,7 +130,7 @@ pub(crate) fn plate(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     asset.scale_cells(0.36).centered()
 }
 
-/// A drinking glass or a goblet of thin glass.
+/// A wine glass, partly filled.
 pub(crate) fn wine_glass(rng: &mut SceneRng) -> Asset {
     let mut asset = Asset::new("wine glass");
     let glass = Material::plain(Vec3::splat(0.8)).gloss(1.0).opacity(0.22);

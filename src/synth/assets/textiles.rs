@@ -6,10 +6,11 @@ use glam::{DVec3, Vec3};
 
 use crate::asset::Asset;
 use crate::color::{NamedColor, Palette};
+use crate::faces;
 use crate::material::{Material, Pattern};
 use crate::rng::SceneRng;
 
-/// A rug of a size, its longer side along x.
+/// A rug of a given size (x, z) with fringes at its ends.
 pub(crate) fn rug(rng: &mut SceneRng, palette: &Palette, size: [f64; 2]) -> Asset {
     let color = if rng.chance(0.6) { palette.accent } else { palette.second };
     let mut asset = Asset::colored("rug", &color);
@@ -17,7 +18,9 @@ pub(crate) fn rug(rng: &mut SceneRng, palette: &Palette, size: [f64; 2]) -> Asse
     let other = if pattern == Pattern::RugClassic { Vec3::new(0.035, 0.05, 0.085) } else { palette.main.linear };
     let pile = Material::patterned(pattern, color.linear * 0.9, other, 0.1).seeded(rng.seed());
     let edge = Material::cloth(color.linear * 0.6, rng.seed());
-    asset.block([0.0, 0.005, 0.0], [size[0], 0.01, size[1]], 0.003, edge).only(0b11_0011);
+    asset
+        .block([0.0, 0.005, 0.0], [size[0], 0.01, size[1]], 0.003, edge)
+        .only(faces::FRONT | faces::BACK | faces::RIGHT | faces::LEFT);
     asset
         .sheet(size, pile, move |u, v| DVec3::new((u - 0.5) * size[0], 0.01, (0.5 - v) * size[1]))
         .cell_scale(0.72)
@@ -32,7 +35,7 @@ pub(crate) fn rug(rng: &mut SceneRng, palette: &Palette, size: [f64; 2]) -> Asse
     asset.centered()
 }
 
-/// A pair of curtains on a rod for a window `width` m wide; `drop` m long.
+/// A pair of curtains, `drop` m long, on a rod for a window `width` m wide.
 pub(crate) fn curtains(rng: &mut SceneRng, color: &NamedColor, width: f64, drop: f64) -> Asset {
     let mut asset = Asset::colored("curtains", color);
     let rod = Material::metal(Vec3::new(0.45, 0.32, 0.14));
@@ -45,7 +48,7 @@ pub(crate) fn curtains(rng: &mut SceneRng, color: &NamedColor, width: f64, drop:
         let folds = 7.0;
         let (middle, phase) = (side * (width / 2.0 + 0.26 - spread / 2.0 + 0.02), rng.range(0.0, 1.0));
         let fall = move |u: f64, v: f64| {
-            // Gathered at the top, fuller toward the floor.
+            // The folds are shallow at the top and deeper toward the floor.
             let deep = 0.026 + 0.014 * (1.0 - v);
             let swing = TAU * (folds * u + phase) + 0.7 * (1.0 - v);
             let x = middle + (u - 0.5) * spread * (1.0 - 0.1 * v) + 0.008 * (swing * 2.0).sin();

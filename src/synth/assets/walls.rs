@@ -1,4 +1,4 @@
-//! What hangs on walls; backs at -z.
+//! Objects that hang on walls. The back is at -z.
 
 use std::f64::consts::TAU;
 
@@ -6,10 +6,11 @@ use glam::{DVec3, Vec3};
 
 use crate::asset::Asset;
 use crate::color::{NamedColor, Palette};
+use crate::faces;
 use crate::material::{Material, Pattern};
 use crate::rng::SceneRng;
 
-/// A framed picture of a size.
+/// A framed picture of a given size.
 pub(crate) fn picture(rng: &mut SceneRng, palette: &Palette, size: [f64; 2]) -> Asset {
     let mut asset = Asset::new("picture");
     let pattern =
@@ -35,11 +36,11 @@ pub(crate) fn picture(rng: &mut SceneRng, palette: &Palette, size: [f64; 2]) -> 
             .cell_scale(0.6);
     }
     let mat = Material::plain(Vec3::new(0.8, 0.77, 0.7));
-    asset.block([0.0, height / 2.0, -0.004], [width - 0.02, height - 0.02, 0.02], 0.0, mat).only(0b10_0000);
+    asset.block([0.0, height / 2.0, -0.004], [width - 0.02, height - 0.02, 0.02], 0.0, mat).only(faces::FRONT);
     let margin = if rng.chance(0.6) { 0.16 * width.min(height) } else { bar };
     let inks = Material::patterned(pattern, palette.main.linear, palette.accent.linear, 0.1).seeded(rng.seed());
     let face = [width - 2.0 * margin, height - 2.0 * margin, 0.024];
-    asset.block([0.0, height / 2.0, -0.004], face, 0.0, inks).only(0b10_0000).cell_scale(0.5);
+    asset.block([0.0, height / 2.0, -0.004], face, 0.0, inks).only(faces::FRONT).cell_scale(0.5);
     asset.scale_cells(0.8).centered()
 }
 
@@ -57,7 +58,7 @@ pub(crate) fn clock(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let face = Material::patterned(Pattern::Clock, Vec3::splat(0.82), Vec3::splat(0.02), 0.1);
     let disc = move |u: f64, v: f64| {
         let (x, y) = (2.0 * u - 1.0, 2.0 * v - 1.0);
-        // The square onto the disc by elliptical mapping, which keeps both axes.
+        // Elliptical mapping of the square onto the disc, which preserves both axes.
         let at = DVec3::new(x * (1.0 - y * y / 2.0).sqrt(), y * (1.0 - x * x / 2.0).sqrt(), 0.0);
         DVec3::new(at.x * r * 0.95, r + at.y * r * 0.95, 0.0)
     };
@@ -65,7 +66,7 @@ pub(crate) fn clock(rng: &mut SceneRng, palette: &Palette) -> Asset {
     asset.scale_cells(0.9).centered()
 }
 
-/// A mirror with a round brass rim: bright where it reflects the room.
+/// A round mirror with a brass rim, rendered as gray glass.
 pub(crate) fn mirror(rng: &mut SceneRng) -> Asset {
     let mut asset = Asset::new("mirror");
     let r = rng.range(0.3, 0.38);
@@ -80,7 +81,7 @@ pub(crate) fn mirror(rng: &mut SceneRng) -> Asset {
     asset.centered()
 }
 
-/// A panel with tools hanging from it.
+/// A panel with hanging tools.
 pub(crate) fn tool_wall(rng: &mut SceneRng, color: &NamedColor) -> Asset {
     let mut asset = Asset::new("tool wall");
     let (width, height) = (1.4, 0.8);

@@ -5,7 +5,7 @@ use crate::assets::{beds, lamps, plants, seats, storage, tables, textiles, walls
 use crate::scene_builder::SceneBuilder;
 use crate::shell::Wall;
 
-/// A bed at the back wall between nightstands, wardrobe and drawers along the others.
+/// A bed between nightstands at the back wall; a wardrobe and a chest of drawers at the front wall.
 pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let palette = builder.palette;
     let window = window_side(builder);

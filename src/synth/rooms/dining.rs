@@ -6,7 +6,7 @@ use crate::color::{NUM_MUTED_COLORS, muted_color};
 use crate::scene_builder::SceneBuilder;
 use crate::shell::Wall;
 
-/// A laid table under a pendant at the back, sideboard and shelves around.
+/// A set table under two pendant lamps at the back, a sideboard and a bookshelf at the walls.
 pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let palette = builder.palette;
     let window = window_side(builder);
@@ -23,7 +23,7 @@ pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
         let pendant = lamps::pendant(&mut builder.rng, &color, drop);
         builder.hang_from_ceiling(pendant, middle + DVec2::new(x, 0.0));
     }
-    lay(builder, table);
+    set_table(builder, table);
     let board = storage::sideboard(&mut builder.rng, &palette);
     let host = builder.place_at_wall(board, Wall::Front, window * -0.6);
     for _ in 0..4 {
@@ -38,8 +38,8 @@ pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     decorate_walls(builder, 7);
 }
 
-/// Plates, glasses, bottle and flowers.
-fn lay(builder: &mut SceneBuilder, table: Option<usize>) {
+/// Sets the table: plates, glasses, a bottle, a vase and a bowl.
+fn set_table(builder: &mut SceneBuilder, table: Option<usize>) {
     let palette = builder.palette;
     let vase = decor::vase(&mut builder.rng, &palette.second, &palette);
     builder.place_on_at(table, vase, [0.0, 0.0], 0.0);

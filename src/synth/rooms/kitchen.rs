@@ -6,7 +6,7 @@ use crate::color::{NUM_MUTED_COLORS, muted_color};
 use crate::scene_builder::SceneBuilder;
 use crate::shell::Wall;
 
-/// Units along the back wall, aisle, a table with chairs in front.
+/// Kitchen units at the back wall, a table with chairs at the front.
 pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let palette = builder.palette;
     let window = window_side(builder);
@@ -34,7 +34,7 @@ pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     decorate_walls(builder, 4);
 }
 
-/// Refrigerator, counter, stove and what hangs above.
+/// Places refrigerator, counters, stove and wall cabinets.
 fn units(builder: &mut SceneBuilder, color: &crate::color::NamedColor) {
     let palette = builder.palette;
     let half = builder.shell.half.x;

@@ -10,7 +10,7 @@ use crate::color::muted_color;
 use crate::scene_builder::SceneBuilder;
 use crate::shell::Wall;
 
-/// Sofa group at the back, aisle, sideboard with television or a fireplace at the front.
+/// A sofa group at the back; a sideboard or a fireplace at the front.
 pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let window = window_side(builder);
     let center = -window * builder.rng.range(0.0, 0.35);
@@ -34,6 +34,7 @@ pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     decorate_walls(builder, 8);
 }
 
+/// Places sofa, rug, coffee table, armchairs and lamps.
 fn seating(builder: &mut SceneBuilder, center: f64, aisle: [f64; 2]) {
     let palette = builder.palette;
     let window = window_side(builder);
@@ -73,6 +74,7 @@ fn seating(builder: &mut SceneBuilder, center: f64, aisle: [f64; 2]) {
     builder.place_on_floor(lamp, DVec2::new(center + window * beside, back + 0.42), 0.0);
 }
 
+/// Hangs pictures above the sofa.
 fn above_sofa(builder: &mut SceneBuilder, center: f64) {
     let palette = builder.palette;
     match builder.rng.index(3) {
@@ -97,6 +99,7 @@ fn above_sofa(builder: &mut SceneBuilder, center: f64) {
     }
 }
 
+/// Places a fireplace, or a sideboard, at the front wall.
 fn front(builder: &mut SceneBuilder) {
     let palette = builder.palette;
     if builder.rng.chance(0.4) {

@@ -8,7 +8,7 @@ use crate::color::{NUM_MUTED_COLORS, muted_color};
 use crate::scene_builder::SceneBuilder;
 use crate::shell::Wall;
 
-/// A desk before the back wall, shelves of books, a corner to read.
+/// A desk in front of bookshelves at the back wall, an armchair at the front.
 pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let palette = builder.palette;
     let window = window_side(builder);
@@ -16,7 +16,7 @@ pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let middle = DVec2::new(window * 0.4, -half.y + 1.3);
     let rug = textiles::rug(&mut builder.rng, &palette, [2.4, 1.7]);
     builder.place_on_floor(rug, middle, 0.0);
-    // The desk faces the room: whoever sits there has the shelves behind.
+    // The desk faces the room, with the bookshelves behind its chair.
     let desk = tables::desk(&mut builder.rng, &palette);
     let host = builder.place_on_floor(desk, middle + DVec2::new(0.0, 0.35), PI);
     let chair = seats::office_chair(&mut builder.rng, &palette.accent);
@@ -49,11 +49,12 @@ pub(super) fn furnish(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     decorate_walls(builder, 6);
 }
 
+/// Places a computer and other objects on the desk.
 fn work_place(builder: &mut SceneBuilder, host: Option<usize>) {
     let palette = builder.palette;
     if builder.rng.chance(0.5) {
         let monitor = devices::monitor(&mut builder.rng);
-        // Screens look at the chair, which stands behind the desk's front.
+        // The screen faces the chair.
         builder.place_on_at(host, monitor, [0.0, -0.55], 0.0);
         builder.place_on_at(host, devices::keyboard(), [0.0, 0.45], 0.0);
     } else {

@@ -11,12 +11,12 @@ pub(super) fn furnish(builder: &mut SceneBuilder) {
     let middle = DVec2::new(0.0, -0.35);
     let rug = textiles::rug(&mut builder.rng, &palette, [2.4, 1.7]);
     builder.place_on_floor(rug, middle, 0.0);
-    // Free room at the sides and behind the table too, so that a camera can go around it.
+    // Free space on all sides of the table, so that a camera can orbit it.
     builder.reserve(DVec2::new(0.0, middle.y), DVec2::new(1.9, 1.2));
-    let reserved = builder.reserved.pop();
-    let table = tables::stage_table(&mut builder.rng, &palette);
+    let around_table = builder.reserved.pop();
+    let table = tables::still_life_table(&mut builder.rng, &palette);
     let table = builder.place_on_floor(table, middle, 0.0);
-    builder.reserved.extend(reserved);
+    builder.reserved.extend(around_table);
     let color = muted_color(builder.rng.index(NUM_MUTED_COLORS));
     let centerpiece = match builder.rng.index(4) {
         0 => decor::vase(&mut builder.rng, &palette.second, &palette),
@@ -29,10 +29,11 @@ pub(super) fn furnish(builder: &mut SceneBuilder) {
     decorate_walls(builder, 4);
 }
 
+/// Places the centerpiece and small objects on the table.
 fn still_life(builder: &mut SceneBuilder, table: Option<usize>, centerpiece: crate::asset::Asset) {
     let palette = builder.palette;
-    // The reserved ring is for the floor: what stands on the table stays inside the table's own plan.
-    let ring = std::mem::take(&mut builder.reserved);
+    // The reserved space applies to the floor; objects on the table stay within the table's footprint.
+    let reserved = std::mem::take(&mut builder.reserved);
     builder.place_on_at(table, centerpiece, [0.0, -0.1], 0.3);
     for _ in 0..4 {
         let piece = tableware_piece(builder);
@@ -48,5 +49,5 @@ fn still_life(builder: &mut SceneBuilder, table: Option<usize>, centerpiece: cra
         _ => lamps::desk_lamp(&mut builder.rng, &palette.accent),
     };
     builder.place_on(table, &extra);
-    builder.reserved = ring;
+    builder.reserved = reserved;
 }

@@ -6,7 +6,7 @@ use crate::color::{NUM_MUTED_COLORS, muted_color};
 use crate::scene_builder::SceneBuilder;
 use crate::shell::Wall;
 
-/// An artist's room: easels, sculptures, a guitar, plants.
+/// An artist's studio: easels, sculptures, a guitar, plants.
 pub(super) fn furnish_studio(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let palette = builder.palette;
     let window = window_side(builder);
@@ -43,7 +43,7 @@ pub(super) fn furnish_studio(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     decorate_walls(builder, 8);
 }
 
-/// Workbench under a wall of tools, cabinets, boxes.
+/// A workbench under a tool wall, a chest of drawers, a desk.
 pub(super) fn furnish_workshop(builder: &mut SceneBuilder, aisle: [f64; 2]) {
     let palette = builder.palette;
     let window = window_side(builder);
