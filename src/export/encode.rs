@@ -99,7 +99,7 @@ fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Enc
                 Layout::Binary => colmap::write_binary(track),
                 Layout::Text => colmap::write_text(track),
             };
-            return Ok(Encoded { files: EncodedFiles::Folder(files.into()), losses });
+            return Ok(Encoded { files: EncodedFiles::Folder(files), losses });
         }
         Format::Gltf if layout == Layout::Binary => {
             return Ok(Encoded { files: EncodedFiles::Single(gltf::write_binary(track)), losses });

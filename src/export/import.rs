@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use strum::VariantArray;
+use strum::VariantNames;
 
 use cinesplat_files::FileError;
 
@@ -101,8 +101,7 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
 }
 
 fn unknown_content() -> ExportError {
-    let names: Vec<&str> = Format::VARIANTS.iter().map(|format| format.as_ref()).collect();
-    ExportError::WrongFormat { found: "content of no known format".into(), expected: names.join(", ") }
+    ExportError::WrongFormat { found: "content of no known format".into(), expected: Format::VARIANTS.join(", ") }
 }
 
 fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
