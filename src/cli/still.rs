@@ -1,4 +1,5 @@
 use super::outputs::Overwrite;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -103,7 +104,7 @@ impl Args {
             let values = array.to_f32().map_err(|error| not_rows(error.to_string()))?;
             // Rows of Gaussians that were dropped on reading are dropped too.
             let kept = scene.kept(&(0..num_rows).collect::<Vec<_>>());
-            let kept = kept.ok_or_else(|| bad(path, format!("{num_rows} rows"), "one a Gaussian of the file"))?;
+            let kept = kept.ok_or_else(|| bad(path, format!("{num_rows} rows"), "one per Gaussian of the file"))?;
             let row = |idx: usize| values[idx * num_channels..][..num_channels].iter().copied();
             Ok::<_, Failure>((kept.into_iter().flat_map(row).collect(), num_channels))
         };
@@ -121,9 +122,28 @@ impl Args {
                 Exit::CannotCreate,
             ));
         }
+        self.check_names(cameras)?;
         outputs::create_folder(&self.output)?;
         let mut names = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name));
         names.try_for_each(|path| self.overwrite.check(&path))
+    }
+
+    /// Refuses two cameras that would write the same file.
+    fn check_names(&self, cameras: &StillCameras) -> Result<(), Failure> {
+        let mut camera_of_file = BTreeMap::new();
+        for (idx, camera) in cameras.cameras.iter().enumerate() {
+            for path in self.files(&camera.name) {
+                if let Some(first) = camera_of_file.insert(path.clone(), idx) {
+                    let found = format!(
+                        "{}: cameras[{first}] and cameras[{idx}] both write {}, expected one name per camera",
+                        self.cameras.display(),
+                        path.display()
+                    );
+                    return Err(Failure::new("CAMERA-NAMES", found, "give each camera its own name", Exit::BadData));
+                }
+            }
+        }
+        Ok(())
     }
 
     fn files(&self, name: &str) -> Vec<PathBuf> {

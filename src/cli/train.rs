@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
+use super::outputs::Overwrite;
 use cinesplat::director::Director;
 use cinesplat::language::program_to_notation;
 use cinesplat::training::{
@@ -32,7 +33,7 @@ pub(super) struct Args {
     output: Option<PathBuf>,
     /// Folder of training shots [default: learn from words only]
     ///
-    /// `cinesplat dataset` writes it.
+    /// `cinesplat dataset` writes it. Without it the network learns programs, not camera poses.
     #[arg(long, value_name = "DIR")]
     shots: Option<PathBuf>,
     /// Share of these shots among the examples
@@ -71,6 +72,8 @@ pub(super) struct Args {
     /// Resume from the checkpoint in the output folder
     #[arg(long)]
     resume: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Evaluate a model instead: a folder, or `built-in`
     ///
     /// Prints accuracy on each evaluation split and every prompt that the model misunderstands.
@@ -116,6 +119,7 @@ impl Args {
             threads: self.threads,
             checkpoint_every: self.checkpoint_every,
             resume: self.resume,
+            existing: self.overwrite.existing(),
             ..TrainSettings::default()
         }
     }

@@ -33,6 +33,9 @@ pub struct ModelFiles {
 }
 
 impl ModelFiles {
+    /// Names of the files.
+    pub const NAMES: [&str; 3] = [WEIGHTS_FILE, TOKENIZER_FILE, MANIFEST_FILE];
+
     /// The model that is compiled into the program.
     pub fn embedded() -> Self {
         Self {

@@ -199,6 +199,14 @@ fn stills_are_named_after_their_cameras() {
         assert_eq!((value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8, level);
     }
     assert_eq!(run(folder.path(), &still).status.code(), Some(73), "a second run overwrites nothing");
+    let cameras = format!(r#"{{"cameras":[{},{},{}]}}"#, camera("left"), camera("right"), camera("left"));
+    fs::write(folder.path().join("twice.json"), cameras).unwrap();
+    insta::assert_snapshot!(answer(folder.path(), &["still", "no.ply", "--cameras", "twice.json", "-o", "new"]), @r"
+    exit 65
+    error[CAMERA-NAMES]: twice.json: cameras[0] and cameras[2] both write new/left.png, expected one name per camera
+    help: give each camera its own name
+    ");
+    assert!(!folder.path().join("new").exists());
 }
 
 #[test]

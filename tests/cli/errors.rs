@@ -114,6 +114,34 @@ fn outputs_are_checked_before_the_scene_is_read() {
 }
 
 #[test]
+fn models_and_shards_of_other_settings_are_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = |arguments: &[&str]| answer(folder.path(), arguments);
+    fs::create_dir(folder.path().join("model")).unwrap();
+    fs::write(folder.path().join("model/director.json"), "mine").unwrap();
+    insta::assert_snapshot!(answer(&["train", "-o", "model", "--steps", "1"]), @r"
+    exit 73
+    error[OUTPUT-EXISTS]: model/director.json: exists already, expected a new name
+    help: choose another name, or pass --overwrite
+    ");
+    fs::create_dir(folder.path().join("shots")).unwrap();
+    let header = r#"{"format":"cinesplat.shots","version":1,"seed":3,"num_scenes":8}"#;
+    fs::write(folder.path().join("shots/shots-00000.jsonl"), header).unwrap();
+    insta::assert_snapshot!(answer(&["dataset", "-o", "shots", "--scenes", "9"]), @r"
+    exit 65
+    error[DATASET-SETTINGS]: shots/shots-00000.jsonl: made with seed 3, expected seed 8
+    help: write into another folder, or give the settings that it was made with
+    ");
+    insta::assert_snapshot!(answer(&["dataset", "-o", "shots", "--seed", "3", "--scenes", "5"]), @r"
+    exit 65
+    error[DATASET-SETTINGS]: shots/shots-00000.jsonl: made with number of scenes 8, expected number of scenes 5
+    help: write into another folder, or give the settings that it was made with
+    ");
+    let kept = answer(&["dataset", "-o", "shots", "--seed", "3", "--scenes", "8"]);
+    assert!(kept.starts_with("exit 0\n") && kept.contains("1 shards kept"), "{kept}");
+}
+
+#[test]
 fn a_prompt_that_names_an_unknown_object() {
     let folder = tempfile::tempdir().unwrap();
     let object =

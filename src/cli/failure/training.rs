@@ -35,6 +35,9 @@ impl From<DatasetError> for Failure {
             DatasetError::Scene { .. } => {
                 (Exit::Fault, "this is a fault of the scene generator: report it with the seed")
             }
+            DatasetError::OtherSettings { .. } => {
+                (Exit::BadData, "write into another folder, or give the settings that it was made with")
+            }
             DatasetError::BadLine { .. } => (Exit::BadData, "write the shards again with `cinesplat dataset`"),
         };
         Self::new(code, message, help, exit)

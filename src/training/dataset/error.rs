@@ -40,6 +40,16 @@ pub enum DatasetError {
         /// What was expected.
         expected: &'static str,
     },
+    /// A shard that exists was made with other settings.
+    #[error("{}: made with {found}, expected {expected}", path.display())]
+    OtherSettings {
+        /// The shard.
+        path: PathBuf,
+        /// The setting that differs, with its value in the shard.
+        found: String,
+        /// The same setting, as asked for.
+        expected: String,
+    },
     /// A file.
     #[error(transparent)]
     File(#[from] FileError),
@@ -55,6 +65,7 @@ impl DatasetError {
             Self::File(error) => error.code(),
             Self::Scene { .. } => "DATASET-SCENE",
             Self::BadLine { .. } => "DATASET-LINE",
+            Self::OtherSettings { .. } => "DATASET-SETTINGS",
         }
     }
 }

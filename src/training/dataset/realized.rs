@@ -117,24 +117,41 @@ pub(crate) fn read_shards(folder: &Path) -> Result<Vec<RealizedShot>, DatasetErr
     Ok(shots)
 }
 
+/// The first line of a shard.
+///
+/// # Errors
+/// [`DatasetError::File`] · [`DatasetError::BadLine`].
+pub(super) fn read_header(path: &Path) -> Result<Header, DatasetError> {
+    let failed = |source| FileError::Read { path: path.to_owned(), source };
+    let mut line = String::new();
+    BufReader::new(std::fs::File::open(path).map_err(failed)?).read_line(&mut line).map_err(failed)?;
+    header_of(path, &line)
+}
+
+fn header_of(path: &Path, line: &str) -> Result<Header, DatasetError> {
+    let bad = |found: String, expected| DatasetError::BadLine { path: path.to_owned(), line: 1, found, expected };
+    let header: Header = serde_json::from_str(line).map_err(|error| bad(error.to_string(), "a header"))?;
+    if header.format != FORMAT || header.version != VERSION {
+        return Err(bad(format!("{} {}", header.format, header.version), "cinesplat.shots version 1"));
+    }
+    Ok(header)
+}
+
 fn read_shard(path: &Path, shots: &mut Vec<RealizedShot>) -> Result<(), DatasetError> {
     let failed = |source| FileError::Read { path: path.to_owned(), source };
     let file = std::fs::File::open(path).map_err(failed)?;
     for (line_idx, line) in BufReader::new(file).lines().enumerate() {
         let line = line.map_err(failed)?;
+        if line_idx == 0 {
+            header_of(path, &line)?;
+            continue;
+        }
         let bad = |found: String, expected| DatasetError::BadLine {
             path: path.to_owned(),
             line: line_idx + 1,
             found,
             expected,
         };
-        if line_idx == 0 {
-            let header: Header = serde_json::from_str(&line).map_err(|error| bad(error.to_string(), "a header"))?;
-            if header.format != FORMAT || header.version != VERSION {
-                return Err(bad(format!("{} {}", header.format, header.version), "cinesplat.shots version 1"));
-            }
-            continue;
-        }
         let scene: SceneRecord = serde_json::from_str(&line).map_err(|error| bad(error.to_string(), "a scene"))?;
         shots.extend(shots_of(scene).map_err(|found| bad(found.to_string(), "a program in the notation"))?);
     }

@@ -1,10 +1,12 @@
 //! Shards of realized shots: which exist, and writing those that do not.
 
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::error::DatasetError;
-use super::record::{FORMAT, Header, VERSION};
+use super::realized::read_header;
+use super::record::Header;
 use super::scene_shots::shoot_scene;
 use super::settings::DatasetSettings;
 use crate::workers::run_on_threads;
@@ -35,11 +37,12 @@ impl DatasetSummary {
     }
 }
 
-/// Writes shards of realized shots to the folder `out`. Shards that exist already are kept, so that the same call goes on
-/// after a stop. `report` is called on any thread after every scene with the number of finished scenes and of all scenes.
+/// Writes shards of realized shots to the folder `out`. Shards of the same settings that exist already are kept, so that
+/// the same call goes on after a stop. `report` is called on any thread after every scene with the number of finished scenes and of all scenes.
 ///
 /// # Errors
-/// [`DatasetError::File`] · [`DatasetError::Scene`] · [`DatasetError::Objects`] · [`DatasetError::Language`].
+/// [`DatasetError::OtherSettings`] for an existing shard of other settings, before any work · [`DatasetError::BadLine`] for
+/// one without a header · [`DatasetError::File`] · [`DatasetError::Scene`] · [`DatasetError::Objects`] · [`DatasetError::Language`].
 ///
 /// # Panics
 /// A panic on a worker thread resumes in the caller.
@@ -52,6 +55,7 @@ pub fn write_dataset(
     let next = AtomicU64::new(0);
     let done = AtomicU64::new(0);
     let num_shards = settings.num_scenes.div_ceil(SCENES_PER_SHARD);
+    (0..num_shards).try_for_each(|shard| check_existing(settings, out, shard))?;
     let scene_done = || report(done.fetch_add(1, Ordering::Relaxed) + 1, settings.num_scenes);
     let work = |_thread: usize| -> Result<DatasetSummary, DatasetError> {
         let mut summary = DatasetSummary::default();
@@ -70,6 +74,25 @@ pub fn write_dataset(
     Ok(total)
 }
 
+/// Path, scenes and header of a shard.
+fn layout(settings: &DatasetSettings, out: &Path, shard: u64) -> (PathBuf, Range<u64>, Header) {
+    let scenes = (shard * SCENES_PER_SHARD)..((shard + 1) * SCENES_PER_SHARD).min(settings.num_scenes);
+    let header = Header::new(settings, scenes.end - scenes.start);
+    (out.join(format!("shots-{shard:05}.jsonl")), scenes, header)
+}
+
+/// Checks that a shard has the settings asked for, if it exists.
+fn check_existing(settings: &DatasetSettings, out: &Path, shard: u64) -> Result<(), DatasetError> {
+    let (path, _, expected) = layout(settings, out, shard);
+    if !path.exists() {
+        return Ok(());
+    }
+    match read_header(&path)?.difference(&expected) {
+        Some([found, expected]) => Err(DatasetError::OtherSettings { path, found, expected }),
+        None => Ok(()),
+    }
+}
+
 /// Writes one shard, unless it exists.
 fn write_shard(
     settings: &DatasetSettings,
@@ -77,14 +100,12 @@ fn write_shard(
     shard: u64,
     scene_done: &dyn Fn(),
 ) -> Result<DatasetSummary, DatasetError> {
-    let path = out.join(format!("shots-{shard:05}.jsonl"));
-    let scenes = (shard * SCENES_PER_SHARD)..((shard + 1) * SCENES_PER_SHARD).min(settings.num_scenes);
+    let (path, scenes, header) = layout(settings, out, shard);
     if path.exists() {
         scenes.for_each(|_| scene_done());
         return Ok(DatasetSummary { num_shards_kept: 1, ..DatasetSummary::default() });
     }
     let bad = |error: serde_json::Error| FileError::Write { path: path.clone(), source: error.into() };
-    let header = Header { format: FORMAT.into(), version: VERSION, seed: settings.seed };
     let mut text = serde_json::to_string(&header).map_err(bad)? + "\n";
     let mut summary = DatasetSummary::default();
     for scene_idx in scenes {

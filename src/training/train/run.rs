@@ -26,9 +26,11 @@ use crate::workers::run_on_threads;
 use cinesplat_director::inputs::Vocabulary;
 use cinesplat_director::network::{Dropout, ModelConfig, Network, Parameters};
 use cinesplat_director::{Director, ModelFiles};
-use cinesplat_files::{Existing, create_folder, write};
+use cinesplat_files::{Existing, check_free, create_folder, write};
 use cinesplat_language::link;
 
+/// Name of the checkpoint in the output folder.
+const CHECKPOINT_FILE: &str = "checkpoint.safetensors";
 /// Examples that one thread computes together.
 const PART_SIZE: usize = 32;
 /// Every n-th realized shot is held out of training.
@@ -55,6 +57,7 @@ pub struct TrainSummary {
 /// # Errors
 /// [`TrainError::Stopped`] when `report` returns a break; a checkpoint has been written then ·
 /// [`TrainError::BadCheckpoint`] for a checkpoint of other settings · [`TrainError::Diverged`] when the loss is not finite ·
+/// [`TrainError::File`] for a model or checkpoint that exists, unless the settings resume or replace it, and
 /// [`TrainError::File`], [`TrainError::Dataset`] and [`TrainError::Director`] for files that cannot be read or written.
 ///
 /// # Panics
@@ -66,6 +69,10 @@ pub fn train(
 ) -> Result<TrainSummary, TrainError> {
     let prompts = PromptSampler::embedded()?;
     create_folder(out)?;
+    if !settings.resume {
+        let names = ModelFiles::NAMES.into_iter().chain([CHECKPOINT_FILE]);
+        names.map(|name| out.join(name)).try_for_each(|path| check_free(&path, settings.existing))?;
+    }
     let shots = settings.shots.as_deref().map(read_shards).transpose()?.unwrap_or_default();
     let held_out_shots: Vec<RealizedShot> = shots.iter().step_by(HELD_OUT_EVERY).cloned().collect();
     let learned: Vec<RealizedShot> =
@@ -151,7 +158,7 @@ struct Training<'a> {
 
 impl Training<'_> {
     fn checkpoint_path(&self) -> PathBuf {
-        self.out.join("checkpoint.safetensors")
+        self.out.join(CHECKPOINT_FILE)
     }
 
     /// All settings that change the weights, as JSON. A checkpoint can only be resumed with the same.

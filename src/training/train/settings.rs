@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use cinesplat_files::Existing;
+
 /// Settings of a training run. The serialized fields change the weights; a checkpoint stores them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainSettings {
@@ -48,6 +50,9 @@ pub struct TrainSettings {
     /// Whether to resume from the checkpoint in the output folder.
     #[serde(skip)]
     pub resume: bool,
+    /// Whether a training that is not resumed may replace the model and checkpoint of the output folder.
+    #[serde(skip)]
+    pub existing: Existing,
 }
 
 impl Default for TrainSettings {
@@ -70,6 +75,7 @@ impl Default for TrainSettings {
             report_every: 10,
             evaluation_prompts: 150,
             resume: false,
+            existing: Existing::Keep,
         }
     }
 }

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use super::cases::CaseArgs;
+use super::cases::{CaseArgs, PromptCase};
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::outputs::{self, Overwrite};
@@ -26,18 +26,24 @@ pub(super) struct Args {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        outputs::create_folder(&self.output)?;
         let (cases, mut director) = self.cases.open()?;
+        outputs::create_folder(&self.output)?;
+        let files = |case: &PromptCase| [self.file(case, "path.json"), self.file(case, "shot.json")];
+        cases.iter().flat_map(files).try_for_each(|path| self.overwrite.check(&path))?;
         for case in &cases {
             let shot = director.direct(case, self.solve.level)?;
-            let path = self.output.join(format!("{}.path.json", case.id));
+            let path = self.file(case, "path.json");
             let settings = ExportSettings { fps: Some(self.fps), ..ExportSettings::default() };
             export::write(&path, Format::Nerfstudio, &shot, &settings, self.overwrite.existing())?;
-            let file = self.output.join(format!("{}.shot.json", case.id));
+            let file = self.file(case, "shot.json");
             self.overwrite.write(&file, shot_json::write(&shot).as_bytes())?;
             let unmet = shot.report.iter().filter(|line| !line.met).count();
             console::note(&format!("{}: {:.1} s, {unmet} lines of the report not met", case.id, shot.duration_secs));
         }
         Ok(())
+    }
+
+    fn file(&self, case: &PromptCase, ending: &str) -> PathBuf {
+        self.output.join(format!("{}.{ending}", case.id))
     }
 }
