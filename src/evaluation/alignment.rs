@@ -1,8 +1,9 @@
 //! Alignment of an estimate to a reference before errors are computed.
 //!
-//! Reference for `se3`, `sim3` and `scale`: S. Umeyama, "Least-squares estimation of transformation parameters between two
-//! point patterns", PAMI 1991. That method uses positions alone. They do not determine the rotation about a straight line,
-//! or any rotation of a standing camera. In these cases the cameras' rotations determine it, and a note says so.
+//! Reference for `se3`, `sim3` and `scale`: S. Umeyama, "Least-squares estimation of transformation parameters between
+//! two point patterns", PAMI 1991. That method uses positions alone. They do not determine the rotation about a
+//! straight line, or any rotation of a standing camera. In these cases the cameras' rotations determine it, and a note
+//! says so.
 
 use glam::{DMat3, DVec3};
 
@@ -12,7 +13,8 @@ use super::trajectory::Trajectory;
 use cinesplat_geometry::LevelFrame;
 
 /// Singular values of the covariance below this fraction of the largest count as 0: lateral extents below 0.001 of the
-/// length. A larger bound treats real bends as straight lines; a smaller one lets noise choose the rotation about the line.
+/// length. A larger bound treats real bends as straight lines; a smaller one lets noise choose the rotation about the
+/// line.
 const RANK_TOLERANCE: f64 = 1e-6;
 /// Extents below this fraction of the distance from the origin count as rounding errors.
 const STILL_TOLERANCE: f64 = 1e-9;
@@ -84,11 +86,11 @@ impl Alignment {
     }
 }
 
-/// The alignment of `estimate` to `reference`, whose poses are matched by index, from the first `num_poses` of them (all
-/// for `None`).
+/// The alignment of `estimate` to `reference`, whose poses are matched by index, from the first `num_poses` of them
+/// (all for `None`).
 ///
-/// It is defined for every non-empty input (see the module's documentation for straight and standing paths). Yaw rotates
-/// about the reference's up, or about the mean up of its cameras if the file states none.
+/// It is defined for every non-empty input (see the module's documentation for straight and standing paths). Yaw
+/// rotates about the reference's up, or about the mean up of its cameras if the file states none.
 ///
 /// # Errors
 /// [`EvaluationError::Empty`] without poses, [`EvaluationError::BadSetting`] for a `num_poses` of 0.
@@ -198,8 +200,8 @@ fn rotation_sum(reference: &Trajectory, estimate: &Trajectory) -> DMat3 {
 
 /// The rotation that takes the line `from` to the line `to` and, about that line, fits the cameras' rotations best.
 ///
-/// With R1 any rotation of one line to the other and N = R1 * (sum of rotations)^T, the best angle about the unit axis u
-/// maximizes cos(a) (tr N - u N u) + sin(a) tr(N [u]).
+/// With R1 any rotation of one line to the other and N = R1 * (sum of rotations)^T, the best angle about the unit axis
+/// u maximizes cos(a) (tr N - u N u) + sin(a) tr(N [u]).
 fn rotation_about_line(reference: &Trajectory, estimate: &Trajectory, to: DVec3, from: DVec3) -> DMat3 {
     let first = DMat3::from_quat(glam::DQuat::from_rotation_arc(from.normalize(), to.normalize()));
     about_axis(to.normalize(), first * rotation_sum(reference, estimate).transpose()) * first

@@ -34,12 +34,14 @@ pub struct Matches {
 
 /// Matches poses by time, one to one and in order; by index if a path has no times.
 ///
-/// The matching is greedy: of all pairs of time stamps at most `max_diff_secs` apart it takes the closest, then the closest
-/// of the rest that crosses no match, and so on. Where nearest neighbors are one to one the result is the nearest
-/// neighbors, as in evo. Where two time stamps share a nearest neighbor, evo uses that pose twice; this function does not.
+/// The matching is greedy: of all pairs of time stamps at most `max_diff_secs` apart it takes the closest, then the
+/// closest of the rest that crosses no match, and so on. Where nearest neighbors are one to one the result is the
+/// nearest neighbors, as in evo. Where two time stamps share a nearest neighbor, evo uses that pose twice; this
+/// function does not.
 ///
 /// # Errors
-/// [`EvaluationError::Empty`] for a path without poses, [`EvaluationError::NoMatches`] without time stamps close enough.
+/// [`EvaluationError::Empty`] for a path without poses, [`EvaluationError::NoMatches`] without time stamps close
+/// enough.
 pub fn associate(
     reference: &Trajectory,
     estimate: &Trajectory,

@@ -120,8 +120,8 @@ pub fn summary_text(rows: &[BatchRow]) -> String {
     out
 }
 
-/// The comparisons as JSON text: a list of objects under `pairs`, and under `over_all` the mean, median and worst of their
-/// root mean squares.
+/// The comparisons as JSON text: a list of objects under `pairs`, and under `over_all` the mean, median and worst of
+/// their root mean squares.
 pub fn summary_json(rows: &[BatchRow]) -> String {
     let row = |row: &BatchRow| match &row.outcome {
         Ok(result) => {

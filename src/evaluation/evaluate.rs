@@ -91,8 +91,8 @@ pub struct Evaluation {
 ///
 /// # Errors
 /// [`EvaluationError::Empty`] for a path without poses, [`EvaluationError::NoMatches`] if no poses match,
-/// [`EvaluationError::NoPairs`] if no pairs exist, [`EvaluationError::BadSetting`] for a setting out of range. The shape of
-/// a path is never an error.
+/// [`EvaluationError::NoPairs`] if no pairs exist, [`EvaluationError::BadSetting`] for a setting out of range. The
+/// shape of a path is never an error.
 pub fn evaluate(
     reference: &Trajectory,
     estimate: &Trajectory,

@@ -1,8 +1,8 @@
 //! Recognition of the camera move that a whole path makes, independent of scale.
 //!
 //! A path is classified by whether its position changes, whether its rotation changes, and whether its focal length
-//! changes. If position and rotation change and all view axes pass near one point, the move is an arc about that point (an
-//! orbit from half a turn on) or, if it is mainly vertical, a crane. The thresholds below are this project's own.
+//! changes. If position and rotation change and all view axes pass near one point, the move is an arc about that point
+//! (an orbit from half a turn on) or, if it is mainly vertical, a crane. The thresholds below are this project's own.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -30,15 +30,15 @@ const ORBIT_RAD: f64 = std::f64::consts::PI;
 pub struct NamedMove {
     /// The move.
     pub name: Move,
-    /// Extent: rad for pans, tilts, rolls, arcs and orbits; the factor of the focal length for zooms; scene units for the
-    /// rest.
+    /// Extent: rad for pans, tilts, rolls, arcs and orbits; the factor of the focal length for zooms; scene units for
+    /// the rest.
     pub amount: f64,
 }
 
 /// The move from the first pose of a path to its last; `None` for a compound move.
 ///
-/// Travel up to `still_distance`, in scene units, counts as none. A thousandth of the scene's size suits recorded paths, 0
-/// suits exact ones.
+/// Travel up to `still_distance`, in scene units, counts as none. A thousandth of the scene's size suits recorded
+/// paths, 0 suits exact ones.
 pub fn name_move(path: &Trajectory, still_distance: f64) -> Option<NamedMove> {
     let level = LevelFrame::new(path.up_or_mean()).ok()?;
     let angles = total_angles(path, &level)?;

@@ -57,7 +57,8 @@ impl Delta {
     /// The distance of a value in a unit.
     ///
     /// # Errors
-    /// [`EvaluationError::BadSetting`] for a value that is not above 0, a fraction of a frame, or an angle above half a turn.
+    /// [`EvaluationError::BadSetting`] for a value that is not above 0, a fraction of a frame, or an angle above half a
+    /// turn.
     pub fn new(value: f64, unit: DeltaUnit) -> Result<Self, EvaluationError> {
         let bad = |expected| {
             Err(EvaluationError::BadSetting { setting: SettingName::Delta, found: value.to_string(), expected })
@@ -105,10 +106,10 @@ impl Default for PairSettings {
 
 /// Indices of the poses of each pair, in order.
 ///
-/// Without overlap a pair ends at the first pose at which the distance, summed from frame to frame, reaches the delta. With
-/// overlap and a delta in scene units, each pose is paired with the later pose whose distance along the path is nearest to
-/// the delta. With overlap and an angle, it is paired with every later pose at that relative rotation. Both apply the
-/// tolerance.
+/// Without overlap a pair ends at the first pose at which the distance, summed from frame to frame, reaches the delta.
+/// With overlap and a delta in scene units, each pose is paired with the later pose whose distance along the path is
+/// nearest to the delta. With overlap and an angle, it is paired with every later pose at that relative rotation. Both
+/// apply the tolerance.
 ///
 /// # Errors
 /// [`EvaluationError::NoPairs`] if the path is too short.

@@ -16,8 +16,8 @@ const GAP: f64 = 10.0;
 
 /// The figure as SVG text.
 ///
-/// `paths` are pairs of a label and a path, drawn in order. The first is the reference: its up and its first heading define
-/// the views and the angles. Markers on it show the poses at `key_times_secs`.
+/// `paths` are pairs of a label and a path, drawn in order. The first is the reference: its up and its first heading
+/// define the views and the angles. Markers on it show the poses at `key_times_secs`.
 pub fn plot_svg(title: &str, paths: &[(&str, &Trajectory)], key_times_secs: &[f64]) -> String {
     let mut figure = Figure::new([WIDTH, HEIGHT], title);
     figure.legend(&legend(paths));

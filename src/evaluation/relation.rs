@@ -34,7 +34,8 @@ pub enum Relation {
     AngleDeg,
     /// Angle of R in rad.
     AngleRad,
-    /// Difference of the distances between the two poses of a pair, scene units; for absolute errors the same as `Trans`.
+    /// Difference of the distances between the two poses of a pair, scene units; for absolute errors the same as
+    /// `Trans`.
     PointDistance,
     /// The same relative to the reference's distance, percent; for relative errors only.
     #[strum(to_string = "point_distance_ratio", serialize = "point_distance_error_ratio")]

@@ -7,8 +7,8 @@ use cinesplat_export::json_write::{Json, object};
 impl Evaluation {
     /// The comparison as the text of one JSON object.
     ///
-    /// At its top level are `rmse mean median std min max sse` in the unit of the relation, `pairs` (the number of errors),
-    /// `relation`, `align`, and `scale`, `rotation` (3 x 3, by rows) and `translation` of the alignment.
+    /// At its top level are `rmse mean median std min max sse` in the unit of the relation, `pairs` (the number of
+    /// errors), `relation`, `align`, and `scale`, `rotation` (3 x 3, by rows) and `translation` of the alignment.
     pub fn to_json(&self) -> String {
         Json::Object(self.fields()).pretty()
     }

@@ -1,8 +1,8 @@
 //! Smoothness of a path's translation and rotation.
 //!
-//! Both are measured separately, because scene units and radians do not add. Reference: S. Balasubramanian et al., "On the
-//! analysis of movement smoothness", Journal of Neuroengineering and Rehabilitation 12:112, 2015 (spectral arc length, log
-//! dimensionless jerk).
+//! Both are measured separately, because scene units and radians do not add. Reference: S. Balasubramanian et al., "On
+//! the analysis of movement smoothness", Journal of Neuroengineering and Rehabilitation 12:112, 2015 (spectral arc
+//! length, log dimensionless jerk).
 
 use glam::{DQuat, DVec3};
 
@@ -19,11 +19,12 @@ const MIN_AMPLITUDE: f64 = 0.05;
 const PAD_LEVEL: u32 = 4;
 /// Speed at which the cruise starts and ends, as a fraction of the 90th percentile of the speed.
 const CRUISE_FRAC: f64 = 0.8;
-/// A path whose steps are all below this fraction of its distance from the origin (or below this angle, rad) stands still.
+/// A path whose steps are all below this fraction of its distance from the origin (or below this angle, rad) stands
+/// still.
 const STILL_FRAC: f64 = 1e-9;
 
-/// Smoothness of a path. Values of the translation are in scene units, those of the rotation (`angular_`) in rad. A value
-/// is `None` if the path does not move or has too few frames.
+/// Smoothness of a path. Values of the translation are in scene units, those of the rotation (`angular_`) in rad. A
+/// value is `None` if the path does not move or has too few frames.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Smoothness {
     /// Root mean square of the third derivative of the position, scene units / s^3.
@@ -38,13 +39,13 @@ pub struct Smoothness {
     pub spectral_arc_length: Option<f64>,
     /// Spectral arc length of the angular speed.
     pub angular_spectral_arc_length: Option<f64>,
-    /// Log dimensionless jerk: -ln(T^3 / peak^2 * integral of the squared second derivative of the velocity). Higher values
-    /// are smoother.
+    /// Log dimensionless jerk: -ln(T^3 / peak^2 * integral of the squared second derivative of the velocity). Higher
+    /// values are smoother.
     pub log_dimensionless_jerk: Option<f64>,
     /// Log dimensionless jerk of the rotation.
     pub angular_log_dimensionless_jerk: Option<f64>,
-    /// Standard deviation over mean of the speed during the cruise: from the first to the last step with at least 80 % of
-    /// the 90th percentile of the speed.
+    /// Standard deviation over mean of the speed during the cruise: from the first to the last step with at least 80 %
+    /// of the 90th percentile of the speed.
     pub speed_ripple: Option<f64>,
     /// The same for the angular speed.
     pub angular_speed_ripple: Option<f64>,

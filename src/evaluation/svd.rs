@@ -13,7 +13,8 @@ pub(super) struct Svd {
     pub(super) v: DMat3,
 }
 
-/// The decomposition by one-sided Jacobi rotations of the columns (Hestenes 1958), which is accurate for small values too.
+/// The decomposition by one-sided Jacobi rotations of the columns (Hestenes 1958), which is accurate for small values
+/// too.
 pub(super) fn svd(matrix: DMat3) -> Svd {
     let mut columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let mut v = [DVec3::X, DVec3::Y, DVec3::Z];

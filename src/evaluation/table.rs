@@ -25,8 +25,8 @@ pub struct TableRow {
     pub fov_y_deg: Option<f64>,
 }
 
-/// One row per pose. Angles are relative to the world's up (the file's, else the mean up of the cameras) and continuous from
-/// row to row.
+/// One row per pose. Angles are relative to the world's up (the file's, else the mean up of the cameras) and continuous
+/// from row to row.
 pub fn keyframe_table(path: &Trajectory) -> Vec<TableRow> {
     let level = LevelFrame::new(path.up_or_mean()).ok();
     rows(path, level, None)

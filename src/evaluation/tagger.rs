@@ -1,13 +1,13 @@
 //! Motion tags of paths, as two published systems define them.
 //!
-//! E.T. (R. Courant et al., "E.T. the Exceptional Trajectories", ECCV 2024) has 27 classes of translation. GenDoP (M. Zhang
-//! et al., "GenDoP: Auto-regressive Camera Trajectory Generation as a Director of Photography", 2025) has the same 27
-//! classes times 7 classes of rotation.
+//! E.T. (R. Courant et al., "E.T. the Exceptional Trajectories", ECCV 2024) has 27 classes of translation. GenDoP (M.
+//! Zhang et al., "GenDoP: Auto-regressive Camera Trajectory Generation as a Director of Photography", 2025) has the
+//! same 27 classes times 7 classes of rotation.
 //!
 //! The motion from each frame to the next is expressed in the camera's axes. An axis is active if its speed is above a
-//! threshold in scene units per second and no other axis is much faster. A mode filter smooths the classes, and runs that
-//! are too short are merged into their neighbors. The thresholds are those of the two systems; they are not independent of
-//! the path's scale.
+//! threshold in scene units per second and no other axis is much faster. A mode filter smooths the classes, and runs
+//! that are too short are merged into their neighbors. The thresholds are those of the two systems; they are not
+//! independent of the path's scale.
 
 use std::fmt;
 
@@ -254,7 +254,8 @@ fn runs_of(classes: &[usize]) -> Vec<Run> {
 
 /// The runs after those shorter than `shortest` are merged into their neighbors, the shortest first.
 ///
-/// A run at an end goes to its only neighbor. A run between two is split in half, with the odd motion in the first half.
+/// A run at an end goes to its only neighbor. A run between two is split in half, with the odd motion in the first
+/// half.
 fn without_short_runs(classes: &[usize], shortest: usize) -> Vec<Run> {
     let mut classes = classes.to_vec();
     loop {

@@ -5,8 +5,8 @@ use cinesplat_geometry::Pose;
 
 /// A camera path for error measures: poses with the rotation matrices of their file.
 ///
-/// Rotations are matrices, not quaternions, because the rounded matrices of a file (KITTI) are not exactly orthonormal, and
-/// results that agree with other programs need the same numbers.
+/// Rotations are matrices, not quaternions, because the rounded matrices of a file (KITTI) are not exactly orthonormal,
+/// and results that agree with other programs need the same numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trajectory {
     /// Time stamps; `None` if the file has none.

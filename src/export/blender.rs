@@ -1,8 +1,9 @@
-//! A Python script that creates the camera in Blender, with one keyframe per frame on location, rotation and lens, linear
-//! interpolation between them and a jump at cuts.
+//! A Python script that creates the camera in Blender, with one keyframe per frame on location, rotation and lens,
+//! linear interpolation between them and a jump at cuts.
 //!
-//! Blender's world has +z up, so the script rotates the scene's world by `z_up_from_world`; a splat imported into Blender
-//! needs the same rotation. All numbers are in one block that is also valid JSON, from which the path is read back.
+//! Blender's world has +z up, so the script rotates the scene's world by `z_up_from_world`; a splat imported into
+//! Blender needs the same rotation. All numbers are in one block that is also valid JSON, from which the path is read
+//! back.
 
 use super::ExportError;
 use super::json_read::{self, Node};

@@ -46,8 +46,8 @@ pub struct NamedCamera {
 /// Reads a `cameras.json`. Unknown keys are ignored.
 ///
 /// # Errors
-/// [`ExportError::NotJson`] for text that is not JSON, [`ExportError::NoPoses`] without cameras, [`ExportError::BadField`]
-/// naming the camera and the field.
+/// [`ExportError::NotJson`] for text that is not JSON, [`ExportError::NoPoses`] without cameras,
+/// [`ExportError::BadField`] naming the camera and the field.
 pub fn read(text: &str) -> Result<StillCameras, ExportError> {
     let value = json_read::parse(text)?;
     let root = Node::root(&value);

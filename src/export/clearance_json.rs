@@ -1,7 +1,7 @@
 //! The clearance proof of a shot: the key `clearance` of `shot.json`, an addition to version 1.
 //!
-//! The proof carries a digest of the keys that it was computed for. A proof whose digest differs from that of the keys in
-//! the file is stale, because somebody edited the keys: it is not read.
+//! The proof carries a digest of the keys that it was computed for. A proof whose digest differs from that of the keys
+//! in the file is stale, because somebody edited the keys: it is not read.
 
 use std::fmt::Write as _;
 
@@ -66,8 +66,8 @@ fn read_failure(node: &Node) -> Result<ClearanceFailure, ExportError> {
     })
 }
 
-/// SHA-256 in hex of everything that determines the camera's position over time: up, and the time, position, easing, cut,
-/// move and pivot of every key.
+/// SHA-256 in hex of everything that determines the camera's position over time: up, and the time, position, easing,
+/// cut, move and pivot of every key.
 fn keys_sha256(shot: &Shot) -> String {
     let mut digest = Sha256::new();
     let mut numbers = |values: &[f64]| values.iter().for_each(|value| digest.update(value.to_bits().to_le_bytes()));

@@ -1,6 +1,6 @@
 //! A table for spreadsheets: a line of column names, then one line per frame. Poses are `world_from_camera` with OpenCV
-//! camera axes. `yaw_deg`, `pitch_deg` and `roll_deg` (as `euler_deg` of `shot.json`) are written for people and not read
-//! back; they are empty if the world's up is unknown.
+//! camera axes. `yaw_deg`, `pitch_deg` and `roll_deg` (as `euler_deg` of `shot.json`) are written for people and not
+//! read back; they are empty if the world's up is unknown.
 
 use std::fmt::Write as _;
 

@@ -142,7 +142,8 @@ pub fn output_files(path: &Path, format: Format, layout: Layout) -> Vec<PathBuf>
 /// [`output_files`] returns the paths of the files. Nothing is written if one of them exists and may not be replaced.
 ///
 /// # Errors
-/// [`ExportError::BadShot`] if the shot is not usable, [`ExportError::File`] if a file exists already or cannot be written.
+/// [`ExportError::BadShot`] if the shot is not usable, [`ExportError::File`] if a file exists already or cannot be
+/// written.
 pub fn write(
     path: &Path,
     format: Format,

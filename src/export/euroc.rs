@@ -1,6 +1,6 @@
 //! EuRoC MAV ground truth: CSV lines of `nanoseconds, px, py, pz, qw, qx, qy, qz, ..`. Further columns (velocities and
-//! biases) are ignored. Poses are written as `world_from_camera` with OpenCV camera axes. Files of the data set itself hold
-//! poses of the IMU body, which are read unchanged.
+//! biases) are ignored. Poses are written as `world_from_camera` with OpenCV camera axes. Files of the data set itself
+//! hold poses of the IMU body, which are read unchanged.
 
 use std::fmt::Write as _;
 

@@ -75,8 +75,8 @@ pub(super) struct Holds {
 impl Format {
     /// The format of a path by its name; `None` if the name is ambiguous.
     ///
-    /// The whole name decides first (`transforms.json`, `camera_path.json`, `images.bin`), then a part before the extension
-    /// (`move.shot.json`, `move.kitti.txt`), then the extension. Plain `.json` and `.txt` are ambiguous.
+    /// The whole name decides first (`transforms.json`, `camera_path.json`, `images.bin`), then a part before the
+    /// extension (`move.shot.json`, `move.kitti.txt`), then the extension. Plain `.json` and `.txt` are ambiguous.
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_str()?.to_ascii_lowercase();
         match name.as_str() {

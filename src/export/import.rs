@@ -59,8 +59,8 @@ impl Imported {
 /// Without a format, the content of the file determines it.
 ///
 /// # Errors
-/// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is none
-/// of the known formats, and the errors of the format's reader.
+/// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is
+/// none of the known formats, and the errors of the format's reader.
 pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError> {
     let path = &file_of(path)?;
     let bytes = read_bytes(path)?;

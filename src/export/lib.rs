@@ -1,9 +1,9 @@
 //! Files of camera paths: the project's own `shot.json` and the formats of other programs, one module per format.
 //!
-//! Enters: a [`Shot`](cinesplat_trajectory::Shot), or a file. Leaves: files, or shots and [`PoseTrack`]s. In memory a pose is
-//! `world_from_camera` with OpenCV camera axes in the scene's world; each module documents the convention of its format.
-//! Only this crate and `geometry::frames` flip the signs of axes. The one invariant: a warning names everything that a
-//! format cannot hold.
+//! Enters: a [`Shot`](cinesplat_trajectory::Shot), or a file. Leaves: files, or shots and [`PoseTrack`]s. In memory a
+//! pose is `world_from_camera` with OpenCV camera axes in the scene's world; each module documents the convention of
+//! its format. Only this crate and `geometry::frames` flip the signs of axes. The one invariant: a warning names
+//! everything that a format cannot hold.
 
 mod blender;
 pub mod cameras_json;

@@ -1,8 +1,8 @@
-//! LichtFeld Studio timelines, version 4: per key seconds, position, quaternion (w x y z, OpenGL camera axes), focal length in
-//! mm for a frame 24 mm high, and one of four easings.
+//! LichtFeld Studio timelines, version 4: per key seconds, position, quaternion (w x y z, OpenGL camera axes), focal
+//! length in mm for a frame 24 mm high, and one of four easings.
 //!
-//! Other easings are replaced by the one of the four that rests at the same ends. The program joins the keys with its own
-//! spline and stores numbers as f32.
+//! Other easings are replaced by the one of the four that rests at the same ends. The program joins the keys with its
+//! own spline and stores numbers as f32.
 
 use super::ExportError;
 use super::json_read::{self, Node};

@@ -1,9 +1,9 @@
 //! nerfstudio's `camera_path.json`, which `ns-render camera-path` renders and nerfview also reads.
 //!
-//! Matrices are `world_from_camera` with OpenGL camera axes, 16 numbers in row-major order. Fields of view are vertical, in
-//! degrees. `ns-render` renders `camera_path` at `len / seconds` frames per second and ignores `keyframes` and `fps`; the
-//! viewer loads only `keyframes`. Positions are in the scene file's world, which is that of nerfstudio if nerfstudio
-//! exported the scene.
+//! Matrices are `world_from_camera` with OpenGL camera axes, 16 numbers in row-major order. Fields of view are
+//! vertical, in degrees. `ns-render` renders `camera_path` at `len / seconds` frames per second and ignores `keyframes`
+//! and `fps`; the viewer loads only `keyframes`. Positions are in the scene file's world, which is that of nerfstudio
+//! if nerfstudio exported the scene.
 
 use glam::DMat4;
 

@@ -1,5 +1,5 @@
-//! Trajectory logs of Redwood and Open3D: per frame a line of three integers, then the four rows of `world_from_camera` with
-//! OpenCV camera axes; no times.
+//! Trajectory logs of Redwood and Open3D: per frame a line of three integers, then the four rows of `world_from_camera`
+//! with OpenCV camera axes; no times.
 
 use std::fmt::Write as _;
 

@@ -1,8 +1,8 @@
 //! `shot.json`, version 1: the project's own format, which people may edit by hand.
 //!
 //! Enters: JSON text or a [`Shot`]. Leaves: a validated [`Shot`] or JSON text. Positions and rotations are
-//! `world_from_camera` in the scene's world; angles are in degrees under keys that end in `_deg`. The reader ignores unknown
-//! keys and rejects another `format` or `version`.
+//! `world_from_camera` in the scene's world; angles are in degrees under keys that end in `_deg`. The reader ignores
+//! unknown keys and rejects another `format` or `version`.
 
 use std::str::FromStr;
 
@@ -157,8 +157,8 @@ fn read_report_line(node: &Node) -> Result<ReportLine, ExportError> {
 
 /// The text of a `shot.json`; ends with a line feed.
 ///
-/// Numbers read back to the same bits, angles to within the rounding of degrees. `euler_deg` is written if the scene's up is
-/// known, with a yaw of -180..180.
+/// Numbers read back to the same bits, angles to within the rounding of degrees. `euler_deg` is written if the scene's
+/// up is known, with a yaw of -180..180.
 pub fn write(shot: &Shot) -> String {
     let eulers = euler_angles(shot);
     let keyframes = shot.keyframes.iter().zip(eulers).map(|(key, euler)| keyframe_json(key, euler));

@@ -1,7 +1,7 @@
 //! SuperSplat viewer settings, version 2, and the camera poses of a SuperSplat project (`.ssproj`).
 //!
-//! SuperSplat's world is that of the PLY rotated by half a turn about z, with +y up. A pose is a position, a target and a
-//! field of view along the larger side of the image, in degrees; it has no roll. Times count frames.
+//! SuperSplat's world is that of the PLY rotated by half a turn about z, with +y up. A pose is a position, a target and
+//! a field of view along the larger side of the image, in degrees; it has no roll. Times count frames.
 
 use std::io::Read as _;
 

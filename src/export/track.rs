@@ -24,7 +24,8 @@ pub struct PoseTrack {
     pub timed: bool,
     /// The poses in order of time (in file order without times), at least one.
     pub frames: Vec<PoseFrame>,
-    /// The keyframes of sampled `frames`, for formats that hold both; empty if `frames` are the keyframes or they are unknown.
+    /// The keyframes of sampled `frames`, for formats that hold both; empty if `frames` are the keyframes or they are
+    /// unknown.
     pub keys: Vec<PoseFrame>,
 }
 
@@ -43,8 +44,8 @@ pub struct PoseFrame {
     pub easing: Easing,
     /// Whether the camera jumps from the previous frame to this one.
     pub cut: bool,
-    /// The file's own rotation matrix, with OpenCV camera axes; `None` if the file holds quaternions. A rounded matrix is
-    /// not exactly orthonormal, and error measures that agree with other programs need it unchanged.
+    /// The file's own rotation matrix, with OpenCV camera axes; `None` if the file holds quaternions. A rounded matrix
+    /// is not exactly orthonormal, and error measures that agree with other programs need it unchanged.
     pub matrix: Option<DMat3>,
 }
 
@@ -111,8 +112,8 @@ impl PoseTrack {
         }
     }
 
-    /// A shot with one keyframe per frame and times from 0, and one line per default that stands for what the file does not
-    /// state.
+    /// A shot with one keyframe per frame and times from 0, and one line per default that stands for what the file does
+    /// not state.
     ///
     /// # Errors
     /// [`ExportError::NoPoses`] without frames, [`ExportError::BadShot`] if times do not increase or a number is out of

@@ -1,8 +1,8 @@
 //! `transforms.json` of NeRF, instant-ngp and nerfstudio: images with poses and intrinsics.
 //!
-//! `transform_matrix` is `world_from_camera` with OpenGL camera axes. `fl_x fl_y cx cy w h` in pixels are at the top level or
-//! in each frame; `camera_angle_x` (rad) may replace the focal length. The format has no times: this program adds
-//! `time_secs` to frames and `fps`, which other readers ignore.
+//! `transform_matrix` is `world_from_camera` with OpenGL camera axes. `fl_x fl_y cx cy w h` in pixels are at the top
+//! level or in each frame; `camera_angle_x` (rad) may replace the focal length. The format has no times: this program
+//! adds `time_secs` to frames and `fps`, which other readers ignore.
 
 use glam::DMat3;
 

@@ -1,5 +1,6 @@
-//! TUM RGB-D trajectories: lines of `time tx ty tz qx qy qz qw`, `world_from_camera` with OpenCV camera axes, seconds on any
-//! clock. Reference: the file formats of the TUM RGB-D benchmark, read as strictly as evo does (8 columns, `#` comments).
+//! TUM RGB-D trajectories: lines of `time tx ty tz qx qy qz qw`, `world_from_camera` with OpenCV camera axes, seconds
+//! on any clock. Reference: the file formats of the TUM RGB-D benchmark, read as strictly as evo does (8 columns, `#`
+//! comments).
 
 use glam::{DQuat, DVec3};
 

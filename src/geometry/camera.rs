@@ -58,8 +58,8 @@ impl Intrinsics {
     /// The intrinsics themselves, if they are usable.
     ///
     /// # Errors
-    /// [`GeometryError::BadIntrinsics`] for an empty image, a focal length that is not finite and above 0, or a principal point
-    /// that is not finite.
+    /// [`GeometryError::BadIntrinsics`] for an empty image, a focal length that is not finite and above 0, or a
+    /// principal point that is not finite.
     pub fn validated(self) -> Result<Self, GeometryError> {
         let focal = self.fx_px > 0.0 && self.fy_px > 0.0 && self.fx_px.is_finite() && self.fy_px.is_finite();
         if self.width == 0 || self.height == 0 || !focal || !self.cx_px.is_finite() || !self.cy_px.is_finite() {

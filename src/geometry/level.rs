@@ -4,8 +4,8 @@ use super::{GeometryError, Pose};
 
 /// A camera's rotation in the operator's terms: first yaw about the world's up, then pitch, then roll.
 ///
-/// Yaw is positive to the operator's right, pitch is positive upward, and roll is positive clockwise as the operator sees
-/// it (the camera's right side dips).
+/// Yaw is positive to the operator's right, pitch is positive upward, and roll is positive clockwise as the operator
+/// sees it (the camera's right side dips).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LevelAngles {
     /// Heading: 0 at the frame's `north`, positive to the right.

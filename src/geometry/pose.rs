@@ -50,8 +50,8 @@ impl Pose {
     /// A pose from a 4 x 4 `world_from_camera` matrix.
     ///
     /// # Errors
-    /// [`GeometryError::NotARotation`] if the upper left 3 x 3 is mirrored, scaled or not finite (tolerance 1e-3), or the
-    /// position is not finite.
+    /// [`GeometryError::NotARotation`] if the upper left 3 x 3 is mirrored, scaled or not finite (tolerance 1e-3), or
+    /// the position is not finite.
     pub fn from_matrix(world_from_camera: DMat4) -> Result<Self, GeometryError> {
         let rotation = rotation::from_matrix(DMat3::from_mat4(world_from_camera))?;
         let position = world_from_camera.w_axis.truncate();

@@ -17,7 +17,8 @@ pub fn angle_between(a: DQuat, b: DQuat) -> f64 {
     angle(a.conjugate() * b)
 }
 
-/// Rotation vector (unit axis times angle in rad) of length 0..=pi. At exactly pi it is one of the two opposite vectors.
+/// Rotation vector (unit axis times angle in rad) of length 0..=pi. At exactly pi it is one of the two opposite
+/// vectors.
 pub fn log(rotation: DQuat) -> DVec3 {
     let short = if rotation.w < 0.0 { -rotation } else { rotation };
     let sine = short.xyz().length();

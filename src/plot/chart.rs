@@ -105,7 +105,8 @@ impl Chart {
         for (series, marker) in markers().filter(|(_, marker)| !marker.label.is_empty()) {
             let Some(point) = series.points.get(marker.point_idx) else { continue };
             let (x, y) = labels.place(layout.to_px(*point), marker.radius_px, &marker.label, LABEL_PX);
-            // Writing to a string cannot fail, here and below. The white outline separates the text from lines behind it.
+            // Writing to a string cannot fail, here and below. The white outline separates the text from lines behind
+            // it.
             let _ = writeln!(
                 svg,
                 "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{LABEL_PX}\" fill=\"{}\" stroke=\"white\" stroke-width=\"2.5\" \

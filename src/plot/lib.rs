@@ -1,7 +1,7 @@
 //! Charts as SVG text: lines and markers over linear or logarithmic axes, with labels placed to avoid each other.
 //!
-//! Enters: [`Chart`]s of [`Series`] in their own units. Leaves: one [`Figure`] with a title, a legend and the charts, each
-//! in the area that the caller chooses. The one invariant: the same input gives the same bytes.
+//! Enters: [`Chart`]s of [`Series`] in their own units. Leaves: one [`Figure`] with a title, a legend and the charts,
+//! each in the area that the caller chooses. The one invariant: the same input gives the same bytes.
 
 mod axis;
 mod chart;

@@ -33,8 +33,8 @@ impl PositionCurve {
         Self::Arc { frame, pivot, azimuth: track(&azimuths), radius: track(&radii), height: track(&heights) }
     }
 
-    /// Upper bound of the distance from `center`, the position in the middle of `range`, to any position on `range` of a
-    /// segment's parameter, scene units.
+    /// Upper bound of the distance from `center`, the position in the middle of `range`, to any position on `range` of
+    /// a segment's parameter, scene units.
     pub(super) fn max_deviation(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
         match self {
             Self::Spline(track) => {
@@ -72,8 +72,8 @@ fn range_deviation(track: &Track<f64>, segment: usize, range: (f64, f64), middle
 
 /// Sign of the change of azimuth that an orbit or arc asks for; 0 for every other move.
 ///
-/// Travel to the camera's right is counter-clockwise from above and lowers the camera's azimuth about the pivot, because
-/// azimuths grow clockwise.
+/// Travel to the camera's right is counter-clockwise from above and lowers the camera's azimuth about the pivot,
+/// because azimuths grow clockwise.
 fn arc_sign(key: &Keyframe) -> f64 {
     match key.intent.as_ref().and_then(|intent| intent.movement) {
         Some(Move::OrbitRight | Move::ArcRight) => -1.0,
@@ -150,8 +150,8 @@ impl AngleTracks {
 }
 
 impl RotationCurve {
-    /// The curve for a leg's keys: free where a key is steep or up is unknown, else aimed where there is a `target` that no
-    /// key looks at steeply, else level.
+    /// The curve for a leg's keys: free where a key is steep or up is unknown, else aimed where there is a `target`
+    /// that no key looks at steeply, else level.
     pub(super) fn new(frame: Option<LevelFrame>, target: Option<DVec3>, keys: &[Keyframe], knots: &[f64]) -> Self {
         let steep = |angles: &[LevelAngles]| angles.iter().any(|a| a.pitch_rad.abs() > STEEP_PITCH_RAD);
         let Some(frame) = frame else { return Self::free(keys, knots) };

@@ -1,16 +1,16 @@
 //! Named speed profiles of a segment.
 //!
-//! Prompts can ask for four of them. The others are the common curves of animation programs (R. Penner, "Motion, Tweening,
-//! and Easing", 2002), without back, elastic and bounce, which overshoot or run backward, and without circ, whose speed is
-//! unbounded at one end.
+//! Prompts can ask for four of them. The others are the common curves of animation programs (R. Penner, "Motion,
+//! Tweening, and Easing", 2002), without back, elastic and bounce, which overshoot or run backward, and without circ,
+//! whose speed is unbounded at one end.
 
 use std::f64::consts::{FRAC_PI_2, LN_2};
 
 /// How the camera's speed changes along the segment that starts at a key.
 ///
-/// `smooth`, `linear`, `ease-in` and `ease-out` cruise at even speed, with a ramp at each end that is at rest, so that the
-/// middle of a move is steady. The others follow one curve from key to key: `in` starts from rest, `out` comes to rest,
-/// `in-out` does both.
+/// `smooth`, `linear`, `ease-in` and `ease-out` cruise at even speed, with a ramp at each end that is at rest, so that
+/// the middle of a move is steady. The others follow one curve from key to key: `in` starts from rest, `out` comes to
+/// rest, `in-out` does both.
 #[derive(
     Debug,
     Clone,

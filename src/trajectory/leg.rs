@@ -67,7 +67,8 @@ pub(super) struct Leg {
 }
 
 impl Leg {
-    /// The curve through `keys` (at least two), whose segments are all of `kind`, measured with `num_chords` chords per segment.
+    /// The curve through `keys` (at least two), whose segments are all of `kind`, measured with `num_chords` chords per
+    /// segment.
     pub(super) fn new(keys: &[Keyframe], kind: LegKind, frame: Option<LevelFrame>, num_chords: usize) -> Self {
         let knots = knots(keys, kind);
         let points: Vec<DVec3> = keys.iter().map(|key| key.pose.position).collect();
@@ -116,8 +117,8 @@ impl Leg {
         self.position.at(self.knot(segment, fraction))
     }
 
-    /// Upper bound of the distance from `center`, the position in the middle of `range`, to any position on `range` of a
-    /// segment, scene units.
+    /// Upper bound of the distance from `center`, the position in the middle of `range`, to any position on `range` of
+    /// a segment, scene units.
     pub(super) fn max_deviation(&self, segment: usize, range: (f64, f64), center: DVec3) -> f64 {
         self.position.max_deviation(segment, range, center)
     }

@@ -10,9 +10,9 @@ use cinesplat_geometry::LevelFrame;
 /// A continuous path through a shot's keyframes.
 ///
 /// At a key's time the camera is at that key. Velocity and angular velocity are continuous except at cuts. The camera
-/// rests where an easing says so and where the kind of motion changes (travel, arc about another point, turn alone, lens
-/// alone, hold). Between two rests the path is one smooth curve: a straight move stays straight, a pan stays in place,
-/// and an orbit or arc with a `pivot` is a true circle from any number of keys.
+/// rests where an easing says so and where the kind of motion changes (travel, arc about another point, turn alone,
+/// lens alone, hold). Between two rests the path is one smooth curve: a straight move stays straight, a pan stays in
+/// place, and an orbit or arc with a `pivot` is a true circle from any number of keys.
 #[derive(Debug, Clone)]
 pub struct CameraPath {
     keys: Vec<Keyframe>,

@@ -3,12 +3,14 @@
 use super::Easing;
 use super::easing::Curve;
 
-/// Longest ramp from rest to cruise. A longer one makes short moves sluggish, a shorter one jolts at 24 frames per second.
+/// Longest ramp from rest to cruise. A longer one makes short moves sluggish, a shorter one jolts at 24 frames per
+/// second.
 const RAMP_SECS: f64 = 1.2;
 /// Largest fraction of a segment's time for one ramp; leaves time for a cruise between two.
 const RAMP_FRAC: f64 = 0.35;
-/// Fraction of a segment's time in which the curve of an easing blends into the speed of a neighbor. It is short so that
-/// the curve keeps its shape, and so that two blends at twice the steepest slope of any curve do not use up the length.
+/// Fraction of a segment's time in which the curve of an easing blends into the speed of a neighbor. It is short so
+/// that the curve keeps its shape, and so that two blends at twice the steepest slope of any curve do not use up the
+/// length.
 const CURVE_RAMP_FRAC: f64 = 0.12;
 /// Number of even steps of a segment's time in the table of a blended curve.
 const NUM_STEPS: usize = 128;
@@ -24,8 +26,8 @@ pub(super) fn natural_speeds(easing: Easing, mean: f64, cruise: f64) -> (f64, f6
     easing.curve().map_or((cruise, cruise), |curve| (curve.at(0.0).1 * mean, curve.at(1.0).1 * mean))
 }
 
-/// Length covered over the time of one segment. Speed is continuous: from a speed that is required at an end it changes to
-/// that of the easing within one ramp.
+/// Length covered over the time of one segment. Speed is continuous: from a speed that is required at an end it changes
+/// to that of the easing within one ramp.
 #[derive(Debug, Clone)]
 pub(super) struct SpeedProfile {
     duration_secs: f64,
@@ -44,8 +46,8 @@ enum ProfileShape {
 }
 
 impl SpeedProfile {
-    /// A profile that covers `length` in `duration_secs` (above 0). `ends` are the required speeds at start and end; an end
-    /// of `None` keeps the speed of the easing.
+    /// A profile that covers `length` in `duration_secs` (above 0). `ends` are the required speeds at start and end; an
+    /// end of `None` keeps the speed of the easing.
     pub(super) fn new(easing: Easing, duration_secs: f64, length: f64, ends: [Option<f64>; 2]) -> Self {
         let Some(curve) = easing.curve() else {
             return Self { duration_secs, length, shape: ProfileShape::cruise(duration_secs, length, ends) };
@@ -88,8 +90,8 @@ impl SpeedProfile {
 impl ProfileShape {
     fn cruise(duration_secs: f64, length: f64, ends: [Option<f64>; 2]) -> Self {
         let ramp_secs = ramp_secs(duration_secs);
-        // length = cruise (T - r) + (start + end) r / 2: each ramp averages its two speeds. An end without a required speed
-        // has the cruise speed.
+        // length = cruise (T - r) + (start + end) r / 2: each ramp averages its two speeds. An end without a required
+        // speed has the cruise speed.
         let ramped: f64 = ends.iter().flatten().map(|speed| speed * ramp_secs / 2.0).sum();
         let num_ramps = ends.iter().flatten().count() as f64;
         let cruise_speed = ((length - ramped) / (duration_secs - num_ramps * ramp_secs / 2.0)).max(0.0);

@@ -84,8 +84,8 @@ pub struct Intent {
     pub angle: Option<ShotAngle>,
     /// Byte range of the prompt that asks for it.
     pub words: Option<[usize; 2]>,
-    /// For orbits and arcs a point on the upright axis of the circle, world. With it the path from this key to the next is
-    /// a true circle. JSON key `pivot`, an addition to version 1.
+    /// For orbits and arcs a point on the upright axis of the circle, world. With it the path from this key to the next
+    /// is a true circle. JSON key `pivot`, an addition to version 1.
     pub pivot: Option<DVec3>,
 }
 
@@ -145,7 +145,8 @@ impl Shot {
         frame_idx as f64 / self.fps
     }
 
-    /// The shot itself, if every number is in range. Every shot from a file passes this check before the engine uses it.
+    /// The shot itself, if every number is in range. Every shot from a file passes this check before the engine uses
+    /// it.
     ///
     /// # Errors
     /// [`TrajectoryError`] naming the first keyframe and field at fault.

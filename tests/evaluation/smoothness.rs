@@ -1,5 +1,5 @@
-//! Smoothness against numpy's results for the published definitions (the reference implementation's defaults: padding 4,
-//! 10 Hz, 0.05) on the same samples.
+//! Smoothness against numpy's results for the published definitions (the reference implementation's defaults: padding
+//! 4, 10 Hz, 0.05) on the same samples.
 
 use cinesplat::evaluation::{Smoothness, smoothness};
 use cinesplat::geometry::Pose;

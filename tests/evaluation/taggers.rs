@@ -63,8 +63,8 @@ fn every_turn_has_its_word() {
 
 #[test]
 fn short_chunks_go_to_their_neighbors() {
-    // 30 motions right, 9 up, 30 forward: the filter of 15 keeps the nine. They are split between the neighbors, with the
-    // odd one in the first half.
+    // 30 motions right, 9 up, 30 forward: the filter of 15 keeps the nine. They are split between the neighbors, with
+    // the odd one in the first half.
     let steps = (0..69).map(|k| {
         if k < 30 {
             DVec3::X

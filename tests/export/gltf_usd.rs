@@ -37,8 +37,8 @@ fn the_node_above_takes_the_scenes_up_to_plus_y() {
 
 #[test]
 fn reads_a_camera_that_hangs_under_a_moved_node() {
-    // Without animation there is one frame. The parent is rotated by half a turn about y, at x = 10; the camera looks along
-    // its -z axis.
+    // Without animation there is one frame. The parent is rotated by half a turn about y, at x = 10; the camera looks
+    // along its -z axis.
     let text = br#"{"asset": {"version": "2.0"}, "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
       "nodes": [{"camera": 0, "translation": [1, 0, 0]}, {"children": [0], "translation": [10, 0, 0], "rotation": [0, 1, 0, 0]}],
       "scenes": [{"nodes": [1]}]}"#;

@@ -25,7 +25,8 @@ fn the_world_is_turned_and_the_lens_measured_along_the_larger_side() {
     // A point (x, y, z) of a PLY is at (-x, -y, z) in the viewer; times count frames.
     assert_eq!(track["keyframes"]["values"]["position"].to_string(), "[-1.0,2.0,0.0,-1.0,2.0,1.0]");
     assert_eq!(track["keyframes"]["times"].to_string(), "[0.0,24.0]");
-    // By hand: a vertical field of view of 40 degrees on 16:9 is 2 atan(tan(20) * 16 / 9) = 65.8104 degrees horizontally.
+    // By hand: a vertical field of view of 40 degrees on 16:9 is 2 atan(tan(20) * 16 / 9) = 65.8104 degrees
+    // horizontally.
     let fov = track["keyframes"]["values"]["fov"][0].as_f64().unwrap();
     assert!((fov - 65.8104).abs() < 1e-3, "{fov}");
     for (a, b) in level_shot().keyframes.iter().zip(&imported.track.frames) {

@@ -1,7 +1,8 @@
 //! USD, text form (`.usda`): a camera with time samples of translation, rotation, focal length and focus distance.
 //!
-//! Cameras have OpenGL axes. Focal length and film back are in tenths of a scene unit. A prim above the camera rotates the
-//! scene's up to the stage's +y. A sample just before a cut holds the pose up to the cut. Binary `.usdc` is not read.
+//! Cameras have OpenGL axes. Focal length and film back are in tenths of a scene unit. A prim above the camera rotates
+//! the scene's up to the stage's +y. A sample just before a cut holds the pose up to the cut. Binary `.usdc` is not
+//! read.
 
 mod parse;
 mod read;

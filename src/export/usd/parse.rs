@@ -266,7 +266,8 @@ impl Parser {
         Ok(value)
     }
 
-    /// Parses metadata (`name = value`), dictionaries (`type name = value`) or time samples (`time: value,`) up to `close`.
+    /// Parses metadata (`name = value`), dictionaries (`type name = value`) or time samples (`time: value,`) up to
+    /// `close`.
     fn entries(&mut self, close: char, depth: usize) -> Result<Vec<(String, Value)>, ExportError> {
         let mut entries = Vec::new();
         while !self.take_mark(close) {
