@@ -25,5 +25,6 @@ mod render;
 mod scene;
 mod support;
 mod synth;
+mod training;
 mod trajectory;
 mod video;

@@ -1,10 +1,9 @@
-//! The shipped weights at work.
+//! Directions of the shipped weights.
 
 use std::collections::BTreeSet;
-use std::time::Instant;
 
 use cinesplat::director::keys::MAX_KEYS;
-use cinesplat::director::{Direction, Director, SceneContext};
+use cinesplat::director::{Direction, Director, DirectorError, SceneContext};
 use cinesplat::language::{Linked, NamedObject, link};
 use cinesplat::objects::Object;
 use cinesplat::operator::Program;
@@ -12,20 +11,33 @@ use cinesplat::training::{EvaluationSplit, StepField, evaluate_director, exam, e
 use cinesplat::trajectory::Move;
 use glam::{DQuat, DVec3};
 
-fn cast() -> Vec<Object> {
-    let labels = ["sofa", "floor lamp", "golden skull", "guitar", "table"];
-    let object = |(place, label): (usize, &&str)| Object {
-        id: 10 + place as u32,
-        label: (*label).to_owned(),
-        center: DVec3::new(place as f64 - 2.0, 0.5, -1.0 - (place % 2) as f64),
-        half_extents: DVec3::new(0.3, 0.5, 0.2),
-        rotation: DQuat::from_rotation_y(0.2 * place as f64),
+/// A box along the axes, without a cloud.
+fn object(id: u32, label: &str, center: DVec3, half_extents: DVec3) -> Object {
+    Object {
+        id,
+        label: label.to_owned(),
+        center,
+        half_extents,
+        rotation: DQuat::IDENTITY,
         num_gaussians: 0,
-        points: vec![DVec3::new(place as f64 - 2.2, 0.4, -1.0), DVec3::new(place as f64 - 1.8, 0.9, -1.2)],
+        points: Vec::new(),
         shape_radius: 0.0,
         mask_iou: 0.0,
+    }
+}
+
+/// Five objects with ids from 10 and clouds of two points.
+fn room() -> Vec<Object> {
+    let labels = ["sofa", "floor lamp", "golden skull", "guitar", "table"];
+    let placed = |(idx, label): (usize, &&str)| {
+        let center = DVec3::new(idx as f64 - 2.0, 0.5, -1.0 - (idx % 2) as f64);
+        Object {
+            rotation: DQuat::from_rotation_y(0.2 * idx as f64),
+            points: vec![DVec3::new(idx as f64 - 2.2, 0.4, -1.0), DVec3::new(idx as f64 - 1.8, 0.9, -1.2)],
+            ..object(10 + idx as u32, label, center, DVec3::new(0.3, 0.5, 0.2))
+        }
     };
-    labels.iter().enumerate().map(object).collect()
+    labels.iter().enumerate().map(placed).collect()
 }
 
 fn linked(prompt: &str, objects: &[Object]) -> Linked {
@@ -39,9 +51,9 @@ fn directed(director: &Director, prompt: &str, objects: &[Object]) -> Direction 
 }
 
 #[test]
-fn plain_words_are_understood() {
+fn simple_prompts_are_understood() {
     let director = Director::embedded().unwrap();
-    let objects = cast();
+    let objects = room();
     let direction = directed(&director, "Push in on the golden skull, then pan left to the guitar.", &objects);
     let moves: Vec<Move> = direction.program.steps.iter().map(|step| step.movement).collect();
     assert_eq!(moves, [Move::PushIn, Move::PanLeft]);
@@ -52,15 +64,15 @@ fn plain_words_are_understood() {
 }
 
 #[test]
-fn the_middle_one_of_three_clauses_is_carried_out() {
+fn the_second_of_three_clauses_is_not_lost() {
     let director = Director::embedded().unwrap();
-    let objects = cast();
-    let said = |prompt: &str| directed(&director, prompt, &objects).program.steps;
-    let moves = |prompt: &str| said(prompt).iter().map(|step| step.movement).collect::<Vec<Move>>();
+    let objects = room();
+    let steps = |prompt: &str| directed(&director, prompt, &objects).program.steps;
+    let moves = |prompt: &str| steps(prompt).iter().map(|step| step.movement).collect::<Vec<Move>>();
     let until_both =
         "Push in on <obj-10>, pan left to <obj-11>, then pull back until <obj-10> and <obj-11> are both in frame.";
     assert_eq!(moves(until_both), [Move::PushIn, Move::PanLeft, Move::PullOut]);
-    let hold = said("Push in on the guitar, hold for two seconds, then pull back.");
+    let hold = steps("Push in on the guitar, hold for two seconds, then pull back.");
     assert_eq!(
         hold.iter().map(|step| (step.movement, step.duration_secs)).collect::<Vec<_>>(),
         [(Move::PushIn, None), (Move::Static, Some(2.0)), (Move::PullOut, None)]
@@ -68,26 +80,15 @@ fn the_middle_one_of_three_clauses_is_carried_out() {
     assert_eq!(moves("After panning right to the table, push in on it."), [Move::PanRight, Move::PushIn]);
 }
 
-/// A step has to use each object that the exam's sentences name; which ones they name was written by hand.
+/// The hand-written programs say which objects each sentence names.
 #[test]
-fn what_a_sentence_names_is_used() {
+fn programs_use_the_objects_that_the_sentences_name() {
     let director = Director::embedded().unwrap();
-    let cast = exam_objects().unwrap();
-    let objects: Vec<Object> = cast
-        .iter()
-        .enumerate()
-        .map(|(place, named)| Object {
-            id: named.id,
-            label: named.label.clone(),
-            center: DVec3::new(place as f64, 0.0, (place % 3) as f64),
-            half_extents: DVec3::splat(0.3),
-            rotation: DQuat::IDENTITY,
-            num_gaussians: 0,
-            points: Vec::new(),
-            shape_radius: 0.0,
-            mask_iou: 0.0,
-        })
-        .collect();
+    let named = exam_objects().unwrap();
+    let placed = |(idx, named): (usize, &NamedObject)| {
+        object(named.id, &named.label, DVec3::new(idx as f64, 0.0, (idx % 3) as f64), DVec3::splat(0.3))
+    };
+    let objects: Vec<Object> = named.iter().enumerate().map(placed).collect();
     let ids = |program: &Program| -> BTreeSet<u32> {
         let framed = program.steps.iter().flat_map(|step| step.start.subjects.iter().chain(&step.end.subjects));
         let passed = program.steps.iter().filter_map(|step| step.via.as_ref()).flat_map(|via| via.objects.iter());
@@ -98,13 +99,13 @@ fn what_a_sentence_names_is_used() {
         .iter()
         .filter(|item| ids(&directed(&director, &item.prompt, &objects).program).is_superset(&ids(&item.program)));
     let (whole, all) = (whole.count(), items.len());
-    assert!(whole * 100 >= all * 97, "{whole} of {all}");
+    assert!(whole * 100 >= all * 97, "{whole} of {all} programs use every named object");
 }
 
 #[test]
-fn whatever_the_words_the_direction_can_be_carried_out() {
+fn every_prompt_gives_a_valid_direction() {
     let director = Director::embedded().unwrap();
-    let objects = cast();
+    let objects = room();
     let endless = "push in on the sofa then pan left to the lamp and ".repeat(12);
     let prompts = [
         "blorf the wug <obj-13> zzz",
@@ -140,33 +141,33 @@ fn whatever_the_words_the_direction_can_be_carried_out() {
 }
 
 #[test]
-fn a_prompt_beyond_the_network_is_refused() {
-    let objects = cast();
+fn prompts_that_are_too_long_or_empty_are_rejected() {
+    let objects = room();
     let context = SceneContext { objects: &objects, up: DVec3::Y, center: DVec3::ZERO, size: 7.0 };
     let director = Director::embedded().unwrap();
-    let refused =
+    let rejected =
         |linked: &Linked| director.direct(linked, &context).map_err(|error| error.code().to_owned()).unwrap_err();
-    assert_eq!(refused(&linked(&"pan left ".repeat(300), &objects)), "PROMPT-TOO-LONG");
+    assert_eq!(rejected(&linked(&"pan left ".repeat(300), &objects)), "PROMPT-TOO-LONG");
     let endless = Linked { tokens_text: "x".repeat(1 << 20), ..Linked::default() };
-    let start = Instant::now();
-    assert_eq!(refused(&endless), "PROMPT-TOO-LONG");
-    assert!(start.elapsed().as_secs() < 5, "an endless word was given to the tokenizer");
-    assert_eq!(refused(&Linked::default()), "PROMPT-EMPTY");
+    // A quarter of the bytes: the length is estimated before the tokenizer, which takes quadratic time, gets the text.
+    let estimate = director.direct(&endless, &context);
+    assert!(matches!(estimate, Err(DirectorError::PromptTooLong { found: 262_144, .. })), "{estimate:?}");
+    assert_eq!(rejected(&Linked::default()), "PROMPT-EMPTY");
 }
 
 #[test]
-fn the_order_of_the_objects_makes_no_difference_to_the_program() {
+fn the_order_of_the_objects_does_not_change_the_direction() {
     let director = Director::embedded().unwrap();
-    let mut objects = cast();
+    let mut objects = room();
     let prompt = "truck right from the sofa past the lamp, then orbit the skull";
     let here = directed(&director, prompt, &objects);
     objects.reverse();
     assert_eq!(directed(&director, prompt, &objects), here);
 }
 
-/// A floor under the shipped weights: the card in `models` says where they stand.
+/// A lower bound; `models/README.md` has the measured accuracy.
 #[test]
-fn the_shipped_weights_understand_most_sentences_that_people_wrote() {
+fn the_shipped_weights_understand_most_hand_written_sentences() {
     let metrics = evaluate_director(&Director::embedded().unwrap(), EvaluationSplit::HandWritten).unwrap();
     let moves = metrics.fields.iter().find(|(field, _)| *field == StepField::Move).unwrap().1;
     assert!(moves.correct_frac() >= 0.8, "{moves:?}");

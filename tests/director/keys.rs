@@ -8,6 +8,7 @@ use cinesplat::trajectory::Move;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
+/// A framing of one subject.
 fn about(id: u32) -> Framing {
     Framing { subjects: vec![id], ..Framing::default() }
 }
@@ -24,7 +25,7 @@ fn n_steps_make_n_plus_one_keys_and_a_cut_adds_one() {
 }
 
 #[test]
-fn framings_of_neighbors_stay_apart() {
+fn framings_of_neighboring_steps_stay_separate() {
     let first = Step { start: about(1), end: about(2), ..Step::of(Move::PanRight) };
     let second = Step { start: about(3), end: about(4), cut: true, ..Step::of(Move::PushIn) };
     let third = Step { start: about(5), ..Step::of(Move::ZoomIn) };
@@ -33,20 +34,20 @@ fn framings_of_neighbors_stay_apart() {
 }
 
 #[test]
-fn every_program_of_the_phrasebook_survives_the_way_through_keys() {
-    let phrasebook = PromptSampler::embedded().unwrap();
+fn sampled_programs_survive_their_keys() {
+    let sampler = PromptSampler::embedded().unwrap();
     let mut rng = Pcg64::seed_from_u64(3);
     for _ in 0..500 {
-        let cast = phrasebook.invent_objects(6, &mut rng);
-        let sample = phrasebook.sample(&cast, &mut rng);
-        let keys = keys_of(&sample.program);
-        assert!(keys.len() <= MAX_KEYS, "{}: {} keys", sample.prompt, keys.len());
-        assert_eq!(steps_of(&keys), sample.program.steps, "{}", sample.prompt);
+        let objects = sampler.invent_objects(6, &mut rng);
+        let labeled = sampler.sample(&objects, &mut rng);
+        let keys = keys_of(&labeled.program);
+        assert!(keys.len() <= MAX_KEYS, "{}: {} keys", labeled.prompt, keys.len());
+        assert_eq!(steps_of(&keys), labeled.program.steps, "{}", labeled.prompt);
     }
 }
 
 #[test]
-fn a_program_in_notation_with_a_cut_and_a_return_survives() {
+fn a_cut_and_a_return_survive_their_keys() {
     let program =
         program_from_notation("push-in end=1:close-up slow / pan-left start=2 end=3 cut / orbit-right end=3 returns");
     let program = program.unwrap();
@@ -54,10 +55,10 @@ fn a_program_in_notation_with_a_cut_and_a_return_survives() {
 }
 
 #[test]
-fn keys_that_no_program_makes_still_mean_something() {
+fn keys_that_no_program_makes_give_steps_too() {
     let program = Program { steps: vec![Step::of(Move::PushIn)], ..Program::default() };
     let keys = keys_of(&program);
-    // A segment that nothing follows, a cut with nothing before it, keys behind the stop.
+    // A segment without a key after it, a cut without a step before it, keys behind a stop.
     assert_eq!(steps_of(&keys[..1]), program.steps);
     let cut_first =
         [vec![cinesplat::director::keys::Key { next: Next::Cut, ..Default::default() }], keys.clone()].concat();

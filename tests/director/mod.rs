@@ -1,8 +1,8 @@
-//! Tests of `director`: keys, frame, vocabulary, network, weights, training.
+//! Tests of `director`: keys and their codes, scene frame, vocabulary, model files, directions.
 
+mod codes;
 mod direction;
 mod frame;
 mod keys;
 mod model_files;
-mod training;
 mod vocabulary;

@@ -1,4 +1,4 @@
-//! The three files of a model: what is wrong with them is said, whatever it is.
+//! The three files of a model: every kind of damage has an error that names it.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use cinesplat::director::Director;
 use cinesplat::training::{TrainSettings, train};
 
-/// A model trained for one step, and its folder.
+/// The folder of a model that was trained for one step.
 fn model() -> tempfile::TempDir {
     let out = tempfile::tempdir().unwrap();
     let settings = TrainSettings {
@@ -21,6 +21,7 @@ fn model() -> tempfile::TempDir {
     out
 }
 
+/// Code and message of the error that loading gives after a change of one file. The file gets its old content back.
 fn edit(folder: &Path, file: &str, change: impl Fn(&mut Vec<u8>)) -> (&'static str, String) {
     let path = folder.join(file);
     let kept = std::fs::read(&path).unwrap();
@@ -37,7 +38,7 @@ fn replace(bytes: &mut Vec<u8>, from: &str, to: &str) {
 }
 
 #[test]
-fn what_was_written_loads_and_damage_is_named() {
+fn a_written_model_loads_and_damage_is_named() {
     let model = model();
     let folder = model.path();
     assert_eq!(
@@ -46,24 +47,24 @@ fn what_was_written_loads_and_damage_is_named() {
     );
     let manifest =
         |from: &'static str, to: &'static str| edit(folder, "director.json", |bytes| replace(bytes, from, to));
-    let (code, said) = manifest("\"version\": 1", "\"version\": 2");
+    let (code, message) = manifest("\"version\": 1", "\"version\": 2");
     assert_eq!(code, "MODEL-BAD");
-    assert!(said.contains("version 2") && said.contains("version 1"), "{said}");
+    assert!(message.contains("version 2") && message.contains("version 1"), "{message}");
     assert!(manifest("cinesplat.director", "other").1.contains("format"));
     assert!(manifest("push-in", "push-on").1.contains("choices"));
     assert!(manifest("\"heads\": 4", "\"heads\": 5").1.contains("sizes"));
-    // The description and the numbers disagree.
+    // The description disagrees with the weights.
     assert!(manifest("\"hidden\": 512", "\"hidden\": 256").1.contains("shape"));
     assert!(manifest("\"text_layers\": 3", "\"text_layers\": 2").1.contains("unknown tensors"));
     assert!(manifest("\"text_layers\": 3", "\"text_layers\": 4").1.contains("missing"));
-    // One bit of the numbers, the end of the file, all of it.
+    // One changed bit, a truncated file, an appended byte.
     assert!(edit(folder, "director.safetensors", |bytes| *bytes.last_mut().unwrap() ^= 1).1.contains("SHA-256"));
     assert!(edit(folder, "director.safetensors", |bytes| bytes.truncate(1000)).1.contains("SHA-256"));
     assert!(edit(folder, "director.tokenizer.json", |bytes| bytes.push(b' ')).1.contains("SHA-256"));
 }
 
 #[test]
-fn numbers_that_are_none_are_refused_even_with_a_fitting_hash() {
+fn infinite_weights_are_rejected_even_if_the_hash_fits() {
     use sha2::{Digest, Sha256};
     let model = model();
     let path = model.path().join("director.safetensors");
@@ -71,7 +72,7 @@ fn numbers_that_are_none_are_refused_even_with_a_fitting_hash() {
     let hex =
         |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().concat();
     let before = hex(&bytes);
-    // The last number becomes infinite: 0x7c00 in half precision, little-endian.
+    // The last value becomes infinity: 0x7c00 in half precision, little-endian.
     let end = bytes.len();
     bytes[end - 2..].copy_from_slice(&[0x00, 0x7c]);
     std::fs::write(&path, &bytes).unwrap();
@@ -83,7 +84,7 @@ fn numbers_that_are_none_are_refused_even_with_a_fitting_hash() {
 }
 
 #[test]
-fn a_model_that_is_not_there_cannot_be_read() {
+fn a_missing_model_is_a_read_error() {
     let error = Director::load(Path::new("/nowhere/director.json")).unwrap_err();
     assert_eq!(error.code(), "MODEL-READ");
 }

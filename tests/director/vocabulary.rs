@@ -1,4 +1,4 @@
-//! The tokenizer.
+//! The vocabulary: training, JSON, special tokens.
 
 use cinesplat::director::inputs::Vocabulary;
 
@@ -9,16 +9,16 @@ fn trained() -> Vocabulary {
 }
 
 #[test]
-fn training_is_repeatable_and_survives_json() {
+fn a_vocabulary_is_repeatable_and_survives_json() {
     let json = trained().to_json().unwrap();
-    assert!(json == trained().to_json().unwrap(), "the same corpus gave another vocabulary");
+    assert!(json == trained().to_json().unwrap(), "one corpus gave two vocabularies");
     let read = Vocabulary::from_json(json.as_bytes()).unwrap();
     assert_eq!(read.size(), trained().size());
-    assert!(read.to_json().unwrap() == json, "the vocabulary changed on the way through JSON");
+    assert!(read.to_json().unwrap() == json, "the vocabulary changed in JSON");
 }
 
 #[test]
-fn a_tokenizer_without_our_special_tokens_is_refused() {
+fn a_tokenizer_without_the_special_tokens_is_rejected() {
     let json = trained().to_json().unwrap().replace("<obj-7>", "<abc-7>");
     let error = Vocabulary::from_json(json.as_bytes()).unwrap_err();
     assert_eq!(error.code(), "MODEL-BAD");
@@ -30,6 +30,6 @@ fn a_tokenizer_without_our_special_tokens_is_refused() {
 fn frequent_words_become_pieces() {
     let json = trained().to_json().unwrap();
     for piece in ["orbit", "push", "slowly", "pan", "left", "##q"] {
-        assert!(json.contains(&format!("\"{piece}\":")), "{piece} is no piece");
+        assert!(json.contains(&format!("\"{piece}\":")), "{piece} is not a piece");
     }
 }

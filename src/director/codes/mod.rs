@@ -8,6 +8,7 @@ mod pose_code;
 pub use encoding::{decode_key, encode_key};
 pub use fields::{Field, NUM_FIELDS};
 pub use key_code::{KeyCode, MAX_SUBJECTS, OBJECT_POINTERS, QUANTITY_POINTERS};
-pub use pose_code::{POSE_WIDTH, PoseCode, fov_y_rad, log_fov, previous_poses};
+pub use pose_code::{POSE_WIDTH, PoseCode, log_fov, previous_poses};
 
 pub(crate) use fields::{AMOUNT_QUANTITY, NEXT_CUT, NEXT_SEGMENT, NEXT_STOP};
+pub(crate) use pose_code::fov_y_rad;

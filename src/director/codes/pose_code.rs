@@ -32,7 +32,7 @@ impl PoseCode {
 }
 
 /// Vertical field of view of its code, clamped to 0.05..=2.5 rad.
-pub fn fov_y_rad(log_fov: f32) -> f64 {
+pub(crate) fn fov_y_rad(log_fov: f32) -> f64 {
     (BASE_FOV_RAD * f64::from(log_fov).exp()).clamp(0.05, 2.5)
 }
 

@@ -1,10 +1,10 @@
-//! Training: gradients, the same run twice, stop and go on.
+//! The training loop: gradients, repeatability, stopping and resuming.
 
 use std::ops::ControlFlow;
 
 use cinesplat::training::{TrainSettings, TrainingProgress, check_gradients, train};
 
-/// candle drops the gradients of some of its operations silently; ours are written by hand.
+/// candle silently drops the gradients of some of its operations, and several operations have hand-written gradients.
 #[test]
 fn every_parameter_has_the_gradient_that_finite_differences_give() {
     let check = check_gradients(5, 16, 8).unwrap();
@@ -14,7 +14,7 @@ fn every_parameter_has_the_gradient_that_finite_differences_give() {
         let off = (parameter.backward - parameter.numeric).abs();
         assert!(
             off < 0.02 * parameter.backward + 2e-3,
-            "{}: {} by backpropagation, {} by differences",
+            "{}: {} by backpropagation, {} by finite differences",
             parameter.name,
             parameter.backward,
             parameter.numeric
@@ -23,13 +23,13 @@ fn every_parameter_has_the_gradient_that_finite_differences_give() {
 }
 
 #[test]
-fn padding_and_company_in_a_batch_change_no_loss() {
+fn padding_and_other_examples_in_a_batch_do_not_change_the_loss() {
     let check = check_gradients(6, 12, 12).unwrap();
     let off = (check.batch_loss - check.single_losses).abs();
-    assert!(off < 1e-4 * check.batch_loss, "{} together, {} one by one", check.batch_loss, check.single_losses);
+    assert!(off < 1e-4 * check.batch_loss, "{} in one batch, {} one by one", check.batch_loss, check.single_losses);
 }
 
-fn settings() -> TrainSettings {
+fn short_training() -> TrainSettings {
     TrainSettings {
         steps: 4,
         batch: 6,
@@ -43,38 +43,39 @@ fn settings() -> TrainSettings {
 }
 
 #[test]
-fn a_stopped_training_goes_on_to_the_very_same_weights() {
+fn a_stopped_training_resumes_to_the_same_weights() {
     let whole = tempfile::tempdir().unwrap();
-    let through = train(&settings(), whole.path(), &mut |_| ControlFlow::Continue(())).unwrap();
+    let through = train(&short_training(), whole.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     let parted = tempfile::tempdir().unwrap();
-    let stopping = TrainSettings { report_every: 2, threads: 1, ..settings() };
+    let stopping = TrainSettings { report_every: 2, threads: 1, ..short_training() };
     let stopped = train(&stopping, parted.path(), &mut |_| ControlFlow::Break(())).unwrap_err();
     assert_eq!(stopped.code(), "TRAIN-STOPPED");
-    let resumed = TrainSettings { resume: true, ..settings() };
+    let resumed = TrainSettings { resume: true, ..short_training() };
     let resumed = train(&resumed, parted.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(resumed.sha256, through.sha256, "the weights depend on the stop or on the number of threads");
 }
 
 #[test]
-fn the_loss_falls_and_the_report_says_where_training_stands() {
+fn the_loss_falls_and_progress_reports_count_the_steps() {
     let out = tempfile::tempdir().unwrap();
-    let mut losses = Vec::new();
-    let settings = TrainSettings { steps: 24, warm_up: 4, report_every: 8, ..settings() };
+    let (mut steps, mut losses) = (Vec::new(), Vec::new());
+    let settings = TrainSettings { steps: 24, warm_up: 4, report_every: 8, ..short_training() };
     let summary = train(&settings, out.path(), &mut |progress| {
         if let TrainingProgress::Steps { done, total, choice_loss, .. } = progress {
-            assert!(*done <= *total);
+            steps.push((*done, *total));
             losses.push(*choice_loss);
         }
         ControlFlow::Continue(())
     });
     assert!(summary.unwrap().num_parameters > 100_000);
+    assert_eq!(steps, [(8, 24), (16, 24), (24, 24)]);
     assert!(losses.last().unwrap() < &(0.75 * losses[0]), "{losses:?}");
 }
 
 #[test]
-fn a_checkpoint_of_other_settings_is_refused() {
+fn a_checkpoint_of_other_settings_is_rejected() {
     let out = tempfile::tempdir().unwrap();
-    let short = TrainSettings { steps: 1, ..settings() };
+    let short = TrainSettings { steps: 1, ..short_training() };
     train(&short, out.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     let other = TrainSettings { seed: 9, resume: true, ..short };
     let error = train(&other, out.path(), &mut |_| ControlFlow::Continue(())).unwrap_err();

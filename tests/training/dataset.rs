@@ -1,0 +1,44 @@
+//! Writing datasets.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Barrier;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+
+use cinesplat::training::{DatasetSettings, DatasetSummary, write_dataset};
+
+/// A folder with shards that exist already, and settings for which nothing else is to be made.
+fn finished_shards(num_shards: u64) -> (tempfile::TempDir, DatasetSettings) {
+    let out = tempfile::tempdir().unwrap();
+    for shard in 0..num_shards {
+        std::fs::write(out.path().join(format!("shots-{shard:05}.jsonl")), "").unwrap();
+    }
+    (out, DatasetSettings { num_scenes: 8 * num_shards, threads: 2, ..DatasetSettings::default() })
+}
+
+#[test]
+fn existing_shards_are_kept() {
+    let (out, settings) = finished_shards(3);
+    let summary = write_dataset(&settings, out.path(), &|_, _| {}).unwrap();
+    assert_eq!(summary, DatasetSummary { num_shards_kept: 3, ..DatasetSummary::default() });
+}
+
+/// The worker thread's result used to be replaced by a success.
+#[test]
+fn a_panic_on_a_worker_thread_is_a_panic_of_the_call() {
+    let (out, settings) = finished_shards(2);
+    let caller = thread::current().id();
+    let both_threads_work = Barrier::new(2);
+    let caller_has_waited = AtomicBool::new(false);
+    let report = |_, _| {
+        if thread::current().id() != caller {
+            both_threads_work.wait();
+            panic!("a report that fails on the worker thread");
+        }
+        if !caller_has_waited.swap(true, Ordering::Relaxed) {
+            both_threads_work.wait();
+        }
+    };
+    let result = catch_unwind(AssertUnwindSafe(|| write_dataset(&settings, out.path(), &report)));
+    assert!(result.is_err(), "the dataset counts as written: {result:?}");
+}

@@ -1,0 +1,4 @@
+//! Tests of `training`: dataset and training loop.
+
+mod dataset;
+mod train;
