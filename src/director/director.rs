@@ -123,11 +123,8 @@ impl Director {
 /// The program and the cameras of decoded keys.
 fn direction(decoded: &DecodedPrompt, grounding: &Grounding, frame: &SceneFrame) -> Result<Direction, DirectorError> {
     let keys: Vec<_> = decoded.keys.iter().map(|code| codes::decode_key(code, grounding)).collect();
-    let program = Program {
-        steps: steps_of(&keys),
-        duration_secs: decoded.film_length.and_then(|idx| grounding.seconds(idx)),
-        unmet: Vec::new(),
-    };
+    let program =
+        Program { steps: steps_of(&keys), duration_secs: decoded.film_length.and_then(|idx| grounding.seconds(idx)) };
     let step_keys = boundaries_of(&keys);
     let certainty = step_keys
         .iter()

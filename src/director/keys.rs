@@ -2,8 +2,7 @@
 //!
 //! Enters: a [`Program`] of n steps. Leaves: n + 1 keys, and one more per cut. A key holds the framing when the camera
 //! arrives, the framing when the camera departs, and what follows. The conversion keeps everything in both directions,
-//! except a cut on the first step (there is nothing to cut from), the length of the film, and the clauses that the program
-//! lists as unmet.
+//! except a cut on the first step (there is nothing to cut from) and the length of the film.
 
 use cinesplat_operator::{Amount, Framing, Program, Speed, Step, Via};
 use cinesplat_trajectory::{Easing, Move};

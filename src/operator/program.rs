@@ -1,20 +1,19 @@
-//! What a sentence asks for, as data: the language between the director, the dataset and the solver.
+//! The program: what a prompt asks for, as data. The director produces it, the dataset stores it, the operator solves
+//! it.
 
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 
-/// A whole request: steps one after the other.
+/// A camera program: consecutive steps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Program {
-    /// The steps in order; at least one.
+    /// The steps in order. An empty program means a static view of the scene.
     pub steps: Vec<Step>,
-    /// Length of the whole film where the words give it.
+    /// Length of the film where the prompt states it.
     pub duration_secs: Option<f64>,
-    /// What the words ask for that nobody here can do, in their own words: `(words, why)`.
-    pub unmet: Vec<(String, String)>,
 }
 
 impl Program {
-    /// Ids of all objects that the steps are about or pass, each once, in order of id.
+    /// Ids of all objects that the steps frame or pass, each once, ascending.
     pub fn object_ids(&self) -> Vec<u32> {
         let passed = |step: &Step| step.via.iter().flat_map(|via| via.objects.clone()).collect::<Vec<u32>>();
         let named = |step: &Step| [&step.start.subjects[..], &step.end.subjects[..], &passed(step)[..]].concat();
@@ -25,40 +24,41 @@ impl Program {
     }
 }
 
-/// One stretch of the film: from a framing, by a move, to a framing.
+/// One step of a program: a move from a framing to a framing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
-    /// What the camera does.
+    /// The move.
     pub movement: Move,
-    /// A second move at the same time: `orbit while rising`, `a handheld push-in`; with [`Move::WhipPan`] and
-    /// [`Move::Reveal`] the way it goes (`whip-pan` with `pan-left`, `reveal` with `pedestal-up`).
+    /// A second move at the same time, as in `orbit while rising` or `a handheld push-in`. For [`Move::WhipPan`] and
+    /// [`Move::Reveal`] it gives their direction: `whip-pan` with `pan-left`, `reveal` with `pedestal-up`.
     pub with: Option<Move>,
-    /// The words leave the direction open (`swing over to`, `drift around`): left or right, in or out may be swapped.
+    /// The prompt leaves the direction open (`swing over to`, `drift around`): left and right, or in and out, may be
+    /// swapped.
     pub either_way: bool,
-    /// How the step begins. Empty (default) = as the step before ends, or as the move needs it.
+    /// Framing at the start. Empty (default): as the step before ends, or as the move requires.
     pub start: Framing,
-    /// How the step ends. Empty (default) = as the move makes it.
+    /// Framing at the end. Empty (default): as the move results in.
     pub end: Framing,
-    /// Objects that the camera passes on the way.
+    /// Objects that the camera passes.
     pub via: Option<Via>,
-    /// How far, where the words say it.
+    /// Extent of the move, where the prompt states it.
     pub amount: Option<Amount>,
-    /// How long, where the words say it of this step.
+    /// Duration, where the prompt states it for this step.
     pub duration_secs: Option<f64>,
-    /// How fast.
+    /// Speed.
     pub speed: Speed,
-    /// How the speed changes, where the words say it.
+    /// Speed profile, where the prompt states it.
     pub easing: Option<Easing>,
     /// The step begins with a cut from the one before.
     pub cut: bool,
     /// The step ends where the whole shot began.
     pub returns: bool,
-    /// Byte range of the prompt.
+    /// Byte range `[start, end]` of the prompt that the step comes from.
     pub words: Option<[usize; 2]>,
 }
 
 impl Step {
-    /// A step of one move with everything else left open.
+    /// A step of one move, with everything else unspecified.
     pub fn of(movement: Move) -> Self {
         Self {
             movement,
@@ -80,22 +80,23 @@ impl Step {
 
 /// What the picture shows at one end of a step.
 ///
-/// All empty = not said. No subjects but a size = the room: `end wide on the room` is `long` with no subjects.
+/// The default is unspecified. A size without subjects frames the room: `end wide on the room` is `long` without
+/// subjects.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Framing {
-    /// Object ids, the one to be centered first. With several and `whole`, their common middle is centered.
+    /// Object ids. The first one is centered; with several and `whole`, their common middle is.
     pub subjects: Vec<u32>,
-    /// How large the first subject is.
+    /// Shot size of the first subject.
     pub size: Option<ShotSize>,
-    /// From how high it is seen.
+    /// Height of the camera relative to it.
     pub angle: Option<ShotAngle>,
-    /// Which part of the subject the camera aims at.
+    /// Part of the first subject that the camera aims at.
     pub part: SubjectPart,
-    /// All subjects have to be wholly in the frame.
+    /// All subjects must be wholly in the frame.
     pub whole: bool,
 }
 
-/// Part of an object, for `from its base to its top`.
+/// Part of a subject, as in `from its base to its top`.
 #[derive(
     Debug,
     Clone,
@@ -113,25 +114,26 @@ pub struct Framing {
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum SubjectPart {
-    /// All of it: its middle.
+    /// Its middle, for the whole of it.
     #[default]
     Middle,
     /// Its upper end.
     Top,
     /// Its lower end.
     Bottom,
-    /// Its left end as the camera sees it.
+    /// Its left end, as the camera sees it.
     Left,
-    /// Its right end as the camera sees it.
+    /// Its right end, as the camera sees it.
     Right,
 }
 
-/// Objects on the way of a step.
+/// Objects that a step passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Via {
     /// How the camera passes them.
     pub how: Pass,
-    /// Object ids: one for `Past` and `Over` (or more, in turn), two for `Between`; `Between` with one = through it.
+    /// Object ids: one or more for `Past` and `Over`, two for `Between`. `Between` with one id means through that
+    /// object.
     pub objects: Vec<u32>,
 }
 
@@ -152,7 +154,7 @@ pub struct Via {
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Pass {
-    /// Beside it, seeing it on the way.
+    /// Beside it, with it in view.
     Past,
     /// Between two objects.
     Between,
@@ -160,22 +162,22 @@ pub enum Pass {
     Over,
 }
 
-/// How far a step goes.
+/// Extent of a move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Amount {
-    /// An angle in degrees: orbits, arcs, pans, tilts, rolls.
+    /// An angle in degrees, for orbits, arcs, pans, tilts and rolls.
     Degrees(f64),
-    /// A length in scene units (`2 meters`).
+    /// A length in scene units, as in `2 meters`.
     Units(f64),
-    /// A factor on the distance or the focal length (`twice as close` = 0.5 of the distance).
+    /// A factor on the distance or the focal length: `twice as close` is 0.5 of the distance.
     Factor(f64),
-    /// A little, as in `slightly`.
+    /// Small, as in `slightly`.
     Slight,
-    /// A lot, as in `all the way`.
+    /// Large, as in `all the way`.
     Large,
 }
 
-/// How fast a step is.
+/// Speed of a step.
 #[derive(
     Debug,
     Clone,
@@ -195,7 +197,7 @@ pub enum Amount {
 pub enum Speed {
     /// Slowly, gently.
     Slow,
-    /// Nothing said.
+    /// Unspecified.
     #[default]
     Normal,
     /// Fast, quickly.

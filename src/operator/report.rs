@@ -14,8 +14,7 @@ const NUM_SAMPLES: usize = 49;
 /// estimated from the matter alone and the estimate flickers at its boundary.
 const MIN_CAPTURED_FRAC: f64 = 0.9;
 
-/// The report of a film: every constraint of every segment, the captured region, and the requests without an
-/// implementation.
+/// The report of a film: every constraint of every segment, and the captured region.
 pub(super) fn report(world: &World, program: &Program, prompt: &str, segments: &[MotionSegment]) -> Vec<ReportLine> {
     let mut lines: Vec<ReportLine> = Vec::new();
     let mut captured = 1.0_f64;
@@ -44,14 +43,6 @@ pub(super) fn report(world: &World, program: &Program, prompt: &str, segments: &
             note: "the camera sees back sides of surfaces or leaves the captured region".to_owned(),
         });
     }
-    let unmet = |(words, why): &(String, String)| ReportLine {
-        clause: words.clone(),
-        wanted: "as the words say".to_owned(),
-        got: 0.0,
-        met: false,
-        note: why.clone(),
-    };
-    lines.extend(program.unmet.iter().map(unmet));
     lines
 }
 

@@ -31,7 +31,7 @@ fn every_token_of_a_step_is_parsed_and_printed() {
         returns: true,
         ..Step::of(Move::OrbitLeft)
     };
-    let program = Program { steps: vec![step], duration_secs: Some(8.0), unmet: Vec::new() };
+    let program = Program { steps: vec![step], duration_secs: Some(8.0) };
     assert_eq!(program_from_notation(text).unwrap(), program);
     assert_eq!(program_to_notation(&program), text);
 }
