@@ -71,5 +71,5 @@ fn choose_up(path: &Path, decoded: &DecodedScene, options: &LoadOptions) -> Resu
         return Ok((*up, UpSource::File(words.clone())));
     }
     let estimate = up::estimate(&decoded.collected.gaussians, decoded.up_prior);
-    Ok((estimate.up, UpSource::Estimated(estimate.percent_sure)))
+    Ok((estimate.up, UpSource::Estimated(estimate.confidence_percent)))
 }

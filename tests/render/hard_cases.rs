@@ -16,7 +16,7 @@
 //! | 10 | equal depths | `repeatable::{one_two_three_and_seven_threads_give_the_same_bits, shuffling_a_file_without_equal_depths_changes_nothing, equal_depths_blend_in_the_order_of_the_file}` |
 //! | 11 | depth keys | `places::a_splat_a_million_units_away_changes_no_level` |
 //! | 12 | popping | `popping::{a_pan_pops_in_mode_z_and_not_in_mode_ray, a_crowd_pops_less_in_mode_ray_than_in_mode_z}`, `sort_modes` |
-//! | 13 | large coordinates | `inputs::large_coordinates_in_double_precision_draw_the_picture_of_small_ones`, `repeatable::large_coordinates_give_the_picture_of_small_ones`, `scene::intake::single_precision_far_off_says_what_it_lost` |
+//! | 13 | large coordinates | `inputs::large_coordinates_in_double_precision_draw_the_picture_of_small_ones`, `repeatable::large_coordinates_give_the_picture_of_small_ones`, `scene::intake::single_precision_far_from_the_origin_reports_its_quantization` |
 //! | 14 | half precision | `shapes::needles_survive_scales_and_rotations_in_half_precision` |
 //! | 15 | color below 0 and above 1 | `color::{color_is_clamped_below_before_blending_and_above_after_it, color_clamped_in_every_gaussian_makes_bright_ones_white_before_blending}` |
 //! | 16 | color space | `color::{layers_blend_as_trained, a_film_without_blur_has_the_levels_of_the_still}` |

@@ -1,11 +1,11 @@
-//! Files built byte by byte from the format descriptions, without any code of the library.
+//! Test files, built byte by byte from the format descriptions without code of the library.
 
 use std::io::Write;
 
 use flate2::{Compression, write::GzEncoder};
 
-/// The 14 properties that every scene has, and their values for one Gaussian: mean (1, 2, 3), scales 0.5 1 2, opacity
-/// 0.75, quarter turn about z, `f_dc` (0.1, 0.2, 0.3).
+/// The 14 properties of every scene, with their values for one Gaussian: mean (1, 2, 3), scales 0.5 1 2, opacity 0.75,
+/// rotation by 90 degrees about z, `f_dc` (0.1, 0.2, 0.3).
 pub const PROPERTIES: [(&str, f64); 14] = [
     ("x", 1.0),
     ("y", 2.0),
@@ -33,7 +33,7 @@ pub fn properties<S: AsRef<str>>(scalar: &str, names: &[S]) -> String {
     names.iter().map(|name| format!("property {scalar} {}\n", name.as_ref())).collect::<Vec<_>>().concat()
 }
 
-/// `f_rest_0` and on.
+/// The names `f_rest_0`, `f_rest_1`, ..
 pub fn rest_names(count: usize) -> Vec<String> {
     (0..count).map(|i| format!("f_rest_{i}")).collect()
 }
@@ -52,7 +52,7 @@ pub fn one() -> (Vec<&'static str>, Vec<f64>) {
     PROPERTIES.into_iter().unzip()
 }
 
-/// `count` copies of the one Gaussian, at x = 0, 1, 2, ...
+/// A PLY of `count` copies of the Gaussian of [`PROPERTIES`] at x = 0, 1, 2, ..
 pub fn row_of(count: usize) -> Vec<u8> {
     let (names, values) = one();
     let at = |x: usize| values.iter().enumerate().map(|(i, v)| if i == 0 { x as f64 } else { *v }).collect();
@@ -68,7 +68,7 @@ pub fn spz_v2(flags: u8) -> Vec<u8> {
     out.extend([255, 51]);
     out.extend([128, 0, 255, 64, 64, 64]);
     out.extend([160, 144, 176, 160, 160, 160]);
-    // x = 0, y = 0, z = 0.70588 (218 / 127.5 - 1 = 0.7098); then no turn at all.
+    // x = 0, y = 0, z = 0.70588 (218 / 127.5 - 1 = 0.7098); then no rotation.
     out.extend([128, 127, 218, 128, 128, 128]);
     out.extend((0..18).map(|i| 128 + i * 7));
     out

@@ -45,7 +45,7 @@ fn file(words: [u32; 4], num_chunk: usize, sh: bool) -> Vec<u8> {
 
 #[test]
 fn words_decode_to_their_values() {
-    // Position x highest, y lowest, z halfway; w left out of the rotation, x = 0, y = 0, z = sqrt(1/2).
+    // Position x highest, y lowest, z halfway; w omitted from the rotation, x = 0, y = 0, z = sqrt(1/2).
     let words =
         [(2047 << 21) | 1024, (512 << 20) | (512 << 10) | 1023, (2047 << 21) | (1023 << 11) | 2047, 0xff00_33ff];
     let scene = read("a", &file(words, 18, true)).unwrap();
@@ -69,7 +69,7 @@ fn old_chunks_have_no_color_bounds() {
 }
 
 #[test]
-fn too_few_chunks_are_refused() {
+fn too_few_chunks_are_rejected() {
     let text = String::from_utf8_lossy(&file([0; 4], 12, false)).replace("element chunk 1", "element chunk 0");
     assert!(["PLY-HEADER", "PLY-TRUNCATED"].contains(&code("a", text.as_bytes())));
 }

@@ -1,4 +1,4 @@
-//! Cut files and flipped bits: every one ends in a scene or an error, soon, without a panic.
+//! Truncated and mutated files: every one gives a scene or an error, without a panic.
 
 use cinesplat::scene::{LoadOptions, SceneError};
 use rand::{RngExt, SeedableRng};
@@ -8,7 +8,7 @@ use super::bytes::{gzip, header, one, row_of, splat_record, spz_v2};
 use super::{code, read};
 use crate::support;
 
-/// A small file of each kind.
+/// A small file of each format.
 fn seeds() -> Vec<(String, Vec<u8>)> {
     let (names, values) = one();
     let text: Vec<String> = values.iter().map(f64::to_string).collect();
@@ -30,7 +30,7 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn every_truncation_ends_in_one_error_or_a_scene() {
+fn every_truncation_gives_an_error_or_a_scene() {
     for (name, bytes) in seeds() {
         for cut in 0..bytes.len().min(3000) {
             if let Err(error) = read(&name, &bytes[..cut]) {
@@ -47,7 +47,7 @@ fn every_truncation_ends_in_one_error_or_a_scene() {
 }
 
 #[test]
-fn no_cut_inside_or_between_binary_rows_loads() {
+fn truncated_binary_rows_do_not_load() {
     let bytes = row_of(4);
     let start = bytes.len() - 4 * 56;
     (start..bytes.len()).for_each(|cut| assert_eq!(code("a.ply", &bytes[..cut]), "PLY-TRUNCATED", "cut at {cut}"));
@@ -73,7 +73,7 @@ fn random_mutations_never_panic() {
 }
 
 #[test]
-fn every_header_bit_of_an_spz_can_flip() {
+fn flipped_header_bits_of_an_spz_never_panic() {
     for (name, bytes) in seeds().into_iter().filter(|(name, _)| name.contains("spz")) {
         for bit in 0..bytes.len().min(128) * 8 {
             let mut bad = bytes.clone();
@@ -90,7 +90,7 @@ fn a_million_identical_gaussians_load() {
 }
 
 #[test]
-fn paths_that_are_no_files_are_refused() {
+fn paths_that_are_not_files_are_rejected() {
     let code = |path: &str| cinesplat::scene::load(path.as_ref(), &LoadOptions::default()).unwrap_err();
     assert_eq!(code("/no/such/scene.ply").code(), "SCENE-NOT-FOUND");
     if cfg!(target_os = "linux") {

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use super::bytes::{PROPERTIES, header, one, ply, properties, rest_names};
 use super::{code, read};
 
-/// What every spelling of the one Gaussian must load to.
+/// Asserts that a file loads to the Gaussian of [`PROPERTIES`].
 fn assert_is_the_one(name: &str, bytes: &[u8]) {
     let scene = read(name, bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
     let g = &scene.gaussians;
@@ -64,7 +64,7 @@ fn extra_elements_and_properties_are_skipped() {
 }
 
 #[test]
-fn red_green_blue_stand_in_for_f_dc() {
+fn red_green_blue_replace_f_dc() {
     let names = ["x", "y", "z", "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"];
     let head = header("ascii", "1", &names)
         .replace("end_header", "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header");
@@ -138,7 +138,7 @@ fn filter_3d_means_a_small_dilation() {
 }
 
 #[test]
-fn headers_that_lie_are_refused() {
+fn inconsistent_headers_are_rejected() {
     let (names, _) = one();
     for count in ["1152921504606846976", "18446744073709551615", "-1", "1e23", "4e9", "four", "4294967296"] {
         assert_eq!(code("count", header("binary_little_endian", count, &names).as_bytes()), "PLY-COUNT", "{count}");
@@ -183,7 +183,7 @@ fn truncated_error_names_row_and_byte() {
 }
 
 #[test]
-fn bytes_after_the_last_row_are_noted() {
+fn bytes_after_the_last_row_give_a_note() {
     let (names, values) = one();
     let mut bytes = ply(&names, &[values]);
     bytes.extend([0; 5]);

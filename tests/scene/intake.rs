@@ -4,13 +4,13 @@ use glam::DVec3;
 use super::bytes::{PROPERTIES, header, one, ply, row_of};
 use super::{code, read};
 
-/// Index of a property in a row of the one Gaussian.
+/// Index of a property in a row of [`PROPERTIES`].
 fn at(name: &str) -> usize {
     PROPERTIES.iter().position(|(known, _)| *known == name).unwrap()
 }
 
 #[test]
-fn poisoned_gaussians_are_dropped_and_the_others_stay_as_they_are() {
+fn invalid_gaussians_are_dropped_and_the_others_are_unchanged() {
     let (names, values) = one();
     let clean = read("clean", &ply(&names, &vec![values.clone(); 3])).unwrap();
     let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -42,7 +42,7 @@ fn infinite_opacity_is_1_and_scale_of_minus_infinity_is_0() {
 }
 
 #[test]
-fn extreme_values_stay_and_are_finite() {
+fn extreme_values_are_kept_and_finite() {
     let (names, values) = one();
     for (name, value) in
         [("x", 1e30), ("scale_0", 1e30), ("scale_0", -1e30), ("opacity", -1e30), ("f_dc_0", 1e30), ("rot_0", 1e-30)]
@@ -74,7 +74,7 @@ fn quaternions_of_any_length_and_sign_load_alike() {
 }
 
 #[test]
-fn nothing_usable_is_an_error_and_one_gaussian_is_a_scene() {
+fn no_valid_gaussian_is_an_error_and_one_is_a_scene() {
     let (names, values) = one();
     let dead = vec![f64::NAN; values.len()];
     assert_eq!(code("dead", &ply(&names, &[dead.clone(), dead])), "SCENE-EMPTY");
@@ -82,7 +82,7 @@ fn nothing_usable_is_an_error_and_one_gaussian_is_a_scene() {
 }
 
 #[test]
-fn far_off_doubles_load_as_if_they_were_near() {
+fn double_precision_far_from_the_origin_loads_as_near_it() {
     let (names, values) = one();
     let rows: Vec<Vec<f64>> = (0..50)
         .map(|i| {
@@ -108,7 +108,7 @@ fn far_off_doubles_load_as_if_they_were_near() {
 }
 
 #[test]
-fn single_precision_far_off_says_what_it_lost() {
+fn single_precision_far_from_the_origin_reports_its_quantization() {
     let (names, values) = one();
     let rows: Vec<Vec<f64>> = (0..9).map(|i| [vec![1e6 + f64::from(i)], values[1..].to_vec()].concat()).collect();
     let scene = read("far", &ply(&names, &rows)).unwrap();
@@ -117,7 +117,7 @@ fn single_precision_far_off_says_what_it_lost() {
 }
 
 #[test]
-fn kept_picks_the_entries_of_what_was_not_dropped() {
+fn kept_selects_the_entries_of_the_kept_gaussians() {
     let (names, values) = one();
     let mut rows = vec![values.clone(); 5];
     rows[1][0] = f64::NAN;
@@ -128,7 +128,7 @@ fn kept_picks_the_entries_of_what_was_not_dropped() {
 }
 
 #[test]
-fn caps_are_kept() {
+fn limits_are_enforced() {
     let bytes = row_of(10);
     let options = LoadOptions { max_gaussians: 9, ..LoadOptions::default() };
     let error = cinesplat::scene::load_bytes("big.ply".as_ref(), &bytes, &options).unwrap_err();
@@ -141,7 +141,7 @@ fn caps_are_kept() {
 }
 
 #[test]
-fn up_of_the_caller_wins() {
+fn up_of_the_caller_overrides_the_file() {
     let options = LoadOptions { up: Some(DVec3::new(0.0, 0.0, 5.0)), ..LoadOptions::default() };
     let scene = cinesplat::scene::load_bytes("a.ply".as_ref(), &row_of(3), &options).unwrap();
     assert_eq!((scene.up, scene.up_source), (DVec3::Z, UpSource::Flag));

@@ -1,4 +1,4 @@
-//! Readers of scenes, their up axis, and what they do with damaged files.
+//! Readers of scenes, the up axis, and damaged files.
 
 mod bytes;
 mod compressed;
@@ -21,7 +21,7 @@ fn read(name: &str, bytes: &[u8]) -> Result<Scene, SceneError> {
     load_bytes(Path::new(name), bytes, &LoadOptions::default())
 }
 
-/// The code of the error that a file must end in.
+/// The code of the error that a file must give.
 fn code(name: &str, bytes: &[u8]) -> &'static str {
     match read(name, bytes) {
         Ok(scene) => panic!("{name} loads as {} with {} Gaussians", scene.format, scene.gaussians.len()),

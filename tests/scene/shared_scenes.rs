@@ -1,4 +1,4 @@
-//! The scenes of `../shared`: all of them load, with the figures that their manifest states.
+//! The scenes of `../shared`: all of them load, and their counts, degrees and bounds match the manifest.
 
 use cinesplat::scene::{LoadOptions, Scene, SplatFilter, load};
 use glam::{DVec3, Vec3};
@@ -10,9 +10,9 @@ fn shared_scene(name: &str) -> Option<Scene> {
     Some(load(&path, &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// Number of Gaussians, degree, and bounds as the manifest has them.
+/// Number of Gaussians, degree and bounds, as the manifest states them.
 #[test]
-fn figures_are_those_of_the_manifest() {
+fn counts_degrees_and_bounds_match_the_manifest() {
     let table = [
         ("kitchen/scene.spz", 213_944, 0, [-2.59, -0.07, -1.65], [2.95, 3.43, 1.50]),
         ("playbot/2_0", 125_000, 2, [-1.03, -1.08, -1.03], [1.03, 0.05, 1.04]),
@@ -53,15 +53,15 @@ fn all_other_scenes_load() {
 }
 
 #[test]
-fn kitchen_asks_for_the_mip_filter() {
+fn kitchen_states_the_mip_filter() {
     let Some(scene) = shared_scene("kitchen/scene.spz") else { return };
     assert_eq!(scene.filter, Some(SplatFilter::Mip));
 }
 
-/// The SOG was made from the PLY: 16 bits a coordinate in the logarithmic domain, 8 bits a rotation part and an
-/// opacity, 256 values for scales and colors; its order is another.
+/// The SOG was converted from the PLY: 16 bits per coordinate in the logarithmic domain, 8 bits per rotation component
+/// and per opacity, 256 values for scales and colors, another order.
 #[test]
-fn leica_ply_and_sog_are_the_same_gaussians() {
+fn leica_ply_and_sog_hold_the_same_gaussians() {
     let folder = "corpus_cc0/leica-sofort";
     let Some(ply) = shared_scene(&format!("{folder}/ply/leica-sofort-top8192.ply")) else { return };
     let Some(sog) = shared_scene(&format!("{folder}/sog/leica-sofort-top8192.sog")) else { return };
@@ -85,15 +85,15 @@ fn leica_ply_and_sog_are_the_same_gaussians() {
         let scale = (log(a.scales[i]) - log(b.scales[j])).abs().max_element();
         worst[3] = worst[3].max(scale);
     }
-    // Its writer cuts off instead of rounding, so that errors reach a whole step: 5.7 log units / 65535, 1 / 255, and
-    // 2 sqrt(3) sqrt(2) / 255 of an angle, up to twice that through the part that is rebuilt.
+    // The writer truncates instead of rounding, so errors reach a whole step: 5.7 log units / 65535, 1 / 255, and
+    // 2 sqrt(3) sqrt(2) / 255 of an angle, up to twice that through the reconstructed component.
     assert!(worst[0] < 9e-5, "positions {}", worst[0]);
     assert!(worst[1] < 1.0 / 255.0, "opacities {}", worst[1]);
     assert!(worst[2] < 0.04, "rotations {} rad", worst[2]);
     assert!(worst[3] < 0.25, "log-scales {}", worst[3]);
 }
 
-/// How unlike two Gaussians are: position above all, then color.
+/// Dissimilarity of two Gaussians: mainly by position, then by color.
 fn cost(a: &cinesplat::scene::Gaussians, i: usize, b: &cinesplat::scene::Gaussians, j: usize) -> f32 {
     (a.means[i] - b.means[j]).length() * 100.0 + (a.sh_dc[i] - b.sh_dc[j]).length()
 }

@@ -9,7 +9,7 @@ use zip::write::SimpleFileOptions;
 
 use super::{code, read};
 
-/// Two Gaussians of degree 1 as the files of a version 2 SOG, their pictures 2 x 1.
+/// The files of a version 2 SOG with two Gaussians of degree 1; its pictures have 2 x 1 texels.
 pub fn files() -> Vec<(String, Vec<u8>)> {
     let book: Vec<f64> = (0..256).map(|i| f64::from(i) / 64.0 - 3.0).collect();
     let meta = serde_json::json!({
@@ -39,7 +39,7 @@ fn webp(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
     out.into_inner()
 }
 
-/// The files in a zip.
+/// The files in a zip archive.
 pub fn bundle(files: &[(String, Vec<u8>)]) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in files {
@@ -72,7 +72,7 @@ fn bundle_decodes_to_its_values() {
 }
 
 #[test]
-fn folder_and_meta_json_load_as_the_bundle_does() {
+fn folder_and_meta_json_load_like_the_bundle() {
     let folder = tempfile::tempdir().unwrap();
     write_folder(folder.path(), &files());
     let bundled = read("a.sog", &bundle(&files())).unwrap();
@@ -84,7 +84,7 @@ fn folder_and_meta_json_load_as_the_bundle_does() {
 }
 
 #[test]
-fn metas_that_lie_are_refused() {
+fn invalid_metas_are_rejected() {
     let with = |from: &str, to: &str| {
         let mut all = files();
         let text = String::from_utf8(all[0].1.clone()).unwrap();

@@ -17,7 +17,7 @@ fn record_decodes_to_its_values() {
 }
 
 #[test]
-fn content_decides_and_not_the_extension() {
+fn content_decides_the_format() {
     let bytes = splat_record([1.0, -2.0, 3.0], [0.5, 0.25, 2.0], [9; 4], [255, 128, 128, 128]);
     assert_eq!(read("a.ply", &bytes).unwrap().format, "splat");
     assert_eq!(read("a.splat", &super::bytes::row_of(1)).unwrap().format, "ply");
@@ -25,7 +25,7 @@ fn content_decides_and_not_the_extension() {
 }
 
 #[test]
-fn sizes_that_are_no_records_are_refused() {
+fn partial_records_are_rejected() {
     let bytes = splat_record([1.0; 3], [1.0; 3], [9; 4], [255, 128, 128, 128]);
     assert_eq!(code("a.splat", &[]), "SPLAT-SIZE");
     assert_eq!(code("a.splat", &bytes[..31]), "SPLAT-SIZE");

@@ -14,7 +14,7 @@ fn version_2_decodes_to_its_values() {
         assert_eq!(g.means, [Vec3::new(1.0, -2.0, 0.25), Vec3::new(-0.5, 3.0, 100.0)]);
         assert_eq!(g.opacities, [1.0, 0.2]);
         assert!(g.scales[0].abs_diff_eq(Vec3::new(1.0, (-1.0_f32).exp(), 1.0_f32.exp()), 1e-6), "{}", g.scales[0]);
-        // A byte u is 0.5 + 0.15 f_dc in 255ths.
+        // A byte encodes 255 * (0.5 + 0.15 f_dc).
         assert!(g.sh_dc[0].abs_diff_eq(Vec3::new(0.013_072, -3.333_333, 3.333_333), 1e-5), "{}", g.sh_dc[0]);
         assert!(
             (g.rotations[0].z - (218.0 / 127.5 - 1.0)).abs() < 1e-5 && (g.rotations[0].x - 0.5 / 127.5).abs() < 1e-5
@@ -33,11 +33,11 @@ fn version_1_has_half_floats() {
 }
 
 #[test]
-fn version_3_leaves_out_the_largest_part() {
+fn version_3_omits_the_largest_component() {
     let mut bytes = spz_header(3, 1, 0, 12, 0);
     bytes.extend([0; 9]);
     bytes.extend([255, 128, 128, 128, 160, 160, 160]);
-    // z is left out (index 2 of x, y, z, w); x = +sqrt(1/2), y = -sqrt(1/2) / 511, w = 0.
+    // z is omitted (index 2 of x, y, z, w); x = +sqrt(1/2), y = -sqrt(1/2) / 511, w = 0.
     bytes.extend(((2_u32 << 30) | (511 << 20) | ((512 | 1) << 10)).to_le_bytes());
     let q = read("v3", &bytes).unwrap().gaussians.rotations[0];
     let half = std::f32::consts::FRAC_1_SQRT_2;
@@ -69,7 +69,7 @@ fn coordinate_extension_names_the_up_axis() {
     }
 }
 
-/// Whether the axes named by three letters form a left-handed system.
+/// Whether the axes of three letters form a left-handed system.
 fn left_handed(name: &str) -> bool {
     let axis = |letter: char| match letter {
         'R' => DVec3::X,
@@ -84,12 +84,12 @@ fn left_handed(name: &str) -> bool {
 }
 
 #[test]
-fn level_of_detail_trees_are_refused() {
+fn level_of_detail_trees_are_rejected() {
     assert_eq!(code("lod", &spz_v2(0x80)), "SCENE-UNSUPPORTED");
 }
 
 #[test]
-fn headers_that_lie_are_refused() {
+fn inconsistent_headers_are_rejected() {
     let with = |at: usize, value: &[u8]| {
         let mut bytes = spz_v2(0);
         bytes[at..at + value.len()].copy_from_slice(value);
@@ -105,7 +105,7 @@ fn headers_that_lie_are_refused() {
 }
 
 #[test]
-fn bombs_stop_at_the_cap() {
+fn decompression_bombs_are_rejected() {
     let mut honest_header = spz_header(2, 1, 0, 12, 0);
     honest_header.resize(64 << 20, 0);
     assert_eq!(code("tail", &gzip(&honest_header)), "SPZ-BOMB");
@@ -116,7 +116,7 @@ fn bombs_stop_at_the_cap() {
 }
 
 #[test]
-fn damaged_gzip_is_refused() {
+fn damaged_gzip_is_rejected() {
     let good = gzip(&spz_v2(0));
     let mut bytes = good.clone();
     let checksum = bytes.len() - 8;

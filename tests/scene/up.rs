@@ -8,7 +8,7 @@ fn shared_scene(name: &str) -> Option<Gaussians> {
     Some(load(&path, &LoadOptions::default()).unwrap().gaussians)
 }
 
-/// Ups as the manifest has them, none of which the files state.
+/// Up directions from the manifest; the files do not state them.
 #[test]
 fn estimate_agrees_with_the_manifest() {
     let living_room = DVec3::new(0.004, -0.9995, -0.031);
@@ -32,9 +32,9 @@ fn estimate_agrees_with_the_manifest() {
     }
 }
 
-/// The same scenes turned over: the floor must be found wherever it is, against what the kind of file suggests.
+/// The same scenes, rotated: the estimate must follow the floor, against the prior of the kind of file.
 #[test]
-fn estimate_follows_a_turned_scene() {
+fn estimate_follows_a_rotated_scene() {
     let living_room = DVec3::new(0.004, -0.9995, -0.031).normalize();
     for (name, up) in [
         ("kitchen/scene.spz", DVec3::Y),
@@ -66,7 +66,7 @@ fn turned(gaussians: &Gaussians, turn: DQuat) -> Gaussians {
 }
 
 #[test]
-fn without_any_evidence_the_kind_of_file_decides() {
+fn without_evidence_the_prior_decides() {
     let ball = Gaussians {
         means: vec![glam::Vec3::ZERO],
         scales: vec![glam::Vec3::ONE],

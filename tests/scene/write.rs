@@ -19,7 +19,7 @@ fn some(origin: DVec3) -> Gaussians {
 }
 
 #[test]
-fn what_is_written_is_read_back() {
+fn written_gaussians_are_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.ply");
     for origin in [DVec3::ZERO, DVec3::new(5e5, 5e6, 128.0)] {
@@ -43,7 +43,7 @@ fn what_is_written_is_read_back() {
 }
 
 #[test]
-fn a_place_that_cannot_be_written_is_an_error() {
+fn an_unwritable_path_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let error = write_ply(&folder.path().join("no/such/out.ply"), &some(DVec3::ZERO), &[], Existing::Keep).unwrap_err();
     assert_eq!(error.code(), "OUTPUT-CREATE");

@@ -3,7 +3,7 @@ use glam::{DMat3, DVec3};
 
 use super::SCENES;
 
-/// Depth to which two boxes go into each other, by the separating axes of both; negative = apart.
+/// Penetration depth of two boxes along their separating axes, m; negative if they are apart.
 fn overlap(a: &SynthObject, b: &SynthObject) -> f64 {
     let (ra, rb) = (DMat3::from_quat(a.rotation), DMat3::from_quat(b.rotation));
     let reach = |r: &DMat3, half: DVec3, axis: DVec3| {
@@ -17,7 +17,7 @@ fn overlap(a: &SynthObject, b: &SynthObject) -> f64 {
     axes.iter().map(along).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether `upper` stands on `lower`: its foot lies in the plan of the other, in the other's upper half.
+/// Whether `upper` stands on `lower`: its base lies within the footprint of `lower`, in its upper half.
 fn stands_on(upper: &SynthObject, lower: &SynthObject) -> bool {
     let foot = upper.center - DVec3::Y * upper.half_extents.y;
     let local = lower.rotation.conjugate() * (foot - lower.center);
@@ -30,20 +30,20 @@ fn is_rug(object: &SynthObject) -> bool {
 }
 
 #[test]
-fn no_two_objects_go_into_each_other() {
+fn no_two_objects_overlap() {
     for (name, scene) in SCENES.iter() {
         for (i, a) in scene.objects.iter().enumerate() {
             for b in &scene.objects[i + 1..] {
-                let carried = stands_on(a, b) || stands_on(b, a) || is_rug(a) || is_rug(b);
+                let is_contact = stands_on(a, b) || stands_on(b, a) || is_rug(a) || is_rug(b);
                 let depth = overlap(a, b);
-                assert!(carried || depth < 0.01, "{name}: {} is {depth} m inside {}", a.label, b.label);
+                assert!(is_contact || depth < 0.01, "{name}: {} is {depth} m inside {}", a.label, b.label);
             }
         }
     }
 }
 
-/// Whether something is under an object's foot: the floor, or another object that it stands on; or it hangs.
-fn is_held(scene: &SynthScene, object: &SynthObject) -> bool {
+/// Whether an object stands on the floor or on another object, or hangs.
+fn is_supported(scene: &SynthScene, object: &SynthObject) -> bool {
     let foot = object.center.y - object.half_extents.y;
     let hung = ["picture", "clock", "mirror", "window", "shelf", "cabinet", "pendant", "tool wall", "curtains"];
     foot < 0.06
@@ -59,10 +59,10 @@ fn is_held(scene: &SynthScene, object: &SynthObject) -> bool {
 }
 
 #[test]
-fn nothing_floats() {
+fn every_object_is_supported() {
     for (name, scene) in SCENES.iter() {
         for object in &scene.objects {
-            assert!(is_held(scene, object), "{name}: {} floats at {}", object.label, object.center);
+            assert!(is_supported(scene, object), "{name}: {} is not supported at {}", object.label, object.center);
         }
     }
 }
@@ -81,7 +81,7 @@ fn the_free_space_is_wide_and_empty() {
 }
 
 #[test]
-fn rooms_hold_a_living_amount_of_furniture() {
+fn rooms_hold_twenty_objects_on_average() {
     let rooms: Vec<usize> = SCENES[..16].iter().map(|(_, scene)| scene.objects.len()).collect();
-    assert!(rooms.iter().sum::<usize>() > 16 * 20, "objects a room: {rooms:?}");
+    assert!(rooms.iter().sum::<usize>() > 16 * 20, "objects per room: {rooms:?}");
 }

@@ -1,4 +1,4 @@
-//! Synthetic scenes: what they promise about objects, boxes, free space and determinism, checked from the Gaussians alone.
+//! Generated scenes: objects, boxes, free space and determinism, checked on the Gaussians.
 
 mod layout;
 mod objects;
@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use cinesplat::synth::{SynthKind, SynthScene, SynthSettings, generate};
 use glam::{DMat3, DVec3};
 
-/// Sixteen rooms and eight still lifes, coarse enough to make in a second, shared by the tests.
+/// Sixteen rooms and eight still lifes at a low detail, shared by the tests.
 static SCENES: LazyLock<Vec<(String, SynthScene)>> = LazyLock::new(|| {
     let of = |seed: u64, kind: SynthKind| {
         (format!("{kind:?} {seed}"), generate(&SynthSettings { seed, kind, detail: 0.05 }))
@@ -17,7 +17,7 @@ static SCENES: LazyLock<Vec<(String, SynthScene)>> = LazyLock::new(|| {
     (0..16).map(|seed| of(seed, SynthKind::Room)).chain((0..8).map(|seed| of(seed, SynthKind::Tabletop))).collect()
 });
 
-/// Position of a Gaussian in the frame of a box.
+/// Mean of a Gaussian in the frame of a box.
 fn in_box(scene: &SynthScene, gaussian_idx: usize, object_idx: usize) -> DVec3 {
     let object = &scene.objects[object_idx];
     object.rotation.conjugate() * (scene.gaussians.mean_world(gaussian_idx) - object.center)

@@ -4,7 +4,7 @@ use cinesplat::synth::{SynthKind, SynthSettings, generate};
 
 use super::{SCENES, in_box, spread_in_box};
 
-/// Kinds the catalog promises; a label is one of them with a color before it and perhaps a number after it.
+/// Kinds of the catalog. A label is one of them, with an optional color before it and an optional number after it.
 const KINDS: [&str; 52] = [
     "armchair",
     "basket",
@@ -73,7 +73,7 @@ fn ids_count_from_one_and_labels_are_unique() {
 }
 
 #[test]
-fn every_box_is_the_box_of_its_own_gaussians() {
+fn every_box_bounds_its_gaussians() {
     for (name, scene) in SCENES.iter() {
         assert_eq!(scene.labels.len(), scene.gaussians.len());
         for (at, object) in scene.objects.iter().enumerate() {

@@ -3,7 +3,7 @@ use glam::{DMat3, DVec3};
 
 use super::SCENES;
 
-/// Everything a scene holds as bits.
+/// All numbers of a scene, as bits.
 fn fingerprint(scene: &SynthScene) -> Vec<u32> {
     let g = &scene.gaussians;
     let vectors = g.means.iter().chain(&g.scales).chain(&g.sh_dc).chain(&g.sh_rest).flat_map(glam::Vec3::to_array);
@@ -38,7 +38,7 @@ fn all_values_are_finite_and_in_range() {
     }
 }
 
-/// Share of light that passes along a ray: the peak of each Gaussian along it, by its exact quadratic form.
+/// Transmittance along a ray, from the maximum of each Gaussian along it.
 fn transmittance(scene: &SynthScene, from: DVec3, direction: DVec3) -> f64 {
     let g = &scene.gaussians;
     let mut light = 1.0;
@@ -58,19 +58,19 @@ fn transmittance(scene: &SynthScene, from: DVec3, direction: DVec3) -> f64 {
 }
 
 #[test]
-fn walls_and_floor_let_no_light_through() {
+fn walls_and_floor_are_opaque() {
     for seed in 0..3 {
         let scene = generate(&SynthSettings { seed, kind: SynthKind::Room, detail: 0.1 });
         let eye = scene.free_space[0];
         let mut worst: f64 = 0.0;
-        // A spiral over all directions below 20 degrees up; the ceiling may be open.
+        // A spiral over all directions below 20 degrees of elevation; the ceiling may be invisible.
         for k in 0..400 {
             let height = -1.0 + 1.34 * (f64::from(k) + 0.5) / 400.0;
             let (sin, cos) = (f64::from(k) * 2.399_963).sin_cos();
             let level = (1.0 - height * height).sqrt();
             worst = worst.max(transmittance(&scene, eye, DVec3::new(cos * level, height, sin * level)));
         }
-        assert!(worst < 0.08, "seed {seed}: a ray passes {worst}");
+        assert!(worst < 0.08, "seed {seed}: a ray has a transmittance of {worst}");
     }
 }
 

@@ -27,7 +27,7 @@ pub struct UpEstimate {
     pub up: DVec3,
     /// Confidence in percent, 0..=100: the odds of this candidate over the sum of the odds of all candidates, where those
     /// within 15 degrees of a better one do not count.
-    pub percent_sure: u8,
+    pub confidence_percent: u8,
 }
 
 /// Score of full evidence for a floor, as the logarithm of odds.
@@ -68,7 +68,7 @@ pub fn estimate(gaussians: &Gaussians, prior: UpPrior) -> UpEstimate {
         }
     }
     let percent = 100.0 / groups.iter().map(odds).sum::<f64>().max(1.0);
-    UpEstimate { up, percent_sure: percent.round() as u8 }
+    UpEstimate { up, confidence_percent: percent.round() as u8 }
 }
 
 /// All candidates with their scores: the axes, and other directions with a floor.
