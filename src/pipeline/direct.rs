@@ -8,27 +8,27 @@ use cinesplat_operator::{Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::{ReportLine, SceneRef, Shot};
 
-/// The name under which words ask for a slanted horizon, and the roll that it gets: in the middle of 5 to 35 degrees, what
-/// storyboards mean by it.
+/// Name of the effect that rolls the camera, and its roll in degrees, in the middle of the 5 to 35 degrees that
+/// storyboards use.
 const DUTCH: &str = "dutch-angle";
 const DUTCH_DEG: f64 = 15.0;
 
-/// What a shot is to be like beyond its words.
+/// Settings of a shot beyond its prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DirectSettings {
     /// Frame width in pixels.
     pub width: u32,
     /// Frame height in pixels.
     pub height: u32,
-    /// Frames a second.
+    /// Frames per second.
     pub rate_fps: f64,
-    /// Length of the film; `None` = as the words say, or as the moves need.
+    /// Length of the film in seconds; `None` = what the words say, else what the moves need.
     pub duration_secs: Option<f64>,
-    /// Seed of the search for cameras.
+    /// Seed of the camera search.
     pub seed: u64,
-    /// How well open choices are made, against time.
+    /// Effort of the camera search.
     pub solve: SolveLevel,
-    /// Effects of the lens.
+    /// Which lens effects the shot gets.
     pub effects: EffectChoice,
 }
 
@@ -46,49 +46,49 @@ impl Default for DirectSettings {
     }
 }
 
-/// A shot, and how its prompt was understood.
+/// A shot, with the interpretation of its prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Directed {
     /// The shot.
     pub shot: Shot,
-    /// Every step of the prompt's program.
+    /// The steps of the prompt's program, in order.
     pub steps: Vec<StepReading>,
-    /// What becomes of each effect.
+    /// The decision about each effect.
     pub effects: Vec<Decision>,
-    /// What was guessed or taken with doubt, one sentence each.
+    /// Guesses and doubtful choices, one sentence each.
     pub warnings: Vec<String>,
     /// Wall time per phase.
     pub times: PhaseTimes,
 }
 
-/// How one stretch of the prompt was understood.
+/// The interpretation of one clause of the prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepReading {
-    /// The words, as they stand in the prompt; empty where the step has none of its own.
+    /// The words of the prompt; empty for a step without words of its own.
     pub words: String,
-    /// What they were understood as.
+    /// The step that they mean.
     pub step: Step,
-    /// How sure the network is of all of it, 0..=1.
+    /// Probability of the whole step according to the network, 0..=1.
     pub probability: f64,
-    /// The choice that it is least sure of, and its probability.
+    /// The least probable choice of the step, and its probability.
     pub weakest: (&'static str, f64),
 }
 
-/// Makes the sparse clouds of all objects that lack one, which the director needs.
+/// Gives every object without a sparse cloud one. The director needs these clouds.
 ///
 /// # Errors
-/// [`PipelineError::Objects`].
+/// [`PipelineError::Objects`] when the views of the objects cannot be rendered.
 pub fn prepare_objects(scene: &Scene, set: &mut ObjectSet) -> Result<(), PipelineError> {
     Ok(cinesplat_objects::fill_clouds(scene, set, &CloudSettings::default())?)
 }
 
-/// A sentence about a scene as a shot: words to a program, program to keyframes.
+/// Turns a sentence about a scene into a shot: words to a program, program to keyframes.
 ///
-/// The same scene, objects, prompt and settings give the same shot. Objects that the director looks at get a cloud
-/// where they have none.
+/// The same scene, objects, prompt and settings give the same shot. Objects that the director reads get a cloud if they
+/// have none.
 ///
 /// # Errors
-/// [`PipelineError::Language`] for words that name what the scene lacks; else the failing stage's error.
+/// [`PipelineError::Language`] for a prompt that names an unknown object; otherwise the error of the stage that fails.
 pub fn direct(
     scene: &Scene,
     objects: &ObjectSet,
@@ -127,7 +127,7 @@ pub fn direct(
     Ok(Directed { shot: shot.validated()?, steps, effects, warnings: linked.warnings, times })
 }
 
-/// The shot of solved keyframes: no director had a part in it, no effects.
+/// A shot of solved keyframes, without a director's model and without effects.
 pub fn shot_of(scene: &Scene, prompt: &str, solution: Solution, settings: &DirectSettings) -> Shot {
     let path = scene.path.to_string_lossy().into_owned();
     Shot {
@@ -150,7 +150,7 @@ fn names(objects: &ObjectSet) -> Vec<NamedObject> {
     objects.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect()
 }
 
-/// The objects, those that the network looks at with their clouds.
+/// The objects; those that the network reads have clouds.
 fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<ObjectSet, PipelineError> {
     let seen = Director::looks_at(linked, &objects.objects);
     let (seen, mut rest): (Vec<_>, Vec<_>) =

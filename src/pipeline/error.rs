@@ -10,7 +10,7 @@ use cinesplat_scene::SceneError;
 use cinesplat_trajectory::TrajectoryError;
 use cinesplat_video::VideoError;
 
-/// Why a stage of the pipeline stopped: the stage's own error, or settings that do not fit together.
+/// Error of a stage, or of settings that do not fit together.
 #[derive(Debug, Error)]
 pub enum PipelineError {
     /// The scene cannot be read.
@@ -19,16 +19,16 @@ pub enum PipelineError {
     /// The objects cannot be read or made.
     #[error(transparent)]
     Objects(#[from] ObjectsError),
-    /// The words cannot be understood.
+    /// The prompt cannot be linked to the scene.
     #[error(transparent)]
     Language(#[from] LanguageError),
-    /// The director cannot direct.
+    /// The director fails.
     #[error(transparent)]
     Director(#[from] DirectorError),
     /// The keyframes make no path.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
-    /// Numbers that are no pose, camera or direction.
+    /// Numbers that make no pose, camera or direction.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
     /// A camera file cannot be read or written.
@@ -40,34 +40,34 @@ pub enum PipelineError {
     /// The film cannot be written.
     #[error(transparent)]
     Video(#[from] VideoError),
-    /// A name of a generated scene that says nothing.
-    #[error("{found}: no generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED")]
+    /// No generated scene has this name.
+    #[error("{found}: unknown generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED")]
     UnknownSynth {
-        /// The name.
+        /// The name given.
         found: String,
     },
-    /// Frames that the film does not have.
-    #[error("frames {start}..{end} were asked for, the film has {num_frames}, expected a part of 0..{num_frames}")]
+    /// A range of frames that is empty or exceeds the film.
+    #[error("frames {start}..{end} of a film of {num_frames}, expected a range within 0..{num_frames}")]
     NoSuchFrames {
-        /// First frame asked for.
+        /// First frame of the range.
         start: usize,
-        /// One after the last.
+        /// One past its last frame.
         end: usize,
         /// Frames of the film.
         num_frames: usize,
     },
-    /// No quality holds what is wished for.
+    /// No quality meets the requirements.
     #[error("no quality gives {wanted}; predicted: {reachable}")]
     Unreachable {
-        /// Time and accuracy wished for.
+        /// Time and accuracy required.
         wanted: String,
-        /// What each quality would give.
+        /// Forecast of each quality.
         reachable: String,
     },
 }
 
 impl PipelineError {
-    /// Stable code for people and scripts: the stage's own where a stage failed.
+    /// Stable code for people and scripts; that of the stage where a stage failed.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Scene(error) => error.code(),

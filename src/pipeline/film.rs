@@ -13,19 +13,20 @@ use cinesplat_scene::Scene;
 use cinesplat_trajectory::{CameraPath, Shot};
 use cinesplat_video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
 
-/// Frames that may wait for the encoder: enough to ride out its slow ones, little memory.
+/// Capacity of the queue between renderer and encoder, in frames. It absorbs frames that are slow to encode and costs
+/// little memory.
 pub(super) const QUEUE_FRAMES: usize = 4;
 
 /// How a shot becomes a film.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmSettings {
-    /// How pictures are rendered.
+    /// How frames are rendered.
     pub render: RenderSettings,
-    /// How frames are written; size, rate and frame numbers come from the shot.
+    /// How frames are encoded. Size, rate and frame numbers come from the shot instead.
     pub video: VideoSettings,
-    /// Which frames.
+    /// The frames to render.
     pub frames: FrameRange,
-    /// Where a contact sheet of the film goes.
+    /// Path of a contact sheet; `None` = no contact sheet.
     pub sheet: Option<PathBuf>,
 }
 
@@ -42,7 +43,7 @@ impl FilmSettings {
     }
 }
 
-/// How far a film is.
+/// Progress of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FilmProgress {
     /// Frames rendered.
@@ -51,38 +52,38 @@ pub struct FilmProgress {
     pub total: usize,
 }
 
-/// What came of a film.
+/// Result of a film.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmReport {
     /// The film, or the folder of its pictures.
     pub path: PathBuf,
     /// Frames written.
     pub num_frames: usize,
-    /// Frames asked for.
+    /// Frames requested.
     pub num_wanted: usize,
     /// Time spent rendering.
     pub render_time: Duration,
-    /// Time spent converting, encoding and writing, most of it while frames were rendered.
+    /// Time spent converting, encoding and writing, most of it parallel to rendering.
     pub encode_time: Duration,
-    /// Wall time of both together.
+    /// Wall time of the whole film.
     pub total_time: Duration,
 }
 
 impl FilmReport {
-    /// Whether it ended before its last frame.
+    /// Whether the film was stopped before its last frame.
     pub fn is_partial(&self) -> bool {
         self.num_frames < self.num_wanted
     }
 }
 
-/// Films a shot: renders frame after frame, each at its own time, while another thread encodes.
+/// Renders the frames of a shot in order while another thread encodes them.
 ///
-/// `watch` hears of every frame and may stop the film: what is there is then kept, a film file under the name
+/// `watch` is called after every frame and may stop the film. The finished frames are kept then; a film file gets the name
 /// `NAME.partial.EXT`.
 ///
 /// # Errors
-/// [`PipelineError`]: keyframes without a path, frames the film does not have, a picture that cannot be rendered, a
-/// file that cannot be written. Nothing half-done is left under the output's name.
+/// [`PipelineError::Trajectory`] for keyframes that make no path, [`PipelineError::NoSuchFrames`], [`PipelineError::Render`]
+/// and [`PipelineError::Video`]. No incomplete file is left under the output's name.
 pub fn film(
     renderer: &Renderer<'_>,
     shot: &Shot,
@@ -108,9 +109,9 @@ pub fn film(
         let rendered = frames.enumerate().try_for_each(|(done, frame_idx)| {
             let start = Instant::now();
             let camera = camera_at(&path, shot, frame_idx);
-            // A camera that stands still sees what it saw.
+            // The same camera gives the same picture.
             if last_camera != Some(camera) {
-                // Let go first: then the memory of a frame that is written already is nobody's, and used again.
+                // Drop this reference first: a frame that is written already has no owner then, and its memory is reused.
                 shown = Arc::default();
                 let mut frame = used.try_iter().find_map(Arc::into_inner).unwrap_or_default();
                 renderer.render_rgb8_into(&camera, &settings.render, &mut frame)?;
@@ -140,9 +141,9 @@ pub fn film(
     })
 }
 
-/// Why no further frame is rendered.
+/// Why rendering ends early.
 enum Interruption {
-    /// The caller wants no more.
+    /// The caller stopped the film.
     Stopped,
     /// A stage failed.
     Failed(PipelineError),
@@ -154,14 +155,14 @@ impl<E: Into<PipelineError>> From<E> for Interruption {
     }
 }
 
-/// Passes a picture on and asks whether to go on.
+/// Sends a frame to the encoder, then asks the caller whether to continue.
 fn send(
     frame: Arc<Rgb8Frame>,
     sender: &SyncSender<Arc<Rgb8Frame>>,
     num_before: usize,
     report: &mut dyn FnMut(usize) -> ControlFlow<()>,
 ) -> Result<(), Interruption> {
-    // The encoder hangs up when it fails; its own error says why.
+    // The encoder closes the channel when it fails; it returns its error itself.
     sender.send(frame).map_err(|_| Interruption::Stopped)?;
     match report(num_before + 1) {
         ControlFlow::Continue(()) => Ok(()),
@@ -169,20 +170,20 @@ fn send(
     }
 }
 
-/// The camera of one frame.
+/// The camera of one frame, counted from 0.
 pub fn camera_at(path: &CameraPath, shot: &Shot, frame_idx: usize) -> Camera {
     let state = path.sample(shot.frame_time_secs(frame_idx));
     Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(shot.width, shot.height, state.fov_y_rad) }
 }
 
-/// Cameras of the frames that a film renders: all but those that see what the frame before saw.
+/// Cameras of the frames that a film renders. Frames with the camera of the frame before are not rendered again.
 pub(super) fn moving_cameras(path: &CameraPath, shot: &Shot, frames: Range<usize>) -> Vec<Camera> {
     let mut cameras: Vec<Camera> = frames.map(|frame_idx| camera_at(path, shot, frame_idx)).collect();
     cameras.dedup();
     cameras
 }
 
-/// How these frames of a shot are written.
+/// Encoder settings for these frames of a shot.
 pub fn video_of(shot: &Shot, frames: &Range<usize>, video: &VideoSettings) -> VideoSettings {
     VideoSettings {
         width: shot.width,
@@ -194,12 +195,12 @@ pub fn video_of(shot: &Shot, frames: &Range<usize>, video: &VideoSettings) -> Vi
     }
 }
 
-/// The half of the work that runs beside the renderer.
+/// Encodes frames on its own thread.
 struct Encoder {
     writer: VideoWriter,
     sheet: Option<ContactSheet>,
     busy: Duration,
-    /// Takes frames that are written back to the renderer, which uses their memory again.
+    /// Returns written frames to the renderer, which reuses their memory.
     give_back: Sender<Arc<Rgb8Frame>>,
 }
 
@@ -212,13 +213,13 @@ impl Encoder {
             }
             self.writer.write_frame(&frame.rgb8)?;
             self.busy += start.elapsed();
-            // After its last frame the renderer wants no more.
+            // The renderer closes this channel after its last frame.
             let _ = self.give_back.send(frame);
         }
         Ok(self)
     }
 
-    /// Ends film and sheet: the file, the number of its frames, the time spent.
+    /// Finishes film and contact sheet. Returns the path of the film, its number of frames and the time spent encoding.
     fn finish(
         self,
         output: &Path,

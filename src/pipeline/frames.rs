@@ -3,20 +3,20 @@ use std::str::FromStr;
 
 use super::error::PipelineError;
 
-/// Part of a film's frames: `A..B` with B one after the last, either may be left out.
+/// A range of a film's frames, written `A..B`; B is one past the last frame. A and B may be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FrameRange {
     /// First frame, counting from 0.
     pub start: usize,
-    /// One after the last frame; `None` = to the film's end.
+    /// One past the last frame; `None` = the end of the film.
     pub end: Option<usize>,
 }
 
 impl FrameRange {
-    /// The frames of a film of `num_frames`.
+    /// The range within a film of `num_frames` frames.
     ///
     /// # Errors
-    /// [`PipelineError::NoSuchFrames`] for an empty part or one beyond the film.
+    /// [`PipelineError::NoSuchFrames`] for an empty range or one that exceeds the film.
     pub fn of_film(self, num_frames: usize) -> Result<Range<usize>, PipelineError> {
         let end = self.end.unwrap_or(num_frames);
         if self.start >= end || end > num_frames {

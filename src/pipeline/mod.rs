@@ -1,7 +1,7 @@
-//! The stages in a row, as a library: a scene and a sentence to a shot, a shot to a film.
+//! Runs the stages in order: scene and sentence to shot, shot to film.
 //!
-//! Enters: paths, prompts, settings. Leaves: shots, films, stills and how long each stage took. FilmProgress goes to a
-//! callback, nothing is printed. The one invariant: a file that bears its name is whole.
+//! Enters: paths, prompts, settings. Leaves: shots, films, stills and the time per phase. Progress goes to a callback;
+//! nothing is printed. The one invariant: a file under its final name is complete.
 
 mod clearance;
 mod direct;

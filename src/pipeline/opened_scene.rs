@@ -5,12 +5,12 @@ use cinesplat_objects::{FindSettings, Object, ObjectSet};
 use cinesplat_scene::{LoadOptions, Scene, UpSource};
 use cinesplat_synth::{SynthKind, SynthScene, SynthSettings};
 
-/// A scene, with its objects where they are known without a search.
+/// A scene with the objects that are known without a search.
 #[derive(Debug, Clone)]
 pub struct OpenedScene {
     /// The scene.
     pub scene: Scene,
-    /// Exact objects of a generated scene; `None` for one from a file.
+    /// Exact objects of a generated scene; `None` for a scene from a file.
     pub objects: Option<ObjectSet>,
 }
 
@@ -47,12 +47,12 @@ impl OpenedScene {
     }
 }
 
-/// Opens a scene by name: a file, the folder of an unbundled SOG, or `synth:room:SEED`, `synth:tabletop:SEED` and
-/// `synth:demo` for one that is generated.
+/// Opens a scene by name: a file, the folder of an unbundled SOG, or a generated scene (`synth:demo`, `synth:room:SEED`,
+/// `synth:tabletop:SEED`).
 ///
 /// # Errors
-/// [`PipelineError::Scene`] when the file cannot be read, [`PipelineError::UnknownSynth`] for a generated scene of
-/// another name.
+/// [`PipelineError::Scene`] when the file cannot be read, [`PipelineError::UnknownSynth`] for another name that starts
+/// with `synth:`.
 pub fn open_scene(name: &Path, options: &LoadOptions) -> Result<OpenedScene, PipelineError> {
     match name.to_str().and_then(|name| name.strip_prefix("synth:")) {
         Some(spec) => {
@@ -67,7 +67,7 @@ fn unknown(name: &Path) -> PipelineError {
     PipelineError::UnknownSynth { found: name.display().to_string() }
 }
 
-/// `demo`, `room:7`, `tabletop:3`, and with a detail after it `room:7:0.5`.
+/// Parses `demo`, `room:7`, `tabletop:3`, or with the level of detail `room:7:0.5`.
 fn synth_settings(spec: &str) -> Option<SynthSettings> {
     if spec == "demo" {
         return Some(SynthSettings::default());

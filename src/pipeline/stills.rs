@@ -4,16 +4,16 @@ use cinesplat_geometry::Camera;
 use cinesplat_render::{DepthMap, FeatureMap, Frame, IdMap, PixelWeight, RenderError, RenderSettings, Renderer};
 use cinesplat_scene::Scene;
 
-/// What a still holds beside color and transmittance, all from the same weights.
+/// Outputs of a still beside color and transmittance. All use the same blending weights.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StillOutputs {
     /// Expected and median depth.
     pub depth: bool,
-    /// Labels of the Gaussians (one each, 0 = none) for a map of ids.
+    /// One object id per Gaussian (0 = none) for a map of ids.
     pub labels: Option<Vec<u16>>,
-    /// Rows of features of the Gaussians and the channels of a row, for a feature map.
+    /// Features for a feature map: one row per Gaussian, and the number of channels of a row.
     pub features: Option<(Vec<f32>, usize)>,
-    /// The list of weights.
+    /// The weight of every splat in every pixel.
     pub weights: bool,
 }
 
@@ -22,23 +22,23 @@ pub struct StillOutputs {
 pub struct Still<'a> {
     /// Name of the camera.
     pub name: &'a str,
-    /// What it sees.
+    /// Color and transmittance.
     pub frame: Frame,
-    /// Depth, where asked for.
+    /// Depth, if requested.
     pub depth: Option<DepthMap>,
-    /// Object ids, where asked for.
+    /// Object ids, if requested.
     pub ids: Option<IdMap>,
-    /// Features, where asked for.
+    /// Features, if requested.
     pub features: Option<FeatureMap>,
-    /// Weights, where asked for.
+    /// Weights, if requested.
     pub weights: Option<Vec<PixelWeight>>,
 }
 
-/// Takes one picture a camera, in order, and hands each to `take`, which may stop with an error of its own.
+/// Renders one still per camera, in order, and passes each to `take`. An error of `take` ends the loop.
 ///
 /// # Errors
-/// [`PipelineError::Render`] for a camera that cannot be, labels or features of another length; else what `take`
-/// returns.
+/// [`PipelineError::Render`] for an invalid camera, or labels or features of the wrong length; otherwise the error of
+/// `take`.
 pub fn still<E: From<PipelineError>>(
     scene: &Scene,
     cameras: &[NamedCamera],

@@ -34,7 +34,7 @@ fn a_generated_scene_of_another_name() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!(answer(folder.path(), &["info", "synth:castle:1"]), @r"
     exit 66
-    error[SCENE-SYNTH]: synth:castle:1: no generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED
+    error[SCENE-SYNTH]: synth:castle:1: unknown generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED
     help: for example synth:room:7, or a file with ./ before its name
     ");
 }
@@ -207,7 +207,7 @@ fn frames_that_the_film_does_not_have() {
     insta::assert_snapshot!(answer(folder.path(), &render), @r"
     exit 2
     up: 0.000 1.000 0.000 (the shot)
-    error[SHOT-FRAMES]: frames 4..9 were asked for, the film has 8, expected a part of 0..8
+    error[SHOT-FRAMES]: frames 4..9 of a film of 8, expected a range within 0..8
     help: give --frames A..B with B one after the last frame
     ");
 }

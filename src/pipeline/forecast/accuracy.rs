@@ -3,19 +3,19 @@ use std::time::Instant;
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer};
 
-/// Size in pixels of the cut-out that `reference` renders.
+/// Size of the crop that `reference` renders.
 const CUTOUT_PX: [u32; 2] = [128, 72];
-/// Size of the cut-out that shows what `reference` takes whatever the size.
+/// Size of the crop that measures the fixed cost of `reference`.
 const LEAST_PX: [u32; 2] = [8, 8];
 
-/// `final` held against `reference` on a cut-out from the middle of a picture.
+/// `final` compared with `reference` on a crop from the middle of a picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ReferenceSample {
     /// PSNR of `final`, dB.
     pub(super) final_db: f64,
-    /// Time that `reference` took.
+    /// Seconds that `reference` took.
     secs: f64,
-    /// Blends that `final` counted.
+    /// Block blends that `final` counted.
     num_blends: f64,
 }
 
@@ -26,13 +26,13 @@ impl ReferenceSample {
         let start = Instant::now();
         let exact = renderer.render(&cutout, &at(settings, Quality::Reference))?;
         let secs = start.elapsed().as_secs_f64();
-        // Equal to the last bit of eight is as good as exact.
+        // At 150 dB the 8-bit pictures are equal.
         let final_db = best.psnr_db(&exact).min(150.0);
         Ok(Self { final_db, secs, num_blends: best.stats.counts.num_block_blends as f64 })
     }
 
-    /// Seconds that `reference` takes for the whole picture: those of the cut-out, grown with the work that `final`
-    /// counts.
+    /// Seconds that `reference` takes for the whole picture: those of the crop, scaled by the number of block blends that
+    /// `final` counts.
     pub(super) fn reference_secs(
         &self,
         renderer: &Renderer<'_>,
@@ -47,23 +47,24 @@ impl ReferenceSample {
     }
 }
 
-/// PSNR in dB of pictures `mean_squares` apart from `final` against the spec image, no better than that of `final`.
+/// PSNR in dB against the spec image of pictures whose mean square differences to `final` are `mean_squares`. The error
+/// of `final` itself is added, so the result is at most `final_db`.
 pub(super) fn psnr_db(mean_squares: impl Iterator<Item = f64>, final_db: f64) -> f64 {
     let (sum, num) = mean_squares.fold((0.0, 0), |(sum, num), square| (sum + square, num + 1));
     -10.0 * (sum / f64::from(num.max(1)) + 10_f64.powf(-final_db / 10.0)).log10()
 }
 
-/// Mean square difference of color, clamped to 0..=1; 0 for equal pictures.
+/// Mean square difference of colors clamped to 0..=1; 0 for equal pictures.
 pub(super) fn mean_square(a: &Frame, b: &Frame) -> f64 {
     10_f64.powf(-a.psnr_db(b) / 10.0)
 }
 
-/// The settings at another quality, as its preset.
+/// The settings with the preset of another quality.
 pub(super) fn at(settings: &RenderSettings, quality: Quality) -> RenderSettings {
     RenderSettings { quality, accuracy: None, ..*settings }
 }
 
-/// The middle of a picture, at most so many pixels.
+/// The camera cropped to the middle of its picture, at most `size_px` pixels.
 fn middle(camera: &Camera, size_px: [u32; 2]) -> Camera {
     let whole = camera.intrinsics;
     let (width, height) = (size_px[0].min(whole.width), size_px[1].min(whole.height));

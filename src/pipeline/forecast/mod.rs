@@ -1,9 +1,9 @@
-//! What a film will cost at each quality and how good it will be, found on this machine before it is rendered.
+//! Forecasts time and accuracy of a film per quality, from measurements on this machine.
 //!
-//! Enters: a renderer, a shot, how it is filmed. Leaves: a [`Forecast`] a quality. Time: a few frames in a row are
-//! rendered and encoded as the film will be, which gives seconds by stage and unit of work; small pictures along the
-//! whole path tell how much work it is; [`FilmCost`] puts renderer and encoder side by side. Accuracy: the same frames
-//! against `final`, and `final` against `reference` on a small cut-out.
+//! Enters: a renderer, a shot, film settings. Leaves: one [`Forecast`] per quality. Time: a few consecutive frames are
+//! rendered and encoded like the film, which gives seconds per stage and unit of work. Small pictures along the whole path
+//! count the work. [`FilmCost`] combines renderer and encoder, which run in parallel. Accuracy: the same frames are
+//! compared with `final`, and `final` with `reference` on a small crop.
 
 mod accuracy;
 mod cost;
@@ -24,56 +24,56 @@ use cinesplat_trajectory::{CameraPath, Shot};
 use cinesplat_video::{VideoFormat, VideoSettings, encoder_delay_frames};
 use sample::{Sampler, Samples, TimeLimit};
 
-/// After this long nothing further is looked at.
+/// After this time no further frames are sampled.
 const TIME_LIMIT_SECS: f64 = 0.9;
-/// Where frames are looked at once those of the middle are, while time is left: places in the film, 0..1.
+/// Positions in the film, 0..1, of further samples after those in the middle, while time is left.
 const FURTHER_FRACS: [f64; 2] = [1.0 / 6.0, 5.0 / 6.0];
-/// Frames in a row that are rendered to time the last of them.
+/// Consecutive frames that are rendered to time the last of them.
 const TIMED_RUN: usize = 3;
-/// Frames looked at after a film, away from those of the forecast.
+/// Positions of the frames that are checked after a film, away from those of the forecast.
 const CHECKED_FRACS: [f64; 2] = [0.35, 0.65];
-/// Share of frames of a camera that stands still from which on their encoding is looked at.
+/// Share of frames of a resting camera above which their encoding is measured too.
 const STILL_FRAC: f64 = 0.05;
-/// `reference` takes at least so many times as long as `final`.
+/// Least ratio of the times of `reference` and `final`.
 const REFERENCE_FACTOR: f64 = 10.0;
-/// Bytes a pixel of a frame that an encoder holds: 4:2:0, a half-size copy, vectors and costs of its blocks.
+/// Bytes per pixel of a frame inside an encoder: 4:2:0, a half-size copy, vectors and costs of its blocks.
 const HELD_BYTES: usize = 3;
-/// Frames that an encoder holds beside those it looks ahead at: references, and one a thread.
+/// Frames that an encoder holds besides those it looks ahead at: references, and one per thread.
 const HELD_FRAMES: usize = 12;
 
-/// What one quality will cost and give.
+/// Predicted cost and accuracy of one quality.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecast {
     /// The quality.
     pub quality: Quality,
-    /// Time to render all frames, with nothing beside it.
+    /// Time to render all frames, with nothing running in parallel.
     pub render_time: Duration,
-    /// Time to encode all frames, with nothing beside it.
+    /// Time to encode all frames, with nothing running in parallel.
     pub encode_time: Duration,
-    /// Time for the film: both together.
+    /// Wall time of the film: both in parallel.
     pub film_time: Duration,
-    /// PSNR of the frames looked at against the spec image, dB, all together; infinite for `reference`.
+    /// PSNR against the spec image over all sampled frames, dB; infinite for `reference`.
     pub psnr_db: f64,
-    /// The same of the worst frame looked at.
+    /// PSNR of the worst sampled frame, dB.
     pub worst_psnr_db: f64,
-    /// Memory for renderer, encoder and the frames between them, beyond the loaded scene.
+    /// Memory of renderer, encoder and the frames between them, without the loaded scene.
     pub memory_bytes: u64,
 }
 
-/// What a film must hold.
+/// Requirements of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Requirements {
-    /// Longest time for the film.
+    /// Longest wall time of the film.
     pub budget: Option<Duration>,
     /// Least PSNR of the worst frame, dB.
     pub min_psnr_db: Option<f64>,
 }
 
-/// Forecasts of some qualities for a film, fastest first; takes about a second, or as long as a few frames do.
+/// Forecasts a film at some qualities, fastest first. Takes about a second, or longer if a few frames take longer.
 ///
 /// # Errors
-/// [`PipelineError::Trajectory`] for a shot without a path, [`PipelineError::NoSuchFrames`] for frames it does not have,
-/// [`PipelineError::Render`] for a camera that cannot be, [`PipelineError::Video`] where the output cannot be encoded.
+/// [`PipelineError::Trajectory`] for keyframes that make no path, [`PipelineError::NoSuchFrames`], [`PipelineError::Render`]
+/// for an invalid camera, [`PipelineError::Video`] when the output cannot be encoded.
 pub fn forecast(
     renderer: &Renderer<'_>,
     shot: &Shot,
@@ -137,7 +137,7 @@ pub fn forecast(
     Ok(forecasts)
 }
 
-/// PSNR against the spec image, dB, of a few frames away from those that a forecast looks at, all together.
+/// PSNR against the spec image in dB over a few frames that a forecast does not sample.
 ///
 /// # Errors
 /// As [`forecast`].
@@ -160,10 +160,10 @@ pub fn checked_psnr_db(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSett
     Ok(psnr_db(mean_squares.into_iter(), final_db))
 }
 
-/// The quality that holds a requirements: with a least PSNR the fastest that has it, else the most accurate in time.
+/// The quality that meets the requirements: with a least PSNR the fastest one, otherwise the most accurate one in time.
 ///
 /// # Errors
-/// [`PipelineError::Unreachable`] where none does, with what each would give.
+/// [`PipelineError::Unreachable`] with all forecasts if no quality meets them.
 pub fn choose(forecasts: &[Forecast], requirements: Requirements) -> Result<Quality, PipelineError> {
     let is_in_time = |forecast: &&Forecast| requirements.budget.is_none_or(|budget| forecast.film_time <= budget);
     let is_good = |forecast: &&Forecast| requirements.min_psnr_db.is_none_or(|least| forecast.worst_psnr_db >= least);
@@ -171,7 +171,7 @@ pub fn choose(forecasts: &[Forecast], requirements: Requirements) -> Result<Qual
     let chosen = if requirements.min_psnr_db.is_some() {
         fitting.min_by_key(|forecast| forecast.film_time)
     } else {
-        // Ascending accuracy, as `Quality::VARIANTS`.
+        // In order of accuracy, as `Quality::VARIANTS`.
         fitting.next_back()
     };
     chosen.map(|forecast| forecast.quality).ok_or_else(|| PipelineError::Unreachable {
@@ -193,7 +193,7 @@ impl Forecast {
         }
     }
 
-    /// Such as `standard 23.1 s, 55.2 dB (worst 54.8), 0.31 GB`.
+    /// One phrase, such as `standard 23.1 s, 55.2 dB (worst 54.8), 0.31 GB`.
     pub fn sentence(&self) -> String {
         let (secs, name) = (self.film_time.as_secs_f64(), self.quality.as_ref());
         let gigabytes = self.memory_bytes as f64 / 1e9;
@@ -205,8 +205,8 @@ impl Forecast {
 }
 
 impl Requirements {
-    /// Whether `reference` may be what is wished for, given forecasts of all other qualities: where none of them is good
-    /// enough, or so much time is allowed that it may do.
+    /// Whether `reference` may be the right quality, given forecasts of all others: if none of them is accurate enough, or
+    /// if the budget allows for it.
     pub fn may_need_reference(&self, others: &[Forecast]) -> bool {
         let best = others.last().map_or(Duration::ZERO, |forecast| forecast.film_time);
         let is_affordable = |budget: Duration| budget >= best.mul_f64(REFERENCE_FACTOR);
@@ -224,14 +224,14 @@ impl Requirements {
     }
 }
 
-/// The qualities whose frames are timed whole: those wanted but `reference`; `standard` where that alone is.
+/// The qualities whose frames are timed: those wanted except `reference`, or `standard` if `reference` alone is wanted.
 fn timed_qualities(wanted: &[Quality]) -> Vec<Quality> {
     let is_timed = |quality: &Quality| *quality != Quality::Reference && wanted.contains(quality);
     let timed: Vec<Quality> = Quality::VARIANTS.iter().copied().filter(is_timed).collect();
     if timed.is_empty() { vec![Quality::Standard] } else { timed }
 }
 
-/// Holds the middle frame against `final`, then frames elsewhere, timed as well, while there is time.
+/// Compares the middle frame with `final`. Then times and compares frames at further positions while time is left.
 fn sample_further(
     sampler: &Sampler<'_>,
     qualities: &[Quality],
@@ -255,9 +255,9 @@ fn sample_further(
     Ok(())
 }
 
-/// Memory of the frames between renderer and encoder, and of those in the encoder.
+/// Bytes of the frames between renderer and encoder, and inside the encoder.
 fn held_bytes(video: &VideoSettings, num_ahead: usize) -> u64 {
-    // One is rendered, one encoded, the others wait.
+    // One frame is being rendered, one encoded; the others wait.
     let between = video.frame_bytes() * (film::QUEUE_FRAMES + 2);
     let inside = video.frame_bytes() / 3 * HELD_BYTES * (num_ahead + HELD_FRAMES);
     (between + inside) as u64

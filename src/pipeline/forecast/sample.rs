@@ -1,4 +1,4 @@
-//! A few frames rendered and encoded as the film will be, and work counted along all of it.
+//! Samples of a film: a few frames rendered and encoded like the film, and work counts along its whole path.
 
 use std::path::Path;
 use std::time::Instant;
@@ -9,21 +9,22 @@ use cinesplat_geometry::Camera;
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
 use cinesplat_video::{VideoError, VideoSettings, encode_and_discard};
 
-/// Places of the film whose work is counted on small pictures.
+/// Number of positions of the film at which work is counted on small pictures.
 const NUM_PLACES: usize = 9;
-/// Side of the small pictures over that of the film's.
+/// Side of the small pictures over that of the film.
 const SMALL_FRAC: f64 = 0.25;
-/// Frames of a run that are not timed: they make room, and the depth order is found again from the third frame on.
+/// Warm-up frames of a run, which are not timed: they allocate memory, and the depth order is reused from the third frame
+/// on.
 const NUM_WARM: usize = 2;
-/// Pixels that are encoded to learn what that takes, in whole frames: five at 1280 x 720.
+/// Pixels that are encoded to measure the encoder, in whole frames: five at 1280 x 720.
 const ENCODED_PX: usize = 5 * 1280 * 720;
-/// Least and most frames of the run that is encoded.
+/// Smallest and largest number of frames of the encoded run.
 const ENCODED_FRAMES: (usize, usize) = (3, 12);
 
-/// Work of the four stages: project, sort, bin, blend.
+/// Work counts of the four stages: project, sort, bin, blend.
 pub(super) type StageWork = [f64; 4];
 
-/// Who renders what.
+/// Renders samples of a film.
 pub(super) struct Sampler<'a> {
     pub(super) renderer: &'a Renderer<'a>,
     /// Cameras of the frames that are rendered, at least one.
@@ -31,30 +32,30 @@ pub(super) struct Sampler<'a> {
     pub(super) settings: &'a RenderSettings,
 }
 
-/// Frames rendered whole at one quality.
+/// Measurements of whole frames at one quality.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Samples {
-    /// Seconds by stage (project, sort, bin, blend, all else) of the median frame of each run, summed over runs.
+    /// Seconds per stage (project, sort, bin, blend, all else) of the median frame of each run, summed over runs.
     secs: [f64; 5],
-    /// Work of these frames, as small pictures count it.
+    /// Work of these frames, counted on small pictures.
     work: StageWork,
     num_runs: usize,
-    /// What all timed frames took together.
+    /// Time of all timed frames.
     spent: TimeCost,
     num_timed: usize,
-    /// Mean square differences to `final`, a place each.
+    /// Mean square differences to `final`, one per position.
     pub(super) mean_squares: Vec<f64>,
 }
 
 impl Sampler<'_> {
-    /// Frames of the run that is encoded: fewer of larger ones.
+    /// Number of frames of the encoded run: fewer if they are larger.
     pub(super) fn num_encoded(&self) -> usize {
         let intrinsics = self.cameras[0].intrinsics;
         let num_pixels = intrinsics.width as usize * intrinsics.height as usize;
         (ENCODED_PX / num_pixels.max(1)).clamp(ENCODED_FRAMES.0, ENCODED_FRAMES.1)
     }
 
-    /// Up to `num` frames in a row around `frac` of the film.
+    /// Up to `num` consecutive frames around position `frac` of the film.
     pub(super) fn run(&self, frac: f64, num: usize) -> &[Camera] {
         let num = num.min(self.cameras.len());
         let middle = (self.cameras.len() as f64 * frac) as usize;
@@ -62,7 +63,7 @@ impl Sampler<'_> {
         &self.cameras[start..start + num]
     }
 
-    /// Work of a frame in the mean over the whole film.
+    /// Mean work per frame over the whole film.
     pub(super) fn mean_work(&self) -> Result<StageWork, RenderError> {
         let num = NUM_PLACES.min(self.cameras.len());
         let place = |idx: usize| (self.cameras.len() - 1) * idx / (num - 1).max(1);
@@ -79,7 +80,7 @@ impl Sampler<'_> {
         Ok(work(&self.renderer.render(&small, &at(self.settings, Quality::Standard))?.stats.counts))
     }
 
-    /// Renders a run of frames as a film does, adds what its later ones took, and returns the pictures.
+    /// Renders a run of frames like a film, adds the times of those after the warm-up, and returns the pictures.
     pub(super) fn render_run(
         &self,
         run: &[Camera],
@@ -92,9 +93,9 @@ impl Sampler<'_> {
         for (frame, camera) in frames.iter_mut().zip(&run[..num_warm]) {
             self.renderer.render_rgb8_into(camera, &settings, frame)?;
         }
-        // A film reuses its pictures' memory.
+        // A film reuses the memory of its pictures.
         frames.iter_mut().for_each(|frame| frame.rgb8.resize(frame_bytes(&run[0]), 1));
-        // All of a run too short to leave any is timed the second time.
+        // A run that is shorter than the warm-up is rendered twice; the second time is timed.
         let timed = if run.len() > NUM_WARM { num_warm..run.len() } else { 0..run.len() };
         let mut times = Vec::new();
         for (frame, camera) in frames[timed.clone()].iter_mut().zip(&run[timed]) {
@@ -106,7 +107,7 @@ impl Sampler<'_> {
         Ok(frames)
     }
 
-    /// Notes how far each quality is from `final` at one frame.
+    /// Adds the difference of each quality to `final` at one frame.
     pub(super) fn compare(
         &self,
         camera: &Camera,
@@ -128,7 +129,8 @@ impl Sampler<'_> {
 }
 
 impl Samples {
-    /// Adds what the frames of a run took, at least one; a neighbor's burst in one of them does not count.
+    /// Adds the times of a run of at least one frame. The median frame stands for the run, so that a burst of load from
+    /// another process does not count.
     fn add(&mut self, mut times: Vec<(TimeCost, StageTimes)>, work: StageWork) {
         self.spent = times.iter().fold(self.spent, |sum, (spent, _)| sum.plus(*spent));
         self.num_timed += times.len();
@@ -142,12 +144,12 @@ impl Samples {
         self.num_runs += 1;
     }
 
-    /// Seconds of a frame by the clock, in the mean of those timed.
+    /// Mean wall time of a timed frame in seconds.
     pub(super) fn mean_secs(&self) -> f64 {
         self.spent.wall_secs / self.num_timed.max(1) as f64
     }
 
-    /// What a frame of so much work takes: seconds a unit of work, stage by stage, times the work.
+    /// Time of a frame with this work: seconds per unit of work times the work, summed over the stages.
     pub(super) fn frame(&self, work: StageWork) -> TimeCost {
         let share = |stage: usize| if self.work[stage] > 0.0 { work[stage] / self.work[stage] } else { 0.0 };
         let stages: f64 = (0..4).map(|stage| self.secs[stage] * share(stage)).sum();
@@ -157,7 +159,7 @@ impl Samples {
     }
 }
 
-/// What encoding takes: the first frame, each further one, and one equal to the frame before.
+/// Encoding time of the first frame, of each further frame, and of a frame that equals the one before.
 pub(super) fn encode_cost(
     output: &Path,
     video: &VideoSettings,
@@ -171,7 +173,7 @@ pub(super) fn encode_cost(
     let frames: Vec<&[u8]> = run.iter().map(|frame| frame.rgb8.as_slice()).collect();
     let all = spent(&frames)?;
     let first = if frames.len() > 1 { spent(&frames[..1])? } else { all };
-    // The first frame of a run, which nothing is predicted from, is another kind of work than those that follow.
+    // The first frame of a run is not predicted from another one; it costs more than those that follow.
     let further = |all: TimeCost| all.beyond(first).times(1.0 / (frames.len().max(2) - 1) as f64);
     let still = if counts_still { further(spent(&vec![frames[0]; frames.len().max(2)])?) } else { TimeCost::default() };
     Ok([first, further(all), still])
@@ -189,7 +191,7 @@ fn add(sum: &mut StageWork, work: StageWork) {
     sum.iter_mut().zip(work).for_each(|(sum, work)| *sum += work);
 }
 
-/// Time since a start, against what is left.
+/// A limit on the time since its creation.
 pub(super) struct TimeLimit {
     start: Instant,
     secs: f64,
@@ -200,7 +202,7 @@ impl TimeLimit {
         Self { start: Instant::now(), secs }
     }
 
-    /// Whether something that takes so long still fits.
+    /// Whether work of `secs` seconds still fits.
     pub(super) fn allows(&self, secs: f64) -> bool {
         self.start.elapsed().as_secs_f64() + secs <= self.secs
     }
