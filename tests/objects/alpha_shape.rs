@@ -1,4 +1,4 @@
-//! Oracles: the hull by gift wrapping, shapes whose border is known, and what must not change the answer.
+//! Oracles: the convex hull by brute force, shapes with a known border, and invariances.
 
 use cinesplat::objects::alpha_shape::AlphaShapes;
 use glam::{DMat2, DVec2};
@@ -10,7 +10,7 @@ fn cloud(seed: u64, count: usize) -> Vec<DVec2> {
     (0..count).map(|_| DVec2::new(dice.unit(), dice.unit()) * 100.0).collect()
 }
 
-/// Points that no line through them has all others on one side of, by trying every pair.
+/// Points on the convex hull, by brute force: the ends of every line through two points with all others on its left.
 fn hull_by_all_pairs(points: &[DVec2]) -> Vec<usize> {
     let is_edge = |a: usize, b: usize| {
         a != b

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3, Vec3};
 
 use super::{Dice, push, scene_of};
 
-/// Gaussians spread evenly in a turned box.
+/// Gaussians evenly distributed in a rotated box.
 fn filled(center: DVec3, half: DVec3, rotation: DQuat, count: usize) -> Gaussians {
     let mut dice = Dice::new(7);
     let mut gaussians = Gaussians::default();
@@ -21,7 +21,7 @@ fn only(set: &ObjectSet) -> &Object {
 }
 
 #[test]
-fn a_turned_box_is_measured_from_its_gaussians() {
+fn a_rotated_box_is_fitted_to_its_gaussians() {
     let (center, half) = (DVec3::new(1.0, 2.0, -3.0), DVec3::new(2.0, 0.5, 0.7));
     for yaw_deg in [0.0_f64, 20.0, 45.0, 70.0, 110.0] {
         let rotation = DQuat::from_rotation_y(yaw_deg.to_radians());
@@ -38,7 +38,7 @@ fn a_turned_box_is_measured_from_its_gaussians() {
 }
 
 #[test]
-fn floaters_do_not_stretch_a_box() {
+fn floaters_do_not_enlarge_a_box() {
     let mut gaussians = filled(DVec3::ZERO, DVec3::ONE, DQuat::IDENTITY, 2000);
     push(&mut gaussians, DVec3::new(80.0, 0.0, 0.0), 0.01, Vec3::ONE);
     push(&mut gaussians, DVec3::new(0.0, -90.0, 0.0), 0.01, Vec3::ONE);
@@ -48,7 +48,7 @@ fn floaters_do_not_stretch_a_box() {
 }
 
 #[test]
-fn boxes_stand_along_any_up() {
+fn boxes_are_upright_for_every_up() {
     let up = DVec3::new(0.004, -0.9995, -0.031).normalize();
     let mut scene =
         scene_of(filled(DVec3::ZERO, DVec3::new(1.0, 2.0, 0.5), DQuat::from_rotation_arc(DVec3::Y, up), 4000));

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 
 use super::{Dice, push, push_box, scene_of};
 
-/// Evenly spread points on a sphere (golden spiral).
+/// Evenly distributed points on a sphere (golden spiral).
 fn sphere(center: DVec3, radius: f64, count: usize) -> Gaussians {
     let mut gaussians = Gaussians::default();
     for i in 0..count {
@@ -54,7 +54,7 @@ fn the_cloud_of_a_sphere_is_its_silhouettes() {
 }
 
 #[test]
-fn a_hole_is_seen_only_by_a_small_enough_radius() {
+fn only_a_small_radius_resolves_a_hole() {
     // A ring of beads in the upright plane: its hull would fill the hole.
     let mut gaussians = Gaussians::default();
     for i in 0..2400 {
@@ -72,7 +72,7 @@ fn a_hole_is_seen_only_by_a_small_enough_radius() {
 }
 
 #[test]
-fn order_and_repetition_of_gaussians_do_not_matter() {
+fn the_cloud_does_not_depend_on_order_or_duplicates() {
     let mut gaussians = Gaussians::default();
     push_box(&mut gaussians, DVec3::ZERO, DVec3::new(0.5, 0.3, 0.2), 0.05, Vec3::splat(0.4));
     let mut order: Vec<usize> = (0..gaussians.len()).chain(0..40).collect();
@@ -90,7 +90,7 @@ fn order_and_repetition_of_gaussians_do_not_matter() {
 }
 
 #[test]
-fn the_cloud_turns_with_the_world() {
+fn the_cloud_rotates_with_the_world() {
     let base = sphere(DVec3::ZERO, 0.4, 900);
     let turn = DQuat::from_euler(glam::EulerRot::YXZ, 0.7, -0.4, 1.1);
     let shift = DVec3::new(5.0, -2.0, 1.0);
@@ -118,7 +118,7 @@ fn the_cloud_turns_with_the_world() {
 }
 
 #[test]
-fn hardly_any_gaussians_still_give_a_cloud() {
+fn few_gaussians_still_give_a_cloud() {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     for means in [vec![at(1.0, 1.0)], vec![at(0.0, 0.0), at(1.0, 0.0)], vec![at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)]]
     {

@@ -1,4 +1,4 @@
-//! Oracle: whole-number arithmetic that cannot round, over all pairs of triangle and point.
+//! Oracle: exact integer arithmetic over all pairs of triangle and point.
 
 use std::collections::BTreeSet;
 

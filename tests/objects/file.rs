@@ -1,4 +1,4 @@
-//! Oracles: NumPy's own bytes, and a person's idea of what an error has to say.
+//! Oracles: bytes written by NumPy, and the expected error messages.
 
 use cinesplat::files::Existing;
 use std::path::Path;
@@ -38,7 +38,7 @@ fn read_text(text: &str, scene: &Scene) -> Result<objects::ObjectsFile, ObjectsE
     objects::read(&path, scene)
 }
 
-/// The message without the folder.
+/// The error message without the folder.
 fn message(text: &str, scene: &Scene) -> String {
     let error = read_text(text, scene).unwrap_err();
     let said = error.to_string();
@@ -59,14 +59,14 @@ fn an_id_and_a_box_are_enough() {
 }
 
 #[test]
-fn a_turned_box_holds_what_lies_in_it() {
+fn a_rotated_box_contains_the_gaussians_inside_it() {
     // A quarter turn about y: the long x side now runs along z.
     let text = r#"{"objects":[{"id":1,"center":[1,0,0],"half_extents":[9,1,0.5],"rotation_xyzw":[0,0.70710678,0,0.70710678]}]}"#;
     assert_eq!(read_text(text, &four()).unwrap().set.labels, [0, 1, 0, 0]);
 }
 
 #[test]
-fn the_smaller_of_two_boxes_owns_what_is_in_both() {
+fn the_smaller_of_two_boxes_owns_their_intersection() {
     let text = r#"{"objects":[{"id":1,"center":[1.5,0,0],"half_extents":[5,1,1]},{"id":2,"center":[1,0,0],"half_extents":[0.1,1,1]}]}"#;
     assert_eq!(read_text(text, &four()).unwrap().set.labels, [1, 2, 1, 1]);
 }
@@ -131,7 +131,7 @@ fn labels_count_the_gaussians_that_were_dropped_on_reading() {
 }
 
 #[test]
-fn what_is_written_is_read_again() {
+fn a_written_file_reads_back_equal() {
     let mut gaussians = Gaussians::default();
     push_box(&mut gaussians, DVec3::ZERO, DVec3::ONE, 0.5, Vec3::new(0.8, 0.1, 0.1));
     push_box(&mut gaussians, DVec3::new(5.0, 0.0, 0.0), DVec3::new(0.2, 1.0, 0.3), 0.1, Vec3::splat(0.9));
@@ -195,7 +195,7 @@ fn errors_name_file_entry_and_field() {
 }
 
 #[test]
-fn label_files_that_do_not_fit_say_why() {
+fn errors_of_label_files_name_the_reason() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("l.npy");
     let said = |bytes: &[u8]| {

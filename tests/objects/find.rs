@@ -1,4 +1,4 @@
-//! Oracles: rooms whose objects are known, and the labels of the composite that was put together for this purpose.
+//! Oracles: a room with known objects, and the labels of a composite scene.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,8 @@ use glam::{DVec3, Vec3};
 use super::{push, push_box, scene_of};
 use crate::support;
 
-/// A floor, two walls, two boxes on the floor and a ball on a table; one truth label a Gaussian, 0 for the room.
+/// A floor, two walls, two boxes on the floor and a ball on a table; one ground-truth label per Gaussian, 0 for the
+/// room.
 fn room() -> (Gaussians, Vec<u16>) {
     let mut gaussians = Gaussians::default();
     let (pale, step) = (Vec3::new(0.8, 0.78, 0.74), 0.04);
@@ -42,7 +43,7 @@ fn room() -> (Gaussians, Vec<u16>) {
     (gaussians, labels)
 }
 
-/// Best intersection over union of any found object with a true one, with the found id.
+/// Largest intersection over union of a found object with a true one, and the id of the found one.
 fn best_match(set: &ObjectSet, truth: &[u16], id: u16) -> (f64, u16) {
     let mut shared: BTreeMap<u16, f64> = BTreeMap::new();
     let count = |labels: &[u16], id: u16| labels.iter().filter(|&&label| label == id).count() as f64;
@@ -73,7 +74,7 @@ fn the_objects_of_a_small_room_are_found() {
 }
 
 #[test]
-fn the_same_scene_gives_the_same_objects_whatever_the_up() {
+fn the_search_is_deterministic_and_independent_of_the_up_axis() {
     let (gaussians, truth) = room();
     let scene = scene_of(gaussians);
     let settings = FindSettings { resolution: 120.0, ..FindSettings::default() };
@@ -107,7 +108,7 @@ fn ids_count_from_one_and_boxes_hold_their_gaussians() {
 }
 
 #[test]
-fn scenes_of_nothing_hold_nothing() {
+fn empty_scenes_have_no_objects() {
     let mut one = Gaussians::default();
     assert_eq!(find(&scene_of(one.clone()), &FindSettings::default()), ObjectSet::default());
     push(&mut one, DVec3::ONE, 0.1, Vec3::ONE);

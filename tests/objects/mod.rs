@@ -41,7 +41,7 @@ pub fn push(gaussians: &mut Gaussians, mean: DVec3, scale: f32, color: Vec3) {
     gaussians.sh_dc.push((color - 0.5) / 0.282_094_8);
 }
 
-/// Adds the surface of an upright box, one Gaussian every `step`.
+/// Adds the surface of an axis-aligned box, one Gaussian per `step`.
 pub fn push_box(gaussians: &mut Gaussians, center: DVec3, half: DVec3, step: f64, color: Vec3) {
     for axis in 0..3 {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

@@ -29,7 +29,7 @@ fn plateaus_give_their_smallest_radius_and_nan_loses() {
 }
 
 #[test]
-fn a_step_function_is_met_to_the_scan() {
+fn the_plateau_of_a_step_function_is_found() {
     let found = maximize(1.0, 100.0, 60, |r| if (20.0..30.0).contains(&r) { 1.0 } else { 0.0 });
     assert!((20.0..30.0).contains(&found.radius), "{found:?}");
 }

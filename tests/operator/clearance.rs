@@ -1,4 +1,4 @@
-//! Distances to matter, against surfaces sampled and scanned without any index.
+//! Distances to matter, against sampled surfaces and brute-force scans.
 
 use cinesplat::operator::{ClearanceIndex, SIGMA_LEVEL};
 use cinesplat::scene::{Gaussians, SOLID_OPACITY};
@@ -26,8 +26,8 @@ impl Dice {
     }
 }
 
-/// Distance from `point` to the surface of the first Gaussian, by directions all over the sphere and then smaller and
-/// smaller steps from the best of them.
+/// Distance from `point` to the surface of the first Gaussian: a scan over all directions, then a pattern search from
+/// the best one.
 fn searched(gaussians: &Gaussians, point: DVec3) -> f64 {
     let semi_axes = gaussians.scales[0].as_dvec3() * SIGMA_LEVEL;
     let rotation = gaussians.rotations[0].as_dquat().normalize();
@@ -50,7 +50,7 @@ fn searched(gaussians: &Gaussians, point: DVec3) -> f64 {
 }
 
 #[test]
-fn distances_are_those_to_the_surface_for_needles_flats_and_all_between() {
+fn distances_to_needles_disks_and_balls_match_a_search_over_the_surface() {
     let mut dice = Dice(5);
     let shapes = [[0.3, 0.3, 0.3], [1.0, 0.4, 0.1], [1.0, 1e-3, 1e-3], [1.0, 1.0, 1e-4], [0.5, 0.02, 1e-6]];
     for shape in shapes {
@@ -92,7 +92,7 @@ fn a_gaussian_without_extent_is_a_point_and_a_flat_one_is_a_disk() {
 }
 
 #[test]
-fn the_nearest_of_many_is_that_of_a_scan() {
+fn the_nearest_ellipsoid_matches_a_brute_force_scan() {
     let mut dice = Dice(11);
     let mut gaussians = Gaussians { origin: DVec3::new(300.0, -20.0, 7.0), ..Gaussians::default() };
     for _ in 0..2500 {
@@ -120,7 +120,7 @@ fn the_nearest_of_many_is_that_of_a_scan() {
 }
 
 #[test]
-fn faint_gaussians_are_no_matter_and_nothing_is_infinitely_far() {
+fn faint_gaussians_do_not_count_as_matter() {
     let mut gaussians = Gaussians::default();
     add(&mut gaussians, DVec3::ZERO, Vec3::ONE, Quat::IDENTITY, 0.49);
     let index = ClearanceIndex::new(&gaussians);

@@ -1,6 +1,6 @@
-//! Programs written by hand for the public prompts, solved on their scenes; what the films show is measured here, from
-//! the sampled cameras and the boxes of the objects file, by nothing that the solver uses. All checks of all cases:
-//! `cinesplat bench operator films` and the shared checker.
+//! Hand-written programs for the public prompts, solved on their scenes. The films are measured on their sampled
+//! cameras and the boxes of the objects file, with code independent of the solver. `cinesplat bench operator films`
+//! covers all cases.
 
 use std::collections::BTreeMap;
 
@@ -26,7 +26,7 @@ struct Boxed {
     corners: Vec<DVec3>,
 }
 
-/// Films of some cases, one scene loaded once, with the boxes of all its objects by id.
+/// Films of several cases of one scene, and the boxes of its objects by id.
 struct Films {
     frames: BTreeMap<&'static str, Vec<CameraState>>,
     boxes: BTreeMap<u64, Boxed>,
@@ -61,7 +61,7 @@ fn sign(bit: i32) -> f64 {
     if bit > 0 { 1.0 } else { -1.0 }
 }
 
-/// Where a point is in a 16:9 frame, as shares of its sides from the middle, right and up positive.
+/// Position of a point in a 16:9 frame, from its middle, as shares of its width and height; right and up positive.
 fn in_frame(state: &CameraState, point: DVec3) -> (f64, f64) {
     let away = point - state.pose.position;
     let (right, down) = (state.pose.rotation * DVec3::X, state.pose.rotation * DVec3::Y);
@@ -88,7 +88,7 @@ fn every_public_prompt_has_a_program() {
 }
 
 #[test]
-fn kitchen_films_do_what_their_programs_say() {
+fn kitchen_films_carry_out_their_programs() {
     let ids = ["ps01", "ps03"];
     let Some(films) = films("data/kitchen/scene.spz", "data/prompts/kitchen.objects.json", &ids) else { return };
     let push = &films.frames["ps01"];
@@ -105,7 +105,7 @@ fn kitchen_films_do_what_their_programs_say() {
 }
 
 #[test]
-fn composite_films_do_what_their_programs_say() {
+fn composite_films_carry_out_their_programs() {
     let place = ("data/composites/kitchen_plus_dev.spz", "data/prompts/kitchen_plus_dev.objects.json");
     let Some(films) = films(place.0, place.1, &["ps09", "ps10"]) else { return };
     // An arc of 90 degrees to the left is one radius and clockwise from above.

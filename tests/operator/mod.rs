@@ -1,4 +1,4 @@
-//! Programs made into exact shots, in a small room built for the purpose.
+//! The operator on a small synthetic room.
 
 mod clearance;
 mod intents;
@@ -62,7 +62,7 @@ pub fn room() -> (Gaussians, ObjectSet) {
     (gaussians, ObjectSet { objects: objects.to_vec(), labels: Vec::new() })
 }
 
-/// One more Gaussian.
+/// Adds a Gaussian.
 pub fn add(gaussians: &mut Gaussians, mean: DVec3, scales: Vec3, rotation: Quat, opacity: f32) {
     gaussians.means.push(mean.as_vec3());
     gaussians.scales.push(scales);
@@ -71,7 +71,7 @@ pub fn add(gaussians: &mut Gaussians, mean: DVec3, scales: Vec3, rotation: Quat,
     gaussians.sh_dc.push(Vec3::ZERO);
 }
 
-/// Distance from a point to the ellipsoid of one Gaussian, 0 inside, by bisection of its own equation.
+/// Distance from a point to the ellipsoid of one Gaussian, 0 inside, by bisection of the distance's equation.
 pub fn bisected(gaussians: &Gaussians, i: usize, point: DVec3) -> f64 {
     let y = gaussians.rotations[i].as_dquat().normalize().conjugate() * (point - gaussians.mean_world(i));
     let e = (gaussians.scales[i].as_dvec3() * SIGMA_LEVEL).max(DVec3::splat(1e-12));
@@ -87,7 +87,7 @@ pub fn bisected(gaussians: &Gaussians, i: usize, point: DVec3) -> f64 {
     y.distance(e * e * y / (e * e + high))
 }
 
-/// Distance from a point to the nearest ellipsoid of opacity 0.5 and more, and its Gaussian, one after the other.
+/// Distance from a point to the nearest ellipsoid of a solid Gaussian, and the index of that Gaussian, by brute force.
 pub fn brute_force(gaussians: &Gaussians, point: DVec3) -> (f64, usize) {
     let mut best = (f64::INFINITY, 0);
     for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY) {
@@ -117,13 +117,13 @@ pub fn world() -> World {
     World::new(&gaussians, DVec3::Y, &objects, &[1, 2]).unwrap()
 }
 
-/// A program solved quickly with one seed.
+/// The solution of a program at the fast level with a fixed seed.
 pub fn solved(world: &World, steps: Vec<Step>) -> Solution {
     let program = Program { steps, ..Program::default() };
     realize(world, &program, "", &[], &SolveSettings { level: SolveLevel::Fast, seed: 7, ..SolveSettings::default() })
 }
 
-/// The film of a solution at ten frames a second, and its very end.
+/// The cameras of a solution at ten frames per second, and at its end.
 pub fn film(solution: &Solution) -> Vec<CameraState> {
     let shot = Shot { fps: 10.0, duration_secs: solution.duration_secs, ..shot_over(solution.keyframes.clone()) };
     let path = CameraPath::new(&shot).unwrap();

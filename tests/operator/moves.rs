@@ -1,4 +1,4 @@
-//! Each move does what the contract's "Moves, exactly" says, measured on the film.
+//! Every move follows the contract's "Moves, exactly", measured on the film.
 
 use cinesplat::geometry::{LevelFrame, rotation};
 use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, StepCameras, realize};
@@ -63,7 +63,7 @@ fn orbits_sweep_the_stated_angle_at_one_radius() {
 }
 
 #[test]
-fn a_dolly_zoom_holds_its_subject() {
+fn a_dolly_zoom_keeps_the_size_of_its_subject() {
     let frames = filmed(Step { start: about(1), ..Step::of(Move::DollyZoomIn) });
     let size = |s: &CameraState| 1.0 / (s.pose.position.distance(CENTER) * (s.fov_y_rad / 2.0).tan());
     assert!(frames.iter().all(|s| (size(s) / size(&frames[0]) - 1.0).abs() < 0.01));
@@ -90,7 +90,7 @@ fn trucks_and_pedestals_do_not_turn() {
 }
 
 #[test]
-fn a_medium_shot_is_of_medium_height() {
+fn a_medium_shot_frames_its_subject_at_medium_height() {
     let framing = Framing { size: Some(ShotSize::Medium), ..about(1) };
     let solution = solved(&world(), vec![Step { start: framing, ..Step::of(Move::Static) }]);
     let line = solution.report.iter().find(|line| line.wanted.contains("frame's height")).unwrap();
@@ -98,7 +98,7 @@ fn a_medium_shot_is_of_medium_height() {
 }
 
 #[test]
-fn stated_times_hold() {
+fn stated_durations_are_kept() {
     let world = world();
     let hold = Step { start: about(1), duration_secs: Some(2.0), ..Step::of(Move::Static) };
     let push = Step { end: about(1), ..Step::of(Move::PushIn) };
@@ -109,7 +109,7 @@ fn stated_times_hold() {
 }
 
 #[test]
-fn what_cannot_be_is_reported_and_still_filmed() {
+fn a_contradiction_is_reported_and_still_gives_a_film() {
     let world = world();
     // An extreme close-up of both boxes, wholly in the frame, contradicts itself.
     let start =
@@ -163,5 +163,5 @@ fn without_a_search_the_film_goes_through_the_suggested_cameras() {
     assert!((solution.duration_secs - 3.0).abs() < 1e-9);
     assert!(frames[0].pose.position.distance(start.pose.position) < 1e-9);
     assert!(frames[frames.len() - 1].pose.position.distance(end.pose.position) < 1e-9);
-    assert!(!solution.report.is_empty(), "what the step wants is still held against the film");
+    assert!(!solution.report.is_empty(), "the report still measures the step's constraints");
 }

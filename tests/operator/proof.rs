@@ -1,4 +1,4 @@
-//! Proofs about whole paths: they speak of every moment, and what they say is what dense sampling finds.
+//! Clearance certificates of whole paths: they hold between frames, and they agree with dense sampling.
 
 use cinesplat::operator::prove_clear;
 use cinesplat::scene::Gaussians;
@@ -25,7 +25,7 @@ fn path(keyframes: Vec<Keyframe>) -> CameraPath {
     CameraPath::new(&shot_over(keyframes)).unwrap()
 }
 
-/// A scene of a given extent about the origin: specks at the corners of a box.
+/// A scene of a given extent about the origin: small Gaussians at the corners of a box.
 fn corners(half: f64) -> Gaussians {
     let mut gaussians = Gaussians::default();
     for i in 0..8 {
@@ -35,7 +35,7 @@ fn corners(half: f64) -> Gaussians {
     gaussians
 }
 
-/// A sheet across the way, thinner than a hair, around `x`.
+/// A thin sheet across the path at `x`.
 fn sheet(gaussians: &mut Gaussians, x: f64, y: f64) {
     add(gaussians, DVec3::new(x, y, 0.0), Vec3::new(1e-5, 0.4, 0.4), Quat::IDENTITY, 0.9);
 }
@@ -61,7 +61,7 @@ fn a_thin_wall_between_two_frames_is_caught() {
 }
 
 #[test]
-fn moving_the_wall_out_of_the_way_turns_the_verdict() {
+fn the_verdict_changes_where_the_wall_leaves_the_path() {
     let verdict = |y: f64| {
         let mut gaussians = corners(6.0);
         sheet(&mut gaussians, 1.37, y);
@@ -125,7 +125,7 @@ fn bounds_are_below_every_sample_and_close_to_the_least() {
 }
 
 #[test]
-fn timing_does_not_matter_and_a_cut_may_jump_through_a_wall() {
+fn the_verdict_ignores_timing_and_cuts_may_cross_walls() {
     let mut gaussians = corners(6.0);
     sheet(&mut gaussians, 0.0, 0.0);
     let keys = |cut: bool, easing: Easing| {

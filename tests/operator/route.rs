@@ -1,4 +1,4 @@
-//! Ways around: through a door, not through a wall, and none out of a closed box.
+//! Routes: through a door, not through a wall, and none out of a closed box.
 
 use cinesplat::geometry::Pose;
 use cinesplat::objects::ObjectSet;
@@ -11,7 +11,7 @@ use super::clearance::Dice;
 use super::{brute_force, room, wall};
 use crate::support::shot_over;
 
-/// Where the door is: in the plane x = 0, between these z, up to this height.
+/// The door in the plane x = 0: least and largest z, and height.
 const DOOR: (f64, f64, f64) = (1.2, 2.0, 2.0);
 
 /// The room with a wall across its middle and a door in it.
@@ -21,7 +21,7 @@ fn divided() -> Gaussians {
     wall(&mut gaussians, floor, DVec3::Z * (DOOR.0 + 3.0), DVec3::Y * 2.6);
     wall(&mut gaussians, DVec3::new(0.0, 0.0, DOOR.1), DVec3::Z * (3.0 - DOOR.1), DVec3::Y * 2.6);
     wall(&mut gaussians, DVec3::new(0.0, DOOR.2, DOOR.0), DVec3::Z * (DOOR.1 - DOOR.0), DVec3::Y * 0.6);
-    // A ceiling, so that no way leads over the wall.
+    // The ceiling blocks routes over the wall.
     wall(&mut gaussians, DVec3::new(-3.0, 2.6, -3.0), DVec3::X * 6.0, DVec3::Z * 6.0);
     gaussians
 }
@@ -35,14 +35,14 @@ fn camera(x: f64, y: f64, z: f64) -> CameraState {
     CameraState { pose, fov_y_rad: 0.9, focus_distance: None }
 }
 
-/// Many positions of a route's film.
+/// Densely sampled positions of a route.
 fn positions(world: &World, route: &Route) -> Vec<DVec3> {
     let path = CameraPath::new(&shot_over(route.keyframes(world, 6.0))).unwrap();
     (0..=1500).map(|i| path.sample(f64::from(i) * 0.004).pose.position).collect()
 }
 
 #[test]
-fn a_wall_is_passed_through_its_door() {
+fn a_route_crosses_a_wall_through_its_door() {
     let gaussians = divided();
     let world = prepared(&gaussians);
     let (start, goal) = (camera(-2.0, 1.2, -1.5), camera(2.2, 1.4, -1.2));
@@ -61,7 +61,7 @@ fn a_wall_is_passed_through_its_door() {
             assert!((DOOR.0..DOOR.1).contains(&pair[0].z) && pair[0].y < DOOR.2, "crosses at {}", pair[0]);
         }
     }
-    // Not much farther than the shortest of all ways, by the door's near edge.
+    // The route is at most 15 % longer than the shortest one, along the door's near edge.
     let edge = DVec3::new(0.0, 1.3, DOOR.0 + world.camera_radius);
     let shortest = start.pose.position.distance(edge) + edge.distance(goal.pose.position);
     let length: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
@@ -70,14 +70,14 @@ fn a_wall_is_passed_through_its_door() {
 }
 
 #[test]
-fn what_is_open_is_gone_straight() {
+fn an_open_route_is_straight() {
     let world = prepared(&divided());
     let found = route(&world, &camera(-2.0, 1.2, -1.5), &camera(-2.0, 1.2, 1.5)).unwrap();
     assert!(found.is_straight());
 }
 
 #[test]
-fn out_of_a_closed_box_there_is_no_way() {
+fn no_route_leaves_a_closed_box() {
     let (mut gaussians, _) = room();
     let low = DVec3::new(-2.0, 0.6, -2.0);
     for (corner, u, v) in [

@@ -35,7 +35,7 @@ pub(super) fn zoom(context: &StepContext) -> Vec<MotionSegment> {
 }
 
 impl StepContext<'_> {
-    /// How a zoom's first view is framed: an end size belongs to the end.
+    /// Framing of a zoom's opening view. A size stated for the end does not apply to the start.
     fn opening_framing_for_zoom(&self, inward: bool) -> Framing {
         let mut framing = self.opening_framing();
         if !inward && self.start.is_none() {
