@@ -6,7 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use strum::VariantNames;
 
-/// A parser for an enum whose variants have names: help, completions and errors list the names.
+/// A parser for an enum with named variants. Help, completions and errors list the names.
 pub(super) fn choice<T>() -> Choice<T> {
     Choice(PhantomData)
 }

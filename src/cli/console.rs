@@ -3,7 +3,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::failure::Failure;
 
-/// Writes data to stdout. A reader that stops early (`| head`) is no error.
+/// Writes data to stdout. A closed pipe (`| head`) is no error.
 pub(super) fn data(text: &str) -> Result<(), Failure> {
     data_bytes(text.as_bytes())
 }
@@ -38,12 +38,12 @@ fn line_to_stderr(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// Writes an error and what to do about it to stderr.
+/// Writes an error and its help to stderr.
 pub(super) fn error(failure: &Failure) {
     line_to_stderr(&failure.to_string());
 }
 
-/// Whether a person watches stderr.
+/// Whether stderr is a terminal.
 pub(super) fn is_watched() -> bool {
     io::stderr().is_terminal() && !IS_QUIET.load(Ordering::Relaxed)
 }

@@ -122,7 +122,7 @@ impl Args {
         Ok(())
     }
 
-    /// A table over pairs of files.
+    /// Prints a table over pairs of files.
     fn run_folders(&self, settings: &EvalSettings) -> Result<(), Failure> {
         if self.plot.is_some() || self.motion {
             return Err(Failure::usage(
@@ -194,16 +194,16 @@ fn text(evaluation: &Evaluation) -> String {
         let _ = writeln!(text, "scale   {:.9}", evaluation.alignment.scale);
     }
     if let Some(share) = evaluation.relative_to_diameter {
-        let _ = writeln!(text, "mean over diameter {share:.9}");
+        let _ = writeln!(text, "mean / diameter {share:.9}");
     }
     if let Some(focal) = &evaluation.focal {
         let (rmse, most) = (focal.log_ratio_rmse, focal.log_ratio_max);
-        let _ = writeln!(text, "focal length: rmse {rmse:.9}, most {most:.9} (logarithm of the ratio)");
+        let _ = writeln!(text, "focal length: rmse {rmse:.9}, max {most:.9} (logarithm of the ratio)");
     }
     if let Some(framing) = &evaluation.framing {
         let (offset, most, size) = (framing.offset_rmse, framing.offset_max, framing.log_size_rmse);
         let lost = 100.0 * framing.lost_frac;
-        let _ = writeln!(text, "framing: off by rmse {offset:.6}, most {most:.6} frame heights");
+        let _ = writeln!(text, "framing: offset rmse {offset:.6}, max {most:.6} frame heights");
         let _ = writeln!(text, "framing: size rmse {size:.6} (logarithm of the ratio), lost in {lost:.1} % of frames");
     }
     text.lines().fold(String::new(), |text, line| text + line.trim_end() + "\n")
@@ -216,6 +216,5 @@ fn parse_subject(text: &str) -> Result<SubjectSphere, String> {
         .and_then(|numbers| <[f64; 4]>::try_from(numbers).ok())
         .map(|[x, y, z, radius]| SubjectSphere { center: DVec3::new(x, y, z), radius });
     let usable = sphere.filter(|sphere| sphere.center.is_finite() && sphere.radius > 0.0 && sphere.radius.is_finite());
-    usable
-        .ok_or_else(|| "expected x, y, z and a radius above 0 with commas between them, such as 0,1,-2,0.4".to_owned())
+    usable.ok_or_else(|| "expected x, y, z and a radius above 0 separated by commas, such as 0,1,-2,0.4".to_owned())
 }

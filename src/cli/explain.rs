@@ -7,12 +7,12 @@ use cinesplat::operator::{Amount, Framing, Speed, Step, SubjectPart};
 use cinesplat::pipeline::Directed;
 use cinesplat::trajectory::ClearanceProof;
 
-/// How a prompt was understood, clause by clause: its words, what they mean, what was wanted and got, and what each
-/// effect decided.
+/// Explains a shot: the meaning of each clause of its prompt, the report of what was wanted and got, the clearance proof
+/// and the decision about each effect.
 pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     let mut text = format!("prompt: {}\n\nunderstood as\n", directed.shot.prompt);
     for (number, reading) in directed.steps.iter().enumerate() {
-        let words = if reading.words.is_empty() { "(no words of its own)" } else { &reading.words };
+        let words = if reading.words.is_empty() { "(no words)" } else { &reading.words };
         let (weakest, weakest_sure) = reading.weakest;
         let (sure, weakest_sure) = (100.0 * reading.probability, 100.0 * weakest_sure);
         let _ = writeln!(text, "  {}. \"{words}\"", number + 1);
@@ -39,19 +39,22 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     text
 }
 
-/// What was proved about the camera's distance to matter, in words.
+/// The clearance proof in words.
 fn clearance(proof: &ClearanceProof) -> String {
     let (radius, parts) = (proof.camera_radius, proof.num_intervals);
-    let matter = format!("Gaussians of opacity {} and more, out to {} sigma", proof.opacity_floor, proof.sigma_level);
+    let matter = format!("Gaussians of opacity {} or more, up to {} sigma", proof.opacity_floor, proof.sigma_level);
     let nearest = proof.gaussian_idx.map_or_else(String::new, |idx| format!(", to Gaussian {idx}"));
     let found = match &proof.failure {
-        None => format!("proved: never nearer than {:.4}, about {:.2} s{nearest}", proof.min_distance, proof.at_secs),
+        None => format!(
+            "proved: distance at least {:.4}, reached at about {:.2} s{nearest}",
+            proof.min_distance, proof.at_secs
+        ),
         Some(failure) => format!(
             "NOT CLEAR from {:.2} to {:.2} s: {:.4} from Gaussian {}",
             failure.from_secs, failure.to_secs, failure.distance, failure.gaussian_idx
         ),
     };
-    format!("  {found}\n  camera radius {radius:.4}, {matter}; {parts} parts of the path looked at\n")
+    format!("  {found}\n  camera radius {radius:.4}, {matter}; {parts} parts of the path checked\n")
 }
 
 /// A step in words.
@@ -73,7 +76,7 @@ fn sentence(step: &Step, objects: &ObjectSet) -> String {
         parts.push("after a cut".to_owned());
     }
     if step.returns {
-        parts.push("back to where it began".to_owned());
+        parts.push("back to its start".to_owned());
     }
     parts.join(", ")
 }
@@ -88,7 +91,7 @@ fn amount(amount: Amount) -> String {
     }
 }
 
-/// One end of a step; `None` where it is left open.
+/// One end of a step; `None` if it is open.
 fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<String> {
     if *framing == Framing::default() {
         return None;

@@ -54,7 +54,7 @@ fn as_text(file: &str, info: &SceneInfo) -> String {
     let vector = |v: [f64; 3]| format!("{:.4} {:.4} {:.4}", v[0], v[1], v[2]);
     let span =
         |low: glam::DVec3, high: glam::DVec3| format!("{} .. {}", vector(low.to_array()), vector(high.to_array()));
-    let stated = if info.filter_is_stated { "the file says so" } else { "the file does not say" };
+    let stated = if info.filter_is_stated { "stated in the file" } else { "not stated in the file" };
     let mut lines = vec![
         ("scene", file.to_owned()),
         ("format", info.format.clone()),
@@ -68,7 +68,7 @@ fn as_text(file: &str, info: &SceneInfo) -> String {
         ("up", format!("{} ({})", vector(info.up), info.up_source)),
     ];
     if info.num_objects > 0 {
-        lines.push(("objects", format!("{} by ids in the file", info.num_objects)));
+        lines.push(("objects", format!("{}, from ids in the file", info.num_objects)));
     }
     if !info.sha256.is_empty() {
         lines.push(("sha256", info.sha256.clone()));

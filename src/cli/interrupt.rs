@@ -4,20 +4,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::console;
 use super::failure::Failure;
 
-/// Counts Ctrl-C: the first asks for a clean end, the second ends at once.
+/// Counts Ctrl-C: the first requests a clean end, the second ends the program at once.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Interrupt {
     count: Arc<AtomicUsize>,
 }
 
 impl Interrupt {
-    /// Takes over Ctrl-C (and SIGTERM, SIGHUP) for the rest of the program.
+    /// Handles Ctrl-C, SIGTERM and SIGHUP for the rest of the program.
     pub(super) fn listen() -> Result<Self, Failure> {
         let interrupt = Self::default();
         let count = Arc::clone(&interrupt.count);
         let listening = ctrlc::set_handler(move || {
             if count.fetch_add(1, Ordering::SeqCst) == 0 {
-                console::note("stopping after this frame; Ctrl-C again stops at once");
+                console::note("stopping after the current step; Ctrl-C again stops at once");
             } else {
                 std::process::exit(130);
             }
@@ -26,7 +26,7 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Whether somebody asked for an end.
+    /// Whether an end was requested.
     pub(super) fn is_asked(&self) -> bool {
         self.count.load(Ordering::SeqCst) > 0
     }

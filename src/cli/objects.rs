@@ -64,7 +64,7 @@ impl Args {
         if let Some(path) = &self.sheet {
             let picture = objects::sheet(&scene, &set, &SheetSettings::default())?;
             video::write_png(path, &picture, [picture.width(), picture.height()], self.overwrite.existing())?;
-            console::note(&format!("{}: a view of every object", path.display()));
+            console::note(&format!("{}: picture of every object", path.display()));
         }
         if let Some(path) = &self.output {
             pipeline::prepare_objects(&scene, &mut set)?;

@@ -4,12 +4,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::console;
 
-/// How often a line is written where no terminal shows a bar.
+/// Interval of progress lines where no terminal shows a bar.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
-/// Frames or rows done of those wanted: a bar with rate and time left on a terminal, a line every five seconds elsewhere.
+/// Progress of frames or rows with rate and time left: a bar on a terminal, a line every five seconds elsewhere.
 pub(super) struct FrameProgress {
-    /// What is counted, and its rate's unit.
+    /// Name of what is counted, and the unit of its rate.
     names: [&'static str; 2],
     bar: Option<ProgressBar>,
     start: Instant,
@@ -21,7 +21,7 @@ impl FrameProgress {
         Self::of(["frame", "fps"])
     }
 
-    /// Of the rows of a bench.
+    /// Progress of the rows of a bench.
     pub(super) fn of_rows() -> Self {
         Self::of(["row", "rows/s"])
     }
@@ -31,7 +31,7 @@ impl FrameProgress {
         Self { names, bar: console::is_watched().then(|| new_bar(names)), start, last_line: start }
     }
 
-    /// Shows that `done` of `total` frames are there.
+    /// Shows that `done` of `total` are done.
     pub(super) fn show(&mut self, done: usize, total: usize) {
         if let Some(bar) = &self.bar {
             bar.set_length(total as u64);
@@ -42,7 +42,7 @@ impl FrameProgress {
         }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(super) fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -57,7 +57,7 @@ fn new_bar([name, unit]: [&'static str; 2]) -> ProgressBar {
         Ok(style) => bar.with_style(style.with_key(
             "per_sec",
             move |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
-                // A bar that cannot be drawn is no reason to stop a film.
+                // A failed write of the bar does not stop the film.
                 let _ = write!(out, "{:.1} {unit}", state.per_sec());
             },
         )),

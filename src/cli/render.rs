@@ -212,7 +212,8 @@ impl Args {
         if !self.json {
             return Ok(());
         }
-        // JSON has no infinity: null is exact. Predicted are the halves alone; measured are both side by side.
+        // JSON has no infinity: null stands for an exact picture. Predicted render and encode times are those of each alone,
+        // measured ones are parallel.
         let summary = serde_json::json!({
             "path": report.path.to_string_lossy(), "frames": report.num_frames, "quality": quality,
             "predicted": {"film_secs": film_secs, "render_secs": expected(predicted.render_time),

@@ -28,7 +28,7 @@ fn without_requirements(words: &[String]) -> Vec<String> {
     words.iter().enumerate().filter(stays).map(|(_, word)| word.clone()).collect()
 }
 
-/// A word as a POSIX shell takes it back.
+/// A word quoted for a POSIX shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,%+@".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

@@ -160,6 +160,5 @@ fn parse_vector(text: &str) -> Result<DVec3, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
     let vector = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).map(DVec3::from_array);
     let usable = vector.filter(|vector| vector.is_finite() && vector.length() > 0.0);
-    usable
-        .ok_or_else(|| "expected three numbers with commas between them that are not all 0, such as 0,-1,0".to_owned())
+    usable.ok_or_else(|| "expected three numbers separated by commas, not all 0, such as 0,-1,0".to_owned())
 }

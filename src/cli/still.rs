@@ -76,7 +76,7 @@ impl Args {
         pipeline::still(&scene, &cameras.cameras, &settings, &outputs, &mut |still| self.write(&still))
     }
 
-    /// Reads what the further outputs need.
+    /// Reads the inputs of the optional outputs.
     fn outputs(&self, scene: &Scene) -> Result<StillOutputs, Failure> {
         let bad = |path: &Path, found: String, expected: &str| {
             let message = format!("{}: {found}, expected {expected}", path.display());
@@ -87,7 +87,7 @@ impl Args {
             None => None,
             Some(None) if scene.gaussians.ids.is_empty() => {
                 return Err(Failure::usage(
-                    "--ids: this scene has no labels of its own",
+                    "--ids without a file: the scene has no labels",
                     "name a file: --ids LABELS.NPY",
                 ));
             }
@@ -95,14 +95,14 @@ impl Args {
             Some(Some(path)) => Some(objects::read_labels(path, scene)?),
         };
         let rows = |path: &PathBuf| {
-            let not_rows = |found: String| bad(path, found, "float32 of two axes");
+            let not_rows = |found: String| bad(path, found, "float32 with two axes");
             let bytes = read(path)?;
             let array = npy::Array::parse(&bytes).map_err(|error| not_rows(error.to_string()))?;
             let &[num_rows, num_channels] = array.shape.as_slice() else {
                 return Err(not_rows(format!("an array of shape {:?}", array.shape)));
             };
             let values = array.to_f32().map_err(|error| not_rows(error.to_string()))?;
-            // Rows of Gaussians that were dropped on reading are dropped too.
+            // Drop the rows of Gaussians that were dropped on reading.
             let kept = scene.kept(&(0..num_rows).collect::<Vec<_>>());
             let kept = kept.ok_or_else(|| bad(path, format!("{num_rows} rows"), "one per Gaussian of the file"))?;
             let row = |idx: usize| values[idx * num_channels..][..num_channels].iter().copied();

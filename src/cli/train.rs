@@ -135,7 +135,7 @@ fn restart() -> Result<(), Failure> {
     match status.code() {
         Some(0) => Ok(()),
         Some(code) => std::process::exit(code),
-        None => Err(Failure::fault("training was ended by a signal")),
+        None => Err(Failure::fault("a signal ended the training")),
     }
 }
 

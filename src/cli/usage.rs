@@ -3,19 +3,22 @@ use clap::error::ErrorKind;
 use super::console;
 use super::failure::Failure;
 
-/// Answers arguments that are no command: prints help and versions where they are asked for, else says what is wrong.
+/// Answers arguments that clap does not accept as a command: prints help or version on request, otherwise returns the error.
 pub(super) fn answer(refused: &clap::Error) -> Result<(), Failure> {
     match refused.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => console::data(&refused.render().to_string()),
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             console::note(&refused.render().to_string());
-            Err(Failure::usage("no command was given, expected one of the above", "cinesplat COMMAND --help"))
+            Err(Failure::usage(
+                "no command, expected one of those above",
+                "`cinesplat COMMAND --help` explains a command",
+            ))
         }
         _ => Err(wrong(&refused.render().to_string())),
     }
 }
 
-/// clap's paragraphs as our two lines: the first says what is wrong, tips and usage become the help.
+/// Turns clap's paragraphs into two lines: the first paragraph is the message, tips and usage are the help.
 fn wrong(text: &str) -> Failure {
     let joined = |part: &str| part.lines().map(str::trim).collect::<Vec<_>>().join(" ");
     let mut parts = text.split("\n\n").map(joined).filter(|part| !part.is_empty());

@@ -60,7 +60,7 @@ impl Args {
     }
 }
 
-/// The line of one case, measured by this program started anew with the same arguments.
+/// The CSV line of one case, measured by a new process of this program with the same arguments.
 fn in_own_process(growth: Growth, value: u64) -> Result<String, Failure> {
     let program = std::env::current_exe().map_err(|error| Failure::io("cinesplat", &error))?;
     let case = format!("--case={}:{value}", growth.as_ref());

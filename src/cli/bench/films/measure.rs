@@ -11,7 +11,7 @@ use cinesplat::scene::Scene;
 use cinesplat::trajectory::{CameraPath, Shot};
 use cinesplat::video::{VideoError, VideoSettings, VideoWriter};
 
-/// What is filmed.
+/// A shot on a scene.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FilmCase<'a> {
     pub(super) scene: &'a Scene,
@@ -28,14 +28,14 @@ pub(super) struct FilmRow {
     pub(super) quality: &'static str,
     pub(super) measure: &'static str,
     pub(super) secs: f64,
-    /// Of all cores together, where that means something.
+    /// CPU time, where it is known.
     pub(super) cpu_secs: Option<f64>,
-    /// What it is held against, and how much more it takes in percent.
+    /// What it is compared with, and the difference in percent.
     pub(super) against: Option<(&'static str, f64)>,
 }
 
 impl FilmCase<'_> {
-    /// The film's pictures by a renderer that keeps what it has, against the same pictures one by one.
+    /// Compares the film's pictures by one renderer, which reuses its state, with the same pictures one by one.
     pub(super) fn stills(&self, settings: &FilmSettings, report: &mut dyn FnMut(FilmRow)) -> Result<(), Failure> {
         let cameras = self.cameras()?;
         let quality = settings.render.quality.into();
@@ -59,7 +59,7 @@ impl FilmCase<'_> {
         Ok(())
     }
 
-    /// The film against rendering and encoding alone, and against its forecast.
+    /// Compares the film with rendering and encoding alone, and with its forecast.
     pub(super) fn film(&self, settings: &FilmSettings, report: &mut dyn FnMut(FilmRow)) -> Result<(), Failure> {
         let quality = settings.render.quality;
         let output = TemporaryFilm::new();
@@ -128,7 +128,7 @@ impl FilmCase<'_> {
     }
 }
 
-/// Renders all pictures in a row; without `keeps` into the memory of one.
+/// Renders all pictures in order; returns them only if `keeps`.
 fn render(
     renderer: &Renderer<'_>,
     cameras: &[Camera],
@@ -147,7 +147,7 @@ fn render(
     Ok((pictures, sum))
 }
 
-/// A film's name in the system's folder for passing files; what bears it is removed in the end.
+/// Path of a film in the system's temporary folder. The file is removed on drop.
 struct TemporaryFilm(PathBuf);
 
 impl TemporaryFilm {
@@ -158,7 +158,7 @@ impl TemporaryFilm {
 
 impl Drop for TemporaryFilm {
     fn drop(&mut self) {
-        // Nobody is left to report.
+        // A failed removal cannot be reported here.
         let _ = std::fs::remove_file(&self.0);
     }
 }

@@ -2,7 +2,7 @@ use std::fmt::Write as _;
 
 use super::measure::FilmRow;
 
-/// First line of the CSV.
+/// Header line of the CSV.
 pub(super) const CSV_HEADER: &str =
     "scene,width,height,frames,quality,measure,secs,ms_a_frame,busy_secs,against,percent\n";
 
@@ -11,7 +11,7 @@ pub(super) fn to_csv(rows: &[FilmRow]) -> String {
     rows.iter().fold(CSV_HEADER.to_owned(), |csv, row| csv + &csv_line(row))
 }
 
-/// One row as a line of the CSV; cells that mean nothing are empty.
+/// One row as a line of the CSV; cells without a meaning are empty.
 pub(super) fn csv_line(row: &FilmRow) -> String {
     let busy = row.cpu_secs.map_or(String::new(), |secs| format!("{secs:.2}"));
     let (against, percent) = row.against.map_or_else(Default::default, |(what, p)| (what, format!("{p:.1}")));
@@ -24,14 +24,14 @@ pub(super) fn csv_line(row: &FilmRow) -> String {
         row.quality,
         row.measure,
         row.secs,
-        ms_a_frame(row)
+        ms_per_frame(row)
     )
 }
 
 /// The rows as a Markdown table.
 pub(super) fn to_table(rows: &[FilmRow]) -> String {
     let mut table = String::from(
-        "| scene | size | frames | quality | measure | s | ms a frame | against |\n|---|---|---|---|---|---|---|---|\n",
+        "| scene | size | frames | quality | measure | s | ms per frame | against |\n|---|---|---|---|---|---|---|---|\n",
     );
     for row in rows {
         let against = row.against.map_or(String::new(), |(what, percent)| format!("{what}: {percent:+.1} %"));
@@ -46,12 +46,12 @@ pub(super) fn to_table(rows: &[FilmRow]) -> String {
             row.quality,
             row.measure,
             row.secs,
-            ms_a_frame(row)
+            ms_per_frame(row)
         );
     }
     table
 }
 
-fn ms_a_frame(row: &FilmRow) -> f64 {
+fn ms_per_frame(row: &FilmRow) -> f64 {
     row.secs * 1e3 / row.num_frames.max(1) as f64
 }

@@ -125,7 +125,7 @@ impl CaseDirector {
         Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, director, &settings)?.shot)
     }
 
-    /// Shots of a case for several settings of the search, each with the time of the search alone. Needs programs.
+    /// Shots of a case for several search settings, each with the time of its search. Needs programs.
     pub(super) fn direct_each(
         &mut self,
         case: &PromptCase,
@@ -145,7 +145,7 @@ impl CaseDirector {
 }
 
 impl CaseScene {
-    /// The shot of a program, and how long preparing the scene and solving took.
+    /// The shot of a program, with the times of preparing the scene and of solving.
     fn direct(
         &self,
         program: &Program,

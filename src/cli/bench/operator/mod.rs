@@ -1,4 +1,4 @@
-//! `bench operator`: measures on finished shots what the operator promises. No code is shared with the operator.
+//! `bench operator`: measures on finished shots what the operator promises. The measuring code shares nothing with it.
 
 mod cases;
 mod curve;

@@ -12,12 +12,12 @@ use cinesplat::pipeline::{self, DirectSettings, OpenedScene};
 use cinesplat::scene::{LoadOptions, Scene};
 use cinesplat::trajectory::{Easing, Intent, Keyframe, Move, SceneRef, Shot, retimed};
 
-/// The generated room in which moves are planned.
+/// Generated room in which moves are planned.
 const ROOM: &str = "synth:room:7:0.2";
-/// Objects of the room about which each move is planned.
+/// Number of objects of the room about which each move is planned.
 const NUM_SUBJECTS: usize = 6;
 
-/// Something measured: worst value over `cases`, and what it must stay under.
+/// The worst value of a measurement over `cases`, and its limit.
 struct Check {
     what: &'static str,
     cases: usize,
@@ -27,13 +27,13 @@ struct Check {
 
 impl Check {
     fn of(what: &'static str, limit: f64, values: &[f64]) -> Self {
-        // A NaN is the worst of all.
+        // A NaN counts as the worst value.
         let worst = values.iter().copied().max_by(f64::total_cmp).unwrap_or(f64::NAN);
         Self { what, cases: values.len(), worst, limit }
     }
 }
 
-/// Measures and prints.
+/// Measures the moves and prints one CSV line per check.
 pub(super) fn run() -> Result<(), Failure> {
     let room = TestRoom::open()?;
     let mut rows = authored()?;
@@ -46,7 +46,7 @@ pub(super) fn run() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Keys as a person types them.
+/// Checks of keys that a person wrote.
 fn authored() -> Result<Vec<Check>, Failure> {
     let frame = LevelFrame::new(DVec3::Y)?;
     let pivot = DVec3::new(3.0, -1.0, 0.5);
@@ -80,7 +80,7 @@ fn key(time_secs: f64, pose: Pose, intent: Option<Intent>) -> Keyframe {
     Keyframe { time_secs, pose, fov_y_rad: 0.8, focus_distance: None, easing, cut: false, intent }
 }
 
-/// An orbit of 300 degrees in `count` keys, moved along the circle by `uneven` of their distance in turn.
+/// An orbit of 300 degrees in `count` keys, shifted along the circle by up to `uneven` of their distance.
 fn orbit_keys(pivot: DVec3, count: usize, uneven: f64) -> Result<Shot, Failure> {
     let at = |i: usize| {
         let inner = i > 0 && i + 1 < count;
@@ -94,7 +94,7 @@ fn orbit_keys(pivot: DVec3, count: usize, uneven: f64) -> Result<Shot, Failure> 
     Ok(shot(DVec3::Y, keys?, (count - 1) as f64))
 }
 
-/// Keys 1, 0.2 and 3.8 apart at even times, that turn on the way.
+/// Keys at distances 1, 0.2 and 3.8 at even times, with turning cameras.
 fn uneven_keys() -> Shot {
     let at = |(i, x): (usize, f64)| {
         let forward = DVec3::new((0.4 * i as f64).sin(), -0.1 * i as f64, -(0.4 * i as f64).cos()).normalize();
@@ -103,7 +103,7 @@ fn uneven_keys() -> Shot {
     shot(DVec3::Y, [0.0, 1.0, 1.2, 5.0].into_iter().enumerate().map(at).collect(), 3.0)
 }
 
-/// A generated room to plan in.
+/// A generated room with its first objects.
 struct TestRoom {
     scene: Scene,
     subjects: Vec<Object>,
@@ -120,7 +120,7 @@ impl TestRoom {
         Ok(Self { scene, subjects, world })
     }
 
-    /// A film of one step.
+    /// The shot of one step.
     fn plan(&self, step: Step) -> Shot {
         let program = Program { steps: vec![step], ..Program::default() };
         let solve = SolveSettings { level: SolveLevel::Fast, ..SolveSettings::default() };
@@ -133,7 +133,7 @@ fn about(object: &Object) -> Framing {
     Framing { subjects: vec![object.id], ..Framing::default() }
 }
 
-/// Moves as the operator plans them.
+/// Checks of moves that the operator plans.
 fn planned(room: &TestRoom) -> Result<Vec<Check>, Failure> {
     let frame = &room.world.frame;
     let (mut radius, mut even, mut plane, mut boxes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -177,7 +177,7 @@ fn planned(room: &TestRoom) -> Result<Vec<Check>, Failure> {
     ])
 }
 
-/// Free ways of one even speed: past and over things, from one to another.
+/// Paths of constant speed: from one object to another, and over one to another.
 fn cruises(room: &TestRoom) -> Vec<Shot> {
     let pairs = room.subjects.windows(2);
     let follow = |pair: &[Object]| {
@@ -191,7 +191,7 @@ fn cruises(room: &TestRoom) -> Vec<Shot> {
     pairs.flat_map(follow).collect()
 }
 
-/// Films of one way each that must not turn back.
+/// Shots of one move each that must not turn back.
 fn ways(room: &TestRoom) -> Vec<Shot> {
     let film = |object: &Object| {
         [Move::PushIn, Move::PullOut, Move::TruckLeft, Move::TruckRight, Move::PedestalUp, Move::CraneUp]

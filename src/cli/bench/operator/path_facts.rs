@@ -1,16 +1,16 @@
-//! Facts of a continuous path, from dense samples of it.
+//! Measurements of a continuous path from dense samples.
 
 use glam::{DQuat, DVec3};
 
 use cinesplat::geometry::{LevelFrame, rotation};
 use cinesplat::trajectory::{CameraPath, CameraState, Shot};
 
-/// Samples of a path.
+/// Number of samples of a path.
 const NUM_SAMPLES: usize = 20_001;
-/// Half the time over which a velocity at one side of a key is taken.
+/// Time step of a velocity by finite differences.
 const INSTANT_SECS: f64 = 1e-5;
 
-/// A shot's path with even samples over its whole time.
+/// A shot's path with samples at even times.
 pub(super) struct Sampled<'a> {
     shot: &'a Shot,
     path: CameraPath,
@@ -25,14 +25,14 @@ impl<'a> Sampled<'a> {
         Ok(Self { shot, path, states })
     }
 
-    /// Largest relative departure of the horizontal distance to the upright axis through `pivot` from its first value.
+    /// Largest relative deviation of the horizontal distance to the upright axis through `pivot` from its first value.
     pub(super) fn radius_error(&self, frame: &LevelFrame, pivot: DVec3) -> f64 {
         let radius = |state: &CameraState| frame.horizontal(state.pose.position - pivot).length();
         let first = radius(&self.states[0]);
         self.states.iter().map(|state| (radius(state) / first - 1.0).abs()).fold(0.0, f64::max)
     }
 
-    /// Standard deviation over mean of the speed in a part `[from, to]` of the time, each 0..=1.
+    /// Standard deviation over mean of the speed in the interval `[from, to]` of the time, each 0..=1.
     pub(super) fn speed_variation(&self, [from, to]: [f64; 2]) -> f64 {
         let index = |share: f64| (share * (NUM_SAMPLES - 1) as f64) as usize;
         let part = &self.states[index(from)..=index(to)];
@@ -42,14 +42,14 @@ impl<'a> Sampled<'a> {
         variance.sqrt() / mean
     }
 
-    /// Steps that go against the one before.
+    /// Number of steps that go against the step before.
     pub(super) fn num_reversals(&self) -> usize {
         let step = |pair: &[CameraState]| pair[1].pose.position - pair[0].pose.position;
         let steps: Vec<DVec3> = self.states.windows(2).map(step).collect();
         steps.windows(2).filter(|pair| pair[0].dot(pair[1]) < 0.0).count()
     }
 
-    /// Largest jump of the velocity and of the angular velocity at an inner key without a cut, over the highest of
+    /// Largest jump of velocity and of angular velocity at an inner key without a cut, each over its peak.
     /// each.
     pub(super) fn velocity_jumps(&self) -> (f64, f64) {
         let (mut jump, mut turn_jump) = (0.0_f64, 0.0_f64);
@@ -72,14 +72,14 @@ impl<'a> Sampled<'a> {
         (jump / peak, if turn_peak > 1e-9 { turn_jump / turn_peak } else { 0.0 })
     }
 
-    /// Velocity and angular velocity (world axes, rad a second) just after a time.
+    /// Velocity and angular velocity (world axes, rad per second) just after a time.
     fn velocity(&self, time_secs: f64) -> (DVec3, DVec3) {
         let (a, b) = (self.path.sample(time_secs), self.path.sample(time_secs + INSTANT_SECS));
         let turn: DQuat = b.pose.rotation * a.pose.rotation.conjugate();
         ((b.pose.position - a.pose.position) / INSTANT_SECS, rotation::log(turn) / INSTANT_SECS)
     }
 
-    /// Largest value over least, less 1, of a positive quantity of the camera.
+    /// Largest over smallest value, minus 1, of a positive quantity of the camera.
     pub(super) fn drift(&self, quantity: impl Fn(&CameraState) -> f64) -> f64 {
         let values = self.states.iter().map(quantity);
         let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
@@ -87,7 +87,7 @@ impl<'a> Sampled<'a> {
     }
 }
 
-/// Height of points in the picture over its height.
+/// Projected height of points over the height of the picture.
 pub(super) fn height_frac(state: &CameraState, points: &[DVec3]) -> f64 {
     let row = |point: &DVec3| {
         let p = state.pose.to_camera(*point);
