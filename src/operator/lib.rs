@@ -2,7 +2,7 @@
 //!
 //! Enters: a scene prepared as [`World`], a [`Program`] of steps, and cameras that the director proposes
 //! ([`StepCameras`]). Leaves: keyframes whose path carries out each step by the definitions of the contract ("Moves,
-//! exactly"), and a report that compares requested with measured values ([`realize`]).
+//! exactly"), and a report that compares requested with measured values ([`realize()`]).
 //!
 //! A bounded, seeded search chooses what the steps leave open, such as the bearing from which a subject is seen or the
 //! length of a push. It minimizes a cost over framing, visibility, clearance, and the region that the capture covers.

@@ -30,7 +30,7 @@ pub enum SolveLevel {
     Full,
 }
 
-/// Settings of [`realize`](crate::realize).
+/// Settings of [`realize`](crate::realize()).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolveSettings {
     /// Effort of the search.
