@@ -23,7 +23,7 @@ FILM_SCENES := $(if $(wildcard $(DATA)/kitchen/scene.spz),$(DATA)/kitchen/scene.
 	--cameras $(DATA)/golden/kitchen.cameras.json --cameras auto,synth:demo)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps build demo test train bench check-shots clean
+.PHONY: help deps build demo test train bench check-shots gallery clean
 
 help:
 	@sed -n 's/^# //p' $(firstword $(MAKEFILE_LIST)) | sed -n '1,/^make   /p'
@@ -58,9 +58,9 @@ demo: build
 # One gate for people and CI. Tests run optimized and share the demo's compiled dependencies.
 test: deps
 	cargo fmt --check
-	cargo clippy --release --locked --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps
-	cargo test --release --locked
+	cargo clippy --release --locked --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps
+	cargo test --release --locked --workspace
 
 # Long ones, never part of the gate. Training takes hours; models/README.md says what the shipped weights were made with.
 train: build
@@ -71,9 +71,9 @@ train: build
 bench: build
 	$(BIN) bench render $(foreach scene,$(BENCH_SCENES),$(word 1,$(subst @, ,$(scene)))) \
 		$(foreach scene,$(BENCH_SCENES),--cameras $(word 2,$(subst @, ,$(scene)))) \
-		--sizes 1280x720,1920x1080 -o renders/bench > /dev/null
-	$(BIN) bench scaling synth:tabletop:1 -o renders/bench > /dev/null
-	$(BIN) bench films $(FILM_SCENES) -o renders/bench > /dev/null
+		--sizes 1280x720,1920x1080 --overwrite -o renders/bench > /dev/null
+	$(BIN) bench scaling synth:tabletop:1 --overwrite -o renders/bench > /dev/null
+	$(BIN) bench films $(FILM_SCENES) --overwrite -o renders/bench > /dev/null
 
 # Does the camera do what is asked? Films of cases of ../shared (not part of this repository) with solver off and full,
 # from the network's reading of the prompts and from programs written by hand, all held against the checker there.
@@ -84,10 +84,15 @@ check-shots: build
 		for by in network hand; do \
 			[ $$by = hand ] && intents="--intents tests/operator/intents.json" || intents=""; \
 			echo "== solver $$solve, programs by $$by"; \
-			$(BIN) bench operator films --cases $(CASES) $$intents --solve $$solve -o target/shots/$$by-$$solve 2>/dev/null; \
+			$(BIN) bench operator films --cases $(CASES) $$intents --solve $$solve --overwrite -o target/shots/$$by-$$solve 2>/dev/null; \
 			$(CHECKER) --cases $(CASES) --paths target/shots/$$by-$$solve; \
 		done; \
 	done || true
+
+# The moving picture of the README, of the demo's film. Needs the program ffmpeg.
+gallery: demo
+	ffmpeg -v error -y -i renders/demo.mp4 -vf "fps=12,scale=640:-2:flags=lanczos" \
+		-c:v libwebp_anim -loop 0 -quality 60 -compression_level 6 renders/gallery/demo.webp
 
 clean:
 	cargo clean
