@@ -23,6 +23,7 @@ mod objects;
 mod outputs;
 mod plan;
 mod progress;
+mod prompts_file;
 mod render;
 mod reproduce;
 mod scene_args;

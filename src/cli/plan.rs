@@ -3,10 +3,12 @@ use std::path::{Path, PathBuf};
 use strum::VariantArray;
 
 use super::failure::Failure;
+use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, explain, heading, outputs, reproduce};
 use cinesplat::export::shot_json;
+use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, FilmSettings, FrameRange};
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
@@ -16,21 +18,21 @@ use cinesplat::video::VideoSettings;
 /// Turn a sentence into keyframes
 ///
 /// Writes a shot.json without rendering it.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
 Examples:
   cinesplat plan room.spz -p \"push in on <obj-3>\" --objects objects.json -o shot.json
+  cinesplat plan room.spz --prompts moves.txt --objects objects.json -o shots/{}.json
   cinesplat plan synth:demo -p \"push in on the sofa, then crane up\" -o shot.json --explain
 shot.json may be edited by hand: move keys in time, add or remove keys, then `render --shot shot.json`.")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// What the camera does, in words
-    ///
-    /// Objects are named by their labels or as <obj-ID>.
-    #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
-    prompt: String,
+    #[command(flatten)]
+    words: Words,
     /// Shot to write, or - for stdout
+    ///
+    /// With --prompts a name with {} in it, such as shots/{}.json.
     #[arg(short, long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, required_unless_present_any = ["json", "explain"])]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -47,23 +49,62 @@ pub(super) struct Args {
     overwrite: Overwrite,
 }
 
+/// One prompt or a file of them.
+#[derive(Debug, Clone, clap::Args)]
+#[group(required = true, multiple = false)]
+struct Words {
+    /// What the camera does, in words
+    ///
+    /// Objects are named by their labels or as <obj-ID>.
+    #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
+    prompt: Option<String>,
+    /// File of prompts, one shot per line
+    ///
+    /// A line is a prompt, or a name, a tab and a prompt. Blank lines and lines that start with # are skipped. The name,
+    /// or the line's number in three digits, takes the place of {} in the output.
+    #[arg(long, value_name = "FILE", help_heading = heading::SHOT)]
+    prompts: Option<PathBuf>,
+}
+
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        if let Some(output) = &self.output {
-            self.overwrite.check(output)?;
+        let prompts = self.words.prompts.as_deref().map(prompts_file::read).transpose()?;
+        let jobs = self.jobs(prompts)?;
+        for (_, output) in &jobs {
+            output.iter().try_for_each(|output| self.overwrite.check(output))?;
         }
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
-        let mut directed = self.shot.direct(&scene, &objects, &self.prompt)?;
-        if let Some(output) = &self.output {
+        let plan = |named: &NamedPrompt, output: &Option<PathBuf>| {
+            self.plan((&scene, &objects), &named.prompt, output.as_deref())
+        };
+        match jobs.as_slice() {
+            [(named, output)] if self.words.prompts.is_none() => plan(named, output),
+            jobs => prompts_file::for_each(jobs, plan),
+        }
+    }
+
+    /// Every prompt with its output.
+    fn jobs(&self, prompts: Option<Vec<NamedPrompt>>) -> Result<Vec<(NamedPrompt, Option<PathBuf>)>, Failure> {
+        let Some(prompts) = prompts else {
+            let prompt = self.words.prompt.clone().unwrap_or_default();
+            return Ok(vec![(NamedPrompt { name: String::new(), prompt }, self.output.clone())]);
+        };
+        let output = |name: &str| self.output.as_deref().map(|path| prompts_file::output_of(path, name)).transpose();
+        prompts.into_iter().map(|named| Ok((named.clone(), output(&named.name)?))).collect()
+    }
+
+    fn plan(&self, (scene, objects): (&Scene, &ObjectSet), prompt: &str, output: Option<&Path>) -> Result<(), Failure> {
+        let mut directed = self.shot.direct(scene, objects, prompt)?;
+        if let Some(output) = output {
             directed.shot.scene.path = outputs::relative_to(output, &scene.path);
             self.overwrite.write(output, shot_json::write(&directed.shot).as_bytes())?;
             let (keys, secs) = (directed.shot.keyframes.len(), directed.shot.duration_secs);
             console::note(&format!("{}: {keys} keys, {secs:.2} s", output.display()));
         }
         if self.explain {
-            self.print_forecasts(&scene, &directed.shot)?;
-            let text = explain::explanation(&directed, &objects);
+            self.print_forecasts(scene, &directed.shot)?;
+            let text = explain::explanation(&directed, objects);
             if self.json { console::note(&text) } else { console::data(&text)? }
         }
         if self.json {

@@ -7,6 +7,7 @@ use super::choice::choice;
 use super::failure::{Exit, Failure};
 use super::interrupt::Interrupt;
 use super::progress::FrameProgress;
+use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, heading, outputs, reproduce};
@@ -22,9 +23,10 @@ use cinesplat::video::{self, VideoSettings, X264Preset};
 /// Predicts time and accuracy first, renders, then prints both as measured and the command that reproduces the film.
 /// Ctrl-C ends after the current frame and keeps the finished frames, those of a film as NAME.partial.EXT. A second
 /// Ctrl-C ends at once.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
 Examples:
+  cinesplat render room.spz --prompts moves.txt --objects objects.json -o films/{}.mp4
   cinesplat render room.spz -p \"push in on the lamp\" --objects objects.json -o lamp.mp4
   cinesplat render room.spz --shot shot.json -o frames/%05d.png --frames 0..120 --quality final")]
 pub(super) struct Args {
@@ -33,6 +35,8 @@ pub(super) struct Args {
     #[command(flatten)]
     source: ShotSource,
     /// Film (.mp4 .mkv .webm .mov), or pictures such as frames/%05d.png
+    ///
+    /// With --prompts a name with {} in it, such as films/{}.mp4.
     #[arg(short, long, value_name = "OUT", help_heading = heading::OUTPUT)]
     output: PathBuf,
     #[command(flatten)]
@@ -73,7 +77,7 @@ pub(super) struct Args {
     overwrite: Overwrite,
 }
 
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 #[group(required = true, multiple = false)]
 struct ShotSource {
     /// What the camera does, in words
@@ -81,6 +85,12 @@ struct ShotSource {
     /// Objects are named by their labels or as <obj-ID>.
     #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
     prompt: Option<String>,
+    /// File of prompts, one film per line
+    ///
+    /// A line is a prompt, or a name, a tab and a prompt. Blank lines and lines that start with # are skipped. The name,
+    /// or the line's number in three digits, takes the place of {} in the outputs.
+    #[arg(long, value_name = "FILE", help_heading = heading::SHOT)]
+    prompts: Option<PathBuf>,
     /// Shot to render instead of words
     #[arg(long = "shot", value_name = "SHOT.JSON", help_heading = heading::SHOT)]
     file: Option<PathBuf>,
@@ -88,13 +98,53 @@ struct ShotSource {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
+        if let Some(file) = &self.source.prompts {
+            return self.run_prompts(&prompts_file::read(file)?);
+        }
         let start = Instant::now();
         self.check_outputs()?;
         self.picture.bound_threads()?;
         let mut times = PhaseTimes::default();
         let (scene, shot) = self.open(&mut times)?;
+        self.render(&scene, &shot, (times, start), &Interrupt::listen()?)
+    }
+
+    /// One film per prompt of a file; the scene is loaded once.
+    fn run_prompts(&self, prompts: &[NamedPrompt]) -> Result<(), Failure> {
+        let jobs: Vec<(NamedPrompt, Self)> =
+            prompts.iter().map(|named| Ok((named.clone(), self.for_prompt(named)?))).collect::<Result<_, Failure>>()?;
+        jobs.iter().try_for_each(|(_, job)| job.check_outputs())?;
+        self.picture.bound_threads()?;
+        let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
+        let interrupt = Interrupt::listen()?;
+        prompts_file::for_each(&jobs, |named, job| {
+            let start = Instant::now();
+            let directed = job.shot.direct(&scene, &objects, &named.prompt)?;
+            job.render(&scene, &directed.shot, (directed.times, start), &interrupt)
+        })
+    }
+
+    /// The arguments that render one prompt of a file.
+    fn for_prompt(&self, named: &NamedPrompt) -> Result<Self, Failure> {
+        let output = |path: &PathBuf| prompts_file::output_of(path, &named.name);
+        Ok(Self {
+            output: output(&self.output)?,
+            save_shot: self.save_shot.as_ref().map(output).transpose()?,
+            sheet: self.sheet.as_ref().map(output).transpose()?,
+            ..self.clone()
+        })
+    }
+
+    /// Renders the film of a shot and reports on it.
+    fn render(
+        &self,
+        scene: &Scene,
+        shot: &Shot,
+        (mut times, start): (PhaseTimes, Instant),
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
         // A second check, now that size and number of frames are known.
-        let format = video::check_output(&self.output, &self.video(&shot)?)?;
+        let format = video::check_output(&self.output, &self.video(shot)?)?;
         if let Some(note) = video::odd_size_note(&format, shot.width, shot.height) {
             console::note(&note);
         }
@@ -104,18 +154,18 @@ impl Args {
             self.overwrite.write(path, shot_json::write(&saved).as_bytes())?;
         }
         let renderer = Renderer::new(&scene.gaussians);
-        let render = self.picture.settings(&scene, Quality::Standard, None, None);
-        let video = self.video(&shot)?;
+        let render = self.picture.settings(scene, Quality::Standard, None, None);
+        let video = self.video(shot)?;
         let mut settings = FilmSettings { render, video, frames: self.frames, sheet: self.sheet.clone() };
-        let predicted = times.measure(Phase::Predict, || self.predict(&renderer, &shot, &settings))?;
+        let predicted = times.measure(Phase::Predict, || self.predict(&renderer, shot, &settings))?;
         settings.render.quality = predicted.quality;
-        let report = self.film(&renderer, &shot, &settings)?;
+        let report = self.film(&renderer, shot, &settings, interrupt)?;
         times.add(Phase::Render, report.render_time);
         times.add(Phase::Encode, report.encode_time);
         print_times(&times, &report, start.elapsed());
-        let psnr_db = pipeline::checked_psnr_db(&renderer, &shot, &settings)?;
+        let psnr_db = pipeline::checked_psnr_db(&renderer, shot, &settings)?;
         self.print_comparison(&predicted, &report, psnr_db)?;
-        let mut decided = deciding(&shot).to_vec();
+        let mut decided = deciding(shot).to_vec();
         if self.requirements() != Requirements::default() {
             // The same requirements may choose another quality on another machine.
             decided.push(("--quality", predicted.quality.as_ref().to_owned()));
@@ -225,8 +275,13 @@ impl Args {
         console::data(&format!("{summary:#}\n"))
     }
 
-    fn film(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<FilmReport, Failure> {
-        let interrupt = Interrupt::listen()?;
+    fn film(
+        &self,
+        renderer: &Renderer<'_>,
+        shot: &Shot,
+        settings: &FilmSettings,
+        interrupt: &Interrupt,
+    ) -> Result<FilmReport, Failure> {
         let mut bar = FrameProgress::new();
         let mut watch = |progress: pipeline::FilmProgress| {
             bar.show(progress.done, progress.total);

@@ -50,6 +50,11 @@ impl Failure {
         self
     }
 
+    /// The kind of failure.
+    pub(crate) fn exit(&self) -> Exit {
+        self.exit
+    }
+
     /// Exit code of the program.
     pub(crate) fn exit_code(&self) -> u8 {
         self.exit as u8

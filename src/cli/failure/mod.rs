@@ -15,7 +15,6 @@ mod pipeline;
 mod render;
 mod scene;
 #[cfg(feature = "training")]
-#[cfg(feature = "training")]
 mod training;
 mod video;
 
