@@ -3,7 +3,8 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use candle_core::{Device, Result, Tensor};
+use candle_core::{Device, Module, Result, Tensor};
+use candle_nn::Activation;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -184,7 +185,7 @@ impl FeedForward {
     }
 
     pub(super) fn apply(&self, x: &Tensor, dropout: &Dropout) -> Result<Tensor> {
-        let hidden = self.up.apply(&self.norm.apply(x)?)?.silu()?;
+        let hidden = Activation::Silu.forward(&self.up.apply(&self.norm.apply(x)?)?)?;
         x.add(&dropout.apply(&self.down.apply(&hidden)?)?)
     }
 }
