@@ -4,29 +4,29 @@ use thiserror::Error;
 
 use cinesplat_language::LanguageError;
 
-/// What keeps the director from directing.
+/// Error of the director.
 #[derive(Debug, Error)]
 pub enum DirectorError {
-    /// The words cannot be linked to the scene's objects.
+    /// The prompt cannot be linked to the scene's objects.
     #[error(transparent)]
     Language(#[from] LanguageError),
-    /// Nothing to read in the prompt.
+    /// A prompt without words.
     #[error("the prompt holds no words, expected a sentence about the camera")]
     EmptyPrompt,
-    /// More words than the network reads.
+    /// A prompt of more tokens than the network reads.
     #[error("the prompt is {found} tokens long, expected at most {limit}")]
     PromptTooLong {
-        /// Tokens found.
+        /// Number of tokens.
         found: usize,
-        /// Tokens allowed.
+        /// Largest number of tokens.
         limit: usize,
     },
     /// A scene without extent or up direction.
     #[error("the scene has {found}, expected {expected}")]
     BadScene {
-        /// What it has.
+        /// The value found.
         found: String,
-        /// What it should have.
+        /// The values allowed.
         expected: &'static str,
     },
     /// A file of the model cannot be read.
@@ -34,10 +34,10 @@ pub enum DirectorError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The system's reason.
         source: std::io::Error,
     },
-    /// A file of the model is not what it says it is.
+    /// A file of the model is malformed or does not match its description.
     #[error("{part}: found {found}, expected {expected}")]
     BadModel {
         /// Which part: a file, a field, a tensor.
@@ -47,8 +47,8 @@ pub enum DirectorError {
         /// What was expected.
         expected: String,
     },
-    /// An id that the model has no row for.
-    #[error("token id {found} is beyond the vocabulary of {limit}")]
+    /// A token id outside the vocabulary.
+    #[error("token id {found}, expected less than {limit}")]
     IdBeyondVocabulary {
         /// The id.
         found: u32,
@@ -58,8 +58,8 @@ pub enum DirectorError {
     /// The network failed to compute.
     #[error("the network failed: {0}")]
     Compute(#[from] candle_core::Error),
-    /// The network produced a number that is none.
-    #[error("the network put out {found} as {field}, expected a finite number")]
+    /// An output of the network is not finite.
+    #[error("network output {field} is {found}, expected a finite number")]
     NotFinite {
         /// Which output.
         field: &'static str,

@@ -25,7 +25,7 @@ pub enum SettingName {
     Relation,
 }
 
-/// What keeps two paths from being compared.
+/// Error of an evaluation.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum EvaluationError {
     /// A path without poses.
@@ -34,7 +34,7 @@ pub enum EvaluationError {
         /// "reference" or "estimate".
         which: &'static str,
     },
-    /// A file of a batch that is no path.
+    /// A file of a batch cannot be read as a path.
     #[error("{reason}")]
     Unreadable {
         /// The file and what is wrong with it.
@@ -48,25 +48,25 @@ pub enum EvaluationError {
         /// Both files.
         files: [PathBuf; 2],
     },
-    /// No time stamps that lie close enough together.
+    /// No two time stamps are close enough.
     #[error(
         "no poses at the same times: nearest are {nearest_secs:.6} s apart, expected at most {max_diff_secs} s \
          (reference {reference_secs:?} s, estimate {estimate_secs:?} s)"
     )]
     NoMatches {
-        /// Smallest distance of any two stamps.
+        /// Smallest difference of two time stamps.
         nearest_secs: f64,
-        /// The bound.
+        /// Largest difference allowed.
         max_diff_secs: f64,
-        /// First and last stamp of the reference.
+        /// First and last time stamp of the reference.
         reference_secs: [f64; 2],
-        /// First and last stamp of the estimate.
+        /// First and last time stamp of the estimate.
         estimate_secs: [f64; 2],
     },
-    /// No pair of poses lies the asked distance apart.
+    /// No pair of poses has the requested distance.
     #[error("no pairs of poses are {delta} {unit} apart ({num_poses} poses, {available} {unit} in all)")]
     NoPairs {
-        /// The asked distance.
+        /// The requested distance.
         delta: f64,
         /// Its unit.
         unit: &'static str,
@@ -78,17 +78,17 @@ pub enum EvaluationError {
     /// A setting out of range.
     #[error("{setting} is {found}, expected {expected}")]
     BadSetting {
-        /// Which one.
+        /// The setting.
         setting: SettingName,
         /// Its value.
         found: String,
-        /// What is allowed.
+        /// The values allowed.
         expected: &'static str,
     },
 }
 
 impl EvaluationError {
-    /// A short stable name of the kind of error.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Empty { .. } => "EVAL-EMPTY",

@@ -5,14 +5,13 @@ use thiserror::Error;
 
 use cinesplat_trajectory::TrajectoryError;
 
-/// What can go wrong between a shot and another program's file. Indices and lines: keyframes and frames count from 0,
-/// lines from 1.
+/// Error of reading or writing a camera path. Keyframes and frames count from 0, lines from 1.
 #[derive(Debug, Error)]
 pub enum ExportError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A file over the cap on what is read into memory.
+    /// A file above the cap on files that are read into memory.
     #[error("{path}: the file has {found} bytes, expected at most {expected}")]
     TooLarge {
         /// Its size.
@@ -22,21 +21,21 @@ pub enum ExportError {
         /// The file.
         path: PathBuf,
     },
-    /// Text that is not JSON: cut off, too deeply nested, numbers beyond f64 and so on.
+    /// Text that is not JSON: truncated, nested too deeply, numbers beyond f64.
     #[error("not JSON: {reason}")]
     NotJson {
-        /// What the parser found, with line and column.
+        /// The parser's message with line and column.
         reason: String,
     },
-    /// Another kind of file than the one asked for.
+    /// A file of another format than expected.
     #[error("found {found}, expected {expected}")]
     WrongFormat {
-        /// What it is or seems to be.
+        /// The format found.
         found: String,
-        /// What was expected.
+        /// The formats expected.
         expected: String,
     },
-    /// A version that this reader does not know.
+    /// A version without a reader.
     #[error("{format} version {found}, expected {expected}")]
     WrongVersion {
         /// The format's name.
@@ -46,54 +45,54 @@ pub enum ExportError {
         /// Versions that are read.
         expected: &'static str,
     },
-    /// A JSON field that is missing or holds something else than it should.
+    /// A JSON field that is missing or has a wrong value.
     #[error("{place}: found {found}, expected {expected}")]
     BadField {
         /// Path to the field: `keyframes[3].position`.
         place: String,
-        /// What stands there.
+        /// The value found.
         found: String,
-        /// What should.
+        /// The values allowed.
         expected: String,
     },
     /// A line of a text format that does not parse.
     #[error("line {line}: found {found}, expected {expected}")]
     BadLine {
-        /// Counting from 1.
+        /// Line, from 1.
         line: usize,
-        /// What stands there.
+        /// The value found.
         found: String,
-        /// What should.
+        /// The values allowed.
         expected: String,
     },
     /// A binary file that ends early or holds impossible counts.
     #[error("byte {offset}: found {found}, expected {expected}")]
     BadBytes {
-        /// Where, from the start of the file.
+        /// Offset from the start of the file.
         offset: usize,
-        /// What stands there.
+        /// The value found.
         found: String,
-        /// What should.
+        /// The values allowed.
         expected: String,
     },
-    /// Numbers that make no shot.
+    /// Keyframes that make no shot.
     #[error("{0}")]
     BadShot(#[from] TrajectoryError),
     /// No camera in the file.
     #[error("no camera poses in the file, expected at least one")]
     NoPoses,
-    /// A format that cannot be read back, or not in this variant.
+    /// A format, or a variant of it, without a reader.
     #[error("{format}: {reason}")]
     NotReadable {
         /// The format's name.
         format: &'static str,
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
 
 impl ExportError {
-    /// A short stable name of the kind of error.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::File(error) => error.code(),

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Why a file could not be read or written.
+/// Error of reading or writing a file.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// A file of this name exists and may not be replaced.
@@ -39,7 +39,7 @@ pub enum FileError {
 }
 
 impl FileError {
-    /// Stable code for messages.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Exists { .. } => "OUTPUT-EXISTS",

@@ -1,14 +1,14 @@
 use thiserror::Error;
 
-/// What can be wrong with geometric input.
+/// Error of geometric input.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum GeometryError {
     /// Eye and target of a look-at coincide, or one of them is not finite.
-    #[error("cannot look from {eye:?} at {target:?}: the two must be finite and apart")]
+    #[error("camera at {eye:?} looks at {target:?}, expected two different finite points")]
     NoViewDirection {
-        /// Where the camera stands, world.
+        /// Position of the camera, world.
         eye: [f64; 3],
-        /// What it should look at, world.
+        /// Target, world.
         target: [f64; 3],
     },
     /// A matrix that should be a rigid transform is not one.
@@ -17,13 +17,13 @@ pub enum GeometryError {
         /// What was found.
         reason: String,
     },
-    /// An up direction of zero length or with parts that are not finite.
-    #[error("up direction {found:?} has no length")]
+    /// An up direction of zero length, or with components that are not finite.
+    #[error("up direction is {found:?}, expected a finite vector of nonzero length")]
     NoUpDirection {
         /// The direction given.
         found: [f64; 3],
     },
-    /// Image size or focal length that no camera can have.
+    /// An invalid image size, focal length or principal point.
     #[error("bad intrinsics: {reason}")]
     BadIntrinsics {
         /// What was found.

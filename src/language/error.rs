@@ -1,18 +1,18 @@
-/// Why a prompt cannot be worked with, or why the embedded language data cannot be read.
+/// Error of a prompt, or of the embedded language data.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LanguageError {
-    /// The prompt is longer than anybody's description of a shot.
+    /// A prompt that is too long.
     #[error("prompt of {found} bytes, expected at most {limit}")]
     TooLong {
-        /// Bytes of the prompt.
+        /// Length of the prompt in bytes.
         found: usize,
-        /// Bytes allowed.
+        /// Largest length in bytes.
         limit: usize,
     },
-    /// No word in it.
+    /// A prompt without words.
     #[error("prompt without words, expected a sentence such as \"push in on <obj-3>\"")]
     Empty,
-    /// It names something that the scene does not have.
+    /// A prompt that names an unknown object.
     #[error("the prompt names \"{name}\", which is no object of this scene, expected one of its objects")]
     UnknownObject {
         /// The name as it stands in the prompt.
@@ -20,13 +20,13 @@ pub enum LanguageError {
         /// The nearest names of this scene, best first.
         nearest: Vec<String>,
     },
-    /// It names more objects than the model has identifiers.
+    /// A prompt that names more objects than the model has identifiers.
     #[error("the prompt names more than {limit} objects, expected at most {limit}")]
     TooManyObjects {
-        /// Identifiers of the model.
+        /// Number of identifiers of the model.
         limit: usize,
     },
-    /// Embedded grammar, lexicon or exam is malformed: a fault of the program.
+    /// Malformed embedded data: a fault of this program.
     #[error("{file} line {line}: {what}")]
     BadData {
         /// Which file.
@@ -39,7 +39,7 @@ pub enum LanguageError {
 }
 
 impl LanguageError {
-    /// Stable name of the fault for `error[CODE]`.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::TooLong { .. } => "PROMPT-TOO-LONG",

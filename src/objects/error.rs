@@ -3,38 +3,38 @@ use std::path::PathBuf;
 use cinesplat_files::FileError;
 use thiserror::Error;
 
-/// What can go wrong with an objects file, its labels, or the pictures of objects. `Display` begins with the file.
+/// Error of an objects file, its labels, or pictures of objects. The message begins with the file.
 #[derive(Debug, Error)]
 pub enum ObjectsError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file is not JSON at all.
+    /// Text that is not JSON.
     #[error("{}: not JSON: {reason}, expected an objects file", path.display())]
     NotJson {
         /// The file.
         path: PathBuf,
-        /// What the parser said, with line and column.
+        /// The parser's message with line and column.
         reason: String,
     },
-    /// The JSON is of another kind, or of a version that this program does not know.
+    /// JSON of another format or version.
     #[error("{}: found {key} {found}, expected {expected}", path.display())]
     WrongKind {
         /// The file.
         path: PathBuf,
         /// `format` or `version`.
         key: &'static str,
-        /// What it says.
+        /// The value found.
         found: String,
-        /// What it should say.
+        /// The value expected.
         expected: &'static str,
     },
-    /// A field of one entry is missing or has a value that it cannot have.
+    /// A field of an entry is missing or has a wrong value.
     #[error("{}: {entry}: field `{field}` is {found}, expected {expected}", path.display())]
     BadField {
         /// The file.
         path: PathBuf,
-        /// Which entry, such as `object 3 (id 7)`; `file` for the top level.
+        /// The entry, such as `object 3 (id 7)`; `file` for the top level.
         entry: String,
         /// Name of the field.
         field: &'static str,
@@ -44,7 +44,7 @@ pub enum ObjectsError {
         expected: &'static str,
     },
     /// Two entries have the same id.
-    #[error("{}: object {first} and object {second} both have id {id}, expected one object an id", path.display())]
+    #[error("{}: object {first} and object {second} both have id {id}, expected one object per id", path.display())]
     DuplicateId {
         /// The file.
         path: PathBuf,
@@ -55,7 +55,7 @@ pub enum ObjectsError {
         /// Position of the second, from 1.
         second: usize,
     },
-    /// The label file is no array of one integer a Gaussian.
+    /// The label file is not an array of one integer per Gaussian.
     #[error("{}: labels: found {found}, expected {expected}", path.display())]
     BadLabels {
         /// The label file.
@@ -65,16 +65,16 @@ pub enum ObjectsError {
         /// What was expected.
         expected: String,
     },
-    /// A picture cannot be made.
+    /// A picture cannot be rendered or encoded.
     #[error("picture of the objects failed: {reason}")]
     Picture {
-        /// What the renderer or the encoder said.
+        /// Message of the renderer or encoder.
         reason: String,
     },
 }
 
 impl ObjectsError {
-    /// Stable name for scripts.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::File(error) => error.code(),

@@ -2,16 +2,16 @@ use thiserror::Error;
 
 use cinesplat_geometry::GeometryError;
 
-/// Why a picture could not be rendered.
+/// Error of rendering a picture.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RenderError {
-    /// The camera's image or pose is not usable.
+    /// An invalid camera.
     #[error("camera: {0}")]
     Camera(#[from] GeometryError),
     /// A setting outside its range.
     #[error("{name} is {found}, expected {expected}")]
     Setting {
-        /// Which setting.
+        /// Name of the setting.
         name: &'static str,
         /// Its value.
         found: f64,
@@ -21,35 +21,35 @@ pub enum RenderError {
     /// A per-Gaussian or per-pixel input of the wrong length.
     #[error("{what}: {found} values, expected {expected}")]
     Length {
-        /// Which input.
+        /// Name of the input.
         what: &'static str,
         /// Its length.
         found: usize,
-        /// The length wanted.
+        /// The length expected.
         expected: usize,
     },
-    /// This picture would not fit into the memory allowed.
-    #[error("with {what} the picture takes {found_bytes} bytes of memory, the cap is {limit_bytes}")]
+    /// The picture needs more memory than allowed.
+    #[error("the picture needs {found_bytes} bytes of memory with {what}, expected at most {limit_bytes}")]
     Memory {
-        /// What did not fit.
+        /// The data that exceeds the cap.
         what: &'static str,
-        /// Bytes needed up to and with it.
+        /// Bytes needed with these data.
         found_bytes: u64,
         /// Bytes allowed.
         limit_bytes: u64,
     },
-    /// The picture would take more work than allowed.
-    #[error("{found} splat-tile pairs, the cap is {limit}")]
+    /// The picture needs more work than allowed.
+    #[error("the picture has {found} splat-tile pairs, expected at most {limit}")]
     Cost {
-        /// Overlaps between splats and tiles.
+        /// Number of overlaps between splats and tiles.
         found: u64,
-        /// Overlaps allowed.
+        /// Largest number of overlaps.
         limit: u64,
     },
 }
 
 impl RenderError {
-    /// Stable code for messages.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Camera(_) => "RENDER-CAMERA",

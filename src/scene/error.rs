@@ -3,37 +3,37 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Why a scene could not be read or written. `Display` is `FILE: what was found, what was expected`.
+/// Error of reading or writing a scene. The message is `FILE: found, expected`.
 #[derive(Debug, Error)]
 pub enum SceneError {
-    /// Nothing is at the path.
+    /// The path does not exist.
     #[error("{}: no such file or folder", shown(path))]
     NotFound {
-        /// The path asked for.
+        /// The path.
         path: PathBuf,
     },
     /// The path is a device, a pipe or a socket.
     #[error("{}: neither a file nor a folder, expected one of them", shown(path))]
     NotAFile {
-        /// The path asked for.
+        /// The path.
         path: PathBuf,
     },
-    /// The system does not let this user read or write there.
+    /// The system denies access.
     #[error("{}: permission denied", shown(path))]
     Permission {
-        /// The path asked for.
+        /// The path.
         path: PathBuf,
     },
-    /// Any other fault of the file system.
+    /// Another error of the file system.
     #[error("{}: {source}", shown(path))]
     Io {
-        /// The path in work.
+        /// The path.
         path: PathBuf,
-        /// What the system said.
+        /// The system's reason.
         source: io::Error,
     },
     /// More bytes than the cap allows, in the file or after decompression.
-    #[error("{}: {found} bytes or more, the cap is {cap}", shown(path))]
+    #[error("{}: {found} bytes or more, expected at most {cap}", shown(path))]
     TooManyBytes {
         /// The file.
         path: PathBuf,
@@ -43,7 +43,7 @@ pub enum SceneError {
         cap: u64,
     },
     /// More Gaussians than the cap allows.
-    #[error("{}: {found} Gaussians, the cap is {cap}", shown(path))]
+    #[error("{}: {found} Gaussians, expected at most {cap}", shown(path))]
     TooManyGaussians {
         /// The file.
         path: PathBuf,
@@ -52,23 +52,23 @@ pub enum SceneError {
         /// Number allowed.
         cap: u64,
     },
-    /// Memory does not hold the scene.
-    #[error("{}: {found} Gaussians, which is more than memory holds", shown(path))]
+    /// The scene does not fit into memory.
+    #[error("{}: {found} Gaussians, expected as many as fit into memory", shown(path))]
     OutOfMemory {
         /// The file.
         path: PathBuf,
         /// Number found.
         found: u64,
     },
-    /// No format of ours begins like this.
+    /// Content of an unknown format.
     #[error("{}: {found}, expected .ply, .splat, .spz or .sog", shown(path))]
     UnknownFormat {
         /// The file.
         path: PathBuf,
-        /// What it looks like.
+        /// Description of the content.
         found: String,
     },
-    /// A format that is known but has no reader.
+    /// A known format without a reader.
     #[error("{}: {format} is not read yet, expected .ply, .splat, .spz or .sog", shown(path))]
     NotReadYet {
         /// The file.
@@ -76,17 +76,17 @@ pub enum SceneError {
         /// Name of the format.
         format: &'static str,
     },
-    /// A PLY header that is not one, or lacks what makes a point a Gaussian.
+    /// A malformed PLY header, or one that lacks properties of a Gaussian.
     #[error("{}: header line {line}: {reason}", shown(path))]
     PlyHeader {
         /// The file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// What was found and what was expected.
+        /// Found and expected.
         reason: String,
     },
-    /// A PLY element count that no file can have.
+    /// A PLY element count that the file has no room for.
     #[error(
         "{}: header line {line}: element count `{found}`, expected a whole number that the file has room for",
         shown(path)
@@ -99,23 +99,23 @@ pub enum SceneError {
         /// The count as written.
         found: String,
     },
-    /// A PLY that ends before its rows do.
+    /// A truncated PLY.
     #[error("{}: {element} {row} of {rows} ends at byte {needed} or later, file has {found}", shown(path))]
     PlyTruncated {
         /// The file.
         path: PathBuf,
-        /// Element that is cut.
+        /// The truncated element.
         element: String,
-        /// First row that is not whole, from 1.
+        /// First incomplete row, from 1.
         row: u64,
-        /// Rows that the header claims.
+        /// Number of rows in the header.
         rows: u64,
-        /// Where that row ends at the earliest.
+        /// Least offset at which that row ends.
         needed: u64,
         /// Size of the file.
         found: u64,
     },
-    /// A value in an ASCII PLY that is no number of its type, or a list length that cannot be.
+    /// A value in an ASCII PLY that is not a number of its type, or an impossible list length.
     #[error(
         "{}: {element} {row}, property {property}: `{found}` at byte {byte}, expected a number of its type",
         shown(path)
@@ -123,18 +123,18 @@ pub enum SceneError {
     PlyValue {
         /// The file.
         path: PathBuf,
-        /// Element it is in.
+        /// Its element.
         element: String,
-        /// Row it is in, from 1.
+        /// Its row, from 1.
         row: u64,
-        /// Property it is in.
+        /// Its property.
         property: String,
         /// The text found.
         found: String,
-        /// Where it begins.
+        /// Its offset in the file.
         byte: u64,
     },
-    /// A `.splat` that is not whole records.
+    /// A `.splat` whose size is not a multiple of its record.
     #[error("{}: {found} bytes, expected a multiple of 32 above 0", shown(path))]
     SplatSize {
         /// The file.
@@ -142,38 +142,38 @@ pub enum SceneError {
         /// Size of the file.
         found: u64,
     },
-    /// An SPZ header with values that no SPZ has.
+    /// An SPZ header with invalid values.
     #[error("{}: {reason}", shown(path))]
     SpzHeader {
         /// The file.
         path: PathBuf,
-        /// What was found and what was expected.
+        /// Found and expected.
         reason: String,
     },
-    /// An SPZ whose compressed data is damaged or cut.
+    /// An SPZ whose compressed data is damaged or truncated.
     #[error("{}: {reason}", shown(path))]
     SpzCorrupt {
         /// The file.
         path: PathBuf,
-        /// What was found and what was expected.
+        /// Found and expected.
         reason: String,
     },
-    /// A compressed file that unpacks to more than its header says, or to absurdly more than it holds.
+    /// A compressed file that unpacks to more than its header states, or to far more than its size allows.
     #[error("{}: unpacks to {found} bytes or more, expected at most {cap}", shown(path))]
     SpzBomb {
         /// The file.
         path: PathBuf,
-        /// Size asked for.
+        /// Size found.
         found: u64,
         /// Size allowed.
         cap: u64,
     },
-    /// A SOG `meta.json` that is not one.
+    /// A malformed SOG `meta.json`.
     #[error("{}: meta.json: {reason}", shown(path))]
     SogMeta {
         /// The file.
         path: PathBuf,
-        /// What was found and what was expected.
+        /// Found and expected.
         reason: String,
     },
     /// A picture of a SOG that is missing, damaged or of the wrong size.
@@ -183,23 +183,23 @@ pub enum SceneError {
         path: PathBuf,
         /// Name of the picture.
         file: String,
-        /// What was found and what was expected.
+        /// Found and expected.
         reason: String,
     },
-    /// Nothing in the file can be drawn.
+    /// A file without a usable Gaussian.
     #[error("{}: no usable Gaussian among {found} ({reason}), expected at least 1", shown(path))]
     Empty {
         /// The file.
         path: PathBuf,
         /// Gaussians in the file.
         found: u64,
-        /// What happened to them.
+        /// Why none is usable.
         reason: String,
     },
-    /// An up direction without length.
-    #[error("{}: up direction {found:?}, expected a finite vector of some length", shown(path))]
+    /// An up direction that is zero or not finite.
+    #[error("{}: up direction {found:?}, expected a finite vector of nonzero length", shown(path))]
     BadUp {
-        /// The scene it was meant for.
+        /// The scene.
         path: PathBuf,
         /// The direction given.
         found: [f64; 3],
@@ -207,7 +207,7 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    /// Short stable name of the kind of fault.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::NotFound { .. } => "SCENE-NOT-FOUND",
@@ -245,7 +245,7 @@ impl SceneError {
     }
 }
 
-/// A path on one line: control characters become `?`, so that a name cannot forge output.
+/// A path on one line. Control characters become `?`, so that a file name cannot forge output.
 fn shown(path: &Path) -> String {
     path.to_string_lossy().chars().map(|c| if c.is_control() { '?' } else { c }).collect()
 }

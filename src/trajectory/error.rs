@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// What makes keyframes unusable. Indices count from 0 as in the file.
+/// Error of keyframes. Indices count from 0, as in the file.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TrajectoryError {
     /// No keyframes at all.
@@ -23,19 +23,19 @@ pub enum TrajectoryError {
         index: usize,
         /// Name of the JSON field.
         field: &'static str,
-        /// What was found.
+        /// The value found.
         found: String,
-        /// What is allowed.
+        /// The values allowed.
         expected: &'static str,
     },
-    /// A value of the shot itself out of range.
+    /// A value of the shot is out of range.
     #[error("{field} is {found}, expected {expected}")]
     BadShotValue {
         /// Name of the JSON field.
         field: &'static str,
-        /// What was found.
+        /// The value found.
         found: String,
-        /// What is allowed.
+        /// The values allowed.
         expected: &'static str,
     },
 }

@@ -3,18 +3,18 @@ use std::path::PathBuf;
 use cinesplat_files::FileError;
 use thiserror::Error;
 
-/// Why frames do not become a file. `Display` is `FILE: what was found, what was expected`.
+/// Error of writing a film. The message is `FILE: found, expected`.
 #[derive(Debug, Error)]
 pub enum VideoError {
-    /// The name of the output ends in nothing that says what to write.
+    /// The name of the output has no known extension.
     #[error("{}: the name ends in {found:?}, expected .mp4 .mkv .webm .mov, or a pattern such as frames/%05d.png", path.display())]
     UnknownFormat {
-        /// The ending found, without its dot.
+        /// The extension, without its dot.
         found: String,
         /// The output.
         path: PathBuf,
     },
-    /// A frame pattern that does not give every frame its own name.
+    /// A pattern that does not give each frame its own name.
     #[error("{}: {reason}", path.display())]
     BadPattern {
         /// What is wrong with it.
@@ -22,17 +22,17 @@ pub enum VideoError {
         /// The output.
         path: PathBuf,
     },
-    /// A size, rate or quality that no encoder takes.
+    /// A size, rate or quality outside its range.
     #[error("{what} is {found}, expected {expected}")]
     BadSetting {
         /// Name of the setting.
         what: &'static str,
-        /// What was asked for.
+        /// The value found.
         found: String,
-        /// What is allowed.
+        /// The values allowed.
         expected: &'static str,
     },
-    /// This build of FFmpeg lacks what the output needs.
+    /// FFmpeg on this machine lacks an encoder or a container.
     #[error("{}: FFmpeg on this machine has no {missing}, needed for this file", path.display())]
     Missing {
         /// Encoder or container, by FFmpeg's name.
@@ -43,12 +43,12 @@ pub enum VideoError {
     /// A file cannot be created, written, named or read back.
     #[error(transparent)]
     File(#[from] FileError),
-    /// FFmpeg refused a step that it should take.
+    /// FFmpeg fails.
     #[error("{}: {action} failed: {message}", path.display())]
     Ffmpeg {
-        /// What was being done.
+        /// The failed action.
         action: &'static str,
-        /// FFmpeg's own words.
+        /// FFmpeg's message.
         message: String,
         /// The output.
         path: PathBuf,
@@ -61,10 +61,10 @@ pub enum VideoError {
         /// Width x height x 3.
         expected: usize,
     },
-    /// The finished file does not hold what was written.
+    /// The finished file does not contain the written frames.
     #[error("{}: read back {found}, expected {expected}", path.display())]
     ReadBack {
-        /// What the file holds.
+        /// What the file contains.
         found: String,
         /// What was written.
         expected: String,
@@ -74,7 +74,7 @@ pub enum VideoError {
 }
 
 impl VideoError {
-    /// Short name of the case, for messages and searches.
+    /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
             Self::UnknownFormat { .. } => "VIDEO-FORMAT",
@@ -88,7 +88,7 @@ impl VideoError {
         }
     }
 
-    /// The file that it is about, if it is about one.
+    /// The file at fault, if there is one.
     pub fn path(&self) -> Option<&std::path::Path> {
         match self {
             Self::UnknownFormat { path, .. }

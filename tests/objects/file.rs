@@ -189,7 +189,7 @@ fn errors_name_file_entry_and_field() {
     OBJ-FIELD objects.json: object 1 (id 4): field `half_extents` is [1, -1, 1], expected three numbers of at least 0
     OBJ-FIELD objects.json: object 1 (id 4): field `rotation_xyzw` is [0.0, 0.0, 0.0, 0.0], expected four finite numbers x, y, z, w, not all 0
     OBJ-FIELD objects.json: object 1 (id 4): field `label` is 5, expected a text
-    OBJ-DUPLICATE objects.json: object 1 and object 2 both have id 1, expected one object an id
+    OBJ-DUPLICATE objects.json: object 1 and object 2 both have id 1, expected one object per id
     OBJ-FIELD objects.json: file: field `up` is [0, 0, 0], expected a direction with a length
     "#);
 }

@@ -1,4 +1,4 @@
-//! How a command ends badly: one file per stage maps the stage's error to an exit code and a line of help.
+//! Failures of commands: one file per stage maps the error of that stage to an exit code and a line of help.
 //!
 //! Enters: a library's error, which says what happened. Leaves: a [`Failure`], which adds what the user can do about it
 //! and the exit code. Every match lists all variants, so a new variant does not compile without both.

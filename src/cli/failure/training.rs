@@ -11,7 +11,7 @@ impl From<TrainError> for Failure {
             TrainError::Language(error) => return error.into(),
             TrainError::Dataset(error) => return error.into(),
             TrainError::File(error) => return error.into(),
-            TrainError::NoLesson { .. } => {
+            TrainError::NoExample { .. } => {
                 (Exit::Fault, "this is a fault of the example sampler: report it with the seed")
             }
             TrainError::Diverged { .. } => (Exit::Fault, "go on from the last checkpoint with a smaller --rate"),

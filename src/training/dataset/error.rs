@@ -8,27 +8,27 @@ use cinesplat_geometry::GeometryError;
 use cinesplat_language::LanguageError;
 use cinesplat_objects::ObjectsError;
 
-/// What keeps a dataset from being written or read.
+/// Error of writing or reading a dataset.
 #[derive(Debug, Error)]
 pub enum DatasetError {
-    /// The phrasebook or a stored prompt.
+    /// The sampler of prompts, or a stored prompt.
     #[error(transparent)]
     Language(#[from] LanguageError),
-    /// A scene that no frame fits.
+    /// A scene without extent or up direction.
     #[error(transparent)]
     Director(#[from] Box<DirectorError>),
-    /// A scene that the operator cannot work in.
-    #[error("the generated scene of seed {seed} cannot be planned in: {source}")]
+    /// A generated scene that the operator cannot use.
+    #[error("the generated scene of seed {seed} is unusable: {source}")]
     Scene {
         /// Seed of the scene.
         seed: u64,
-        /// Why.
+        /// The reason.
         source: GeometryError,
     },
-    /// A generated scene whose objects get no clouds.
+    /// The clouds of a generated scene cannot be made.
     #[error(transparent)]
     Objects(#[from] Box<ObjectsError>),
-    /// A line of a shard is not what it should be.
+    /// A malformed line of a shard.
     #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
     BadLine {
         /// The shard.
@@ -47,10 +47,10 @@ pub enum DatasetError {
         path: PathBuf,
         /// The setting that differs, with its value in the shard.
         found: String,
-        /// The same setting, as asked for.
+        /// The same setting with its requested value.
         expected: String,
     },
-    /// A file.
+    /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
 }

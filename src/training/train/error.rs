@@ -7,25 +7,25 @@ use cinesplat_director::DirectorError;
 use cinesplat_files::FileError;
 use cinesplat_language::LanguageError;
 
-/// What keeps the network from being trained.
+/// Error of training or evaluating a network.
 #[derive(Debug, Error)]
 pub enum TrainError {
     /// The network or its files.
     #[error(transparent)]
     Director(#[from] DirectorError),
-    /// The phrasebook or the exam.
+    /// The sampler of prompts, or an evaluation split.
     #[error(transparent)]
     Language(#[from] LanguageError),
     /// The realized shots.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// The phrasebook keeps making prompts that keys cannot express.
-    #[error("no lesson after 100 draws for number {number}, expected a prompt of few enough steps and objects")]
-    NoLesson {
-        /// Which lesson.
+    /// The sampler does not draw a prompt that keys can express.
+    #[error("no example number {number} after 100 draws, expected a prompt with few enough steps and objects")]
+    NoExample {
+        /// Number of the example.
         number: u64,
     },
-    /// The loss is no number any more.
+    /// The loss is not finite.
     #[error("the loss is {found} at step {step}, expected a finite number")]
     Diverged {
         /// The step.
@@ -33,13 +33,13 @@ pub enum TrainError {
         /// The loss.
         found: f64,
     },
-    /// Somebody stopped it; a checkpoint was written.
-    #[error("stopped after step {step}, expected to go on")]
+    /// The training was stopped after writing a checkpoint.
+    #[error("stopped after step {step}")]
     Stopped {
-        /// Steps made.
+        /// Number of finished steps.
         step: u64,
     },
-    /// A checkpoint that does not fit.
+    /// A checkpoint of another training, or a damaged one.
     #[error("{}: found {found}, expected a checkpoint of this training", path.display())]
     BadCheckpoint {
         /// The file.
@@ -47,7 +47,7 @@ pub enum TrainError {
         /// What was found.
         found: String,
     },
-    /// A file.
+    /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
 }
@@ -66,7 +66,7 @@ impl TrainError {
             Self::Language(error) => error.code(),
             Self::Dataset(error) => error.code(),
             Self::File(error) => error.code(),
-            Self::NoLesson { .. } => "TRAIN-NO-LESSON",
+            Self::NoExample { .. } => "TRAIN-NO-EXAMPLE",
             Self::Diverged { .. } => "TRAIN-DIVERGED",
             Self::Stopped { .. } => "TRAIN-STOPPED",
             Self::BadCheckpoint { .. } => "TRAIN-CHECKPOINT",

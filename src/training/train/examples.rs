@@ -52,7 +52,7 @@ impl ExampleSampler<'_> {
     /// Example `number` of the training with this seed; the same arguments give the same example.
     ///
     /// # Errors
-    /// [`TrainError::NoLesson`] after 100 draws that keys cannot express · errors of linking and encoding.
+    /// [`TrainError::NoExample`] after 100 draws that keys cannot express · errors of linking and encoding.
     pub(super) fn example(&self, seed: u64, number: u64) -> Result<Example, TrainError> {
         let mut rng = Pcg64::seed_from_u64(seed ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         for _ in 0..MAX_DRAWS {
@@ -60,7 +60,7 @@ impl ExampleSampler<'_> {
                 return Ok(example);
             }
         }
-        Err(TrainError::NoLesson { number })
+        Err(TrainError::NoExample { number })
     }
 
     /// One draw; `None` when the keys cannot express it (too many keys, objects or mentions).

@@ -48,7 +48,7 @@ pub struct GradientCheck {
 ///
 /// # Errors
 /// [`TrainError::Language`] when the grammar is damaged · [`TrainError::Director`] when the network fails ·
-/// [`TrainError::NoLesson`] when no example can be drawn.
+/// [`TrainError::NoExample`] when no example can be drawn.
 pub fn check_gradients(seed: u64, num_examples: u64, part_size: usize) -> Result<GradientCheck, TrainError> {
     let vocabulary = small_vocabulary(seed)?;
     let config = ModelConfig::tiny(vocabulary.size());

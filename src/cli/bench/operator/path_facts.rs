@@ -50,7 +50,6 @@ impl<'a> Sampled<'a> {
     }
 
     /// Largest jump of velocity and of angular velocity at an inner key without a cut, each over its peak.
-    /// each.
     pub(super) fn velocity_jumps(&self) -> (f64, f64) {
         let (mut jump, mut turn_jump) = (0.0_f64, 0.0_f64);
         let (mut peak, mut turn_peak) = (f64::MIN_POSITIVE, f64::MIN_POSITIVE);
