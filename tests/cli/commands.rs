@@ -83,7 +83,7 @@ fn short_help_fits_on_a_screen_and_long_help_says_more() {
 }
 
 #[test]
-fn info_says_what_a_scene_is_to_people_and_programs() {
+fn info_prints_the_same_facts_as_text_and_json() {
     let folder = tempfile::tempdir().unwrap();
     let info: serde_json::Value = serde_json::from_str(&data(folder.path(), &["info", SMALL_SCENE, "--json"])).unwrap();
     assert_eq!(info["up"], serde_json::json!([0.0, 1.0, 0.0]));
@@ -113,7 +113,7 @@ fn objects_are_listed_written_and_read_back() {
 }
 
 #[test]
-fn a_path_survives_the_way_out_and_back() {
+fn an_exported_path_is_imported_unchanged() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());
     data(folder.path(), &["export", "shot.json", "--to", "nerfstudio", "--fps", "10", "-o", "path.json"]);
@@ -210,7 +210,7 @@ fn stills_are_named_after_their_cameras() {
 }
 
 #[test]
-fn bench_wants_a_scene_or_a_part() {
+fn bench_without_a_scene_or_a_benchmark_is_a_usage_error() {
     let folder = tempfile::tempdir().unwrap();
     assert!(answer(folder.path(), &["bench"]).starts_with("exit 2\n"));
     assert!(answer(folder.path(), &["bench", "operator", "void"]).starts_with("exit 2\n"));
@@ -218,7 +218,7 @@ fn bench_wants_a_scene_or_a_part() {
 }
 
 #[test]
-fn bench_prints_rows_and_keeps_table_and_plots() {
+fn bench_render_prints_rows_and_writes_table_and_plots() {
     let folder = tempfile::tempdir().unwrap();
     let bench = ["bench", "render", SMALL_SCENE, "--sizes", "64x36", "--runs", "1", "--max-cameras", "1", "-o", "out"];
     let csv = data(folder.path(), &bench);
@@ -234,7 +234,7 @@ fn bench_prints_rows_and_keeps_table_and_plots() {
 }
 
 #[test]
-fn bench_films_holds_films_against_stills_and_forecasts() {
+fn bench_films_compares_films_with_stills_and_forecasts() {
     let folder = tempfile::tempdir().unwrap();
     let bench =
         ["bench", "films", SMALL_SCENE, "--size", "64x36", "--frames", "8", "--qualities", "draft", "-o", "out"];
@@ -245,9 +245,9 @@ fn bench_films_holds_films_against_stills_and_forecasts() {
     let secs = |measure: &str| rows.iter().find(|row| row[5] == measure).unwrap()[6].parse::<f64>().unwrap();
     let off = 100.0 * (secs("predicted") / secs("film") - 1.0);
     let stated: f64 = rows.iter().find(|row| row[5] == "predicted").unwrap()[10].parse().unwrap();
-    // So short a film takes few of the milliseconds that the figures are rounded to.
+    // The figures are rounded to milliseconds, which is coarse for so short a film.
     let rounding = 0.2 / secs("film");
-    assert!((off - stated).abs() <= 0.1 + rounding, "{stated} % stated, {off} % of its figures");
+    assert!((off - stated).abs() <= 0.1 + rounding, "{stated} % printed, {off} % computed");
     assert!(rows.iter().all(|row| row.len() == 11 && row[3] == "8" && row[4] == "draft"), "{csv}");
     assert_eq!(fs::read_to_string(folder.path().join("out/films.md")).unwrap().lines().count(), rows.len() + 2);
 }

@@ -3,7 +3,7 @@ use std::fs;
 use super::{SMALL_SCENE, answer, write_shot};
 
 #[test]
-fn a_scene_that_is_not_there() {
+fn a_missing_scene() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!(answer(folder.path(), &["info", "no/room.spz"]), @r"
     exit 66
@@ -13,7 +13,7 @@ fn a_scene_that_is_not_there() {
 }
 
 #[test]
-fn a_scene_that_is_no_scene() {
+fn a_file_that_is_not_a_scene() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("room.ply"), "not a ply\n").unwrap();
     insta::assert_snapshot!(answer(folder.path(), &["info", "room.ply"]), @r"
@@ -30,7 +30,7 @@ fn a_scene_that_is_no_scene() {
 }
 
 #[test]
-fn a_generated_scene_of_another_name() {
+fn an_unknown_generated_scene() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!(answer(folder.path(), &["info", "synth:castle:1"]), @r"
     exit 66
@@ -40,7 +40,7 @@ fn a_generated_scene_of_another_name() {
 }
 
 #[test]
-fn arguments_that_are_no_command() {
+fn invalid_arguments() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!(answer(folder.path(), &["inof"]), @r"
     exit 2
@@ -79,7 +79,7 @@ fn outputs_are_checked_before_the_scene_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let refused = |arguments: &[&str]| answer(folder.path(), arguments);
     fs::write(folder.path().join("film.mp4"), "mine").unwrap();
-    // The scene does not exist: none of these gets as far as to notice.
+    // The scene does not exist, but the outputs are checked before it is opened.
     insta::assert_snapshot!(refused(&["render", "no.ply", "-p", "x", "-o", "film.mp4"]), @r"
     exit 73
     error[OUTPUT-EXISTS]: film.mp4: exists already, expected a new name
@@ -174,7 +174,7 @@ fn a_prompt_that_names_an_unknown_object() {
 }
 
 #[test]
-fn a_shot_that_is_no_shot() {
+fn a_malformed_shot() {
     let folder = tempfile::tempdir().unwrap();
     let render = |text: &str| {
         fs::write(folder.path().join("shot.json"), text).unwrap();
@@ -200,7 +200,7 @@ fn a_shot_that_is_no_shot() {
 }
 
 #[test]
-fn frames_that_the_film_does_not_have() {
+fn frames_beyond_the_film() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());
     let render = ["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4", "--frames", "4..9"];

@@ -11,18 +11,18 @@ fn a_shot_becomes_a_film_with_its_sheet() {
         run(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "film.mp4", "--sheet", "sheet.png"]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success(), "{said}");
-    assert!(output.stdout.is_empty(), "a film is no data for stdout");
+    assert!(output.stdout.is_empty(), "a film prints nothing on stdout");
     for stage in ["load", "render", "encode", "8 frames", "reproduce with: cinesplat render"] {
         assert!(said.contains(stage), "{stage}: {said}");
     }
     assert!(fs::metadata(folder.path().join("film.mp4")).unwrap().len() > 500);
     assert!(folder.path().join("sheet.png").exists());
     let names = fs::read_dir(folder.path()).unwrap().count();
-    assert_eq!(names, 3, "nothing is left but shot, film and sheet");
+    assert_eq!(names, 3, "only shot, film and sheet remain");
 }
 
 #[test]
-fn a_part_of_the_frames_is_the_same_as_in_the_whole() {
+fn a_range_of_frames_equals_those_of_the_whole_film() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());
     let render = |pattern: &str, frames: &str| {
@@ -40,7 +40,7 @@ fn a_part_of_the_frames_is_the_same_as_in_the_whole() {
 }
 
 #[test]
-fn films_are_the_same_bytes_whatever_the_threads() {
+fn a_film_has_the_same_bytes_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());
     let film = |name: &str, threads: &str| {
@@ -71,7 +71,7 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     assert_eq!(shot["scene"]["path"], SMALL_SCENE);
     assert!(
         shot["report"].as_array().unwrap().iter().any(|line| line["met"] == false),
-        "the missing grain is admitted"
+        "the report says that the grain is missing"
     );
     let again = ["plan", SMALL_SCENE, "-p", &prompt, "--json", "--solve", "fast", "--size", "64x36"];
     assert_eq!(data(folder.path(), &again), text, "the same sentence gives the same shot");
@@ -97,7 +97,7 @@ fn the_reproducing_command_names_the_quality_that_was_chosen() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_keeps_what_is_there_under_another_name() {
+fn an_interrupted_film_is_kept_under_another_name() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());
     let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
@@ -116,11 +116,11 @@ fn an_interrupt_keeps_what_is_there_under_another_name() {
         "100",
     ]);
     let mut film = program.current_dir(folder.path()).stderr(Stdio::piped()).spawn().unwrap();
-    // The part file shows that filming has begun.
+    // The temporary file shows that rendering has started.
     let has_begun =
         || fs::read_dir(folder.path()).unwrap().any(|e| e.unwrap().file_name().to_string_lossy().ends_with(".part"));
     while !has_begun() {
-        assert!(film.try_wait().unwrap().is_none(), "the film ended before it was interrupted");
+        assert!(film.try_wait().unwrap().is_none(), "the film ended before the interrupt");
         std::thread::yield_now();
     }
     assert!(Command::new("kill").args(["-INT", &film.id().to_string()]).status().unwrap().success());

@@ -1,4 +1,4 @@
-//! The program as a person or a script runs it: what it prints, what it writes, how it ends.
+//! Runs the program and checks its output, its files and its exit code.
 
 mod commands;
 mod errors;
@@ -8,7 +8,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A scene that is generated in a moment.
+/// A generated scene of few Gaussians.
 pub const SMALL_SCENE: &str = "synth:tabletop:1:0.02";
 
 /// Runs the program in a folder.
@@ -25,14 +25,14 @@ pub fn answer(folder: &Path, arguments: &[&str]) -> String {
     format!("exit {code}\n{}{}", text(output.stdout), text(output.stderr))
 }
 
-/// Runs the program, which has to succeed, and returns its stdout.
+/// Runs the program, asserts that it succeeds, and returns its stdout.
 pub fn data(folder: &Path, arguments: &[&str]) -> String {
     let output = run(folder, arguments);
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// A shot of two keys beside a small scene: 1 second at 8 frames a second, 64 x 36 pixels.
+/// Writes shot.json for the small scene: two keys, 1 second at 8 frames per second, 64 x 36 pixels.
 pub fn write_shot(folder: &Path) {
     let key = |time: f64, x: f64| {
         format!(

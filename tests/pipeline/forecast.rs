@@ -1,4 +1,4 @@
-//! Forecasts of cost and accuracy, and the quality that a wish chooses.
+//! Forecasts of cost and accuracy, and the quality that requirements choose.
 
 use std::path::Path;
 use std::time::Duration;
@@ -30,7 +30,7 @@ fn forecasts() -> Vec<Forecast> {
 }
 
 #[test]
-fn a_wish_chooses_the_most_accurate_in_time_or_the_fastest_good_enough() {
+fn a_budget_chooses_the_most_accurate_quality_and_a_psnr_the_fastest() {
     let chosen = |secs: Option<u64>, min_psnr_db: Option<f64>| {
         choose(&forecasts(), Requirements { budget: secs.map(Duration::from_secs), min_psnr_db }).ok()
     };
@@ -43,29 +43,29 @@ fn a_wish_chooses_the_most_accurate_in_time_or_the_fastest_good_enough() {
 }
 
 #[test]
-fn a_wish_out_of_reach_says_what_is_in_reach() {
-    let wish = Requirements { budget: Some(Duration::from_secs(25)), min_psnr_db: Some(60.0) };
-    let error: PipelineError = choose(&forecasts(), wish).unwrap_err();
+fn requirements_out_of_reach_report_every_forecast() {
+    let requirements = Requirements { budget: Some(Duration::from_secs(25)), min_psnr_db: Some(60.0) };
+    let error: PipelineError = choose(&forecasts(), requirements).unwrap_err();
     assert_eq!(error.code(), "COST-BUDGET");
     let text = error.to_string();
     assert!(text.contains("at most 25.0 s and at least 60.0 dB") && text.contains("final 30.0 s, 106.0 dB"), "{text}");
 }
 
 #[test]
-fn reference_is_forecast_only_where_it_may_be_chosen() {
+fn reference_is_forecast_only_if_it_may_be_chosen() {
     let others = &forecasts()[..3];
     let may = |secs: Option<u64>, min_psnr_db: Option<f64>| {
         Requirements { budget: secs.map(Duration::from_secs), min_psnr_db }.may_need_reference(others)
     };
     assert!(!may(None, Some(50.0)), "final has 50 dB");
     assert!(may(None, Some(200.0)), "no other quality has 200 dB");
-    assert!(!may(Some(60), None), "a budget of twice final is none of reference");
+    assert!(!may(Some(60), None), "a budget of twice the time of final is too small for reference");
     assert!(may(Some(300), None));
     assert!(!may(Some(60), Some(200.0)), "out of reach either way");
-    assert!(!may(Some(10_000), Some(50.0)), "the fastest that is good enough is chosen");
+    assert!(!may(Some(10_000), Some(50.0)), "the fastest sufficient quality is chosen");
 }
 
-/// 100 frames of 20 ms to render on both of two cores and 10 ms of one core to encode.
+/// 100 frames: 20 ms each to render on two cores, 10 ms each to encode on one core.
 const COST: FilmCost = FilmCost {
     num_frames: 100,
     num_rendered: 100,
@@ -83,28 +83,28 @@ fn assert_secs(found: f64, expected: f64) {
 
 #[test]
 fn renderer_and_encoder_share_the_cores() {
-    // 2 s of rendering keep both cores busy, so the encoder's 1 s of one core comes on top as half a second.
+    // Rendering keeps both cores busy for 2 s; the encoder's 1 s of CPU time adds half a second on two cores.
     assert_secs(COST.film_secs(), 2.5);
-    // With a core to itself the encoder, the faster one, costs nothing.
+    // On a third core the encoder, which is faster, adds nothing.
     assert_secs(FilmCost { num_cores: 3, ..COST }.film_secs(), 2.0);
-    // A renderer of one core leaves the other to the encoder.
+    // A renderer on one core leaves the other core to the encoder.
     let alone = TimeCost { wall_secs: 0.020, cpu_secs: 0.020 };
     assert_secs(FilmCost { render: alone, ..COST }.film_secs(), 2.0);
-    // An encoder that is slower by the clock sets the pace, whatever cores are free.
+    // An encoder that is slower in wall time determines the time, however many cores are free.
     let slow = TimeCost { wall_secs: 0.030, cpu_secs: 0.030 };
     assert_secs(FilmCost { first_encode: slow, encode: slow, num_cores: 16, ..COST }.film_secs(), 3.0);
 }
 
 #[test]
-fn an_encoder_that_looks_ahead_has_its_last_frames_to_itself() {
+fn the_encoder_delay_does_not_overlap_with_rendering() {
     let free = FilmCost { num_cores: 16, ..COST };
     assert_secs(FilmCost { num_ahead: 40, ..free }.film_secs(), 2.0 + 40.0 * 0.010);
-    // One that looks farther ahead than the film is long starts when all is rendered.
+    // A delay longer than the film: the encoder starts after the last frame is rendered.
     assert_secs(FilmCost { num_ahead: 400, ..free }.film_secs(), 3.0);
 }
 
 #[test]
-fn frames_that_stand_still_are_free_to_render_and_cheap_to_encode() {
+fn frames_of_a_resting_camera_cost_no_rendering_and_little_encoding() {
     let held = FilmCost { num_rendered: 40, ..COST };
     assert_secs(held.render_all().wall_secs, 40.0 * 0.020);
     assert_secs(held.encode_all().wall_secs, 40.0 * 0.010 + 60.0 * 0.001);
@@ -112,20 +112,7 @@ fn frames_that_stand_still_are_free_to_render_and_cheap_to_encode() {
 }
 
 #[test]
-fn a_forecast_takes_no_frame_of_a_resting_camera_for_work() {
-    let (scene, film) = (scene(), Path::new("frames/%03d.png"));
-    let renderer = Renderer::new(&scene.gaussians);
-    let mut resting = shot();
-    resting.keyframes[1].pose = resting.keyframes[0].pose;
-    let render_time = |shot| forecast(&renderer, shot, film, &settings(), &[Quality::Draft]).unwrap()[0].render_time;
-    let mut longer = resting.clone();
-    longer.duration_secs = 1000.0;
-    // One frame of the second film is rendered, as of the first; ten thousand would take a thousand times the time.
-    assert!(render_time(&longer) < render_time(&resting) * 100);
-}
-
-#[test]
-fn a_forecast_has_every_quality_and_the_accuracy_of_frames_it_did_not_see() {
+fn a_forecast_covers_every_quality_and_predicts_the_accuracy_of_other_frames() {
     let scene = scene();
     let renderer = Renderer::new(&scene.gaussians);
     let (shot, film) = (shot(), Path::new("film.mkv"));
@@ -139,7 +126,7 @@ fn a_forecast_has_every_quality_and_the_accuracy_of_frames_it_did_not_see() {
         let is_near = (checked - forecast.psnr_db).abs() < 6.0 || forecast.psnr_db > 80.0;
         assert!(is_near, "{}: {checked} dB, predicted {}", forecast.quality.as_ref(), forecast.psnr_db);
     }
-    assert!(!film.exists(), "a forecast leaves no file");
+    assert!(!film.exists(), "a forecast writes no file");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The stages in a row, used as a library.
+//! The pipeline used as a library.
 
 mod forecast;
 
@@ -33,7 +33,7 @@ fn settings() -> FilmSettings {
 }
 
 #[test]
-fn ranges_read_as_they_are_written() {
+fn ranges_of_frames_are_parsed() {
     let of_ten = |text: &str| text.parse::<FrameRange>().unwrap().of_film(10).ok();
     assert_eq!(of_ten("2..5"), Some(2..5));
     assert_eq!(of_ten(".."), Some(0..10));
@@ -46,7 +46,7 @@ fn ranges_read_as_they_are_written() {
 }
 
 #[test]
-fn generated_scenes_come_by_name() {
+fn generated_scenes_are_opened_by_name() {
     let open = |name: &str| open_scene(Path::new(name), &LoadOptions::default());
     let source = open("synth:tabletop:1:0.02").unwrap();
     let objects = source.objects.unwrap();
@@ -61,7 +61,7 @@ fn generated_scenes_come_by_name() {
 }
 
 #[test]
-fn progress_comes_once_a_frame_and_counts_up() {
+fn progress_is_reported_once_per_frame() {
     let folder = tempfile::tempdir().unwrap();
     let mut seen = Vec::new();
     let mut watch = |progress: FilmProgress| {
@@ -75,10 +75,10 @@ fn progress_comes_once_a_frame_and_counts_up() {
 }
 
 #[test]
-fn a_resting_camera_is_shown_again_and_again() {
+fn a_resting_camera_repeats_its_frame() {
     let folder = tempfile::tempdir().unwrap();
     let mut resting = shot();
-    // Rests for the first half, then moves.
+    // The camera rests in the first half and moves in the second.
     let mut middle = resting.keyframes[0].clone();
     middle.time_secs = 0.5;
     resting.keyframes.insert(1, middle);
@@ -94,7 +94,7 @@ fn a_resting_camera_is_shown_again_and_again() {
 }
 
 #[test]
-fn a_film_that_is_stopped_keeps_its_frames() {
+fn a_stopped_film_keeps_its_frames() {
     let folder = tempfile::tempdir().unwrap();
     let mut watch =
         |progress: FilmProgress| if progress.done == 4 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
@@ -106,7 +106,7 @@ fn a_film_that_is_stopped_keeps_its_frames() {
 }
 
 #[test]
-fn a_film_that_cannot_be_rendered_leaves_nothing() {
+fn a_film_that_cannot_be_rendered_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let broken = FilmSettings { render: RenderSettings { near: f64::NAN, ..settings().render }, ..settings() };
     let made = film(&Renderer::new(&scene().gaussians), &shot(), &folder.path().join("film.mp4"), &broken, &mut |_| {
@@ -117,7 +117,7 @@ fn a_film_that_cannot_be_rendered_leaves_nothing() {
 }
 
 #[test]
-fn an_encoder_that_fails_says_why() {
+fn an_error_of_the_encoder_is_returned() {
     let folder = tempfile::tempdir().unwrap();
     let mut appears = |progress: FilmProgress| {
         if progress.done == 1 {
