@@ -9,19 +9,9 @@ const NUM_CHANNELS: usize = 16;
 const NUM_OBJECTS: usize = 64;
 
 /// Outputs of the renderer. All outputs other than color are computed in the blending loop of a color picture.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum RenderOutput {
     /// Color in `f32`.

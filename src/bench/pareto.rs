@@ -8,19 +8,9 @@ const MAX_DB: f64 = 120.0;
 const PANEL_PX: [f64; 2] = [410.0, 300.0];
 
 /// Accuracy that a Pareto plot shows against time.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum AccuracyAxis {
     /// PSNR in dB.

@@ -5,20 +5,9 @@ use glam::{DMat3, DVec3};
 use super::svd::rotation_angle;
 
 /// The part of the error pose E = (R, t) that becomes a number.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Default,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "snake_case")]
 pub enum Relation {
     /// Frobenius norm of E - I, 4 x 4: mixes radians and scene units.

@@ -51,9 +51,9 @@ pub struct MotionTag {
 }
 
 /// The main rotation of a frame, in the order of GenDoP's classes.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, strum::AsRefStr, strum::Display, strum::EnumString, strum::VariantArray,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString)]
+#[derive(strum::VariantArray)]
 pub enum Turn {
     /// No turn.
     #[default]

@@ -8,7 +8,18 @@ use cinesplat_geometry::{Camera, Intrinsics, Pose};
 
 /// Which splat filter a caller asks for.
 #[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames,
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    AsRefStr,
+    Display,
+    EnumString,
+    IntoStaticStr,
+    VariantArray,
+    VariantNames
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum FilterChoice {

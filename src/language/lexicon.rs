@@ -29,7 +29,8 @@ pub struct Lexicon {
 }
 
 /// A `[section]` of the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::EnumString)]
 #[strum(serialize_all = "lowercase")]
 enum Section {
     Determiners,

@@ -69,7 +69,8 @@ pub(super) enum ConstraintKind {
 }
 
 /// Direction of a sliding move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 pub(super) enum TravelDirection {
     /// To the right of the segment's first camera.

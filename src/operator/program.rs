@@ -97,21 +97,9 @@ pub struct Framing {
 }
 
 /// Part of a subject, as in `from its base to its top`.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum SubjectPart {
     /// Its middle, for the whole of it.
@@ -138,20 +126,9 @@ pub struct Via {
 }
 
 /// How a camera passes an object.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Pass {
     /// Beside it, with it in view.
@@ -178,21 +155,9 @@ pub enum Amount {
 }
 
 /// Speed of a step.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Speed {
     /// Slowly, gently.

@@ -2,9 +2,7 @@ use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantN
 
 /// Antialiasing filter that a scene was trained with. The renderer dilates the 2D covariance of every splat; the filter
 /// decides how far, and whether the opacity compensates for it.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum SplatFilter {
     /// Dilation 0.3 px, opacity unchanged.

@@ -6,7 +6,8 @@ use super::lights::Portal;
 use super::placement::Placement;
 
 /// A wall of a room.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::VariantArray)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::VariantArray)]
 pub(super) enum Wall {
     /// At -z, behind the main furniture.
     Back,

@@ -11,22 +11,9 @@ use std::f64::consts::{FRAC_PI_2, LN_2};
 /// `smooth`, `linear`, `ease-in` and `ease-out` cruise at even speed, with a ramp at each end that is at rest, so that
 /// the middle of a move is steady. The others follow one curve from key to key: `in` starts from rest, `out` comes to
 /// rest, `in-out` does both.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    PartialOrd,
-    Ord,
-    strum::AsRefStr,
-    strum::Display,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-    strum::VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Easing {
     /// Ramp up, cruise, ramp down: at rest at both ends.

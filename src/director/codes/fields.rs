@@ -25,7 +25,9 @@ pub(super) const AMOUNT_LARGE: u8 = 3;
 ///
 /// The variants stand in the order in which the network puts their scores out; the shipped weights depend on it. Class 0
 /// of an optional field means "not said". The text of a variant is its name in reports.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::Display, strum::IntoStaticStr)]
+#[derive(strum::VariantArray)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Field {
     /// What follows the key: a segment, a cut, the end of the film.

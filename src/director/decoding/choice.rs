@@ -3,7 +3,8 @@
 use crate::codes::Field;
 
 /// A choice that the network makes for a key. Its text is its name in reports.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::Display, strum::IntoStaticStr)]
 pub enum Choice {
     /// The class of a field.
     #[strum(transparent)]

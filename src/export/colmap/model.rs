@@ -11,7 +11,9 @@ use cinesplat_geometry::Pose;
 pub(crate) type ModelFiles = Vec<(&'static str, Vec<u8>)>;
 
 /// COLMAP's camera models, in the order of their numbers in binary files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray)]
 #[strum(serialize_all = "SCREAMING_SNAKE_CASE")]
 pub(super) enum CameraModel {
     SimplePinhole,

@@ -7,7 +7,8 @@ use super::super::json_read::Node;
 pub(super) const FLOAT: u64 = 5126;
 
 /// Type of an accessor's elements.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString, strum::IntoStaticStr)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::EnumString, strum::IntoStaticStr)]
 #[strum(serialize_all = "UPPERCASE")]
 pub(super) enum ElementType {
     Scalar,

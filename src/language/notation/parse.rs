@@ -8,7 +8,9 @@ use super::error::NotationError;
 type Resolve<'a> = dyn Fn(&str) -> Option<Vec<u32>> + 'a;
 
 /// A direction in the name of a move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantArray)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::Display, strum::EnumString)]
+#[derive(strum::VariantArray)]
 #[strum(serialize_all = "kebab-case")]
 enum Direction {
     // The first of each pair comes first: it is the direction of a move whose text leaves it open.
@@ -23,7 +25,9 @@ enum Direction {
 }
 
 /// One of the two framings of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::AsRefStr, strum::VariantArray)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::AsRefStr)]
+#[derive(strum::VariantArray)]
 #[strum(serialize_all = "kebab-case")]
 enum Side {
     Start,
@@ -31,7 +35,8 @@ enum Side {
 }
 
 /// A token that is one fixed word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::EnumString)]
 #[strum(serialize_all = "kebab-case")]
 enum Flag {
     Cut,

@@ -35,7 +35,8 @@ pub(crate) struct TemplateGroup {
 }
 
 /// Context that the clauses of a group need.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::EnumString)]
 #[strum(serialize_all = "kebab-case")]
 pub(crate) enum Requirement {
     /// The camera already looks at exactly one object.

@@ -7,7 +7,8 @@ use rand_pcg::Pcg64;
 use cinesplat_language::number_word;
 
 /// Placeholder of a quantity in a template, such as `{SECS}`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::EnumString)]
 #[strum(serialize_all = "UPPERCASE")]
 pub(crate) enum QuantityPlaceholder {
     /// Duration of a step.

@@ -47,7 +47,9 @@ pub(crate) enum ClauseToken {
 }
 
 /// Placeholder of an object in a template.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::AsRefStr, strum::EnumString, strum::VariantArray)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::AsRefStr, strum::EnumString)]
+#[derive(strum::VariantArray)]
 pub(crate) enum ObjectPlaceholder {
     A,
     B,

@@ -25,7 +25,9 @@ impl Tally {
 }
 
 /// A field of a step, compared on its own. Its text is its name in reports.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::Display, strum::IntoStaticStr)]
+#[derive(strum::VariantArray)]
 #[strum(serialize_all = "lowercase")]
 pub enum StepField {
     /// The move. If the direction is open in both steps, either direction is correct.
@@ -100,7 +102,8 @@ fn are_opposite(a: &Step, b: &Step) -> bool {
 }
 
 /// A difference between an understood program and the intended one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::Display)]
 pub enum Mistake {
     /// The number of steps differs.
     #[strum(serialize = "number of steps")]

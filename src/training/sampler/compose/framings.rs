@@ -13,7 +13,8 @@ use cinesplat_operator::{Framing, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
 /// End of a step that a framing describes, as in the notation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 enum Side {
     Start,
