@@ -1,18 +1,33 @@
-//! What several test files need: the shared data folder, and a line that says so where it is absent; a shot over keys.
+//! Shared by several areas: the optional data folder, the line that reports a skipped test, a shot over keys.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use cinesplat::trajectory::{Keyframe, SceneRef, Shot};
 use glam::DVec3;
 
-/// A file or folder of `../shared`, or `None` (with a line on stderr) where this machine has no such folder.
+/// A file or folder of `../shared`; `None`, with a line on stderr, on a machine without that folder.
+///
+/// # Panics
+/// Panics if the folder is there and the file is not: a renamed file must not turn its tests off.
 pub fn shared(relative: &str) -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(relative);
-    let found = path.exists();
-    if !found {
-        eprintln!("skipped: ../shared/{relative} is not on this machine");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared");
+    if !folder.exists() {
+        report_skip(&format!("../shared/{relative}"));
+        return None;
     }
-    found.then_some(path)
+    let path = folder.join(relative);
+    assert!(path.exists(), "{} is missing", path.display());
+    Some(path)
+}
+
+/// Says on stderr that the running test is skipped, or a part of it, and what it lacks.
+///
+/// Writes to the stream itself: `cargo test` captures `eprintln!` and would hide the line of a test that passes.
+pub fn report_skip(lacking: &str) {
+    let thread = std::thread::current();
+    let test = thread.name().unwrap_or("a test");
+    writeln!(std::io::stderr(), "skipped {test}: no {lacking} on this machine").unwrap();
 }
 
 /// A shot over keys that ends with the last one, in a world whose up is +y.

@@ -7,6 +7,7 @@ use cinesplat::video::{VideoError, VideoSettings, VideoWriter};
 use ffmpeg_next::{codec, color, format, frame, media};
 
 use super::test_frame;
+use crate::support::report_skip;
 
 const SIZE: (usize, usize) = (320, 180);
 
@@ -275,7 +276,7 @@ fn a_full_disk_is_named_as_the_reason() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("film.mkv");
     if std::os::unix::fs::symlink("/dev/full", &path).is_err() || fs::write(&path, b"x").is_ok() {
-        eprintln!("skipped: no /dev/full here");
+        report_skip("/dev/full");
         return;
     }
     let error = write_film(&path, &settings(40), 40).unwrap_err();
@@ -293,7 +294,7 @@ fn ffprobe_agrees() {
     let mut ffprobe = Command::new("ffprobe");
     ffprobe.args(["-v", "error", "-count_frames", "-of", "default=nw=1", "-show_entries", entries]).arg(&path);
     let Ok(output) = ffprobe.output() else {
-        eprintln!("skipped: no ffprobe on this machine");
+        report_skip("ffprobe");
         return;
     };
     insta::assert_snapshot!(String::from_utf8(output.stdout).unwrap(), @r"
