@@ -1,7 +1,7 @@
+use std::path::Path;
+
 use cinesplat::export::cameras_json::{FilterChoice, read};
 use glam::{DVec2, DVec3};
-
-use crate::support::shared;
 
 const ONE: &str = r#"{"near": 0.2, "unknown": [1], "cameras": [{"name": "c0", "width": 640, "height": 360,
   "fx": 500.0, "fy": 510.0, "cx": 320, "cy": 180, "world_from_camera": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}"#;
@@ -19,12 +19,19 @@ fn reads_pose_and_intrinsics() {
 
 #[test]
 fn reads_the_golden_cameras() {
-    let Some(path) = shared("data/golden/kitchen_mip.cameras.json") else { return };
-    let file = read(&std::fs::read_to_string(path).unwrap()).unwrap();
-    assert_eq!(file.filter, Some(FilterChoice::Mip));
-    assert_eq!(file.cameras.len(), 3);
-    // The kitchen's up is +y, so every camera's up has a positive y.
-    assert!(file.cameras.iter().all(|c| c.camera.pose.up().y > 0.9));
+    let golden = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/render/golden").join(name);
+        read(&std::fs::read_to_string(path).unwrap()).unwrap()
+    };
+    let (classic, mip) = (golden("fruit.cameras.json"), golden("fruit_mip.cameras.json"));
+    assert_eq!((classic.filter, classic.near), (Some(FilterChoice::Classic), Some(0.2)));
+    assert_eq!((mip.filter, mip.near), (Some(FilterChoice::Mip), Some(0.1)));
+    assert_eq!((classic.cameras.len(), mip.cameras.len()), (2, 1));
+    assert_eq!(classic.scene.as_deref().map(Path::new), Some(Path::new("fruit.ply")));
+    // The first camera is level in a world whose up is +y; its principal point is off the center.
+    let level = classic.cameras[0].camera;
+    assert_eq!(level.pose.up(), DVec3::Y);
+    assert_eq!((level.intrinsics.cx_px, level.intrinsics.cy_px), (54.5, 20.25));
 }
 
 #[test]

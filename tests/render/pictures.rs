@@ -1,4 +1,4 @@
-//! Shared by the tests of the renderer: cameras and pictures of the golden folder, and differences between pictures.
+//! Shared by the tests of the renderer: readers of golden cameras and pictures, and differences of two pictures.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::scene::SplatFilter;
 use glam::DMat4;
 
-/// A golden set: the path of its scene under `../shared/data`, and the settings of its pictures.
+/// A cameras file: the path of the scene, and the settings and cameras that its pictures were rendered with.
 pub(crate) struct GoldenSet {
     pub(crate) scene: String,
     pub(crate) filter: SplatFilter,
@@ -14,14 +14,15 @@ pub(crate) struct GoldenSet {
     pub(crate) cameras: Vec<(String, Camera)>,
 }
 
-/// Reads a cameras file of the golden folder.
+/// Reads the cameras file of a golden set.
 pub(crate) fn golden_set(path: &Path) -> GoldenSet {
     let text = std::fs::read_to_string(path).unwrap();
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     let cameras = json["cameras"].as_array().unwrap().iter().map(camera).collect();
     let filter = match json["filter"].as_str().unwrap() {
         "mip" => SplatFilter::Mip,
-        _ => SplatFilter::Classic,
+        "classic" => SplatFilter::Classic,
+        other => panic!("{}: filter {other}", path.display()),
     };
     GoldenSet { scene: json["scene"].as_str().unwrap().into(), filter, near: json["near"].as_f64().unwrap(), cameras }
 }
