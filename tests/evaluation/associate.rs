@@ -69,7 +69,7 @@ fn interpolation_meets_the_references_times() {
         (vec![DVec3::X * 0.25, DVec3::X * 0.75], 1)
     );
     let quarter = glam::DMat3::from_rotation_z(10_f64.to_radians());
-    assert!((matches.estimate.rotations[0] - quarter).x_axis.length() < 1e-12);
+    assert!(matches.estimate.rotations[0].abs_diff_eq(quarter, 1e-12));
 }
 
 #[test]

@@ -65,6 +65,7 @@ fn the_objects_of_a_small_room_are_found() {
         assert!(*overlap > 0.75, "object {id}: {overlap} of {:?}", set.objects);
     }
     let mut ids: Vec<u16> = matches.iter().map(|found| found.1).collect();
+    ids.sort_unstable();
     ids.dedup();
     assert_eq!(ids.len(), 4, "what stands on the table is not part of it");
     let room_kept = truth.iter().zip(&set.labels).filter(|(label, found)| **label == 0 && **found > 0).count();
