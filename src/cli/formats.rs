@@ -6,7 +6,8 @@ use cinesplat::export::Format;
 pub(super) fn table_with(examples: &str) -> String {
     let row = |format: &Format| {
         let description = format.get_documentation().unwrap_or_default();
-        format!("\n  {:<11} {}", format.as_ref(), description.trim_end_matches('.'))
+        format!("  {:<11} {}", format.as_ref(), description.trim_end_matches('.'))
     };
-    format!("{examples}\n\nFormats:{}", Format::VARIANTS.iter().map(row).collect::<String>())
+    let rows: Vec<String> = Format::VARIANTS.iter().map(row).collect();
+    format!("{examples}\n\nFormats:\n{}", rows.join("\n"))
 }

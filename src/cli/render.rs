@@ -71,7 +71,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, hide_short_help = true)]
     save_shot: Option<PathBuf>,
     /// Write a contact sheet too: twelve small frames of the film
-    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT)]
+    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT, hide_short_help = true)]
     sheet: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

@@ -98,7 +98,7 @@ pub(super) struct PictureArgs {
     ///
     /// `auto` takes the filter that the scene's file names, else `classic`. `mip` lowers the opacity of splats
     /// that the dilation enlarges.
-    #[arg(long, value_name = "FILTER", help_heading = heading::PICTURE, value_parser = choice::<FilterChoice>())]
+    #[arg(long, value_name = "FILTER", help_heading = heading::PICTURE, hide_short_help = true, value_parser = choice::<FilterChoice>())]
     filter: Option<FilterChoice>,
     /// Order of blending [default: z]
     ///

@@ -1,13 +1,12 @@
 use super::outputs::Overwrite;
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::failure::{Exit, Failure};
 use super::scene_args::{PictureArgs, SceneArgs, print_up};
 use super::{console, heading, outputs};
 use cinesplat::export::cameras_json::{self, StillCameras};
-use cinesplat::files::npy;
+use cinesplat::files::{self, npy};
 use cinesplat::objects;
 use cinesplat::pipeline::{self, Still, StillOutputs};
 use cinesplat::render::{PixelWeight, Quality};
@@ -82,7 +81,6 @@ impl Args {
             let message = format!("{}: {found}, expected {expected}", path.display());
             Failure::new("NPY", message, "write it with numpy.save, one row per Gaussian in file order", Exit::BadData)
         };
-        let read = |path: &Path| fs::read(path).map_err(|error| Failure::io(&path.display().to_string(), &error));
         let labels = match &self.ids {
             None => None,
             Some(None) if scene.gaussians.ids.is_empty() => {
@@ -96,7 +94,7 @@ impl Args {
         };
         let rows = |path: &PathBuf| {
             let not_rows = |found: String| bad(path, found, "float32 with two axes");
-            let bytes = read(path)?;
+            let bytes = files::read(path)?;
             let array = npy::Array::parse(&bytes).map_err(|error| not_rows(error.to_string()))?;
             let &[num_rows, num_channels] = array.shape.as_slice() else {
                 return Err(not_rows(format!("an array of shape {:?}", array.shape)));

@@ -60,7 +60,7 @@ fn invalid_arguments() {
     insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "--shot", "s.json", "-o", "a.mp4"]), @r"
     exit 2
     error[USAGE]: the argument '--prompt <PROMPT>' cannot be used with '--shot <SHOT.JSON>'
-    help: Usage: cinesplat render --output <OUT> <--prompt <PROMPT>|--shot <SHOT.JSON>> <SCENE>; --help says more
+    help: Usage: cinesplat render --output <OUT> <--prompt <PROMPT>|--prompts <FILE>|--shot <SHOT.JSON>> <SCENE>; --help says more
     ");
     insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "-o", "a.mp4", "--size", "0x9"]), @r"
     exit 2

@@ -43,12 +43,12 @@ impl Header {
 
     /// The first setting that differs from `expected`: its name with both values. Settings that are not stored agree.
     pub(super) fn difference(&self, expected: &Self) -> Option<[String; 2]> {
-        let pairs = self.settings().into_iter().zip(expected.settings());
-        let mut differing = pairs.filter_map(|((name, found), (_, expected))| {
+        let mut pairs = self.settings().into_iter().zip(expected.settings());
+        let differing = |((name, found), (_, expected)): ((&str, Option<String>), (&str, Option<String>))| {
             let (found, expected) = (found?, expected?);
             (found != expected).then(|| [found, expected].map(|value| format!("{name} {value}")))
-        });
-        differing.next()
+        };
+        pairs.find_map(differing)
     }
 
     fn settings(&self) -> [(&'static str, Option<String>); 5] {

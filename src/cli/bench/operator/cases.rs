@@ -62,7 +62,7 @@ impl CaseArgs {
         let folder = self.cases.parent().unwrap_or(Path::new("."));
         let bad = |line: usize, found: &str| {
             let found = format!("{}: line {line}: {found}, expected a case", self.cases.display());
-            Failure::new("BAD-CASE", found, "see cinesplat bench operator --help", Exit::BadData)
+            Failure::new("BAD-CASE", found, "`cinesplat bench operator --help` explains the files", Exit::BadData)
         };
         let mut cases = Vec::new();
         for (number, line) in outputs::read_text(&self.cases)?.lines().enumerate() {
@@ -87,7 +87,7 @@ impl CaseArgs {
 fn programs(path: &Path) -> Result<BTreeMap<String, Program>, Failure> {
     let bad = |found: &str| {
         let found = format!("{}: {found}, expected programs by case id", path.display());
-        Failure::new("BAD-INTENTS", found, "see cinesplat bench operator --help", Exit::BadData)
+        Failure::new("BAD-INTENTS", found, "`cinesplat bench operator --help` explains the files", Exit::BadData)
     };
     let texts: BTreeMap<String, String> =
         serde_json::from_str(&outputs::read_text(path)?).map_err(|error| bad(&error.to_string()))?;
