@@ -1,9 +1,9 @@
 use std::time::{Duration, Instant};
 
-use strum::{AsRefStr, Display};
+use strum::Display;
 
 /// A phase of the work from a scene and a sentence to a film.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, AsRefStr, Display)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Display)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Phase {
     /// Reading the scene, its objects and the director's weights.
