@@ -10,10 +10,11 @@ fn every_parameter_has_the_gradient_that_finite_differences_give() {
     let check = check_gradients(5, 16, 8).unwrap();
     assert!(check.parameters.len() > 60);
     for parameter in &check.parameters {
-        assert!(parameter.backward > 1e-7, "{} has no gradient", parameter.name);
+        // Long enough for a relative tolerance: differences of f32 losses are good to about 1e-4.
+        assert!(parameter.backward > 5e-3, "{} has no gradient", parameter.name);
         let off = (parameter.backward - parameter.numeric).abs();
         assert!(
-            off < 0.02 * parameter.backward + 2e-3,
+            off < 0.02 * parameter.backward,
             "{}: {} by backpropagation, {} by finite differences",
             parameter.name,
             parameter.backward,

@@ -81,7 +81,7 @@ fn a_principal_point_off_the_middle_is_a_crop_of_a_wider_picture() {
     let (wide, crop) = (picture(&scene, &wide, Quality::Final), picture(&scene, &crop, Quality::Final));
     let cut: Vec<f32> = wide.rgb.chunks(256 * 3).flat_map(|row| &row[96 * 3..224 * 3]).copied().collect();
     let db = psnr_db(&cut, &crop.rgb);
-    assert!(db >= 50.0, "{db:.1} dB");
+    assert!(db >= 85.0, "{db:.1} dB");
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn a_picture_with_an_extreme_principal_point_matches_the_second_renderer() {
     let mut view = camera(120, 80);
     (view.intrinsics.cx_px, view.intrinsics.cy_px) = (20.0, 71.5);
     let (rgb, rest) = oracle::render(&scene, &view, SplatFilter::Classic, 0.01);
-    for (quality, least_db) in [(Quality::Reference, 80.0), (Quality::Final, 70.0)] {
+    for (quality, least_db) in [(Quality::Reference, 140.0), (Quality::Final, 100.0)] {
         let frame = picture(&scene, &view, quality);
         let (color, transmittance) = (psnr_db(&frame.rgb, &rgb), psnr_db(&frame.transmittance, &rest));
         assert!(color > least_db && transmittance > least_db, "{quality:?}: {color:.1} {transmittance:.1} dB");
