@@ -35,8 +35,8 @@ fn parse(text: &str) -> Result<Vec<NamedPrompt>, String> {
     let mut lines_of = BTreeMap::new();
     let mut prompts = Vec::new();
     for (idx, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let (line, number) = (line.trim_end(), idx + 1);
-        if line.trim_start().is_empty() || line.starts_with('#') {
+        let number = idx + 1;
+        if line.trim().is_empty() || line.starts_with('#') {
             continue;
         }
         let (name, prompt) = match line.split_once('\t') {

@@ -1,6 +1,6 @@
 //! The one home of what every stage needs of the file system and of plain file formats.
 //!
-//! Enters: bytes and paths. Leaves: files that are whole or absent ([`NewFile`], [`write`]), arrays for `NumPy`
+//! Enters: bytes and paths. Leaves: files that are whole or absent ([`NewFile`], [`write()`]), arrays for `NumPy`
 //! ([`npy`]), hashes and relative paths. The one invariant: nothing here
 //! replaces a file unless the caller says [`Existing::Replace`].
 

@@ -130,13 +130,9 @@ pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
     if path.is_dir() {
         return refuse(ErrorKind::IsADirectory, "it is a folder, expected a file name");
     }
-    match fs::symlink_metadata(path) {
-        Ok(found) if existing == Existing::Keep && (found.is_file() || found.is_symlink()) => {
-            if !fs::metadata(path).is_ok_and(|found| !found.is_file()) {
-                return Err(FileError::Exists { path: path.to_owned() });
-            }
-        }
-        _ => {}
+    let is_taken = fs::symlink_metadata(path).is_ok() && !fs::metadata(path).is_ok_and(|found| !found.is_file());
+    if existing == Existing::Keep && is_taken {
+        return Err(FileError::Exists { path: path.to_owned() });
     }
     match fs::metadata(folder_of(path)) {
         Ok(folder) if !folder.is_dir() => refuse(ErrorKind::NotADirectory, "its folder is a file"),

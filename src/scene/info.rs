@@ -25,7 +25,7 @@ pub struct SceneInfo {
     pub filter_is_stated: bool,
     /// World up, unit.
     pub up: [f64; 3],
-    /// SourceFile of the up direction.
+    /// Where the up direction comes from.
     pub up_source: UpSource,
     /// Number of distinct object ids in the file, 0 not counted.
     pub num_objects: usize,
