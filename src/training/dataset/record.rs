@@ -43,12 +43,10 @@ impl Header {
 
     /// The first setting that differs from `expected`: its name with both values. Settings that are not stored agree.
     pub(super) fn difference(&self, expected: &Self) -> Option<[String; 2]> {
-        let mut pairs = self.settings().into_iter().zip(expected.settings());
-        let differing = |((name, found), (_, expected)): ((&str, Option<String>), (&str, Option<String>))| {
+        self.settings().into_iter().zip(expected.settings()).find_map(|((name, found), (_, expected))| {
             let (found, expected) = (found?, expected?);
             (found != expected).then(|| [found, expected].map(|value| format!("{name} {value}")))
-        };
-        pairs.find_map(differing)
+        })
     }
 
     fn settings(&self) -> [(&'static str, Option<String>); 5] {
