@@ -27,7 +27,8 @@ pub fn shared(relative: &str) -> Option<PathBuf> {
 pub fn report_skip(lacking: &str) {
     let thread = std::thread::current();
     let test = thread.name().unwrap_or("a test");
-    writeln!(std::io::stderr(), "skipped {test}: no {lacking} on this machine").unwrap();
+    let mut stderr = std::io::stderr();
+    writeln!(stderr, "skipped {test}: no {lacking} on this machine").unwrap();
 }
 
 /// A shot over keys that ends with the last one, in a world whose up is +y.

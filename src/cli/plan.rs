@@ -122,7 +122,7 @@ impl Args {
             FilmSettings { render, video: VideoSettings::default(), frames: FrameRange::default(), sheet: None };
         let renderer = Renderer::new(&scene.gaussians);
         let num_frames = shot.num_frames();
-        let forecasts = pipeline::forecast(&renderer, shot, Path::new("film.mp4"), &settings, &Quality::VARIANTS)?;
+        let forecasts = pipeline::forecast(&renderer, shot, Path::new("film.mp4"), &settings, Quality::VARIANTS)?;
         for forecast in forecasts {
             console::note(&format!("predicted for {num_frames} frames: {}", forecast.sentence()));
         }

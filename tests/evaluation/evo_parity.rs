@@ -79,7 +79,7 @@ fn compare_all(cases: &[Case], blocks: &[(&str, Metric)]) -> usize {
             for (align, relations) in case.expected[block].as_object().unwrap() {
                 for (relation, expected) in relations.as_object().unwrap() {
                     let settings = EvalSettings {
-                        metric: metric.clone(),
+                        metric: *metric,
                         align: align.parse().unwrap(),
                         relation: relation.parse().unwrap(),
                         ..case.settings.clone()

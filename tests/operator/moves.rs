@@ -102,7 +102,7 @@ fn stated_durations_are_kept() {
     let world = world();
     let hold = Step { start: about(1), duration_secs: Some(2.0), ..Step::of(Move::Static) };
     let push = Step { end: about(1), ..Step::of(Move::PushIn) };
-    let program = Program { steps: vec![hold, push], duration_secs: Some(7.0), ..Program::default() };
+    let program = Program { steps: vec![hold, push], duration_secs: Some(7.0) };
     let solution = realize(&world, &program, "", &[], &SolveSettings { seed: 1, ..SolveSettings::default() });
     assert!((solution.duration_secs - 7.0).abs() < 1e-9);
     assert!((solution.keyframes[1].time_secs - 2.0).abs() < 1e-6, "the hold lasts two seconds");

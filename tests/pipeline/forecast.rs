@@ -116,7 +116,7 @@ fn a_forecast_covers_every_quality_and_predicts_the_accuracy_of_other_frames() {
     let scene = scene();
     let renderer = Renderer::new(&scene.gaussians);
     let (shot, film) = (shot(), Path::new("film.mkv"));
-    let found = forecast(&renderer, &shot, film, &settings(), &Quality::VARIANTS).unwrap();
+    let found = forecast(&renderer, &shot, film, &settings(), Quality::VARIANTS).unwrap();
     assert_eq!(found.iter().map(|forecast| forecast.quality).collect::<Vec<_>>(), Quality::VARIANTS);
     for forecast in found {
         assert!(forecast.render_time > Duration::ZERO && forecast.worst_psnr_db <= forecast.psnr_db + 1e-9);
