@@ -18,7 +18,7 @@ use cinesplat_video::{ContactSheet, VideoError, VideoSettings, VideoWriter};
 pub(super) const QUEUE_FRAMES: usize = 4;
 
 /// How a shot becomes a film.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct FilmSettings {
     /// How frames are rendered.
     pub render: RenderSettings,
@@ -34,12 +34,7 @@ impl FilmSettings {
     /// The settings that suit a scene: all frames at `standard` quality, H.264 that is hard to tell from the frames, no
     /// contact sheet.
     pub fn for_scene(scene: &Scene) -> Self {
-        Self {
-            render: RenderSettings::for_scene(scene),
-            video: VideoSettings::default(),
-            frames: FrameRange::default(),
-            sheet: None,
-        }
+        Self { render: RenderSettings::for_scene(scene), ..Self::default() }
     }
 }
 
