@@ -28,7 +28,7 @@ FILM_SCENES := $(if $(wildcard $(DATA)/kitchen/scene.spz),$(DATA)/kitchen/scene.
 help:
 	@sed -n 's/^# //p' $(firstword $(MAKEFILE_LIST)) | sed -n '1,/^make   /p'
 
-# Installs only what is missing. libclang comes under a version number that differs by release: the newest there is.
+# Installs only missing packages. The name of the libclang package contains a version; the newest one is installed.
 deps:
 	@command -v cargo >/dev/null || { echo "cargo is missing: install Rust 1.95 or newer from https://rustup.rs" >&2; exit 69; }
 	@command -v dpkg-query >/dev/null || { echo "not Debian or Ubuntu: install FFmpeg's development files (libavcodec, libavformat, libavutil), pkg-config, a C compiler and libclang, then 'make build'" >&2; pkg-config --exists libavcodec libavformat libavutil; exit; }
@@ -50,7 +50,7 @@ deps:
 build: deps
 	cargo build --release --locked
 
-# Leaves renders/demo.mp4, renders/demo.shot.json and renders/demo.sheet.png. Needs nothing but this folder.
+# Writes renders/demo.mp4, renders/demo.shot.json and renders/demo.sheet.png. Needs nothing but this folder.
 demo: build
 	$(BIN) render $(DEMO_SCENE) -p "$(DEMO_PROMPT)" -o renders/demo.mp4 \
 		--save-shot renders/demo.shot.json --sheet renders/demo.sheet.png --overwrite
@@ -62,12 +62,12 @@ test: deps
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps
 	cargo test --release --locked --workspace
 
-# Long ones, never part of the gate. Training takes hours; models/README.md says what the shipped weights were made with.
+# Long runs, not part of the gate. Training takes hours; models/README.md says what the shipped weights were made with.
 train: build
 	$(BIN) dataset -o target/train/shots
 	$(BIN) train -o target/train/model --shots target/train/shots
 
-# Accuracy against time, how cost grows, films against forecasts: CSV, tables and plots in renders/bench. Real scenes where DATA has them.
+# Accuracy against time, how cost grows, films against forecasts: CSV, tables and plots in renders/bench. Uses the real scenes in DATA, if there are any.
 bench: build
 	$(BIN) bench render $(foreach scene,$(BENCH_SCENES),$(word 1,$(subst @, ,$(scene)))) \
 		$(foreach scene,$(BENCH_SCENES),--cameras $(word 2,$(subst @, ,$(scene)))) \
@@ -75,8 +75,8 @@ bench: build
 	$(BIN) bench scaling synth:tabletop:1 --overwrite -o renders/bench > /dev/null
 	$(BIN) bench films $(FILM_SCENES) --overwrite -o renders/bench > /dev/null
 
-# Does the camera do what is asked? Films of cases of ../shared (not part of this repository) with solver off and full,
-# from the network's reading of the prompts and from programs written by hand, all held against the checker there.
+# Checks that the camera does what the prompts say. Plans the cases of ../shared (not part of this repository) with the
+# solver off and full, from the network's programs and from hand-written ones, and runs the checker of ../shared.
 CASES := ../shared/data/prompts/public.jsonl
 CHECKER := python3 ../shared/tools/check_shot.py
 check-shots: build
@@ -89,7 +89,7 @@ check-shots: build
 		done; \
 	done || true
 
-# The moving picture of the README, of the demo's film. Needs the program ffmpeg.
+# The animated picture of the README, from the demo film. Needs the program ffmpeg.
 gallery: demo
 	ffmpeg -v error -y -i renders/demo.mp4 -vf "fps=12,scale=640:-2:flags=lanczos" \
 		-c:v libwebp_anim -loop 0 -quality 60 -compression_level 6 renders/gallery/demo.webp

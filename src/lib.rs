@@ -73,17 +73,17 @@
 //! sentence ──────────────────────────►                       safe keys)
 //! ```
 //!
-//! [`scene`] reads Gaussians and finds the up axis. [`objects`] finds or reads what can be named and makes each a sparse
+//! [`scene`] reads Gaussians and finds the up axis. [`objects`] finds or reads the objects and gives each a sparse
 //! cloud by multi-view alpha shapes. [`language`] links the words of a prompt to objects and quantities. [`director`]
 //! turns words and clouds into a program of steps and suggested cameras with a small network. [`operator`] makes the
-//! program exact: keyframes that do what each move means, clear of matter, with a report of what was wanted and got.
+//! program exact: keyframes that do what each move means, clear of matter, with a report of requested and achieved values.
 //! [`trajectory`] is the path through keyframes. [`render`] draws it, [`video`] writes it. [`pipeline`] composes these
 //! stages.
 //!
 //! # Map
 //!
-//! Data goes one way, from scene and words to video. Every row is a crate of its own (`cinesplat-render` and so on), to be
-//! used alone; this crate re-exports all of them. A crate depends only on rows below its own.
+//! Data goes one way, from scene and words to video. Every entry is a crate of its own (`cinesplat-render` and so on) that
+//! can be used alone; this crate re-exports all of them. A crate depends only on rows below its own.
 //!
 //! | row | crates | depends on |
 //! |---|---|---|
@@ -99,9 +99,9 @@
 //! | pictures | [`render`], [`video`] (feature `video`) | FFmpeg, in `video` alone |
 //! | formats | [`scene`]: Gaussians; [`export`]: camera paths | |
 //! | paths | [`trajectory`]: keyframes, splines, timing | |
-//! | ground | [`geometry`]: poses, cameras; [`plot`]: charts as SVG; [`files`]: whole or absent | |
+//! | ground | [`geometry`]: poses, cameras; [`plot`]: charts as SVG; [`files`]: atomic output | |
 //!
-//! The program `cinesplat` is built on this crate with the feature `cli`. `tests/architecture.rs` holds the table.
+//! The program `cinesplat` is built on this crate with the feature `cli`. `tests/architecture.rs` checks the table.
 //!
 //! # Invariants
 //!
@@ -109,11 +109,11 @@
 //!   `world_from_camera` in `f64`. Axes are flipped only in [`geometry::frames`] and [`export`].
 //! - No library prints, reads the environment or exits. [`geometry`], [`trajectory`], [`operator`] and [`evaluation`]
 //!   never do IO.
-//! - Core types are not `Serialize`: a file format is a file in [`export`] or [`objects`].
+//! - Core types are not `Serialize`. Each file format has its own file in [`export`] or [`objects`].
 //! - The same inputs, seed and version give the same bytes on any number of threads: no parallel float sums, no
 //!   iteration over hash maps, every random number from a seed.
-//! - A shot is checked once, at the border ([`trajectory::Shot::validated`]).
-//! - No file is overwritten unless the caller says so ([`files::Existing`]); a file that bears its name is whole.
+//! - A shot is validated before the engine uses it ([`trajectory::Shot::validated`]).
+//! - No file is overwritten unless the caller says so ([`files::Existing`]); a file under its final name is complete.
 
 pub use cinesplat_director as director;
 pub use cinesplat_evaluation as evaluation;

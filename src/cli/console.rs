@@ -8,7 +8,7 @@ pub(super) fn data(text: &str) -> Result<(), Failure> {
     data_bytes(text.as_bytes())
 }
 
-/// As [`data`], for bytes of any kind.
+/// As [`data`], for bytes.
 pub(super) fn data_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
@@ -21,7 +21,7 @@ pub(super) fn data_bytes(bytes: &[u8]) -> Result<(), Failure> {
 /// Whether notes and progress are suppressed, for the whole process.
 static IS_QUIET: AtomicBool = AtomicBool::new(false);
 
-/// Suppresses notes and progress; data and errors are written all the same.
+/// Suppresses notes and progress, but not data and errors.
 pub(super) fn set_quiet(is_quiet: bool) {
     IS_QUIET.store(is_quiet, Ordering::Relaxed);
 }
@@ -43,7 +43,7 @@ pub(super) fn error(failure: &Failure) {
     line_to_stderr(&failure.to_string());
 }
 
-/// Whether stderr is a terminal.
+/// Whether progress bars are shown: stderr is a terminal and the program is not quiet.
 pub(super) fn is_watched() -> bool {
     io::stderr().is_terminal() && !IS_QUIET.load(Ordering::Relaxed)
 }

@@ -14,7 +14,7 @@ use cinesplat::training::{DatasetSettings, write_dataset};
 #[command(after_help = "\
 Example:
   cinesplat dataset -o shots --scenes 256 --shots 24
-Shards that exist already are kept: the same command goes on where it was stopped.")]
+Existing shards are kept: the same command resumes an interrupted run.")]
 pub(super) struct Args {
     /// Folder for the shards
     #[arg(short, long, value_name = "DIR")]

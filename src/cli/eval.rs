@@ -24,8 +24,8 @@ Examples:
   cinesplat eval plan.shot.json flown.tum --rpe --delta 1 --unit m --relation angle_deg --json
   cinesplat eval planned/ flown/ --align se3 --csv > all.csv
   cinesplat eval a.shot.json b.shot.json --subject 0,1,-2,0.4 --motion
-Nothing is aligned unless asked. A shot.json stands for the frames of its film. Of two folders, files with the same
-name up to the first dot are compared.")]
+Paths are aligned only with --align. A shot.json is sampled at the frames of its film. Of two folders, files with the
+same name up to the first dot are compared.")]
 pub(super) struct Args {
     /// Reference path, or a folder of paths
     #[arg(value_name = "REF")]
@@ -51,13 +51,13 @@ pub(super) struct Args {
     /// Unit of --delta: frames, scene units (m), degrees or radians
     #[arg(long, value_name = "UNIT", default_value = "f", value_parser = choice::<DeltaUnit>(), requires = "rpe")]
     unit: DeltaUnit,
-    /// Use all pairs of poses, overlapping ones too
+    /// Use all pairs of poses, including overlapping ones
     #[arg(long, hide_short_help = true, requires = "rpe")]
     all_pairs: bool,
     /// Measure --delta along the reference instead of the estimate
     #[arg(long, hide_short_help = true, requires = "rpe")]
     pairs_from_reference: bool,
-    /// Number of first poses that the alignment uses [default: all]
+    /// Number of first poses used for the alignment [default: all]
     #[arg(long, value_name = "N")]
     align_poses: Option<usize>,
     /// Interpolate the estimate at the reference's times [default: match nearest poses]
@@ -66,13 +66,13 @@ pub(super) struct Args {
     /// Seconds added to the estimate's times
     #[arg(long, value_name = "SECS", default_value_t = 0.0, allow_hyphen_values = true)]
     time_offset: f64,
-    /// Diameter that errors are related to, scene units [default: the reference's]
+    /// Diameter for relative errors, scene units [default: the reference's]
     #[arg(long, value_name = "D")]
     diameter: Option<f64>,
     /// Compare the framing of a sphere: center and radius, scene units
     #[arg(long, value_name = "X,Y,Z,R", value_parser = parse_subject, allow_hyphen_values = true)]
     subject: Option<SubjectSphere>,
-    /// Describe the motion of both paths too: smoothness, moves, tables of poses
+    /// Also describe the motion of both paths: smoothness, motion tags, tables of poses
     #[arg(long)]
     motion: bool,
     /// Largest time difference of matched poses in seconds

@@ -26,7 +26,8 @@ pub(super) fn compare(
         rows.push(BatchRow { name, outcome });
     }
     if rows.is_empty() {
-        let found = format!("{} and {}: no files of one name, expected pairs", reference.display(), estimate.display());
+        let found =
+            format!("{} and {}: no files with the same name, expected pairs", reference.display(), estimate.display());
         return Err(Failure::new(
             "NO-PAIRS",
             found,

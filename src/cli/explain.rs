@@ -17,7 +17,7 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
         let (sure, weakest_sure) = (100.0 * reading.probability, 100.0 * weakest_sure);
         let _ = writeln!(text, "  {}. \"{words}\"", number + 1);
         let _ = writeln!(text, "     {}", sentence(&reading.step, objects));
-        let _ = writeln!(text, "     {sure:.0} % sure, least of {weakest} ({weakest_sure:.0} %)");
+        let _ = writeln!(text, "     {sure:.0} % sure, least sure of {weakest} ({weakest_sure:.0} %)");
     }
     text.push_str("\nwanted and got\n");
     for line in &directed.shot.report {
@@ -91,7 +91,7 @@ fn amount(amount: Amount) -> String {
     }
 }
 
-/// One end of a step; `None` if it is open.
+/// The framing at one end of a step; `None` if the step does not define it.
 fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<String> {
     if *framing == Framing::default() {
         return None;

@@ -37,7 +37,7 @@ pub(super) struct Args {
     /// Write the keyframes instead of every frame
     #[arg(long)]
     keyframes: bool,
-    /// Move the inner keys in time so that the camera's speed is even
+    /// Move the inner keys in time so that the camera's speed is constant
     #[arg(long)]
     retime: bool,
     #[command(flatten)]
@@ -47,14 +47,18 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let format = self.to.or_else(|| Format::from_path(&self.output)).ok_or_else(|| {
-            let found = format!("{}: the name does not say which format, expected --to FORMAT", self.output.display());
+            let found =
+                format!("{}: the name does not determine the format, expected --to FORMAT", self.output.display());
             Failure::usage(found, format!("add --to with one of {}", <Format as VariantNames>::VARIANTS.join(" ")))
         })?;
         let layout = Layout::of_path(&self.output);
         let files = export::output_files(&self.output, format, layout);
         if outputs::is_stdout(&self.output) && files.len() > 1 {
             let help = "name a folder, or choose another format with --to";
-            return Err(Failure::usage(format!("{format} takes {} files, standard output is one", files.len()), help));
+            return Err(Failure::usage(
+                format!("{format} needs {} files, standard output holds one", files.len()),
+                help,
+            ));
         }
         files.iter().try_for_each(|file| self.overwrite.check(file))?;
         let text = outputs::read_text(&self.shot)?;

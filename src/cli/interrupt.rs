@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::console;
 use super::failure::Failure;
 
-/// Counts Ctrl-C: the first requests a clean end, the second ends the program at once.
+/// Counts Ctrl-C: the first requests a stop after the current step, the second ends the program at once.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Interrupt {
     count: Arc<AtomicUsize>,
@@ -26,7 +26,7 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Whether an end was requested.
+    /// Whether a stop was requested.
     pub(super) fn is_asked(&self) -> bool {
         self.count.load(Ordering::SeqCst) > 0
     }

@@ -67,7 +67,7 @@ Exit codes: 0 done, 2 wrong arguments, 65 bad data, 66 no such input, 69 codec m
 cinesplat, 71 over a cap, 73 cannot create the output, 74 I/O error, 75 stopped early, 77 permission
 denied, 130 interrupted twice.";
 
-/// The commands; the help of each is that of its arguments.
+/// The commands. The documentation of each `Args` is its help.
 #[derive(Debug, Subcommand)]
 enum Command {
     Info(info::Args),

@@ -10,7 +10,7 @@ use super::console;
 use super::failure::{Exit, Failure};
 use super::outputs;
 
-/// Stands for the name of a prompt in an output's path.
+/// Placeholder for the name of a prompt in the path of an output.
 const PLACEHOLDER: &str = "{}";
 
 /// A prompt of a file.
@@ -45,7 +45,7 @@ fn parse(text: &str) -> Result<Vec<NamedPrompt>, String> {
         };
         let is_safe = |c: char| c.is_alphanumeric() || "-_.".contains(c);
         if name.is_empty() || name.starts_with('.') || !name.chars().all(is_safe) {
-            return Err(format!("line {number}: name {name:?} does not fit into a file name"));
+            return Err(format!("line {number}: name {name:?} cannot be part of a file name"));
         }
         if prompt.trim().is_empty() {
             return Err(format!("line {number}: no prompt after the name {name:?}"));
@@ -71,9 +71,9 @@ pub(super) fn output_of(path: &Path, name: &str) -> Result<PathBuf, Failure> {
     Ok(PathBuf::from(text.replace(PLACEHOLDER, name)))
 }
 
-/// Does the work of every prompt. A prompt that fails is reported and the next one follows; a stop ends it all.
+/// Runs `work` for every prompt. A failure is reported and the next prompt follows; a stop by the user ends the loop.
 ///
-/// Returns the first failure, so that the exit code is that of a failure.
+/// After failures it returns one that counts them, with the exit code of the first.
 pub(super) fn for_each<T>(
     jobs: &[(NamedPrompt, T)],
     mut work: impl FnMut(&NamedPrompt, &T) -> Result<(), Failure>,

@@ -59,9 +59,9 @@ pub(super) struct Args {
     /// Range of frames to render; B is one past the last
     #[arg(long, value_name = "A..B", help_heading = heading::OUTPUT, default_value = "..")]
     frames: FrameRange,
-    /// Quality of the encoder: lower is better and larger
+    /// Rate factor of the encoder: lower is better, with larger files
     ///
-    /// At 18 a film is hard to tell from its frames.
+    /// At 18 the loss is hard to see.
     #[arg(long, value_name = "N", help_heading = heading::OUTPUT, hide_short_help = true, default_value_t = 18)]
     crf: u8,
     /// Effort of the H.264 encoder
@@ -245,7 +245,7 @@ impl Args {
         Ok(predicted)
     }
 
-    /// Prints predicted beside measured figures.
+    /// Prints predicted and measured figures side by side.
     fn print_comparison(&self, predicted: &Forecast, report: &FilmReport, psnr_db: f64) -> Result<(), Failure> {
         let measured = report.total_time.as_secs_f64();
         // A film that was stopped took a share of the predicted time.

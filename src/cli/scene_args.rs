@@ -12,7 +12,7 @@ use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
 use cinesplat::scene::{LoadOptions, Scene, SplatFilter};
 
-/// A scene, and how it is read.
+/// A scene and the options for reading it.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SceneArgs {
     /// Scene file (.ply .spz .sog .splat), SOG folder, or synth:demo
@@ -25,7 +25,7 @@ pub(super) struct SceneArgs {
     options: SceneOptions,
 }
 
-/// How scenes are read.
+/// Options for reading scenes.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SceneOptions {
     /// World up axis [default: what the file says, else estimated]
@@ -42,7 +42,7 @@ pub(super) struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// Opens a scene and prints notes, such as how many Gaussians were dropped.
+    /// Opens a scene and prints its notes, such as the number of dropped Gaussians.
     pub(super) fn open(&self, scene: &Path) -> Result<OpenedScene, Failure> {
         let (max_file_bytes, max_gaussians) = (self.max_file_bytes, self.max_gaussians);
         let options = LoadOptions { up: self.up, max_file_bytes, max_gaussians };

@@ -28,7 +28,7 @@ pub(super) struct ShotArgs {
     /// Frames per second [default: 30, or the shot's]
     #[arg(long, value_name = "FPS", help_heading = heading::SHOT, value_parser = parse_rate)]
     fps: Option<f64>,
-    /// Length in seconds [default: what words and moves need]
+    /// Length in seconds [default: from the words, else from the moves]
     #[arg(long, value_name = "SECS", help_heading = heading::SHOT, value_parser = parse_duration)]
     duration: Option<f64>,
     /// Lens effects: auto, off, or names separated by commas
@@ -37,7 +37,7 @@ pub(super) struct ShotArgs {
     /// Seed of the camera search [default: 0, or the shot's]
     #[arg(long, value_name = "N", help_heading = heading::SHOT)]
     seed: Option<u64>,
-    /// Move the inner keys in time so that the camera's speed is even
+    /// Move the inner keys in time so that the camera's speed is constant
     #[arg(long, help_heading = heading::SHOT, hide_short_help = true)]
     retime: bool,
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(super) struct ShotArgs {
 }
 
 impl ShotArgs {
-    /// Turns a prompt into a shot. Prints guesses and requirements that are not met on stderr.
+    /// Turns a prompt into a shot. Prints guesses and unmet requirements to stderr.
     pub(super) fn direct(&self, scene: &Scene, objects: &ObjectSet, prompt: &str) -> Result<Directed, Failure> {
         let mut times = PhaseTimes::default();
         let director = times.measure(Phase::Load, || match &self.model {
@@ -146,7 +146,7 @@ fn print_effects(decisions: &[Decision]) {
     }
 }
 
-/// How hard the camera search works.
+/// Effort of the camera search.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(super) struct SolveArgs {
     /// Effort of the camera search

@@ -39,7 +39,7 @@ pub(super) struct Args {
     npy: bool,
     /// Write expected depth (NAME.depth.npy) and median depth (NAME.median.npy)
     ///
-    /// float32, H x W, along the view axis in scene units; NaN where no Gaussian is.
+    /// float32, H x W, along the view axis in scene units; NaN where there is no Gaussian.
     #[arg(long, help_heading = heading::OUTPUT)]
     depth: bool,
     /// Write the object id of each pixel (NAME.ids.npy) [labels: the scene's own]

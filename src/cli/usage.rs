@@ -25,6 +25,6 @@ fn wrong(text: &str) -> Failure {
     let message = parts.next().unwrap_or_default();
     let kept = |part: &String| !part.starts_with("For more information");
     let mut help: Vec<String> = parts.filter(kept).map(|part| part.trim_start_matches("tip: ").to_owned()).collect();
-    help.push("--help says more".to_owned());
+    help.push("see --help".to_owned());
     Failure::usage(message.trim_start_matches("error: "), help.join("; "))
 }

@@ -1,8 +1,8 @@
-//! The one home of what every stage needs of the file system and of plain file formats.
+//! File output, `NumPy` arrays, hashes and relative paths for every stage.
 //!
-//! Enters: bytes and paths. Leaves: files that are whole or absent ([`NewFile`], [`write()`]), arrays for `NumPy`
-//! ([`npy`]), hashes and relative paths. The one invariant: nothing here
-//! replaces a file unless the caller says [`Existing::Replace`].
+//! Enters: bytes and paths. Leaves: files that are complete or absent ([`NewFile`], [`write()`]), arrays for `NumPy`
+//! ([`npy`]), hashes and relative paths. The one invariant: no file is replaced unless the caller passes
+//! [`Existing::Replace`].
 
 mod error;
 mod hash;

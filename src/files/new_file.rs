@@ -24,8 +24,8 @@ impl Existing {
     }
 }
 
-/// A file under a temporary name in the folder of its target. It takes the target's name when it is committed; dropped
-/// before that, it is removed.
+/// A file under a temporary name in the folder of its target. Committing it renames it to the target; dropping it before
+/// that removes it.
 ///
 /// A target that is no regular file (`/dev/stdout`, a FIFO) is written directly.
 #[derive(Debug)]
@@ -74,7 +74,7 @@ impl NewFile {
         }
     }
 
-    /// Writes the file's data to the disk, then gives the file its name in one step.
+    /// Flushes the data to the disk, then renames the file to its target in one step.
     ///
     /// # Errors
     /// [`FileError::Exists`] if another program took the name meanwhile, [`FileError::Write`].
@@ -102,7 +102,7 @@ impl NewFile {
     }
 }
 
-/// Writes a whole file: it appears under its name with all its bytes or not at all.
+/// Writes a file, which appears under its name with all its bytes or not at all.
 ///
 /// # Errors
 /// [`FileError::Exists`], [`FileError::Create`], [`FileError::Write`].

@@ -1,8 +1,8 @@
 //! `NumPy` arrays: any shape of little-endian numbers.
 //!
-//! Enters: bytes of a `.npy` file, versions 1 to 3, C order. Leaves: its type, its shape and its data ([`Array`]); and
-//! the way back. Layout: numpy's `lib/format.py`. The published crates for this format bring a parser generator for the
-//! one line of header; that is why it stands here.
+//! Enters: bytes of a `.npy` file, versions 1 to 3, C order. Leaves: its type, its shape and its data ([`Array`]).
+//! The functions `encode*` do the reverse. Reference: numpy's `lib/format.py`. This project has its own reader because the
+//! published crates depend on a parser generator for the single line of header.
 
 use thiserror::Error;
 
@@ -11,24 +11,24 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 /// The data of a file starts at a multiple of this, in bytes.
 const ALIGNMENT: usize = 64;
 
-/// Why bytes are not an array that this program reads: what was found, in words.
+/// Error of reading an array; the text says what was found.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct NpyError(String);
 
-/// An array as its file holds it.
+/// An array as stored in its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Array<'a> {
     /// Type of the numbers in numpy's notation: `<f4`, `<u2`.
     pub descr: String,
     /// Length of every axis, the outermost first.
     pub shape: Vec<usize>,
-    /// The numbers, one after another.
+    /// The values as bytes, in C order.
     pub data: &'a [u8],
 }
 
 impl<'a> Array<'a> {
-    /// Reads a file.
+    /// Parses the bytes of a `.npy` file.
     ///
     /// # Errors
     /// [`NpyError`] for another signature, a header that is cut off or incomplete, data in Fortran order.
@@ -44,10 +44,10 @@ impl<'a> Array<'a> {
         Ok(Self { descr: field(&header, "descr")?, shape: axes.map_err(|_| bad_shape())?, data })
     }
 
-    /// Unsigned integers of one, two or four bytes.
+    /// The values as `u32`, from unsigned integers of one, two or four bytes.
     ///
     /// # Errors
-    /// [`NpyError`] for another type, or data that the shape does not announce.
+    /// [`NpyError`] for another type, or data whose length does not match the shape.
     pub fn to_u32(&self) -> Result<Vec<u32>, NpyError> {
         let size = match self.descr.as_str() {
             "|u1" | "<u1" | "u1" => 1,
@@ -60,10 +60,10 @@ impl<'a> Array<'a> {
         Ok(self.data.chunks_exact(size).map(value).collect())
     }
 
-    /// Real numbers of four bytes.
+    /// The values as `f32`.
     ///
     /// # Errors
-    /// [`NpyError`] for another type, or data that the shape does not announce.
+    /// [`NpyError`] for another type, or data whose length does not match the shape.
     pub fn to_f32(&self) -> Result<Vec<f32>, NpyError> {
         if self.descr != "<f4" {
             return Err(NpyError(format!("values of type `{}`", self.descr)));
@@ -82,20 +82,20 @@ impl<'a> Array<'a> {
     }
 }
 
-/// A file of `f32`.
+/// Bytes of a `.npy` file of `f32`.
 pub fn encode_f32(shape: &[usize], values: &[f32]) -> Vec<u8> {
     encode("'<f4'", shape, values.iter().flat_map(|value| value.to_le_bytes()))
 }
 
-/// A file of `u16`.
+/// Bytes of a `.npy` file of `u16`.
 pub fn encode_u16(shape: &[usize], values: &[u16]) -> Vec<u8> {
     encode("'<u2'", shape, values.iter().flat_map(|value| value.to_le_bytes()))
 }
 
-/// A file, version 1.0, of any type: `descr` is numpy's notation as Python writes it, with its quotes or brackets.
+/// Bytes of a `.npy` file, version 1.0, of any type. `descr` is the type in numpy's notation, with its quotes or brackets.
 pub fn encode(descr: &str, shape: &[usize], data: impl Iterator<Item = u8>) -> Vec<u8> {
     let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
-    // A tuple of one has a comma.
+    // In Python a tuple of one element ends in a comma.
     let comma = if axes.len() == 1 { "," } else { "" };
     let axes = axes.join(", ");
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({axes}{comma}), }}");

@@ -1,11 +1,11 @@
 use std::path::{Path, PathBuf};
 
-/// The path that a file at `base` names as `name`: relative names are relative to its folder.
+/// Resolves `name`, as written in the file `base`. A relative name is relative to the folder of `base`.
 pub fn beside(base: &Path, name: &str) -> PathBuf {
     base.parent().map_or_else(|| PathBuf::from(name), |folder| folder.join(name))
 }
 
-/// How a file at `base` names `target`: relative to its folder, or `target` unchanged if either path does not exist.
+/// `target` relative to the folder of the file `base`, or `target` unchanged if either path does not exist.
 pub fn relative_to(base: &Path, target: &Path) -> String {
     let folder = folder_of(base).canonicalize().ok();
     let relative = folder.and_then(|folder| pathdiff::diff_paths(target.canonicalize().ok()?, folder));

@@ -22,7 +22,7 @@ pub enum PipelineError {
     /// The prompt cannot be linked to the scene.
     #[error(transparent)]
     Language(#[from] LanguageError),
-    /// The director fails.
+    /// The director cannot turn the prompt into a program.
     #[error(transparent)]
     Director(#[from] DirectorError),
     /// The keyframes make no path.

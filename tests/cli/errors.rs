@@ -35,7 +35,7 @@ fn an_unknown_generated_scene() {
     insta::assert_snapshot!(answer(folder.path(), &["info", "synth:castle:1"]), @r"
     exit 66
     error[SCENE-SYNTH]: synth:castle:1: unknown generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED
-    help: for example synth:room:7, or a file with ./ before its name
+    help: name one such as synth:room:7, or write ./ before the name of a file
     ");
 }
 
@@ -45,32 +45,32 @@ fn invalid_arguments() {
     insta::assert_snapshot!(answer(folder.path(), &["inof"]), @r"
     exit 2
     error[USAGE]: unrecognized subcommand 'inof'
-    help: a similar subcommand exists: 'info'; Usage: cinesplat [OPTIONS] <COMMAND>; --help says more
+    help: a similar subcommand exists: 'info'; Usage: cinesplat [OPTIONS] <COMMAND>; see --help
     ");
     insta::assert_snapshot!(answer(folder.path(), &["info"]), @r"
     exit 2
     error[USAGE]: the following required arguments were not provided: <SCENE>
-    help: Usage: cinesplat info <SCENE>; --help says more
+    help: Usage: cinesplat info <SCENE>; see --help
     ");
     insta::assert_snapshot!(answer(folder.path(), &["info", "a.ply", "--jsno"]), @r"
     exit 2
     error[USAGE]: unexpected argument '--jsno' found
-    help: a similar argument exists: '--json'; Usage: cinesplat info --json <SCENE>; --help says more
+    help: a similar argument exists: '--json'; Usage: cinesplat info --json <SCENE>; see --help
     ");
     insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "--shot", "s.json", "-o", "a.mp4"]), @r"
     exit 2
     error[USAGE]: the argument '--prompt <PROMPT>' cannot be used with '--shot <SHOT.JSON>'
-    help: Usage: cinesplat render --output <OUT> <--prompt <PROMPT>|--prompts <FILE>|--shot <SHOT.JSON>> <SCENE>; --help says more
+    help: Usage: cinesplat render --output <OUT> <--prompt <PROMPT>|--prompts <FILE>|--shot <SHOT.JSON>> <SCENE>; see --help
     ");
     insta::assert_snapshot!(answer(folder.path(), &["render", "a.ply", "-p", "x", "-o", "a.mp4", "--size", "0x9"]), @r"
     exit 2
     error[USAGE]: invalid value '0x9' for '--size <WxH>': expected WIDTHxHEIGHT in pixels such as 1280x720, each 1 to 16384
-    help: --help says more
+    help: see --help
     ");
     insta::assert_snapshot!(answer(folder.path(), &["plan", "a.ply", "-p", "x", "-o", "s.json", "--effects", "blur"]), @r#"
     exit 2
     error[USAGE]: invalid value 'blur' for '--effects <LIST>': no effect is named "blur", expected auto, off, or a list of: depth-of-field rack-focus motion-blur handheld rolling-shutter lens-distortion fisheye panorama anamorphic tilt-shift fog film-grain vignette lens-flare bloom chromatic-aberration
-    help: --help says more
+    help: see --help
     "#);
 }
 

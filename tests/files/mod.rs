@@ -1,4 +1,4 @@
-//! The crate `files`: what is whole or absent, what is never replaced, arrays as numpy writes them, relative paths.
+//! The crate `files`: complete or absent files, protection of existing files, numpy arrays, relative paths.
 
 use std::fs;
 use std::io::Write;
@@ -100,7 +100,7 @@ fn damaged_arrays_are_refused_whatever_the_byte() {
     for at in 0..bytes.len() {
         let mut damaged = bytes.clone();
         damaged[at] ^= 0x55;
-        // Any answer will do as long as it is one.
+        // Any result is accepted; a panic is not.
         let _ = npy::Array::parse(&damaged).and_then(|array| array.to_u32());
     }
     let huge = npy::encode("'<f4'", &[usize::MAX, 2], std::iter::empty());

@@ -17,8 +17,8 @@ use cinesplat_bench::{AccuracyAxis, BenchPlan, BenchRow};
 Example:
   cinesplat bench render room.spz skull.sog --cameras room.cameras.json --cameras auto -o bench
 Prints one CSV line per scene, camera, size and variant: median and range of the runs and times of the stages in ms,
-work counts, PSNR, SSIM and worst pixel against `reference` (free knobs: against `standard`). -o keeps the CSV, tables
-and plots. Times are those of 8-bit pictures, as films take them; PSNR, SSIM and worst pixel are those of the same
+work counts, PSNR, SSIM and worst pixel against `reference` (knobs that change no bit: `standard`). -o keeps the CSV, tables
+and plots. Times are those of 8-bit pictures, as in films; PSNR, SSIM and worst pixel are those of the same
 pictures as f32. Outputs (depth, ids, features, weights, lift) are timed at `standard`, alternating with f32 color;
 times_color is the median ratio of the two. Knobs are measured at the first size only, `scalar` once on one camera.")]
 pub(crate) struct Args {
@@ -59,7 +59,7 @@ impl Args {
         write_all(&self.folder, &log.rows)
     }
 
-    /// All cameras and sizes of one scene.
+    /// Measures all cameras and sizes of one scene.
     fn bench_scene(&self, path: &Path, file: Option<&StillCameras>, log: &mut RowLog) -> Result<(), Failure> {
         let scene = self.scenes.options.open(path)?.scene;
         let base = settings(&self.picture, &scene, Quality::Final, file);

@@ -72,7 +72,12 @@ fn in_own_process(growth: Growth, value: u64) -> Result<String, Failure> {
     let said = String::from_utf8_lossy(&ran.stderr).trim().replace('\n', "; ");
     let exit_code = ran.status.code().and_then(|code| u8::try_from(code).ok());
     let exit = exit_code.and_then(Exit::from_repr).unwrap_or(Exit::Fault);
-    Err(Failure::new("BENCH-CASE", format!("{} {value}: {said}", growth.as_ref()), "see its error", exit))
+    Err(Failure::new(
+        "BENCH-CASE",
+        format!("{} {value}: {said}", growth.as_ref()),
+        "the message quotes the error of the case",
+        exit,
+    ))
 }
 
 fn parse_case(text: &str) -> Result<ScalingCase, String> {

@@ -14,7 +14,7 @@ pub(crate) enum Exit {
     NoInput = 66,
     /// A codec or a device is missing.
     Unavailable = 69,
-    /// A fault of this program.
+    /// A fault of cinesplat itself.
     Fault = 70,
     /// A memory or cost cap is exceeded.
     OverCap = 71,

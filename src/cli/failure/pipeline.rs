@@ -19,11 +19,11 @@ impl From<PipelineError> for Failure {
             PipelineError::Render(error) => return error.into(),
             PipelineError::Video(error) => return error.into(),
             PipelineError::UnknownSynth { .. } => {
-                (Exit::NoInput, "for example synth:room:7, or a file with ./ before its name")
+                (Exit::NoInput, "name one such as synth:room:7, or write ./ before the name of a file")
             }
             PipelineError::NoSuchFrames { .. } => (Exit::Usage, "give --frames A..B with B one after the last frame"),
             PipelineError::Unreachable { .. } => {
-                (Exit::OverCap, "allow more time, ask for fewer decibels, or film smaller (--size, --fps, --frames)")
+                (Exit::OverCap, "allow more time, lower --min-psnr, or reduce the film (--size, --fps, --frames)")
             }
         };
         Self::new(code, message, help, exit)

@@ -14,7 +14,7 @@ impl From<RenderError> for Failure {
             E::Setting { name, expected, .. } => (Exit::Usage, format!("set {name} to {expected}")),
             E::Length { what, expected, .. } => (Exit::BadData, format!("give {what} {expected} values, in order")),
             E::Memory { .. } | E::Cost { .. } => {
-                (Exit::OverCap, "render smaller, or move the camera out of the Gaussians".to_owned())
+                (Exit::OverCap, "reduce the picture size, or move the camera out of the Gaussians".to_owned())
             }
         };
         Self::new(code, message, help, exit)

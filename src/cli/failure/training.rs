@@ -14,8 +14,8 @@ impl From<TrainError> for Failure {
             TrainError::NoExample { .. } => {
                 (Exit::Fault, "this is a fault of the example sampler: report it with the seed")
             }
-            TrainError::Diverged { .. } => (Exit::Fault, "go on from the last checkpoint with a smaller --rate"),
-            TrainError::Stopped { .. } => (Exit::Stopped, "the same command with --resume goes on from there"),
+            TrainError::Diverged { .. } => (Exit::Fault, "resume from the last checkpoint with a smaller --rate"),
+            TrainError::Stopped { .. } => (Exit::Stopped, "the same command with --resume continues from there"),
             TrainError::BadCheckpoint { .. } => {
                 (Exit::BadData, "train into another folder, or give the settings that it was made with")
             }

@@ -47,8 +47,8 @@ impl ReferenceSample {
     }
 }
 
-/// PSNR in dB against the spec image of pictures whose mean square differences to `final` are `mean_squares`. The error
-/// of `final` itself is added, so the result is at most `final_db`.
+/// PSNR in dB against `reference` of pictures whose mean square differences to `final` are `mean_squares`. The error of
+/// `final` itself is added, so the result is at most `final_db`.
 pub(super) fn psnr_db(mean_squares: impl Iterator<Item = f64>, final_db: f64) -> f64 {
     let (sum, num) = mean_squares.fold((0.0, 0), |(sum, num), square| (sum + square, num + 1));
     -10.0 * (sum / f64::from(num.max(1)) + 10_f64.powf(-final_db / 10.0)).log10()

@@ -24,7 +24,7 @@ use cinesplat_trajectory::{CameraPath, Shot};
 use cinesplat_video::{VideoFormat, VideoSettings, encoder_delay_frames};
 use sample::{Sampler, Samples, TimeLimit};
 
-/// After this time no further frames are sampled.
+/// Time after which no further frames are sampled.
 const TIME_LIMIT_SECS: f64 = 0.9;
 /// Positions in the film, 0..1, of further samples after those in the middle, while time is left.
 const FURTHER_FRACS: [f64; 2] = [1.0 / 6.0, 5.0 / 6.0];
@@ -52,7 +52,7 @@ pub struct Forecast {
     pub encode_time: Duration,
     /// Wall time of the film: both in parallel.
     pub film_time: Duration,
-    /// PSNR against the spec image over all sampled frames, dB; infinite for `reference`.
+    /// PSNR against [`Quality::Reference`] over all sampled frames, dB; infinite for `reference` itself.
     pub psnr_db: f64,
     /// PSNR of the worst sampled frame, dB.
     pub worst_psnr_db: f64,
@@ -137,7 +137,7 @@ pub fn forecast(
     Ok(forecasts)
 }
 
-/// PSNR against the spec image in dB over a few frames that a forecast does not sample.
+/// PSNR in dB against [`Quality::Reference`], over a few frames that a forecast does not sample.
 ///
 /// # Errors
 /// As [`forecast`].

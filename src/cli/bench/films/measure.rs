@@ -30,12 +30,13 @@ pub(super) struct FilmRow {
     pub(super) secs: f64,
     /// CPU time, where it is known.
     pub(super) cpu_secs: Option<f64>,
-    /// What it is compared with, and the difference in percent.
+    /// Baseline of the comparison, and the difference from it in percent.
     pub(super) against: Option<(&'static str, f64)>,
 }
 
 impl FilmCase<'_> {
-    /// Compares the film's pictures by one renderer, which reuses its state, with the same pictures one by one.
+    /// Compares one renderer that reuses its depth order with one that sorts every picture anew, and with a new renderer
+    /// per picture.
     pub(super) fn stills(&self, settings: &FilmSettings, report: &mut dyn FnMut(FilmRow)) -> Result<(), Failure> {
         let cameras = self.cameras()?;
         let quality = settings.render.quality.into();
@@ -128,7 +129,7 @@ impl FilmCase<'_> {
     }
 }
 
-/// Renders all pictures in order; returns them only if `keeps`.
+/// Renders all pictures in order and measures the time. Returns the pictures only if `keeps`.
 fn render(
     renderer: &Renderer<'_>,
     cameras: &[Camera],

@@ -20,7 +20,7 @@ use measure::{FilmCase, FilmRow};
 
 /// Frames per second of the films.
 const RATE_FPS: f64 = 30.0;
-/// Default length of the dolly over the size of the scene.
+/// Default length of the dolly, as a fraction of the scene size.
 const TRAVEL_FRAC: f64 = 0.05;
 
 /// Width and height; `None` = as given. The alias keeps clap from reading `Option` as "may be absent".
@@ -32,7 +32,7 @@ type Size = Option<[u32; 2]>;
 Example:
   cinesplat bench films room.spz synth:demo --cameras room.cameras.json --cameras auto -o bench
 Films a dolly: a straight move along the view axis of the first camera (auto: the camera in the middle). Prints one CSV
-line per measurement, with what it is compared with and the difference in percent. All pictures of a film are kept in
+line per measurement, with its baseline and the difference in percent. All pictures of a film are kept in
 memory to encode them alone. -o keeps films.csv and a table.")]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 240, value_parser = clap::value_parser!(u16).range(2..=10_000))]
     frames: u16,
     /// Length of the dolly in scene units [default: 0.05 of the scene size]
-    #[arg(long, value_name = "DISTANCE", value_parser = parse_way)]
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_length)]
     travel: Option<f64>,
     /// Qualities to film; the first is compared with stills as well
     #[arg(
@@ -78,7 +78,7 @@ impl Args {
             Some(file) => file.cameras.first().map(|named| named.camera),
             None => own_views(&scene)?.last().map(|(_, camera)| *camera),
         };
-        let camera = camera.ok_or_else(|| Failure::fault("cameras without a camera"))?;
+        let camera = camera.ok_or_else(|| Failure::fault("no camera in the cameras file"))?;
         let render = settings(&self.picture, &scene, Quality::Standard, file);
         let travel = self.travel.unwrap_or(TRAVEL_FRAC * scene.bounds().size());
         let shot = dolly(&scene, &resized(&camera, self.size), travel, usize::from(self.frames));
@@ -106,9 +106,9 @@ impl Args {
 /// A straight move along the view axis at constant speed.
 fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot {
     let duration_secs = num_frames as f64 / RATE_FPS;
-    let key = |time_secs: f64, way: f64| {
+    let key = |time_secs: f64, distance: f64| {
         let mut pose = camera.pose;
-        pose.position += pose.forward() * way;
+        pose.position += pose.forward() * distance;
         let (fov_y_rad, easing) = (camera.intrinsics.fov_y_rad(), Easing::Linear);
         Keyframe { time_secs, pose, fov_y_rad, focus_distance: None, easing, cut: false, intent: None }
     };
@@ -118,6 +118,9 @@ fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot
     Shot { scene, ..Shot::from_keyframes([width, height], RATE_FPS, duration_secs, keyframes) }
 }
 
-fn parse_way(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|way: &f64| *way > 0.0 && way.is_finite()).ok_or("expected a length above 0".to_owned())
+fn parse_length(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|length: &f64| *length > 0.0 && length.is_finite())
+        .ok_or("expected a length above 0".to_owned())
 }

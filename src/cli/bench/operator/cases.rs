@@ -17,13 +17,13 @@ use cinesplat::trajectory::Shot;
 /// Prompts on scenes, and how they are solved.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct CaseArgs {
-    /// Cases: JSON lines with id, scene, objects and prompt
+    /// File of cases: JSON lines with id, scene, objects and prompt
     #[arg(long, value_name = "CASES.JSONL")]
     cases: PathBuf,
     /// Programs by case id [default: the network's reading of each prompt]
     #[arg(long, value_name = "INTENTS.JSON")]
     intents: Option<PathBuf>,
-    /// Use the cases whose id contains this text [default: all]
+    /// Use only cases whose id contains this text [default: all]
     #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true)]
     only: String,
     /// Seed of the camera search
@@ -48,7 +48,7 @@ pub(super) struct CaseScene {
     objects: ObjectSet,
 }
 
-/// Opens scenes and turns cases into shots. The director is loaded only where prompts have to be read.
+/// Opens scenes and turns cases into shots. The director is loaded only for cases without programs.
 pub(super) struct CaseDirector {
     director: Option<Director>,
     scenes: BTreeMap<(PathBuf, PathBuf), CaseScene>,

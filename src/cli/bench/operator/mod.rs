@@ -1,4 +1,4 @@
-//! `bench operator`: measures on finished shots what the operator promises. The measuring code shares nothing with it.
+//! `bench operator`: measures how exact and safe finished shots are, with code that is independent of the operator.
 
 mod cases;
 mod curve;
@@ -39,7 +39,6 @@ enum OperatorBenchmark {
     Void(void::Args),
     Curve(curve::Args),
     Stages(stages::Args),
-    /// Measure paths between random places: clearance by brute force, and search time
     Pairs(pairs::Args),
 }
 

@@ -46,7 +46,7 @@ pub(super) fn run() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Checks of keys that a person wrote.
+/// Checks of given keyframes, without the operator.
 fn authored() -> Result<Vec<Check>, Failure> {
     let frame = LevelFrame::new(DVec3::Y)?;
     let pivot = DVec3::new(3.0, -1.0, 0.5);
@@ -80,7 +80,7 @@ fn key(time_secs: f64, pose: Pose, intent: Option<Intent>) -> Keyframe {
     Keyframe { time_secs, pose, fov_y_rad: 0.8, focus_distance: None, easing, cut: false, intent }
 }
 
-/// An orbit of 300 degrees in `count` keys, shifted along the circle by up to `uneven` of their distance.
+/// An orbit of 300 degrees in `count` keys, shifted along the circle by up to `uneven` times their spacing.
 fn orbit_keys(pivot: DVec3, count: usize, uneven: f64) -> Result<Shot, Failure> {
     let at = |i: usize| {
         let inner = i > 0 && i + 1 < count;
@@ -94,7 +94,7 @@ fn orbit_keys(pivot: DVec3, count: usize, uneven: f64) -> Result<Shot, Failure> 
     Ok(shot(DVec3::Y, keys?, (count - 1) as f64))
 }
 
-/// Keys at distances 1, 0.2 and 3.8 at even times, with turning cameras.
+/// Keys 1, 0.2 and 3.8 units apart, one second apart, with turning cameras.
 fn uneven_keys() -> Shot {
     let at = |(i, x): (usize, f64)| {
         let forward = DVec3::new((0.4 * i as f64).sin(), -0.1 * i as f64, -(0.4 * i as f64).cos()).normalize();
@@ -158,7 +158,7 @@ fn planned(room: &TestRoom) -> Result<Vec<Check>, Failure> {
             back.push(path.num_reversals() as f64);
         }
     }
-    for film in ways(room) {
+    for film in one_way_moves(room) {
         let path = Sampled::new(&film)?;
         let (jump, turn_jump) = path.velocity_jumps();
         jumps.push(jump.max(turn_jump));
@@ -191,8 +191,8 @@ fn cruises(room: &TestRoom) -> Vec<Shot> {
     pairs.flat_map(follow).collect()
 }
 
-/// Shots of one move each that must not turn back.
-fn ways(room: &TestRoom) -> Vec<Shot> {
+/// Shots of one move each, whose paths must not reverse.
+fn one_way_moves(room: &TestRoom) -> Vec<Shot> {
     let film = |object: &Object| {
         [Move::PushIn, Move::PullOut, Move::TruckLeft, Move::TruckRight, Move::PedestalUp, Move::CraneUp]
             .map(|movement| room.plan(Step { start: about(object), end: about(object), ..Step::of(movement) }))

@@ -14,17 +14,17 @@ use cinesplat::operator::{ClearanceIndex, Route, World};
 use cinesplat::pipeline;
 use cinesplat::scene::{LoadOptions, Scene};
 
-/// Ways between random places of scenes: are they clear of matter, and how long do they take to find?
+/// Measure paths between random places: clearance by brute force, and search time
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example:
   cinesplat bench operator pairs kitchen.spz synth:demo --pairs 100 > pairs.csv
-One line a pair. Solver times are processor time of one thread; the index of every scene is timed by itself, on one thread too.")]
+One line per pair. Solver times are CPU time of one thread; the index of each scene is timed separately, also on one thread.")]
 pub(crate) struct Args {
-    /// Scenes that share the pairs; generated ones are named as for `info`
+    /// Scenes; the pairs are divided among them
     #[arg(value_name = "SCENE", required = true)]
     scenes: Vec<PathBuf>,
-    /// Pairs of all scenes together
+    /// Number of pairs over all scenes
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u16).range(1..=10_000))]
     pairs: u16,
     /// Samples of every path that are compared with every Gaussian, without an index
@@ -70,7 +70,7 @@ fn on_scene(scene: &Scene, trial: &PairTrial) -> Result<Vec<PairResult>, Failure
         console::data(&line(&head, result, world.camera_radius))?;
     }
     console::note(&format!(
-        "{}: {} Gaussians, {num_solid} of them matter, index {index_ms:.0} ms; {}",
+        "{}: {} Gaussians, {num_solid} of them solid, index {index_ms:.0} ms; {}",
         scene.path.display(),
         scene.gaussians.len(),
         summary(&results)
@@ -107,26 +107,26 @@ fn summary(results: &[PairResult]) -> String {
     let straight = results.iter().filter(|r| r.route.as_ref().is_ok_and(Route::is_straight)).count();
     let found = results.iter().filter(|r| r.route.is_ok()).count();
     let violating = results.iter().filter(|r| r.num_violations.is_some_and(|count| count > 0)).count();
-    // A scan that finds less than what was proved would break the proof, even where the camera has room. It stops
-    // looking at 1.5 radii.
-    let untrue = results.iter().filter(|r| {
+    // A scanned distance below the proved one refutes the proof, even where the camera has room. The scan measures
+    // distances up to 1.5 radii.
+    let refuted = results.iter().filter(|r| {
         let proved =
             r.route.as_ref().map_or(0.0, |route| route.proof.min_distance.min(1.5 * route.proof.camera_radius));
         r.scanned_least.is_some_and(|least| least < proved - 1e-9)
     });
     format!(
-        "{} pairs: {straight} straight, {} around, {} without a way; {violating} with violations, {} proofs broken; \
+        "{} pairs: {straight} straight, {} around, {} without a route; {violating} with violations, {} proofs refuted; \
          solver median {median:.2} ms, worst {worst:.1} ms, all {:.0} ms",
         results.len(),
         found - straight,
         results.len() - found,
-        untrue.count(),
+        refuted.count(),
         times.iter().sum::<f64>()
     )
 }
 
-/// Time that this thread has been running on a processor, where the system says so (Linux); else time since the start.
-/// Other programs on the machine do not count.
+/// CPU time of this thread, so that other programs do not count; wall time since the first call where the system does not
+/// report it (elsewhere than Linux).
 fn busy_time() -> Duration {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     let stat = std::fs::read_to_string("/proc/thread-self/schedstat").ok();

@@ -10,7 +10,7 @@ const NUM_SAMPLES: usize = 20_001;
 /// Time step of a velocity by finite differences.
 const INSTANT_SECS: f64 = 1e-5;
 
-/// A shot's path with samples at even times.
+/// A shot's path with samples at uniform times.
 pub(super) struct Sampled<'a> {
     shot: &'a Shot,
     path: CameraPath,
@@ -32,7 +32,7 @@ impl<'a> Sampled<'a> {
         self.states.iter().map(|state| (radius(state) / first - 1.0).abs()).fold(0.0, f64::max)
     }
 
-    /// Standard deviation over mean of the speed in the interval `[from, to]` of the time, each 0..=1.
+    /// Standard deviation of the speed over its mean, between two times given as fractions 0..=1 of the duration.
     pub(super) fn speed_variation(&self, [from, to]: [f64; 2]) -> f64 {
         let index = |share: f64| (share * (NUM_SAMPLES - 1) as f64) as usize;
         let part = &self.states[index(from)..=index(to)];
@@ -42,14 +42,14 @@ impl<'a> Sampled<'a> {
         variance.sqrt() / mean
     }
 
-    /// Number of steps that go against the step before.
+    /// Number of steps at more than 90 degrees from the previous step.
     pub(super) fn num_reversals(&self) -> usize {
         let step = |pair: &[CameraState]| pair[1].pose.position - pair[0].pose.position;
         let steps: Vec<DVec3> = self.states.windows(2).map(step).collect();
         steps.windows(2).filter(|pair| pair[0].dot(pair[1]) < 0.0).count()
     }
 
-    /// Largest jump of velocity and of angular velocity at an inner key without a cut, each over its peak.
+    /// Largest jump of velocity and of angular velocity at an inner key without a cut, each relative to its peak.
     pub(super) fn velocity_jumps(&self) -> (f64, f64) {
         let (mut jump, mut turn_jump) = (0.0_f64, 0.0_f64);
         let (mut peak, mut turn_peak) = (f64::MIN_POSITIVE, f64::MIN_POSITIVE);

@@ -1,12 +1,12 @@
-//! A brute-force scan of a path: every sample against every ellipsoid, by bisection of the distance's own equation. It
-//! shares no tree, distance or bound with the solver.
+//! A brute-force scan of a path: every sample against every ellipsoid, by bisection of the distance equation. It
+//! shares no code for trees, distances or bounds with the solver.
 
 use glam::DVec3;
 
 use cinesplat::operator::SIGMA_LEVEL;
 use cinesplat::scene::{Gaussians, SOLID_OPACITY};
 
-/// Consecutive samples whose bounding ball is compared with an ellipsoid before the samples are.
+/// Number of consecutive samples in a bounding ball. An ellipsoid is compared with the ball before its samples.
 const CHUNK: usize = 250;
 
 /// Number of samples nearer to matter than `radius`, and the least distance of any sample, at most 1.5 radii.
