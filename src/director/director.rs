@@ -1,4 +1,4 @@
-//! The trained network at work: a linked prompt in a scene to a program and cameras.
+//! Runs the trained network: turns a linked prompt and a scene into a program and cameras.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::network::PromptBatch;
 
-/// How sure the network is of a step of the program.
+/// Certainty of a step of the program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepCertainty {
     /// Product of the probabilities of all choices of the step, 0..=1.
@@ -29,14 +29,14 @@ pub struct StepCertainty {
     pub words: Option<[usize; 2]>,
 }
 
-/// The director's reading of a prompt.
+/// The director's output for a prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
-    /// The program that the words ask for.
+    /// The program that the prompt requests.
     pub program: Program,
     /// Cameras that the network proposes, one pair per step, in the world.
     pub step_cameras: Vec<StepCameras>,
-    /// One per step.
+    /// Certainty of each step.
     pub certainty: Vec<StepCertainty>,
 }
 
@@ -49,11 +49,11 @@ pub struct SceneContext<'a> {
     pub up: DVec3,
     /// Center of the scene, world.
     pub center: DVec3,
-    /// Size of the scene.
+    /// Size of the scene, scene units.
     pub size: f64,
 }
 
-/// The trained network: words and objects to keys.
+/// The trained network, which turns words and objects into keys.
 #[derive(Debug, Clone)]
 pub struct Director {
     model: Model,
@@ -90,16 +90,16 @@ impl Director {
         ModelRef { name: self.model.name.clone(), sha256: self.model.weights_sha256.clone() }
     }
 
-    /// Ids of the objects that the network sees for a prompt: those that it names, then the nearest others.
+    /// Ids of the objects that are inputs of the network: those that the prompt names, then the nearest others.
     pub fn looks_at(linked: &Linked, objects: &[Object]) -> Vec<u32> {
         linked.slots.iter().copied().chain(other_objects(objects, &linked.slots)).collect()
     }
 
-    /// The program that the words ask for, and a camera per key. The same input gives the same output.
+    /// The program that the prompt requests, and one camera per key. The same input gives the same output.
     ///
     /// # Errors
     /// [`DirectorError::PromptTooLong`] · [`DirectorError::EmptyPrompt`] · [`DirectorError::BadScene`] ·
-    /// [`DirectorError::NotFinite`] when the network puts out a position that is not finite ·
+    /// [`DirectorError::NotFinite`] when the network outputs a position that is not finite ·
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
         let others = other_objects(scene.objects, &linked.slots);

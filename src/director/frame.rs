@@ -1,4 +1,4 @@
-//! The frame in which the network sees a scene: level, centered, one scene size per unit.
+//! The frame of the network's inputs and outputs: level, centered, one scene size per unit.
 
 use glam::{DMat3, DQuat, DVec3};
 

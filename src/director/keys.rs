@@ -7,7 +7,7 @@
 use cinesplat_operator::{Amount, Framing, Program, Speed, Step, Via};
 use cinesplat_trajectory::{Easing, Move};
 
-/// Most keys of one prompt.
+/// Limit on the keys of one prompt.
 pub const MAX_KEYS: usize = 12;
 
 /// One key: the boundary between two steps, or the start or end of the film.
@@ -44,7 +44,7 @@ pub struct Segment {
     pub either_way: bool,
     /// Objects that the camera passes, and how.
     pub via: Option<Via>,
-    /// How far the move goes.
+    /// Extent of the move.
     pub amount: Option<Amount>,
     /// Duration.
     pub duration_secs: Option<f64>,
@@ -74,8 +74,8 @@ pub fn keys_of(program: &Program) -> Vec<Key> {
     keys
 }
 
-/// Steps of keys. The function is total: every sequence of keys has a meaning. A segment without a key after it ends in an
-/// empty framing; keys behind the first stop are ignored.
+/// The steps that keys describe. The function is total: every sequence of keys has a meaning. A segment
+/// without a key after it ends in an empty framing; keys after the first stop are ignored.
 pub fn steps_of(keys: &[Key]) -> Vec<Step> {
     let end = keys.iter().position(|key| key.next == Next::Stop).map_or(keys.len(), |stop_idx| stop_idx + 1);
     let keys = &keys[..end];
@@ -95,7 +95,7 @@ pub fn steps_of(keys: &[Key]) -> Vec<Step> {
     steps
 }
 
-/// Per step that the keys make, the indices of the keys at its start and at its end.
+/// For each step of [`steps_of`], the indices of the keys at its start and at its end.
 pub fn boundaries_of(keys: &[Key]) -> Vec<[usize; 2]> {
     let segments = keys.iter().enumerate().filter(|(_, key)| matches!(key.next, Next::Segment(_)));
     segments.map(|(key_idx, _)| [key_idx, (key_idx + 1).min(keys.len() - 1)]).collect()

@@ -5,7 +5,7 @@
 //! attends to text tokens and object tokens, and emits keys one by one until it emits a stop.
 //! The one invariant: for every prompt, the program names only objects of the scene, and all numbers are finite.
 //!
-//! [`Director`] runs the network; that is all a caller needs to direct. The other items serve training:
+//! [`Director`] runs the network; most callers need nothing else. The other items serve training:
 //! - [`keys`] converts a program into the keys that the network emits, and back;
 //! - [`codes`] converts keys and camera poses into class numbers, pointers and values, and back;
 //! - [`inputs`] converts a linked prompt and objects into tokens and points;

@@ -50,7 +50,7 @@ impl Manifest {
     /// Parses and checks a description.
     ///
     /// # Errors
-    /// [`DirectorError::BadModel`] for other JSON, another format or version, sizes of no network, or other classes.
+    /// [`DirectorError::BadModel`] for other JSON, another format or version, invalid sizes, or other classes.
     pub(crate) fn from_json(bytes: &[u8]) -> Result<Self, DirectorError> {
         let manifest: Self =
             serde_json::from_slice(bytes).map_err(|error| bad(&error, &"a description of version 1"))?;
@@ -61,7 +61,7 @@ impl Manifest {
             return Err(bad(&format!("version {}", manifest.version), &format!("version {VERSION}")));
         }
         if !manifest.config.is_sound() {
-            return Err(bad(&format!("{:?}", manifest.config), &"sizes of a network"));
+            return Err(bad(&format!("{:?}", manifest.config), &"valid network sizes"));
         }
         if manifest.choices != choices() {
             return Err(bad(&"choices of another version", &"the moves, sizes and angles of this program"));
@@ -78,7 +78,7 @@ impl Manifest {
     }
 }
 
-/// Names of all classes, in the order in which the heads put them out. The files of trained models hold these names, so
+/// Names of all classes, in the order in which the heads output them. The files of trained models hold these names, so
 /// they must never change.
 fn choices() -> Vec<String> {
     let moves = Move::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());

@@ -32,7 +32,7 @@ impl Model {
         }
         let mut parameters = Parameters::Stored { tensors: files.tensors()? };
         let network = Network::new(&mut parameters, &manifest.config)
-            .map_err(|error| bad_weights(&error, &"the tensors that the description calls for"))?;
+            .map_err(|error| bad_weights(&error, &"the tensors of the description"))?;
         match parameters {
             Parameters::Stored { tensors } if !tensors.is_empty() => {
                 let names: Vec<String> = tensors.into_keys().collect();

@@ -89,7 +89,7 @@ impl ModelFiles {
     /// The vocabulary.
     ///
     /// # Errors
-    /// [`DirectorError::BadModel`] when the file is no tokenizer of this program.
+    /// [`DirectorError::BadModel`] when the file is not a tokenizer of this program.
     pub fn vocabulary(&self) -> Result<Vocabulary, DirectorError> {
         Vocabulary::from_json(&self.tokenizer)
     }
@@ -97,8 +97,8 @@ impl ModelFiles {
     /// All tensors by name, as `f32`.
     ///
     /// # Errors
-    /// [`DirectorError::BadModel`] when the file is no safetensors file, or a tensor is neither `f16` nor `f32` or holds a
-    /// value that is not finite.
+    /// [`DirectorError::BadModel`] when the file is not a safetensors file, or a tensor is neither `f16` nor `f32` or holds
+    /// a value that is not finite.
     pub fn tensors(&self) -> Result<BTreeMap<String, Tensor>, DirectorError> {
         let file =
             SafeTensors::deserialize(&self.weights).map_err(|error| bad_weights(&error, &"a safetensors file"))?;
@@ -160,12 +160,12 @@ fn pack_tensors(tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>) -> Result<Ve
         .map_err(|error| bad_weights(&error, &"tensors that can be written"))
 }
 
-/// An error about the weights file.
+/// The error for a bad weights file.
 pub(crate) fn bad_weights(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
     bad(&WEIGHTS_FILE, found, expected)
 }
 
-/// An error about the tokenizer file.
+/// The error for a bad tokenizer file.
 pub(crate) fn bad_tokenizer(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
     bad(&TOKENIZER_FILE, found, expected)
 }

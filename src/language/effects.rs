@@ -4,7 +4,7 @@ use super::error::LanguageError;
 use super::lexicon::Lexicon;
 use super::link::Linked;
 
-/// An effect, or another request that no camera move can meet, in a prompt.
+/// A mention in a prompt of an effect, or of another request that no camera move can meet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct EffectMention {
     /// Name from the lexicon: `depth-of-field`, `motion-blur`, `music` ..
@@ -16,7 +16,7 @@ pub struct EffectMention {
 }
 
 /// The effects that a prompt mentions, each kind once, in the order of the words: effects of the lens, and requests that
-/// no camera can meet. A negated mention (`no motion blur`, `without music`) is left out.
+/// no camera can meet. A negated mention (`no motion blur`, `without music`) is omitted.
 ///
 /// # Errors
 /// [`LanguageError::BadData`] when the embedded lexicon is malformed.

@@ -10,7 +10,7 @@ use super::tokenizer::tokenize;
 const FILE: &str = "prompts/lexicon.txt";
 static TEXT: &str = include_str!("../../prompts/lexicon.txt");
 
-/// Word lists that tell the names of objects from the language of shots.
+/// Word lists that distinguish the names of objects from the language of shots.
 #[derive(Debug, Default)]
 pub struct Lexicon {
     pub(crate) determiners: BTreeSet<String>,

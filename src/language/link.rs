@@ -13,11 +13,11 @@ use super::quantity::{Quantity, quantity_at};
 use super::tokenizer::{Word, span_of, tokenize, word_at};
 use super::unknown::{UnknownName, unknown_candidate_at, unknown_name};
 
-/// Most bytes of a prompt.
+/// Limit on the bytes of a prompt.
 pub const MAX_PROMPT_BYTES: usize = 8192;
-/// Most objects of a prompt: the model has the identifiers `<obj-0>` to `<obj-99>`.
+/// Limit on the objects of a prompt: the model has the identifiers `<obj-0>` to `<obj-99>`.
 pub const MAX_SLOTS: usize = 100;
-/// Most quantities of a prompt; further ones stay words.
+/// Limit on the quantities of a prompt; further ones stay words.
 pub const MAX_QUANTITIES: usize = 32;
 
 /// A prompt with its objects and quantities replaced by placeholders, as the model reads it.
@@ -38,7 +38,7 @@ pub struct Linked {
     pub warnings: Vec<String>,
 }
 
-/// `prompt` with its objects and quantities replaced by placeholders.
+/// Replaces the objects and quantities of `prompt` by placeholders.
 ///
 /// A determiner and adjectives before a name belong to the mention. `the chairs` names every chair. A quantity is a
 /// number in digits or words with its unit: `two seconds` becomes `<qty-0>`. A mention that fits several objects takes
@@ -129,7 +129,7 @@ impl Linker<'_> {
         Ok(())
     }
 
-    /// Links the mention by number or name at word `i`; the number of its words.
+    /// Links the mention by number or name at word `i`. Returns the number of its words.
     fn object_at(&mut self, i: usize) -> Result<Option<usize>, LanguageError> {
         let skip = usize::from(self.is_determiner(i));
         for start in [i, i + skip] {
@@ -190,7 +190,7 @@ impl Linker<'_> {
     }
 
     /// Whether the words linked so far end in an object and a preposition of place, or in `next to`, `front of`, `top of`:
-    /// the next name only says where an object is (`the skull on the desk`).
+    /// the next name only gives the place of an object (`the skull on the desk`).
     fn is_after_preposition_of_place(&self) -> bool {
         let mut last = self.linked.tokens_text.rsplit(' ');
         let (first, second) = (last.next().unwrap_or_default(), last.next().unwrap_or_default());
@@ -228,7 +228,7 @@ impl Linker<'_> {
         }
     }
 
-    /// Appends the placeholders of several objects, joined by `and`, all of the bytes of the same mention.
+    /// Appends the placeholders of several objects, joined by `and`. All get the bytes of the mention.
     fn push_objects(&mut self, objects: &[usize], start: usize, len: usize) -> Result<(), LanguageError> {
         for (nth, id) in objects.iter().filter_map(|i| self.objects.get(*i)).map(|object| object.id).enumerate() {
             if nth > 0 {
@@ -252,7 +252,7 @@ impl Linker<'_> {
         Ok(self.linked.slots.len() - 1)
     }
 
-    /// Appends `text` with the bytes of words `start..start + len`.
+    /// Appends `text` with the byte range of words `start..start + len`.
     fn push(&mut self, text: &str, start: usize, len: usize) {
         let inside = self.words.get(start..start + len).unwrap_or_default();
         if inside.is_empty() {

@@ -12,7 +12,7 @@ use super::inflection::stem;
 use super::lexicon::Lexicon;
 use super::tokenizer::{Word, tokenize};
 
-/// An object of the scene as prompts name it.
+/// An object of the scene with its id and name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedObject {
     /// The N of `<obj-N>`.
@@ -21,7 +21,7 @@ pub struct NamedObject {
     pub label: String,
 }
 
-/// Objects that some words name.
+/// The objects that a mention names.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NameMatch {
     /// Number of words.
@@ -32,7 +32,7 @@ pub(crate) struct NameMatch {
     pub(crate) alternatives: Vec<usize>,
 }
 
-/// Which part of a label some words are; later variants fit better.
+/// The part of a label that a mention matches; later variants fit better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Fit {
     Synonym,
@@ -60,7 +60,7 @@ pub(crate) struct NameIndex<'a> {
     labels: Vec<ParsedLabel>,
     by_last: BTreeMap<String, Vec<usize>>,
     lexicon: &'a Lexicon,
-    /// Most words of a mention.
+    /// Largest number of words of a mention.
     longest: usize,
 }
 
@@ -80,7 +80,7 @@ impl<'a> NameIndex<'a> {
         Self { labels, by_last, lexicon, longest }
     }
 
-    /// The longest match that begins at word `start`, of those the best fitting.
+    /// The best of the longest matches that begin at word `start`.
     pub(crate) fn match_at(&self, words: &[Word], start: usize) -> Option<NameMatch> {
         let longest = self.longest.min(words.len().saturating_sub(start));
         (1..=longest).rev().find_map(|len| self.match_of(words.get(start..start + len)?, words.get(start + len)))
@@ -123,7 +123,7 @@ impl<'a> NameIndex<'a> {
         self.by_last.get(key).into_iter().flatten().copied()
     }
 
-    /// How the words `segment`, which end in `key` after `before`, fit a label; `None` where they do not.
+    /// The fit of the words `segment`, which end in `key` after `before`, to a label; `None` without a match.
     fn fit(&self, index: usize, before: &[Word], key: &str, segment: &[Word]) -> Option<Fit> {
         let label = self.labels.get(index)?;
         // `frame` or `track` alone is a word about the camera, not the name of an object.
@@ -145,7 +145,7 @@ impl<'a> NameIndex<'a> {
         before.iter().all(|word| is_in(word, &label.tail)).then_some(Fit::Tail)
     }
 
-    /// Objects whose label has a synonym of `name`; the words `before` it have to be in the label as well.
+    /// Objects whose label has a synonym of `name`; the words `before` it must be in the label as well.
     fn synonymous(&self, name: &str, before: &[Word]) -> Vec<(Fit, usize)> {
         let mut found = Vec::new();
         for other in self.lexicon.synonyms.get(name).into_iter().flatten() {
@@ -231,7 +231,7 @@ fn parse_label(label: &str) -> ParsedLabel {
     }
 }
 
-/// An object as messages name it: `<obj-3> golden skull`.
+/// The name of an object in messages: `<obj-3> golden skull`.
 pub(crate) fn display_name(object: &NamedObject) -> String {
     if object.label.is_empty() {
         format!("<obj-{}>", object.id)

@@ -28,7 +28,7 @@ pub(crate) fn word_at(words: &[Word], i: usize) -> &str {
     words.get(i).map_or("", |word| word.text.as_str())
 }
 
-/// The bytes from the first to the last of some words; `[0, 0]` of none.
+/// The bytes from the first to the last of some words; `[0, 0]` without words.
 pub(crate) fn span_of(words: &[Word]) -> [usize; 2] {
     [words.first().map_or(0, |word| word.span[0]), words.last().map_or(0, |word| word.span[1])]
 }

@@ -1,7 +1,7 @@
 //! Names that match no object of the scene.
 //!
-//! Enters: a place in a prompt where no object is named. Leaves: the words there that look like the name of an object,
-//! if any. Words about the camera, scenery and misspelled function words are not names.
+//! Enters: a place in a prompt where no object is named. Leaves: the words there that may be the name of an object, if
+//! any. Words about the camera, scenery and misspelled function words are not names.
 
 use super::edit_distance::edit_distance;
 use super::inflection::stem;
@@ -9,16 +9,16 @@ use super::lexicon::Lexicon;
 use super::names::{NameIndex, NamedObject};
 use super::tokenizer::{Word, span_of, word_at};
 
-/// Words in the place of an object's name that match no object of the scene.
+/// Words at the place of an object's name that match no object of the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownName {
-    /// The words, as they stand in the prompt.
+    /// The words, as in the prompt.
     pub name: String,
     /// Byte range of the prompt.
     pub span: [usize; 2],
     /// The scene's nearest names, best first.
     pub nearest: Vec<String>,
-    /// Whether the lexicon lists the name as a noun (`elephant`). Otherwise it is a word that no list contains.
+    /// Whether the lexicon lists the name as a noun (`elephant`). Otherwise no list contains it.
     pub certain: bool,
 }
 
@@ -79,7 +79,7 @@ const BEFORE_NAMES: [&str; 42] = [
 ];
 
 /// The candidate for an unknown name at word `i`: a determiner or one of [`BEFORE_NAMES`], then adjectives, then words
-/// that are not shot language. `is_known(j)` says whether word `j` is of the training grammar or begins an object's name.
+/// that are not shot language. `is_known(j)`: word `j` is of the training grammar or begins an object's name.
 pub(crate) fn unknown_candidate_at(
     words: &[Word],
     i: usize,

@@ -5,7 +5,7 @@ use std::fmt;
 use super::effect::{Effect, EffectChoice};
 use cinesplat_trajectory::{EffectRequest, ReportLine};
 
-/// What is requested beside the camera's path.
+/// An effect, or another request that is not a camera move.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum EffectKind {
     /// An effect of the lens or the film stock.
@@ -32,20 +32,20 @@ impl fmt::Display for EffectKind {
 /// A request for an effect.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct EffectCall {
-    /// What is requested.
+    /// The requested effect, or the name of the other request.
     pub kind: EffectKind,
     /// The words of the prompt, or the flag, that request it.
     pub because: String,
 }
 
-/// What happens to a requested effect.
+/// Reason why a requested effect is missing from the film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// `--effects` excludes it.
     Disabled,
     /// The renderer does not implement it: the film is rendered without it.
     NotImplemented,
-    /// It is no effect of the lens or the film stock.
+    /// The request is not an effect of the lens or the film stock.
     NotAnEffect,
 }
 
@@ -54,7 +54,7 @@ pub enum Verdict {
 pub struct Decision {
     /// The request.
     pub call: EffectCall,
-    /// What happens to it.
+    /// The decision on it.
     pub verdict: Verdict,
 }
 

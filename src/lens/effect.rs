@@ -47,12 +47,12 @@ pub enum Effect {
 /// The effects that the user allows.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum EffectChoice {
-    /// Those that the prompt requests.
+    /// The effects that the prompt requests.
     #[default]
     Auto,
-    /// None, whatever the prompt requests.
+    /// No effects, even if the prompt requests some.
     Off,
-    /// These and no others, whether the prompt requests them or not.
+    /// Exactly these effects. The requests of the prompt are ignored.
     These(Vec<Effect>),
 }
 

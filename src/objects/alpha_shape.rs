@@ -53,7 +53,7 @@ impl AlphaShapes {
         Self { vertices, vertex_from_point, origin_px: low, unit_px, span }
     }
 
-    /// Indices of the input points on the border of the shape of a radius (px), ascending.
+    /// Indices of the input points on the border of the shape of radius `radius_px`, ascending.
     ///
     /// For points on a line, the shape is the union of the gaps of at most twice the radius, and its border is the ends
     /// of that union.

@@ -16,14 +16,13 @@ const BEHIND_FRAC: f64 = 0.1;
 /// Growth of a table top beyond the voxels with a level normal, cells.
 const TOP_GROWTH_CELLS: usize = 4;
 
-/// Color difference from a plain wall from which a flat voxel belongs to something on it: a picture, a screen, a
-/// window.
+/// Least color difference between a plain wall and a flat voxel of an object on it: a picture, a screen, a window.
 const HANGING_DIFFERENCE: f32 = 25.0;
 
 /// Share of a wall's voxels that must have about the same color for the wall to be plain.
 const PLAIN_FRAC: f32 = 0.75;
 
-/// What a voxel is, before voxels are grouped into objects.
+/// The role of a voxel, before voxels are grouped into objects.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CellRole {
     /// Part of an object.
@@ -62,7 +61,7 @@ pub(crate) fn roles(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     roles
 }
 
-/// Grows table tops by the adjacent voxels at their height, whatever their normals. Voxels at the edge of a top or
+/// Grows table tops by the adjacent voxels at their height, regardless of their normals. Voxels at the edge of a top or
 /// under an object on it would otherwise connect the object with the table.
 fn grow_tops(grid: &VoxelGrid, planes: &[ScenePlane], roles: &mut [CellRole]) {
     for (i, plane) in planes.iter().enumerate().filter(|(_, plane)| plane.kind == PlaneKind::Support) {

@@ -34,7 +34,7 @@ pub(crate) fn members(labels: &[u16], id: u32) -> Vec<usize> {
 }
 
 /// The upright box of some Gaussians: the yaw of the smallest footprint, with 0.5 % trimmed at both ends of each axis.
-/// Only solid Gaussians count where they are at least a tenth. `None` without Gaussians.
+/// Ignores Gaussians that are not solid, unless fewer than a tenth are solid. `None` without Gaussians.
 pub(crate) fn fit(gaussians: &Gaussians, members: &[usize], up: DVec3) -> Option<UprightBox> {
     let solid: Vec<usize> = members.iter().copied().filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY).collect();
     let chosen = if solid.len() * 10 >= members.len() { &solid } else { members };

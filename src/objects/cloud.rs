@@ -34,11 +34,11 @@ pub struct CloudSettings {
     pub elevations_rad: Vec<f64>,
     /// Width and height of the masks, at least 8.
     pub mask_size_px: u32,
-    /// Side of a square from which one Gaussian is triangulated; 0 triangulates all.
+    /// Edge of the squares that divide the picture. One Gaussian per square is triangulated; 0 triangulates all.
     pub thinning_px: f64,
-    /// Limit on the radii that are compared with the masks.
+    /// Limit on the number of radii that are compared with the masks.
     pub search_budget: usize,
-    /// Limit on the points per object, by farthest point sampling.
+    /// Limit on the number of points per object, by farthest point sampling.
     pub max_points: usize,
 }
 
@@ -154,7 +154,7 @@ fn mask(renderer: &Renderer, camera: &Camera, filter: SplatFilter) -> Result<Vec
 /// One view of an object: the alpha shapes of its points and its rendered mask.
 struct Silhouette {
     shapes: AlphaShapes,
-    /// Index of the object's point of each point of the shapes.
+    /// For each point of the shapes, the index of the object's point.
     point_from_shape: Vec<usize>,
     /// Least radius (px) at which the shape covers each pixel of the mask, ascending.
     inside_px: Vec<f32>,

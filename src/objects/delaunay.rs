@@ -38,7 +38,7 @@ impl Triangulation {
         triangulation
     }
 
-    /// Indices of the points on the border of the union of all triangles of at most a circumradius, ascending.
+    /// Indices of the points on the border of the union of all triangles of at most this circumradius, ascending.
     pub fn border(&self, max_radius: f64) -> Vec<usize> {
         let keeps = |triangle: usize| self.radii[triangle] <= max_radius;
         let mut on_border = Vec::new();

@@ -15,12 +15,13 @@ use super::settings::FindSettings;
 use super::voxels::VoxelGrid;
 use cinesplat_scene::Scene;
 
-/// Finds the objects of a scene. Ids count from 1 in order of prominence: surface, weighted by how far the color is
-/// from the scene's mean. The same scene and settings give the same objects.
+/// Finds the objects of a scene. Ids count from 1 in order of prominence: size, weighted by the difference between the
+/// object's color and the scene's mean color. The same scene and settings give the same objects.
 ///
-/// The solid Gaussians fill cells. The scene's up tells level from upright planes. Voxels of floor, walls and ceiling
-/// are removed, and table tops are separated. Cells that touch become one object. In a room, components too large for
-/// one object are split where color or surface direction changes.
+/// The solid Gaussians fill the cells of a grid; an occupied cell is a voxel. The scene's up distinguishes level planes
+/// from upright ones. Voxels of floor, walls and ceiling are removed, and table tops are separated. Voxels that touch
+/// become one object. In a room, components too large for one object are split where color or surface direction
+/// changes.
 pub fn find(scene: &Scene, settings: &FindSettings) -> ObjectSet {
     let bounds = scene.bounds();
     let cell = bounds.size() / settings.resolution.max(1.0);
@@ -64,8 +65,8 @@ fn assemble(scene: &Scene, up: DVec3, labels: Vec<u16>, is_surface: &dyn Fn(u32)
     ObjectSet { objects, labels }
 }
 
-/// The groups, most prominent first: the root of the number of cells, weighted by the color's distance from the scene's
-/// mean.
+/// The groups, most prominent first: the root of the number of voxels, weighted by the distance of their color from the
+/// scene's mean.
 fn ranked(grid: &VoxelGrid, mut groups: Vec<VoxelGroup>) -> Vec<VoxelGroup> {
     let color = |voxels: &mut dyn Iterator<Item = usize>| {
         let (sum, count) = voxels.fold((Vec3::ZERO, 0), |(sum, n), v| (sum + grid.voxels[v].color_lab, n + 1));
@@ -80,8 +81,8 @@ fn ranked(grid: &VoxelGrid, mut groups: Vec<VoxelGroup>) -> Vec<VoxelGroup> {
     groups
 }
 
-/// One id per Gaussian: that of the cell that contains its mean. A Gaussian in an empty cell takes the id of the
-/// nearest occupied cell next to it.
+/// One id per Gaussian: the id of the voxel that contains its mean. A Gaussian in an empty cell takes the id of the
+/// nearest adjacent voxel.
 fn gaussian_labels(scene: &Scene, grid: &VoxelGrid, groups: &[VoxelGroup]) -> Vec<u16> {
     let mut ids = vec![0_u16; grid.voxels.len()];
     for (i, group) in groups.iter().enumerate() {
@@ -99,7 +100,7 @@ fn gaussian_labels(scene: &Scene, grid: &VoxelGrid, groups: &[VoxelGroup]) -> Ve
     (0..scene.gaussians.len()).into_par_iter().map(label).collect()
 }
 
-/// The occupied cell, among those next to an empty one, whose matter is nearest to a position.
+/// The voxel whose matter is nearest to a position, among the voxels next to the position's cell.
 fn nearest_around(grid: &VoxelGrid, local: Vec3) -> Option<usize> {
     let distance = |voxel: usize| grid.voxels[voxel].position.distance_squared(local);
     grid.around(grid.key_at(local), 1).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))

@@ -1,7 +1,7 @@
-//! Occupied cells become objects: connected components, split by color where they are too large, and table tops with
+//! Voxels become objects: connected components, split by color where they are too large, and table tops with
 //! their bodies.
 //!
-//! Enters: cells and the scene's planes. Leaves: disjoint groups of cells, one per object.
+//! Enters: voxels and the scene's planes. Leaves: disjoint groups of voxels, one per object.
 
 use std::collections::BTreeMap;
 
@@ -16,10 +16,10 @@ use super::voxels::VoxelGrid;
 /// Share of a piece's neighbors that must belong to one other piece for the two to be joined.
 const REJOIN_FRAC: f64 = 0.5;
 
-/// Share of the cells under a table top that one body needs to form one object with the top.
+/// Least share of the voxels under a table top that belong to one body, for the top and the body to be one object.
 const BODY_FRAC: f64 = 0.6;
 
-/// The cells of one object.
+/// The voxels of one object.
 pub(crate) struct VoxelGroup {
     /// Positions in [`VoxelGrid::voxels`].
     pub(crate) voxels: Vec<usize>,
@@ -27,9 +27,9 @@ pub(crate) struct VoxelGroup {
     pub(crate) is_surface: bool,
 }
 
-/// Groups the cells of a scene into objects.
+/// Groups the voxels of a scene into objects.
 ///
-/// In a room, cells that touch form one component, and components too large for one object are split by color and
+/// In a room, voxels that touch form one component, and components too large for one object are split by color and
 /// surface direction. A capture without walls is not split: each connected component is one object.
 pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSettings) -> Vec<VoxelGroup> {
     let roles = roles(grid, planes, settings);
@@ -66,7 +66,7 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     groups
 }
 
-/// The connected components of a capture without walls. Components of at most a twentieth of the largest one's cells
+/// The connected components of a capture without walls. Components of at most a twentieth of the largest one's voxels
 /// are loose pieces of it, such as a leaf or the inside of a shell: they join it.
 fn isolated_objects(grid: &VoxelGrid, voxels: &[usize]) -> Vec<Vec<usize>> {
     let mut objects = components(grid, voxels, 2);

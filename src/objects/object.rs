@@ -13,7 +13,7 @@ pub struct Object {
     pub center: DVec3,
     /// Half of the box's extent along its own axes, scene units.
     pub half_extents: DVec3,
-    /// Box axes to world.
+    /// Rotation from the box axes to the world.
     pub rotation: DQuat,
     /// Number of Gaussians that belong to it; 0 where only the box is known.
     pub num_gaussians: usize,
@@ -39,7 +39,7 @@ impl Object {
         })
     }
 
-    /// Whether a world point lies in the box, which is extended by `margin` on every side.
+    /// Whether a world point lies in the box extended by `margin` (scene units) on every side.
     pub fn contains(&self, point: DVec3, margin: f64) -> bool {
         let local = self.rotation.conjugate() * (point - self.center);
         local.abs().cmple(self.half_extents + margin).all()

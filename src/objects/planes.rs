@@ -190,8 +190,8 @@ fn classify(grid: &VoxelGrid, planes: Vec<ScenePlane>) -> Vec<ScenePlane> {
     classified
 }
 
-/// Of the voxels over the plane's extent, the share just behind it, on the side of `-normal`: from two cells to an
-/// eighth of the scene's longest side. Voxels farther behind may be the view through a window.
+/// Share of the voxels over the plane's extent that lie just behind the plane, on the side of `-normal`: from two cells
+/// to an eighth of the scene's longest side behind it. Voxels farther behind may be the view through a window.
 fn share_behind(grid: &VoxelGrid, plane: &ScenePlane) -> f32 {
     let sides = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| length(extent_along(grid, 0..grid.voxels.len(), axis)));
     let near = -2.0 * grid.cell;

@@ -5,13 +5,13 @@
 pub struct FindSettings {
     /// Cells along the scene's size. More cells separate smaller and closer objects; the cost grows with the square.
     pub resolution: f64,
-    /// Least number of cells per object.
+    /// Least number of voxels (occupied cells) per object.
     pub min_voxels: usize,
     /// Limit on the number of objects; the most prominent ones are kept.
     pub max_objects: usize,
     /// Diagonal of a connected component, over the scene size, above which it is split by color.
     pub split_frac: f64,
-    /// Scale of that split, CIE Lab units times cells: a larger scale gives larger pieces.
+    /// Scale of that split, CIE Lab units times voxels: a larger scale gives larger pieces.
     pub split_scale: f32,
     /// Seed of the plane search.
     pub seed: u64,

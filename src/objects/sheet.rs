@@ -52,11 +52,12 @@ const MIN_VISIBLE_FRAC: f64 = 0.5;
 /// Diagonal of a box, over the scene size, below which the overview draws it.
 const BOXED_FRAC: f64 = 0.3;
 
-/// Least number of pixels of the coarse picture for an id in the overview.
+/// Least number of pixels in the coarse picture of an object whose id the overview shows.
 const NAMED_PIXELS: usize = 6;
 
 /// Draws the sheet. Each tile shows its object in the scene, with its box, from the direction in which it is least
-/// occluded. Where more than half stays occluded, the near plane clips what is in front, and the tile says so.
+/// occluded. Where more than half stays occluded, the near plane clips the scene in front of it, and the tile has
+/// the mark "cut open".
 ///
 /// # Errors
 /// [`ObjectsError::Picture`] where the scene cannot be rendered.

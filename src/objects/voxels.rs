@@ -1,6 +1,6 @@
-//! A scene as occupied cells of a grid, each with a color and a surface normal.
+//! A scene as voxels: the occupied cells of a grid, each with a color and a surface normal.
 //!
-//! Enters: Gaussians. Leaves: cells in a frame whose y axis is up. A Gaussian fills every cell within one standard
+//! Enters: Gaussians. Leaves: voxels in a frame whose y axis is up. A Gaussian fills every cell within one standard
 //! deviation, so that the large Gaussians of plain surfaces leave no holes.
 
 use std::collections::HashMap;

@@ -20,13 +20,13 @@ const NUM_VIEWPOINTS: usize = 24;
 /// Share of the viewpoints that must see a point of the region. A few viewpoints see through a window or a hole in a
 /// wall; more of them see even a niche of their own room.
 const SEEN_BY_FRAC: f64 = 0.25;
-/// Grounded share of a point's view, over the mean of the viewpoints, from which the point sees front faces.
+/// Least grounded share of a point that sees front faces, over the mean grounded share of the viewpoints.
 const GROUNDED_OF_VIEWPOINTS_FRAC: f64 = 0.62;
 
 /// The region in which a camera may stand.
 #[derive(Debug, Clone)]
 pub(super) struct CaptureRegion {
-    /// Least grounded share of the view of a point that sees front faces; 0 for outdoor scenes, which have no floor.
+    /// Least grounded share of a point that sees front faces; 0 for outdoor scenes, which have no floor.
     least_grounded: f64,
     up: DVec3,
     size: f64,
@@ -95,7 +95,7 @@ fn viewpoints(
         })
         .collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
-    // Ground is expensive to test: only the best third is tested.
+    // The grounded share is expensive: only the best third is tested.
     scored.truncate(scored.len().div_ceil(3));
     scored.par_iter_mut().for_each(|(score, _, p)| *score *= 0.1 + grounded_frac(matter, *p, frame.up, size, 48));
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -13,15 +13,15 @@ pub(super) const SEARCH_POINTS: usize = 14;
 const SEARCH_MARGIN: f64 = 0.12;
 /// Range of the distance from the frame's middle that counts as on a third.
 const THIRD_BAND: (f64, f64) = (0.13, 0.2);
-/// Share of the frames on which a subject must be visible: a post may pass before it, a wall may not stay.
+/// Share of the frames on which a subject must be visible: a post may hide it briefly, a wall may not.
 const VISIBLE_FRAMES_FRAC: f64 = 0.85;
 
 /// A constraint on the frames of a segment.
 #[derive(Debug, Clone)]
 pub(super) struct Constraint {
-    /// What is required.
+    /// The requirement.
     pub(super) kind: ConstraintKind,
-    /// On which frames.
+    /// Frames on which it must hold.
     pub(super) scope: Scope,
 }
 
@@ -38,7 +38,7 @@ pub(super) enum Scope {
     Any,
 }
 
-/// What a constraint requires. Values over the whole segment, such as a turn, ignore the scope.
+/// The requirement of a constraint. Values over the whole segment, such as a turn, ignore the scope.
 #[derive(Debug, Clone)]
 pub(super) enum ConstraintKind {
     /// The target's aim is at most this far from the frame's middle.
@@ -165,7 +165,7 @@ fn worst_of(measurements: impl Iterator<Item = Measurement>, scope: Scope) -> Me
     picked.unwrap_or(Measurement { value: f64::NAN, violation: 1.0 })
 }
 
-/// The share of a subject's points that [`VISIBLE_FRAMES_FRAC`] of the frames show at least.
+/// The largest share of a subject's points that is visible on at least [`VISIBLE_FRAMES_FRAC`] of the frames.
 fn visible_share(world: &World, id: u32, least: f64, states: &[CameraState], num_points: usize) -> Measurement {
     let Some(subject) = world.subject(id) else { return Measurement { value: 0.0, violation: 1.0 } };
     let mut shares: Vec<f64> = states.iter().map(|s| unoccluded_frac(s, subject, num_points)).collect();
@@ -236,12 +236,12 @@ pub(super) fn wording(world: &World, constraint: &Constraint) -> String {
             format!("{} within {most:.2} of the frame's middle", names(&target.ids))
         }
         ConstraintKind::OnThird(target) => format!("{} on a third of the frame", names(&target.ids)),
-        ConstraintKind::Unoccluded(id, least) => format!("{} visible, share at least {least:.2}", name(id)),
+        ConstraintKind::Unoccluded(id, least) => format!("visible share of {} at least {least:.2}", name(id)),
         ConstraintKind::Height(target, (low, high)) => {
             format!("{} {low:.2} to {high:.2} of the frame's height", names(&target.ids))
         }
-        ConstraintKind::InFrame(ids, least) => format!("{} in the frame, share at least {least:.2}", names(ids)),
-        ConstraintKind::NotWhole(ids, most) => format!("{} in the frame, share at most {most:.2}", names(ids)),
+        ConstraintKind::InFrame(ids, least) => format!("share of {} in the frame at least {least:.2}", names(ids)),
+        ConstraintKind::NotWhole(ids, most) => format!("share of {} in the frame at most {most:.2}", names(ids)),
         ConstraintKind::Pitch((low, high)) => format!("pitch {low:.0} to {high:.0} degrees"),
         ConstraintKind::YawChange((low, high)) => format!("turn to the right {low:.0} to {high:.0} degrees"),
         ConstraintKind::PitchChange((low, high)) => format!("turn upward {low:.0} to {high:.0} degrees"),
@@ -250,14 +250,14 @@ pub(super) fn wording(world: &World, constraint: &Constraint) -> String {
             format!("tangent of half the field of view, end over start, {}", range(*band))
         }
         ConstraintKind::Travel(direction, _, least) => {
-            format!("travel to the {direction} over the distance at least {least:.2}")
+            format!("travel {direction}, over the distance, at least {least:.2}")
         }
     };
     let scope = match constraint.scope {
         Scope::Start => " at the start",
         Scope::End => " at the end",
         Scope::All => "",
-        Scope::Any => " at some time",
+        Scope::Any => " on at least one frame",
     };
     what + scope
 }

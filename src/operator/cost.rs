@@ -134,7 +134,7 @@ fn picture_cost(world: &World, state: &CameraState) -> f64 {
     (weight * void + 1.2 * blocked) / count
 }
 
-/// How far the first view is from the camera that the director proposed: a tie breaker.
+/// Distance of the first view from the camera that the director proposes, as a tie breaker.
 fn deviation(world: &World, state: &CameraState, proposed: &CameraState) -> f64 {
     let apart = state.pose.position.distance(proposed.pose.position) / world.bounds.size();
     let turned = state.pose.forward().angle_between(proposed.pose.forward());

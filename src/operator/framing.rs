@@ -10,7 +10,7 @@ use cinesplat_trajectory::CameraState;
 /// Width over height of the frame that shots are planned for.
 pub(super) const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 
-/// What a view frames: a point to aim at, and the corners that must fit.
+/// The target of a view: a point to aim at, and the corners that must fit.
 #[derive(Debug, Clone)]
 pub(super) struct Target {
     /// Object ids; empty for the scene as a whole.

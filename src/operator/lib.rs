@@ -1,8 +1,9 @@
 //! The operator: turns a program into an exact, collision-free, smooth camera path.
 //!
 //! Enters: a scene prepared as [`World`], a [`Program`] of steps, and cameras that the director proposes
-//! ([`StepCameras`]). Leaves: keyframes whose path carries out each step by the definitions of the contract ("Moves,
-//! exactly"), and a report that compares requested with measured values ([`realize()`]).
+//! ([`StepCameras`]). Leaves: keyframes whose path carries out each step as
+//! [`Move`](cinesplat_trajectory::Move) defines it, and a report that compares requested with measured values
+//! ([`realize()`]).
 //!
 //! A bounded, seeded search chooses what the steps leave open, such as the bearing from which a subject is seen or the
 //! length of a push. It minimizes a cost over framing, visibility, clearance, and the region that the capture covers.

@@ -73,7 +73,7 @@ impl MotionSegment {
     }
 }
 
-/// What the keyframes of one step record about it.
+/// The labels that the keyframes of one step record.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StepLabels {
     pub(super) start_subjects: Vec<u32>,

@@ -14,7 +14,7 @@ const BLOCK: i32 = 8;
 /// The transmittance of every cell.
 #[derive(Debug, Clone)]
 pub(super) struct OpacityGrid {
-    /// Where the cells are.
+    /// Position and size of the cells.
     pub(super) grid: Grid,
     /// Logarithm of the transmittance along one cell edge, one value per cell; 0 in an empty cell.
     log_transmittance: Vec<f32>,
@@ -59,13 +59,13 @@ impl OpacityGrid {
         log_light.exp()
     }
 
-    /// Whether the transmittance between two points is above a half.
+    /// Whether the transmittance between two points is above 0.5.
     pub(super) fn is_open(&self, a: DVec3, b: DVec3) -> bool {
         let length = a.distance(b);
         self.hit_distance(a, (b - a) / length.max(f64::MIN_POSITIVE), length).is_none()
     }
 
-    /// Distance along a ray of unit `direction` at which its transmittance falls below a half; `None` where it stays
+    /// Distance along a ray of unit `direction` at which its transmittance falls below 0.5; `None` where it stays
     /// above within `reach`.
     pub(super) fn hit_distance(&self, eye: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
         let step = 0.7 * self.grid.cell;

@@ -1,5 +1,5 @@
-//! The program: what a prompt asks for, as data. The director produces it, the dataset stores it, the operator solves
-//! it.
+//! The program: the camera moves that a prompt requests, as data. The director produces it, the dataset stores it, the
+//! operator solves it.
 
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 
@@ -35,9 +35,9 @@ pub struct Step {
     /// The prompt leaves the direction open (`swing over to`, `drift around`): left and right, or in and out, may be
     /// swapped.
     pub either_way: bool,
-    /// Framing at the start. Empty (default): as the step before ends, or as the move requires.
+    /// Framing at the start. Empty (default): the end framing of the step before, or one that the move requires.
     pub start: Framing,
-    /// Framing at the end. Empty (default): as the move results in.
+    /// Framing at the end. Empty (default): the one that the move leads to.
     pub end: Framing,
     /// Objects that the camera passes.
     pub via: Option<Via>,
@@ -78,7 +78,7 @@ impl Step {
     }
 }
 
-/// What the picture shows at one end of a step.
+/// The subjects in the frame at one end of a step, and how they are framed.
 ///
 /// The default is unspecified. A size without subjects frames the room: `end wide on the room` is `long` without
 /// subjects.
@@ -102,7 +102,7 @@ pub struct Framing {
 #[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum SubjectPart {
-    /// Its middle, for the whole of it.
+    /// The whole subject; the camera aims at its middle.
     #[default]
     Middle,
     /// Its upper end.

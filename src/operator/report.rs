@@ -54,5 +54,5 @@ pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, segment: &MotionSe
 
 fn unmet_note(has_words: bool) -> String {
     let why = "no camera was found that meets this and the other constraints";
-    if has_words { why.to_owned() } else { format!("{why} (the prompt does not ask for it)") }
+    if has_words { why.to_owned() } else { format!("{why} (the prompt does not request it)") }
 }

@@ -43,7 +43,7 @@ impl Candidate {
     }
 }
 
-/// What the search solves.
+/// The inputs of the search.
 pub(super) struct SearchProblem<'a> {
     pub(super) world: &'a World,
     pub(super) program: &'a Program,

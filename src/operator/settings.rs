@@ -1,6 +1,6 @@
 //! Settings of the search.
 
-/// How many candidates the search evaluates.
+/// Effort of the search: the number of candidates.
 #[derive(Default, Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
 #[derive(strum::VariantArray, strum::VariantNames)]
@@ -25,7 +25,7 @@ pub struct SolveSettings {
     pub seed: u64,
     /// Factor on the level's number of candidates, for measuring accuracy against time.
     pub tries_factor: f64,
-    /// Roll of the whole film in degrees, clockwise: the dutch angle that the prompt asks for. `None` keeps the horizon
+    /// Roll of the whole film in degrees, clockwise: the dutch angle that the prompt requests. `None` keeps the horizon
     /// level.
     pub dutch_deg: Option<f64>,
 }

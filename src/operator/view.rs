@@ -27,8 +27,8 @@ pub(super) struct ViewRange {
     pub(super) azimuths_rad: Vec<f64>,
 }
 
-/// Range of the camera's elevation, seen from the subject, for an angle of the shot; degrees. Without an angle slightly
-/// from above, like a standing person.
+/// Range of the camera's elevation, seen from the subject, for an angle of the shot; degrees. `None`: mostly
+/// from slightly above.
 fn elevation_band_deg(angle: Option<ShotAngle>) -> (f64, f64) {
     match angle {
         Some(ShotAngle::Overhead) => (48.0, 74.0),

@@ -34,7 +34,7 @@ pub struct World {
     region: CaptureRegion,
 }
 
-/// An object that a shot can be about.
+/// An object that a shot can frame.
 pub(super) struct Subject {
     /// Name for reports.
     pub(super) label: String,

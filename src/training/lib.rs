@@ -1,6 +1,6 @@
 //! Training of the director: sampled prompts, realized shots, the training loop, evaluation.
 //!
-//! [`PromptSampler`] samples prompts labeled with the programs that they mean, [`exam()`] gives prompts written by people.
+//! [`PromptSampler`] samples prompts labeled with the programs that they mean, [`exam()`] returns hand-written prompts.
 //! [`write_dataset`] makes shards of realized shots, [`train`] trains a network on sampled prompts and these shards, and
 //! [`evaluate_director`] measures how well a director understands prompts. Equal seeds give equal prompts.
 

@@ -24,7 +24,8 @@ fn sampled_keys(seed: u64, count: usize, vocabulary: &Vocabulary) -> Vec<(Vec<Ke
     (0..count).map(&mut sample).collect()
 }
 
-/// What codes always keep: amounts and durations need a quantity of the text, and words become whole tokens.
+/// The key without the fields that codes may change: amounts and durations need a quantity of the text, and words become
+/// whole tokens.
 fn without_text(mut key: Key) -> Key {
     if let Next::Segment(segment) = &mut key.next {
         *segment = Segment { amount: None, duration_secs: None, words: None, ..segment.clone() };

@@ -80,7 +80,7 @@ fn the_second_of_three_clauses_is_not_lost() {
     assert_eq!(moves("After panning right to the table, push in on it."), [Move::PanRight, Move::PushIn]);
 }
 
-/// The hand-written programs say which objects each sentence names.
+/// The hand-written programs give the objects that each sentence names.
 #[test]
 fn programs_use_the_objects_that_the_sentences_name() {
     let director = Director::embedded().unwrap();

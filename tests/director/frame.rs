@@ -1,4 +1,4 @@
-//! The frame in which the network sees a scene.
+//! The frame of the network's inputs and outputs.
 
 use cinesplat::director::SceneFrame;
 use cinesplat::geometry::Pose;

@@ -63,7 +63,7 @@ fn a_malformed_program_is_an_error_that_names_the_token() {
     assert_eq!(error("push-in foo=1"), NotationError::UnknownToken { token: named("foo=1") });
     assert_eq!(error("push-in dur=3"), NotationError::BadDuration { found: named("3") });
     assert_eq!(error("push-in | dur=3s"), NotationError::UnknownToken { token: named("dur=3s") });
-    // The names of the default speed and of a move without its other direction are no tokens.
+    // The names of the default speed and of a move without its other direction are not tokens.
     assert_eq!(error("push-in normal"), NotationError::Contradiction { token: named("normal") });
     assert_eq!(error("push"), NotationError::UnknownMove { name: named("push") });
 }

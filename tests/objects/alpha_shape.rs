@@ -75,7 +75,7 @@ fn a_ring_has_an_inner_border_until_the_radius_closes_it() {
 fn order_and_repetition_do_not_matter() {
     let mut dice = Dice::new(5);
     for seed in 0..10 {
-        // Half of the clouds lie on a coarse grid: as many ties as can be.
+        // Half of the clouds lie on a coarse grid, for many ties.
         let quantum = if seed % 2 == 0 { 10.0 } else { 1e-3 };
         let points: Vec<DVec2> = cloud(seed, 150).iter().map(|p| (*p / quantum).round() * quantum).collect();
         let mut shuffled: Vec<DVec2> = points.iter().chain(&points[..30]).copied().collect();

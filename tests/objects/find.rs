@@ -61,13 +61,13 @@ fn the_objects_of_a_small_room_are_found() {
     let set = find(&scene_of(gaussians), &FindSettings { resolution: 120.0, ..FindSettings::default() });
     let matches: Vec<(f64, u16)> = (1..=4).map(|id| best_match(&set, &truth, id)).collect();
     for (id, (overlap, _)) in (1..).zip(&matches) {
-        // A box's bottom face lies in the floor and goes with it.
+        // A box's bottom face lies in the floor and counts as floor.
         assert!(*overlap > 0.75, "object {id}: {overlap} of {:?}", set.objects);
     }
     let mut ids: Vec<u16> = matches.iter().map(|found| found.1).collect();
     ids.sort_unstable();
     ids.dedup();
-    assert_eq!(ids.len(), 4, "what stands on the table is not part of it");
+    assert_eq!(ids.len(), 4, "objects on the table are not part of it");
     let room_kept = truth.iter().zip(&set.labels).filter(|(label, found)| **label == 0 && **found > 0).count();
     let room_size = truth.iter().filter(|label| **label == 0).count();
     assert!(room_kept * 20 < room_size, "floor and walls are background: {room_kept} of {room_size} are not");
@@ -89,7 +89,7 @@ fn the_search_is_deterministic_and_independent_of_the_up_axis() {
     let set = find(&turned, &settings);
     for id in 1..=4 {
         let (overlap, _) = best_match(&set, &truth, id);
-        // The table top is one cell thick: how the cells fall decides which Gaussians go with it.
+        // The table top is one cell thick: the position of the cells decides which Gaussians belong to it.
         assert!(overlap > 0.65, "object {id}: {overlap}");
     }
 }

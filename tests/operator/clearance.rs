@@ -66,7 +66,7 @@ fn distances_to_needles_disks_and_balls_match_a_search_over_the_surface() {
                 continue;
             }
             let wanted = searched(&gaussians, point);
-            // The search stops a little above the least, more so along a needle.
+            // The search stops slightly above the minimum, more so along a needle.
             assert!(got <= wanted + 1e-9 && got >= wanted - 2e-4, "{shape:?}: {got} for {wanted}");
             let bisected = bisected(&gaussians, 0, point);
             assert!((got - bisected).abs() <= 1e-9 * (1.0 + bisected), "{shape:?}: {got} for {bisected}");
@@ -114,7 +114,7 @@ fn the_nearest_ellipsoid_matches_a_brute_force_scan() {
         let got = index.nearest_within(point, f64::INFINITY).unwrap();
         assert!((got.distance - wanted).abs() <= 1e-9 * (1.0 + wanted), "{point}: {} for {wanted}", got.distance);
         let own = bisected(&gaussians, got.gaussian_idx as usize, point);
-        assert!((own - got.distance).abs() <= 1e-9 * (1.0 + own), "names the Gaussian it means");
+        assert!((own - got.distance).abs() <= 1e-9 * (1.0 + own), "the index is not that of the nearest Gaussian");
         assert_eq!(index.nearest_within(point, wanted * 0.999), None, "none within less");
     }
 }

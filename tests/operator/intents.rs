@@ -96,7 +96,7 @@ fn kitchen_films_carry_out_their_programs() {
     let rack = films.boxes[&2].center;
     assert!(last.pose.position.distance(rack) < 0.75 * first.pose.position.distance(rack));
     assert!(push.iter().all(|s| (s.fov_y_rad - first.fov_y_rad).abs() < 1e-9 && off_center(s, rack) < 0.2));
-    // A pan goes from one to the other without a step.
+    // A pan turns from one to the other with the position fixed.
     let pan = &films.frames["ps03"];
     let (from, to) = (films.boxes[&2].center, films.boxes[&3].center);
     assert!(off_center(&pan[0], from) < 0.2 && off_center(&pan[pan.len() - 1], to) < 0.2);

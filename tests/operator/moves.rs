@@ -1,4 +1,4 @@
-//! Every move follows the contract's "Moves, exactly", measured on the film.
+//! Every move follows the definition of `Move`, measured on the film.
 
 use cinesplat::geometry::{LevelFrame, rotation};
 use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, StepCameras, realize};

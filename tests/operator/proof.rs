@@ -49,13 +49,13 @@ fn a_thin_wall_between_two_frames_is_caught() {
     let mut gaussians = corners(6.0);
     sheet(&mut gaussians, 1.37, 0.0);
     let proof = prove_clear(&gaussians, &straight());
-    // At two frames a second no frame is within the camera's radius of the wall.
+    // At two frames per second no frame is within the camera's radius of the wall.
     let frames = (0..=20).map(|i| straight().sample(f64::from(i) * 0.5).pose.position);
     assert!(frames.map(|p| brute_force(&gaussians, p).0).all(|distance| distance > proof.camera_radius * 0.4));
     let failure = proof.failure.unwrap();
     assert_eq!((failure.gaussian_idx, proof.gaussian_idx), (8, Some(8)));
     assert!(proof.min_distance < 0.02 * proof.camera_radius);
-    // It crosses x = 1.37 at 6.37 s and is too near a radius before and after.
+    // The camera crosses x = 1.37 at 6.37 s and is too near to it within one radius on both sides.
     let (from, to) = (6.37 - proof.camera_radius, 6.37 + proof.camera_radius);
     assert!((failure.from_secs - from).abs() < 0.02 && (failure.to_secs - to).abs() < 0.02, "{failure:?}");
 }

@@ -114,8 +114,8 @@ fn optional<T: Copy>(all: &[T], class: u8) -> Option<T> {
     usize::from(class).checked_sub(1).and_then(|choice| all.get(choice)).copied()
 }
 
-/// Key of a code. An unknown class reads as a stop, as a default or as "not said"; a pointer
-/// beyond its list points at nothing.
+/// Key of a code. An unknown class is read as a stop, a default or "unspecified"; a pointer beyond
+/// its list points at nothing.
 pub fn decode_key(code: &KeyCode, grounding: &Grounding) -> Key {
     let next = match code.class(Field::Next) {
         NEXT_CUT => Next::Cut,

@@ -23,8 +23,8 @@ pub(super) const AMOUNT_LARGE: u8 = 3;
 
 /// A choice among classes that a key makes.
 ///
-/// The variants stand in the order in which the network puts their scores out; the shipped weights depend on it. Class 0
-/// of an optional field means "not said". The text of a variant is its name in reports.
+/// The network outputs the scores in the order of the variants; the shipped weights depend on it. Class 0 of an optional
+/// field means "unspecified". The text of a variant is its name in reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[derive(strum::Display, strum::IntoStaticStr)]
 #[derive(strum::VariantArray)]
@@ -42,7 +42,7 @@ pub enum Field {
     EitherWay,
     /// How the segment passes objects.
     Via,
-    /// How far the move goes: not said, a quantity of the text, a little, a lot.
+    /// Extent of the move: unspecified, a quantity of the text, a little, a lot.
     Amount,
     /// Speed of the move.
     Speed,
@@ -94,7 +94,7 @@ impl Field {
         }
     }
 
-    /// Index of the field's first class when the classes of all fields stand side by side.
+    /// Index of the field's first class in the concatenated classes of all fields.
     pub fn offset(self) -> usize {
         Self::VARIANTS[..self as usize].iter().map(|field| field.num_classes()).sum()
     }

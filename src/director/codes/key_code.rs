@@ -2,7 +2,7 @@
 
 use super::fields::{Field, NUM_FIELDS};
 
-/// Most subjects of one framing, and most objects that one step passes.
+/// Limit on the subjects of one framing, and on the objects that one step passes.
 pub const MAX_SUBJECTS: usize = 3;
 
 /// Number of object pointers of a key: subjects on arrival, subjects on departure, objects passed on the way.

@@ -1,4 +1,4 @@
-//! Keys and camera poses as numbers: what the heads of the network put out, and what training compares them with.
+//! Keys and camera poses as numbers: the format of the network's outputs and of the training targets.
 
 mod encoding;
 mod fields;

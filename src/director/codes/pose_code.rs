@@ -6,7 +6,7 @@ pub const POSE_WIDTH: usize = 11;
 /// Field of view of `log_fov` 0.
 const BASE_FOV_RAD: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
-/// A camera in the frame of a [`SceneFrame`](crate::SceneFrame), as the pose decoder puts it out.
+/// A camera in the frame of a [`SceneFrame`](crate::SceneFrame), as the pose decoder outputs it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PoseCode {
     /// Camera center, in scene sizes.
@@ -41,7 +41,7 @@ pub fn log_fov(fov_y_rad: f64) -> f32 {
     (fov_y_rad / BASE_FOV_RAD).ln() as f32
 }
 
-/// The pose decoder's view of earlier poses: per key 1 and the pose of the key before, or zeros where there is none.
+/// Earlier poses as input of the pose decoder: per key 1 and the pose of the key before, or zeros where there is none.
 /// `num_keys * (POSE_WIDTH + 1)` values, key after key. `poses` may be shorter than `num_keys`.
 pub fn previous_poses(poses: &[PoseCode], num_keys: usize) -> Vec<f32> {
     let mut out = vec![0.0; num_keys * (POSE_WIDTH + 1)];

@@ -3,7 +3,7 @@
 use crate::codes::{AMOUNT_QUANTITY, Field, KeyCode, MAX_SUBJECTS, NEXT_SEGMENT, NEXT_STOP};
 use crate::inputs::Prompt;
 
-/// What one step uses of the text.
+/// The parts of the text that one step uses.
 struct StepCoverage {
     /// First and last token.
     span: Option<[usize; 2]>,
@@ -19,7 +19,7 @@ impl StepCoverage {
     }
 }
 
-/// What keys omit, as counts.
+/// Numbers of omissions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Omissions {
     /// Mentions of objects and quantities.

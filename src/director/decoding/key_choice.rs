@@ -1,4 +1,4 @@
-//! One key out of its scores, under rules that make every sequence of keys a valid program.
+//! One key from its scores, under rules that make every sequence of keys a valid program.
 //!
 //! Rules: the first key begins a step, a cut is followed by a step, the last key stops. Objects are those that the text
 //! names (any object when it names none), each at most once. An amount or a duration is a quantity of the right kind. The
@@ -15,18 +15,18 @@ use crate::network::Scores;
 /// Weight of the word span of a key in its log-likelihood, as in the training loss.
 const WORDS_WEIGHT: f64 = 0.3;
 
-/// How sure the network is of one key: each choice that applies, with its probability.
+/// Certainty of one key: each choice that applies, with its probability.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct KeyCertainty {
     pub(crate) choices: Vec<(Choice, f64)>,
 }
 
-/// Facts about the text that hold before the network reads it.
+/// Facts about the text that do not depend on the network.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WordRules {
-    /// Per quantity whether it is a time.
+    /// For each quantity, whether it is a time.
     pub(crate) is_time: Vec<bool>,
-    /// Per token whether it begins a word that names a camera move (`push`, `holding`).
+    /// For each token, whether it begins a word that names a camera move (`push`, `holding`).
     pub(crate) is_move: Vec<bool>,
 }
 
@@ -191,7 +191,7 @@ impl<'a> Chooser<'a> {
         key.span = self.words(&row.words);
     }
 
-    /// Sets the pointers from `first` on to up to [`MAX_SUBJECTS`] different objects; `needed` demands at least one.
+    /// Sets the pointers from `first` on to up to [`MAX_SUBJECTS`] different objects; `needed` requires at least one.
     fn objects(&mut self, choice: Choice, scores: &[Vec<f32>], first: usize, needed: bool, key: &mut KeyCode) {
         let named = self.prompt.num_named;
         let limit = if named > 0 { named } else { self.prompt.objects.len() };
@@ -213,7 +213,7 @@ impl<'a> Chooser<'a> {
         }
     }
 
-    /// Pointer at a quantity that is a time (`time`) or another kind. Only a time may be left out (pointer 0).
+    /// Pointer at a quantity that is a time (`time`) or another kind. Only a time may be omitted (pointer 0).
     fn quantity(&mut self, choice: Choice, scores: &[f32], time: bool) -> Option<usize> {
         let is_time = &self.rules.is_time;
         let allowed = |pointer: usize| match pointer.checked_sub(1) {

@@ -1,4 +1,4 @@
-//! Keys out of the scores of the network.
+//! Keys from the scores of the network.
 
 mod beam_search;
 mod choice;

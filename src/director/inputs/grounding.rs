@@ -1,18 +1,18 @@
-//! Grounding: which object, quantity and bytes of the prompt an index of the network means, and back.
+//! Grounding: conversion between indices of the network and the objects, quantities and bytes of the prompt.
 
 use cinesplat_language::{Quantity, QuantityKind};
 use cinesplat_operator::Amount;
 
 use super::move_words::names_move;
 
-/// What the indices of one prompt stand for. Indices count from 0.
+/// The meaning of the indices of one prompt. Indices count from 0.
 #[derive(Debug, Clone, Default)]
 pub struct Grounding {
     /// Ids of the prompt's objects: those that the text names, then the others.
     pub object_ids: Vec<u32>,
     /// Quantities of the text.
     pub quantities: Vec<Quantity>,
-    /// One per token; the first begins the text.
+    /// One entry per token; the first token begins the text.
     pub(super) tokens: Vec<TokenSource>,
 }
 
@@ -28,12 +28,12 @@ pub(super) struct TokenSource {
 }
 
 impl Grounding {
-    /// Per quantity whether it is a time.
+    /// For each quantity, whether it is a time.
     pub(crate) fn is_time(&self) -> Vec<bool> {
         self.quantities.iter().map(|quantity| quantity.kind == QuantityKind::Seconds).collect()
     }
 
-    /// Per token whether it begins a word of `text` (the linked text) that names a camera move.
+    /// For each token, whether it begins a word of `text` (the linked text) that names a camera move.
     pub(crate) fn is_move(&self, text: &str) -> Vec<bool> {
         let words: Vec<&str> = text.split(' ').collect();
         let mut last = None;
@@ -55,7 +55,7 @@ impl Grounding {
     }
 
     /// Index of the quantity that equals an amount; the first among the tokens of `span` (first and last token), else the
-    /// first of all. `None` for amounts that are no quantity.
+    /// first of all. `None` for amounts without a number.
     pub(crate) fn amount_idx(&self, amount: Amount, span: Option<[usize; 2]>) -> Option<usize> {
         match amount {
             Amount::Degrees(value) => self.quantity_idx(QuantityKind::Degrees, value, span),

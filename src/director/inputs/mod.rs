@@ -1,4 +1,4 @@
-//! What the network reads: a linked prompt as tokens, and objects as boxes with points.
+//! Inputs of the network: a linked prompt as tokens, and objects as boxes with points.
 
 mod grounding;
 mod merges;

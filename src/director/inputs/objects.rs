@@ -1,4 +1,4 @@
-//! Scene objects as the network sees them.
+//! Scene objects as inputs of the network.
 
 use cinesplat_objects::Object;
 use glam::DVec3;
@@ -7,9 +7,9 @@ use super::prompt::ObjectInput;
 use super::vocabulary::object_token;
 use crate::frame::SceneFrame;
 
-/// Most points of an object's cloud that the network sees.
+/// Limit on the points per object that are inputs of the network.
 pub const MAX_POINTS: usize = 64;
-/// Most objects that the network sees beside those that the text names.
+/// Limit on the unnamed objects that are inputs of the network.
 pub const MAX_OTHER_OBJECTS: usize = 12;
 
 /// An object in `frame` with the identifier of `slot`. Of a larger cloud every n-th point is kept, at most

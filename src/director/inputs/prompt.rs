@@ -15,7 +15,7 @@ pub struct Prompt {
     pub num_named: usize,
 }
 
-/// One token as the network reads it.
+/// One token as input of the network.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TokenInput {
     /// Row of the embedding table.
@@ -30,7 +30,7 @@ pub struct TokenInput {
     pub value: f32,
 }
 
-/// One object as the network sees it.
+/// One object as input of the network.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ObjectInput {
     /// Token id of its slot.

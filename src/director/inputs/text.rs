@@ -50,7 +50,7 @@ fn token_input(token: Token, quantities: &[Quantity]) -> TokenInput {
     }
 }
 
-/// Row of the kind embedding; row 0 is for tokens that are no quantity.
+/// Row of the kind embedding; row 0 is for all tokens that do not name a quantity.
 fn kind_number(kind: QuantityKind) -> u32 {
     match kind {
         QuantityKind::Seconds => 1,

@@ -15,9 +15,9 @@ use crate::error::DirectorError;
 pub const NUM_OBJECT_SLOTS: usize = cinesplat_language::MAX_SLOTS;
 /// Number of identifiers `<qty-0>`.. that a prompt's quantities are mapped onto.
 const NUM_QUANTITY_SLOTS: usize = cinesplat_language::MAX_QUANTITIES;
-/// Most tokens of a prompt.
+/// Limit on the tokens of a prompt.
 const MAX_TOKENS: usize = 256;
-/// Most bytes of a text that reaches the tokenizer.
+/// Limit on the bytes of a text; longer ones are rejected before the tokenizer.
 const MAX_TEXT_BYTES: usize = 8 * 1024;
 
 /// Token that pads short texts of a batch.
@@ -27,7 +27,7 @@ pub(crate) const PAD: u32 = 0;
 pub(super) const BEGIN: u32 = 2;
 const FIRST_OBJECT: u32 = 3;
 const FIRST_QUANTITY: u32 = FIRST_OBJECT + NUM_OBJECT_SLOTS as u32;
-/// The first id that is no special token.
+/// The first id after the special tokens.
 const FIRST_PIECE: u32 = FIRST_QUANTITY + NUM_QUANTITY_SLOTS as u32;
 
 /// One token of a text.
@@ -98,7 +98,7 @@ impl Vocabulary {
     /// Reads a vocabulary from the JSON of `tokenizers`.
     ///
     /// # Errors
-    /// [`DirectorError::BadModel`] when the JSON is no tokenizer, or a special token does not have its fixed id.
+    /// [`DirectorError::BadModel`] when the JSON is not a tokenizer, or a special token does not have its fixed id.
     pub fn from_json(json: &[u8]) -> Result<Self, DirectorError> {
         let tokenizer = Tokenizer::from_bytes(json).map_err(|error| bad(&error))?;
         for (id, text) in special_tokens().into_iter().enumerate() {

@@ -169,7 +169,7 @@ impl PoseDecoder {
         Ok(Self {
             embedding: KeyEmbedding::new(parameters, "pose.key", width)?,
             state: Linear::new(parameters, "pose.state", width, width)?,
-            // One more value tells whether there is a pose before.
+            // One more value: 1 if there is a pose before, else 0.
             previous: Linear::new(parameters, "pose.previous", POSE_WIDTH + 1, width)?,
             anchor: Linear::new(parameters, "pose.anchor", ANCHOR_WIDTH, width)?,
             layers: Layer::stack(parameters, "pose", config.pose_layers, config)?,

@@ -1,4 +1,4 @@
-//! The heads: states of the intent decoder to scores.
+//! The heads: turn states of the intent decoder into scores.
 //!
 //! Classes come from one linear layer. Objects, quantities and words are chosen by pointers: the score of an item is the
 //! scalar product of a query, made from the state, and a key, made from the item. So the network works for any number of

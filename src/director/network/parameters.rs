@@ -18,7 +18,7 @@ pub(super) enum Start {
 /// Source of the named parameters while a network is built.
 #[derive(Debug)]
 pub enum Parameters {
-    /// Trainable parameters, drawn in the order in which the network asks for them.
+    /// Trainable parameters, drawn in the order in which the network requests them.
     Fresh {
         /// Random numbers. (candle's generator cannot be seeded on the CPU.)
         rng: Pcg64Mcg,

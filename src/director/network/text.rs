@@ -7,7 +7,7 @@ use super::layers::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Visibili
 use super::parameters::{Parameters, Start};
 use super::prompt_batch::PromptBatch;
 
-/// Number of kinds of quantities, and one for tokens that are no quantity.
+/// Number of kinds of quantities, plus one for all other tokens.
 const NUM_KINDS: usize = 5;
 
 /// Embedding table and bidirectional layers.

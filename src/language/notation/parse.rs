@@ -13,7 +13,7 @@ type Resolve<'a> = dyn Fn(&str) -> Option<Vec<u32>> + 'a;
 #[derive(strum::VariantArray)]
 #[strum(serialize_all = "kebab-case")]
 enum Direction {
-    // The first of each pair comes first: it is the direction of a move whose text leaves it open.
+    // The default of each pair comes first: it is the direction where the text leaves the direction open.
     Right,
     Left,
     Up,

@@ -1,7 +1,7 @@
 use cinesplat_operator::{Amount, Framing, Program, Speed, Step, SubjectPart};
 
-/// `program` in the notation. [`program_from_notation`](super::program_from_notation) reads the program back, but for
-/// the steps' `words`, which the notation leaves out.
+/// `program` in the notation. [`program_from_notation`](super::program_from_notation) reads the program back,
+/// except the steps' `words`, which the notation omits.
 pub fn program_to_notation(program: &Program) -> String {
     let steps: Vec<String> = program.steps.iter().map(step_to_notation).collect();
     let total = program.duration_secs.map(|secs| format!(" | total={secs}s")).unwrap_or_default();

@@ -13,9 +13,9 @@ use super::index::{ClearanceIndex, Nearest, SIGMA_LEVEL};
 use cinesplat_scene::SOLID_OPACITY;
 use cinesplat_trajectory::{CameraPath, ClearanceFailure, ClearanceProof, PathInterval};
 
-/// Gap between the certified bound and the witness's distance, over the camera's radius.
+/// Largest gap between the certified bound and the witness's distance, over the camera's radius.
 const TOLERANCE_FRAC: f64 = 0.01;
-/// Limit on the intervals examined for one certificate. A path along a wall for its whole length takes some thousand.
+/// Limit on the intervals examined for one certificate. A path along a wall for its whole length takes a few thousand.
 const MAX_INTERVALS: usize = 60_000;
 /// Share of the camera's radius that exceeds the rounding error of distances.
 const ROUNDING_FRAC: f64 = 1e-9;
@@ -126,7 +126,7 @@ pub(crate) fn prove(index: &ClearanceIndex, path: &CameraPath, radius: f64) -> C
         ClearanceQuery { enough: f64::INFINITY, tolerance: TOLERANCE_FRAC * radius, max_intervals: MAX_INTERVALS };
     let found = least_clearance(index, path, &query);
     let least = (found.bound * (1.0 - ROUNDING_FRAC) - radius * ROUNDING_FRAC).max(0.0);
-    // A bound just below the radius may only be loose: the search for a failure decides.
+    // A bound just below the radius may be loose: the search for a failure decides.
     let (more_intervals, failure) = if least >= radius { (0, None) } else { first_failure(index, path, radius) };
     let least = if failure.is_none() { least.max(radius) } else { least };
     ClearanceProof {

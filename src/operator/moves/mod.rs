@@ -1,4 +1,4 @@
-//! The geometry of every move, one file per family. Definitions: the contract, "Moves, exactly".
+//! The geometry of every move, one file per family. Definitions: [`Move`].
 //!
 //! Enters: one step of a program, the camera before it, and the values of its open parameters. Leaves: segments whose
 //! camera states carry out the move exactly.

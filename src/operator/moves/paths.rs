@@ -11,7 +11,7 @@ use crate::view::{aimed, lerp, moved, size_fill};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move};
 
-/// From the view before, or a view of the start target, to a view of the end target.
+/// Moves from the view before, or from a view of the start target, to a view of the end target.
 pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
     let (start, end) = (context.opening_target(), context.main_target());
     let first = match &context.before {

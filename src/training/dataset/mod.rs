@@ -2,7 +2,7 @@
 //! operator found for them.
 //!
 //! A shard is a text file of JSON lines: a header, then one scene per line with its shots. Programs are stored in the
-//! notation of `language`. The inputs of the network are computed again for every example.
+//! notation of `language`. The inputs of the network are recomputed for every example.
 
 mod error;
 mod realized;

@@ -39,7 +39,7 @@ pub(crate) struct RealizedShot {
     cameras: Vec<CameraRecord>,
 }
 
-/// A shot as the network sees it.
+/// A shot as inputs of the network.
 pub(crate) struct ShotInputs {
     /// Ids of the objects beside the named ones.
     pub(crate) others: Vec<u32>,

@@ -9,7 +9,7 @@ pub(super) const FORMAT: &str = "cinesplat.shots";
 /// `version` of the header.
 pub(super) const VERSION: u32 = 1;
 
-/// First line of a shard: the settings that decide its content. Older shards store the seed alone.
+/// First line of a shard: the settings that decide its content. Older shards store only the seed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Header {
     pub(super) format: String,

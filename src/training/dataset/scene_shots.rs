@@ -19,7 +19,7 @@ use cinesplat_scene::{Scene, UpSource};
 use cinesplat_synth::{SynthKind, SynthScene, SynthSettings, generate};
 use cinesplat_trajectory::Keyframe;
 
-/// A shot of this cost or more lacks something that its prompt asks for, so it is no training data.
+/// Shots of this cost or more are dropped: they violate a constraint of their prompt.
 const MAX_COST: f64 = 3.0;
 
 /// A generated scene with its shots. Two of three scenes are rooms, the third is a tabletop.
@@ -94,10 +94,10 @@ fn prepared(made: SynthScene) -> Result<(Scene, ObjectSet), DatasetError> {
     Ok((scene, objects))
 }
 
-/// A solved shot as a record; `None` when it has too many keys, or lacks something that the prompt asks for.
+/// A solved shot as a record; `None` when it has too many keys, or violates a constraint of its prompt.
 fn shot_record(prompt: String, program: &Program, solution: &Solution) -> Option<ShotRecord> {
     let keys = keys_of(program);
-    // A cost of NaN is dropped, too.
+    // A shot of cost NaN is dropped too.
     if keys.len() > MAX_KEYS || !(solution.cost < MAX_COST) {
         return None;
     }

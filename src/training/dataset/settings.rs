@@ -2,7 +2,7 @@
 
 use cinesplat_operator::SolveLevel;
 
-/// Which shots a dataset holds.
+/// Settings that decide the shots of a dataset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DatasetSettings {
     /// Seed of scenes and prompts.

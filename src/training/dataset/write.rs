@@ -1,4 +1,4 @@
-//! Shards of realized shots: which exist, and writing those that do not.
+//! Writes the shards of realized shots that do not exist yet.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ pub struct DatasetSummary {
     pub num_scenes: u64,
     /// Shots written by this call.
     pub num_shots: u64,
-    /// Shots dropped: the operator did not find everything that the prompt asks for, or the shot has too many keys.
+    /// Shots dropped: they violate a constraint of their prompt, or have too many keys.
     pub num_dropped: u64,
     /// Shards that existed already.
     pub num_shards_kept: u64,
@@ -37,12 +37,14 @@ impl DatasetSummary {
     }
 }
 
-/// Writes shards of realized shots to the folder `out`. Shards of the same settings that exist already are kept, so that
-/// the same call goes on after a stop. `report` is called on any thread after every scene with the number of finished scenes and of all scenes.
+/// Writes shards of realized shots to the folder `out`. Existing shards of the same settings are kept, so that a
+/// repeated call resumes after an interruption. After every scene `report` is called, on any thread, with the
+/// numbers of finished scenes and of all scenes.
 ///
 /// # Errors
-/// [`DatasetError::OtherSettings`] for an existing shard of other settings, before any work · [`DatasetError::BadLine`] for
-/// one without a header · [`DatasetError::File`] · [`DatasetError::Scene`] · [`DatasetError::Objects`] · [`DatasetError::Language`].
+/// [`DatasetError::OtherSettings`] for an existing shard of other settings, before any work · [`DatasetError::BadLine`]
+/// for one without a header · [`DatasetError::File`] · [`DatasetError::Scene`] · [`DatasetError::Objects`] ·
+/// [`DatasetError::Language`].
 ///
 /// # Panics
 /// A panic on a worker thread resumes in the caller.
@@ -81,7 +83,7 @@ fn layout(settings: &DatasetSettings, out: &Path, shard: u64) -> (PathBuf, Range
     (out.join(format!("shots-{shard:05}.jsonl")), scenes, header)
 }
 
-/// Checks that a shard has the settings asked for, if it exists.
+/// Checks that a shard has the requested settings, if it exists.
 fn check_existing(settings: &DatasetSettings, out: &Path, shard: u64) -> Result<(), DatasetError> {
     let (path, _, expected) = layout(settings, out, shard);
     if !path.exists() {

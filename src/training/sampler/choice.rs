@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// One of `choices` with a probability in proportion to its weight; `None` of none.
+/// One of `choices` with a probability in proportion to its weight; `None` without choices.
 pub(crate) fn choose_from_table<T: Copy>(choices: &[(T, u32)], rng: &mut Pcg64) -> Option<T> {
     let total: u32 = choices.iter().map(|(_, weight)| weight).sum();
     let mut at = rng.random_range(0..total.max(1));

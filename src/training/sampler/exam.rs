@@ -1,4 +1,4 @@
-//! The exam: sentences written by people, labeled with what they mean, never used for training.
+//! The exam: hand-written sentences, labeled with their programs, never used for training.
 
 use super::labeled_prompt::LabeledPrompt;
 use cinesplat_language::{LanguageError, NamedObject, program_from_notation};

@@ -6,7 +6,7 @@ use super::choice::choose_weighted;
 use super::grammar::Grammar;
 use super::template::{ClauseToken, Piece, Template};
 
-/// Which templates of the grammar are used.
+/// The templates of the grammar that are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum TemplateSplit {
     /// Only templates that are not held out.
@@ -35,8 +35,8 @@ pub(crate) struct Expander<'a> {
 }
 
 impl Expander<'_> {
-    /// One of `templates` by weight. The train split never chooses a held-out one, the held-out split chooses those
-    /// twelve times as often.
+    /// One of `templates` by weight. The train split never chooses held-out templates, the held-out split chooses
+    /// them twelve times as often.
     pub(crate) fn choose<'t>(
         &self,
         templates: impl Iterator<Item = &'t Template> + Clone,

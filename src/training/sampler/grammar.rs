@@ -57,7 +57,7 @@ pub(crate) enum ClauseForm {
     Statement,
 }
 
-/// Where the lines of the file belong.
+/// The section of the file that a line belongs to.
 enum Section {
     Nowhere,
     List(String),

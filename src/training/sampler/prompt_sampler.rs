@@ -1,4 +1,4 @@
-//! Samples labeled prompts and objects to speak of.
+//! Samples labeled prompts, and objects for them to mention.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -42,7 +42,7 @@ impl PromptSampler {
     /// A prompt about some of `objects`; the same state of `rng` gives the same prompt.
     ///
     /// Rejection sampling: a draw is kept only if linking its prompt finds exactly the objects and quantities of its
-    /// program, and if it is no sentence of the [`exam()`], with any objects. The held-out split also rejects a draw
+    /// program, and if it is not a sentence of the [`exam()`], with any objects. The held-out split also rejects a draw
     /// without a held-out template, up to the 301st draw. After 400 rejected draws the prompt is `Push in on <obj-N>.`
     /// or `Pan left.`
     pub fn sample(&self, objects: &[NamedObject], rng: &mut Pcg64) -> LabeledPrompt {
@@ -57,7 +57,7 @@ impl PromptSampler {
         fallback(objects, rng)
     }
 
-    /// `count` invented objects, at most 60 000, with different ids. A label is a noun of the lexicon after up to two
+    /// `count` invented objects, at most 60,000, with different ids. A label is a noun of the lexicon after up to two
     /// adjectives; some objects have none.
     pub fn invent_objects(&self, count: usize, rng: &mut Pcg64) -> Vec<NamedObject> {
         let mut objects: Vec<NamedObject> = Vec::new();
@@ -101,11 +101,11 @@ fn links_as_meant(linked: &Linked, composed: &Composed) -> bool {
         && values.iter().all(is_found)
 }
 
-/// The linked sentences of the exam, without the mark at their end.
+/// The linked sentences of the exam, without their final punctuation mark.
 fn exam_sentences() -> &'static BTreeSet<String> {
     static SENTENCES: OnceLock<BTreeSet<String>> = OnceLock::new();
     SENTENCES.get_or_init(|| {
-        // Whoever reads a malformed exam gets the error; here there is nothing to keep out.
+        // `exam` reports a malformed exam to its callers; the sampler then rejects no sentences.
         let (Ok(items), Ok(objects)) = (exam(), exam_objects()) else { return BTreeSet::new() };
         items.iter().filter_map(|item| Some(unpunctuated(&link(&item.prompt, &objects).ok()?).to_owned())).collect()
     })

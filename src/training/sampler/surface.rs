@@ -71,7 +71,7 @@ impl SurfaceText {
                 if !seen_word {
                     mark_dropped(&mut drop, i);
                 } else if let Some(previous) = last_mark {
-                    // Of two marks in a row the full stop stays.
+                    // Of two marks in a row, the full stop is kept.
                     let dropped = if *c == '.' || text.get(previous) == Some(&',') { previous } else { i };
                     mark_dropped(&mut drop, dropped);
                     last_mark = Some(if dropped == i { previous } else { i });
@@ -114,7 +114,7 @@ impl SurfaceText {
         }
     }
 
-    /// Whether `one` stands at a place: its first sound is a consonant.
+    /// Whether the word `one` is at an index: its first sound is a consonant.
     fn one_follows(&self, at: usize) -> bool {
         let next: String = self.chars.iter().skip(at).take(4).map(|c| c.char).collect();
         next.starts_with("one ") || next.starts_with("one-")

@@ -1,14 +1,14 @@
-//! Templates: one way to phrase a meaning, with placeholders, and what it adds to the meaning.
+//! Templates: one way to phrase a meaning, with placeholders and tokens of meaning.
 //!
 //! A template is `text [=> meaning]`. The text holds words, `[a|b|]` choices, `{list}` references, `{SECS}` and other
 //! quantities, `*verb` and the object placeholders `A`, `B`, `C`. The meaning is tokens of the notation of programs.
 
 use super::quantity_phrases::QuantityPlaceholder;
 
-/// One way to phrase something, and what it adds to the meaning.
+/// One way to phrase a meaning, with its tokens of meaning.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Template {
-    /// In the order of the text; empty for the template that says nothing.
+    /// In the order of the text; empty for a template without text.
     pub(crate) pieces: Vec<Piece>,
     /// Tokens of the notation of programs.
     pub(crate) meaning: Vec<String>,

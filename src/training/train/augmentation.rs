@@ -7,13 +7,13 @@ use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 
-/// How often examples are changed. All fractions are 0..=1.
+/// Rates of augmentation. All fractions are 0..=1.
 #[allow(clippy::struct_field_names, reason = "fractions carry their unit")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Augmentation {
     /// Fraction of the examples of which words are changed.
     pub(super) examples_frac: f64,
-    /// Fraction of the words that are changed in these.
+    /// Fraction of the words that are changed in such an example.
     pub(super) words_frac: f64,
     /// Fraction of the examples whose objects get random identifiers instead of 0, 1, ..
     pub(super) slots_frac: f64,
@@ -91,7 +91,7 @@ fn invented_word(word: &str, known_words: &[String], rng: &mut Pcg64) -> String 
     front + &back
 }
 
-/// The word with two letters swapped, or one removed. Words below three letters stay.
+/// The word with two letters swapped, or one removed. Words of fewer than three letters are unchanged.
 fn misspelled(word: &str, rng: &mut Pcg64) -> String {
     let mut letters: Vec<char> = word.chars().collect();
     if letters.len() < 3 {

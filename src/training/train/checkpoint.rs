@@ -1,4 +1,4 @@
-//! Checkpoints: the whole state of a training. A resumed training gives the same weights as one that was never stopped.
+//! Checkpoints: the whole state of a training run. A resumed run gives the same weights as an uninterrupted one.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -27,7 +27,7 @@ pub(super) struct BatchGradients {
     pub(super) gradients: Vec<Vec<f32>>,
 }
 
-/// How a batch is computed.
+/// Settings of the computation of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BatchSettings {
     /// Number of threads.

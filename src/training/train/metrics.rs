@@ -1,4 +1,4 @@
-//! Metrics of understanding: understood programs compared with the intended ones.
+//! Metrics of a director: understood programs compared with the intended ones.
 
 use cinesplat_operator::{Framing, Program, Step};
 use strum::VariantArray;

@@ -1,7 +1,7 @@
 //! The training loop.
 //!
 //! Enters: the prompt sampler, and shards of realized shots. Leaves: the three files of a model. The same settings and shots
-//! give the same weights, whatever the number of threads is, and whether the training was stopped and resumed or not.
+//! give the same weights for any number of threads, with or without interruptions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -31,9 +31,9 @@ use cinesplat_language::link;
 
 /// Name of the checkpoint in the output folder.
 const CHECKPOINT_FILE: &str = "checkpoint.safetensors";
-/// Examples that one thread computes together.
+/// Examples per part of a batch, which one thread computes.
 const PART_SIZE: usize = 32;
-/// Every n-th realized shot is held out of training.
+/// One of this many realized shots is held out of training.
 const HELD_OUT_EVERY: usize = 20;
 /// Examples of the held-out loss.
 const HELD_OUT_EXAMPLES: u64 = 64;
@@ -55,7 +55,7 @@ pub struct TrainSummary {
 /// [`TrainSettings::report_every`] steps and after every checkpoint.
 ///
 /// # Errors
-/// [`TrainError::Stopped`] when `report` returns a break; a checkpoint has been written then ·
+/// [`TrainError::Stopped`] when `report` returns `Break`, after a checkpoint was written ·
 /// [`TrainError::BadCheckpoint`] for a checkpoint of other settings · [`TrainError::Diverged`] when the loss is not finite ·
 /// [`TrainError::File`] for a model or checkpoint that exists, unless the settings resume or replace it, and
 /// [`TrainError::File`], [`TrainError::Dataset`] and [`TrainError::Director`] for files that cannot be read or written.
@@ -168,7 +168,7 @@ impl Training<'_> {
             .map_err(|error| TrainError::BadCheckpoint { path: self.checkpoint_path(), found: error.to_string() })
     }
 
-    /// Reads the checkpoint if the settings ask for it.
+    /// Reads the checkpoint if the settings request it.
     fn resume(&mut self) -> Result<(), TrainError> {
         if self.settings.resume {
             self.optimizer = checkpoint::read(&self.checkpoint_path(), &self.vars, &self.fingerprint()?)?;
@@ -198,7 +198,7 @@ impl Training<'_> {
                 }
             }
             if done.is_multiple_of(self.settings.checkpoint_every.max(1)) || done == total {
-                // The next step report asks again whether to stop.
+                // The result is ignored: the next report of steps can stop the training.
                 let _ = report(&self.checkpoint()?);
             }
         }
@@ -302,7 +302,7 @@ impl Training<'_> {
         Ok([sums[0] / num_keys.max(1) as f64, sums[1] / num_posed.max(1) as f64])
     }
 
-    /// Facts about the network as it is.
+    /// Facts about the network in its current state.
     fn summary(&self) -> Result<TrainSummary, TrainError> {
         Ok(TrainSummary {
             num_parameters: self.vars.values().map(|var| var.elem_count()).sum(),

@@ -23,13 +23,13 @@ pub struct TrainSettings {
     pub dropout: f32,
     /// Fraction of the examples that are realized shots if there are any, 0..=1.
     pub shots_frac: f64,
-    /// Most tokens of the vocabulary.
+    /// Limit on the tokens of the vocabulary.
     pub vocabulary: usize,
     /// Number of sampled prompts from which the vocabulary is learned.
     pub corpus: usize,
     /// Name of the model, as shots store it.
     pub name: String,
-    /// Folder of realized shots. Without one, only the program is learned, not the poses.
+    /// Folder of realized shots. Without one, the network learns programs only, not poses.
     #[serde(skip)]
     pub shots: Option<PathBuf>,
     /// Model whose weights and vocabulary the training starts from, instead of random weights.

@@ -143,7 +143,7 @@ impl<'a> Composer<'a> {
     }
 
     /// Draws clauses until one fits: its tokens agree, its objects exist, its steps are consistent with those before.
-    /// `duration` stands before the clause.
+    /// `duration` is the duration before the clause.
     fn choose_clause(
         &mut self,
         form: ClauseForm,

@@ -38,7 +38,7 @@ const VOICES: [(Voice, u32); 5] = [
 /// Which connectives join the clauses of a prompt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Connectives {
-    /// Any, chosen anew at each joint.
+    /// Any, chosen separately at each joint.
     Mixed,
     /// `push in, pan left and pull back`.
     List,
@@ -88,7 +88,7 @@ pub(super) fn bound(bindings: &Bindings, placeholder: ObjectPlaceholder) -> Opti
     bindings.get(placeholder as usize).copied().flatten()
 }
 
-/// A prompt in composition.
+/// A prompt while it is composed.
 pub(super) struct Composer<'a> {
     pub(super) expander: Expander<'a>,
     pub(super) objects: &'a [NamedObject],
@@ -96,7 +96,7 @@ pub(super) struct Composer<'a> {
     pub(super) voice: Voice,
     pub(super) connectives: Connectives,
     pub(super) order: ClauseOrder,
-    /// Share of the mentions that are by number.
+    /// Share of mentions by number.
     pub(super) numbered_frac: f64,
     pub(super) text: SurfaceText,
     pub(super) program: Program,

@@ -25,7 +25,7 @@ enum Side {
 struct Introduction {
     noun_phrase: &'static str,
     statement: &'static str,
-    /// Before nothing but an object.
+    /// Before an object alone.
     object: &'static str,
 }
 
@@ -34,7 +34,7 @@ const ALONE: Introduction = Introduction { noun_phrase: "lead.n", statement: "si
 const CLOSING: Introduction = Introduction { noun_phrase: "close.n", statement: "close.s", object: "close.on" };
 
 impl<'a> Composer<'a> {
-    /// Adds a framing after its introduction; `subject` is its subject if it has to be a certain one.
+    /// Adds a framing after its introduction; `subject` is its subject, `None` for any.
     fn add_framing(
         &mut self,
         introduction: &Introduction,

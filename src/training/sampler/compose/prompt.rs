@@ -35,7 +35,7 @@ pub(crate) struct Composed {
     pub(crate) held_out: bool,
 }
 
-/// A random prompt about some of `objects`; `None` for a draw that came to a contradiction.
+/// A random prompt about some of `objects`; `None` for a draw that contradicts itself.
 pub(crate) fn compose(
     grammar: &Grammar,
     split: TemplateSplit,

@@ -11,7 +11,7 @@ use cinesplat_language::{VerbForm, inflect};
 const ARTICLES: [(&str, u32); 6] = [("the ", 90), ("", 4), ("that ", 2), ("this ", 1), ("our ", 1), ("a ", 2)];
 
 impl Composer<'_> {
-    /// Adds the text of a template of the list `name`, which belongs to no clause and means nothing or the film's length.
+    /// Adds the text of a template of the list `name`, outside of all clauses. Its meaning is empty or the film's length.
     pub(super) fn add_list(&mut self, name: &str) -> Option<()> {
         let expansion = self.expander.expand_list(name, self.rng);
         for token in &expansion.meaning {
