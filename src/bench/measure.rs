@@ -5,7 +5,7 @@ use super::{Difference, KnobKind, Variant};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, RenderStats, Renderer};
 
-/// What is measured and how often.
+/// The variants to measure, and the number of runs.
 #[derive(Debug, Clone)]
 pub struct BenchPlan {
     /// Name of the scene, for the rows.
@@ -33,7 +33,7 @@ pub struct BenchRow {
     pub num_threads: usize,
     /// Times of the runs.
     pub timing: Timing,
-    /// For [`KnobKind::Output`]: time over the time of color in `f32`, both measured in turn; median over the runs.
+    /// For [`KnobKind::Output`]: ratio to the time of color in `f32`, measured alternately; median over the runs.
     pub times_color: Option<f64>,
     /// Difference of the picture in `f32` from the spec image, for [`KnobKind::Free`] from the picture of `standard`; all
     /// NaN for [`KnobKind::Output`].
@@ -133,13 +133,13 @@ fn row(
     })
 }
 
-/// A thread pool of its own; `None` if the system refuses the threads, and the current pool is used.
+/// A new thread pool; `None`, and the current pool is used, if the system cannot start the threads.
 fn pool_of(num_threads: usize) -> Option<rayon::ThreadPool> {
     rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().ok()
 }
 
-/// Times an output and color in `f32` in turn, so that other load on the machine affects both. Also returns the median
-/// ratio of neighboring times.
+/// Times an output and color in `f32` alternately, so that other load on the machine affects both. Also returns the
+/// median ratio of neighboring times.
 fn time_beside_color(
     renderer: &Renderer<'_>,
     camera: &Camera,

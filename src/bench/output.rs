@@ -37,7 +37,7 @@ pub enum RenderOutput {
     Lift,
 }
 
-/// Inputs and targets of the outputs, kept from run to run.
+/// Inputs and buffers of the outputs, kept from run to run.
 pub(super) struct OutputBuffers {
     labels: Vec<u16>,
     features: Vec<f32>,

@@ -7,7 +7,7 @@ use strum::VariantArray;
 const MAX_DB: f64 = 120.0;
 const PANEL_PX: [f64; 2] = [410.0, 300.0];
 
-/// Accuracy that a Pareto plot shows against time.
+/// Accuracy metric of a Pareto plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
 #[derive(strum::VariantArray, strum::VariantNames)]

@@ -58,7 +58,7 @@ pub fn to_table(rows: &[BenchRow]) -> String {
     table.push_str(&outputs_table(&outputs));
     let _ = writeln!(
         table,
-        "\nFree knobs (threads, instruction sets): {num_equal} of {} pictures equal those of `standard` bit by bit.",
+        "\nFree knobs (depth order, threads, SIMD): {num_equal} of {} pictures equal those of `standard` bit by bit.",
         free.len()
     );
     table

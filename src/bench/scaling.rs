@@ -1,5 +1,5 @@
-//! How time and memory grow with the number of Gaussians, of pixels and of overlapping layers; one grows, the others
-//! stay.
+//! Measures how time and memory grow with the number of Gaussians, of pixels or of overlapping layers. One grows, the
+//! others are constant.
 //!
 //! Enters: a scene to tile and one [`ScalingCase`]. Leaves: a [`ScalingRow`] with time, counters and memory. Run each
 //! case in a process of its own: memory that an earlier case has freed would hide the memory that a later one takes.
@@ -216,9 +216,9 @@ pub fn scaling_svg(csv: &str) -> String {
     let times: Vec<(&str, &'static str)> = stages.into_iter().zip([7, 1, 2, 3, 4].map(|idx| COLORS[idx])).collect();
     let memory = [("held_bytes", COLORS[5]), ("allowed_bytes", COLORS[6])];
     let charts = [
-        chart("Gaussians grow, 1280 x 720 pixels", (Growth::Gaussians, "gaussians"), "ms per frame", &times),
-        chart("Pixels grow, 100,000 Gaussians", (Growth::Pixels, "pixels"), "ms per frame", &times),
-        chart("Layers grow, 1280 x 720 pixels", (Growth::Overdraw, "block_blends"), "ms per frame", &times),
+        chart("More Gaussians, 1280 x 720 pixels", (Growth::Gaussians, "gaussians"), "ms per frame", &times),
+        chart("More pixels, 100,000 Gaussians", (Growth::Pixels, "pixels"), "ms per frame", &times),
+        chart("More layers, 1280 x 720 pixels", (Growth::Overdraw, "block_blends"), "ms per frame", &times),
         chart("Memory beyond the scene, bytes", (Growth::Gaussians, "gaussians"), "bytes", &memory),
     ];
     let names = ["whole frame", "project", "sort", "bin", "blend", "held", "allowed"];

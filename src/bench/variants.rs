@@ -103,8 +103,8 @@ fn outputs(base: &RenderSettings) -> Vec<Variant> {
 fn free(base: &RenderSettings) -> Vec<Variant> {
     let standard = RenderSettings { quality: Quality::Standard, accuracy: None, ..*base };
     let as_standard = |name: &str| variant_of(KnobKind::Free, name.to_owned(), standard);
-    let mut anew = as_standard("order anew");
-    anew.settings.reuses_order = false;
+    let mut full_sort = as_standard("full sort");
+    full_sort.settings.reuses_order = false;
     let on_threads = |num_threads: usize| {
         let plural = if num_threads == 1 { "" } else { "s" };
         Variant { num_threads: Some(num_threads), ..as_standard(&format!("{num_threads} thread{plural}")) }
@@ -116,7 +116,7 @@ fn free(base: &RenderSettings) -> Vec<Variant> {
     };
     let mut scalar = with(InstructionSet::Scalar);
     scalar.is_slow = true;
-    let mut all = vec![anew];
+    let mut all = vec![full_sort];
     all.extend([1, 2, 3].map(on_threads));
     all.extend([with(InstructionSet::Widest), with(InstructionSet::Avx2), scalar]);
     all

@@ -8,9 +8,9 @@ pub(super) const BYTES_PER_SPLAT: usize = size_of::<Splat>() + size_of::<HotFiel
 pub(super) struct HotFields {
     /// Tiles that the splat overlaps: first and last column, first and last row.
     pub(super) rect: [u16; 4],
-    /// The Gaussian.
+    /// Index of the Gaussian.
     pub(super) gaussian_idx: u32,
-    /// Depth along the view axis.
+    /// Depth along the view axis, scene units.
     pub(super) depth: f32,
 }
 

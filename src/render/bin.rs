@@ -30,7 +30,7 @@ struct Placed {
 struct Run {
     /// Number of splats per tile, followed by slots that [`for_each_tile`] adds 0 to.
     counts: Vec<u32>,
-    /// Index in `places` where the next splat of each tile is written; in the end one past its last.
+    /// Index in `places` at which the next splat of each tile is written; after binning, the end of the tile's list.
     ends: Vec<u32>,
     /// Places of splats, tile after tile, with one spare slot after each tile.
     places: Vec<u32>,
@@ -119,7 +119,7 @@ impl Run {
     }
 }
 
-/// Calls `visit` with every tile of a rectangle and 1.
+/// Calls `visit(tile_idx, 1)` for every tile of a rectangle.
 ///
 /// Most rectangles have up to 2 x 2 tiles. For those it makes four calls, with 0 for tiles outside the rectangle: a
 /// branch would be unpredictable, and a misprediction costs more than a wasted visit.

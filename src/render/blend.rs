@@ -45,7 +45,7 @@ impl Default for Workspace {
 
 /// One tile to blend.
 pub(super) struct Tile<'a, I, A, K> {
-    /// Left upper corner, pixels.
+    /// Upper left corner, pixels.
     pub(super) origin_px: [usize; 2],
     /// Places of the tile's splats, nearest first.
     pub(super) places: I,

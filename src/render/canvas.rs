@@ -8,7 +8,7 @@ use super::pixels::TilePixels;
 use super::tiles::TILE_PX;
 use super::{Frame, Rgb8Frame};
 
-/// Rows of a picture that are written to.
+/// Rows of a picture to write.
 #[derive(Debug)]
 pub(super) enum Canvas<'a> {
     /// Color and transmittance.
@@ -50,7 +50,7 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// The copy of a finished tile into the picture, compiled for every instruction set.
+/// Copies a finished tile into the picture; compiled for every instruction set.
 pub(super) struct FinishedTile<'a, 'frame> {
     pub(super) pixels: &'a TilePixels,
     pub(super) band: &'a Band<'frame>,

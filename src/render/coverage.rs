@@ -1,7 +1,7 @@
-//! Which blocks of 8 x 4 pixels of a tile each splat covers.
+//! Finds the blocks of 8 x 4 pixels of a tile that each splat covers.
 //!
 //! Enters: up to 256 splats. Leaves: for each block the list of splats that cover it, in order. Computed for 16 splats
-//! at a time. The invariant: no block is missed; a block too many is allowed.
+//! at a time. The invariant: no covered block is missed; extra blocks are allowed.
 
 use super::record::RECORDS_LEN;
 use super::splat::Splat;
@@ -9,7 +9,7 @@ use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_BLOCKS, NUM_STR
 
 const BLOCKS_PER_PX: f32 = 1.0 / BLOCK_WIDTH as f32;
 
-/// Slack in pixels for rounding errors. A block too many costs a little time, a block too few gives a wrong pixel.
+/// Slack in pixels for rounding errors. An extra block costs a little time, a missed block gives wrong pixels.
 const SLACK_PX: f32 = 0.02;
 
 /// Splats per SIMD loop: the width of the widest registers.
@@ -27,7 +27,7 @@ type Lane = [f32; LANES];
 struct Regions {
     /// Vertical position of the center.
     y: Lane,
-    /// Horizontal position of the center, shifted so that `left` less half the width rounds to the first block.
+    /// Horizontal position of the center, shifted so that `left` minus half the width rounds to the first block.
     left: Lane,
     /// Horizontal position of the center, shifted so that `right` plus half the width rounds to one past the last
     /// block.

@@ -137,7 +137,7 @@ struct Picture<'a, P: Payload> {
 }
 
 impl<P: Payload> Picture<'_, P> {
-    /// Renders rows of tiles at once, or each half by itself if that would take too much memory. Appends the payload's
+    /// Renders rows of tiles together, or each half by itself if that would take too much memory. Appends the payload's
     /// output of each tile.
     ///
     /// # Errors
@@ -153,7 +153,7 @@ impl<P: Payload> Picture<'_, P> {
         }
     }
 
-    /// Renders rows of tiles at once.
+    /// Renders rows of tiles together.
     ///
     /// # Errors
     /// [`RenderError::Cost`]; [`RenderError::Memory`], with nothing rendered, also if several rows would take more than
@@ -175,7 +175,7 @@ impl<P: Payload> Picture<'_, P> {
         }
         splats.fill(gaussians, groups, &projection);
         let projected = Instant::now();
-        // The order of a band says nothing about that of the next band.
+        // The depth order of one band is of no use for the next band.
         let reuses_order = self.view.reuses_order && rows.len() == self.grid.down;
         let keys = order.of(splats, &View { reuses_order, ..*self.view }, gaussians);
         let (sorted, num_splats) = (Instant::now(), keys.len() as u64);

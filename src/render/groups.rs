@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use super::memory::bytes_of;
 use cinesplat_scene::Gaussians;
 
-/// Gaussians per group. Smaller groups reject more Gaussians and take more tests; 64 and 1024 were both slower on the
-/// kitchen.
+/// Gaussians per group. Smaller groups reject more Gaussians and need more tests; 64 and 1024 were both slower in the
+/// kitchen scene.
 pub(super) const GROUP_LEN: usize = 256;
 
 /// Packs per group.
@@ -22,7 +22,7 @@ pub(super) const PACKS_PER_GROUP: usize = GROUP_LEN / LANES;
 pub(super) struct Group {
     /// Center of the sphere, relative to the scene's origin.
     pub(super) center: Vec3,
-    /// Radius of the sphere.
+    /// Radius of the sphere, scene units.
     pub(super) radius: f32,
     /// Largest standard deviation of the members.
     pub(super) max_scale: f32,

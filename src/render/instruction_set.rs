@@ -6,7 +6,7 @@ use pulp::{Arch, Simd, WithSimd};
 #[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum InstructionSet {
-    /// The widest that this machine has: AVX-512, AVX2 or NEON.
+    /// The widest that this machine has: AVX-512, AVX2 or NEON, else scalar code.
     #[default]
     Widest,
     /// AVX2 with FMA; scalar code on a machine without them.

@@ -100,15 +100,15 @@ impl Arithmetic for Exact {
 impl Quick {
     /// Fraction bits of the binary logarithm, in fixed point in the mantissa of a level.
     const FRACTION_BITS: u32 = 15;
-    /// 2^23: from here on the last bit of an `f32` counts 1.
+    /// 2^23: from here on, neighboring `f32` numbers differ by 1.
     const FIRST: f32 = 8_388_608.0;
-    /// Exponent bits of 1.0, less a correction that centers the error of the two interpolations in `powers`.
+    /// Exponent bits of 1.0, minus a correction that centers the error of the two interpolations in `powers`.
     const BIAS: f32 = 127.0 - 1.053_8;
 }
 
 impl Arithmetic for Quick {
     const STOPS_EACH_PIXEL: bool = false;
-    /// sqrt(8 * 2^15): a logarithm is 8 exponents, and has 2^15 levels per unit.
+    /// sqrt(8 * 2^15): the logarithm is 8 times the exponent e and has 2^15 levels per unit.
     const OFFSET_UNIT: f32 = 512.0;
 
     #[inline(always)]
@@ -205,7 +205,7 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
     /// Blends the listed splats, nearest first; returns whether any pixel takes more.
     ///
     /// Opacities are computed for two splats and both halves together: each is a chain of twenty dependent operations,
-    /// which is longer than the processor can reorder across. With 16 registers this would spill.
+    /// too long for out-of-order execution to overlap. With only 16 registers, values would spill to memory.
     #[inline(always)]
     fn blend_all<A: Arithmetic>(&mut self, list: &[u8], registers: &mut BlockRegisters<S>) -> bool {
         let simd = self.simd;

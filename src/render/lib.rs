@@ -1,4 +1,4 @@
-//! Renders 3D Gaussians from a camera to a picture, on the CPU.
+//! Renders pictures of 3D Gaussians on the CPU.
 //!
 //! # What enters, what leaves
 //!
@@ -56,7 +56,7 @@
 //! *spec image* that every accuracy is measured against. `spec` holds the constants of both.
 //!
 //! The one invariant: a picture has the same bits for any number of threads, for any instruction set, and whether it is
-//! rendered at once or in bands to save memory.
+//! rendered as a whole or in bands to save memory.
 //!
 //! Reference: Kerbl et al., 3D Gaussian Splatting for Real-Time Radiance Field Rendering, 2023.
 

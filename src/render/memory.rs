@@ -33,7 +33,7 @@ impl Budget {
         Ok(budget)
     }
 
-    /// Takes memory for `what`.
+    /// Reserves memory for `what`.
     ///
     /// # Errors
     /// [`RenderError::Memory`] if the sum would exceed the limit.
@@ -46,7 +46,7 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes memory for the list of splat-tile pairs.
+    /// Reserves memory for the list of splat-tile pairs.
     ///
     /// # Errors
     /// [`RenderError::Cost`] if there are too many pairs, [`RenderError::Memory`] if the list would exceed the limit.
@@ -63,14 +63,14 @@ impl Budget {
         self.num_pairs += num_pairs;
     }
 
-    /// Bytes that may still be taken before the picture is rendered in bands.
+    /// Bytes that may still be reserved before the picture is rendered in bands.
     pub(super) fn bytes_before_bands(&self, num_gaussians: usize, num_pixels: u64) -> u64 {
         let target = memory_target_bytes(num_gaussians as u64, num_pixels).min(self.limits.max_memory_bytes);
         // One fiftieth is left for small lists that are not counted.
         (target - target / 50).saturating_sub(self.taken_bytes)
     }
 
-    /// Bytes that may still be taken.
+    /// Bytes that may still be reserved.
     pub(super) fn left_bytes(&self) -> u64 {
         self.limits.max_memory_bytes - self.taken_bytes
     }

@@ -79,7 +79,7 @@ impl DepthOrder {
         self.last_len = self.keys.len();
     }
 
-    /// Sorts the keys by way of the previous order. Returns false, with the keys in any order, if that takes too many
+    /// Sorts the keys from the previous order. Returns false, with the keys in any order, if that takes too many
     /// moves.
     fn repair(&mut self) -> bool {
         let absent = DepthKey { place: NO_RANK, ..DepthKey::default() };

@@ -23,7 +23,7 @@ pub(super) trait Sink {
 /// A tile's place in the picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TileArea {
-    /// Left upper corner, pixels.
+    /// Upper left corner, pixels.
     pub(super) origin_px: [usize; 2],
     /// Width of the picture.
     pub(super) width: usize,

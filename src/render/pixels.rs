@@ -53,7 +53,7 @@ pub(super) struct Pixels<S: Simd> {
     pub(super) blue: S::f32s,
     /// Transmittance behind all splats so far; below the stop if the pixel has stopped.
     pub(super) transmittance: S::f32s,
-    /// Transmittance behind the splats that the pixel took; only maintained if each pixel stops on its own.
+    /// Transmittance behind the splats that the pixel blended; only maintained if each pixel stops on its own.
     pub(super) rest: S::f32s,
     /// Number of the first pixel in the tile.
     pub(super) first: usize,
@@ -156,14 +156,14 @@ impl TileRow<'_> {
     }
 }
 
-/// Column and row in the tile of the pixel with a number.
+/// Column and row in the tile of a pixel, from the pixel's number.
 pub(super) fn position_in_tile(pixel: usize) -> [usize; 2] {
     let (half, lane) = (pixel / HALF_LEN, pixel % HALF_LEN);
     let column = half % HALVES_ACROSS * HALF_WIDTH + lane % HALF_WIDTH;
     [column, half / HALVES_ACROSS * BLOCK_HEIGHT + lane / HALF_WIDTH]
 }
 
-/// Pixel centers of a half block relative to its left upper corner: x, y.
+/// Pixel centers of a half block relative to its upper left corner: x, y.
 const CENTERS: [[f32; HALF_LEN]; 2] = {
     let mut centers = [[0.0; HALF_LEN]; 2];
     let mut lane = 0;

@@ -15,7 +15,7 @@ use super::tiles::{TILE_PX, TileGrid};
 use super::{View, harmonics, reference};
 use cinesplat_scene::Gaussians;
 
-/// Upper bound of what dilation adds to the radius of a splat, in pixels: 5.3 standard deviations (for the smallest
+/// Upper bound of the dilation's share in the radius of a splat, in pixels: 5.3 standard deviations (for the smallest
 /// allowed alpha cut) of sqrt(0.3) pixels, with slack.
 const MARGIN_PX: f64 = 4.0;
 
@@ -35,7 +35,7 @@ struct Outputs {
     tile_rect: [[u16; LANES]; 4],
 }
 
-/// The projection of the members of one group, compiled for every instruction set.
+/// Projects the members of one group; compiled for every instruction set.
 struct GroupMembers<'a> {
     projection: &'a Projection,
     gaussians: &'a Gaussians,

@@ -38,8 +38,9 @@ pub(super) struct ExactSplat {
 /// The splat of one Gaussian; `None` if it is not in front of the near plane, not finite, below the alpha cut
 /// everywhere or outside the picture.
 ///
-/// With V = J W R S (2 x 3) and its rows v1, v2 the covariance is V V^T + s I; its determinant is taken as
-/// |v1 x v2|^2 + s (|v1|^2 + |v2|^2) + s^2, which is exact for needles, where a c - b b loses all digits.
+/// With V = J W R S (2 x 3) and its rows v1, v2 the covariance is V V^T + s I; its determinant is computed as
+/// |v1 x v2|^2 + s (|v1|^2 + |v2|^2) + s^2. This is exact for needles, for which a c - b b (a, b, c the covariance's
+/// entries) loses all digits.
 pub(super) fn project(gaussians: &Gaussians, gaussian_idx: usize, view: &View) -> Option<ExactSplat> {
     let mean_camera = view.camera_from_world * (gaussians.means[gaussian_idx].as_dvec3() - view.center);
     let depth = mean_camera.z;

@@ -133,8 +133,8 @@ impl<'scene> Renderer<'scene> {
         Ok(DepthMap::assemble(frame.width, frame.height, tiles))
     }
 
-    /// The object in each pixel: of `labels` (one per Gaussian, 0 = none), the one with the largest sum of blending
-    /// weights.
+    /// The object in each pixel: the label with the largest sum of blending weights. `labels` holds one per Gaussian,
+    /// 0 = none.
     ///
     /// # Errors
     /// Those of [`Renderer::render`]; [`RenderError::Length`] unless there is one label per Gaussian.
@@ -148,7 +148,7 @@ impl<'scene> Renderer<'scene> {
     /// pixels, weighted with their blending weights. `lifted` may sum over several pictures.
     ///
     /// # Errors
-    /// Those of [`Renderer::render`]; [`RenderError::Length`] if `values` or `lifted` has another length.
+    /// Those of [`Renderer::render`]; [`RenderError::Length`] if `values` or `lifted` does not fit picture or scene.
     pub fn lift(
         &self,
         camera: &Camera,
@@ -168,7 +168,7 @@ impl<'scene> Renderer<'scene> {
     }
 
     /// The blending weight of every splat in every pixel: nearest first within a pixel, pixels in no defined order. The
-    /// list is long: about fifty entries per pixel in a room.
+    /// list is long: about fifty entries per pixel in an indoor scene.
     ///
     /// # Errors
     /// Those of [`Renderer::render`]; [`RenderError::Memory`] if the list exceeds the limit.

@@ -22,14 +22,14 @@ pub enum Quality {
 impl Quality {
     /// The accuracy knobs of this preset.
     ///
-    /// Chosen on the golden cameras of the kitchen at 1280x720 (`bench render` measures each knob alone). All figures
-    /// are PSNR against the spec image.
+    /// Chosen on the golden cameras of the kitchen scene at 1280x720 (`bench render` measures each knob alone). All
+    /// figures in dB are PSNR against the spec image.
     ///
     /// - [`Precision::Quick`] saves the most time per decibel: `standard` takes a third less time than `final`, at 68
     ///   dB. An alpha cut of 1/128 saves less at 53 dB, a per-pixel stop at 3e-3 saves less at 47 dB.
     /// - A stop per block loses less than a stop per pixel. On fifteen golden cameras a stop at 4e-3 blends up to 5 %
-    ///   fewer splats than one at 1e-3 and costs at most 3 dB (0 dB on the worst camera, 62 dB). A stop at 8e-3 blends
-    ///   8 % fewer and costs 8 dB.
+    ///   fewer splats than one at 1e-3. It costs at most 3 dB, and nothing on the worst camera, which has 62 dB. A stop
+    ///   at 8e-3 blends 8 % fewer and costs 8 dB.
     /// - For `draft`, an alpha cut of 1/64 and a stop at 3e-2 save a fifth to a third of the time at 44 dB. Half the
     ///   resolution saves little more at 37 dB, and takes more time in small scenes.
     pub fn accuracy(self) -> Accuracy {
@@ -101,8 +101,8 @@ pub enum SortMode {
 #[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum ColorClamp {
-    /// A Gaussian's color is clamped to 0 from below, the blended picture to 1 from above: as scenes are trained, and
-    /// as in the spec image.
+    /// A Gaussian's color is clamped to 0 from below, and the blended picture to 1 from above, on conversion to 8 bits:
+    /// as scenes are trained, and as in the spec image.
     #[default]
     Trained,
     /// A Gaussian's color is clamped to 0..=1, as the glTF extension `KHR_gaussian_splatting` specifies.

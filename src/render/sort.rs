@@ -1,9 +1,9 @@
-//! Sorts splats by depth: threads radix sort runs in parallel, then merge them. No two keys are equal, so the order
+//! Sorts splats by depth: a parallel radix sort of runs, then a parallel merge. No two keys are equal, so the order
 //! does not depend on the number of runs.
 
 use bytemuck::{Pod, Zeroable};
 
-/// Bits of a key per pass. With more bits, a pass writes to more places than the cache holds lines for.
+/// Bits of a key per pass. With more bits, a pass writes to more places than the cache has lines.
 const DIGIT_BITS: u32 = 9;
 const NUM_DIGITS: usize = 1 << DIGIT_BITS;
 
@@ -70,7 +70,7 @@ fn merge(left: &[DepthKey], right: &[DepthKey], to: &mut [DepthKey], num_levels:
     rayon::join(|| merge(a, b, front, num_levels - 1), || merge(c, d, back, num_levels - 1));
 }
 
-/// How many of the first `len` merged keys come from the left run.
+/// Number of keys of the left run among the first `len` merged keys.
 fn num_from_left(left: &[DepthKey], right: &[DepthKey], len: usize) -> usize {
     let (mut low, mut high) = (len.saturating_sub(right.len()), len.min(left.len()));
     while low < high {

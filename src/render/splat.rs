@@ -36,9 +36,9 @@ pub(super) struct Splat {
     pub(super) skew_px: f32,
     /// Red, green, blue.
     pub(super) color: [f32; 3],
-    /// Depth along the view axis.
+    /// Depth along the view axis, scene units.
     pub(super) depth: f32,
-    /// The Gaussian.
+    /// Index of the Gaussian.
     pub(super) gaussian_idx: u32,
 }
 

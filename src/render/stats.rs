@@ -36,7 +36,7 @@ pub struct WorkCounts {
 /// Time and work of one picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct RenderStats {
-    /// Wall time of each stage. [`super::Quality::Reference`] reports all of it as `blend`.
+    /// Wall time of each stage. [`super::Quality::Reference`] reports all time as `blend`.
     pub times: StageTimes,
     /// Counters of the work.
     pub counts: WorkCounts,

@@ -28,7 +28,7 @@ pub(super) fn upsample(from: &Frame, canvas: Canvas<'_>, [width, height]: [u32; 
     );
 }
 
-/// The computation of one row of the large picture, compiled for every instruction set.
+/// Computes one row of the large picture; compiled for every instruction set.
 struct EnlargedRow<'a> {
     from: &'a Frame,
     row: &'a Taps,
@@ -148,7 +148,7 @@ fn taps(from: u32, to: u32) -> Vec<Taps> {
     (0..to).map(at).collect()
 }
 
-/// Keys' kernel with a = -1/2; its values at distances of one apart sum to 1.
+/// Keys' kernel with a = -1/2; its values at positions one apart sum to 1.
 fn kernel(distance: f64) -> f64 {
     let x = distance.abs();
     if x < 1.0 {

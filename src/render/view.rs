@@ -8,7 +8,7 @@ use cinesplat_geometry::Camera;
 pub(super) struct View {
     /// Rotation from the world's axes to the camera's.
     pub(super) camera_from_world: DMat3,
-    /// Camera center minus the scene's origin.
+    /// Camera center minus the scene's origin, world axes, scene units.
     pub(super) center: DVec3,
     /// Image width in pixels.
     pub(super) width: u32,

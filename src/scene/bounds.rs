@@ -44,7 +44,7 @@ impl Bounds {
         (self.core_min + self.core_max) / 2.0
     }
 
-    /// Default distance of the near plane: 0.01 times the scene size, at most 0.2, scene units.
+    /// Default distance of the near plane, scene units: 0.01 times the scene size, clamped to 1e-6..=0.2.
     pub fn default_near(&self) -> f64 {
         (0.01 * self.size()).clamp(1e-6, 0.2)
     }

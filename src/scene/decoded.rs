@@ -12,7 +12,7 @@ pub(super) struct DecodedScene {
     pub(super) collected: Collected,
     /// Filter that the file states.
     pub(super) filter: Option<SplatFilter>,
-    /// World up that the file states, with the file's words.
+    /// World up that the file states, with the text that states it.
     pub(super) up: Option<(DVec3, String)>,
     /// Prior probabilities of up axes for this kind of file.
     pub(super) up_prior: UpPrior,

@@ -19,17 +19,17 @@ pub struct SceneInfo {
     pub bounds: Bounds,
     /// Scene size: the diagonal of the core, scene units.
     pub size: f64,
-    /// Filter that `auto` selects.
+    /// Filter to render with: the one that the file states, else [`SplatFilter::Classic`].
     pub filter: SplatFilter,
-    /// Whether the file states that filter.
+    /// Whether the file states it.
     pub filter_is_stated: bool,
     /// World up, unit.
     pub up: [f64; 3],
-    /// Where the up direction comes from.
+    /// Source of `up`.
     pub up_source: UpSource,
     /// Number of distinct object ids in the file, 0 not counted.
     pub num_objects: usize,
-    /// What the reader dropped, repaired or ignored, one line each.
+    /// Notes on dropped, repaired and ignored data, one line each.
     pub notes: Vec<String>,
 }
 

@@ -40,7 +40,7 @@ pub(super) struct RawGaussian {
 enum DropReason {
     #[strum(serialize = "position is not finite")]
     Position,
-    #[strum(serialize = "scale is not a number or infinite")]
+    #[strum(serialize = "scale is negative or not finite")]
     Scale,
     #[strum(serialize = "rotation is zero or not finite")]
     Rotation,
@@ -66,7 +66,7 @@ pub(super) struct Collected {
     pub(super) gaussians: Gaussians,
     /// Positions in the file of the dropped Gaussians, ascending.
     pub(super) dropped: Vec<u32>,
-    /// What was dropped, repaired or ignored, one line each.
+    /// Notes on dropped, repaired and ignored data, one line each.
     pub(super) notes: Vec<String>,
 }
 
@@ -125,7 +125,7 @@ impl Intake {
             return Err(SceneError::Empty { path: path.to_path_buf(), found: u64::from(self.num_seen), reason });
         }
         if self.num_clamped > 0 {
-            notes.push(format!("{} repaired: scale above {MAX_SCALE:e} clamped to that", self.num_clamped));
+            notes.push(format!("{} repaired: scale clamped to {MAX_SCALE:e}", self.num_clamped));
         }
         self.out.origin = local_origin(&self.means);
         if self.out.origin != DVec3::ZERO {

@@ -14,7 +14,7 @@ pub enum UpSource {
     Flag,
     /// The objects file.
     ObjectsFile,
-    /// The scene file, with its own words.
+    /// The scene file, with the text that states it.
     File(String),
     /// An estimate from the scene's floor, with its confidence in percent, 0..=100.
     Estimated(u8),
@@ -34,7 +34,7 @@ impl fmt::Display for UpSource {
 /// A scene with the metadata of its file.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Path it was read from; the name it was asked for if it is generated.
+    /// Path that the scene was read from; the requested name if it is generated.
     pub path: PathBuf,
     /// SHA-256 of the file (of `meta.json` for an unbundled SOG), in lower-case hexadecimal; empty for a generated scene.
     pub sha256: String,
@@ -50,7 +50,7 @@ pub struct Scene {
     pub up: DVec3,
     /// Source of `up`.
     pub up_source: UpSource,
-    /// What the reader dropped, repaired or ignored, one line each, such as `3 dropped: position is not finite`.
+    /// Notes on dropped, repaired and ignored data, one line each, such as `3 dropped: position is not finite`.
     pub notes: Vec<String>,
 }
 

@@ -102,7 +102,7 @@ fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     }
 }
 
-/// Whether at least 9 of 10 among the first records read as Gaussians: positions and scales of plausible magnitude.
+/// Whether at least 9 of 10 of the first records are plausible Gaussians, by the magnitude of positions and scales.
 fn plausible_splat(bytes: &[u8]) -> bool {
     let records = bytes.chunks_exact(32).take(64);
     let total = records.len();

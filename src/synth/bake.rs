@@ -25,7 +25,7 @@ const RAY_OFFSET: f32 = 0.004;
 /// Light of all later bounces relative to the first: r + r^2 + ... of the mean reflectance r of rooms.
 const LATER_BOUNCES: f32 = 0.75;
 
-/// Distance to the nearest occluder from which a direction counts as open, m.
+/// Minimum distance to the nearest occluder at which a direction counts as open, m.
 const OPEN_DISTANCE: f32 = 0.6;
 
 /// Clamp of the radiance of one gathered ray: suppresses fireflies from sunlit spots.
@@ -213,7 +213,7 @@ impl LightIntegrator<'_> {
     }
 }
 
-/// Uniform point on the unit sphere of two uniform numbers in 0..1.
+/// Uniform point on the unit sphere from two uniform numbers in 0..1.
 fn on_unit_sphere(a: f32, b: f32) -> Vec3 {
     let z = 2.0 * a - 1.0;
     let r = (1.0 - z * z).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-/// Detail from which glossy surfaces get a view-dependent sheen (spherical harmonics of degree 1).
+/// Minimum detail at which glossy surfaces get a view-dependent sheen (spherical harmonics of degree 1).
 pub(super) const SHEEN_DETAIL: f64 = 0.5;
 
 /// Ray counts per surfel and grid resolution of the light baking.

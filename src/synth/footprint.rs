@@ -33,7 +33,7 @@ impl Footprint {
         DVec2::new(self.half_extent_along(DVec2::X), self.half_extent_along(DVec2::Y))
     }
 
-    /// Whether the two are closer than `gap`, by the separating-axis test. Between two corners the test overestimates
+    /// Whether the two are closer than `gap`, by the separating-axis test. Between two corners the test underestimates
     /// the distance slightly.
     pub(super) fn overlaps(&self, other: &Self, gap: f64) -> bool {
         if self.low >= other.high - 1e-4 || other.low >= self.high - 1e-4 {

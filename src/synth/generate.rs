@@ -18,8 +18,8 @@ use cinesplat_scene::Gaussians;
 /// Width of a surface cell at detail 1, m.
 const CELL: f64 = 0.02;
 
-/// Exponent of the cell width over the detail. It lies slightly below -1/2: small primitives keep their few cells at
-/// every detail, so the rest has to vary more.
+/// The cell width is proportional to the detail to this power. It is slightly below -1/2: small primitives keep a
+/// minimum number of cells at every detail, so the number of cells of the others must vary more.
 const CELL_POWER: f64 = -0.6;
 
 /// Generates a scene. A detail outside 0.01..=4 is clamped.

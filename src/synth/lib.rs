@@ -1,8 +1,8 @@
 //! Procedural scenes: furnished rooms and still lifes made of Gaussians, with exact objects.
 //!
 //! Enters: [`SynthSettings`] with a seed. Leaves: [`SynthScene`]. Invariant: equal settings give equal bytes on every
-//! machine and with every number of threads. World: y up, m, floor at y = 0, the main furniture at -z, a free aisle in
-//! the middle.
+//! machine and with every number of threads. World: y up, lengths in m, floor at y = 0, the main furniture at -z, a
+//! free aisle in the middle.
 //!
 //! Stages of [`generate`]:
 //! 1. `rooms` draws the proportions of a room and places assets (`assets`, `scene_builder`) in it.

@@ -58,7 +58,7 @@ pub(super) struct Material {
     pub(super) seed: u32,
     /// Strength of the view-dependent sheen, 0..=1.
     pub(super) gloss: f32,
-    /// Emitted light over the reflectance, in units of exposed white.
+    /// Emitted radiance divided by the reflectance, in units of exposed white.
     pub(super) emission: f32,
     /// Peak opacity of its Gaussians.
     pub(super) opacity: f32,

@@ -13,7 +13,7 @@ const GRID_CELL: f32 = 0.14;
 /// Edge of the cells over which bounced light is averaged, at film quality, m.
 const SMOOTH_CELL: f32 = 0.27;
 
-/// Number of gathered rays from which the openness of a single surfel is reliable.
+/// Minimum number of gathered rays for a reliable openness of a single surfel.
 const OWN_OPENNESS_RAYS: u32 = 10;
 
 /// Bounced light on a surfel.

@@ -17,7 +17,7 @@ pub struct SynthObject {
     pub rotation: DQuat,
 }
 
-/// A generated scene with exact objects. World: y up, m.
+/// A generated scene with exact objects. World: y up, lengths in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SynthScene {
     /// The Gaussians, with display-encoded colors of degree 0 or 1.

@@ -16,7 +16,7 @@ pub(super) struct Surfel {
     pub(super) normal: Vec3,
     /// Linear reflectance.
     pub(super) albedo: Vec3,
-    /// Emitted light over the reflectance.
+    /// Emitted radiance divided by the reflectance.
     pub(super) emission: f32,
     /// Peak opacity, 0..=1.
     pub(super) opacity: f32,

@@ -61,7 +61,7 @@ fn outside(material: &Material, frac: DVec2) -> Vec3 {
     far.lerp(hedge, smoothstep(0.01, -0.01, y - hedge_line) as f32)
 }
 
-/// 0 and 0.6 in turn, as a checkerboard of unit cells.
+/// 0 and 0.6 alternately, as a checkerboard of unit cells.
 fn thread(x: f64, y: f64) -> f64 {
     f64::from((x.floor() as i32 + y.floor() as i32).rem_euclid(2)) * 0.6
 }

@@ -4,7 +4,7 @@
 //! Cr = (R' - Y') / 1.5748; 8-bit codes Y = 16 + 219 Y', C = 128 + 224 C. The colors of a scene are display-referred
 //! (trained against photos as they are), so no transfer curve is applied.
 //!
-//! Chroma samples lie at the default position of MPEG-2, H.264 and VP9: on the left one of two columns, halfway between
+//! Chroma samples lie at the default position of MPEG-2, H.264 and VP9: on the left of two columns, halfway between
 //! two rows. Therefore chroma is filtered with weights 1 2 1 horizontally and averaged vertically.
 
 #![allow(

@@ -13,7 +13,7 @@ const GAP: usize = 4;
 /// Gray of the gaps.
 const GAP_GRAY: u8 = 40;
 
-/// Thumbnails of a film in one PNG: twelve frames at even intervals, from the first to the last, in reading order.
+/// Thumbnails of a film in one PNG: up to twelve frames at even intervals, first and last included, in reading order.
 #[derive(Debug, Clone)]
 pub struct ContactSheet {
     size: (usize, usize),
@@ -37,8 +37,8 @@ impl ContactSheet {
         sheet
     }
 
-    /// Adds frame `frame_idx` (0 = first of the film; `width * height * 3` bytes) if it is one of the twelve; ignores
-    /// it otherwise.
+    /// Adds frame `frame_idx` (0 = first of the film; `width * height * 3` bytes) if the sheet shows it; ignores it
+    /// otherwise.
     pub fn add_frame(&mut self, frame_idx: usize, rgb8: &[u8]) {
         for (cell, _) in self.frame_of_cell.iter().enumerate().filter(|&(_, &pick)| pick == frame_idx) {
             let left = GAP + cell % GRID.0 * (self.thumb_size.0 + GAP);

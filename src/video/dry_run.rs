@@ -1,4 +1,4 @@
-//! Measures what encoding costs: encodes a few frames without an output, and states the delay of each encoder.
+//! For estimates of encoding time: encodes frames without writing a file, and returns the delay of each encoder.
 
 use std::path::Path;
 
@@ -29,11 +29,11 @@ pub fn encode_and_discard(path: &Path, settings: &VideoSettings, frames: &[&[u8]
     }
 }
 
-/// Delay of the encoder in frames: how many it takes in before it returns the first packet. About that many are still
-/// to be encoded after the last frame was sent.
+/// Delay of the encoder in frames: the number of frames that it buffers before it returns the first packet. About as
+/// many are still to be encoded after the last frame was sent.
 ///
-/// x264: `rc-lookahead`; with a lookahead thread, one more than the number of B-frames; and the number of threads less
-/// one. The values are those of the presets that `x264 --fullhelp` lists.
+/// For x264 it is the sum of `rc-lookahead`, the number of threads minus one and, with a lookahead, the number of
+/// B-frames plus one. `x264 --fullhelp` lists the values of the presets.
 pub fn encoder_delay_frames(format: &VideoFormat, settings: &VideoSettings) -> usize {
     let (lookahead, num_b_frames) = match settings.preset {
         X264Preset::Ultrafast => (0, 0),

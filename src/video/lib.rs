@@ -1,10 +1,10 @@
 //! Writes frames to a film file or to a numbered sequence of pictures.
 //!
-//! Enters: 8-bit RGB frames, in order. Leaves: H.264 (MP4, Matroska, QuickTime) or VP9 (WebM) with exact times and
-//! BT.709 color tags, or one PNG per frame. The invariant: a film file appears under its own name only when it is
+//! Enters: 8-bit RGB frames, in order. Leaves: H.264 (MP4, Matroska, QuickTime) or VP9 (WebM) with exact timestamps
+//! and BT.709 color tags, or one PNG per frame. The invariant: a film file appears under its own name only when it is
 //! complete and has been read back.
 //!
-//! [`VideoWriter`] writes either kind; the ending of the path decides ([`VideoFormat::from_path`]). Films need the
+//! [`VideoWriter`] writes either kind; the extension of the path decides ([`VideoFormat::from_path`]). Films need the
 //! feature `ffmpeg`, which is on by default. Without it only picture sequences are written.
 
 mod bt709;

@@ -35,5 +35,5 @@ pub(crate) fn has_encoder(_name: &str) -> bool {
 }
 
 fn no_ffmpeg(path: &Path) -> VideoError {
-    VideoError::Missing { missing: "encoder: this program was built without it".to_owned(), path: path.to_owned() }
+    VideoError::Missing { missing: "encoder (this program was built without FFmpeg)".to_owned(), path: path.to_owned() }
 }

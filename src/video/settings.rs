@@ -7,7 +7,7 @@ use super::{FramePattern, VideoError};
 /// Encoder threads. x264 writes their number into the file; a constant keeps the bytes the same on every machine.
 pub(super) const NUM_THREADS: usize = 4;
 
-/// How frames are written to a file.
+/// Settings of a film or of a picture sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VideoSettings {
     /// Frame width in pixels.
@@ -17,7 +17,7 @@ pub struct VideoSettings {
     /// Frames per second, 0.01..=1000.
     pub rate_fps: f64,
     /// Constant rate factor: 0 (best) to 51 for H.264, 0 to 63 for VP9. At about 18 the loss is hard to see. Lowering
-    /// it by 4 makes an H.264 file at 720p half as large again.
+    /// it by 4 makes an H.264 file at 720p about 1.5 times as large.
     pub crf: u8,
     /// Effort of the H.264 encoder: a slower preset gives a smaller file at the same quality.
     pub preset: X264Preset,
@@ -58,7 +58,7 @@ impl VideoSettings {
     pub(super) fn validated(self, format: &VideoFormat) -> Result<Self, VideoError> {
         let bad = |what, found: String, expected| Err(VideoError::BadSetting { what, found, expected });
         if !(1..=16384).contains(&self.width) || !(1..=16384).contains(&self.height) {
-            return bad("frame size", format!("{}x{}", self.width, self.height), "1 to 16384 pixels each way");
+            return bad("frame size", format!("{}x{}", self.width, self.height), "1 to 16384 pixels per side");
         }
         if !(self.rate_fps >= 0.01 && self.rate_fps <= 1000.0) {
             return bad("frame rate", self.rate_fps.to_string(), "0.01 to 1000 frames per second");
@@ -110,20 +110,20 @@ pub enum VideoFormat {
 }
 
 impl VideoFormat {
-    /// The format of an output path, by its ending: `.mp4`, `.m4v`, `.mkv`, `.mov`, `.webm`, or `.png` for a sequence.
+    /// The format of a path, by its extension: `.mp4`, `.m4v`, `.mkv`, `.mov`, `.webm`, or `.png` for a sequence.
     ///
     /// # Errors
-    /// [`VideoError::UnknownFormat`] for another ending, [`VideoError::BadPattern`] for a `.png` name that is not a
+    /// [`VideoError::UnknownFormat`] for another extension, [`VideoError::BadPattern`] for a `.png` name that is not a
     /// [`FramePattern`].
     pub fn from_path(path: &Path) -> Result<Self, VideoError> {
-        let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-        match ending.as_str() {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+        match extension.as_str() {
             "mp4" | "m4v" => Ok(Self::Mp4),
             "mkv" => Ok(Self::Mkv),
             "mov" => Ok(Self::Mov),
             "webm" => Ok(Self::WebM),
             "png" => FramePattern::parse(path).map(Self::Sequence),
-            _ => Err(VideoError::UnknownFormat { found: ending, path: path.to_owned() }),
+            _ => Err(VideoError::UnknownFormat { found: extension, path: path.to_owned() }),
         }
     }
 

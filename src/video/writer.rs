@@ -23,7 +23,7 @@ enum Sink {
 }
 
 impl VideoWriter {
-    /// Starts an output; the ending of `path` decides its format ([`VideoFormat::from_path`]).
+    /// Starts an output; the extension of `path` decides its format ([`VideoFormat::from_path`]).
     ///
     /// # Errors
     /// Those of [`check_output`]; [`VideoError::File`] if the file cannot be created, [`VideoError::Ffmpeg`] if the
@@ -88,8 +88,8 @@ impl VideoWriter {
 ///
 /// # Errors
 /// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::BadSetting`] for a setting
-/// out of range, [`VideoError::Missing`] without the encoder, [`VideoError::File`] for an output that exists and is to
-/// be kept.
+/// out of range, [`VideoError::Missing`] without the encoder, [`VideoError::File`] for an existing output that must not
+/// be replaced.
 pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat, VideoError> {
     let format = VideoFormat::from_path(path)?;
     settings.clone().validated(&format)?;
@@ -122,6 +122,5 @@ fn partial_name(path: &Path) -> PathBuf {
 pub fn odd_size_note(format: &VideoFormat, width: u32, height: u32) -> Option<String> {
     let even = (width.next_multiple_of(2), height.next_multiple_of(2));
     let padded = even != (width, height) && !matches!(format, VideoFormat::Sequence(_));
-    padded
-        .then(|| format!("{width}x{height} is odd: the film is {}x{}, its last column or row repeated", even.0, even.1))
+    padded.then(|| format!("{width}x{height} is odd: the film is {}x{}, last column or row repeated", even.0, even.1))
 }

@@ -41,7 +41,7 @@ const CHUNK_NAMES: [&str; 18] = [
 /// Vertex properties in the order of this module.
 const PACKED_NAMES: [&str; 4] = ["packed_position", "packed_rotation", "packed_scale", "packed_color"];
 
-/// Bounds of a chunk, [low, high] each. Old files have no color bounds; these are 0 and 1.
+/// Bounds of a chunk, [low, high] each. Old files have no color bounds; 0 and 1 replace them.
 #[derive(Clone, Copy)]
 struct Chunk {
     position: [DVec3; 2],

@@ -77,7 +77,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Index of the property of a name.
+    /// Index of the property with a name.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         self.properties.iter().position(|property| property.name == name)
     }
@@ -124,7 +124,7 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// The element of a name.
+    /// The element with a name.
     pub(super) fn element(&self, name: &str) -> Option<&Element> {
         self.elements.iter().find(|element| element.name == name)
     }
@@ -216,7 +216,7 @@ impl<'a> Parser<'a> {
             _ => return Err(self.fault(format!("format `{}`, expected ascii or binary", shortened(name)))),
         };
         if version != "1.0" || self.encoding.is_some() {
-            return Err(self.fault(format!("format version `{}`, expected 1.0, once", shortened(version))));
+            return Err(self.fault(format!("format version `{}`, expected one line with 1.0", shortened(version))));
         }
         self.encoding = Some(encoding);
         Ok(())

@@ -44,7 +44,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Reads all rows of `element` and calls `visit` per row with the values of the properties `wanted`, by index.
+    /// Reads all rows of `element`. Calls `visit` for each row with the values of the properties `wanted` (indices).
     ///
     /// # Errors
     /// [`SceneError::PlyTruncated`] when rows are missing, [`SceneError::PlyValue`] for an invalid value or list length.

@@ -11,8 +11,7 @@ use crate::gaussians::{Gaussians, NUM_SH_REST};
 /// opacity logits, quaternions wxyz.
 ///
 /// Positions are `float`, or `double` for a scene with a local origin, so that they keep their precision. Object ids, if
-/// any, become the property `object_id`. `comments` become comment lines. The file appears under its name when it is
-/// complete.
+/// any, become the property `object_id`. `comments` become comment lines. The file gets its name when it is complete.
 ///
 /// # Errors
 /// [`FileError::Exists`] when the file exists and `existing` keeps it, [`FileError::Create`] or [`FileError::Write`] when

@@ -87,12 +87,12 @@ fn rotation_wxyz([a, b, c, mode]: [u8; 4]) -> Option<[f64; 4]> {
     Some(wxyz)
 }
 
-/// Coefficients above degree 0: a palette of entries and an entry per Gaussian.
+/// Coefficients above degree 0: a palette of entries, and the index of one entry per Gaussian.
 struct HigherDegrees {
     degree: u8,
     /// Coefficients of all entries, entry by entry.
     entries: Vec<Vec3>,
-    /// Entry of each Gaussian.
+    /// Index of the entry of each Gaussian.
     labels: Vec<u16>,
 }
 

@@ -9,9 +9,9 @@ use crate::source_file::SourceFile;
 /// Mapping from bytes to values.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Dequantizer {
-    /// Version 2: a value per byte.
+    /// Version 2: one value per byte.
     Codebook(Vec<f64>),
-    /// Version 1: a linear range per channel.
+    /// Version 1: one linear range per channel.
     Range {
         /// Value of byte 0.
         mins: Vec<f64>,
@@ -38,9 +38,9 @@ pub(super) struct Palette {
     pub(super) dequantizer: Dequantizer,
     /// Degree, 1..=3; `None` in version 1, where the width of the picture decides.
     pub(super) degree: Option<u8>,
-    /// Name of the picture of the entries.
+    /// Name of the picture that holds the entries.
     pub(super) entries: String,
-    /// Name of the picture of the entry per Gaussian.
+    /// Name of the picture that holds the entry index of each Gaussian.
     pub(super) labels: String,
 }
 

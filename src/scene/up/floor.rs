@@ -14,7 +14,7 @@ const WORDS: usize = GRID * GRID / 64;
 /// Maximum number of patches for a footprint.
 const MAX_PATCHES: usize = 10_000;
 
-/// Share of patches below a slab from which the slab is not a floor.
+/// A slab with at least this share of all patches below it is not a floor.
 const MAX_SHARE_BELOW: f64 = 0.2;
 
 /// Cosine of the angle to `up` within which a normal counts as level: 20 degrees, wide enough for noisy captures.
@@ -23,13 +23,13 @@ const LEVEL_COS: f64 = 0.94;
 /// Share of random directions within that angle.
 const LEVEL_CHANCE: f64 = 0.06;
 
-/// Coverage, mass and levelness from which each counts fully. Among the scenes with a known floor, the weakest floor (a
-/// cluttered kitchen) has 0.53, 0.20 and 0.31; the strongest wall (of a living room) has 0.48, 0.25 and 0.93.
+/// Values of coverage, mass and levelness at which each counts fully. Among the scenes with a known floor, the weakest
+/// floor (a cluttered kitchen) has 0.53, 0.20 and 0.31; the strongest wall (of a living room) has 0.48, 0.25 and 0.93.
 const FULL_COVERAGE: f64 = 0.7;
 const FULL_MASS: f64 = 0.15;
 const FULL_LEVELNESS: f64 = 0.3;
 
-/// Number of patches from which the shares are reliable.
+/// Minimum number of patches for reliable shares.
 const FULL_PATCHES: f64 = 1000.0;
 
 /// The best floor perpendicular to a direction.

@@ -39,7 +39,7 @@ const HEIGHT_WEIGHT: f64 = 3.0;
 /// Evidence for a floor below which the candidate is not leveled.
 const MIN_EVIDENCE: f64 = 0.03;
 
-/// Evidence for the leveled floor from which the leveled direction replaces the candidate.
+/// Minimum evidence for the leveled floor with which the leveled direction replaces the candidate.
 const LEVELING_EVIDENCE: f64 = 0.25;
 
 /// Cosine of the angle within which a leveled direction snaps to a coordinate axis (0.5 degrees).

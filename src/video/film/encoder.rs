@@ -60,7 +60,7 @@ impl FilmEncoder {
         self.drain()
     }
 
-    /// Completes the file, reads it back and names it: `target`, else the path that it was created for.
+    /// Completes the file, reads it back and renames it to `target`, or to the path that it was created for.
     pub(crate) fn finish(mut self, target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
         self.encoder.send_eof().map_err(|e| self.fault("encoding", e))?;
         self.drain()?;
@@ -123,7 +123,7 @@ pub(crate) fn encode_and_discard(
     Ok(())
 }
 
-/// Takes the next packet from an encoder; false where it has none until the next frame (`EAGAIN`), or no more (`EOF`).
+/// Takes the next packet from an encoder; false if it has none before the next frame (`EAGAIN`), or no more (`EOF`).
 ///
 /// # Errors
 /// Every other error of the encoder.
