@@ -40,7 +40,7 @@ pub enum DirectorError {
     /// A file of the model is malformed or does not match its description.
     #[error("{part}: found {found}, expected {expected}")]
     BadModel {
-        /// Which part: a file, a field, a tensor.
+        /// The file, field or tensor at fault.
         part: String,
         /// What was found.
         found: String,
@@ -61,7 +61,7 @@ pub enum DirectorError {
     /// An output of the network is not finite.
     #[error("network output {field} is {found}, expected a finite number")]
     NotFinite {
-        /// Which output.
+        /// The output.
         field: &'static str,
         /// The value.
         found: f32,

@@ -2,7 +2,7 @@
 //!
 //! Reference for `se3`, `sim3` and `scale`: S. Umeyama, "Least-squares estimation of transformation parameters between
 //! two point patterns", PAMI 1991. That method uses positions alone. They do not determine the rotation about a
-//! straight line, or any rotation of a standing camera. In these cases the cameras' rotations determine it, and a note
+//! straight line, or any rotation of a stationary camera. In these cases the cameras' rotations determine it, and a note
 //! says so.
 
 use glam::{DMat3, DVec3};
@@ -25,7 +25,7 @@ const STILL_TOLERANCE: f64 = 1e-9;
 #[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Align {
-    /// None.
+    /// No transform.
     #[default]
     None,
     /// The rigid transform that makes the first poses equal.
@@ -51,7 +51,7 @@ pub struct Alignment {
     pub rotation: DMat3,
     /// Translation, applied last.
     pub translation: DVec3,
-    /// States what determined the transform where positions did not; `None` otherwise.
+    /// Says how the transform was determined if positions alone do not determine it; `None` otherwise.
     pub note: Option<String>,
 }
 
@@ -78,7 +78,7 @@ impl Alignment {
 /// The alignment of `estimate` to `reference`, whose poses are matched by index, from the first `num_poses` of them
 /// (all for `None`).
 ///
-/// It is defined for every non-empty input (see the module's documentation for straight and standing paths). Yaw
+/// It is defined for every non-empty input (see the module's documentation for straight and stationary paths). Yaw
 /// rotates about the reference's up, or about the mean up of its cameras if the file states none.
 ///
 /// # Errors
@@ -143,7 +143,7 @@ fn moments(reference: &Trajectory, estimate: &Trajectory) -> Moments {
 }
 
 impl Moments {
-    /// Whether either path stands still up to rounding.
+    /// Whether either path is stationary up to rounding.
     fn stands(&self) -> bool {
         let still = |variance: f64, mean: DVec3| variance.sqrt() <= STILL_TOLERANCE * mean.length() || variance == 0.0;
         still(self.variance_estimate, self.mean_estimate) || still(self.variance_reference, self.mean_reference)
@@ -157,7 +157,7 @@ fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignm
     let (rotation, note) = if m.stands() {
         (
             mean_rotation(reference, estimate),
-            Some("a path stands still: the cameras' rotations determine the rotation, scale stays 1"),
+            Some("a path is stationary: the cameras' rotations determine the rotation, scale stays 1"),
         )
     } else if values.y <= RANK_TOLERANCE * values.x {
         let note = "positions lie on a straight line: the cameras' rotations determine the rotation about it";
@@ -169,7 +169,7 @@ fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignm
     let trace = values.x + values.y + handed * values.z;
     let scale = if with_scale { trace / m.variance_estimate } else { 1.0 };
     if mode == Align::Scale {
-        let note = m.stands().then(|| "a path stands still: scale stays 1".to_owned());
+        let note = m.stands().then(|| "a path is stationary: scale stays 1".to_owned());
         return Alignment { scale, note, ..Alignment::identity(mode) };
     }
     let translation = m.mean_reference - rotation * (m.mean_estimate * scale);

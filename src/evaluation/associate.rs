@@ -28,7 +28,7 @@ pub struct Matches {
     pub dropped_estimate: usize,
     /// Largest time difference of a match; 0 without times.
     pub largest_diff_secs: f64,
-    /// Notes about the matching, for a person to read.
+    /// Notes about the matching, as text for the user.
     pub notes: Vec<String>,
 }
 

@@ -30,7 +30,7 @@ pub struct FilePairs {
 /// Pairs references with estimates of the same stem. Files whose name has no stem (`.hidden`) are skipped.
 ///
 /// # Errors
-/// [`EvaluationError::SameStem`] for two files of one list with the same stem: either could be the one meant.
+/// [`EvaluationError::SameStem`] for two files of one list with the same stem, because the pair is ambiguous.
 pub fn pair_files(references: &[PathBuf], estimates: &[PathBuf]) -> Result<FilePairs, EvaluationError> {
     let (references, mut estimates) = (by_stem(references)?, by_stem(estimates)?);
     let (mut pairs, mut lone_references) = (Vec::new(), Vec::new());
@@ -120,8 +120,8 @@ pub fn summary_text(rows: &[BatchRow]) -> String {
     out
 }
 
-/// The comparisons as JSON text: a list of objects under `pairs`, and under `over_all` the mean, median and worst of
-/// their root mean squares.
+/// The comparisons as JSON text: a list of objects under `pairs`, and under `over_all` the mean, median and largest
+/// of their root mean squares.
 pub fn summary_json(rows: &[BatchRow]) -> String {
     let row = |row: &BatchRow| match &row.outcome {
         Ok(result) => {

@@ -21,7 +21,7 @@ pub enum SettingName {
     /// Diameter of the scene.
     #[strum(serialize = "scene diameter")]
     Diameter,
-    /// Which part of the error is measured.
+    /// The measured part of the error.
     Relation,
 }
 

@@ -23,12 +23,12 @@ pub enum Metric {
     },
 }
 
-/// Settings of a comparison. By default nothing is aligned.
+/// Settings of a comparison. By default paths are not aligned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvalSettings {
     /// Absolute or relative error.
     pub metric: Metric,
-    /// Part of the error pose that is measured.
+    /// The measured part of the error pose.
     pub relation: Relation,
     /// Alignment before the error is computed.
     pub align: Align,
@@ -83,7 +83,7 @@ pub struct Evaluation {
     pub framing: Option<FramingError>,
     /// Mean error over the diameter of the scene or reference path; `None` for errors that are not in scene units.
     pub relative_to_diameter: Option<f64>,
-    /// Notes about matching and alignment, for a person to read.
+    /// Notes about matching and alignment, as text for the user.
     pub notes: Vec<String>,
 }
 
@@ -150,7 +150,7 @@ fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {
     }
     if settings.relation == Relation::PointDistanceRatio && settings.metric == Metric::Ape {
         let (setting, found) = (SettingName::Relation, settings.relation.as_ref().to_owned());
-        return Err(EvaluationError::BadSetting { setting, found, expected: "one that the absolute error has" });
+        return Err(EvaluationError::BadSetting { setting, found, expected: "a relation of absolute errors" });
     }
     Ok(())
 }
@@ -189,7 +189,7 @@ fn relative_errors(
     let kept: Vec<(f64, usize)> = pairs.iter().filter_map(|pair| Some((error(*pair)?, pair.1))).collect();
     let standing = pairs.len() - kept.len();
     if standing > 0 {
-        notes.push(format!("{standing} pairs are omitted: the reference stands still, so they have no ratio"));
+        notes.push(format!("{standing} pairs are omitted: the reference is stationary, so they have no ratio"));
     }
     kept.into_iter().unzip()
 }

@@ -1,4 +1,4 @@
-//! Error of a subject's place and size in the frame.
+//! Error of a subject's position and size in the frame.
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -20,13 +20,13 @@ pub struct SubjectSphere {
 /// Difference of a subject's framing, over matched poses that both have it in front of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramingError {
-    /// Root mean square of the distance between its two places in the frame, in frame heights.
+    /// Root mean square of the distance between its two positions in the frame, in frame heights.
     pub offset_rmse: f64,
     /// Largest such distance, in frame heights.
     pub offset_max: f64,
     /// Root mean square of ln(size in the estimate / size in the reference); 0.1 is about 10 %.
     pub log_size_rmse: f64,
-    /// Of the poses whose reference has the subject's center in a 16:9 frame, the fraction whose estimate does not.
+    /// Among poses whose reference has the subject's center in a 16:9 frame, the fraction whose estimate does not.
     pub lost_frac: f64,
 }
 
@@ -54,7 +54,7 @@ pub fn framing_error(reference: &Trajectory, estimate: &Trajectory, subject: &Su
     })
 }
 
-/// Place of the subject's center from the middle of the frame, and its radius, both in frame heights.
+/// Position of the subject's center relative to the middle of the frame, and its radius, both in frame heights.
 fn projected(path: &Trajectory, idx: usize, subject: &SubjectSphere) -> Option<(DVec2, f64)> {
     let fov_y_rad = path.fov_y_rad.get(idx).copied().flatten()?;
     let camera_from_world = DQuat::from_mat3(path.rotations.get(idx)?).normalize().conjugate();

@@ -1,8 +1,8 @@
 //! Errors between camera paths and measures of one path: alignment, smoothness, motion tags, named moves, plots.
 //!
-//! Enters: timed poses. Leaves: numbers, JSON text, tables and SVG text. The one invariant: nothing is aligned unless
-//! asked. The absolute and relative pose errors equal those of `evo_ape` and `evo_rpe` (evo 1.38.1). For paths on which
-//! evo fails or is ambiguous (straight, standing, turning in place) the result is defined here, and a note states how.
+//! Enters: timed poses. Leaves: numbers, JSON text, tables and SVG text. The one invariant: paths are aligned only on
+//! request. The absolute and relative pose errors equal those of `evo_ape` and `evo_rpe` (evo 1.38.1). For paths on which
+//! evo fails or is ambiguous (straight, stationary, turning in place) the result is defined here, and a note states how.
 //! This crate does no IO.
 
 mod alignment;

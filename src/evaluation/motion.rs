@@ -27,7 +27,7 @@ pub(super) fn motion_value(path: &Trajectory) -> Json {
     ])
 }
 
-/// The motion of a path as text for a person. The table of a long path has only every n-th pose.
+/// The motion of a path as text. The table of a long path has only every n-th pose.
 pub fn motion_text(name: &str, path: &Trajectory) -> String {
     const MAX_ROWS: usize = 24;
     let mut out = format!("{name}: {} poses, length {:.4}\n", path.len(), path.path_length());

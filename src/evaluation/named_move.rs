@@ -2,7 +2,7 @@
 //!
 //! A path is classified by whether its position changes, whether its rotation changes, and whether its focal length
 //! changes. If position and rotation change and all view axes pass near one point, the move is an arc about that point
-//! (an orbit from half a turn on) or, if it is mainly vertical, a crane. The thresholds below are this project's own.
+//! (an orbit from half a turn on) or, if it is mainly vertical, a crane. The thresholds are chosen by this project.
 
 use glam::{DMat3, DQuat, DVec3};
 

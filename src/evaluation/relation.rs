@@ -1,10 +1,10 @@
-//! The part of an error pose that becomes a number.
+//! The measured part of an error pose.
 
 use glam::{DMat3, DVec3};
 
 use super::svd::rotation_angle;
 
-/// The part of the error pose E = (R, t) that becomes a number.
+/// The measured part of the error pose E = (R, t).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
 #[derive(strum::VariantArray, strum::VariantNames)]
@@ -64,7 +64,7 @@ impl Rigid {
         Self { rotation: back * other.rotation, translation }
     }
 
-    /// The number that a relation takes from an error pose.
+    /// The error of this error pose by a relation.
     pub(super) fn error(self, relation: Relation) -> f64 {
         let off = || {
             let d = self.rotation - DMat3::IDENTITY;

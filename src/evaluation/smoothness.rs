@@ -19,8 +19,8 @@ const MIN_AMPLITUDE: f64 = 0.05;
 const PAD_LEVEL: u32 = 4;
 /// Speed at which the cruise starts and ends, as a fraction of the 90th percentile of the speed.
 const CRUISE_FRAC: f64 = 0.8;
-/// A path whose steps are all below this fraction of its distance from the origin (or below this angle, rad) stands
-/// still.
+/// A path whose steps are all below this fraction of its distance from the origin (or below this angle, rad) is
+/// stationary.
 const STILL_FRAC: f64 = 1e-9;
 
 /// Smoothness of a path. Values of the translation are in scene units, those of the rotation (`angular_`) in rad. A
@@ -53,7 +53,7 @@ pub struct Smoothness {
     pub num_reversals: usize,
 }
 
-/// Smoothness of poses at even times; `None` if the path has no times or they do not increase.
+/// Smoothness of poses at uniform times; `None` if the path has no times or they do not increase.
 ///
 /// Derivatives use the mean frame time, so resample a path with gaps first.
 pub fn smoothness(path: &Trajectory) -> Option<Smoothness> {
@@ -127,7 +127,7 @@ impl VelocitySeries {
         let duration = self.step_secs * self.speed.len() as f64;
         let squared = self.jerk.iter().map(|jerk| jerk * jerk).sum::<f64>() * self.step_secs;
         let jerk = duration.powi(3) / self.peak().powi(2) * squared;
-        // The jerk of an even speed is rounding error, whose logarithm is meaningless.
+        // The jerk at constant speed is rounding error, whose logarithm is meaningless.
         self.mean_square_jerk().filter(|_| jerk > 1e-12).map(|_| -jerk.ln())
     }
 

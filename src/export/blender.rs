@@ -17,7 +17,7 @@ const DATA_START: &str = "DATA = ";
 const DATA_END: &str = "# end of DATA";
 
 const SCRIPT_HEAD: &str = r"# Camera path for Blender: open in the Scripting tab and run, or `blender -b FILE.blend --python THIS.py`.
-# Positions are in the splat scene's own world; z_up_from_world turns that world to Blender's, a splat too.
+# Positions are in the splat scene's own world; z_up_from_world rotates it, and any splat in it, to Blender's.
 from math import tan
 
 import bpy

@@ -6,7 +6,7 @@ use super::ExportError;
 use super::json_read::{self, Node};
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 
-/// Which splat filter a caller asks for.
+/// The splat filter that a file or caller requests.
 #[derive(
     Debug,
     Clone,

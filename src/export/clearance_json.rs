@@ -1,7 +1,7 @@
 //! The clearance proof of a shot: the key `clearance` of `shot.json`, an addition to version 1.
 //!
 //! The proof carries a digest of the keys that it was computed for. A proof whose digest differs from that of the keys
-//! in the file is stale, because somebody edited the keys: it is not read.
+//! in the file is stale, because the keys were edited: it is not read.
 
 use std::fmt::Write as _;
 

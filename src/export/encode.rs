@@ -54,7 +54,7 @@ impl Layout {
 pub struct Encoded {
     /// Content of the file or files.
     pub files: EncodedFiles,
-    /// One line per thing that the format cannot hold.
+    /// One line per property that the format cannot hold.
     pub losses: Vec<String>,
 }
 
@@ -137,7 +137,7 @@ pub fn output_files(path: &Path, format: Format, layout: Layout) -> Vec<PathBuf>
     ["cameras", "images", "points3D"].map(|name| folder.join(format!("{name}.{extension}"))).to_vec()
 }
 
-/// Writes a shot to `path` and returns one line per thing that the format cannot hold.
+/// Writes a shot to `path` and returns one line per property that the format cannot hold.
 ///
 /// [`output_files`] returns the paths of the files. Nothing is written if one of them exists and may not be replaced.
 ///

@@ -42,7 +42,7 @@ pub struct Imported {
 }
 
 impl Imported {
-    /// The file's shot, or a shot with one keyframe per pose; and one line per assumption.
+    /// The file's shot, or a shot with one keyframe per pose, with one line per assumption.
     ///
     /// # Errors
     /// [`ExportError::BadShot`] if the poses make no shot, for example because times do not increase.

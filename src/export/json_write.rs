@@ -61,7 +61,7 @@ impl Json {
         }
     }
 
-    /// Length on one line, counted only as far as it matters.
+    /// Characters left of `room` after the value on one line; `None` if it does not fit.
     fn fits(&self, room: usize) -> Option<usize> {
         match self {
             Self::Token(token) => room.checked_sub(token.len()),

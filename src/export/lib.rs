@@ -2,8 +2,8 @@
 //!
 //! Enters: a [`Shot`](cinesplat_trajectory::Shot), or a file. Leaves: files, or shots and [`PoseTrack`]s. In memory a
 //! pose is `world_from_camera` with OpenCV camera axes in the scene's world; each module documents the convention of
-//! its format. Only this crate and `geometry::frames` flip the signs of axes. The one invariant: a warning names
-//! everything that a format cannot hold.
+//! its format. Only this crate and `geometry::frames` flip the signs of axes. The one invariant: warnings name
+//! every property that a format cannot hold.
 
 mod blender;
 pub mod cameras_json;

@@ -1,4 +1,4 @@
-//! Warnings about what a format cannot hold of a track.
+//! Warnings about properties of a track that a format cannot hold.
 
 use glam::DVec3;
 
@@ -13,7 +13,7 @@ const SUPERSPLAT_MAX_KEYS: usize = 1000;
 /// Roll below which a camera counts as level, rad.
 const LEVEL_RAD: f64 = 1e-3;
 
-/// One line per thing in `track` that `format` cannot hold.
+/// One line per property of `track` that `format` cannot hold.
 pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
     let holds = format.holds();
     let mut lines = Vec::new();

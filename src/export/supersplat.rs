@@ -103,7 +103,7 @@ fn effects_off() -> Json {
     ])
 }
 
-/// Distance of targets without a focus distance: the extent of the path, or 1 for a standing camera.
+/// Distance of targets without a focus distance: the extent of the path, or 1 for a stationary camera.
 fn target_distance(track: &PoseTrack) -> f64 {
     let positions = track.frames.iter().map(|frame| frame.pose.position);
     let (low, high) =
@@ -159,8 +159,9 @@ fn read_document(root: &Node) -> Result<PoseTrack, ExportError> {
         let (position, target) =
             (pose.field("position", "3 numbers")?.vector()?, pose.field("target", "3 numbers")?.vector()?);
         let fov_deg = pose.optional("fov").map_or(Ok(default_fov_deg), |fov| fov.number())?;
-        frames
-            .push(frame(time_secs, position, target, fov_deg).ok_or_else(|| pose.error("position and target apart"))?);
+        frames.push(
+            frame(time_secs, position, target, fov_deg).ok_or_else(|| pose.error("different position and target"))?,
+        );
     }
     frames.sort_by(|a, b| a.time_secs.total_cmp(&b.time_secs));
     Ok(track_of(frames, fps))
@@ -173,7 +174,7 @@ fn frame_rate(node: Option<Node>) -> Result<f64, ExportError> {
 }
 
 fn no_direction(place: String) -> ExportError {
-    ExportError::BadField { place, found: "position = target".into(), expected: "the two apart".into() }
+    ExportError::BadField { place, found: "position = target".into(), expected: "two different points".into() }
 }
 
 /// A frame from SuperSplat's world. The aspect is that of the default image size, because the file states none.

@@ -16,7 +16,7 @@ pub(super) const DEFAULT_SIZE_PX: (u32, u32) = (1280, 720);
 pub struct PoseTrack {
     /// Image width and height in pixels; `None` if the file does not state them.
     pub size_px: Option<(u32, u32)>,
-    /// Frames per second; `None` if the file states no rate and the times are not even.
+    /// Frames per second; `None` if the file states no rate and the times are not uniform.
     pub fps: Option<f64>,
     /// World up; `None` if the file does not state it.
     pub up: Option<DVec3>,
@@ -50,7 +50,7 @@ pub struct PoseFrame {
 }
 
 impl PoseFrame {
-    /// A pose at a time, with nothing else known.
+    /// A pose at a time, without lens or cut.
     pub fn new(time_secs: f64, pose: Pose) -> Self {
         let easing = Easing::Linear;
         Self { time_secs, pose, fov_y_rad: None, focus_distance: None, easing, cut: false, matrix: None }
@@ -72,7 +72,7 @@ impl From<&Keyframe> for PoseFrame {
 }
 
 impl PoseTrack {
-    /// A track of frames without times, with nothing else known.
+    /// A track of frames without times, image size, rate or up.
     pub(super) fn untimed(frames: Vec<PoseFrame>) -> Self {
         Self { size_px: None, fps: None, up: None, timed: false, frames, keys: Vec::new() }
     }
@@ -112,8 +112,8 @@ impl PoseTrack {
         }
     }
 
-    /// A shot with one keyframe per frame and times from 0, and one line per default that stands for what the file does
-    /// not state.
+    /// A shot with one keyframe per frame and times from 0, and one line per default that replaces a value missing in the
+    /// file.
     ///
     /// # Errors
     /// [`ExportError::NoPoses`] without frames, [`ExportError::BadShot`] if times do not increase or a number is out of
@@ -142,7 +142,7 @@ impl PoseTrack {
         Ok((shot.validated()?, self.assumptions()))
     }
 
-    /// Whether the times are even at the frame rate, as for the frames of a film.
+    /// Whether the times are uniform at the frame rate, as for the frames of a film.
     fn is_sampled(&self) -> bool {
         let Some(fps) = self.fps else { return false };
         let even = |pair: &[PoseFrame]| ((pair[1].time_secs - pair[0].time_secs) * fps - 1.0).abs() < 1e-3;

@@ -29,11 +29,11 @@ pub enum LanguageError {
     /// Malformed embedded data: a fault of this program.
     #[error("{file} line {line}: {what}")]
     BadData {
-        /// Which file.
+        /// The file.
         file: &'static str,
         /// Line, from 1.
         line: usize,
-        /// What is wrong there.
+        /// The defect.
         what: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Balls that contain every position of an interval of a path, whatever its timing.
+//! Balls that contain every position of an interval of a path, independent of timing.
 //!
 //! The bounds come from the curves' control values, never from samples: a cubic lies in the convex hull of its Bezier
 //! points, and the azimuth, radius and height of an arc each lie between their own Bezier values.
@@ -36,7 +36,7 @@ impl PathInterval {
 pub struct BoundingBall {
     /// The path's position in the middle of the interval.
     pub center: DVec3,
-    /// Scene units.
+    /// Radius, scene units.
     pub radius: f64,
 }
 

@@ -1,4 +1,4 @@
-/// A proven lower bound of the distance between a whole path and the matter of its scene.
+/// A proven lower bound of the distance between a whole camera path and the matter of its scene.
 ///
 /// The bound holds at every moment, not only at samples. Matter is the ellipsoids of all Gaussians whose opacity is at
 /// least `opacity_floor`, each out to `sigma_level` standard deviations.
@@ -18,11 +18,11 @@ pub struct ClearanceProof {
     pub gaussian_idx: Option<usize>,
     /// Number of path intervals that the proof examined.
     pub num_intervals: usize,
-    /// First stretch of time with a distance below `camera_radius`; `None` if the path is clear.
+    /// First time interval with a distance below `camera_radius`; `None` if the path is clear.
     pub failure: Option<ClearanceFailure>,
 }
 
-/// The first stretch of time in which the camera is too near to matter.
+/// The first time interval in which the camera is too near to matter.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ClearanceFailure {
     /// Its start.

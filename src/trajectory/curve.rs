@@ -70,7 +70,7 @@ fn range_deviation(track: &Track<f64>, segment: usize, range: (f64, f64), middle
     sub_bezier(track.bezier(segment), range).into_iter().map(|value| (value - middle).abs()).fold(0.0, f64::max)
 }
 
-/// Sign of the change of azimuth that an orbit or arc asks for; 0 for every other move.
+/// Sign of the change of azimuth in an orbit or arc; 0 for every other move.
 ///
 /// Travel to the camera's right is counter-clockwise from above and lowers the camera's azimuth about the pivot,
 /// because azimuths grow clockwise.
@@ -82,7 +82,7 @@ fn arc_sign(key: &Keyframe) -> f64 {
     }
 }
 
-/// Sign of the change of yaw that a pan asks for; 0 for every other move.
+/// Sign of the change of yaw in a pan; 0 for every other move.
 fn pan_sign(key: &Keyframe) -> f64 {
     match key.intent.as_ref().and_then(|intent| intent.movement) {
         Some(Move::PanRight) => 1.0,
@@ -115,7 +115,7 @@ fn unwrapped(angles: &[f64], signs: &[f64]) -> Vec<f64> {
 /// Rotations (`world_from_camera`) over knots.
 #[derive(Debug, Clone)]
 pub(super) enum RotationCurve {
-    /// Yaw, pitch and roll interpolated separately: the horizon stays as level as the keys are.
+    /// Yaw, pitch and roll interpolated separately: the horizon stays level if the keys are level.
     Level { frame: LevelFrame, angles: AngleTracks },
     /// Aimed at a point from every position, plus the interpolated offsets of the keys from that aim.
     Aimed { frame: LevelFrame, target: DVec3, offsets: AngleTracks },

@@ -1,6 +1,6 @@
 //! Named speed profiles of a segment.
 //!
-//! Prompts can ask for four of them. The others are the common curves of animation programs (R. Penner, "Motion,
+//! Prompts can name four of them. The others are the common curves of animation programs (R. Penner, "Motion,
 //! Tweening, and Easing", 2002), without back, elastic and bounce, which overshoot or run backward, and without circ,
 //! whose speed is unbounded at one end.
 
@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, LN_2};
 
 /// How the camera's speed changes along the segment that starts at a key.
 ///
-/// `smooth`, `linear`, `ease-in` and `ease-out` cruise at even speed, with a ramp at each end that is at rest, so that
+/// `smooth`, `linear`, `ease-in` and `ease-out` cruise at constant speed, with a ramp at each end that is at rest, so that
 /// the middle of a move is steady. The others follow one curve from key to key: `in` starts from rest, `out` comes to
 /// rest, `in-out` does both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, LN_2};
 pub enum Easing {
     /// Ramp up, cruise, ramp down: at rest at both ends.
     Smooth,
-    /// Even speed, at rest at neither end.
+    /// Constant speed, at rest at neither end.
     Linear,
     /// Ramp up, cruise: at rest at the start.
     EaseIn,
@@ -126,7 +126,7 @@ impl Curve {
 }
 
 impl Easing {
-    /// The easings that a prompt can ask for: the vocabulary of the director.
+    /// The easings that a prompt can name: the vocabulary of the director.
     pub const VOCABULARY: &'static [Self] = &[Self::Smooth, Self::Linear, Self::EaseIn, Self::EaseOut];
 
     /// Whether the camera is at rest where the segment starts.

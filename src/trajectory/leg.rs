@@ -12,7 +12,7 @@ pub(super) const FINE_CHORDS: usize = 128;
 /// The same for paths that a solver only scores, by the hundred (error 2e-4 of a 45 degree arc).
 pub(super) const COARSE_CHORDS: usize = 6;
 
-/// What changes along a segment. All segments of a leg are of one kind.
+/// The kind of change along a segment. All segments of a leg are of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum LegKind {
     /// The camera's position changes.
@@ -28,7 +28,7 @@ pub(super) enum LegKind {
 }
 
 impl LegKind {
-    /// What changes from key `a` to key `b`; `extent` is that of the whole path, scene units.
+    /// The kind of change from key `a` to key `b`; `extent` is that of the whole path, scene units.
     pub(super) fn between(a: &Keyframe, b: &Keyframe, has_up: bool, extent: f64) -> Self {
         if a.pose.position.distance(b.pose.position) > 1e-7 * extent {
             return match a.intent.as_ref().and_then(|intent| Some((intent.movement?, intent.pivot?))) {
@@ -61,7 +61,7 @@ pub(super) struct Leg {
     focal_is_log: bool,
     /// Focus distance at each key.
     focus: Vec<Option<f64>>,
-    /// Per segment the cumulative length at even fractions of its parameter, `num_chords + 1` values.
+    /// Per segment the cumulative length at uniform fractions of its parameter, `num_chords + 1` values.
     lengths: Vec<Vec<f64>>,
     num_chords: usize,
 }
@@ -141,7 +141,7 @@ impl Leg {
         CameraState { pose, fov_y_rad: 2.0 * (1.0 / focal).atan(), focus_distance }
     }
 
-    /// Cumulative length of a segment at even fractions of its parameter.
+    /// Cumulative length of a segment at uniform fractions of its parameter.
     fn cumulative_lengths(&self, segment: usize, kind: LegKind) -> Vec<f64> {
         let mut total = 0.0;
         let mut last = self.at_fraction(segment, 0.0);
@@ -169,7 +169,7 @@ fn common_pivot(keys: &[Keyframe]) -> Option<DVec3> {
 }
 
 /// Knots of a leg's keys: centripetal for travel (no cusps or overshoot, Yuksel et al. 2011), chord length for arcs,
-/// angle for turns, even for the rest.
+/// angle for turns, uniform for the rest.
 fn knots(keys: &[Keyframe], kind: LegKind) -> Vec<f64> {
     let mut knots = vec![0.0];
     for pair in keys.windows(2) {

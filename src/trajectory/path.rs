@@ -44,7 +44,7 @@ impl CameraPath {
         Self::through(keys, Some(frame), FINE_CHORDS)
     }
 
-    /// As [`Self::fine`], built faster: lengths, and so positions in time, have a relative error of 2e-4.
+    /// As [`Self::fine`], built faster: lengths, and therefore positions over time, have a relative error of 2e-4.
     pub fn coarse(keys: Vec<Keyframe>, frame: LevelFrame) -> Self {
         Self::through(keys, Some(frame), COARSE_CHORDS)
     }
@@ -88,7 +88,7 @@ impl CameraPath {
         Some((&self.legs[leg], segment))
     }
 
-    /// Fraction of the curve that leaves a key which the camera has covered at a time; 0 where the camera stays.
+    /// Fraction, covered by the camera at a time, of the curve that leaves a key; 0 where the camera stays.
     pub(super) fn fraction_at(&self, key_idx: usize, time_secs: f64) -> f64 {
         let (Some((leg, segment)), Some(timed)) = (self.leg_after(key_idx), self.segments.get(key_idx)) else {
             return 0.0;

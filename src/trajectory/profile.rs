@@ -1,4 +1,4 @@
-//! Speed over the time of one segment: a ramp, then an even cruise or the curve of an easing, then a ramp.
+//! Speed over the time of one segment: a ramp, then a cruise at constant speed or the curve of an easing, then a ramp.
 
 use super::Easing;
 use super::easing::Curve;
@@ -12,7 +12,7 @@ const RAMP_FRAC: f64 = 0.35;
 /// that the curve keeps its shape, and so that two blends at twice the steepest slope of any curve do not use up the
 /// length.
 const CURVE_RAMP_FRAC: f64 = 0.12;
-/// Number of even steps of a segment's time in the table of a blended curve.
+/// Number of equal time steps in the table of a blended curve.
 const NUM_STEPS: usize = 128;
 
 /// Duration of a ramp to or from rest in a segment of a given duration.
@@ -26,8 +26,8 @@ pub(super) fn natural_speeds(easing: Easing, mean: f64, cruise: f64) -> (f64, f6
     easing.curve().map_or((cruise, cruise), |curve| (curve.at(0.0).1 * mean, curve.at(1.0).1 * mean))
 }
 
-/// Length covered over the time of one segment. Speed is continuous: from a speed that is required at an end it changes
-/// to that of the easing within one ramp.
+/// Length covered over the time of one segment. Speed is continuous: within one ramp it changes from the speed required
+/// at an end to that of the easing.
 #[derive(Debug, Clone)]
 pub(super) struct SpeedProfile {
     duration_secs: f64,
@@ -37,11 +37,11 @@ pub(super) struct SpeedProfile {
 
 #[derive(Debug, Clone)]
 enum ProfileShape {
-    /// An even cruise between two ramps.
+    /// A cruise at constant speed between two ramps.
     Cruise { start_speed: f64, end_speed: f64, cruise_speed: f64, ramp_secs: f64 },
     /// The curve of an easing from end to end.
     Curve(Curve),
-    /// A curve that blends into another speed at an end: length and speed at even times.
+    /// A curve that blends into another speed at an end: length and speed at uniform times.
     Table(Vec<(f64, f64)>),
 }
 
@@ -111,7 +111,7 @@ fn smoothstep(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Length and speed at even times of a curve that blends into the required speeds at its ends.
+/// Length and speed at uniform times of a curve that blends into the required speeds at its ends.
 ///
 /// The whole curve is scaled so that the length stays the same. The speed is never below 0.
 fn blended_table(curve: Curve, duration_secs: f64, length: f64, ends: [Option<f64>; 2]) -> Vec<(f64, f64)> {
@@ -140,7 +140,7 @@ fn integral(f: impl Fn(f64) -> f64) -> f64 {
     (0..NUM_STEPS).map(|step| step_integral(&f, step)).sum()
 }
 
-/// Integral over one of the even steps of 0..1, by Simpson's rule.
+/// Integral over one of the equal steps of 0..1, by Simpson's rule.
 fn step_integral(f: impl Fn(f64) -> f64, step: usize) -> f64 {
     let at = |i: f64| f((step as f64 + i) / NUM_STEPS as f64);
     (at(0.0) + 4.0 * at(0.5) + at(1.0)) / (6.0 * NUM_STEPS as f64)

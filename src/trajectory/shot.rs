@@ -24,7 +24,7 @@ pub struct Shot {
     pub duration_secs: f64,
     /// Keys in order of time, at least one.
     pub keyframes: Vec<Keyframe>,
-    /// Effects that the prompt or a person asked for.
+    /// Effects requested by the prompt or the user.
     pub effects: Vec<EffectRequest>,
     /// One line per clause of the prompt: requested and achieved values.
     pub report: Vec<ReportLine>,
@@ -82,7 +82,7 @@ pub struct Intent {
     pub movement: Option<Move>,
     /// Height from which the camera sees the subject.
     pub angle: Option<ShotAngle>,
-    /// Byte range of the prompt that asks for it.
+    /// Byte range of the prompt that this key comes from.
     pub words: Option<[usize; 2]>,
     /// For orbits and arcs a point on the upright axis of the circle, world. With it the path from this key to the next
     /// is a true circle. JSON key `pivot`, an addition to version 1.
@@ -94,7 +94,7 @@ pub struct Intent {
 pub struct EffectRequest {
     /// Name, as in `--effects`.
     pub kind: String,
-    /// Reason, for a person to read.
+    /// Reason, as text for the user.
     pub because: String,
     /// Further settings as names and values.
     pub settings: Vec<(String, f64)>,
@@ -111,7 +111,7 @@ pub struct ReportLine {
     pub got: f64,
     /// Whether the achieved value satisfies the request.
     pub met: bool,
-    /// What was compromised and why; may be empty.
+    /// Compromise and its reason; may be empty.
     pub note: String,
 }
 

@@ -1,4 +1,4 @@
-//! Even speed: times of inner keys chosen so that the camera cruises at one speed.
+//! Constant speed: times of inner keys chosen so that the camera cruises at one speed.
 
 use super::leg::FINE_CHORDS;
 use super::profile::ramp_secs;
@@ -6,10 +6,10 @@ use super::segments::{MeasuredSegment, split_into_legs};
 use super::{Keyframe, Shot};
 use cinesplat_geometry::LevelFrame;
 
-/// The shot with the inner keys of every leg moved to times of even speed along the path.
+/// The shot with the inner keys of every leg moved in time so that the speed along the path is constant.
 ///
-/// First and last keys, cuts and moments of rest keep their times. So does a leg with an easing that follows a curve.
-/// The clearance proof is dropped.
+/// First and last keys, cuts, moments of rest, and legs with an easing that follows a curve keep their times. The
+/// clearance proof is dropped.
 pub fn retimed(shot: &Shot) -> Shot {
     let frame = shot.scene.up.and_then(|up| LevelFrame::new(up).ok());
     let mut out = shot.clone();
@@ -28,7 +28,7 @@ pub fn retime(keys: &mut [Keyframe], frame: Option<LevelFrame>) {
     while first < segments.len() {
         let leg = segments[first].leg.map(|(leg, _)| leg);
         let count = segments[first..].iter().take_while(|s| leg.is_some() && s.leg.map(|(l, _)| l) == leg).count();
-        // A curve sets its own speeds, which are not even.
+        // The speed along a curve is not constant.
         let even = segments[first..first + count].iter().all(|segment| segment.easing.curve().is_none());
         if count > 1 && even {
             retime_leg(&mut keys[first..=first + count], &segments[first..first + count]);
@@ -39,7 +39,7 @@ pub fn retime(keys: &mut [Keyframe], frame: Option<LevelFrame>) {
 
 /// Distributes the time of one leg over its segments so that all cruise at one speed `c`.
 ///
-/// `T_i = L_i / c + r_i / 2` for a segment of length `L_i` with ramps of `r_i` in all from or to rest. The ramps depend
+/// `T_i = L_i / c + r_i / 2` for a segment of length `L_i` whose ramps from or to rest last `r_i` in total. The ramps depend
 /// on the times, so the equation is iterated.
 fn retime_leg(keys: &mut [Keyframe], segments: &[MeasuredSegment]) {
     let total_secs = keys[keys.len() - 1].time_secs - keys[0].time_secs;

@@ -52,7 +52,7 @@ pub enum Move {
     DollyZoomIn,
     /// Away from the subject while the field of view narrows, with the subject's height in the frame constant.
     DollyZoomOut,
-    /// From one framing to the next with the subject in the frame.
+    /// From one framing to the next while the subject stays in the frame.
     Follow,
     /// Forward along a collision-free path, through gaps.
     FlyThrough,

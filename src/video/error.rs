@@ -43,7 +43,7 @@ pub enum VideoError {
     /// A file cannot be created, written, named or read back.
     #[error(transparent)]
     File(#[from] FileError),
-    /// FFmpeg fails.
+    /// A call of FFmpeg fails.
     #[error("{}: {action} failed: {message}", path.display())]
     Ffmpeg {
         /// The failed action.

@@ -1,4 +1,4 @@
-//! Paths that positions alone cannot align: straight, standing still, turning in place, one pose.
+//! Paths that positions alone cannot align: straight, stationary, turning in place, one pose.
 
 use cinesplat::evaluation::{Align, EvalSettings, Evaluation, Relation, Trajectory, evaluate};
 use cinesplat::geometry::{Pose, rotation};

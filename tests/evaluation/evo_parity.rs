@@ -19,7 +19,7 @@ const TOLERANCE: f64 = 1e-9;
 struct Case {
     reference: Trajectory,
     estimate: Trajectory,
-    /// Matching as evo was told; no alignment.
+    /// Matching settings given to evo; no alignment.
     settings: EvalSettings,
     expected: Value,
 }

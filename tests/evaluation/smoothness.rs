@@ -37,11 +37,11 @@ fn a_wobble_is_less_smooth_by_every_measure() {
 }
 
 #[test]
-fn an_even_speed_has_no_ripple_and_a_ramp_is_no_cruise() {
+fn a_constant_speed_has_no_ripple_and_a_ramp_is_no_cruise() {
     let even = moved(|s| s);
     assert!(even.speed_ripple.unwrap() < 1e-12 && even.jerk_rms.unwrap() < 1e-9);
     assert_eq!(even.log_dimensionless_jerk, None);
-    // A fifth of the time to accelerate, three fifths at even speed, a fifth to slow down.
+    // A fifth of the time to accelerate, three fifths at constant speed, a fifth to slow down.
     let ramped = moved(|s| {
         if s < 0.2 {
             s * s / 0.4

@@ -32,7 +32,7 @@ fn paths_that_say_their_format() {
 }
 
 #[test]
-fn content_decides_on_the_way_in() {
+fn the_content_determines_the_format_of_an_import() {
     let name = |bytes: &[u8]| Format::detect(bytes).map(<&str>::from);
     assert_eq!(name(b"# c\n1 2 3 4 0 0 0 1\n"), Some("tum"));
     assert_eq!(name(b"1 0 0 0 0 1 0 0 0 0 1 0\n"), Some("kitti"));

@@ -1,4 +1,4 @@
-//! Files that are cut off, claim false counts or nest too deeply are an error, and no claimed count is allocated.
+//! Truncated files, wrong counts and deep nesting are errors, and no count is allocated before it is checked.
 
 use cinesplat::export::{Content, Format, read};
 

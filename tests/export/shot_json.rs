@@ -36,7 +36,7 @@ fn a_quaternion_typed_by_hand_becomes_a_unit_one() {
 }
 
 #[test]
-fn what_is_written_reads_back_the_same() {
+fn a_written_shot_reads_back_the_same() {
     let shot = read(EXAMPLE).unwrap();
     assert_same(&shot, &read(&write(&shot)).unwrap());
     assert_eq!(write(&shot), write(&read(&write(&shot)).unwrap()));
@@ -103,7 +103,7 @@ fn hostile_text_is_refused_cleanly() {
 }
 
 #[test]
-fn what_was_proved_is_kept_until_somebody_edits_a_key() {
+fn a_proof_is_kept_until_a_key_is_edited() {
     let mut shot = read(EXAMPLE).unwrap();
     shot.clearance = Some(ClearanceProof {
         camera_radius: 0.08,

@@ -1,4 +1,4 @@
-//! Warnings name what a format cannot hold, and nothing else.
+//! Warnings name the properties that a format cannot hold, and nothing else.
 
 use cinesplat::export::{Content, Format};
 

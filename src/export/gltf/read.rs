@@ -160,11 +160,11 @@ fn channels(root: &Node, buffers: &[Vec<u8>], node: usize, camera: usize) -> Res
     for animation in animations.items()? {
         let samplers = animation.field("samplers", "a list")?.items()?;
         for channel in animation.field("channels", "a list")?.items()? {
-            let target = channel.field("target", "what it animates")?;
+            let target = channel.field("target", "an animation target")?;
             let is_node = target.optional("node").and_then(|idx| idx.whole(u64::MAX).ok()) == Some(node as u64);
             let extension = target.optional("extensions").and_then(|extensions| extensions.optional(POINTER));
             let pointed = extension.and_then(|extension| extension.optional("pointer"));
-            let slot = match target.field("path", "what it animates")?.text()? {
+            let slot = match target.field("path", "an animated property")?.text()? {
                 "translation" if is_node => &mut found.translation,
                 "rotation" if is_node => &mut found.rotation,
                 "pointer" if pointed.is_some_and(|text| text.text().is_ok_and(|text| text == pointer)) => {

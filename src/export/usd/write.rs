@@ -7,7 +7,7 @@ use super::super::opengl::{opengl_rotation, y_up_from_world};
 use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::rotation;
 
-/// Time codes between the sample that holds the pose before a cut and the cut.
+/// Time from the sample that holds the pose before a cut to the cut, time codes.
 pub(super) const HOLD_CODES: f64 = 1e-3;
 /// Height of the film back, tenths of a scene unit: 24 mm, full frame.
 const FILM_HEIGHT: f64 = 0.24;

@@ -1,6 +1,6 @@
 use cinesplat_trajectory::Move;
 
-/// Why a text is no program in the notation.
+/// Error of a text that is no program in the notation.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NotationError {
     /// A step without a move.
@@ -13,7 +13,7 @@ pub enum NotationError {
         name: String,
     },
     /// A direction that the move of its step does not have.
-    #[error("\"{movement}\" does not go {direction}")]
+    #[error("\"{movement}\" has no direction {direction}")]
     WrongDirection {
         /// The move.
         movement: Move,

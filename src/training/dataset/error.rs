@@ -11,7 +11,7 @@ use cinesplat_objects::ObjectsError;
 /// Error of writing or reading a dataset.
 #[derive(Debug, Error)]
 pub enum DatasetError {
-    /// The sampler of prompts, or a stored prompt.
+    /// A prompt cannot be sampled, or a stored prompt cannot be read.
     #[error(transparent)]
     Language(#[from] LanguageError),
     /// A scene without extent or up direction.

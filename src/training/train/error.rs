@@ -10,17 +10,17 @@ use cinesplat_language::LanguageError;
 /// Error of training or evaluating a network.
 #[derive(Debug, Error)]
 pub enum TrainError {
-    /// The network or its files.
+    /// The network fails, or its files cannot be read.
     #[error(transparent)]
     Director(#[from] DirectorError),
-    /// The sampler of prompts, or an evaluation split.
+    /// A prompt cannot be sampled, or an evaluation split cannot be read.
     #[error(transparent)]
     Language(#[from] LanguageError),
-    /// The realized shots.
+    /// The realized shots cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// The sampler does not draw a prompt that keys can express.
-    #[error("no example number {number} after 100 draws, expected a prompt with few enough steps and objects")]
+    /// The sampler draws no prompt within the limits on keys, objects and mentions.
+    #[error("example {number}: no usable prompt in 100 draws, expected one with few enough steps and objects")]
     NoExample {
         /// Number of the example.
         number: u64,
