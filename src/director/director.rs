@@ -141,8 +141,8 @@ fn direction(decoded: &DecodedPrompt, grounding: &Grounding, frame: &SceneFrame)
     Ok(Direction { program, step_cameras: step_cameras.collect(), certainty })
 }
 
-/// World cameras of pose codes, each with its time from the start of the film. A degenerate rotation becomes that of the
-/// camera before.
+/// World cameras of pose codes, each with its time from the start of the film. A degenerate rotation is replaced by the
+/// rotation of the camera before.
 fn cameras(poses: &[PoseCode], frame: &SceneFrame) -> Result<Vec<(f64, CameraState)>, DirectorError> {
     let mut fallback = level_rotation();
     let mut time_secs = 0.0;

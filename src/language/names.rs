@@ -65,7 +65,7 @@ pub(crate) struct NameIndex<'a> {
 }
 
 /// Words that end the front of a label, after which its tail begins.
-const LINKS: [&str; 8] = ["of", "with", "on", "in", "for", "from", "at", "under"];
+const TAIL_PREPOSITIONS: [&str; 8] = ["of", "with", "on", "in", "for", "from", "at", "under"];
 
 impl<'a> NameIndex<'a> {
     pub(crate) fn new(objects: &[NamedObject], lexicon: &'a Lexicon) -> Self {
@@ -150,14 +150,15 @@ impl<'a> NameIndex<'a> {
         let mut found = Vec::new();
         for other in self.lexicon.synonyms.get(name).into_iter().flatten() {
             let last = other.rsplit(' ').next().unwrap_or(other);
-            found
-                .extend(self.candidates(last).filter(|i| self.is_called(*i, other, before)).map(|i| (Fit::Synonym, i)));
+            found.extend(
+                self.candidates(last).filter(|i| self.front_matches(*i, other, before)).map(|i| (Fit::Synonym, i)),
+            );
         }
         found
     }
 
     /// Whether the front of the label ends in `name` and contains the words `before`.
-    fn is_called(&self, index: usize, name: &str, before: &[Word]) -> bool {
+    fn front_matches(&self, index: usize, name: &str, before: &[Word]) -> bool {
         let Some(label) = self.labels.get(index) else { return false };
         let front: Vec<&String> = label.qualifiers.iter().chain([&label.head]).collect();
         let name: Vec<&str> = name.split(' ').collect();
@@ -216,7 +217,7 @@ fn last_words(label: &ParsedLabel) -> Vec<String> {
 
 fn parse_label(label: &str) -> ParsedLabel {
     let words = tokenize(label);
-    let link = words.iter().position(|word| LINKS.contains(&word.text.as_str())).filter(|at| *at > 0);
+    let link = words.iter().position(|word| TAIL_PREPOSITIONS.contains(&word.text.as_str())).filter(|at| *at > 0);
     let (front, rest) = words.split_at(link.unwrap_or(words.len()));
     let stems = |words: &[Word]| words.iter().map(|word| word.stem.clone()).collect::<Vec<_>>();
     let (head, qualifiers) = front.split_last().map_or((None, &[][..]), |(head, before)| (Some(head), before));

@@ -22,7 +22,7 @@ pub struct AlphaShapes {
 }
 
 /// Distance, in grid units, by which rounding to the grid can move points off their common line.
-const ON_LINE: f64 = 1.5;
+const LINE_TOLERANCE: f64 = 1.5;
 
 /// The dimension of the points' affine hull.
 #[derive(Debug, Clone)]
@@ -104,14 +104,14 @@ impl AlphaShapes {
 }
 
 /// Tests for a line before triangulating. Snapping moves points off a slanted line by less than a unit, so that points
-/// within [`ON_LINE`] units of the line through two far points count as on it.
+/// within [`LINE_TOLERANCE`] units of the line through two far points count as on it.
 fn span_of(vertices: &[GridPoint]) -> Span {
     let Some(&start) = vertices.first().filter(|_| vertices.len() > 1) else { return Span::Point };
     let farthest_from = |from: GridPoint| vertices.iter().copied().max_by_key(|&p| squared_distance(from, p));
     let low = farthest_from(start).unwrap_or(start);
     let high = farthest_from(low).unwrap_or(low);
     let length = (squared_distance(low, high) as f64).sqrt();
-    if vertices.iter().any(|&p| doubled_area(low, high, p).abs() as f64 > ON_LINE * length) {
+    if vertices.iter().any(|&p| doubled_area(low, high, p).abs() as f64 > LINE_TOLERANCE * length) {
         return Span::Plane(Triangulation::new(vertices));
     }
     let along = |p: GridPoint| (p[0] - low[0]) * (high[0] - low[0]) + (p[1] - low[1]) * (high[1] - low[1]);

@@ -17,7 +17,7 @@ const BEHIND_FRAC: f64 = 0.1;
 const TOP_GROWTH_CELLS: usize = 4;
 
 /// Least color difference between a plain wall and a flat voxel of an object on it: a picture, a screen, a window.
-const HANGING_DIFFERENCE: f32 = 25.0;
+const WALL_OBJECT_DIFFERENCE: f32 = 25.0;
 
 /// Share of a wall's voxels that must have about the same color for the wall to be plain.
 const PLAIN_FRAC: f32 = 0.75;
@@ -49,7 +49,7 @@ pub(crate) fn roles(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     for plane in planes.iter().filter(|plane| plane.kind != PlaneKind::Support) {
         let wall_color = plain_color(grid, plane);
         for (role, voxel) in roles.iter_mut().zip(&grid.voxels) {
-            if wall_color.is_some_and(|color| color::difference(voxel.color_lab, color) > HANGING_DIFFERENCE) {
+            if wall_color.is_some_and(|color| color::difference(voxel.color_lab, color) > WALL_OBJECT_DIFFERENCE) {
                 continue;
             }
             let height = plane.height(voxel.position);
@@ -84,7 +84,7 @@ fn grow_tops(grid: &VoxelGrid, planes: &[ScenePlane], roles: &mut [CellRole]) {
 fn plain_color(grid: &VoxelGrid, plane: &ScenePlane) -> Option<Vec3> {
     let colors: Vec<Vec3> = plane.voxels.iter().map(|&v| grid.voxels[v].color_lab).collect();
     let median = color::median(&colors);
-    let plain = |&&v: &&usize| color::difference(grid.voxels[v].color_lab, median) <= HANGING_DIFFERENCE;
+    let plain = |&&v: &&usize| color::difference(grid.voxels[v].color_lab, median) <= WALL_OBJECT_DIFFERENCE;
     let share = plane.voxels.iter().filter(plain).count() as f32 / plane.voxels.len().max(1) as f32;
     (plane.kind == PlaneKind::Wall && share >= PLAIN_FRAC).then_some(median)
 }

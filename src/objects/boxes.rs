@@ -102,7 +102,7 @@ fn trimmed(mut values: Vec<f64>) -> (f64, f64) {
     (low, high)
 }
 
-/// One id per Gaussian: for a solid one that of the smallest box that contains its mean, else 0.
+/// One id per Gaussian: the id of the smallest box that contains its mean. 0 without a box, or if it is not solid.
 pub(crate) fn labels_from_boxes(gaussians: &Gaussians, objects: &[Object]) -> Vec<u16> {
     let mut by_volume: Vec<&Object> = objects.iter().collect();
     by_volume.sort_by(|a, b| a.half_extents.element_product().total_cmp(&b.half_extents.element_product()));

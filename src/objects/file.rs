@@ -231,7 +231,7 @@ impl<'a> Entry<'a> {
     }
 }
 
-/// An object as in the file, where the box may be missing.
+/// An object of the file; its box may be missing.
 struct FileObject {
     object: Object,
     has_box: bool,

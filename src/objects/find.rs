@@ -1,7 +1,7 @@
 //! Objects of a scene without labels.
 //!
 //! Enters: a scene. Leaves: objects with Gaussians, boxes and descriptive names. Floor, walls and ceiling are
-//! background (id 0). Tables, counters and shelves are objects of their own, separate from what stands on them.
+//! background (id 0). Tables, counters and shelves are objects of their own, separate from the objects on them.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;

@@ -67,7 +67,7 @@ const UNBOUNDED: (f32, f32) = (f32::NEG_INFINITY, f32::INFINITY);
 const ON_PLANE_CELLS: f32 = 1.2;
 
 /// Least cosine between the normals of an inlier and its plane.
-const AGREEMENT: f32 = 0.85;
+const MIN_NORMAL_COSINE: f32 = 0.85;
 
 /// Limit on the planes per scene.
 const MAX_PLANES: usize = 40;
@@ -114,7 +114,7 @@ fn gravity_normal(voxel: &Voxel) -> Option<Vec3> {
 fn on_plane(grid: &VoxelGrid, voxel: usize, normal: Vec3, offset: f32) -> bool {
     let voxel = &grid.voxels[voxel];
     let off = (normal.dot(voxel.position) - offset).abs();
-    off <= ON_PLANE_CELLS * grid.cell && voxel.normal.dot(normal).abs() >= AGREEMENT
+    off <= ON_PLANE_CELLS * grid.cell && voxel.normal.dot(normal).abs() >= MIN_NORMAL_COSINE
 }
 
 fn best_candidate(grid: &VoxelGrid, free: &[usize], random: &mut Pcg64Mcg) -> Option<(Vec3, f32)> {

@@ -50,10 +50,10 @@ const GAP_PX: u32 = 6;
 const MIN_VISIBLE_FRAC: f64 = 0.5;
 
 /// Diagonal of a box, over the scene size, below which the overview draws it.
-const BOXED_FRAC: f64 = 0.3;
+const MAX_BOXED_FRAC: f64 = 0.3;
 
 /// Least number of pixels in the coarse picture of an object whose id the overview shows.
-const NAMED_PIXELS: usize = 6;
+const MIN_ID_PIXELS: usize = 6;
 
 /// Draws the sheet. Each tile shows its object in the scene, with its box, from the direction in which it is least
 /// occluded. Where more than half stays occluded, the near plane clips the scene in front of it, and the tile has
@@ -105,7 +105,7 @@ impl SheetPainter<'_> {
             .collect();
         // The boxes of large objects would cover the picture.
         let size = self.scene.bounds().size();
-        for (object, _) in seen.iter().filter(|(object, _)| 2.0 * object.radius() < BOXED_FRAC * size) {
+        for (object, _) in seen.iter().filter(|(object, _)| 2.0 * object.radius() < MAX_BOXED_FRAC * size) {
             draw_box(&mut image, &camera, object, 0.0);
         }
         let mut taken = Vec::new();
@@ -151,13 +151,13 @@ impl SheetPainter<'_> {
     }
 }
 
-/// Mean position of an object's pixels in the coarse picture; `None` below [`NAMED_PIXELS`].
+/// Mean position of an object's pixels in the coarse picture; `None` below [`MIN_ID_PIXELS`].
 fn visible_middle(survey: &IdPicture, id: u32) -> Option<DVec2> {
     let pixels = || survey.ids.iter().enumerate().filter(|(_, other)| u32::from(**other) == id).map(|(i, _)| i);
     let count = pixels().count();
     let sum: DVec2 =
         pixels().map(|i| DVec2::new((i % survey.width) as f64 + 0.5, (i / survey.width) as f64 + 0.5)).sum();
-    (count >= NAMED_PIXELS).then(|| sum / count as f64)
+    (count >= MIN_ID_PIXELS).then(|| sum / count as f64)
 }
 
 /// Upper left corner of an id near a pixel, moved down past the ids placed before.

@@ -8,7 +8,7 @@ use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
 /// Vertical field of view of the virtual cameras: narrow, so that the projection is nearly orthographic.
 const FOV_Y_RAD: f64 = 0.5;
 
-/// Factor on the distance at which the box just fits into the frame.
+/// Factor on the least distance at which the whole box is in the frame.
 const MARGIN: f64 = 1.1;
 
 /// Cameras with square frames on rings around an object: `num_azimuths` per elevation (rad, seen from its middle),

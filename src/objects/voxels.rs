@@ -28,7 +28,7 @@ const MAX_STEPS: i32 = 4;
 type CellIndex = HashMap<[i32; 3], u32, BuildHasherDefault<CellHasher>>;
 
 /// A hash of three small integers, mixed by odd constants: much faster than the default's keyed hash. The keys come
-/// from the scene's own grid, so that a keyed hash has nothing to protect.
+/// from the scene's own grid, so that protection against chosen keys is not needed.
 #[derive(Default)]
 struct CellHasher(u64);
 
@@ -197,7 +197,7 @@ impl VoxelGrid {
 }
 
 impl Moments {
-    /// No samples. `Default` does not serve, because glam's default matrix is the identity.
+    /// No samples. Not `Default`, because glam's default matrix is the identity.
     const EMPTY: Self = Self { mass: 0.0, offset: Vec3::ZERO, square: Mat3::ZERO, color_lab: Vec3::ZERO };
 
     fn add(&mut self, other: &Self) {

@@ -124,7 +124,7 @@ pub(super) fn measure(
         Scope::All | Scope::Any => states,
     };
     let over = |value: &dyn Fn(&CameraState) -> f64, band: (f64, f64), unit: f64| {
-        worst_of(picked.iter().map(|s| banded(value(s), band, unit)), constraint.scope)
+        worst_of(picked.iter().map(|s| range_violation(value(s), band, unit)), constraint.scope)
     };
     let (first, last) = (&states[0], &states[states.len() - 1]);
     match &constraint.kind {
@@ -137,21 +137,21 @@ pub(super) fn measure(
         ConstraintKind::Pitch(band) => {
             over(&|s| world.frame.angles(s.pose.rotation).pitch_rad.to_degrees(), *band, 15.0)
         }
-        ConstraintKind::YawChange(band) => banded(turn_deg(world, states).0, *band, 20.0),
-        ConstraintKind::PitchChange(band) => banded(turn_deg(world, states).1, *band, 20.0),
+        ConstraintKind::YawChange(band) => range_violation(turn_deg(world, states).0, *band, 20.0),
+        ConstraintKind::PitchChange(band) => range_violation(turn_deg(world, states).1, *band, 20.0),
         ConstraintKind::DistanceRatio(point, band) => {
             let ratio = last.pose.position.distance(*point) / first.pose.position.distance(*point);
-            banded(ratio, *band, 0.3)
+            range_violation(ratio, *band, 0.3)
         }
         ConstraintKind::LensRatio(band) => {
-            banded((last.fov_y_rad / 2.0).tan() / (first.fov_y_rad / 2.0).tan(), *band, 0.3)
+            range_violation((last.fov_y_rad / 2.0).tan() / (first.fov_y_rad / 2.0).tan(), *band, 0.3)
         }
         ConstraintKind::Travel(direction, point, least) => travel(world, *direction, *point, *least, (first, last)),
     }
 }
 
 /// The violation of a range: 0 inside, else the distance from it over `unit`.
-fn banded(value: f64, (low, high): (f64, f64), unit: f64) -> Measurement {
+fn range_violation(value: f64, (low, high): (f64, f64), unit: f64) -> Measurement {
     let off = (low - value).max(value - high).max(0.0);
     // A NaN counts as a violation.
     let violation = if off.is_nan() || off > 0.0 { (off / unit).clamp(0.02, 10.0) } else { 0.0 };
@@ -223,7 +223,7 @@ fn travel(
     let along = way.dot(unit);
     let pure = if way.length() > 0.0 { along / way.length() } else { 0.0 };
     let value = along / first.pose.position.distance(point).max(1e-9);
-    let measured = banded(value, (least, f64::INFINITY), 0.3);
+    let measured = range_violation(value, (least, f64::INFINITY), 0.3);
     Measurement { violation: measured.violation + if pure < 0.9 { 1.0 } else { 0.0 }, ..measured }
 }
 

@@ -17,7 +17,7 @@ const SEARCH_INTERVALS: usize = 400;
 const REJECT_COST: f64 = 9.0;
 
 /// Cost of a segment; costs add up over a film. It is between 0 and 3 where every constraint is met, and above 3 where
-/// one is violated. Cheap terms are evaluated first: above [`REJECT_COST`] a constant stands for the others. The
+/// one is violated. Cheap terms are evaluated first: above [`REJECT_COST`] a constant replaces the others. The
 /// director's camera, where given, attracts the first state.
 pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&CameraState>) -> f64 {
     let path = path_of(world, segment);

@@ -95,7 +95,7 @@ pub(super) fn off_center(state: &CameraState, point: DVec3) -> f64 {
     frame_position(state, point).map_or(f64::INFINITY, |(at, _)| at.abs().max_element())
 }
 
-/// Width and height of the points' projection over those of the frame; infinite where a point is behind the camera.
+/// Width and height of the points' projection over the frame's; infinite where a point is behind the camera.
 pub(super) fn extent_frac(state: &CameraState, points: &[DVec3]) -> DVec2 {
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for &point in points {
@@ -162,7 +162,7 @@ impl Fill {
     }
 }
 
-/// The distance at which a target fills the frame as wanted, seen from a bearing. The projection shrinks with the
+/// The distance at which a target has the wanted size, seen from a bearing. The projection shrinks with the
 /// distance: 40 bisections find it to 1e-9 of the range.
 pub(super) fn distance_for(world: &World, target: &Target, bearing: Bearing, fill: Fill, fov_y_rad: f64) -> f64 {
     let reached = |d: f64| fill.reached(&view_at(world, target.aim, bearing, d, fov_y_rad), &target.corners);

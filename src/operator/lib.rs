@@ -5,9 +5,9 @@
 //! [`Move`](cinesplat_trajectory::Move) defines it, and a report that compares requested with measured values
 //! ([`realize()`]).
 //!
-//! A bounded, seeded search chooses what the steps leave open, such as the bearing from which a subject is seen or the
-//! length of a push. It minimizes a cost over framing, visibility, clearance, and the region that the capture covers.
-//! The path's clearance is then certified for every moment by branch and bound ([`prove_clear`]).
+//! A bounded, seeded search chooses the parameters that the steps leave open, such as the bearing from which a subject
+//! is seen or the length of a push. It minimizes a cost over framing, visibility, clearance, and the region that the
+//! capture covers. The path's clearance is then certified for every moment by branch and bound ([`prove_clear`]).
 //!
 //! The crate does no IO.
 

@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn skipping_empty_blocks_meets_what_every_sample_meets() {
+    fn skipping_empty_blocks_gives_the_same_hits() {
         let grid = scattered();
         let (mut hits, mut misses) = (0, 0);
         for i in 0..4000_u32 {

@@ -18,7 +18,7 @@ use super::world::World;
 use cinesplat_trajectory::CameraState;
 
 /// Candidates per round of the local search. A round is evaluated in parallel.
-const ROUND: usize = 8;
+const ROUND_SIZE: usize = 8;
 
 /// A candidate film up to some step: parameters, segments and cost of each step.
 #[derive(Debug, Clone, Default)]
@@ -171,11 +171,11 @@ fn distinct(world: &World, candidates: Vec<Candidate>, width: usize) -> Vec<Cand
 
 /// Local search: each round perturbs one step per sample and keeps the best sample where it lowers the cost.
 fn locally_improved(problem: &SearchProblem, mut best: Candidate, num_samples: usize, rng: &mut Pcg64Mcg) -> Candidate {
-    for round in 0..num_samples / ROUND {
+    for round in 0..num_samples / ROUND_SIZE {
         // The step size falls from a quarter of a parameter's range to a hundredth.
-        let spread = 0.25 * 0.04_f64.powf(round as f64 * ROUND as f64 / num_samples as f64);
+        let spread = 0.25 * 0.04_f64.powf(round as f64 * ROUND_SIZE as f64 / num_samples as f64);
         let samples: Vec<(usize, Vec<StepParameters>)> =
-            (0..ROUND).map(|_| perturbed(&best.parameters, spread, rng)).collect();
+            (0..ROUND_SIZE).map(|_| perturbed(&best.parameters, spread, rng)).collect();
         let candidates: Vec<Candidate> =
             samples.par_iter().map(|(kept, parameters)| problem.rebuilt(&best, *kept, parameters)).collect();
         let better = candidates.into_iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
@@ -184,7 +184,7 @@ fn locally_improved(problem: &SearchProblem, mut best: Candidate, num_samples: u
     best
 }
 
-/// Parameters of which some, all of one step, have moved by up to `spread`; and the index of that step.
+/// The parameters with some of one step changed by up to `spread`, and the index of that step.
 fn perturbed(parameters: &[StepParameters], spread: f64, rng: &mut impl Rng) -> (usize, Vec<StepParameters>) {
     let mut out = parameters.to_vec();
     let step = rng.random_range(0..parameters.len().max(1));

@@ -125,7 +125,7 @@ pub(super) fn with_fov(state: &CameraState, fov_y_rad: f64) -> CameraState {
     CameraState { fov_y_rad, ..*state }
 }
 
-/// Azimuth of a camera, seen from its subject, whose right points from `a` to `b` (or from `b` to `a`, for `to_left`).
+/// Azimuth, seen from its subject, of a camera whose right axis points from `a` to `b` (from `b` to `a` for `to_left`).
 /// `None` where one is above the other.
 pub(super) fn azimuth_across(frame: &LevelFrame, a: DVec3, b: DVec3, to_left: bool) -> Option<f64> {
     let line = frame.horizontal(b - a).try_normalize()?;

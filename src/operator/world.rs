@@ -51,7 +51,7 @@ pub(super) struct Subject {
 }
 
 impl World {
-    /// Prepares a scene and those of its objects whose ids are in `ids`. `up` is the world's up, of any length above 0.
+    /// Prepares a scene and its objects whose ids are in `ids`. `up` is the world's up, of any length above 0.
     ///
     /// # Errors
     /// [`GeometryError::NoUpDirection`] where `up` has no length.

@@ -1,4 +1,4 @@
-//! Where a camera may stand: clear of matter and inside the captured region.
+//! Allowed camera positions: clear of matter and inside the captured region.
 
 use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, realize};
 use cinesplat::trajectory::Move;

@@ -19,7 +19,7 @@ pub const QUANTITY_POINTERS: usize = 2;
 pub struct KeyCode {
     /// Class of each [`Field`], in their order.
     pub classes: [Option<u8>; NUM_FIELDS],
-    /// Pointers at objects: [`MAX_SUBJECTS`] on arrival, as many on departure, as many on the way.
+    /// Pointers at objects: [`MAX_SUBJECTS`] each on arrival, on departure and on the way.
     pub objects: [Option<u8>; OBJECT_POINTERS],
     /// Pointers at quantities: amount, duration.
     pub quantities: [Option<u8>; QUANTITY_POINTERS],

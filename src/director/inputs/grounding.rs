@@ -16,7 +16,7 @@ pub struct Grounding {
     pub(super) tokens: Vec<TokenSource>,
 }
 
-/// Where in the prompt a token comes from.
+/// The place in the prompt that a token comes from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TokenSource {
     /// Byte range of the prompt.

@@ -22,7 +22,7 @@ const MAX_TEXT_BYTES: usize = 8 * 1024;
 
 /// Token that pads short texts of a batch.
 pub(crate) const PAD: u32 = 0;
-// Token 1 stands for pieces that the vocabulary lacks.
+// Token 1 replaces pieces that the vocabulary lacks.
 /// Token that begins every text.
 pub(super) const BEGIN: u32 = 2;
 const FIRST_OBJECT: u32 = 3;

@@ -43,7 +43,7 @@ struct Pointer {
 }
 
 impl Pointer {
-    /// `num` pointers. `widths` are those of the states, of the items, and of queries and keys.
+    /// `num` pointers. `widths` are the widths of states, items, and queries with keys.
     fn new(parameters: &mut Parameters, name: &str, num: usize, widths: [usize; 3]) -> Result<Self> {
         let [state, item, width] = widths;
         Ok(Self {
@@ -55,7 +55,7 @@ impl Pointer {
         })
     }
 
-    /// The same with "nothing" as item 0.
+    /// As [`Self::new`], with "nothing" as item 0.
     fn with_nothing(parameters: &mut Parameters, name: &str, num: usize, widths: [usize; 3]) -> Result<Self> {
         let nothing = parameters.get(&format!("{name}.nothing"), &[widths[2]], Start::Normal(1.0))?;
         Ok(Self { nothing: Some(nothing), ..Self::new(parameters, name, num, widths)? })

@@ -11,7 +11,7 @@ use glam::{DVec3, Quat, Vec3};
 
 /// Smallest semi-axis over the largest. Smaller ones are raised to it, which changes less than the rounding of
 /// positions.
-const THINNEST_FRAC: f64 = 1e-9;
+const MIN_AXIS_FRAC: f64 = 1e-9;
 /// Limit on Newton steps; ten are rare.
 const MAX_STEPS: usize = 64;
 /// Tolerance on `N = 1`.
@@ -38,7 +38,7 @@ impl Ellipsoid {
             return None;
         }
         let local = unrotated(self.rotation, away).abs();
-        let semi_axes = semi_axes.max(DVec3::splat(THINNEST_FRAC * longest));
+        let semi_axes = semi_axes.max(DVec3::splat(MIN_AXIS_FRAC * longest));
         // The ellipsoid's box in its own frame is never farther than the ellipsoid.
         if (local - semi_axes).max(DVec3::ZERO).length_squared() >= cutoff * cutoff {
             return None;

@@ -20,7 +20,7 @@ const LARGE_FRACS: [f64; 3] = [1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
 /// Widening of a box over the largest coordinate: four rounding errors of `f32`.
 const BOX_ROUNDING: f64 = 2.5e-7;
 /// Factor that turns a computed squared distance to a box into a lower bound.
-const SURE_FRAC: f32 = 1.0 - 4e-6;
+const LOWER_BOUND_FACTOR: f32 = 1.0 - 4e-6;
 
 /// The matter of a scene, indexed for nearest-neighbor queries.
 #[derive(Debug, Clone)]
@@ -137,7 +137,7 @@ impl BoxNode {
                 *sum += apart * apart;
             }
         }
-        sum.map(|squared| squared * SURE_FRAC)
+        sum.map(|squared| squared * LOWER_BOUND_FACTOR)
     }
 
     /// The bounding box of all children.

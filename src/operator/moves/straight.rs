@@ -105,7 +105,7 @@ fn size_ratio(context: &StepContext, target: &Target, first: &CameraState, size:
     let wide = matches!(size, ShotSize::Long | ShotSize::ExtremeLong);
     let parameter = match (wide && !inward, inward && context.before.is_none()) {
         (true, _) => 0.55 + 0.45 * context.parameters[6],
-        // The same size from which the free start was moved back.
+        // The parameter that chose the size from which the free start was moved back.
         (false, true) => context.parameters[2],
         (false, false) => context.parameters[6],
     };
@@ -203,7 +203,7 @@ fn slide(
     let distance = first.pose.position.distance(target.aim);
     let way = match (&context.end, travels) {
         (Some(end), true) => way_to(context, end, &first).unwrap_or(0.0),
-        _ => open_way(context, &target, &first, &along, distance),
+        _ => free_slide_length(context, &target, &first, &along, distance),
     };
     if context.before.is_none() && !travels {
         // A truck passes its target halfway; a pedestal starts in front of it.
@@ -244,7 +244,7 @@ fn leveled(context: &StepContext, state: &CameraState, target: &Target) -> Camer
 }
 
 /// Length of a slide with a free end.
-fn open_way(
+fn free_slide_length(
     context: &StepContext,
     target: &Target,
     state: &CameraState,

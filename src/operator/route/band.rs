@@ -12,7 +12,7 @@ const POINTS: (usize, usize) = (16, 96);
 /// Relaxation sweeps over the band.
 const SWEEPS: usize = 24;
 /// Distance below which matter repels the band, over the required room.
-const REPELLED_WITHIN: f64 = 1.8;
+const REPULSION_RANGE: f64 = 1.8;
 
 /// Evenly spaced points along a path, moved so that it bends gently and keeps away from matter. Every point keeps its
 /// room.
@@ -20,7 +20,7 @@ pub(super) fn smoothed(world: &World, path: &[DVec3], room: f64) -> Vec<DVec3> {
     let length: f64 = path.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let count = ((length / world.bounds.size() * POINTS_PER_SIZE) as usize).clamp(POINTS.0, POINTS.1);
     let spacing = length / count as f64;
-    let probe = ClearanceProbe { world, wide: REPELLED_WITHIN * room, reach: REPELLED_WITHIN * room + spacing };
+    let probe = ClearanceProbe { world, wide: REPULSION_RANGE * room, reach: REPULSION_RANGE * room + spacing };
     let mut band: Vec<BandPoint> = resampled(path, length, count).into_iter().map(|point| probe.at(point)).collect();
     let near_ends = end_room(world, path, room);
     for _ in 0..SWEEPS {

@@ -33,7 +33,7 @@ pub(super) enum LatticePath {
     Found(Vec<DVec3>),
     /// All points reachable from one end were expanded, and the other end is not among them.
     Enclosed,
-    /// The search expanded as many points as it may.
+    /// The search expanded the maximum number of points.
     LimitReached,
 }
 

@@ -1,7 +1,7 @@
 //! A collision-free path between two cameras.
 //!
-//! Enters: a start and a goal. Leaves: cameras whose path is certified to be clear of matter, or why there is none. The
-//! straight path is taken where it is clear. Otherwise A* on a lattice of free points (`lattice`) finds a path, which
+//! Enters: a start and a goal. Leaves: cameras whose path is certified to be clear of matter, or the reason why there is none.
+//! The straight path is taken where it is clear. Otherwise A* on a lattice of free points (`lattice`) finds a path, which
 //! is shortened (`straight`), smoothed and pushed off the walls (`band`), and interpolated through the fewest keyframes
 //! that stay clear. The search is deterministic, and the number of lattice points that it expands is bounded.
 
@@ -56,7 +56,7 @@ pub enum NoRoute {
     /// The camera does not fit where it should go.
     #[error("the camera does not fit where it goes")]
     BlockedGoal,
-    /// Everything reachable from one end was explored, and the other end is not part of it.
+    /// The search explored all places that are reachable from one end; the other end is not among them.
     #[error("matter encloses one end: no gap is as wide as the camera")]
     Enclosed,
     /// The search reached its limit, or every path that it found was too narrow for a smooth curve.
@@ -132,8 +132,7 @@ fn bare_keys(states: &[CameraState], secs: f64) -> Vec<Keyframe> {
     keyframes(&[segment], &[StepLabels::default()])
 }
 
-/// Cameras at points along a path. Yaw, pitch, roll and field of view go linearly from start to goal with the path
-/// length.
+/// Cameras at points along a path. Yaw, pitch, roll and field of view are linear in the path length.
 fn states_along(world: &World, (start, goal): (&CameraState, &CameraState), points: &[DVec3]) -> Vec<CameraState> {
     let frame = &world.frame;
     let (a, b) = (frame.angles(start.pose.rotation), frame.angles(goal.pose.rotation));

@@ -41,7 +41,7 @@ pub(crate) struct RealizedShot {
 
 /// A shot as inputs of the network.
 pub(crate) struct ShotInputs {
-    /// Ids of the objects beside the named ones.
+    /// Ids of the objects that the prompt does not name.
     pub(crate) others: Vec<u32>,
     /// The named objects, then the others.
     pub(crate) objects: Vec<ObjectInput>,

@@ -11,7 +11,7 @@ pub struct DatasetSettings {
     pub num_scenes: u64,
     /// Number of prompts that the operator tries in each scene.
     pub shots_per_scene: u64,
-    /// Number of Gaussians of a scene, relative to that of a scene for a film.
+    /// Number of Gaussians per scene, relative to a generated scene for films.
     pub detail: f64,
     /// Effort of the search for cameras.
     pub solve: SolveLevel,

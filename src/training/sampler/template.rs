@@ -21,7 +21,7 @@ pub(crate) struct Template {
 /// A piece of a template.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Piece {
-    /// A token that stands in every expansion.
+    /// A token of every expansion.
     Token(ClauseToken),
     /// A quantity, phrased anew in every expansion.
     Quantity(QuantityPlaceholder),

@@ -11,7 +11,7 @@ use rand_pcg::Pcg64;
 #[allow(clippy::struct_field_names, reason = "fractions carry their unit")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Augmentation {
-    /// Fraction of the examples of which words are changed.
+    /// Fraction of the examples whose words are changed.
     pub(super) examples_frac: f64,
     /// Fraction of the words that are changed in such an example.
     pub(super) words_frac: f64,

@@ -64,7 +64,7 @@ fn items(split: EvaluationSplit) -> Result<Vec<(LabeledPrompt, Vec<NamedObject>)
     Ok((0..count).map(draw).collect())
 }
 
-/// The director's program for a prompt; the objects stand in a row.
+/// The director's program for a prompt; the objects are placed in a row.
 fn understand(director: &Director, prompt: &str, objects: &[NamedObject]) -> Result<Program, TrainError> {
     let Ok(linked) = link(prompt, objects) else { return Ok(Program::default()) };
     let objects: Vec<Object> = objects.iter().enumerate().map(|(idx, object)| placeholder(idx, object)).collect();

@@ -31,7 +31,7 @@ pub(super) struct Example {
     pub(super) film_length: Option<usize>,
     /// One per key, or empty for sampled sentences.
     pub(super) poses: Vec<PoseCode>,
-    /// The poses with noise: what the decoder reads as earlier poses.
+    /// The poses with noise, which the decoder gets as earlier poses.
     pub(super) noisy_poses: Vec<PoseCode>,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Example {
 pub(super) struct ExampleSampler<'a> {
     pub(super) prompts: PromptSampler,
     pub(super) vocabulary: &'a Vocabulary,
-    /// Known words, of which augmentation makes unknown ones.
+    /// Known words, from which augmentation makes unknown ones.
     pub(super) words: &'a [String],
     pub(super) shots: &'a [RealizedShot],
     /// Fraction of the examples that are realized shots, 0..=1.
@@ -132,7 +132,7 @@ struct EncodedSample {
 }
 
 impl EncodedSample {
-    /// The prompt with its objects, of which the text names the first `num_named`.
+    /// The prompt with its objects. The text names the first `num_named` of them.
     fn prompt(&self, objects: Vec<ObjectInput>, num_named: usize) -> Prompt {
         let (tokens, num_quantities) = (self.tokens.clone(), self.grounding.quantities.len());
         Prompt { tokens, num_quantities, objects, num_named }

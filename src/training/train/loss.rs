@@ -19,7 +19,7 @@ const POSE_WEIGHT: f32 = 0.5;
 /// Relative weights of the values of a pose: position in scene sizes, rotation, field of view, time.
 const POSE_WEIGHTS: [f32; POSE_WIDTH] = [4.0, 4.0, 4.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.3];
 /// Error at which the Huber loss turns from quadratic to linear.
-const HUBER_AT: f32 = 0.1;
+const HUBER_DELTA: f32 = 0.1;
 
 /// Sum over rows and segments of `-weight ln softmax(row[segment])[target]`.
 struct CrossEntropy {
@@ -104,7 +104,7 @@ impl CustomOp1 for Huber {
         let values = floats(storage, layout)?;
         let one = |((value, target), weight): ((&f32, &f32), &f32)| {
             let off = (value - target).abs();
-            let loss = if off < HUBER_AT { 0.5 * off * off / HUBER_AT } else { off - 0.5 * HUBER_AT };
+            let loss = if off < HUBER_DELTA { 0.5 * off * off / HUBER_DELTA } else { off - 0.5 * HUBER_DELTA };
             f64::from(weight * loss)
         };
         let sum: f64 = values.iter().zip(&self.targets).zip(&self.weights).map(one).sum();
@@ -115,7 +115,7 @@ impl CustomOp1 for Huber {
         let grad = grad.to_scalar::<f32>()?;
         let flat = values.flatten_all()?.to_vec1::<f32>()?;
         let one = |((value, target), weight): ((&f32, &f32), &f32)| {
-            grad * weight * ((value - target) / HUBER_AT).clamp(-1.0, 1.0)
+            grad * weight * ((value - target) / HUBER_DELTA).clamp(-1.0, 1.0)
         };
         let slopes: Vec<f32> = flat.iter().zip(&self.targets).zip(&self.weights).map(one).collect();
         Ok(Some(Tensor::from_vec(slopes, values.shape(), values.device())?))

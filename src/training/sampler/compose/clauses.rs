@@ -44,7 +44,7 @@ impl<'a> Composer<'a> {
         Some(())
     }
 
-    /// The words between this clause and what stands before it.
+    /// The words between this clause and the text before it.
     fn connective(&mut self, position: ClausePosition) -> Expansion {
         let list = if position.is_first() { self.lead_list(position) } else { self.join_list(position) };
         self.expander.expand_list(list, self.rng)

@@ -62,13 +62,13 @@ pub(super) enum ClauseOrder {
     Before,
 }
 
-/// Where a clause stands in its prompt.
+/// Position of a clause in its prompt.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ClausePosition {
     pub(super) index: usize,
     /// Number of clauses of the prompt.
     pub(super) count: usize,
-    /// A framing stands before all clauses.
+    /// A framing comes before all clauses.
     pub(super) after_opening: bool,
     /// The first of a pair that begins with `after` or `before`.
     pub(super) subordinate: bool,

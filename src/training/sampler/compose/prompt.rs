@@ -24,7 +24,7 @@ const WRITING_STYLES: [(WritingStyle, u32); 5] = [
 /// Numbers of clauses.
 const LENGTHS: [(usize, u32); 5] = [(1, 30), (2, 32), (3, 26), (4, 9), (5, 3)];
 
-/// A composed prompt with the mentions that linking has to find in it.
+/// A composed prompt with the mentions that linking must find in it.
 pub(crate) struct Composed {
     pub(crate) labeled: LabeledPrompt,
     /// Object ids in order of first mention.

@@ -54,7 +54,7 @@ impl Composer<'_> {
     }
 
     /// Whether a pronoun stands for object `id`, by chance, where it is unambiguous: the object is the focus of the
-    /// clause before, or was the last one mentioned in this clause. `referent` is what pronouns of this clause stand for.
+    /// clause before, or was the last one mentioned in this clause. `referent` is the object of this clause's pronouns.
     fn may_be_pronoun(&mut self, id: u32, referent: Option<u32>, in_clause: &[u32]) -> bool {
         let is_unambiguous = referent.is_none_or(|other| other == id);
         let is_in_focus = !self.text.is_empty() && self.focus == [id] && in_clause.is_empty();
