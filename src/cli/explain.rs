@@ -7,7 +7,7 @@ use cinesplat::operator::{Amount, Framing, Speed, Step, SubjectPart};
 use cinesplat::pipeline::Directed;
 use cinesplat::trajectory::ClearanceProof;
 
-/// Explains a shot: the meaning of each clause of its prompt, the report of what was wanted and got, the clearance proof
+/// Explains a shot: the meaning of each clause of its prompt, the report of requested and achieved values, the clearance proof
 /// and the decision about each effect.
 pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     let mut text = format!("prompt: {}\n\nunderstood as\n", directed.shot.prompt);

@@ -9,7 +9,7 @@ use cinesplat::scene::SceneInfo;
 
 /// Print what a scene file contains
 ///
-/// Format, number of Gaussians, bounds, size, filter, up axis with its source, and what was dropped and why.
+/// Format, number of Gaussians, bounds, size, filter, up axis with its source, and dropped Gaussians with the reason.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  cinesplat info room.spz --json | jq .num_gaussians")]
 pub(super) struct Args {

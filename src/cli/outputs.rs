@@ -1,4 +1,4 @@
-//! Outputs of commands: checked before any work, whole or absent, `-` for standard output.
+//! Outputs of commands: checked before any work, complete or absent, `-` for standard output.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ impl Overwrite {
         if is_stdout(path) { Ok(()) } else { Ok(files::check_free(path, self.existing())?) }
     }
 
-    /// Writes a whole file, or data to standard output.
+    /// Writes a complete file, or data to standard output.
     pub(super) fn write(self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         if is_stdout(path) { console::data_bytes(bytes) } else { Ok(files::write(path, bytes, self.existing())?) }
     }
@@ -65,7 +65,7 @@ pub(super) fn is_stdout(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// All of a text file.
+/// The text of a UTF-8 file.
 pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
     String::from_utf8(files::read(path)?).map_err(|error| {
         let at = error.utf8_error().valid_up_to();

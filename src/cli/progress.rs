@@ -9,7 +9,7 @@ const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Progress of frames or rows with rate and time left: a bar on a terminal, a line every five seconds elsewhere.
 pub(super) struct FrameProgress {
-    /// Name of what is counted, and the unit of its rate.
+    /// Name of the counted item, and the unit of its rate.
     names: [&'static str; 2],
     bar: Option<ProgressBar>,
     start: Instant,

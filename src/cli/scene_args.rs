@@ -28,7 +28,7 @@ pub(super) struct SceneArgs {
 /// Options for reading scenes.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SceneOptions {
-    /// World up axis [default: what the file says, else estimated]
+    /// World up axis [default: from the file, else estimated]
     ///
     /// Three numbers, such as 0,-1,0.
     #[arg(long, value_name = "X,Y,Z", help_heading = heading::SCENE, value_parser = parse_vector, allow_hyphen_values = true)]

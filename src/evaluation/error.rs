@@ -37,7 +37,7 @@ pub enum EvaluationError {
     /// A file of a batch cannot be read as a path.
     #[error("{reason}")]
     Unreadable {
-        /// The file and what is wrong with it.
+        /// The file and its defect.
         reason: String,
     },
     /// Two files of one folder that would both be paired under the same name.

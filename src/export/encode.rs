@@ -157,7 +157,7 @@ pub fn write(
 }
 
 impl Encoded {
-    /// Writes the file to `path`, or the files to the folder of `path`; each is written whole or not at all.
+    /// Writes the file to `path`, or the files to the folder of `path`; each is written completely or not at all.
     ///
     /// # Errors
     /// [`FileError`] of the first file that cannot be created or written.

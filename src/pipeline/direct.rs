@@ -22,7 +22,7 @@ pub struct DirectSettings {
     pub height: u32,
     /// Frames per second.
     pub rate_fps: f64,
-    /// Length of the film in seconds; `None` = what the words say, else what the moves need.
+    /// Length of the film in seconds; `None` = from the words, else from the moves.
     pub duration_secs: Option<f64>,
     /// Seed of the camera search.
     pub seed: u64,

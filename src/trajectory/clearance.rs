@@ -4,7 +4,7 @@
 /// least `opacity_floor`, each out to `sigma_level` standard deviations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClearanceProof {
-    /// Radius of the ball that stands for the camera, scene units.
+    /// Radius of the ball around the camera that must stay clear, scene units.
     pub camera_radius: f64,
     /// Least opacity of a Gaussian that counts as matter, 0..1.
     pub opacity_floor: f64,

@@ -3,7 +3,7 @@ use thiserror::Error;
 /// Error of keyframes. Indices count from 0, as in the file.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TrajectoryError {
-    /// No keyframes at all.
+    /// A shot without keyframes.
     #[error("a shot needs at least one keyframe, found none")]
     NoKeyframes,
     /// Times that do not increase.

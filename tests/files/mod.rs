@@ -92,7 +92,7 @@ fn arrays_read_back_and_look_as_numpy_writes_them() {
 }
 
 #[test]
-fn damaged_arrays_are_refused_whatever_the_byte() {
+fn truncated_arrays_are_refused_and_damaged_ones_never_panic() {
     let bytes = npy::encode_u16(&[4], &[1, 2, 3, 4]);
     for len in 0..bytes.len() {
         assert!(npy::Array::parse(&bytes[..len]).and_then(|array| array.to_u32()).is_err(), "{len} bytes");

@@ -1,7 +1,7 @@
 //! Failures of commands: one file per stage maps the error of that stage to an exit code and a line of help.
 //!
-//! Enters: a library's error, which says what happened. Leaves: a [`Failure`], which adds what the user can do about it
-//! and the exit code. Every match lists all variants, so a new variant does not compile without both.
+//! Enters: a library's error, which says what happened. Leaves: a [`Failure`], which adds a line of help and the exit
+//! code. Every match lists all variants, so a new variant does not compile without both.
 
 mod director;
 mod evaluation;

@@ -129,7 +129,7 @@ impl Sampler<'_> {
 }
 
 impl Samples {
-    /// Adds the times of a run of at least one frame. The median frame stands for the run, so that a burst of load from
+    /// Adds the times of a run of at least one frame. The median frame represents the run, so that a burst of load from
     /// another process does not count.
     fn add(&mut self, mut times: Vec<(TimeCost, StageTimes)>, work: StageWork) {
         self.spent = times.iter().fold(self.spent, |sum, (spent, _)| sum.plus(*spent));
