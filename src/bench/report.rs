@@ -44,8 +44,8 @@ fn line(row: &BenchRow) -> String {
 }
 
 /// Markdown: a table of the presets, one line per scene, size and preset, with the median time over the cameras and the
-/// accuracy of the worst camera; presets that another dominates; a table of the outputs; and how many pictures of free
-/// knobs are equal.
+/// accuracy of the worst camera; dominated presets; a table of the outputs; and the number of free knobs with an equal
+/// picture.
 pub fn to_table(rows: &[BenchRow]) -> String {
     let of_kind = |kind: KnobKind| rows.iter().filter(|row| row.kind == kind).collect::<Vec<&BenchRow>>();
     let (presets, outputs, free) = (of_kind(KnobKind::Preset), of_kind(KnobKind::Output), of_kind(KnobKind::Free));
@@ -54,7 +54,7 @@ pub fn to_table(rows: &[BenchRow]) -> String {
     let found = if dominated.is_empty() { "none".to_owned() } else { dominated.join("; ") };
     let num_equal = free.iter().filter(|row| row.difference.psnr_db == f64::INFINITY).count();
     // Writing to a string cannot fail.
-    let _ = writeln!(table, "\nPresets that another of the same scene and size dominates in time and PSNR: {found}.\n");
+    let _ = writeln!(table, "\nPresets dominated in time and PSNR by another of the same scene and size: {found}.\n");
     table.push_str(&outputs_table(&outputs));
     let _ = writeln!(
         table,
@@ -87,7 +87,7 @@ fn presets_table(presets: &[&BenchRow]) -> String {
 
 fn outputs_table(outputs: &[&BenchRow]) -> String {
     let mut table = String::from(
-        "Outputs at `standard`; the factor is the time over that of color in `f32`, rendered in turn with the output.\n\n\
+        "Outputs at `standard`; the factor is the ratio to the time of color in `f32`, measured alternately.\n\n\
          | scene | size | output | ms per frame | x color |\n|---|---|---|---|---|\n",
     );
     for group in groups(outputs) {

@@ -38,7 +38,7 @@ pub(super) struct Buffers {
     order: DepthOrder,
     bins: Bins,
     workspaces: Pool<Workspace>,
-    /// Number of splats of the previous picture over the number of Gaussians in its visible groups; `None` before the
+    /// Number of splats of the previous picture per Gaussian in its visible groups; `None` before the
     /// first picture.
     visible_frac: Option<f64>,
 }

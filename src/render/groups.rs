@@ -158,8 +158,8 @@ fn median_scale(gaussians: &Gaussians, kept: &[u32]) -> f32 {
     scales.get(scales.len() / 2).copied().unwrap_or_default().max(f32::MIN_POSITIVE)
 }
 
-/// Size class of a Gaussian from its size over the median: up to 1, up to 4, up to 16 and so on. Classes do not share
-/// groups, because a single huge Gaussian makes its whole group visible from everywhere.
+/// Size class of a Gaussian from the ratio of its size to the median: up to 1, up to 4, up to 16 and so on. Classes do
+/// not share groups, because a single huge Gaussian makes its whole group visible from everywhere.
 fn size_class(times_median: f32) -> u64 {
     (times_median.max(1.0).log2() / 2.0).ceil().min(7.0) as u64
 }

@@ -53,7 +53,7 @@ pub struct Accuracy {
     pub alpha_cut: f64,
     /// Blending stops before the transmittance of a pixel would fall below this, above 0 and below 1.
     pub transmittance_stop: f64,
-    /// Side length of the rendered picture over that of the returned picture, above 0 and up to 1. Below 1, the
+    /// Side length of the rendered picture divided by that of the returned picture, above 0 and up to 1. Below 1, the
     /// rendered picture is enlarged.
     pub resolution_frac: f64,
     /// Precision of the blending loop.

@@ -17,8 +17,8 @@ pub(super) const SH_C0: f64 = 0.282_094_791_773_878_14;
 /// Largest standard deviation, scene units. Larger ones are clamped, so that squares stay finite in `f32`.
 const MAX_SCALE: f64 = 1e15;
 
-/// Distance between the scene's median and the world's origin, over the scene's extent, above which the scene gets a local
-/// origin. At 16, `f32` positions are precise to a millionth of the extent.
+/// Distance between the scene's median and the world's origin, in extents of the scene, above which the scene gets a
+/// local origin. At 16, `f32` positions are precise to a millionth of the extent.
 const MAX_ORIGIN_DISTANCE: f64 = 16.0;
 
 /// A decoded Gaussian before validation.

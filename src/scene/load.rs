@@ -13,8 +13,8 @@ use super::{ply, sog, splat, spz, up};
 
 /// Reads a scene of any supported format: a file, or the folder or `meta.json` of an unbundled SOG.
 ///
-/// The content decides the format, not the extension. The file is read into memory once. The readers check its sizes
-/// against `options` and against the bytes that are present before they allocate for them.
+/// The content decides the format; only a `.splat`, which has no magic number, may be known by its extension. The file
+/// is read into memory once. The readers check its sizes against `options` and the bytes present before they allocate.
 ///
 /// # Errors
 /// [`SceneError`], one variant per kind of fault. No content of the file causes a panic.

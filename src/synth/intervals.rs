@@ -1,7 +1,7 @@
 //! Division of surface parameters into intervals. Enters: a range and a step. Leaves: intervals in ascending order that
 //! cover the range without gaps.
 
-/// Cell width over standard deviation. At 1.35 a flat sheet transmits less than one percent of the light.
+/// Cell width per standard deviation. At 1.35 a flat sheet transmits less than one percent of the light.
 const CELL_PER_SIGMA: f64 = 1.35;
 
 /// An interval of a surface parameter, covered by one surfel.
@@ -15,7 +15,7 @@ pub(super) struct ParamInterval {
     pub(super) middle: f64,
     /// Position of the middle in the whole range, 0..=1.
     pub(super) frac: f64,
-    /// Standard deviation of the surfel over the interval's length.
+    /// Standard deviation of the surfel divided by the interval's length.
     pub(super) sigma_frac: f64,
 }
 

@@ -48,7 +48,7 @@ pub(super) struct Primitive {
     pub(super) object_from_primitive: Placement,
     /// Cell size relative to the scene's.
     pub(super) cell_scale: f64,
-    /// Cell length over cell width, along the longest axis of a block.
+    /// Ratio of cell length to cell width, along the longest axis of a block.
     pub(super) cell_stretch: f64,
     /// Whether it is visible and casts shadows.
     pub(super) visibility: Visibility,
@@ -88,7 +88,7 @@ impl Primitive {
         self
     }
 
-    /// Sets the cell length over the cell width, along the longest axis.
+    /// Sets the ratio of cell length to cell width, along the longest axis.
     pub(super) fn stretched(&mut self, stretch: f64) -> &mut Self {
         self.cell_stretch = stretch;
         self

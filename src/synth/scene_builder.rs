@@ -173,7 +173,8 @@ impl<'a> SceneBuilder<'a> {
         None
     }
 
-    /// Places an asset on another at fractions -1..=1 of the half extents of the first support surface.
+    /// Places an asset on another at fractions -1..=1 of the half extents of the first support surface, turned by
+    /// `turn` rad.
     pub(super) fn place_on_at(
         &mut self,
         host: Option<usize>,

@@ -30,7 +30,7 @@ pub(super) struct SurfaceCell {
     pub(super) across: DVec3,
     /// The same along the second surface direction.
     pub(super) along: DVec3,
-    /// Standard deviations over the lengths of the two vectors.
+    /// Standard deviations divided by the lengths of the two vectors.
     pub(super) sigma_frac: DVec2,
     /// Texture coordinates of the middle.
     pub(super) point: SurfacePoint,

@@ -1,5 +1,5 @@
-//! Golden pictures: an independent `f64` rasterizer without tiles rendered them. `tests/render/golden` is the project's own
-//! set and part of every clone; the sets of `../shared/data/golden` are larger scenes that only some machines have.
+//! Golden pictures, rendered by an independent `f64` rasterizer without tiles. `tests/render/golden` is part of every
+//! clone; `../shared/data/golden` holds larger scenes that only some machines have.
 
 use std::path::{Path, PathBuf};
 
@@ -73,23 +73,23 @@ fn reference_is_the_spec_image_of_shared_scenes() {
 }
 
 #[test]
-fn final_is_within_105_db_of_the_spec_image() {
+fn final_has_a_psnr_of_105_db_against_the_spec_image() {
     assert_reaches(&own(), Quality::Final, 105.0);
 }
 
 #[test]
-fn final_is_within_60_db_of_the_spec_image_of_shared_scenes() {
+fn final_has_a_psnr_of_60_db_against_the_spec_image_of_shared_scenes() {
     let Some(folder) = shared() else { return };
     assert_reaches(&folder, Quality::Final, 60.0);
 }
 
 #[test]
-fn standard_is_within_55_db_of_the_spec_image() {
+fn standard_has_a_psnr_of_55_db_against_the_spec_image() {
     assert_reaches(&own(), Quality::Standard, 55.0);
 }
 
 #[test]
-fn standard_is_within_50_db_of_the_spec_image_of_shared_scenes() {
+fn standard_has_a_psnr_of_50_db_against_the_spec_image_of_shared_scenes() {
     let Some(folder) = shared() else { return };
     assert_reaches(&folder, Quality::Standard, 50.0);
 }

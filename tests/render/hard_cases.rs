@@ -9,12 +9,12 @@
 //! | 3 | quaternions of any length | `inputs::{quaternions_of_any_length_and_sign_draw_alike, a_zero_quaternion_is_dropped_and_counted}`, `places::the_sign_of_a_quaternion_does_not_matter` |
 //! | 4 | NaN, infinities, extremes | `inputs::{poisoned_gaussians_change_nothing, every_property_of_a_file_takes_any_number, extreme_but_valid_gaussians_stay_visible}` |
 //! | 5 | a camera inside a splat | `places::{a_camera_that_flies_through_a_splat_sees_only_finite_numbers, a_camera_at_a_mean_sees_the_color_without_direction}` |
-//! | 6 | behind the camera | `places::what_is_behind_the_camera_leaves_no_ghost` |
+//! | 6 | behind the camera | `places::gaussians_behind_the_camera_are_not_drawn` |
 //! | 7 | where the projection is linearized | `places::{a_principal_point_off_the_middle_is_a_crop_of_a_wider_picture, a_picture_with_an_extreme_principal_point_matches_the_second_renderer}`, `per_ray::the_affine_projection_is_close_to_exact_rays_for_small_splats` |
 //! | 8 | splats larger than the picture | `limits::{a_hundred_thousand_full_screen_splats_lose_no_tile_and_stay_within_the_memory_limit, work_above_the_limits_is_an_error_before_any_allocation}` |
 //! | 9 | opacity 1 | `color::one_opaque_wall_transmits_one_hundredth_and_two_one_ten_thousandth` |
 //! | 10 | equal depths | `repeatable::{one_two_three_and_seven_threads_give_the_same_bits, shuffling_a_file_without_equal_depths_changes_nothing, equal_depths_blend_in_the_order_of_the_file}` |
-//! | 11 | depth keys | `places::a_splat_a_million_units_away_changes_no_level` |
+//! | 11 | depth keys | `places::a_splat_a_million_units_away_changes_levels_by_at_most_one` |
 //! | 12 | popping | `popping::{a_pan_pops_in_mode_z_and_not_in_mode_ray, a_crowd_pops_less_in_mode_ray_than_in_mode_z}`, `sort_modes` |
 //! | 13 | large coordinates | `inputs::large_coordinates_in_double_precision_draw_the_picture_of_small_ones`, `repeatable::large_coordinates_give_the_picture_of_small_ones`, `scene::intake::single_precision_far_from_the_origin_reports_its_quantization` |
 //! | 14 | half precision | `shapes::needles_survive_scales_and_rotations_in_half_precision` |

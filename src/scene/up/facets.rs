@@ -12,10 +12,10 @@ const CUBES: f64 = 48.0;
 /// Minimum number of patches per facet.
 const MIN_PATCHES: usize = 6;
 
-/// Thickness over width below which a facet is planar.
+/// Ratio of thickness to width below which a facet is planar.
 const FLATNESS: f64 = 0.25;
 
-/// Width over the cube's side above which a facet can be planar.
+/// Ratio of width to the cube's side above which a facet can be planar.
 const MIN_WIDTH: f64 = 0.08;
 
 /// The patches of a cube.

@@ -25,7 +25,7 @@ pub use prior::UpPrior;
 pub struct UpEstimate {
     /// World up, unit.
     pub up: DVec3,
-    /// Confidence in percent, 0..=100: the odds of this candidate over the sum of the odds of all candidates, where those
+    /// Confidence in percent, 0..=100: the odds of this candidate divided by the sum of the odds of all. Candidates
     /// within 15 degrees of a better one do not count.
     pub confidence_percent: u8,
 }

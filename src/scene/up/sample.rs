@@ -6,7 +6,7 @@ use crate::gaussians::{Gaussians, SOLID_OPACITY};
 /// Maximum number of patches. More of them change the estimate by less than its precision.
 const MAX_PATCHES: usize = 40_000;
 
-/// Smallest over middle standard deviation, below which a Gaussian is flat and has a normal.
+/// Ratio of smallest to middle standard deviation below which a Gaussian is flat and has a normal.
 const FLATNESS: f32 = 0.4;
 
 /// A sampled Gaussian.

@@ -55,7 +55,7 @@ fn a_camera_at_a_mean_sees_the_color_without_direction() {
 }
 
 #[test]
-fn what_is_behind_the_camera_leaves_no_ghost() {
+fn gaussians_behind_the_camera_are_not_drawn() {
     let mut scene = crowd(300, 3);
     scene.means.iter_mut().for_each(|mean| mean.z = -mean.z);
     scene.scales.iter_mut().for_each(|scale| *scale *= 30.0);
@@ -98,7 +98,7 @@ fn a_picture_with_an_extreme_principal_point_matches_the_second_renderer() {
 }
 
 #[test]
-fn a_splat_a_million_units_away_changes_no_level() {
+fn a_splat_a_million_units_away_changes_levels_by_at_most_one() {
     let mut scene = crowd(1_000, 14);
     // Two walls behind the crowd hide everything behind them.
     for depth in [20.0, 30.0] {

@@ -11,8 +11,8 @@ use crate::render::scenes::{camera, crowd, push};
 /// Step of the pan.
 const STEP_DEG: f64 = 0.1;
 
-/// The picture by rays: the largest value of each Gaussian along the ray, in the order along the ray. With P the
-/// inverse covariance and m the mean, the maximum is at t = r'Pm / r'Pr with squared distance m'Pm - t r'Pm.
+/// The picture by rays: blends the largest value of each Gaussian along the ray, in the order of these maxima. With P
+/// the inverse covariance and m the mean, the maximum is at t = r'Pm / r'Pr with squared distance m'Pm - t r'Pm.
 fn by_rays(scene: &Gaussians, view: &Camera) -> Vec<f32> {
     let axes: Vec<DMat3> = scene.rotations.iter().map(|q| DMat3::from_quat(q.as_dquat()).transpose()).collect();
     let whiten = |idx: usize, v: DVec3| axes[idx] * v / scene.scales[idx].as_dvec3();
