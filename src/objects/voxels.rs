@@ -57,7 +57,7 @@ impl Hasher for CellHasher {
     }
 }
 
-/// One occupied cell.
+/// A voxel: one occupied cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Voxel {
     /// Cell coordinates; y is up.
@@ -70,11 +70,11 @@ pub(crate) struct Voxel {
     pub(crate) normal: Vec3,
 }
 
-/// The occupied cells of a scene.
+/// The voxels of a scene.
 pub(crate) struct VoxelGrid {
     /// Edge of a cell, scene units.
     pub(crate) cell: f32,
-    /// The cells, sorted by key.
+    /// The voxels, sorted by key.
     pub(crate) voxels: Vec<Voxel>,
     index: CellIndex,
     center: DVec3,
@@ -136,12 +136,12 @@ impl VoxelGrid {
         self.index.get(&key).map(|&i| i as usize)
     }
 
-    /// Occupied cells at most `reach` cells away along every axis, without the cell itself.
+    /// Voxels at most `reach` cells away along every axis, without the voxel itself.
     pub(crate) fn neighbors(&self, voxel: usize, reach: i32) -> impl Iterator<Item = usize> + '_ {
         self.around(self.voxels[voxel].key, reach).filter(move |&other| other != voxel)
     }
 
-    /// Occupied cells at most `reach` cells away from a cell along every axis.
+    /// Voxels at most `reach` cells away from a cell along every axis.
     pub(crate) fn around(&self, key: [i32; 3], reach: i32) -> impl Iterator<Item = usize> + '_ {
         let [x, y, z] = key;
         offsets(reach).filter_map(move |[a, b, c]| self.find([x + a, y + b, z + c]))

@@ -7,7 +7,7 @@ use std::thread;
 
 use cinesplat::training::{DatasetSettings, DatasetSummary, write_dataset};
 
-/// A folder with all shards of the returned settings, so that no shard is missing.
+/// A folder with shards that exist already, and settings for which nothing else is to be made.
 fn finished_shards(num_shards: u64) -> (tempfile::TempDir, DatasetSettings) {
     let out = tempfile::tempdir().unwrap();
     for shard in 0..num_shards {

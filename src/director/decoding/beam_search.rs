@@ -153,8 +153,8 @@ impl EncodedPrompt<'_> {
     }
 }
 
-/// Pose of the pose head's output, whose position is relative to `anchor`. Values are clamped to a plausible range; a value
-/// that is not finite becomes 0.
+/// Pose of the pose head's output, whose position is relative to `anchor`. Values are clamped to a plausible range;
+/// a value that is not finite becomes 0.
 fn pose_code(out: &[f32], anchor: [f32; 3]) -> PoseCode {
     let within = |value: f32, limit: f32| if value.is_finite() { value.clamp(-limit, limit) } else { 0.0 };
     PoseCode {

@@ -1,9 +1,10 @@
 //! A collision-free path between two cameras.
 //!
-//! Enters: a start and a goal. Leaves: cameras whose path is certified to be clear of matter, or the reason why there is none.
-//! The straight path is taken where it is clear. Otherwise A* on a lattice of free points (`lattice`) finds a path, which
-//! is shortened (`straight`), smoothed and pushed off the walls (`band`), and interpolated through the fewest keyframes
-//! that stay clear. The search is deterministic, and the number of lattice points that it expands is bounded.
+//! Enters: a start and a goal. Leaves: cameras whose path is certified to be clear of matter, or the reason why there
+//! is none. The straight path is taken where it is clear. Otherwise A* on a lattice of free points (`lattice`) finds a
+//! path, which is shortened (`straight`), smoothed and pushed off the walls (`band`), and interpolated through the
+//! fewest keyframes that stay clear. The search is deterministic, and the number of lattice points that it expands is
+//! bounded.
 
 mod band;
 mod lattice;
