@@ -10,6 +10,8 @@ use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
 /// Cells along the edge of a block.
 const BLOCK: i32 = 8;
+/// Largest number of a sample, 2^53: `f64` holds every whole number up to it.
+const MAX_SAMPLE_NUMBER: f64 = 9_007_199_254_740_992.0;
 
 /// The transmittance of every cell.
 #[derive(Debug, Clone)]
@@ -77,7 +79,8 @@ impl OpacityGrid {
     }
 
     /// Calls `visit` with the distance and the log transmittance of every sample of a ray (unit `direction`) in an
-    /// occupied cell, in order. Returns the distance at which `visit` returns true. Empty blocks are skipped.
+    /// occupied cell, in order. Returns the distance at which `visit` returns true. Empty blocks are skipped. A grid
+    /// beyond [`RaySamples::exact_reach`] is not visited.
     fn march(
         &self,
         eye: DVec3,
@@ -88,7 +91,7 @@ impl OpacityGrid {
         let (origin, along) = ((eye - self.grid.low) / self.grid.cell, direction / self.grid.cell);
         let dims = self.grid.dims.as_dvec3();
         let [enter, leave] = crossing(origin, along, DVec3::ZERO, dims);
-        let end = samples.end.min(leave);
+        let end = samples.end.min(leave).min(samples.exact_reach());
         let last = self.grid.dims.as_ivec3() - 1;
         let mut number = samples.number_after(enter);
         loop {
@@ -146,6 +149,12 @@ impl RaySamples {
     /// Number of the first sample at or after a distance.
     fn number_after(&self, distance: f64) -> f64 {
         ((distance - self.first) / self.step).ceil().max(0.0)
+    }
+
+    /// Distance up to which the number of a sample plus one is the number of the next sample. Farther samples have no
+    /// numbers of their own in `f64`, and a march over them would never end.
+    fn exact_reach(&self) -> f64 {
+        self.first + self.step * MAX_SAMPLE_NUMBER
     }
 }
 
@@ -227,6 +236,21 @@ mod tests {
             }
         }
         None
+    }
+
+    /// The march used to add 1 to sample numbers above 2^53, which left them unchanged.
+    #[test]
+    fn a_ray_from_a_splat_far_outside_of_the_grid_ends() {
+        let grid = scattered();
+        let target = grid.grid.low + 1.0;
+        for distance in [1e6, 1e12, 1e15, 1e17, 1e30] {
+            for direction in [DVec3::X, DVec3::NEG_Y, DVec3::new(0.6, 0.0, 0.8)] {
+                let eye = target - direction * distance;
+                assert!((0.0..=1.0).contains(&grid.transmittance(eye, target)), "{distance} along {direction}");
+                let hit = grid.hit_distance(eye, direction, 2.0 * distance);
+                assert!(hit.is_none_or(|hit| hit < 2.0 * distance), "{hit:?} at {distance} along {direction}");
+            }
+        }
     }
 
     #[test]
