@@ -5,6 +5,7 @@ use super::choice::choice;
 use super::console;
 use super::failure::Failure;
 use cinesplat::operator::SolveLevel;
+use cinesplat::synth::SynthSettings;
 use cinesplat::training::{DatasetSettings, write_dataset};
 
 /// Generate training data for the director's network
@@ -26,7 +27,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = DatasetSettings::default().shots_per_scene)]
     shots: u64,
     /// Number of Gaussians per scene as a share of the full number
-    #[arg(long, value_name = "FRAC", default_value_t = DatasetSettings::default().detail)]
+    #[arg(long, value_name = "FRAC", default_value_t = DatasetSettings::default().detail, value_parser = parse_detail)]
     detail: f64,
     /// Effort of the camera search
     #[arg(long, value_name = "EFFORT", default_value = "fast", value_parser = choice::<SolveLevel>())]
@@ -64,4 +65,10 @@ impl Args {
         ));
         Ok(())
     }
+}
+
+fn parse_detail(text: &str) -> Result<f64, String> {
+    let range = SynthSettings::DETAIL_RANGE;
+    let detail = text.parse().ok().filter(|detail| range.contains(detail));
+    detail.ok_or_else(|| format!("expected {} to {}", range.start(), range.end()))
 }

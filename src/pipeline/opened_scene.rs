@@ -76,7 +76,7 @@ fn synth_settings(spec: &str) -> Option<SynthSettings> {
     let kind: SynthKind = parts.next()?.parse().ok()?;
     let seed = parts.next()?.parse().ok()?;
     let detail = parts.next().map_or(Some(1.0), |text| text.parse().ok())?;
-    let is_whole = parts.next().is_none() && (0.01..=4.0).contains(&detail);
+    let is_whole = parts.next().is_none() && SynthSettings::DETAIL_RANGE.contains(&detail);
     is_whole.then_some(SynthSettings { seed, kind, detail })
 }
 

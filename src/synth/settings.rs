@@ -1,3 +1,5 @@
+use std::ops::RangeInclusive;
+
 use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
 /// Kind of a generated scene.
@@ -17,9 +19,14 @@ pub struct SynthSettings {
     pub seed: u64,
     /// Room or still life.
     pub kind: SynthKind,
-    /// Number of Gaussians relative to film quality, 0.01..=4: 1 gives several hundred thousand, 0.1 suffices for
+    /// Number of Gaussians relative to film quality, in [`SynthSettings::DETAIL_RANGE`]: 1 gives several hundred thousand, 0.1 suffices for
     /// training data.
     pub detail: f64,
+}
+
+impl SynthSettings {
+    /// Allowed values of [`SynthSettings::detail`]; NaN is not among them.
+    pub const DETAIL_RANGE: RangeInclusive<f64> = 0.01..=4.0;
 }
 
 impl Default for SynthSettings {

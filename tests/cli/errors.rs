@@ -241,3 +241,14 @@ fn every_kind_of_failure_has_its_exit_code() {
         assert!(said.lines().last().unwrap().starts_with("help: "), "{said}");
     }
 }
+
+#[test]
+fn a_level_of_detail_that_is_not_a_number_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    insta::assert_snapshot!(answer(folder.path(), &["dataset", "-o", "shots", "--detail", "nan"]), @r"
+    exit 2
+    error[USAGE]: invalid value 'nan' for '--detail <FRAC>': expected 0.01 to 4
+    help: --help says more
+    ");
+    assert!(!folder.path().join("shots").exists());
+}

@@ -42,3 +42,17 @@ fn a_panic_on_a_worker_thread_is_a_panic_of_the_call() {
     let result = catch_unwind(AssertUnwindSafe(|| write_dataset(&settings, out.path(), &report)));
     assert!(result.is_err(), "the dataset counts as written: {result:?}");
 }
+
+/// NaN used to reach the scene generator, which panicked.
+#[test]
+fn a_level_of_detail_out_of_range_is_refused_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("shots");
+    for detail in [f64::NAN, f64::INFINITY, 0.0, -1.0, 0.0099, 4.1] {
+        let settings = DatasetSettings { detail, ..DatasetSettings::default() };
+        let error = write_dataset(&settings, &out, &|_, _| {}).unwrap_err();
+        assert_eq!(error.code(), "DATASET-SETTING");
+        assert_eq!(error.to_string(), format!("detail is {detail}, expected 0.01 to 4"));
+        assert!(!out.exists(), "{detail}: a folder was created");
+    }
+}

@@ -38,6 +38,7 @@ impl From<DatasetError> for Failure {
             DatasetError::OtherSettings { .. } => {
                 (Exit::BadData, "write into another folder, or give the settings that it was made with")
             }
+            DatasetError::BadSetting { .. } => (Exit::Usage, "give a value in that range"),
             DatasetError::BadLine { .. } => (Exit::BadData, "write the shards again with `cinesplat dataset`"),
         };
         Self::new(code, message, help, exit)

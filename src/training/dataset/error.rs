@@ -28,6 +28,16 @@ pub enum DatasetError {
     /// The clouds of a generated scene cannot be made.
     #[error(transparent)]
     Objects(#[from] Box<ObjectsError>),
+    /// A setting is out of range.
+    #[error("{setting} is {found}, expected {expected}")]
+    BadSetting {
+        /// Name of the setting.
+        setting: &'static str,
+        /// Its value.
+        found: String,
+        /// The allowed values.
+        expected: String,
+    },
     /// A malformed line of a shard.
     #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
     BadLine {
@@ -64,6 +74,7 @@ impl DatasetError {
             Self::Objects(error) => error.code(),
             Self::File(error) => error.code(),
             Self::Scene { .. } => "DATASET-SCENE",
+            Self::BadSetting { .. } => "DATASET-SETTING",
             Self::BadLine { .. } => "DATASET-LINE",
             Self::OtherSettings { .. } => "DATASET-SETTINGS",
         }

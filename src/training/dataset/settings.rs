@@ -11,7 +11,8 @@ pub struct DatasetSettings {
     pub num_scenes: u64,
     /// Number of prompts that the operator tries in each scene.
     pub shots_per_scene: u64,
-    /// Number of Gaussians per scene, relative to a generated scene for films.
+    /// Number of Gaussians per scene, relative to a generated scene for films; in
+    /// [`SynthSettings::DETAIL_RANGE`](cinesplat_synth::SynthSettings::DETAIL_RANGE).
     pub detail: f64,
     /// Effort of the search for cameras.
     pub solve: SolveLevel,

@@ -11,6 +11,7 @@ use super::scene_shots::shoot_scene;
 use super::settings::DatasetSettings;
 use crate::workers::run_on_threads;
 use cinesplat_files::{Existing, FileError, create_folder, write};
+use cinesplat_synth::SynthSettings;
 
 /// Scenes of one shard.
 const SCENES_PER_SHARD: u64 = 8;
@@ -42,6 +43,7 @@ impl DatasetSummary {
 /// numbers of finished scenes and of all scenes.
 ///
 /// # Errors
+/// [`DatasetError::BadSetting`] for a level of detail out of range, before any work ·
 /// [`DatasetError::OtherSettings`] for an existing shard of other settings, before any work · [`DatasetError::BadLine`]
 /// for one without a header · [`DatasetError::File`] · [`DatasetError::Scene`] · [`DatasetError::Objects`] ·
 /// [`DatasetError::Language`].
@@ -53,6 +55,7 @@ pub fn write_dataset(
     out: &Path,
     report: &(dyn Fn(u64, u64) + Sync),
 ) -> Result<DatasetSummary, DatasetError> {
+    check_settings(settings)?;
     create_folder(out)?;
     let next = AtomicU64::new(0);
     let done = AtomicU64::new(0);
@@ -74,6 +77,17 @@ pub fn write_dataset(
         total.add(summary?);
     }
     Ok(total)
+}
+
+/// Checks that scenes can be generated with these settings.
+fn check_settings(settings: &DatasetSettings) -> Result<(), DatasetError> {
+    let range = SynthSettings::DETAIL_RANGE;
+    // NaN is in no range.
+    if range.contains(&settings.detail) {
+        return Ok(());
+    }
+    let expected = format!("{} to {}", range.start(), range.end());
+    Err(DatasetError::BadSetting { setting: "detail", found: settings.detail.to_string(), expected })
 }
 
 /// Path, scenes and header of a shard.
