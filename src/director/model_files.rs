@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use candle_core::{Device, Tensor};
-use cinesplat_files::sha256_hex;
+use cinesplat_files::{FileError, sha256_hex};
 use half::f16;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
@@ -119,12 +119,14 @@ impl ModelFiles {
 
 fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {
     let failed = |source| DirectorError::Read { path: path.to_owned(), source };
-    let num_bytes = std::fs::metadata(path).map_err(failed)?.len();
-    if num_bytes > MAX_FILE_BYTES {
-        let (found, expected) = (format!("{num_bytes} bytes"), format!("at most {MAX_FILE_BYTES}"));
-        return Err(bad(&path.display(), &found, &expected));
-    }
-    std::fs::read(path).map_err(failed)
+    cinesplat_files::read(path, MAX_FILE_BYTES).map_err(|error| match error {
+        FileError::Read { path, source } => DirectorError::Read { path, source },
+        FileError::NotAFile { found, .. } => bad(&path.display(), &found, &"a regular file"),
+        FileError::TooLarge { found, expected, .. } => {
+            bad(&path.display(), &format!("{found} bytes"), &format!("at most {expected}"))
+        }
+        error => failed(std::io::Error::other(error)),
+    })
 }
 
 fn check_hash(file: &str, bytes: &[u8], expected: &str) -> Result<(), DirectorError> {

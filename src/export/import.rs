@@ -1,6 +1,5 @@
 //! Tracks and shots read from files of any format.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use strum::VariantNames;
 
@@ -125,11 +124,10 @@ fn file_of(path: &Path) -> Result<PathBuf, ExportError> {
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, ExportError> {
-    let found = fs::metadata(path).map_err(|source| FileError::Read { path: path.to_owned(), source })?.len();
-    if found > MAX_FILE_BYTES {
-        return Err(ExportError::TooLarge { found, expected: MAX_FILE_BYTES, path: path.to_owned() });
-    }
-    Ok(cinesplat_files::read(path)?)
+    cinesplat_files::read(path, MAX_FILE_BYTES).map_err(|error| match error {
+        FileError::TooLarge { path, found, expected } => ExportError::TooLarge { found, expected, path },
+        error => error.into(),
+    })
 }
 
 /// A file that another file names. It must be in the same folder, so that a file cannot read from elsewhere.

@@ -9,18 +9,10 @@ mod hash;
 mod new_file;
 pub mod npy;
 mod paths;
+mod read;
 
 pub use error::FileError;
 pub use hash::sha256_hex;
 pub use new_file::{Existing, NewFile, check_free, create_folder, write};
 pub use paths::{beside, relative_to};
-
-use std::path::Path;
-
-/// All bytes of a file.
-///
-/// # Errors
-/// [`FileError::Read`].
-pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    std::fs::read(path).map_err(|source| FileError::Read { path: path.to_owned(), source })
-}
+pub use read::{MAX_ARRAY_BYTES, MAX_TEXT_BYTES, read};

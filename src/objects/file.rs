@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use super::boxes;
 use super::error::ObjectsError;
 use super::object::{Object, ObjectSet};
-use cinesplat_files::{Existing, FileError, beside, check_free, npy, relative_to};
+use cinesplat_files::{Existing, FileError, MAX_ARRAY_BYTES, MAX_TEXT_BYTES, beside, check_free, npy, relative_to};
 use cinesplat_scene::Scene;
 
 /// Value of the key `format`.
@@ -41,7 +41,7 @@ pub struct ObjectsFile {
 /// another format or version, [`ObjectsError::BadField`], [`ObjectsError::DuplicateId`], and
 /// [`ObjectsError::BadLabels`]. Each names the file, the entry and the field.
 pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
-    let bytes = cinesplat_files::read(path)?;
+    let bytes = cinesplat_files::read(path, MAX_TEXT_BYTES)?;
     let root: Value = serde_json::from_slice(&bytes)
         .map_err(|error| ObjectsError::NotJson { path: path.to_owned(), reason: error.to_string() })?;
     let top = Entry { path, name: "file".to_owned(), fields: object_of(path, "file", &root)? };
@@ -65,7 +65,7 @@ pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
 pub fn read_labels(path: &Path, scene: &Scene) -> Result<Vec<u16>, ObjectsError> {
     let expected = format!("one u8, u16 or u32 id (at most 65535) for each of {} Gaussians", scene.num_in_file());
     let bad = |found: String| ObjectsError::BadLabels { path: path.to_owned(), found, expected: expected.clone() };
-    let ids = decode_ids(&cinesplat_files::read(path)?).map_err(bad)?;
+    let ids = decode_ids(&cinesplat_files::read(path, MAX_ARRAY_BYTES)?).map_err(bad)?;
     scene.kept(&ids).ok_or_else(|| bad(format!("{} ids", ids.len())))
 }
 

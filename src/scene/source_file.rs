@@ -1,9 +1,9 @@
-use std::fs::{self, File};
-use std::io::Read;
+use std::io;
 use std::path::Path;
 
 use super::error::SceneError;
 use super::options::LoadOptions;
+use cinesplat_files::FileError;
 
 /// A file in memory, with its path for errors and the limits of reading.
 #[derive(Clone, Copy)]
@@ -36,21 +36,10 @@ impl SourceFile<'_> {
 /// [`SceneError::NotAFile`] for pipes and devices, which may never end; [`SceneError::TooManyBytes`] above `cap`;
 /// [`SceneError::NotFound`], [`SceneError::Permission`] or [`SceneError::Io`] for faults of the file system.
 pub(super) fn read_file(path: &Path, cap: u64) -> Result<Vec<u8>, SceneError> {
-    let failed = |source| SceneError::from_io(path, source);
-    // Checked before opening, because opening a pipe waits for a writer.
-    let metadata = fs::metadata(path).map_err(failed)?;
-    if !metadata.is_file() {
-        return Err(SceneError::NotAFile { path: path.to_path_buf() });
-    }
-    let too_many = |found| SceneError::TooManyBytes { path: path.to_path_buf(), found, cap };
-    if metadata.len() > cap {
-        return Err(too_many(metadata.len()));
-    }
-    let mut bytes = Vec::new();
-    if bytes.try_reserve_exact(metadata.len() as usize + 1).is_err() {
-        return Err(too_many(metadata.len()));
-    }
-    let file = File::open(path).map_err(failed)?;
-    file.take(cap.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > cap { Err(too_many(bytes.len() as u64)) } else { Ok(bytes) }
+    cinesplat_files::read(path, cap).map_err(|error| match error {
+        FileError::NotAFile { path, .. } => SceneError::NotAFile { path },
+        FileError::TooLarge { path, found, .. } => SceneError::TooManyBytes { path, found, cap },
+        FileError::Read { source, .. } => SceneError::from_io(path, source),
+        other => SceneError::from_io(path, io::Error::other(other)),
+    })
 }

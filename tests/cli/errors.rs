@@ -252,3 +252,34 @@ fn a_level_of_detail_that_is_not_a_number_is_refused() {
     ");
     assert!(!folder.path().join("shots").exists());
 }
+
+/// A FIFO without a writer used to hang every command that reads a file beside the scene.
+#[cfg(unix)]
+#[test]
+fn pipes_devices_and_folders_in_place_of_files_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let made = std::process::Command::new("mkfifo").arg(folder.path().join("fifo")).status().unwrap();
+    assert!(made.success());
+    fs::create_dir(folder.path().join("dir")).unwrap();
+    let commands: [&[&str]; 6] = [
+        &["plan", SMALL_SCENE, "-p", "pan left", "--json", "--objects", "FILE"],
+        &["objects", SMALL_SCENE, "--labels", "FILE"],
+        &["still", SMALL_SCENE, "-o", "stills", "--cameras", "FILE"],
+        &["render", SMALL_SCENE, "-o", "f.mp4", "--shot", "FILE"],
+        &["eval", "shot.json", "FILE"],
+        &["export", "-o", "s.tum", "FILE"],
+    ];
+    for command in commands {
+        for (file, kind) in [("fifo", "a pipe"), ("/dev/zero", "a device"), ("dir", "a folder")] {
+            if command[0] == "eval" && file == "dir" {
+                // A folder may hold a capture of another program.
+                continue;
+            }
+            let arguments: Vec<&str> = command.iter().map(|&word| if word == "FILE" { file } else { word }).collect();
+            let said = answer(folder.path(), &arguments);
+            let expected = format!("error[FILE-KIND]: {file}: it is {kind}, expected a regular file\nhelp: ");
+            assert!(said.starts_with("exit 65\n") && said.contains(&expected), "{command:?} {file}: {said}");
+        }
+    }
+}

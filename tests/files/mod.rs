@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-use cinesplat::files::{Existing, FileError, NewFile, beside, check_free, npy, relative_to, sha256_hex, write};
+use cinesplat::files::{Existing, FileError, NewFile, beside, check_free, npy, read, relative_to, sha256_hex, write};
 
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
@@ -123,4 +123,35 @@ fn paths_inside_a_file_are_relative_to_it() {
 fn hashes_are_those_of_the_standard() {
     // FIPS 180-2, appendix B.1.
     assert_eq!(sha256_hex(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+/// A FIFO without a writer used to block for ever, and `/dev/zero` to fill the memory.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused_unread() {
+    let folder = tempfile::tempdir().unwrap();
+    let (fifo, socket) = (folder.path().join("fifo"), folder.path().join("socket"));
+    let made = std::process::Command::new("mkfifo").arg(&fifo).status().unwrap();
+    assert!(made.success());
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    let refused = |path: &Path| {
+        let error = read(path, u64::MAX).unwrap_err();
+        assert_eq!((error.code(), error.path()), ("FILE-KIND", path));
+        error.to_string().trim_start_matches(&format!("{}: ", path.display())).to_owned()
+    };
+    assert_eq!(refused(&fifo), "it is a pipe, expected a regular file");
+    assert_eq!(refused(&socket), "it is a socket, expected a regular file");
+    assert_eq!(refused(folder.path()), "it is a folder, expected a regular file");
+    assert_eq!(refused(Path::new("/dev/zero")), "it is a device, expected a regular file");
+}
+
+#[test]
+fn a_file_above_the_limit_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    fs::write(&path, b"12345").unwrap();
+    assert_eq!(read(&path, 5).unwrap(), b"12345");
+    let error = read(&path, 4).unwrap_err();
+    assert_eq!(error.code(), "FILE-SIZE");
+    assert!(error.to_string().ends_with("a.txt: the file has 5 bytes, expected at most 4"), "{error}");
 }

@@ -16,6 +16,8 @@ impl From<FileError> for Failure {
             FileError::Create { .. } => (Exit::CannotCreate, "create the folder, or choose one that you may write to"),
             FileError::Read { source, .. } if source.kind() == ErrorKind::NotFound => (Exit::NoInput, "check the path"),
             FileError::Read { .. } => (Exit::Io, "check the path and its permissions"),
+            FileError::NotAFile { .. } => (Exit::BadData, "save the data to a file, and name that file"),
+            FileError::TooLarge { .. } => (Exit::OverCap, "is this the right file?"),
             FileError::Write { .. } => (Exit::Io, "check free space and permissions of the folder"),
         };
         Self::new(error.code(), error.to_string(), help, if is_denied { Exit::Permission } else { exit })
