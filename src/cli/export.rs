@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use strum::VariantNames;
 
 use super::failure::Failure;
-use super::{console, formats, heading, outputs};
-use cinesplat::export::{self, Content, EncodedFiles, ExportSettings, Format, Layout, shot_json};
+use super::{console, formats, heading, outputs, shot_args};
+use cinesplat::export::{self, Content, EncodedFiles, ExportSettings, Format, Layout};
 use cinesplat::trajectory::retimed;
 
 const EXAMPLES: &str = "\
@@ -61,8 +61,8 @@ impl Args {
             ));
         }
         files.iter().try_for_each(|file| self.overwrite.check(file))?;
-        let text = outputs::read_text(&self.shot)?;
-        let shot = shot_json::read(&text).map_err(|error| Failure::from(error).in_file(&self.shot))?;
+        let shot = shot_args::read_file(&self.shot)?;
+        shot_args::print_warnings(&shot);
         let shot = if self.retime { retimed(&shot) } else { shot };
         let content = if self.keyframes { Content::Keyframes } else { Content::Sampled };
         let settings = ExportSettings { content, fps: self.fps, layout };

@@ -78,13 +78,13 @@ impl ShotArgs {
 
     /// Reads a shot and applies the flags to it.
     pub(super) fn read_shot(&self, path: &Path, scene: &Scene) -> Result<Shot, Failure> {
-        let text = outputs::read_text(path)?;
-        let shot = cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
+        let shot = read_file(path)?;
         let made_for_another = !shot.scene.sha256.is_empty() && shot.scene.sha256 != scene.sha256;
         if made_for_another {
             console::note(&format!("warning: {} was made for another scene: {}", path.display(), shot.scene.path));
         }
         let mut shot = self.changed(shot);
+        print_warnings(&shot);
         shot.clearance = Some(pipeline::prove_clearance(scene, &shot)?);
         print_clearance(&shot);
         let calls =
@@ -99,12 +99,26 @@ impl ShotArgs {
     fn changed(&self, mut shot: Shot) -> Shot {
         (shot.width, shot.height) = self.size.unwrap_or((shot.width, shot.height));
         shot.fps = self.fps.unwrap_or(shot.fps);
-        if let Some(wanted) = self.duration.filter(|_| shot.duration_secs > 0.0) {
-            let factor = wanted / shot.duration_secs;
+        if let Some(wanted) = self.duration {
+            // A shot without length has no times that could be scaled.
+            let factor = if shot.duration_secs > 0.0 { wanted / shot.duration_secs } else { 1.0 };
             shot.keyframes.iter_mut().for_each(|key| key.time_secs *= factor);
             shot.duration_secs = wanted;
         }
         if self.retime { retimed(&shot) } else { shot }
+    }
+}
+
+/// Reads a shot.
+pub(super) fn read_file(path: &Path) -> Result<Shot, Failure> {
+    let text = outputs::read_text(path)?;
+    cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))
+}
+
+/// Warns of keys after the end of the film and of a film without length.
+pub(super) fn print_warnings(shot: &Shot) {
+    for line in shot.warnings() {
+        console::note(&format!("warning: {line}"));
     }
 }
 

@@ -89,11 +89,13 @@ impl PoseTrack {
             let time_secs = at_rate.frame_time_secs(frame_idx);
             let state = path.sample(time_secs);
             let since = frames.last().map_or(f64::INFINITY, |last| last.time_secs);
-            let cut_between = |key: &Keyframe| key.cut && since < key.time_secs && key.time_secs <= time_secs;
+            // The keys are in order of time.
+            let first = at_rate.keyframes.partition_point(|key| key.time_secs <= since);
+            let mut keys_between = at_rate.keyframes[first..].iter().take_while(|key| key.time_secs <= time_secs);
             frames.push(PoseFrame {
                 fov_y_rad: Some(state.fov_y_rad),
                 focus_distance: state.focus_distance,
-                cut: at_rate.keyframes.iter().any(cut_between),
+                cut: keys_between.any(|key| key.cut),
                 ..PoseFrame::new(time_secs, state.pose)
             });
         }

@@ -6,6 +6,14 @@ pub enum TrajectoryError {
     /// A shot without keyframes.
     #[error("a shot needs at least one keyframe, found none")]
     NoKeyframes,
+    /// More keyframes than a shot may have.
+    #[error("a shot has {found} keyframes, expected at most {expected}")]
+    TooManyKeyframes {
+        /// Number of keyframes.
+        found: usize,
+        /// The limit.
+        expected: usize,
+    },
     /// Times that do not increase.
     #[error("keyframe {index} is at {found} s, expected later than {previous} s")]
     TimesNotIncreasing {

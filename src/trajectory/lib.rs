@@ -24,6 +24,6 @@ pub use clearance::{ClearanceFailure, ClearanceProof};
 pub use easing::Easing;
 pub use error::TrajectoryError;
 pub use path::CameraPath;
-pub use shot::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
+pub use shot::{EffectRequest, Intent, Keyframe, MAX_KEYFRAMES, ModelRef, ReportLine, SceneRef, Shot};
 pub use timing::{retime, retimed};
 pub use vocabulary::{Move, ShotAngle, ShotSize};

@@ -3,6 +3,12 @@ use glam::DVec3;
 use super::{ClearanceProof, Easing, Move, ShotAngle, ShotSize, TrajectoryError};
 use cinesplat_geometry::Pose;
 
+/// Most keyframes of a shot: 55 minutes with a key per frame at 30 frames per second.
+pub const MAX_KEYFRAMES: usize = 100_000;
+
+/// Time by which a key may lie after the end of its film without a warning: rounding of times in files, seconds.
+const TIME_ROUNDING_SECS: f64 = 1e-6;
+
 /// A shot: keyframes, their purpose, and the report. The in-memory form of `shot.json`, version 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
@@ -145,6 +151,28 @@ impl Shot {
         frame_idx as f64 / self.fps
     }
 
+    /// One line per surprise in the times of a valid shot: keys after the end of the film, a film without length.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        let (fps, duration_secs) = (self.fps, self.duration_secs);
+        let last_secs = self.keyframes.last().map_or(0.0, |key| key.time_secs);
+        let end_secs = duration_secs + TIME_ROUNDING_SECS;
+        let num_late = self.keyframes.iter().filter(|key| key.time_secs > end_secs).count();
+        if num_late > 0 {
+            let num_keys = self.keyframes.len();
+            lines.push(format!(
+                "{num_late} of {num_keys} keyframes lie after the end of the film and are not shown: the last is at \
+                 {last_secs} s, duration_secs is {duration_secs}"
+            ));
+        }
+        if duration_secs * fps < 0.5 {
+            lines.push(format!(
+                "duration_secs is {duration_secs}, less than half a frame at {fps} frames per second: the film has one frame"
+            ));
+        }
+        lines
+    }
+
     /// The shot itself, if every number is in range. Every shot from a file passes this check before the engine uses
     /// it.
     ///
@@ -169,6 +197,9 @@ impl Shot {
 fn check_shot_values(shot: &Shot) -> Result<(), TrajectoryError> {
     if shot.keyframes.is_empty() {
         return Err(TrajectoryError::NoKeyframes);
+    }
+    if shot.keyframes.len() > MAX_KEYFRAMES {
+        return Err(TrajectoryError::TooManyKeyframes { found: shot.keyframes.len(), expected: MAX_KEYFRAMES });
     }
     let bad = |field, found: String, expected| Err(TrajectoryError::BadShotValue { field, found, expected });
     if !(1..=16384).contains(&shot.width) || !(1..=16384).contains(&shot.height) {

@@ -1,6 +1,6 @@
 //! Shots as data: vocabulary and frame counts.
 
-use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
+use cinesplat::trajectory::{Easing, MAX_KEYFRAMES, Move, ShotAngle, ShotSize};
 use glam::DVec3;
 use strum::{VariantArray, VariantNames};
 
@@ -28,4 +28,27 @@ fn a_film_has_duration_times_rate_frames() {
     assert_eq!(shot.num_frames(), 240);
     shot.duration_secs = 0.0;
     assert_eq!(shot.num_frames(), 1);
+}
+
+/// A million keys used to take a minute and gigabytes of memory.
+#[test]
+fn a_shot_with_too_many_keys_is_refused() {
+    let keys = |num: usize| (0..num).map(|i| key(i as f64 * 0.01, DVec3::ZERO)).collect();
+    let checked = |num: usize| shot(keys(num)).validated().map(|_| ()).map_err(|error| error.to_string());
+    assert_eq!(checked(MAX_KEYFRAMES), Ok(()));
+    assert_eq!(checked(MAX_KEYFRAMES + 1).unwrap_err(), "a shot has 100001 keyframes, expected at most 100000");
+}
+
+/// Such keys used to be dropped without a word.
+#[test]
+fn keys_after_the_end_of_the_film_are_a_warning() {
+    let mut shot = shot(vec![key(0.0, DVec3::ZERO), key(4.0, DVec3::X), key(8.0, DVec3::Y)]);
+    assert!(shot.warnings().is_empty());
+    shot.duration_secs = 4.0 - 1e-9;
+    insta::assert_snapshot!(shot.warnings().join("\n"), @"1 of 3 keyframes lie after the end of the film and are not shown: the last is at 8 s, duration_secs is 3.999999999");
+    shot.duration_secs = 0.0;
+    insta::assert_snapshot!(shot.warnings().join("\n"), @r"
+    2 of 3 keyframes lie after the end of the film and are not shown: the last is at 8 s, duration_secs is 0
+    duration_secs is 0, less than half a frame at 30 frames per second: the film has one frame
+    ");
 }

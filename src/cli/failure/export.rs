@@ -1,4 +1,5 @@
 use cinesplat::export::ExportError;
+use cinesplat::trajectory::TrajectoryError;
 
 use super::exit::Exit;
 use super::message::Failure;
@@ -16,6 +17,9 @@ impl From<ExportError> for Failure {
             E::BadField { place, expected, .. } => (Exit::BadData, format!("set {place} to {expected}")),
             E::BadLine { line, .. } => (Exit::BadData, format!("correct or remove line {line}")),
             E::BadBytes { .. } => (Exit::BadData, "the file may be cut off: copy it again".to_owned()),
+            E::BadShot(TrajectoryError::TooManyKeyframes { .. }) => {
+                (Exit::BadData, "leave out keys: the path between them is smooth".to_owned())
+            }
             E::BadShot(_) => (Exit::BadData, "correct the value named above in the file".to_owned()),
             E::NoPoses => (Exit::BadData, "export the camera path again from the program that wrote it".to_owned()),
             E::NotReadable { .. } => (Exit::BadData, "export the path as nerfstudio, gltf or tum instead".to_owned()),
