@@ -9,7 +9,7 @@ use super::known_words::KnownWords;
 use super::lexicon::Lexicon;
 use super::names::{NameIndex, NameMatch, NamedObject, display_name};
 use super::numbered::numbered_mention_at;
-use super::quantity::{Quantity, quantity_at};
+use super::quantity::{Quantity, is_unread_number, quantity_at};
 use super::tokenizer::{Word, span_of, tokenize, word_at};
 use super::unknown::{UnknownName, unknown_candidate_at, unknown_name};
 
@@ -19,6 +19,8 @@ pub const MAX_PROMPT_BYTES: usize = 8192;
 pub const MAX_SLOTS: usize = 100;
 /// Limit on the quantities of a prompt; further ones stay words.
 pub const MAX_QUANTITIES: usize = 32;
+/// Most warnings about numbers and ambiguous mentions.
+const MAX_WARNINGS: usize = 32;
 
 /// A prompt with its objects and quantities replaced by placeholders, as the model reads it.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -123,6 +125,7 @@ impl Linker<'_> {
                     continue;
                 }
             }
+            self.warn_if_unread_number(i);
             self.push(word_at(self.words, i), i, 1);
             i += 1;
         }
@@ -212,9 +215,18 @@ impl Linker<'_> {
         let chosen: Vec<String> = found.objects.iter().filter_map(name).collect();
         let alternatives: Vec<String> = found.alternatives.iter().take(5).filter_map(name).collect();
         let warning = format!("took {}; {} could be meant as well", chosen.join(", "), alternatives.join(", "));
-        if !self.linked.warnings.contains(&warning) && self.linked.warnings.len() < 32 {
+        if !self.linked.warnings.contains(&warning) && self.linked.warnings.len() < MAX_WARNINGS {
             self.linked.warnings.push(warning);
         }
+    }
+
+    fn warn_if_unread_number(&mut self, i: usize) {
+        if !is_unread_number(self.words, i) || self.linked.warnings.len() >= MAX_WARNINGS {
+            return;
+        }
+        let word = word_at(self.words, i);
+        let expected = "expected digits below 1000000, or words below one thousand";
+        self.linked.warnings.push(format!("the number \"{word}\" was ignored, {expected}"));
     }
 
     fn no_such_number(&self, start: usize, len: usize, id: Option<u32>) -> LanguageError {

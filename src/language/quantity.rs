@@ -107,6 +107,15 @@ fn unit(word: &str) -> Option<(QuantityKind, f64)> {
     })
 }
 
+/// Whether word `i` is a number beyond those that are read: a million or more in digits, a thousand or more in words
+/// before a unit.
+pub(super) fn is_unread_number(words: &[Word], i: usize) -> bool {
+    let word = word_at(words, i);
+    let is_large = word.starts_with(|c: char| c.is_ascii_digit()) && word.parse::<f64>().is_ok_and(|v| v >= 1e6);
+    let is_power = matches!(word, "thousand" | "million" | "billion" | "trillion");
+    is_large || is_power && unit(word_at(words, i + 1)).is_some()
+}
+
 fn is_turn(word: &str) -> bool {
     matches!(
         word,

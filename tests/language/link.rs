@@ -232,3 +232,20 @@ fn check_spans(prompt: &str) -> Result<(), TestCaseError> {
     prop_assert!(found.quantities.iter().all(|q| q.value.is_finite() && q.value > 0.0));
     Ok(())
 }
+
+/// "one billion seconds" used to be dropped, and the film got a length of its own.
+#[test]
+fn a_number_that_is_too_large_to_be_read_is_a_warning() {
+    let warnings = |prompt: &str| link(prompt, &room()).unwrap().warnings.join("; ");
+    let expected = "expected digits below 1000000, or words below one thousand";
+    assert_eq!(
+        warnings("orbit the golden skull for one billion seconds"),
+        format!("the number \"billion\" was ignored, {expected}")
+    );
+    assert_eq!(
+        warnings("orbit the golden skull for 1000000000 seconds"),
+        format!("the number \"1000000000\" was ignored, {expected}")
+    );
+    assert_eq!(warnings("orbit the golden skull for 999999 seconds"), "");
+    assert_eq!(warnings("orbit the golden skull for two hundred seconds"), "");
+}
