@@ -3,7 +3,24 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::failure::Failure;
 
-/// Writes data to stdout. A closed pipe (`| head`) is no error.
+/// Writes a text for people to stdout, with its control characters replaced.
+pub(super) fn text(text: &str) -> Result<(), Failure> {
+    data(&without_escapes(text))
+}
+
+/// The text with every control character but line feeds and tabs replaced by U+FFFD: a name or prompt from a file cannot
+/// control the terminal.
+fn without_escapes(text: &str) -> String {
+    let is_harmful = |c: char| c.is_control() && c != '\n' && c != '\t';
+    text.replace(is_harmful, "\u{FFFD}")
+}
+
+/// A text from a file as part of one line: line feeds and tabs are replaced as well.
+pub(super) fn one_line(text: &str) -> String {
+    text.replace(char::is_control, "\u{FFFD}")
+}
+
+/// Writes data for programs to stdout. A closed pipe (`| head`) is no error.
 pub(super) fn data(text: &str) -> Result<(), Failure> {
     data_bytes(text.as_bytes())
 }
@@ -26,7 +43,7 @@ pub(super) fn set_quiet(is_quiet: bool) {
     IS_QUIET.store(is_quiet, Ordering::Relaxed);
 }
 
-/// Writes a line to stderr, unless the program is quiet.
+/// Writes a line to stderr, unless the program is quiet. Its control characters are replaced.
 pub(super) fn note(line: &str) {
     if !IS_QUIET.load(Ordering::Relaxed) {
         line_to_stderr(line);
@@ -35,7 +52,7 @@ pub(super) fn note(line: &str) {
 
 /// A failed write is ignored: there is no other place to report it.
 fn line_to_stderr(line: &str) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{}", without_escapes(line));
 }
 
 /// Writes an error and its help to stderr.

@@ -114,10 +114,10 @@ impl Args {
         for line in &evaluation.notes {
             console::note(&format!("note: {line}"));
         }
-        console::data(&text(&evaluation))?;
+        console::text(&text(&evaluation))?;
         if self.motion {
-            console::data(&motion_text("reference", &evaluation.matches.reference))?;
-            console::data(&motion_text("estimate", &evaluation.matches.estimate))?;
+            console::text(&motion_text("reference", &evaluation.matches.reference))?;
+            console::text(&motion_text("estimate", &evaluation.matches.estimate))?;
         }
         Ok(())
     }
@@ -131,12 +131,11 @@ impl Args {
             ));
         }
         let rows = eval_folders::compare([&self.reference, &self.estimate], settings, |path| self.read(path))?;
-        let table = match (self.json, self.csv) {
-            (true, _) => summary_json(&rows),
-            (_, true) => summary_csv(&rows),
-            _ => summary_text(&rows),
-        };
-        console::data(&table)
+        match (self.json, self.csv) {
+            (true, _) => console::data(&summary_json(&rows)),
+            (_, true) => console::data(&summary_csv(&rows)),
+            _ => console::text(&summary_text(&rows)),
+        }
     }
 
     fn settings(&self) -> Result<EvalSettings, Failure> {

@@ -1,6 +1,7 @@
 use std::fmt::Write as _;
 use strum::VariantArray;
 
+use super::console;
 use cinesplat::lens::{Decision, Effect, EffectKind};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{Amount, Framing, Speed, Step, SubjectPart};
@@ -115,7 +116,7 @@ fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<
 
 fn names(ids: &[u32], objects: &ObjectSet) -> String {
     let name = |id: &u32| match objects.get(*id) {
-        Some(object) if !object.label.is_empty() => format!("{} <obj-{id}>", object.label),
+        Some(object) if !object.label.is_empty() => format!("{} <obj-{id}>", console::one_line(&object.label)),
         _ => format!("<obj-{id}>"),
     };
     ids.iter().map(name).collect::<Vec<_>>().join(" and ")

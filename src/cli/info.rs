@@ -25,7 +25,11 @@ impl Args {
         let scene = self.scene.open()?.scene;
         let info = scene.info();
         let file = scene.path.display().to_string();
-        console::data(&if self.json { format!("{:#}\n", as_json(&file, &info)) } else { as_text(&file, &info) })
+        if self.json {
+            console::data(&format!("{:#}\n", as_json(&file, &info)))
+        } else {
+            console::text(&as_text(&file, &info))
+        }
     }
 }
 

@@ -78,7 +78,11 @@ impl Args {
         if self.output.as_deref().is_some_and(outputs::is_stdout) {
             return Ok(());
         }
-        console::data(&if self.json { format!("{:#}\n", as_json(&set)) } else { table(&set) })?;
+        if self.json {
+            console::data(&format!("{:#}\n", as_json(&set)))?;
+        } else {
+            console::text(&table(&set))?;
+        }
         reproduce::print(&[]);
         Ok(())
     }
@@ -104,7 +108,7 @@ fn table(set: &ObjectSet) -> String {
     for object in &set.objects {
         let vector = |v: glam::DVec3| format!("{:.3} {:.3} {:.3}", v.x, v.y, v.z);
         let (center, size) = (vector(object.center), vector(object.half_extents * 2.0));
-        let (id, label, count) = (object.id, &object.label, object.num_gaussians);
+        let (id, label, count) = (object.id, console::one_line(&object.label), object.num_gaussians);
         let _ = writeln!(text, "{id:>5}  {label:<widest$}  {count:>9}  {center:<25}  {size}");
     }
     text

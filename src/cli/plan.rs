@@ -105,7 +105,7 @@ impl Args {
         if self.explain {
             self.print_forecasts(scene, &directed.shot)?;
             let text = explain::explanation(&directed, objects);
-            if self.json { console::note(&text) } else { console::data(&text)? }
+            if self.json { console::note(&text) } else { console::text(&text)? }
         }
         if self.json {
             console::data(&shot_json::write(&directed.shot))?;

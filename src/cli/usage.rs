@@ -6,7 +6,7 @@ use super::failure::Failure;
 /// Answers arguments that clap does not accept as a command: prints help or version on request, otherwise returns the error.
 pub(super) fn answer(refused: &clap::Error) -> Result<(), Failure> {
     match refused.kind() {
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => console::data(&refused.render().to_string()),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => console::text(&refused.render().to_string()),
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             console::note(&refused.render().to_string());
             Err(Failure::usage(

@@ -283,3 +283,25 @@ fn pipes_devices_and_folders_in_place_of_files_are_refused() {
         }
     }
 }
+
+/// Escape sequences of labels and prompts used to reach the terminal.
+#[test]
+fn control_characters_of_files_are_replaced_in_texts() {
+    let folder = tempfile::tempdir().unwrap();
+    let label = r"red\u001b[31m\u009b2J\u0007\nlamp";
+    let object = format!(r#"{{"id":1,"label":"{label}","center":[0,1,0],"half_extents":[1,1,1]}}"#);
+    let text = format!(r#"{{"format":"cinesplat.objects","version":1,"objects":[{object}]}}"#);
+    fs::write(folder.path().join("o.json"), text).unwrap();
+    let objects = answer(folder.path(), &["objects", SMALL_SCENE, "--objects", "o.json"]);
+    assert!(objects.contains("red\u{FFFD}[31m\u{FFFD}2J\u{FFFD}\u{FFFD}lamp"), "{objects:?}");
+    let plan = ["plan", SMALL_SCENE, "-p", "push in on <obj-1>", "--objects", "o.json", "--explain", "--solve", "off"];
+    write_shot(folder.path());
+    let shot = fs::read_to_string(folder.path().join("shot.json")).unwrap();
+    let effect = r#""effects":[{"kind":"\u001b]0;title\u0007","because":"\u001b[2J"}],"keyframes""#;
+    fs::write(folder.path().join("shot.json"), shot.replace(r#""keyframes""#, effect)).unwrap();
+    let render = ["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4", "--frames", "0..1"];
+    for said in [objects, answer(folder.path(), &plan), answer(folder.path(), &render)] {
+        assert!(said.starts_with("exit 0\n"), "{said:?}");
+        assert!(!said.contains(|c: char| c.is_control() && c != '\n'), "{said:?}");
+    }
+}
