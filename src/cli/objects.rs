@@ -49,9 +49,13 @@ impl Args {
         for path in self.output.iter().chain(&self.sheet) {
             self.overwrite.check(path)?;
         }
-        if let Some(path) = self.output.as_ref().filter(|path| !outputs::is_stdout(path)) {
-            self.overwrite.check(&objects::labels_path(path))?;
+        let labels = self.output.as_deref().filter(|path| !outputs::is_stdout(path)).map(objects::labels_path);
+        if let Some(labels) = &labels {
+            self.overwrite.check(labels)?;
         }
+        let named = [("--output", self.output.as_deref()), ("--sheet", self.sheet.as_deref())];
+        let named = named.into_iter().chain([("the labels of --output", labels.as_deref())]);
+        outputs::check_distinct(named.filter_map(|(flag, path)| Some((flag, path?))))?;
         let (scene, mut set) = match &self.labels {
             Some(labels) => {
                 let scene = self.scene.open()?.scene;

@@ -1,5 +1,6 @@
 //! Outputs of commands: checked before any work, complete or absent, `-` for standard output.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use cinesplat::files::{self, Existing, MAX_TEXT_BYTES};
@@ -57,6 +58,27 @@ impl BenchFolder {
     pub(super) fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
         let Some(folder) = &self.output else { return Ok(()) };
         self.overwrite.write(&folder.join(name), text.as_bytes())
+    }
+}
+
+/// Refuses two outputs of one path before any work. Each output comes with the flag that names it.
+pub(super) fn check_distinct<'a>(outputs: impl IntoIterator<Item = (&'a str, &'a Path)>) -> Result<(), Failure> {
+    let mut flag_of_place = BTreeMap::new();
+    for (flag, path) in outputs {
+        if let Some(first) = flag_of_place.insert(place_of(path), flag) {
+            let found = format!("{}: {first} and {flag} both write this file", path.display());
+            return Err(Failure::usage(format!("{found}, expected two files"), "give each output a name of its own"));
+        }
+    }
+    Ok(())
+}
+
+/// One name per file: the folder without links and `..`, then the name.
+fn place_of(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match (folder.canonicalize(), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_owned(),
     }
 }
 

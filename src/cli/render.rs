@@ -186,7 +186,9 @@ impl Args {
         for path in self.save_shot.iter().chain(&self.sheet) {
             self.overwrite.check(path)?;
         }
-        Ok(())
+        let shot = self.save_shot.as_deref().map(|path| ("--save-shot", path));
+        let sheet = self.sheet.as_deref().map(|path| ("--sheet", path));
+        outputs::check_distinct([("--output", self.output.as_path())].into_iter().chain(shot).chain(sheet))
     }
 
     fn open(&self, times: &mut PhaseTimes) -> Result<(Scene, Shot), Failure> {

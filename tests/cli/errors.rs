@@ -284,6 +284,20 @@ fn pipes_devices_and_folders_in_place_of_files_are_refused() {
     }
 }
 
+#[test]
+fn two_outputs_of_one_name_are_refused_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    insta::assert_snapshot!(answer(folder.path(), &["render", "no.ply", "-p", "x", "-o", "f.mp4", "--sheet", "./f.mp4"]), @r"
+    exit 2
+    error[USAGE]: ./f.mp4: --output and --sheet both write this file, expected two files
+    help: give each output a name of its own
+    ");
+    let render = ["render", "no.ply", "-p", "x", "-o", "f.mp4", "--save-shot", "a.png", "--sheet", "a.png"];
+    assert!(answer(folder.path(), &render).contains("a.png: --save-shot and --sheet both write this file"));
+    let objects = ["objects", "no.ply", "-o", "o.json", "--sheet", "o.labels.npy"];
+    assert!(answer(folder.path(), &objects).contains("o.labels.npy: --sheet and the labels of --output both write"));
+}
+
 /// Escape sequences of labels and prompts used to reach the terminal.
 #[test]
 fn control_characters_of_files_are_replaced_in_texts() {
