@@ -244,6 +244,13 @@ impl Args {
         let chosen = forecasts.iter().find(|forecast| forecast.quality == quality).copied();
         let predicted = chosen.ok_or_else(|| Failure::fault("a quality without a forecast"))?;
         console::note(&format!("predicted for {} frames: {}", settings.video.num_frames, predicted.sentence()));
+        if predicted.is_empty {
+            console::note(&format!(
+                "warning: no sampled frame shows a Gaussian, the film will be background alone: check the camera path, \
+                 the scene's opacities and --near (now {})",
+                settings.render.near
+            ));
+        }
         Ok(predicted)
     }
 

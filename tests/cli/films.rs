@@ -130,3 +130,21 @@ fn an_interrupted_film_is_kept_under_another_name() {
     assert!(said.contains("error[STOPPED]: film.partial.mkv: stopped after"), "{said}");
     assert!(folder.path().join("film.partial.mkv").exists() && !folder.path().join("film.mkv").exists());
 }
+
+/// Both used to be made without a word.
+#[test]
+fn a_black_film_and_keys_after_its_end_are_warnings() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
+    fs::write(folder.path().join("shot.json"), text.replace(r#""duration_secs":1"#, r#""duration_secs":0.5"#)).unwrap();
+    let render = ["render", SMALL_SCENE, "--shot", "shot.json", "--overwrite", "-o", "f.mp4"];
+    let late = "warning: 1 of 2 keyframes lie after the end of the film and are not shown: the last is at 1 s";
+    let black = "warning: no sampled frame shows a Gaussian";
+    let said = answer(folder.path(), &render);
+    assert!(said.contains(late) && !said.contains(black), "{said}");
+    let said = answer(folder.path(), &[&render[..], &["--near", "1000"]].concat());
+    assert!(said.starts_with("exit 0\n") && said.contains(black) && said.contains("--near (now 1000)"), "{said}");
+    let said = answer(folder.path(), &["export", "shot.json", "-o", "s.tum"]);
+    assert!(said.contains(late), "{said}");
+}

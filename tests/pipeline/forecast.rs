@@ -8,6 +8,7 @@ use cinesplat::pipeline::{
     FilmCost, FilmSettings, Forecast, PipelineError, Requirements, TimeCost, checked_psnr_db, choose, forecast,
 };
 use cinesplat::render::{Quality, RenderSettings, Renderer};
+use cinesplat::scene::Scene;
 
 use super::{scene, settings, shot};
 
@@ -20,6 +21,7 @@ fn forecasts() -> Vec<Forecast> {
         psnr_db,
         worst_psnr_db: psnr_db - 1.0,
         memory_bytes: 1 << 28,
+        is_empty: false,
     };
     vec![
         of(Quality::Draft, 10, 30.0),
@@ -138,4 +140,23 @@ fn a_film_of_one_frame_has_a_forecast() {
     let found = forecast(&Renderer::new(&scene.gaussians), &shot(), film, &one, &[Quality::Reference]).unwrap();
     assert_eq!(found.iter().map(|forecast| forecast.quality).collect::<Vec<_>>(), [Quality::Reference]);
     assert!(found[0].film_time > Duration::ZERO);
+}
+
+/// Such a film used to be rendered without a word.
+#[test]
+fn a_film_of_the_background_alone_is_forecast_as_empty() {
+    let (scene, shot) = (scene(), shot());
+    let is_empty = |scene: &Scene, near: f64| {
+        let renderer = Renderer::new(&scene.gaussians);
+        let film = FilmSettings { render: RenderSettings { near, ..settings().render }, ..settings() };
+        let made =
+            forecast(&renderer, &shot, Path::new("f.mp4"), &film, &[Quality::Draft, Quality::Reference]).unwrap();
+        assert_eq!(made[0].is_empty, made[1].is_empty);
+        made[0].is_empty
+    };
+    assert!(!is_empty(&scene, 0.05));
+    assert!(is_empty(&scene, 1e6), "near plane beyond the scene");
+    let mut transparent = scene.clone();
+    transparent.gaussians.opacities.fill(0.0);
+    assert!(is_empty(&transparent, 0.05));
 }

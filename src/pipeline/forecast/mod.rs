@@ -58,6 +58,8 @@ pub struct Forecast {
     pub worst_psnr_db: f64,
     /// Memory of renderer, encoder and the frames between them, without the loaded scene.
     pub memory_bytes: u64,
+    /// Whether all sampled frames show the background alone.
+    pub is_empty: bool,
 }
 
 /// Requirements of a film.
@@ -102,6 +104,8 @@ pub fn forecast(
     let middle = &run[run.len() / 2];
     let exact = ReferenceSample::of(renderer, middle, &settings.render)?;
     let mean_work = sampler.mean_work()?;
+    // Nothing was blended into any picture along the path.
+    let is_empty = mean_work[3] <= 0.0;
     sample_further(&sampler, &timed, &mut samples, &limit)?;
 
     let num_ahead = encoder_delay_frames(&VideoFormat::from_path(output)?, &video);
@@ -123,7 +127,7 @@ pub fn forecast(
             psnr_db(samples.mean_squares.iter().copied(), exact.final_db),
             psnr_db(std::iter::once(worst), exact.final_db),
         ];
-        Forecast::new(quality, &cost, psnr_db, memory_bytes)
+        Forecast { is_empty, ..Forecast::new(quality, &cost, psnr_db, memory_bytes) }
     };
     let is_wanted = |(quality, _): &(&Quality, &Samples)| qualities.contains(quality);
     let mut forecasts: Vec<Forecast> = timed.iter().zip(&samples).filter(is_wanted).map(of_fast).collect();
@@ -132,7 +136,8 @@ pub fn forecast(
         let wall_secs = exact.reference_secs(renderer, middle, &settings.render)? * more;
         let cpu_secs = wall_secs * rayon::current_num_threads().min(num_cores()) as f64;
         let cost = FilmCost { render: TimeCost { wall_secs, cpu_secs }, ..cost };
-        forecasts.push(Forecast::new(Quality::Reference, &cost, [f64::INFINITY; 2], memory_bytes));
+        let exact = Forecast::new(Quality::Reference, &cost, [f64::INFINITY; 2], memory_bytes);
+        forecasts.push(Forecast { is_empty, ..exact });
     }
     Ok(forecasts)
 }
@@ -190,6 +195,7 @@ impl Forecast {
             psnr_db,
             worst_psnr_db,
             memory_bytes,
+            is_empty: false,
         }
     }
 
