@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::choice::choice;
 use super::failure::Failure;
-use super::{console, eval_folders, heading};
+use super::{console, eval_folders, formats, heading};
 use cinesplat::evaluation::{
     Align, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere,
     Trajectory, evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,
@@ -155,6 +155,7 @@ impl Args {
     fn read(&self, path: &Path) -> Result<Trajectory, Failure> {
         let in_file = |error| Failure::from(error).in_file(path);
         let imported = export::read(path, self.from).map_err(in_file)?;
+        formats::note_doubt(path, imported.doubt.as_ref());
         let track = match &imported.shot {
             Some(shot) => PoseTrack::sampled(shot, None)?,
             None => imported.track,

@@ -1,6 +1,9 @@
+use std::path::Path;
+
 use strum::{EnumMessage, VariantArray};
 
-use cinesplat::export::Format;
+use super::console;
+use cinesplat::export::{Doubt, Format};
 
 /// The formats of camera paths with what each is, after `examples`.
 pub(super) fn table_with(examples: &str) -> String {
@@ -10,4 +13,11 @@ pub(super) fn table_with(examples: &str) -> String {
     };
     let rows: Vec<String> = Format::VARIANTS.iter().map(row).collect();
     format!("{examples}\n\nFormats:\n{}", rows.join("\n"))
+}
+
+/// Says how a file was read whose content fits two formats, and the flag that settles it.
+pub(super) fn note_doubt(path: &Path, doubt: Option<&Doubt>) {
+    if let Some(Doubt { read_as, other, other_reading }) = doubt {
+        console::note(&format!("note: {}: read as {read_as}; --from {other} reads {other_reading}", path.display()));
+    }
 }

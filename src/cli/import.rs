@@ -1,19 +1,24 @@
 use super::outputs::Overwrite;
 use std::path::PathBuf;
 
+use glam::DVec3;
+
 use super::choice::choice;
 use super::failure::Failure;
+use super::scene_args::parse_vector;
+use super::shot_args::{parse_rate, parse_size};
 use super::{console, formats, heading};
-use cinesplat::export::{self, Format, shot_json};
+use cinesplat::export::{self, Format, ImportSettings, shot_json};
 
 const EXAMPLES: &str = "\
 Examples:
   cinesplat import camera_path.json -o shot.json
-  cinesplat import poses.txt --from kitti -o shot.json";
+  cinesplat import poses.txt --from kitti --fps 10 -o shot.json
+  cinesplat import poses.tum --size 1920x1080 --fov 40 --up 0,0,1 -o shot.json";
 
 /// Turn another program's camera path into a shot
 ///
-/// Prints a warning for everything that the file does not say and the shot assumes.
+/// Prints a warning for everything that the file does not say and the shot assumes. Flags win over the file.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, after_long_help = formats::table_with(EXAMPLES))]
 pub(super) struct Args {
@@ -26,6 +31,18 @@ pub(super) struct Args {
     /// Format to read [default: by the content of the file]
     #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]
     from: Option<Format>,
+    /// Frames per second [default: the file's, or what its times show]
+    #[arg(long, value_name = "FPS", help_heading = heading::SHOT, value_parser = parse_rate)]
+    fps: Option<f64>,
+    /// Frame size in pixels [default: the file's, or 1280x720]
+    #[arg(long, value_name = "WxH", help_heading = heading::SHOT, value_parser = parse_size)]
+    size: Option<(u32, u32)>,
+    /// Vertical field of view in degrees [default: the file's, or 50]
+    #[arg(long, value_name = "DEG", help_heading = heading::SHOT, value_parser = parse_fov)]
+    fov: Option<f64>,
+    /// World up [default: the file's]
+    #[arg(long, value_name = "X,Y,Z", help_heading = heading::SHOT, value_parser = parse_vector, allow_hyphen_values = true)]
+    up: Option<DVec3>,
     #[command(flatten)]
     overwrite: Overwrite,
 }
@@ -36,7 +53,10 @@ impl Args {
         let in_file = |error| Failure::from(error).in_file(&self.file);
         let imported = export::read(&self.file, self.from).map_err(in_file)?;
         let format = imported.format;
-        let (shot, assumed) = imported.into_shot().map_err(in_file)?;
+        formats::note_doubt(&self.file, imported.doubt.as_ref());
+        let settings =
+            ImportSettings { fps: self.fps, size_px: self.size, fov_y_rad: self.fov.map(f64::to_radians), up: self.up };
+        let (shot, assumed) = imported.into_shot(&settings).map_err(in_file)?;
         for line in &assumed {
             console::note(&format!("warning: {line}"));
         }
@@ -45,4 +65,9 @@ impl Args {
         console::note(&format!("{}: {keys} keys, {secs:.2} s, from {format}", self.output.display()));
         Ok(())
     }
+}
+
+fn parse_fov(text: &str) -> Result<f64, String> {
+    let degrees = text.parse().ok().filter(|degrees: &f64| *degrees > 0.0 && *degrees < 180.0);
+    degrees.ok_or_else(|| "expected degrees, above 0 and below 180".to_owned())
 }

@@ -156,7 +156,7 @@ fn parse_distance(text: &str) -> Result<f64, String> {
         .ok_or("expected a distance, 0 or more".to_owned())
 }
 
-fn parse_vector(text: &str) -> Result<DVec3, String> {
+pub(super) fn parse_vector(text: &str) -> Result<DVec3, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
     let vector = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).map(DVec3::from_array);
     let usable = vector.filter(|vector| vector.is_finite() && vector.length() > 0.0);

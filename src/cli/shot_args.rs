@@ -177,13 +177,13 @@ fn effects_help() -> String {
     )
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let number = |digits: &str| digits.parse::<u32>().ok().filter(|n| (1..=16384).contains(n));
     let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((number(width)?, number(height)?)));
     size.ok_or_else(|| "expected WIDTHxHEIGHT in pixels such as 1280x720, each 1 to 16384".to_owned())
 }
 
-fn parse_rate(text: &str) -> Result<f64, String> {
+pub(super) fn parse_rate(text: &str) -> Result<f64, String> {
     let rate = text.parse().ok().filter(|rate: &f64| (0.01..=1000.0).contains(rate));
     rate.ok_or_else(|| "expected 0.01 to 1000 frames per second".to_owned())
 }

@@ -20,9 +20,25 @@ pub(super) fn number(line: usize, column: &str) -> Result<f64, ExportError> {
     value.ok_or_else(|| bad_line(line, column, "a finite number"))
 }
 
-/// Exactly `N` numbers separated by white space.
+/// The columns of a line: between semicolons, commas or white space, whichever is first found in this order. Separators
+/// at the end are dropped.
+pub(super) fn cells(line: &str) -> Vec<&str> {
+    let line = line.trim_end_matches(|c: char| c.is_whitespace() || c == ',' || c == ';');
+    match [';', ','].into_iter().find(|separator| line.contains(*separator)) {
+        Some(separator) => line.split(separator).map(str::trim).collect(),
+        None => line.split_whitespace().collect(),
+    }
+}
+
+/// Whether a line has at least eight columns and none of them is a number: names of columns.
+pub(super) fn is_names(line: &str) -> bool {
+    let cells = cells(line);
+    cells.len() >= 8 && cells.iter().all(|cell| cell.parse::<f64>().is_err())
+}
+
+/// Exactly `N` numbers in the columns of a line.
 pub(super) fn numbers<const N: usize>(line: usize, text: &str) -> Result<[f64; N], ExportError> {
-    let columns: Vec<&str> = text.split_whitespace().collect();
+    let columns = cells(text);
     if columns.len() != N {
         return Err(bad_line(line, text, format!("{N} columns, not {}", columns.len())));
     }

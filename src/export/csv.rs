@@ -7,10 +7,10 @@ use std::fmt::Write as _;
 use glam::{DQuat, DVec3};
 
 use super::ExportError;
-use super::columns::{bad_line, joined, number};
+use super::columns::{bad_line, cells, data_lines, joined, number};
+use super::pose_lines::unit_pose;
 use super::shot_json::level_angles;
 use super::track::{PoseFrame, PoseTrack};
-use super::tum::unit_pose;
 use cinesplat_geometry::LevelFrame;
 use cinesplat_trajectory::Easing;
 
@@ -35,9 +35,9 @@ pub(super) fn write(track: &PoseTrack) -> String {
 }
 
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(idx, line)| (idx + 1, line.trim()));
+    let mut lines = data_lines(text);
     let Some((first, header)) = lines.next() else { return Err(ExportError::NoPoses) };
-    let names: Vec<&str> = header.split(',').map(str::trim).collect();
+    let names = cells(header);
     let column = |name: &str| names.iter().position(|found| *found == name);
     let required = ["time_secs", "x", "y", "z", "qx", "qy", "qz", "qw"];
     let mut idx_of = [0; 8];
@@ -45,8 +45,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         *idx = column(name).ok_or_else(|| bad_line(first, header, format!("a column {name}")))?;
     }
     let optional = ["fov_y_deg", "focus_distance", "easing", "cut"].map(column);
-    let data = lines.filter(|(_, line)| !line.is_empty());
-    let frames = data.map(|(line, text)| read_row(line, text, &idx_of, optional)).collect::<Result<Vec<_>, _>>()?;
+    let frames = lines.map(|(line, text)| read_row(line, text, &idx_of, optional)).collect::<Result<Vec<_>, _>>()?;
     Ok(PoseTrack { timed: true, ..PoseTrack::untimed(frames) })
 }
 
@@ -56,7 +55,7 @@ fn read_row(
     idx_of: &[usize; 8],
     [fov, focus, easing, cut]: [Option<usize>; 4],
 ) -> Result<PoseFrame, ExportError> {
-    let cells: Vec<&str> = text.split(',').map(str::trim).collect();
+    let cells = cells(text);
     let cell = |idx: Option<usize>| idx.and_then(|idx| cells.get(idx).copied()).filter(|cell| !cell.is_empty());
     let mut v = [0.0; 8];
     for (value, idx) in v.iter_mut().zip(idx_of) {

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use cinesplat_files::{Existing, FileError};
 
+use super::imported_shot::{ImportSettings, shot_of};
 use super::losses::losses;
 use super::{
     ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, redwood_log,
     shot_json, supersplat, transforms, tum, usd,
 };
-use cinesplat_trajectory::Shot;
+use cinesplat_trajectory::{Easing, Shot};
 
 /// The poses of a shot to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -79,7 +80,7 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
     if format == Format::Shot && settings.content == Content::Keyframes {
         return Ok(Encoded { files: EncodedFiles::Single(shot_json::write(shot).into_bytes()), losses: Vec::new() });
     }
-    let mut encoded = encode_poses(format, &track, settings.layout)?;
+    let mut encoded = encode_poses(format, shot, &track, settings.layout)?;
     if settings.content == Content::Keyframes && shot.keyframes.len() > 2 {
         let what = "interpolates between keyframes with its own curve: export every frame for the path of the film";
         encoded.losses.push(format!("{format} {what}"));
@@ -87,12 +88,39 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
     Ok(encoded)
 }
 
-/// Encodes timed poses in a format.
-fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Encoded, ExportError> {
+/// A shot with one keyframe per frame of another shot's film. It keeps what does not depend on the keys.
+fn sampled_shot(shot: &Shot, track: &PoseTrack) -> Result<Encoded, ExportError> {
+    let (sampled, _) = shot_of(track, &ImportSettings::default())?;
+    let sampled = Shot {
+        scene: shot.scene.clone(),
+        prompt: shot.prompt.clone(),
+        seed: shot.seed,
+        model: shot.model.clone(),
+        effects: shot.effects.clone(),
+        ..sampled
+    };
+    let num_keys = shot.keyframes.len();
+    let num_eased = shot.keyframes.iter().filter(|key| key.easing != Easing::Linear).count();
+    let num_intents = shot.keyframes.iter().filter(|key| key.intent.is_some()).count();
+    let num_lines = shot.report.len();
+    let clearance = usize::from(shot.clearance.is_some());
+    let dropped = [
+        (num_eased, format!("the easings of {num_eased} of {num_keys} keys are in the times of the sampled keys")),
+        (num_intents, format!("the intents of {num_intents} of {num_keys} keys do not apply to sampled keys")),
+        (num_lines, format!("the report ({num_lines} lines) does not apply to sampled keys")),
+        (clearance, "the clearance proof does not apply to sampled keys".to_owned()),
+    ];
+    let losses =
+        dropped.into_iter().filter(|(amount, _)| *amount > 0).map(|(_, line)| format!("shot: {line}")).collect();
+    Ok(Encoded { files: EncodedFiles::Single(shot_json::write(&sampled).into_bytes()), losses })
+}
+
+/// Encodes timed poses of a shot in a format.
+fn encode_poses(format: Format, shot: &Shot, track: &PoseTrack, layout: Layout) -> Result<Encoded, ExportError> {
     if track.frames.is_empty() {
         return Err(ExportError::NoPoses);
     }
-    let mut losses = losses(format, track);
+    let losses = losses(format, track);
     let text = match format {
         Format::Colmap => {
             let files = match layout {
@@ -104,11 +132,7 @@ fn encode_poses(format: Format, track: &PoseTrack, layout: Layout) -> Result<Enc
         Format::Gltf if layout == Layout::Binary => {
             return Ok(Encoded { files: EncodedFiles::Single(gltf::write_binary(track)), losses });
         }
-        Format::Shot => {
-            let (shot, assumptions) = track.to_shot()?;
-            losses.extend(assumptions);
-            shot_json::write(&shot)
-        }
+        Format::Shot => return sampled_shot(shot, track),
         Format::Tum => tum::write(track),
         Format::Kitti => kitti::write(track),
         Format::Euroc => euroc::write(track),

@@ -1,6 +1,10 @@
 use std::path::Path;
 
+use glam::DVec3;
 use serde_json::Value;
+
+use super::columns::{cells, data_lines};
+use super::line_layout::{self, FoundLayout, LineLayout, POSE_COLUMNS, StampUnit, UNIT_TOLERANCE};
 
 /// The file formats of camera paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -102,21 +106,7 @@ impl Format {
 
     /// The format of a file by its content; `None` for an unknown one.
     pub fn detect(bytes: &[u8]) -> Option<Self> {
-        if bytes.starts_with(b"glTF") {
-            return Some(Self::Gltf);
-        }
-        if bytes.starts_with(b"PK\x03\x04") {
-            return Some(Self::Supersplat);
-        }
-        if bytes.starts_with(b"#usda") || bytes.starts_with(b"PXR-USDC") {
-            return Some(Self::Usd);
-        }
-        let text = std::str::from_utf8(bytes).ok()?.trim_start_matches('\u{feff}');
-        match text.trim_start().chars().next()? {
-            '{' | '[' => detect_json(&super::json_read::parse(text).ok()?),
-            _ if text.contains("import bpy") => Some(Self::Blender),
-            _ => detect_columns(text),
-        }
+        detect_with_layout(bytes).map(|(format, _)| format)
     }
 
     /// What files of the format can hold.
@@ -156,6 +146,59 @@ impl Format {
     }
 }
 
+/// As [`Format::detect`], with the layout of the lines of TUM and EuRoC.
+pub(super) fn detect_with_layout(bytes: &[u8]) -> Option<(Format, Option<FoundLayout>)> {
+    if bytes.starts_with(b"glTF") {
+        return Some((Format::Gltf, None));
+    }
+    if bytes.starts_with(b"PK\x03\x04") {
+        return Some((Format::Supersplat, None));
+    }
+    if bytes.starts_with(b"#usda") || bytes.starts_with(b"PXR-USDC") {
+        return Some((Format::Usd, None));
+    }
+    let text = std::str::from_utf8(bytes).ok()?.trim_start_matches('\u{feff}');
+    match text.trim_start().chars().next()? {
+        '{' | '[' => Some((detect_json(&super::json_read::parse(text).ok()?)?, None)),
+        _ if text.contains("import bpy") => Some((Format::Blender, None)),
+        _ => detect_columns(text),
+    }
+}
+
+/// A reading of lines of poses that their content does not settle.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Doubt {
+    /// The reading: format, number of columns, unit of the times, order of the quaternion.
+    pub read_as: String,
+    /// The format that reads the lines in the other way.
+    pub other: Format,
+    /// The reading of `other`.
+    pub other_reading: String,
+}
+
+impl Doubt {
+    /// The doubt about a layout; `None` for one that is certain and the format's own.
+    pub(super) fn new(format: Format, found: &FoundLayout) -> Option<Self> {
+        let own = if format == Format::Tum { LineLayout::TUM } else { LineLayout::EUROC };
+        let is_same = |a: LineLayout, b: LineLayout| (a.unit, a.order) == (b.unit, b.order);
+        let is_own = is_same(found.layout, own);
+        if found.is_certain && is_own {
+            return None;
+        }
+        let (other, other_layout) = match format {
+            _ if !is_own => (format, own),
+            Format::Tum => (Format::Euroc, LineLayout::EUROC),
+            _ => (Format::Tum, LineLayout::TUM),
+        };
+        let reading = |layout: LineLayout| format!("{}, quaternion {}", layout.unit, layout.order);
+        Some(Self {
+            read_as: format!("{format} ({} columns, {})", found.num_columns, reading(found.layout)),
+            other,
+            other_reading: reading(other_layout),
+        })
+    }
+}
+
 fn detect_json(value: &Value) -> Option<Format> {
     let has = |name: &str| value.get(name).is_some();
     match value {
@@ -169,22 +212,16 @@ fn detect_json(value: &Value) -> Option<Format> {
     }
 }
 
-/// The line-based format of a text, by its first line with data.
-fn detect_columns(text: &str) -> Option<Format> {
-    let header = text.lines().next()?;
-    if header.contains("time_secs") && header.contains(',') {
-        return Some(Format::Csv);
+/// The line-based format of a text. Lines of a time, a position and a quaternion come with their layout.
+fn detect_columns(text: &str) -> Option<(Format, Option<FoundLayout>)> {
+    let line = data_lines(text).next()?.1;
+    let columns = cells(line);
+    if columns.contains(&"time_secs") {
+        return Some((Format::Csv, None));
     }
-    let line = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
-    let commas = line.split(',').count();
-    if commas >= 8 {
-        return Some(Format::Euroc);
-    }
-    let columns: Vec<&str> = line.split_whitespace().collect();
-    let numeric = columns.iter().filter(|column| column.parse::<f64>().is_ok()).count();
-    match (columns.len(), numeric) {
-        (8, 8) => Some(Format::Tum),
-        (12, 12) => Some(Format::Kitti),
+    let numbers: Vec<f64> = columns.iter().filter_map(|column| column.parse().ok()).collect();
+    let format = match (columns.len(), numbers.len()) {
+        (12, 12) if are_orthonormal_rows(&numbers) => Some(Format::Kitti),
         (3, 3) => Some(Format::Log),
         (10, 9) => Some(Format::Colmap),
         (len, numeric)
@@ -193,5 +230,23 @@ fn detect_columns(text: &str) -> Option<Format> {
             Some(Format::Colmap)
         }
         _ => None,
+    };
+    if let Some(format) = format {
+        return Some((format, None));
     }
+    match line_layout::find(text) {
+        // The reader of KITTI says which line is no rigid pose.
+        None => (numbers.len() == 12 && columns.len() == 12).then_some((Format::Kitti, None)),
+        Some(found) => {
+            let is_euroc = found.layout.unit == StampUnit::Nanoseconds || found.num_columns > POSE_COLUMNS;
+            Some((if is_euroc { Format::Euroc } else { Format::Tum }, Some(found)))
+        }
+    }
+}
+
+/// Whether the first three of each four numbers are the rows of a rotation, as in KITTI, within rounding.
+fn are_orthonormal_rows(numbers: &[f64]) -> bool {
+    let rows: Vec<DVec3> = numbers.chunks_exact(4).map(|row| DVec3::new(row[0], row[1], row[2])).collect();
+    let is_unit = |row: &DVec3| (row.length() - 1.0).abs() < UNIT_TOLERANCE;
+    rows.iter().all(is_unit) && rows.windows(2).all(|pair| pair[0].dot(pair[1]).abs() < UNIT_TOLERANCE)
 }

@@ -5,9 +5,11 @@ use strum::VariantNames;
 
 use cinesplat_files::FileError;
 
+use super::format::{self, Doubt};
+use super::imported_shot::{ImportSettings, overrule, shot_of};
 use super::{
-    ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, redwood_log,
-    shot_json, supersplat, transforms, tum, usd,
+    ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, pose_lines,
+    redwood_log, shot_json, supersplat, transforms, tum, usd,
 };
 use cinesplat_trajectory::Shot;
 
@@ -38,17 +40,21 @@ pub struct Imported {
     pub track: PoseTrack,
     /// The shot, if the file is a `shot.json`.
     pub shot: Option<Shot>,
+    /// The other format that the content fits, if the content does not settle its format.
+    pub doubt: Option<Doubt>,
 }
 
 impl Imported {
-    /// The file's shot, or a shot with one keyframe per pose, with one line per assumption.
+    /// The file's shot, or a shot with one keyframe per pose; and one line per assumption and loss.
+    ///
+    /// The settings win over the file.
     ///
     /// # Errors
     /// [`ExportError::BadShot`] if the poses make no shot, for example because times do not increase.
-    pub fn into_shot(self) -> Result<(Shot, Vec<String>), ExportError> {
+    pub fn into_shot(self, settings: &ImportSettings) -> Result<(Shot, Vec<String>), ExportError> {
         match self.shot {
-            Some(shot) => Ok((shot, Vec::new())),
-            None => self.track.to_shot(),
+            Some(shot) => Ok((overrule(shot, settings)?, Vec::new())),
+            None => shot_of(&self.track, settings),
         }
     }
 }
@@ -64,7 +70,10 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
     let path = &file_of(path)?;
     let bytes = read_bytes(path)?;
     let by_name = || Format::from_path(path).filter(|format| *format == Format::Colmap);
-    let format = format.or_else(by_name).or_else(|| Format::detect(&bytes)).ok_or_else(unknown_content)?;
+    let (format, lines) = match format.or_else(by_name) {
+        Some(format) => (format, None),
+        None => format::detect_with_layout(&bytes).ok_or_else(unknown_content)?,
+    };
     let mut shot = None;
     let track = match format {
         Format::Gltf => gltf::read(&bytes, &|name| read_beside(path, name)),
@@ -74,9 +83,12 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
         _ => {
             let text = text_of(&bytes)?;
             match format {
-                Format::Tum => tum::read(text),
+                Format::Tum | Format::Euroc => match &lines {
+                    Some(found) => pose_lines::read(text, found.layout),
+                    None if format == Format::Tum => tum::read(text),
+                    None => euroc::read(text),
+                },
                 Format::Kitti => kitti::read(text),
-                Format::Euroc => euroc::read(text),
                 Format::Nerfstudio => nerfstudio::read(text),
                 Format::Transforms => transforms::read(text),
                 Format::Supersplat => supersplat::read(text),
@@ -96,7 +108,8 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
     if track.frames.is_empty() {
         return Err(ExportError::NoPoses);
     }
-    Ok(Imported { format, track, shot })
+    let doubt = lines.and_then(|found| Doubt::new(format, &found));
+    Ok(Imported { format, track, shot, doubt })
 }
 
 fn unknown_content() -> ExportError {

@@ -8,7 +8,7 @@ use super::ExportError;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use super::opengl::{from_opengl_rotation, opengl_rotation};
-use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack, fov_y_or_default};
+use super::track::{PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_trajectory::Easing;
 
 const VERSION: u32 = 4;
@@ -50,7 +50,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let nodes = root.field("keyframes", "a list of keyframes")?.items()?;
     let mut frames = nodes.iter().map(read_key).collect::<Result<Vec<_>, _>>()?;
     frames.sort_by(|a, b| a.time_secs.total_cmp(&b.time_secs));
-    Ok(PoseTrack { fps: Some(DEFAULT_FPS), timed: true, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { timed: true, ..PoseTrack::untimed(frames) })
 }
 
 fn read_key(node: &Node) -> Result<PoseFrame, ExportError> {

@@ -73,7 +73,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     if frames.is_empty() || (frames.len() == keys.len() && frames.iter().zip(&keys).all(|(a, b)| a.pose == b.pose)) {
         return Ok(PoseTrack { size_px, fps, timed: true, ..PoseTrack::untimed(keys) });
     }
-    Ok(PoseTrack { size_px, fps: fps.or(Some(DEFAULT_FPS)), timed: fps.is_some(), keys, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { size_px, fps, timed: fps.is_some(), keys, ..PoseTrack::untimed(frames) })
 }
 
 /// Keyframes, with times summed from the transitions.

@@ -1,8 +1,7 @@
 use glam::{DMat3, DVec3};
 
-use super::ExportError;
 use cinesplat_geometry::Pose;
-use cinesplat_trajectory::{CameraPath, Easing, Keyframe, SceneRef, Shot, TrajectoryError};
+use cinesplat_trajectory::{CameraPath, Easing, Keyframe, Shot, TrajectoryError};
 
 /// Vertical field of view of a shot whose file states none, degrees.
 pub(super) const DEFAULT_FOV_Y_DEG: f64 = 50.0;
@@ -16,7 +15,9 @@ pub(super) const DEFAULT_SIZE_PX: (u32, u32) = (1280, 720);
 pub struct PoseTrack {
     /// Image width and height in pixels; `None` if the file does not state them.
     pub size_px: Option<(u32, u32)>,
-    /// Frames per second; `None` if the file states no rate and the times are not uniform.
+    /// Width over height of the image, of a file that states it without a size.
+    pub stated_aspect: Option<f64>,
+    /// Frames per second; `None` if the file states no rate.
     pub fps: Option<f64>,
     /// World up; `None` if the file does not state it.
     pub up: Option<DVec3>,
@@ -27,6 +28,8 @@ pub struct PoseTrack {
     /// The keyframes of sampled `frames`, for formats that hold both; empty if `frames` are the keyframes or they are
     /// unknown.
     pub keys: Vec<PoseFrame>,
+    /// One line per thing in the file that was not read.
+    pub unread: Vec<String>,
 }
 
 /// The camera at one moment of a [`PoseTrack`].
@@ -74,7 +77,16 @@ impl From<&Keyframe> for PoseFrame {
 impl PoseTrack {
     /// A track of frames without times, image size, rate or up.
     pub(super) fn untimed(frames: Vec<PoseFrame>) -> Self {
-        Self { size_px: None, fps: None, up: None, timed: false, frames, keys: Vec::new() }
+        Self {
+            size_px: None,
+            stated_aspect: None,
+            fps: None,
+            up: None,
+            timed: false,
+            frames,
+            keys: Vec::new(),
+            unread: Vec::new(),
+        }
     }
 
     /// The frames of a shot's film: its path at the times `k / fps`. `None` takes the shot's rate.
@@ -109,60 +121,15 @@ impl PoseTrack {
             fps: Some(shot.fps),
             up: shot.scene.up,
             timed: true,
-            frames: shot.keyframes.iter().map(PoseFrame::from).collect(),
-            keys: Vec::new(),
+            ..Self::untimed(shot.keyframes.iter().map(PoseFrame::from).collect())
         }
     }
 
-    /// A shot with one keyframe per frame and times from 0, and one line per default that replaces a value missing in the
-    /// file.
-    ///
-    /// # Errors
-    /// [`ExportError::NoPoses`] without frames, [`ExportError::BadShot`] if times do not increase or a number is out of
-    /// range.
-    pub(super) fn to_shot(&self) -> Result<(Shot, Vec<String>), ExportError> {
-        let (Some(first), Some(last)) = (self.frames.first(), self.frames.last()) else {
-            return Err(ExportError::NoPoses);
-        };
-        let start = first.time_secs;
-        let fps = self.fps.unwrap_or(DEFAULT_FPS);
-        let (width, height) = self.size_px.unwrap_or(DEFAULT_SIZE_PX);
-        let keyframe = |frame: &PoseFrame| Keyframe {
-            time_secs: frame.time_secs - start,
-            pose: frame.pose,
-            fov_y_rad: frame.fov_y_rad.unwrap_or(DEFAULT_FOV_Y_DEG.to_radians()),
-            focus_distance: frame.focus_distance,
-            easing: frame.easing,
-            cut: frame.cut,
-            intent: None,
-        };
-        // The last frame is shown for one frame time, too.
-        let duration_secs = last.time_secs - start + if self.is_sampled() { 1.0 / fps } else { 0.0 };
-        let keyframes = self.frames.iter().map(keyframe).collect();
-        let scene = SceneRef { up: self.up, ..SceneRef::default() };
-        let shot = Shot { scene, ..Shot::from_keyframes([width, height], fps, duration_secs, keyframes) };
-        Ok((shot.validated()?, self.assumptions()))
-    }
-
-    /// Whether the times are uniform at the frame rate, as for the frames of a film.
-    fn is_sampled(&self) -> bool {
+    /// Whether the times are even at the frame rate, as for the frames of a film.
+    pub(super) fn is_sampled(&self) -> bool {
         let Some(fps) = self.fps else { return false };
         let even = |pair: &[PoseFrame]| ((pair[1].time_secs - pair[0].time_secs) * fps - 1.0).abs() < 1e-3;
         self.frames.windows(2).all(even)
-    }
-
-    fn assumptions(&self) -> Vec<String> {
-        let mut lines = Vec::new();
-        if !self.timed {
-            lines.push(format!("the file has no times: {DEFAULT_FPS} frames per second are assumed"));
-        }
-        if self.size_px.is_none() {
-            lines.push(format!("the file has no image size: {} x {} is assumed", DEFAULT_SIZE_PX.0, DEFAULT_SIZE_PX.1));
-        }
-        if self.frames.iter().any(|frame| frame.fov_y_rad.is_none()) {
-            lines.push(format!("the file has no field of view: {DEFAULT_FOV_Y_DEG} degrees is assumed"));
-        }
-        lines
     }
 
     /// Width over height of the image, or of the default size.

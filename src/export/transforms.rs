@@ -55,7 +55,6 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
             ..PoseFrame::new(time_secs.unwrap_or(idx as f64 / fps.unwrap_or(DEFAULT_FPS)), pose)
         });
     }
-    let fps = fps.or(Some(DEFAULT_FPS));
     Ok(PoseTrack { size_px, fps, timed, ..PoseTrack::untimed(frames) })
 }
 

@@ -63,9 +63,16 @@ fn help_shows_every_command_and_examples() {
       -o, --output <SHOT.JSON>  Shot to write, or - for stdout
           --overwrite           Overwrite files that exist already [default: refuse]
 
+    Shot:
+          --fps <FPS>   Frames per second [default: the file's, or what its times show]
+          --size <WxH>  Frame size in pixels [default: the file's, or 1280x720]
+          --fov <DEG>   Vertical field of view in degrees [default: the file's, or 50]
+          --up <X,Y,Z>  World up [default: the file's]
+
     Examples:
       cinesplat import camera_path.json -o shot.json
-      cinesplat import poses.txt --from kitti -o shot.json
+      cinesplat import poses.txt --from kitti --fps 10 -o shot.json
+      cinesplat import poses.tum --size 1920x1080 --fov 40 --up 0,0,1 -o shot.json
     ");
 }
 
@@ -120,13 +127,37 @@ fn an_exported_path_is_imported_unchanged() {
     let path: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("path.json")).unwrap()).unwrap();
     assert_eq!(path["camera_path"].as_array().unwrap().len(), 10);
     data(folder.path(), &["export", "shot.json", "-o", "film.tum"]);
-    data(folder.path(), &["import", "film.tum", "-o", "back.json"]);
+    insta::assert_snapshot!(answer(folder.path(), &["import", "film.tum", "-o", "back.json"]), @r"
+    exit 0
+    warning: the file has no frame rate: its times are even at 8 frames per second
+    warning: the file has no image size: 1280 x 720 is assumed
+    warning: the file has no field of view: 50 degrees is assumed
+    warning: the file has no world up: the shot states none
+    back.json: 8 keys, 1.00 s, from tum
+    ");
     assert!(fs::read_to_string(folder.path().join("back.json")).unwrap().contains("\"cinesplat.shot\""));
     let eval = data(folder.path(), &["eval", "shot.json", "film.tum", "--json", "--plot", "plot.svg"]);
     let eval: serde_json::Value = serde_json::from_str(&eval).unwrap();
     assert_eq!(eval["pairs"], 8);
     assert!(eval["max"].as_f64().unwrap() < 1e-6, "{eval}");
     assert!(fs::read_to_string(folder.path().join("plot.svg")).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn a_path_that_fits_two_formats_names_the_flag_that_settles_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines = |separator: &str| -> String {
+        (0..8).map(|idx| format!("{} {idx} 1.2 1.5 0 0 0 1\n", f64::from(idx) / 8.0).replace(' ', separator)).collect()
+    };
+    fs::write(folder.path().join("film.tum"), lines(" ")).unwrap();
+    fs::write(folder.path().join("film.txt"), lines(",")).unwrap();
+    let doubt = "note: film.txt: read as tum (8 columns, seconds, quaternion x y z w); --from euroc reads \
+                 nanoseconds, quaternion w x y z\n";
+    let answered = answer(folder.path(), &["eval", "film.tum", "film.txt", "--json"]);
+    assert!(answered.contains(doubt) && answered.contains("\"pairs\": 8"), "{answered}");
+    let wanted = ["--fps", "8", "--size", "64x36", "--fov", "40", "--up", "0,-1,0"];
+    let answered = answer(folder.path(), &[&["import", "film.txt", "-o", "film.json"][..], &wanted[..]].concat());
+    assert_eq!(answered, format!("exit 0\n{doubt}film.json: 8 keys, 1.00 s, from tum\n"));
 }
 
 #[test]

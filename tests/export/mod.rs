@@ -7,6 +7,7 @@ mod csv_euroc;
 mod detection;
 mod gltf_usd;
 mod hostile;
+mod imported_shots;
 mod nerfstudio;
 mod round_trips;
 mod sample_shot;

@@ -1,8 +1,8 @@
 //! Random shots read back from every format, to the precision of the format.
 
-use cinesplat::export::{Content, Format, PoseTrack};
+use cinesplat::export::{Content, Format, ImportSettings, PoseTrack};
 use cinesplat::geometry::rotation;
-use cinesplat::trajectory::Shot;
+use cinesplat::trajectory::{Easing, ReportLine, SceneRef, Shot};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -132,7 +132,29 @@ fn focus_distances_read_back_from_formats_that_hold_them() {
 fn a_shot_exported_with_its_keyframes_is_the_same_shot() {
     let shot = with_cut();
     let (imported, warnings, _folder) = there_and_back(&shot, Format::Shot, "a.shot.json", Content::Keyframes);
-    let (back, assumed) = imported.into_shot().unwrap();
+    let (back, assumed) = imported.into_shot(&ImportSettings::default()).unwrap();
     assert_eq!((back.keyframes.len(), back.scene.up), (4, Some(DVec3::NEG_Y)));
     assert!(warnings.is_empty() && assumed.is_empty());
+}
+
+#[test]
+fn a_sampled_shot_keeps_its_prompt_and_says_what_it_drops() {
+    let mut shot = with_cut();
+    shot.keyframes[0].easing = Easing::Smooth;
+    let line = ReportLine { clause: "c".into(), wanted: "w".into(), got: 1.0, met: true, note: String::new() };
+    let shot = Shot {
+        prompt: "push in".into(),
+        seed: 7,
+        scene: SceneRef { path: "room.spz".into(), ..shot.scene },
+        report: vec![line],
+        ..shot
+    };
+    let (imported, warnings, _folder) = there_and_back(&shot, Format::Shot, "a.shot.json", Content::Sampled);
+    let (back, _) = imported.into_shot(&ImportSettings::default()).unwrap();
+    assert_eq!((back.prompt, back.seed, back.scene), ("push in".to_owned(), 7, shot.scene));
+    assert_eq!((back.keyframes.len(), back.report.len()), (72, 0));
+    insta::assert_snapshot!(warnings.join("\n"), @r"
+    shot: the easings of 1 of 4 keys are in the times of the sampled keys
+    shot: the report (1 lines) does not apply to sampled keys
+    ");
 }

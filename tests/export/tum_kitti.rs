@@ -1,4 +1,4 @@
-use cinesplat::export::{Content, Format, read};
+use cinesplat::export::{Content, Format, ImportSettings, read};
 use cinesplat::geometry::Pose;
 use glam::{DQuat, DVec3};
 
@@ -61,8 +61,8 @@ fn errors_name_the_line() {
 #[test]
 fn times_from_1970_become_a_shot_that_starts_at_0() {
     let (path, _folder) = file("a.txt", b"1305031098.5 1 2 3 0 0 0 1\n1305031099.0 1 2 4 0 0 0 1\n");
-    let (shot, assumed) = read(&path, None).unwrap().into_shot().unwrap();
+    let (shot, assumed) = read(&path, None).unwrap().into_shot(&ImportSettings::default()).unwrap();
     assert_eq!(shot.keyframes.iter().map(|key| key.time_secs).collect::<Vec<_>>(), [0.0, 0.5]);
     assert_eq!(shot.keyframes[1].pose, Pose::new(DVec3::new(1.0, 2.0, 4.0), DQuat::IDENTITY));
-    assert_eq!(assumed.len(), 2, "size and field of view are assumed: {assumed:?}");
+    assert_eq!(assumed.len(), 5, "start, rate, size, field of view and up: {assumed:?}");
 }

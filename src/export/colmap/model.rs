@@ -115,7 +115,7 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
         PoseFrame { fov_y_rad, ..PoseFrame::new(idx as f64 / DEFAULT_FPS, pose) }
     };
     let frames = images.iter().enumerate().map(frame).collect();
-    Ok(PoseTrack { size_px, fps: Some(DEFAULT_FPS), ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { size_px, ..PoseTrack::untimed(frames) })
 }
 
 /// Cameras and images of a track. A new camera starts wherever the field of view changes; ids count from 1.

@@ -3,7 +3,7 @@ use glam::{DMat4, DQuat, DVec3};
 use super::super::ExportError;
 use super::super::json_read::{self, Node};
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
-use super::super::track::{DEFAULT_SIZE_PX, PoseFrame, PoseTrack};
+use super::super::track::{PoseFrame, PoseTrack};
 use super::accessor::{item, size, values};
 use super::base64;
 use super::constants::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER};
@@ -35,9 +35,7 @@ pub(crate) fn read(
     };
     let frames = frames(&channels, &still, &above);
     let aspect = lens.optional("aspectRatio").map(|aspect| aspect.number()).transpose()?.filter(|aspect| *aspect > 0.0);
-    let size_px =
-        aspect.map(|aspect| ((f64::from(DEFAULT_SIZE_PX.1) * aspect).round().max(1.0) as u32, DEFAULT_SIZE_PX.1));
-    Ok(PoseTrack { size_px, fps: even_rate(&frames), up: Some(up), timed: true, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { stated_aspect: aspect, up: Some(up), timed: true, ..PoseTrack::untimed(frames) })
 }
 
 /// The JSON and the binary chunk of a `.glb`.
@@ -259,13 +257,4 @@ fn frames(channels: &Channels, still: &StaticCamera, above: &NodeTransform) -> V
         frames.push(PoseFrame { cut, ..frame(time) });
     }
     frames
-}
-
-/// The frame rate, rounded to 0.001 because times are f32; `None` without a duration.
-fn even_rate(frames: &[PoseFrame]) -> Option<f64> {
-    let (first, last) = frames.first().zip(frames.last())?;
-    let span = last.time_secs - first.time_secs;
-    let fps = (frames.len() as f64 - 1.0) / span;
-    let rounded = (fps * 1000.0).round() / 1000.0;
-    (span > 0.0 && rounded > 0.0).then_some(rounded)
 }
