@@ -52,15 +52,14 @@ impl Args {
             Failure::usage(found, format!("add --to with one of {}", <Format as VariantNames>::VARIANTS.join(" ")))
         })?;
         let layout = Layout::of_path(&self.output);
-        let files = export::output_files(&self.output, format, layout);
-        if outputs::is_stdout(&self.output) && files.len() > 1 {
-            let help = "name a folder, or choose another format with --to";
-            return Err(Failure::usage(
-                format!("{format} needs {} files, standard output holds one", files.len()),
-                help,
-            ));
+        match (outputs::is_stdout(&self.output), export::output_files(&self.output, format, layout).len()) {
+            (true, 1) => {}
+            (true, num_files) => {
+                let found = format!("{format} needs {num_files} files, standard output holds one");
+                return Err(Failure::usage(found, "name a folder, or choose another format with --to"));
+            }
+            (false, _) => export::check_output(&self.output, format, layout, self.overwrite.existing())?,
         }
-        files.iter().try_for_each(|file| self.overwrite.check(file))?;
         let shot = shot_args::read_file(&self.shot)?;
         shot_args::print_warnings(&shot);
         let shot = if self.retime { retimed(&shot) } else { shot };

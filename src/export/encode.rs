@@ -161,6 +161,17 @@ pub fn output_files(path: &Path, format: Format, layout: Layout) -> Vec<PathBuf>
     ["cameras", "images", "points3D"].map(|name| folder.join(format!("{name}.{extension}"))).to_vec()
 }
 
+/// Checks before any work that the files of an export can be created. The folder of a COLMAP model may be missing.
+///
+/// # Errors
+/// [`FileError::Exists`], [`FileError::Create`] of the first file that cannot be created.
+pub fn check_output(path: &Path, format: Format, layout: Layout, existing: Existing) -> Result<(), FileError> {
+    if format == Format::Colmap && !colmap_folder(path).exists() {
+        return Ok(());
+    }
+    output_files(path, format, layout).iter().try_for_each(|file| cinesplat_files::check_free(file, existing))
+}
+
 /// Writes a shot to `path` and returns one line per property that the format cannot hold.
 ///
 /// [`output_files`] returns the paths of the files. Nothing is written if one of them exists and may not be replaced.

@@ -35,7 +35,7 @@ mod transforms;
 mod tum;
 mod usd;
 
-pub use encode::{Content, Encoded, EncodedFiles, ExportSettings, Layout, encode, output_files, write};
+pub use encode::{Content, Encoded, EncodedFiles, ExportSettings, Layout, check_output, encode, output_files, write};
 pub use error::ExportError;
 pub use format::{Doubt, Format};
 pub use import::{Imported, read};

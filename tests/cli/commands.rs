@@ -291,3 +291,68 @@ fn bench_scaling_measures_each_case_in_its_own_process() {
     assert_eq!(growths, ["pixels", "overdraw", "overdraw", "overdraw", "overdraw"]);
     assert!(fs::read_to_string(folder.path().join("out/scaling.svg")).unwrap().starts_with("<svg"));
 }
+
+#[test]
+fn a_colmap_model_goes_into_a_new_folder_and_is_overwritten_only_when_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let export = ["export", "shot.json", "--to", "colmap", "-o", "new/model"];
+    assert!(run(folder.path(), &export).status.success());
+    let images = folder.path().join("new/model/images.txt");
+    fs::write(&images, "mine").unwrap();
+    assert_eq!(run(folder.path(), &export).status.code(), Some(73));
+    assert_eq!(fs::read_to_string(&images).unwrap(), "mine");
+    assert!(run(folder.path(), &[&export[..], &["--overwrite"]].concat()).status.success());
+    assert_ne!(fs::read_to_string(&images).unwrap(), "mine");
+}
+
+#[test]
+fn a_dash_is_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let tum = data(folder.path(), &["export", "shot.json", "--to", "tum", "-o", "-"]);
+    assert!(run(folder.path(), &["export", "shot.json", "-o", "path.tum"]).status.success());
+    assert_eq!(tum, fs::read_to_string(folder.path().join("path.tum")).unwrap());
+    let shot = data(folder.path(), &["import", "path.tum", "-o", "-"]);
+    assert!(shot.contains("\"format\": \"cinesplat.shot\""), "{shot}");
+    let colmap = run(folder.path(), &["export", "shot.json", "--to", "colmap", "-o", "-"]);
+    assert_eq!(colmap.status.code(), Some(2), "a folder is no stream");
+}
+
+#[test]
+fn quiet_leaves_data_and_errors_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(folder.path(), &["-q", "info", SMALL_SCENE]);
+    assert!(output.stderr.is_empty() && !output.stdout.is_empty());
+    let failed = run(folder.path(), &["info", "no.ply", "--quiet"]);
+    assert!(String::from_utf8(failed.stderr).unwrap().starts_with("error["));
+}
+
+#[test]
+fn completions_and_manual_pages_name_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = data(folder.path(), &["completions", "bash"]);
+    assert!(script.contains("--overwrite") && script.contains("supersplat"));
+    assert!(data(folder.path(), &["man"]).starts_with(".ie"), "roff");
+    assert!(run(folder.path(), &["man", "-o", "man1"]).status.success());
+    for command in ["", "-render", "-eval", "-bench"] {
+        assert!(folder.path().join(format!("man1/cinesplat{command}.1")).exists(), "{command}");
+    }
+    assert_eq!(run(folder.path(), &["man", "-o", "man1"]).status.code(), Some(73));
+}
+
+#[test]
+fn a_file_of_prompts_gives_a_shot_per_line() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("moves.txt"), "# moves\nstatic shot\nleft\tpan left\nbad\tpush in on <obj-9999>\n")
+        .unwrap();
+    fs::create_dir(folder.path().join("shots")).unwrap();
+    let plan = ["plan", SMALL_SCENE, "--prompts", "moves.txt", "--solve", "off", "-o", "shots/{}.json"];
+    let output = run(folder.path(), &plan);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(65), "{said}");
+    assert!(said.contains("1 of 3 prompts failed: bad"), "{said}");
+    assert!(folder.path().join("shots/002.json").exists() && folder.path().join("shots/left.json").exists());
+    let one_name = run(folder.path(), &["plan", SMALL_SCENE, "--prompts", "moves.txt", "-o", "shot.json"]);
+    assert_eq!(one_name.status.code(), Some(2));
+}

@@ -10,10 +10,12 @@ use cinesplat::training::{DatasetSettings, DatasetSummary, write_dataset};
 /// A folder with shards that exist already, and settings for which nothing else is to be made.
 fn finished_shards(num_shards: u64) -> (tempfile::TempDir, DatasetSettings) {
     let out = tempfile::tempdir().unwrap();
+    let settings = DatasetSettings { num_scenes: 8 * num_shards, threads: 2, ..DatasetSettings::default() };
     for shard in 0..num_shards {
-        std::fs::write(out.path().join(format!("shots-{shard:05}.jsonl")), "").unwrap();
+        let header = format!(r#"{{"format":"cinesplat.shots","version":1,"seed":{}}}"#, settings.seed);
+        std::fs::write(out.path().join(format!("shots-{shard:05}.jsonl")), header).unwrap();
     }
-    (out, DatasetSettings { num_scenes: 8 * num_shards, threads: 2, ..DatasetSettings::default() })
+    (out, settings)
 }
 
 #[test]
