@@ -1,4 +1,6 @@
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::failure::Failure;
@@ -48,6 +50,16 @@ pub(super) fn note(line: &str) {
     if !IS_QUIET.load(Ordering::Relaxed) {
         line_to_stderr(line);
     }
+}
+
+/// Writes one `warning: ` line per entry to stderr, unless the program is quiet.
+pub(super) fn warnings(lines: impl IntoIterator<Item = impl Display>) {
+    lines.into_iter().for_each(|line| note(&format!("warning: {line}")));
+}
+
+/// As [`warnings`], about a file.
+pub(super) fn file_warnings(path: &Path, lines: &[String]) {
+    warnings(lines.iter().map(|line| format!("{}: {line}", path.display())));
 }
 
 /// A failed write is ignored: there is no other place to report it.

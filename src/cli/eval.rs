@@ -156,6 +156,7 @@ impl Args {
         let in_file = |error| Failure::from(error).in_file(path);
         let imported = export::read(path, self.from).map_err(in_file)?;
         formats::note_doubt(path, imported.doubt.as_ref());
+        console::file_warnings(path, &imported.notes);
         let track = match &imported.shot {
             Some(shot) => PoseTrack::sampled(shot, None)?,
             None => imported.track,

@@ -71,9 +71,7 @@ impl Args {
             EncodedFiles::Single(bytes) => self.overwrite.write(&self.output, bytes)?,
             EncodedFiles::Folder(_) => encoded.write(&self.output, self.overwrite.existing())?,
         }
-        for line in &encoded.losses {
-            console::note(&format!("warning: {line}"));
-        }
+        console::warnings(&encoded.losses);
         console::note(&format!("{}: {}", self.output.display(), format));
         Ok(())
     }

@@ -57,9 +57,7 @@ impl Args {
         let settings =
             ImportSettings { fps: self.fps, size_px: self.size, fov_y_rad: self.fov.map(f64::to_radians), up: self.up };
         let (shot, assumed) = imported.into_shot(&settings).map_err(in_file)?;
-        for line in &assumed {
-            console::note(&format!("warning: {line}"));
-        }
+        console::warnings(&assumed);
         self.overwrite.write(&self.output, shot_json::write(&shot).as_bytes())?;
         let (keys, secs) = (shot.keyframes.len(), shot.duration_secs);
         console::note(&format!("{}: {keys} keys, {secs:.2} s, from {format}", self.output.display()));

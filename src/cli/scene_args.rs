@@ -65,7 +65,9 @@ impl SceneArgs {
     pub(super) fn open_with_objects(&self, file: Option<&Path>) -> Result<(Scene, ObjectSet), Failure> {
         let opened = self.open()?;
         let is_searched = file.is_none() && opened.needs_search();
+        let num_printed = opened.scene.notes.len();
         let (scene, set) = opened.with_objects(file)?;
+        console::warnings(scene.notes.iter().skip(num_printed));
         if is_searched {
             console::note(&format!("objects: found {} (`cinesplat objects` lists them)", set.objects.len()));
         }

@@ -112,7 +112,9 @@ impl ShotArgs {
 /// Reads a shot.
 pub(super) fn read_file(path: &Path) -> Result<Shot, Failure> {
     let text = outputs::read_text(path)?;
-    cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))
+    let read = cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
+    console::file_warnings(path, &read.notes);
+    Ok(read.shot)
 }
 
 /// Warns of keys after the end of the film and of a film without length.

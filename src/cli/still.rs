@@ -66,6 +66,7 @@ impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let text = outputs::read_text(&self.cameras)?;
         let cameras = cameras_json::read(&text).map_err(|error| Failure::from(error).in_file(&self.cameras))?;
+        console::file_warnings(&self.cameras, &cameras.notes);
         self.check_outputs(&cameras)?;
         self.picture.bound_threads()?;
         let scene = self.scene.open()?.scene;

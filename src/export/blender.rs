@@ -131,11 +131,10 @@ fn read_frame(node: &Node) -> Result<PoseFrame, ExportError> {
     let [w, x, y, z] = node.field("opengl_rotation_wxyz", "4 numbers")?.numbers()?;
     let position = node.field("position", "3 numbers")?.vector()?;
     let pose = from_opengl_rotation(position, glam::DQuat::from_xyzw(x, y, z, w));
-    let easing = node.optional("easing").map(|name| name.text()).transpose()?.and_then(|name| name.parse().ok());
     Ok(PoseFrame {
         fov_y_rad: Some(node.field("fov_y_rad", "rad")?.number()?),
         focus_distance: node.optional("focus_distance").map(|distance| distance.number()).transpose()?,
-        easing: easing.unwrap_or(Easing::Linear),
+        easing: node.optional("easing").map_or(Ok(Easing::Linear), |name| name.choice())?,
         cut: node.optional("cut").is_some(),
         ..PoseFrame::new(node.field("time_secs", "seconds")?.number()?, pose)
     })

@@ -4,6 +4,7 @@ use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantN
 
 use super::ExportError;
 use super::json_read::{self, Node};
+use cinesplat_files::UnknownKeys;
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 
 /// The splat filter that a file or caller requests.
@@ -43,7 +44,14 @@ pub struct StillCameras {
     pub near: Option<f64>,
     /// The cameras in file order, at least one.
     pub cameras: Vec<NamedCamera>,
+    /// One line per key that the reader does not know.
+    pub notes: Vec<String>,
 }
+
+/// Keys of the top level.
+const TOP_KEYS: [&str; 5] = ["version", "scene", "filter", "near", "cameras"];
+/// Keys of a camera.
+const CAMERA_KEYS: [&str; 8] = ["name", "width", "height", "fx", "fy", "cx", "cy", "world_from_camera"];
 
 /// A camera and the name of its image.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,21 +62,30 @@ pub struct NamedCamera {
     pub camera: Camera,
 }
 
-/// Reads a `cameras.json`. Unknown keys are ignored.
+/// Reads a `cameras.json`. An unknown key becomes a note. The format has one version, which a file need not state.
 ///
 /// # Errors
-/// [`ExportError::NotJson`] for text that is not JSON, [`ExportError::NoPoses`] without cameras,
-/// [`ExportError::BadField`] naming the camera and the field.
+/// [`ExportError::NotJson`] for text that is not JSON, [`ExportError::WrongVersion`] for a `version` other than 1,
+/// [`ExportError::NoPoses`] without cameras, [`ExportError::BadField`] naming the camera and the field.
 pub fn read(text: &str) -> Result<StillCameras, ExportError> {
     let value = json_read::parse(text)?;
     let root = Node::root(&value);
+    if let Some(found) =
+        root.optional("version").map(|version| version.number()).transpose()?.filter(|v| !v.total_cmp(&1.0).is_eq())
+    {
+        return Err(ExportError::WrongVersion { format: "cameras.json", found: found.to_string(), expected: "1" });
+    }
+    let mut unknown = UnknownKeys::default();
+    root.note_unknown(&TOP_KEYS, &mut unknown);
     let string = |name| root.optional(name).map(|node| node.text().map(str::to_owned)).transpose();
     let cameras = root.field("cameras", "a list of cameras")?.items()?;
+    cameras.iter().for_each(|camera| camera.note_unknown(&CAMERA_KEYS, &mut unknown));
     let cameras = cameras.iter().map(read_camera).collect::<Result<Vec<_>, _>>()?;
     if cameras.is_empty() {
         return Err(ExportError::NoPoses);
     }
-    Ok(StillCameras { scene: string("scene")?, filter: read_filter(&root)?, near: read_near(&root)?, cameras })
+    let (filter, near) = (read_filter(&root)?, read_near(&root)?);
+    Ok(StillCameras { scene: string("scene")?, filter, near, cameras, notes: unknown.into_notes() })
 }
 
 fn read_filter(root: &Node) -> Result<Option<FilterChoice>, ExportError> {

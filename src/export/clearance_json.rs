@@ -36,6 +36,22 @@ pub(super) fn write(proof: &ClearanceProof, shot: &Shot) -> Json {
     ])
 }
 
+/// Keys of `clearance`.
+pub(super) const KEYS: [&str; 10] = [
+    "proved",
+    "camera_radius",
+    "least",
+    "at_secs",
+    "gaussian",
+    "opacity_floor",
+    "sigma_level",
+    "num_parts",
+    "fails",
+    "keys_sha256",
+];
+/// Keys of `clearance.fails`.
+pub(super) const FAILURE_KEYS: [&str; 4] = ["from_secs", "to_secs", "distance", "gaussian"];
+
 /// The proof of a shot; `None` if it is stale.
 pub(super) fn read(node: &Node, shot: &Shot) -> Result<Option<ClearanceProof>, ExportError> {
     if node.optional("keys_sha256").map(|digest| digest.text()).transpose()? != Some(keys_sha256(shot).as_str()) {
@@ -67,7 +83,7 @@ fn read_failure(node: &Node) -> Result<ClearanceFailure, ExportError> {
 }
 
 /// SHA-256 in hex of everything that determines the camera's position over time: up, and the time, position, easing,
-/// cut, move and pivot of every key.
+/// cut, move and pivot of every key. Rotations are left out: the camera is a ball.
 fn keys_sha256(shot: &Shot) -> String {
     let mut digest = Sha256::new();
     let mut numbers = |values: &[f64]| values.iter().for_each(|value| digest.update(value.to_bits().to_le_bytes()));

@@ -42,10 +42,12 @@ pub struct Imported {
     pub shot: Option<Shot>,
     /// The other format that the content fits, if the content does not settle its format.
     pub doubt: Option<Doubt>,
+    /// One line per unknown key and per edit that the reader of a `shot.json` noted.
+    pub notes: Vec<String>,
 }
 
 impl Imported {
-    /// The file's shot, or a shot with one keyframe per pose; and one line per assumption and loss.
+    /// The file's shot with the reader's notes, or a shot with one keyframe per pose and one line per assumption and loss.
     ///
     /// The settings win over the file.
     ///
@@ -53,7 +55,7 @@ impl Imported {
     /// [`ExportError::BadShot`] if the poses make no shot, for example because times do not increase.
     pub fn into_shot(self, settings: &ImportSettings) -> Result<(Shot, Vec<String>), ExportError> {
         match self.shot {
-            Some(shot) => Ok((overrule(shot, settings)?, Vec::new())),
+            Some(shot) => Ok((overrule(shot, settings)?, self.notes)),
             None => shot_of(&self.track, settings),
         }
     }
@@ -74,7 +76,7 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
         Some(format) => (format, None),
         None => format::detect_with_layout(&bytes).ok_or_else(unknown_content)?,
     };
-    let mut shot = None;
+    let (mut shot, mut notes) = (None, Vec::new());
     let track = match format {
         Format::Gltf => gltf::read(&bytes, &|name| read_beside(path, name)),
         Format::Usd => usd::read(&bytes),
@@ -98,8 +100,8 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
                 Format::Log => redwood_log::read(text),
                 _ => {
                     let found = shot_json::read(text)?;
-                    let track = PoseTrack::keyframes(&found);
-                    shot = Some(found);
+                    let track = PoseTrack::keyframes(&found.shot);
+                    (shot, notes) = (Some(found.shot), found.notes);
                     Ok(track)
                 }
             }
@@ -109,7 +111,7 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
         return Err(ExportError::NoPoses);
     }
     let doubt = lines.and_then(|found| Doubt::new(format, &found));
-    Ok(Imported { format, track, shot, doubt })
+    Ok(Imported { format, track, shot, doubt, notes })
 }
 
 fn unknown_content() -> ExportError {

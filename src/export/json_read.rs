@@ -1,7 +1,11 @@
 //! JSON reading with errors that name the place: `keyframes[3].position: found "x", expected 3 finite numbers`.
 
+use std::str::FromStr;
+
+use cinesplat_files::{UnknownKeys, misspelling};
 use glam::{DMat4, DVec3};
 use serde_json::Value;
+use strum::VariantNames;
 
 use super::ExportError;
 
@@ -55,11 +59,25 @@ impl<'a> Node<'a> {
         if !self.value.is_object() {
             return Err(self.error("an object"));
         }
-        self.optional(name).ok_or_else(|| ExportError::BadField {
-            place: self.place_of(name),
-            found: "nothing".into(),
-            expected: expected.into(),
+        self.optional(name).ok_or_else(|| {
+            let misspelled = misspelling(name, self.keys());
+            let found = misspelled.map_or_else(|| "nothing".to_owned(), |key| format!("nothing but the key {key}"));
+            ExportError::BadField { place: self.place_of(name), found, expected: expected.into() }
         })
+    }
+
+    fn keys(&self) -> impl Iterator<Item = &'a str> {
+        self.value.as_object().into_iter().flat_map(|object| object.keys().map(String::as_str))
+    }
+
+    /// Notes the keys of an object that its reader does not know.
+    pub(super) fn note_unknown(&self, known: &[&str], unknown: &mut UnknownKeys) {
+        unknown.check(&self.place, self.keys(), known);
+    }
+
+    /// The place for a message, such as `keyframes[3].position`.
+    pub(super) fn place(&self) -> &str {
+        &self.place
     }
 
     pub(super) fn items(&self) -> Result<Vec<Self>, ExportError> {
@@ -93,6 +111,11 @@ impl<'a> Node<'a> {
 
     pub(super) fn text(&self) -> Result<&'a str, ExportError> {
         self.value.as_str().ok_or_else(|| self.error("a string"))
+    }
+
+    /// The choice that a string names.
+    pub(super) fn choice<T: FromStr + VariantNames>(&self) -> Result<T, ExportError> {
+        self.text()?.parse().map_err(|_| self.error(format!("one of {}", T::VARIANTS.join(", "))))
     }
 
     pub(super) fn flag(&self) -> Result<bool, ExportError> {

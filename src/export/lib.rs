@@ -13,6 +13,7 @@ mod columns;
 mod csv;
 mod encode;
 mod error;
+mod euler_edits;
 mod euroc;
 mod format;
 mod gltf;

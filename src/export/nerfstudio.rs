@@ -82,7 +82,7 @@ fn read_keys(nodes: &[Node], root: &Node) -> Result<Vec<PoseFrame>, ExportError>
     let mut time_secs = 0.0;
     let mut keys = Vec::with_capacity(nodes.len());
     for node in nodes {
-        let own = node.optional("override_transition_enabled").is_some_and(|on| on.flag().unwrap_or(false));
+        let own = node.optional("override_transition_enabled").map_or(Ok(false), |on| on.flag())?;
         let own_secs =
             node.optional("override_transition_sec").filter(|_| own).map(|secs| secs.number()).transpose()?;
         time_secs += if keys.is_empty() { 0.0 } else { own_secs.unwrap_or(default_secs) };

@@ -1,16 +1,15 @@
 //! `shot.json`, version 1: the project's own format, which people may edit by hand.
 //!
 //! Enters: JSON text or a [`Shot`]. Leaves: a validated [`Shot`] or JSON text. Positions and rotations are
-//! `world_from_camera` in the scene's world; angles are in degrees under keys that end in `_deg`. The reader ignores
-//! unknown keys and rejects another `format` or `version`.
+//! `world_from_camera` in the scene's world; angles are in degrees under keys that end in `_deg`. The reader notes
+//! unknown keys and edited `euler_deg`, and rejects another `format` or `version`.
 
-use std::str::FromStr;
-
+use cinesplat_files::UnknownKeys;
 use glam::DQuat;
-use strum::VariantNames;
 
 use super::ExportError;
 use super::clearance_json;
+use super::euler_edits;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose};
@@ -21,18 +20,57 @@ use cinesplat_trajectory::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine
 pub(super) const FORMAT: &str = "cinesplat.shot";
 const VERSION: u32 = 1;
 
+/// Keys of the top level.
+const TOP_KEYS: [&str; 14] = [
+    "format",
+    "version",
+    "scene",
+    "prompt",
+    "seed",
+    "model",
+    "width",
+    "height",
+    "fps",
+    "duration_secs",
+    "keyframes",
+    "effects",
+    "report",
+    "clearance",
+];
+const SCENE_KEYS: [&str; 3] = ["path", "sha256", "up"];
+const MODEL_KEYS: [&str; 2] = ["name", "sha256"];
+const KEYFRAME_KEYS: [&str; 9] =
+    ["time_secs", "position", "rotation_xyzw", "euler_deg", "fov_y_deg", "focus_distance", "easing", "cut", "intent"];
+const EULER_KEYS: [&str; 3] = ["yaw", "pitch", "roll"];
+const INTENT_KEYS: [&str; 6] = ["subjects", "size", "move", "angle", "words", "pivot"];
+const REPORT_KEYS: [&str; 5] = ["clause", "wanted", "got", "met", "note"];
+
+/// The content of a `shot.json`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShotFile {
+    /// The shot.
+    pub shot: Shot,
+    /// One line per unknown key and per edited `euler_deg`.
+    pub notes: Vec<String>,
+}
+
 /// Reads a `shot.json`.
 ///
 /// Required keys: `format`, `version`, `width`, `height`, `fps`, `duration_secs`, `keyframes`, and in a keyframe
-/// `time_secs`, `position`, `rotation_xyzw`, `fov_y_deg`. `euler_deg` is ignored in favor of the quaternion.
+/// `time_secs`, `position`, `rotation_xyzw`, `fov_y_deg`. `euler_deg` decides where it is more than 0.01 degrees from `rotation_xyzw`, because somebody edited it:
+/// yaw about the scene's up, 0 at the first keyframe and positive to the operator's right, then pitch, positive up, then
+/// roll, positive clockwise. Where the first keyframe of the file is not the one that the yaws were written for (it was
+/// removed, or its quaternion replaced) and at least two keyframes agree on the old heading, yaw counts from that. An
+/// unknown key becomes a note.
 ///
 /// # Errors
 /// [`ExportError::NotJson`], [`ExportError::WrongFormat`], [`ExportError::WrongVersion`]; [`ExportError::BadField`] and
 /// [`ExportError::BadShot`] name the keyframe and the field.
-pub fn read(text: &str) -> Result<Shot, ExportError> {
+pub fn read(text: &str) -> Result<ShotFile, ExportError> {
     let value = json_read::parse(text)?;
     let root = Node::root(&value);
     check_header(&root)?;
+    let keys = root.field("keyframes", "a list of keyframes")?.items()?;
     let shot = Shot {
         scene: root.optional("scene").map_or_else(|| Ok(SceneRef::default()), |node| read_scene(&node))?,
         prompt: text_or_empty(&root, "prompt")?,
@@ -42,7 +80,7 @@ pub fn read(text: &str) -> Result<Shot, ExportError> {
         height: root.field("height", "a number of pixels")?.pixels()?,
         fps: root.field("fps", "frames per second")?.number()?,
         duration_secs: root.field("duration_secs", "seconds")?.number()?,
-        keyframes: list_of(&root.field("keyframes", "a list of keyframes")?, read_keyframe)?,
+        keyframes: keys.iter().map(read_keyframe).collect::<Result<_, _>>()?,
         effects: root.optional("effects").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_effect))?,
         report: root.optional("report").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_report_line))?,
         clearance: None,
@@ -57,7 +95,42 @@ pub fn read(text: &str) -> Result<Shot, ExportError> {
             key.pose.rotation = key.pose.rotation.normalize();
         }
     }
-    Ok(shot)
+    let angles = keys.iter().map(read_euler).collect::<Result<Vec<_>, _>>()?;
+    let mut notes = unknown_keys(&root, &keys).into_notes();
+    notes.extend(euler_edits::apply(&mut shot.keyframes, &angles, shot.scene.up));
+    Ok(ShotFile { shot, notes })
+}
+
+/// The keys that no version 1 file has. The settings of effects are free.
+fn unknown_keys(root: &Node, keyframes: &[Node]) -> UnknownKeys {
+    let mut unknown = UnknownKeys::default();
+    root.note_unknown(&TOP_KEYS, &mut unknown);
+    let clearance = root.optional("clearance");
+    let failure = clearance.as_ref().and_then(|clearance| clearance.optional("fails"));
+    let parts: [(Option<Node>, &[&str]); 4] = [
+        (root.optional("scene"), &SCENE_KEYS),
+        (root.optional("model"), &MODEL_KEYS),
+        (clearance, &clearance_json::KEYS),
+        (failure, &clearance_json::FAILURE_KEYS),
+    ];
+    for (node, known) in parts {
+        node.iter().for_each(|node| node.note_unknown(known, &mut unknown));
+    }
+    for node in keyframes {
+        node.note_unknown(&KEYFRAME_KEYS, &mut unknown);
+        node.optional("euler_deg").iter().for_each(|euler| euler.note_unknown(&EULER_KEYS, &mut unknown));
+        node.optional("intent").iter().for_each(|intent| intent.note_unknown(&INTENT_KEYS, &mut unknown));
+    }
+    let report = root.optional("report").and_then(|report| report.items().ok());
+    report.iter().flatten().for_each(|line| line.note_unknown(&REPORT_KEYS, &mut unknown));
+    unknown
+}
+
+/// The angles beside the quaternion of a keyframe.
+fn read_euler(keyframe: &Node) -> Result<Option<LevelAngles>, ExportError> {
+    let Some(euler) = keyframe.optional("euler_deg") else { return Ok(None) };
+    let angle_rad = |name: &str| euler.field(name, "degrees")?.number().map(f64::to_radians);
+    Ok(Some(LevelAngles { yaw_rad: angle_rad("yaw")?, pitch_rad: angle_rad("pitch")?, roll_rad: angle_rad("roll")? }))
 }
 
 fn check_header(root: &Node) -> Result<(), ExportError> {
@@ -104,17 +177,10 @@ fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
         pose: Pose { position, rotation },
         fov_y_rad: node.field("fov_y_deg", "degrees")?.number()?.to_radians(),
         focus_distance: node.optional("focus_distance").map(|d| d.number()).transpose()?,
-        easing: named(node, "easing")?.unwrap_or(Easing::Smooth),
+        easing: node.optional("easing").map_or(Ok(Easing::Smooth), |easing| easing.choice())?,
         cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
         intent: node.optional("intent").map(|intent| read_intent(&intent)).transpose()?,
     })
-}
-
-/// The choice that a field names; `None` without the field.
-fn named<T: FromStr + VariantNames>(node: &Node, field: &str) -> Result<Option<T>, ExportError> {
-    let Some(node) = node.optional(field) else { return Ok(None) };
-    let found = node.text()?.parse();
-    found.map(Some).map_err(|_| node.error(format!("one of {}", T::VARIANTS.join(", "))))
 }
 
 fn read_intent(node: &Node) -> Result<Intent, ExportError> {
@@ -128,9 +194,9 @@ fn read_intent(node: &Node) -> Result<Intent, ExportError> {
     });
     Ok(Intent {
         subjects,
-        size: named(node, "size")?,
-        movement: named(node, "move")?,
-        angle: named(node, "angle")?,
+        size: node.optional("size").map(|size| size.choice()).transpose()?,
+        movement: node.optional("move").map(|movement| movement.choice()).transpose()?,
+        angle: node.optional("angle").map(|angle| angle.choice()).transpose()?,
         words: words.transpose()?,
         pivot: node.optional("pivot").map(|pivot| pivot.vector()).transpose()?,
     })

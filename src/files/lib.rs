@@ -1,8 +1,8 @@
 //! File output, `NumPy` arrays, hashes and relative paths for every stage.
 //!
 //! Enters: bytes and paths. Leaves: files that are complete or absent ([`NewFile`], [`write()`]), arrays for `NumPy`
-//! ([`npy`]), hashes and relative paths. The one invariant: no file is replaced unless the caller passes
-//! [`Existing::Replace`].
+//! ([`npy`]), hashes, relative paths and warnings of unknown keys. The one invariant: no file is replaced unless the
+//! caller passes [`Existing::Replace`].
 
 mod error;
 mod hash;
@@ -10,9 +10,11 @@ mod new_file;
 pub mod npy;
 mod paths;
 mod read;
+mod unknown_keys;
 
 pub use error::FileError;
 pub use hash::sha256_hex;
 pub use new_file::{Existing, NewFile, check_free, create_folder, write};
 pub use paths::{beside, relative_to};
 pub use read::{MAX_ARRAY_BYTES, MAX_TEXT_BYTES, read};
+pub use unknown_keys::{UnknownKeys, misspelling};

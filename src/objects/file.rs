@@ -1,7 +1,7 @@
 //! Reading and writing `objects.json`, version 1, and its label array.
 //!
 //! Enters: a file, possibly from another tool, in which an object needs only an `id` and a box or labels. Leaves: an
-//! [`ObjectSet`] in which every object has a box and, where the scene has them, Gaussians. Unknown keys are ignored.
+//! [`ObjectSet`] in which every object has a box and, where the scene has them, Gaussians. An unknown key becomes a note.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,9 @@ use serde_json::{Map, Value, json};
 use super::boxes;
 use super::error::ObjectsError;
 use super::object::{Object, ObjectSet};
-use cinesplat_files::{Existing, FileError, MAX_ARRAY_BYTES, MAX_TEXT_BYTES, beside, check_free, npy, relative_to};
+use cinesplat_files::{
+    Existing, FileError, MAX_ARRAY_BYTES, MAX_TEXT_BYTES, UnknownKeys, beside, check_free, npy, relative_to,
+};
 use cinesplat_scene::Scene;
 
 /// Value of the key `format`.
@@ -28,7 +30,27 @@ pub struct ObjectsFile {
     pub set: ObjectSet,
     /// World up, unit, where the file states it. It takes precedence over the scene's own up.
     pub up: Option<DVec3>,
+    /// One line per key that the reader does not know.
+    pub notes: Vec<String>,
 }
+
+/// Keys of the top level.
+const TOP_KEYS: [&str; 7] = ["format", "version", "scene", "up", "objects", "labels", "clouds"];
+/// Keys of `scene`.
+const SCENE_KEYS: [&str; 2] = ["path", "sha256"];
+/// Keys of an object.
+const OBJECT_KEYS: [&str; 10] = [
+    "id",
+    "label",
+    "center",
+    "half_extents",
+    "rotation_xyzw",
+    "num_gaussians",
+    "parent",
+    "points",
+    "shape_radius",
+    "mask_iou",
+];
 
 /// Reads an objects file for a scene.
 ///
@@ -54,7 +76,7 @@ pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
         None => scene.gaussians.ids.clone(),
     };
     let set = complete(&top, entries, labels, (scene, up.unwrap_or(scene.up)))?;
-    Ok(ObjectsFile { set, up })
+    Ok(ObjectsFile { set, up, notes: unknown_keys(&root) })
 }
 
 /// Reads a label array of a scene: one id per Gaussian in file order, 0 for no object. The ids of Gaussians that the
@@ -255,6 +277,21 @@ fn object_of<'a>(path: &Path, entry: &str, value: &'a Value) -> Result<&'a Map<S
         found: shortened(value.to_string()),
         expected: "an object in braces",
     })
+}
+
+/// One line per key that the reader does not know.
+fn unknown_keys(root: &Value) -> Vec<String> {
+    let mut unknown = UnknownKeys::default();
+    let mut check = |place: &str, value: &Value, known: &[&str]| {
+        let keys = value.as_object().into_iter().flat_map(|object| object.keys().map(String::as_str));
+        unknown.check(place, keys, known);
+    };
+    check("", root, &TOP_KEYS);
+    check("scene", &root["scene"], &SCENE_KEYS);
+    for (idx, object) in root["objects"].as_array().into_iter().flatten().enumerate() {
+        check(&format!("objects[{idx}]"), object, &OBJECT_KEYS);
+    }
+    unknown.into_notes()
 }
 
 fn check_kind(top: &Entry) -> Result<(), ObjectsError> {

@@ -25,6 +25,8 @@ impl OpenedScene {
     ///
     /// The up axis of an objects file replaces that of the scene, unless [`LoadOptions::up`] gave one.
     ///
+    /// Notes about the objects file are appended to [`Scene::notes`].
+    ///
     /// # Errors
     /// [`PipelineError::Objects`] for an objects file that cannot be used.
     pub fn with_objects(self, file: Option<&Path>) -> Result<(Scene, ObjectSet), PipelineError> {
@@ -35,6 +37,7 @@ impl OpenedScene {
                 if let Some(up) = read.up.filter(|_| scene.up_source != UpSource::Flag) {
                     (scene.up, scene.up_source) = (up, UpSource::ObjectsFile);
                 }
+                scene.notes.extend(read.notes.iter().map(|note| format!("{}: {note}", file.display())));
                 read.set
             }
             (None, Some(known)) => known,

@@ -161,6 +161,23 @@ fn a_path_that_fits_two_formats_names_the_flag_that_settles_it() {
 }
 
 #[test]
+fn an_edited_angle_and_a_misspelled_key_are_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    data(folder.path(), &["import", "shot.json", "-o", "a.json"]);
+    let mut file: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("a.json")).unwrap()).unwrap();
+    file["keyframes"][1]["euler_deg"]["pitch"] = 12.5.into();
+    file["keyframes"][1]["easng"] = "smooth".into();
+    fs::write(folder.path().join("b.json"), file.to_string()).unwrap();
+    let answer = answer(folder.path(), &["export", "b.json", "-o", "b.tum"]);
+    let warnings = "exit 0
+warning: b.json: keyframes[1].easng: unknown key, the nearest known key is easing
+warning: b.json: keyframes[1].euler_deg: 12.50 degrees from rotation_xyzw, so it was edited and decides
+";
+    assert!(answer.starts_with(warnings), "{answer}");
+}
+
+#[test]
 fn folders_are_compared_by_the_names_of_their_files() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());

@@ -43,3 +43,17 @@ fn errors_name_the_camera_and_the_field() {
     insta::assert_snapshot!(refused("640", "0"), @r#"cameras[0]: found {"cx":320,"cy":180,"fx":500.0,"fy":510.0,"height":360,"name".., expected width, height, fx and fy above 0"#);
     insta::assert_snapshot!(read(r#"{"cameras": []}"#).unwrap_err(), @"no camera poses in the file, expected at least one");
 }
+
+#[test]
+fn a_misspelled_key_is_named_with_the_nearest_known_one() {
+    let notes = |text: &str| read(text).unwrap().notes;
+    assert_eq!(notes(&ONE.replace("\"unknown\": [1], ", "")), [""; 0]);
+    let misspelled = ONE.replace("\"near\"", "\"neer\"").replace("\"unknown\": [1]", "\"version\": 1");
+    insta::assert_snapshot!(notes(&misspelled).join("\n"), @"neer: unknown key, the nearest known key is near");
+}
+
+#[test]
+fn an_unknown_version_is_refused() {
+    let error = read(&ONE.replace("\"unknown\": [1]", "\"version\": 2")).unwrap_err();
+    insta::assert_snapshot!(error, @"cameras.json version 2, expected 1");
+}

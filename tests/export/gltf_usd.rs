@@ -85,3 +85,16 @@ def Xform "rig" ( kind = "component" prepend variantSets = "v" ) {
     assert!((track.frames[0].fov_y_rad.unwrap() - 2.0 * 0.5_f64.atan()).abs() < 1e-12);
     assert_eq!(pose.world_from_camera().w_axis, DMat4::from_translation(pose.position).w_axis);
 }
+
+#[test]
+fn an_animated_rotation_of_length_0_is_an_error() {
+    // Times 0 and 1, rotations (0, 0, 0, 1) and (0, 0, 0, 0).
+    let gltf = br#"{"asset": {"version": "2.0"}, "cameras": [{"perspective": {"yfov": 1}}], "nodes": [{"camera": 0}],
+      "animations": [{"samplers": [{"input": 0, "output": 1}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 2},
+        {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "type": "VEC4", "count": 2}],
+      "bufferViews": [{"buffer": 0, "byteLength": 40}],
+      "buffers": [{"uri": "data:;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAAAAAA=="}]}"#;
+    let (path, _folder) = file("a.gltf", gltf);
+    insta::assert_snapshot!(read(&path, None).unwrap_err(), @"animations[0].samplers[0].output, rotation of key 1: found [0.0, 0.0, 0.0, 0.0], expected 4 finite numbers, not all 0");
+}

@@ -1,6 +1,7 @@
 //! Truncated files, wrong counts and deep nesting are errors, and no count is allocated before it is checked.
 
 use cinesplat::export::{Content, Format, read};
+use cinesplat::trajectory::Easing;
 
 use super::sample_shot::{file, there_and_back, with_cut};
 
@@ -76,4 +77,17 @@ fn missing_files_and_foreign_content_have_their_own_codes() {
     assert_eq!(code("/nowhere/at/all.json"), "FILE-READ");
     let (path, _folder) = file("a.ply", b"ply\nformat ascii 1.0\n");
     assert_eq!(code(path.to_str().unwrap()), "EXCHANGE-FORMAT");
+}
+
+#[test]
+fn an_unknown_easing_in_a_blender_script_is_an_error() {
+    let mut eased = with_cut();
+    eased.keyframes[1].easing = Easing::Smooth;
+    let (_, _, folder) = there_and_back(&eased, Format::Blender, "a.py", Content::Keyframes);
+    let path = folder.path().join("a.py");
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("\"smooth\""));
+    std::fs::write(&path, text.replace("\"smooth\"", "\"smoth\"")).unwrap();
+    let error = read(&path, None).unwrap_err().to_string();
+    assert!(error.starts_with("frames[1].easing: found \"smoth\", expected one of smooth, linear, "), "{error}");
 }

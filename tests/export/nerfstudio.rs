@@ -4,7 +4,7 @@ use cinesplat::geometry::Pose;
 use glam::{DMat4, DVec3};
 use serde_json::Value;
 
-use super::sample_shot::{file, key, shot, with_cut};
+use super::sample_shot::{file, key, shot, there_and_back, with_cut};
 
 fn exported(settings: ExportSettings) -> Value {
     let folder = tempfile::tempdir().unwrap();
@@ -74,4 +74,15 @@ fn reads_files_of_other_writers() {
     assert_eq!(track.frames[0].pose, Pose { position: DVec3::new(4.0, 5.0, 6.0), ..Pose::IDENTITY });
     assert_eq!(track.keys[0].pose, Pose { position: DVec3::new(4.0, 5.0, 7.0), ..Pose::IDENTITY });
     assert_eq!(track.frames[0].fov_y_rad, Some(60_f64.to_radians()));
+}
+
+#[test]
+fn a_transition_switch_that_is_no_flag_is_an_error() {
+    let (_, _, folder) = there_and_back(&with_cut(), Format::Nerfstudio, "a.json", Content::Keyframes);
+    let path = folder.path().join("a.json");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let edited = text.replacen("\"override_transition_enabled\": true", "\"override_transition_enabled\": \"yes\"", 1);
+    assert_ne!(edited, text);
+    std::fs::write(&path, edited).unwrap();
+    insta::assert_snapshot!(read(&path, None).unwrap_err(), @r#"keyframes[0].override_transition_enabled: found "yes", expected true or false"#);
 }

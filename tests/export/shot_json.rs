@@ -1,14 +1,20 @@
-use cinesplat::export::shot_json::{read, write};
-use cinesplat::geometry::{LevelFrame, Pose};
+use cinesplat::export::ExportError;
+use cinesplat::export::shot_json::{self, write};
+use cinesplat::geometry::{LevelAngles, LevelFrame, Pose, rotation};
 use cinesplat::trajectory::{ClearanceFailure, ClearanceProof, Move, Shot, ShotAngle, ShotSize};
 use glam::{DQuat, DVec3};
+use serde_json::Value;
+
+fn read(text: &str) -> Result<Shot, ExportError> {
+    shot_json::read(text).map(|file| file.shot)
+}
 
 /// The example of the format's description, with numbers.
 const EXAMPLE: &str = r#"{ "format":"cinesplat.shot", "version":1,
   "scene":{"path":"room.spz","sha256":"ab","up":[0,1,0]}, "prompt":"close-up of the cup", "seed":7, "model":{"name":"m","sha256":"cd"},
   "width":1280, "height":720, "fps":30, "duration_secs":8.0, "added_later": {"x": [1, 2]},
   "keyframes":[{ "time_secs":0.0, "position":[1,2,3], "rotation_xyzw":[1,0,0,0],
-                 "euler_deg":{"yaw":99,"pitch":99,"roll":99},
+                 "euler_deg":{"yaw":0,"pitch":0,"roll":0},
                  "fov_y_deg":50.0, "focus_distance":null, "easing":"smooth", "cut":false,
                  "intent":{"subjects":[3],"size":"close-up","move":"orbit-right","angle":"eye-level","words":[0,8],"pivot":[0,1,2]} },
                { "time_secs":2.5, "position":[1,2,4], "rotation_xyzw":[0.707,0,0,0.707], "fov_y_deg":40 }],
@@ -122,4 +128,128 @@ fn a_proof_is_kept_until_a_key_is_edited() {
     let moved = text.replacen("\"time_secs\": 2.5", "\"time_secs\": 2.25", 1);
     assert_ne!(moved, text);
     assert_eq!(read(&moved).unwrap().clearance, None);
+}
+
+/// A shot whose keys look in many directions, two of them straight down and up, with its first key rolled.
+fn turning() -> Shot {
+    let mut shot = read(EXAMPLE).unwrap();
+    let level = LevelFrame::new(DVec3::Y).unwrap();
+    let degrees = [[40.0, 20.0, 5.0], [90.0, 0.0, 0.0], [-170.0, -89.9, 3.0], [10.0, -90.0, 0.0], [200.0, 90.0, 60.0]];
+    let template = shot.keyframes[0].clone();
+    let key = |(idx, [yaw, pitch, roll]): (usize, [f64; 3])| {
+        let angles =
+            LevelAngles { yaw_rad: yaw.to_radians(), pitch_rad: pitch.to_radians(), roll_rad: roll.to_radians() };
+        let mut key = template.clone();
+        key.time_secs = idx as f64;
+        key.pose.rotation = level.rotation(angles);
+        key
+    };
+    shot.keyframes = degrees.into_iter().enumerate().map(key).collect();
+    shot
+}
+
+/// The shot after an edit of its file, and the notes of the reader.
+fn edited(edit: impl Fn(&mut Value)) -> (Shot, String) {
+    let mut file: Value = serde_json::from_str(&write(&turning())).unwrap();
+    edit(&mut file);
+    let read = shot_json::read(&file.to_string()).unwrap();
+    (read.shot, read.notes.join("\n"))
+}
+
+/// Angle in degrees by which every key's rotation differs between two shots; 0 for the same bits.
+fn turned_deg(a: &Shot, b: &Shot) -> Vec<f64> {
+    let pairs = a.keyframes.iter().zip(&b.keyframes);
+    let turned = |a: DQuat, b: DQuat| if a == b { 0.0 } else { rotation::angle_between(a, b).to_degrees() };
+    pairs.map(|(a, b)| turned(a.pose.rotation, b.pose.rotation)).collect()
+}
+
+#[test]
+fn euler_angles_that_nobody_edited_leave_every_bit_of_the_rotations() {
+    let (shot, notes) = edited(|_| ());
+    assert_eq!((shot.keyframes, notes.as_str()), (turning().keyframes, ""));
+}
+
+#[test]
+fn edited_euler_angles_decide_over_the_quaternion() {
+    for (angle, axis) in [("yaw", DVec3::NEG_Y), ("pitch", DVec3::X), ("roll", DVec3::Z)] {
+        let (shot, notes) = edited(|file| {
+            let field = &mut file["keyframes"][1]["euler_deg"][angle];
+            *field = (field.as_f64().unwrap() + 10.0).into();
+        });
+        let before = turning().keyframes[1].pose.rotation;
+        // A level key: yaw turns about the world's up, pitch and roll about the camera's own axes.
+        let turn = DQuat::from_axis_angle(axis, 10.0_f64.to_radians());
+        let expected = if angle == "yaw" { turn * before } else { before * turn };
+        let off_deg = rotation::angle_between(shot.keyframes[1].pose.rotation, expected).to_degrees();
+        assert!(off_deg < 1e-3, "{angle}: {off_deg}");
+        assert_eq!(notes, "keyframes[1].euler_deg: 10.00 degrees from rotation_xyzw, so it was edited and decides");
+        assert!(turned_deg(&shot, &turning()).iter().enumerate().all(|(idx, turned)| idx == 1 || *turned == 0.0));
+    }
+}
+
+#[test]
+fn an_edited_yaw_of_the_first_key_turns_that_key_alone() {
+    let (shot, notes) = edited(|file| file["keyframes"][0]["euler_deg"]["yaw"] = 10.into());
+    let turned = turned_deg(&shot, &turning());
+    assert!((turned[0] - 10.0).abs() < 1e-3 && turned[1..].iter().all(|turned| *turned == 0.0), "{turned:?}");
+    assert!(notes.starts_with("keyframes[0].euler_deg: 10.00 degrees from rotation_xyzw"), "{notes}");
+}
+
+#[test]
+fn removing_the_first_key_turns_no_other_key() {
+    let (shot, notes) = edited(|file| drop(file["keyframes"].as_array_mut().unwrap().remove(0)));
+    assert!(shot.keyframes.iter().zip(&turning().keyframes[1..]).all(|(a, b)| a.pose == b.pose));
+    insta::assert_snapshot!(notes, @"keyframes: euler_deg.yaw counts from a heading 50.00 degrees to the left of the first keyframe's, as after removing or replacing the first keyframe");
+}
+
+#[test]
+fn a_new_quaternion_of_the_first_key_turns_no_other_key() {
+    let (shot, notes) = edited(|file| {
+        let first = file["keyframes"][0].as_object_mut().unwrap();
+        first["rotation_xyzw"] = serde_json::json!([1, 0, 0, 0]);
+        first.remove("euler_deg");
+    });
+    assert_eq!(shot.keyframes[0].pose.rotation, DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0));
+    assert!(turned_deg(&shot, &turning())[1..].iter().all(|turned| *turned == 0.0));
+    assert!(notes.starts_with("keyframes: euler_deg.yaw counts from a heading"), "{notes}");
+    // With the old angles beside it, these decide for the first key too.
+    let (shot, notes) = edited(|file| file["keyframes"][0]["rotation_xyzw"] = serde_json::json!([1, 0, 0, 0]));
+    assert!(turned_deg(&shot, &turning()).iter().all(|turned| *turned < 1e-3), "{notes}");
+    assert!(notes.contains("keyframes[0].euler_deg: "), "{notes}");
+}
+
+#[test]
+fn euler_angles_without_an_up_are_ignored_with_a_note() {
+    let (shot, notes) = edited(|file| file["scene"]["up"] = Value::Null);
+    assert_eq!(turned_deg(&shot, &turning()), [0.0; 5]);
+    insta::assert_snapshot!(notes, @"keyframes[0].euler_deg: ignored, because the file has no scene.up");
+}
+
+#[test]
+fn a_misspelled_key_is_named_with_the_nearest_known_one() {
+    let (_, notes) = edited(|file| {
+        file["promt"] = "a".into();
+        for key in file["keyframes"].as_array_mut().unwrap() {
+            key["fov_y_degs"] = 40.into();
+            key["intent"]["pivots"] = 1.into();
+        }
+        file["keyframes"][3]["euler_deg"]["jaw"] = 3.into();
+        file["scene"]["sha265"] = 1.into();
+        file["report"][0]["gott"] = 1.into();
+        file["effects"][0]["aperture_blades"] = 7.into();
+    });
+    insta::assert_snapshot!(notes, @r"
+    promt: unknown key, the nearest known key is prompt
+    keyframes[0].fov_y_degs: unknown key (here and in 4 other places), the nearest known key is fov_y_deg
+    keyframes[3].euler_deg.jaw: unknown key, the nearest known key is yaw
+    keyframes[0].intent.pivots: unknown key (here and in 4 other places), the nearest known key is pivot
+    report[0].gott: unknown key, the nearest known key is got
+    scene.sha265: unknown key, the nearest known key is sha256
+    ");
+}
+
+#[test]
+fn a_misspelled_required_key_is_named_in_the_error() {
+    let error = read(&EXAMPLE.replace("\"fov_y_deg\":40", "\"fov_y_degs\":40")).unwrap_err();
+    insta::assert_snapshot!(error, @"keyframes[1].fov_y_deg: found nothing but the key fov_y_degs, expected degrees");
 }

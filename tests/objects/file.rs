@@ -228,3 +228,15 @@ fn a_missing_file_is_an_io_error() {
     let error = objects::read(Path::new("/nowhere/objects.json"), &four()).unwrap_err();
     assert_eq!(error.code(), "FILE-READ");
 }
+
+#[test]
+fn a_misspelled_key_is_named_with_the_nearest_known_one() {
+    let text = r#"{"version":1,"uo":[0,1,0],"scene":{"pth":"a"},"objects":[
+        {"id":1,"center":[0,0,0],"half_extents":[1,1,1],"parent":null,"labell":"cup"},
+        {"id":2,"center":[2,0,0],"half_extents":[1,1,1],"labell":"lamp"}]}"#;
+    insta::assert_snapshot!(read_text(text, &four()).unwrap().notes.join("\n"), @r"
+    uo: unknown key, the nearest known key is up
+    objects[0].labell: unknown key (here and in 1 other place), the nearest known key is label
+    scene.pth: unknown key, the nearest known key is path
+    ");
+}

@@ -20,7 +20,7 @@ fn scene() -> Scene {
 }
 
 fn shot() -> Shot {
-    cinesplat::export::shot_json::read(SHOT).unwrap()
+    cinesplat::export::shot_json::read(SHOT).unwrap().shot
 }
 
 fn settings() -> FilmSettings {

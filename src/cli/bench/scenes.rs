@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
+use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::outputs;
 use crate::cli::scene_args::{PictureArgs, SceneOptions};
@@ -53,6 +54,7 @@ fn read_cameras(path: &Path) -> Result<Option<StillCameras>, Failure> {
     }
     let text = outputs::read_text(path)?;
     let read = cameras_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
+    console::file_warnings(path, &read.notes);
     Ok(Some(read))
 }
 

@@ -1,4 +1,4 @@
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat4, DQuat, DVec3, DVec4};
 
 use super::super::ExportError;
 use super::super::json_read::{self, Node};
@@ -162,7 +162,8 @@ fn channels(root: &Node, buffers: &[Vec<u8>], node: usize, camera: usize) -> Res
             let is_node = target.optional("node").and_then(|idx| idx.whole(u64::MAX).ok()) == Some(node as u64);
             let extension = target.optional("extensions").and_then(|extensions| extensions.optional(POINTER));
             let pointed = extension.and_then(|extension| extension.optional("pointer"));
-            let slot = match target.field("path", "an animated property")?.text()? {
+            let path = target.field("path", "an animated property")?.text()?;
+            let slot = match path {
                 "translation" if is_node => &mut found.translation,
                 "rotation" if is_node => &mut found.rotation,
                 "pointer" if pointed.is_some_and(|text| text.text().is_ok_and(|text| text == pointer)) => {
@@ -173,7 +174,9 @@ fn channels(root: &Node, buffers: &[Vec<u8>], node: usize, camera: usize) -> Res
             if slot.is_none() {
                 let idx = size(&channel, "sampler", None)?;
                 let sampler = samplers.get(idx).ok_or_else(|| channel.error("a sampler that exists"))?;
-                *slot = Some(read_sampler(root, buffers, sampler)?);
+                let keys = read_sampler(root, buffers, sampler)?;
+                keys.check(path, sampler)?;
+                *slot = Some(keys);
             }
         }
     }
@@ -195,6 +198,24 @@ fn read_sampler(root: &Node, buffers: &[Vec<u8>], sampler: &Node) -> Result<Chan
 }
 
 impl Channel {
+    /// Checks that every value is usable for the property that `path` names: finite, of the right width, and a rotation
+    /// not 0.
+    fn check(&self, path: &str, sampler: &Node) -> Result<(), ExportError> {
+        let (width, expected) = match path {
+            "rotation" => (4, "4 finite numbers, not all 0"),
+            "translation" => (3, "3 finite numbers"),
+            _ => (1, "a finite number"),
+        };
+        let is_null = |value: &[f64]| path == "rotation" && !(DVec4::from_slice(value).length() > 1e-6);
+        let is_bad = |value: &[f64]| value.len() != width || value.iter().any(|v| !v.is_finite()) || is_null(value);
+        let Some(idx) = self.values.iter().position(|value| is_bad(value)) else { return Ok(()) };
+        Err(ExportError::BadField {
+            place: format!("{}.output, {path} of key {idx}", sampler.place()),
+            found: format!("{:?}", self.values[idx]),
+            expected: expected.to_owned(),
+        })
+    }
+
     /// The value at a time, interpolated by `between`.
     fn at(&self, time: f64, between: impl Fn(&[f64], &[f64], f64) -> Vec<f64>) -> Option<Vec<f64>> {
         let after = self.times.partition_point(|key| *key <= time);
@@ -211,13 +232,9 @@ fn blend(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + (b - a) * t).collect()
 }
 
+/// The rotation of a value that [`Channel::check`] accepted.
 fn turn(values: &[f64]) -> DQuat {
-    values
-        .try_into()
-        .ok()
-        .map(DQuat::from_array)
-        .filter(|q| q.length() > 1e-6)
-        .map_or(DQuat::IDENTITY, DQuat::normalize)
+    DQuat::from_slice(values).normalize()
 }
 
 /// The camera without animation.

@@ -83,7 +83,7 @@ fn layers_blend_as_trained() {
 fn a_film_without_blur_has_the_levels_of_the_still() {
     const SHOT: &str = r#"{"format":"cinesplat.shot","version":1,"width":64,"height":36,"fps":4,"duration_secs":0.5,"keyframes":[
         {"time_secs":0,"position":[0,0,0],"rotation_xyzw":[0,0,0,1],"fov_y_deg":50,"easing":"smooth"}]}"#;
-    let shot = cinesplat::export::shot_json::read(SHOT).unwrap();
+    let shot = cinesplat::export::shot_json::read(SHOT).unwrap().shot;
     let scene = crowd(800, 42);
     let renderer = Renderer::new(&scene);
     let folder = tempfile::tempdir().unwrap();

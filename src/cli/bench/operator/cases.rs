@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use serde::Deserialize;
 
+use crate::cli::console;
 use crate::cli::failure::{Exit, Failure};
 use crate::cli::outputs;
 use cinesplat::director::Director;
@@ -106,6 +107,7 @@ impl CaseDirector {
         if !self.scenes.contains_key(&key) {
             let mut scene = pipeline::open_scene(&case.scene, &LoadOptions::default())?.scene;
             let read = objects::read(&case.objects, &scene)?;
+            console::file_warnings(&case.objects, &read.notes);
             scene.up = read.up.unwrap_or(scene.up);
             self.scenes.insert(key.clone(), CaseScene { scene, objects: read.set });
         }
