@@ -93,13 +93,11 @@ impl FrameRate {
         if !track.timed {
             return Self { own: settings.fps.or(track.fps).or(Some(DEFAULT_FPS)), is_sampled: true };
         }
-        match track.fps {
-            Some(_) => Self { own: track.fps, is_sampled: track.is_sampled() },
-            None => {
-                let own = even_rate(&track.frames);
-                Self { own, is_sampled: own.is_some() }
-            }
+        if track.fps.is_some() {
+            return Self { own: track.fps, is_sampled: track.is_sampled() };
         }
+        let own = even_rate(&track.frames);
+        Self { own, is_sampled: own.is_some() }
     }
 
     /// A line about a rate that the file does not state.
@@ -108,11 +106,10 @@ impl FrameRate {
             (Some(wanted), Some(own)) if (wanted / own - 1.0).abs() > 1e-9 => {
                 Some(format!("the rate of {own} frames per second in the file is replaced by {wanted}"))
             }
-            (Some(_), _) => None,
             (None, Some(own)) if track.fps.is_none() => {
                 Some(format!("the file has no frame rate: its times are even at {own} frames per second"))
             }
-            (None, Some(_)) => None,
+            (Some(_), _) | (None, Some(_)) => None,
             (None, None) if !track.timed => {
                 Some(format!("the file has no times: {DEFAULT_FPS} frames per second are assumed"))
             }
