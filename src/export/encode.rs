@@ -107,7 +107,7 @@ fn sampled_shot(shot: &Shot, track: &PoseTrack) -> Result<Encoded, ExportError> 
     let dropped = [
         (num_eased, format!("the easings of {num_eased} of {num_keys} keys are in the times of the sampled keys")),
         (num_intents, format!("the intents of {num_intents} of {num_keys} keys do not apply to sampled keys")),
-        (num_lines, format!("the report ({num_lines} lines) does not apply to sampled keys")),
+        (num_lines, format!("the report does not apply to sampled keys (lines: {num_lines})")),
         (clearance, "the clearance proof does not apply to sampled keys".to_owned()),
     ];
     let losses =

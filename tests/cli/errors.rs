@@ -248,7 +248,7 @@ fn a_level_of_detail_that_is_not_a_number_is_refused() {
     insta::assert_snapshot!(answer(folder.path(), &["dataset", "-o", "shots", "--detail", "nan"]), @r"
     exit 2
     error[USAGE]: invalid value 'nan' for '--detail <FRAC>': expected 0.01 to 4
-    help: --help says more
+    help: see --help
     ");
     assert!(!folder.path().join("shots").exists());
 }

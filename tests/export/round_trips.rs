@@ -155,6 +155,6 @@ fn a_sampled_shot_keeps_its_prompt_and_says_what_it_drops() {
     assert_eq!((back.keyframes.len(), back.report.len()), (72, 0));
     insta::assert_snapshot!(warnings.join("\n"), @r"
     shot: the easings of 1 of 4 keys are in the times of the sampled keys
-    shot: the report (1 lines) does not apply to sampled keys
+    shot: the report does not apply to sampled keys (lines: 1)
     ");
 }
