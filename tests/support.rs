@@ -33,18 +33,7 @@ pub fn report_skip(lacking: &str) {
 
 /// A shot over keys that ends with the last one, in a world whose up is +y.
 pub fn shot_over(keyframes: Vec<Keyframe>) -> Shot {
-    Shot {
-        scene: SceneRef { up: Some(DVec3::Y), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: 640,
-        height: 360,
-        fps: 30.0,
-        duration_secs: keyframes.last().map_or(0.0, |key| key.time_secs),
-        keyframes,
-        effects: Vec::new(),
-        report: Vec::new(),
-        clearance: None,
-    }
+    let duration_secs = keyframes.last().map_or(0.0, |key| key.time_secs);
+    let scene = SceneRef { up: Some(DVec3::Y), ..SceneRef::default() };
+    Shot { scene, ..Shot::from_keyframes([640, 360], 30.0, duration_secs, keyframes) }
 }

@@ -75,8 +75,7 @@ pub(super) fn check_distinct<'a>(outputs: impl IntoIterator<Item = (&'a str, &'a
 
 /// One name per file: the folder without links and `..`, then the name.
 fn place_of(path: &Path) -> PathBuf {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    match (folder.canonicalize(), path.file_name()) {
+    match (files::folder_of(path).canonicalize(), path.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => path.to_owned(),
     }

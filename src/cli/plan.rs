@@ -7,13 +7,13 @@ use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, explain, heading, outputs, reproduce};
+use cinesplat::director::Director;
 use cinesplat::export::shot_json;
 use cinesplat::objects::ObjectSet;
-use cinesplat::pipeline::{self, FilmSettings, FrameRange};
+use cinesplat::pipeline::{self, FilmSettings};
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
-use cinesplat::video::VideoSettings;
 
 /// Turn a sentence into keyframes
 ///
@@ -75,8 +75,9 @@ impl Args {
         }
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
+        let director = self.shot.director()?;
         let plan = |named: &NamedPrompt, output: &Option<PathBuf>| {
-            self.plan((&scene, &objects), &named.prompt, output.as_deref())
+            self.plan(&director, (&scene, &objects), &named.prompt, output.as_deref())
         };
         match jobs.as_slice() {
             [(named, output)] if self.words.prompts.is_none() => plan(named, output),
@@ -94,8 +95,14 @@ impl Args {
         prompts.into_iter().map(|named| Ok((named.clone(), output(&named.name)?))).collect()
     }
 
-    fn plan(&self, (scene, objects): (&Scene, &ObjectSet), prompt: &str, output: Option<&Path>) -> Result<(), Failure> {
-        let mut directed = self.shot.direct(scene, objects, prompt)?;
+    fn plan(
+        &self,
+        director: &Director,
+        (scene, objects): (&Scene, &ObjectSet),
+        prompt: &str,
+        output: Option<&Path>,
+    ) -> Result<(), Failure> {
+        let mut directed = self.shot.direct(director, (scene, objects), prompt)?;
         if let Some(output) = output {
             directed.shot.scene.path = outputs::relative_to(output, &scene.path);
             self.overwrite.write(output, shot_json::write(&directed.shot).as_bytes())?;
@@ -118,8 +125,7 @@ impl Args {
     /// to run.
     fn print_forecasts(&self, scene: &Scene, shot: &Shot) -> Result<(), Failure> {
         let render = self.picture.settings(scene, Quality::Standard, None, None);
-        let settings =
-            FilmSettings { render, video: VideoSettings::default(), frames: FrameRange::default(), sheet: None };
+        let settings = FilmSettings { render, ..FilmSettings::default() };
         let renderer = Renderer::new(&scene.gaussians);
         let num_frames = shot.num_frames();
         let forecasts = pipeline::forecast(&renderer, shot, Path::new("film.mp4"), &settings, Quality::VARIANTS)?;

@@ -106,21 +106,24 @@ impl Args {
         self.picture.bound_threads()?;
         let mut times = PhaseTimes::default();
         let (scene, shot) = self.open(&mut times)?;
-        self.render(&scene, &shot, (times, start), &Interrupt::listen()?)
+        let renderer = Renderer::new(&scene.gaussians);
+        self.render((&scene, &renderer), &shot, (times, start), &Interrupt::listen()?)
     }
 
-    /// One film per prompt of a file; the scene is loaded once.
+    /// One film per prompt of a file; scene, director and renderer are prepared once.
     fn run_prompts(&self, prompts: &[NamedPrompt]) -> Result<(), Failure> {
         let jobs: Vec<(NamedPrompt, Self)> =
             prompts.iter().map(|named| Ok((named.clone(), self.for_prompt(named)?))).collect::<Result<_, Failure>>()?;
         jobs.iter().try_for_each(|(_, job)| job.check_outputs())?;
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
+        let director = self.shot.director()?;
+        let renderer = Renderer::new(&scene.gaussians);
         let interrupt = Interrupt::listen()?;
         prompts_file::for_each(&jobs, |named, job| {
             let start = Instant::now();
-            let directed = job.shot.direct(&scene, &objects, &named.prompt)?;
-            job.render(&scene, &directed.shot, (directed.times, start), &interrupt)
+            let directed = job.shot.direct(&director, (&scene, &objects), &named.prompt)?;
+            job.render((&scene, &renderer), &directed.shot, (directed.times, start), &interrupt)
         })
     }
 
@@ -138,13 +141,15 @@ impl Args {
     /// Renders the film of a shot and reports on it.
     fn render(
         &self,
-        scene: &Scene,
+        (scene, renderer): (&Scene, &Renderer<'_>),
         shot: &Shot,
         (mut times, start): (PhaseTimes, Instant),
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         // A second check, now that size and number of frames are known.
-        let format = video::check_output(&self.output, &self.video(shot)?)?;
+        let frames = self.frames.of_film(shot.num_frames())?;
+        let video = pipeline::video_of(shot, &frames, &self.encoder());
+        let format = video::check_output(&self.output, &video)?;
         if let Some(note) = video::odd_size_note(&format, shot.width, shot.height) {
             console::note(&note);
         }
@@ -153,17 +158,15 @@ impl Args {
             saved.scene.path = outputs::relative_to(path, &scene.path);
             self.overwrite.write(path, shot_json::write(&saved).as_bytes())?;
         }
-        let renderer = Renderer::new(&scene.gaussians);
         let render = self.picture.settings(scene, Quality::Standard, None, None);
-        let video = self.video(shot)?;
         let mut settings = FilmSettings { render, video, frames: self.frames, sheet: self.sheet.clone() };
-        let predicted = times.measure(Phase::Predict, || self.predict(&renderer, shot, &settings))?;
+        let predicted = times.measure(Phase::Predict, || self.predict(renderer, shot, &settings))?;
         settings.render.quality = predicted.quality;
-        let report = self.film(&renderer, shot, &settings, interrupt)?;
+        let report = self.film(renderer, shot, &settings, interrupt)?;
         times.add(Phase::Render, report.render_time);
         times.add(Phase::Encode, report.encode_time);
         print_times(&times, &report, start.elapsed());
-        let psnr_db = pipeline::checked_psnr_db(&renderer, shot, &settings)?;
+        let psnr_db = pipeline::checked_psnr_db(renderer, shot, &settings)?;
         self.print_comparison(&predicted, &report, psnr_db)?;
         let mut decided = deciding(shot).to_vec();
         if self.requirements() != Requirements::default() {
@@ -176,13 +179,7 @@ impl Args {
 
     /// Refuses wrong outputs before the scene is read.
     fn check_outputs(&self) -> Result<(), Failure> {
-        let video = VideoSettings {
-            crf: self.crf,
-            preset: self.preset,
-            existing: self.overwrite.existing(),
-            ..Default::default()
-        };
-        video::check_output(&self.output, &video)?;
+        video::check_output(&self.output, &self.encoder())?;
         for path in self.save_shot.iter().chain(&self.sheet) {
             self.overwrite.check(path)?;
         }
@@ -204,23 +201,16 @@ impl Args {
         let prompt = self.source.prompt.as_deref().unwrap_or_default();
         let (scene, objects) =
             times.measure(Phase::Load, || self.scene.open_with_objects(self.shot.objects.as_deref()))?;
-        let directed = self.shot.direct(&scene, &objects, prompt)?;
+        let director = times.measure(Phase::Load, || self.shot.director())?;
+        let directed = self.shot.direct(&director, (&scene, &objects), prompt)?;
         times.extend(&directed.times);
         Ok((scene, directed.shot))
     }
 
-    fn video(&self, shot: &Shot) -> Result<VideoSettings, Failure> {
-        let frames = self.frames.of_film(shot.num_frames())?;
-        Ok(VideoSettings {
-            width: shot.width,
-            height: shot.height,
-            rate_fps: shot.fps,
-            crf: self.crf,
-            preset: self.preset,
-            first_frame: frames.start,
-            num_frames: frames.len(),
-            existing: self.overwrite.existing(),
-        })
+    /// Encoder settings before the shot is known.
+    fn encoder(&self) -> VideoSettings {
+        let existing = self.overwrite.existing();
+        VideoSettings { crf: self.crf, preset: self.preset, existing, ..VideoSettings::default() }
     }
 
     fn requirements(&self) -> Requirements {
@@ -245,11 +235,11 @@ impl Args {
         let predicted = chosen.ok_or_else(|| Failure::fault("a quality without a forecast"))?;
         console::note(&format!("predicted for {} frames: {}", settings.video.num_frames, predicted.sentence()));
         if predicted.is_empty {
-            console::note(&format!(
-                "warning: no sampled frame shows a Gaussian, the film will be background alone: check the camera path, \
+            console::warnings([format!(
+                "no sampled frame shows a Gaussian, the film will be background alone: check the camera path, \
                  the scene's opacities and --near (now {})",
                 settings.render.near
-            ));
+            )]);
         }
         Ok(predicted)
     }

@@ -10,7 +10,7 @@ use cinesplat::director::Director;
 use cinesplat::lens::{self, Decision, Effect, EffectCall, EffectChoice};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::SolveLevel;
-use cinesplat::pipeline::{self, DirectSettings, Directed, Phase, PhaseTimes};
+use cinesplat::pipeline::{self, DirectSettings, Directed};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{Shot, retimed};
 
@@ -48,13 +48,22 @@ pub(super) struct ShotArgs {
 }
 
 impl ShotArgs {
-    /// Turns a prompt into a shot. Prints guesses and unmet requirements to stderr.
-    pub(super) fn direct(&self, scene: &Scene, objects: &ObjectSet, prompt: &str) -> Result<Directed, Failure> {
-        let mut times = PhaseTimes::default();
-        let director = times.measure(Phase::Load, || match &self.model {
+    /// Loads the director's network.
+    pub(super) fn director(&self) -> Result<Director, Failure> {
+        let director = match &self.model {
             Some(folder) => Director::load(folder),
             None => Director::embedded(),
-        })?;
+        };
+        Ok(director?)
+    }
+
+    /// Turns a prompt into a shot. Prints guesses and unmet requirements to stderr.
+    pub(super) fn direct(
+        &self,
+        director: &Director,
+        (scene, objects): (&Scene, &ObjectSet),
+        prompt: &str,
+    ) -> Result<Directed, Failure> {
         let (width, height) = self.size.unwrap_or((1280, 720));
         let settings = DirectSettings {
             width,
@@ -65,13 +74,11 @@ impl ShotArgs {
             solve: self.solve.level,
             effects: self.effects.clone(),
         };
-        let mut directed = pipeline::direct(scene, objects, prompt, &director, &settings)?;
+        let mut directed = pipeline::direct(scene, objects, prompt, director, &settings)?;
         if self.retime {
             directed.shot = retimed(&directed.shot);
             directed.shot.clearance = Some(pipeline::prove_clearance(scene, &directed.shot)?);
         }
-        times.extend(&directed.times);
-        directed.times = times;
         print_gaps(&directed);
         Ok(directed)
     }
@@ -81,7 +88,7 @@ impl ShotArgs {
         let shot = read_file(path)?;
         let made_for_another = !shot.scene.sha256.is_empty() && shot.scene.sha256 != scene.sha256;
         if made_for_another {
-            console::note(&format!("warning: {} was made for another scene: {}", path.display(), shot.scene.path));
+            console::warnings([format!("{} was made for another scene: {}", path.display(), shot.scene.path)]);
         }
         let mut shot = self.changed(shot);
         print_warnings(&shot);
@@ -119,9 +126,7 @@ pub(super) fn read_file(path: &Path) -> Result<Shot, Failure> {
 
 /// Warns of keys after the end of the film and of a film without length.
 pub(super) fn print_warnings(shot: &Shot) {
-    for line in shot.warnings() {
-        console::note(&format!("warning: {line}"));
-    }
+    console::warnings(shot.warnings());
 }
 
 /// Flags with the values that decide the result, for the command that reproduces it.
@@ -138,17 +143,15 @@ fn print_clearance(shot: &Shot) {
     let Some((proof, failure)) = shot.clearance.as_ref().and_then(|proof| Some((proof, proof.failure?))) else {
         return;
     };
-    console::note(&format!(
-        "warning: the camera comes too close to Gaussian {} from {:.2} to {:.2} s: distance {:.4}, camera radius {:.4}",
+    console::warnings([format!(
+        "the camera comes too close to Gaussian {} from {:.2} to {:.2} s: distance {:.4}, camera radius {:.4}",
         failure.gaussian_idx, failure.from_secs, failure.to_secs, failure.distance, proof.camera_radius
-    ));
+    )]);
 }
 
 /// Prints guesses, effects, and every line of the report that is not met.
 fn print_gaps(directed: &Directed) {
-    for warning in &directed.warnings {
-        console::note(&format!("warning: {warning}"));
-    }
+    console::warnings(&directed.warnings);
     print_effects(&directed.effects);
     let is_effect = |clause: &str| directed.effects.iter().any(|decision| decision.call.because == clause);
     for line in directed.shot.report.iter().filter(|line| !line.met && !is_effect(&line.clause)) {

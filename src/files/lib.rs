@@ -15,6 +15,6 @@ mod unknown_keys;
 pub use error::FileError;
 pub use hash::sha256_hex;
 pub use new_file::{Existing, NewFile, check_free, create_folder, write};
-pub use paths::{beside, relative_to};
+pub use paths::{beside, folder_of, relative_to};
 pub use read::{MAX_ARRAY_BYTES, MAX_TEXT_BYTES, read};
 pub use unknown_keys::{UnknownKeys, misspelling};

@@ -48,8 +48,7 @@ impl NewFile {
     /// [`FileError::Exists`], [`FileError::Create`].
     pub fn create(target: &Path, existing: Existing) -> Result<Self, FileError> {
         let failed = |source| FileError::Create { path: target.to_owned(), source };
-        let found = fs::metadata(target).ok();
-        let content = if found.as_ref().is_some_and(|found| !found.is_file() && !found.is_dir()) {
+        let content = if is_special(target) {
             Content::Special(File::options().write(true).open(target).map_err(failed)?)
         } else {
             check_free(target, existing)?;
@@ -130,8 +129,7 @@ pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
     if path.is_dir() {
         return refuse(ErrorKind::IsADirectory, "it is a folder, expected a file name");
     }
-    let is_taken = fs::symlink_metadata(path).is_ok() && !fs::metadata(path).is_ok_and(|found| !found.is_file());
-    if existing == Existing::Keep && is_taken {
+    if existing == Existing::Keep && fs::symlink_metadata(path).is_ok() && !is_special(path) {
         return Err(FileError::Exists { path: path.to_owned() });
     }
     match fs::metadata(folder_of(path)) {
@@ -140,6 +138,11 @@ pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
         Ok(_) => Ok(()),
         Err(_) => refuse(ErrorKind::NotFound, "its folder does not exist"),
     }
+}
+
+/// Whether a path leads to a device, a pipe or a socket.
+fn is_special(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
 }
 
 /// A new file in the target's folder whose name no other process has, with the permissions that any new file gets.

@@ -13,6 +13,6 @@ pub fn relative_to(base: &Path, target: &Path) -> String {
 }
 
 /// The folder that holds a file; `.` for a bare name.
-pub(crate) fn folder_of(path: &Path) -> &Path {
+pub fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -6,7 +6,8 @@ use std::sync::OnceLock;
 use super::inflection::{VerbForm, inflect};
 use super::tokenizer::tokenize;
 
-static GRAMMAR: &str = include_str!("../../prompts/grammar.txt");
+/// The text of `prompts/grammar.txt`. Linking knows its words; the sampler of `training` reads its templates.
+pub static GRAMMAR_TEXT: &str = include_str!("../../prompts/grammar.txt");
 
 /// Every word of every template of `prompts/grammar.txt`, also inflected as a verb.
 #[derive(Debug)]
@@ -18,7 +19,7 @@ impl KnownWords {
     /// The words of the grammar that the program ships, read once.
     pub(crate) fn embedded() -> &'static Self {
         static KNOWN: OnceLock<KnownWords> = OnceLock::new();
-        KNOWN.get_or_init(|| Self::of_grammar(GRAMMAR))
+        KNOWN.get_or_init(|| Self::of_grammar(GRAMMAR_TEXT))
     }
 
     fn of_grammar(text: &str) -> Self {

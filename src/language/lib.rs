@@ -76,6 +76,7 @@ mod unknown;
 pub use effects::{EffectMention, effect_mentions};
 pub use error::LanguageError;
 pub use inflection::{VerbForm, inflect};
+pub use known_words::GRAMMAR_TEXT;
 pub use lexicon::Lexicon;
 pub use link::{Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, link};
 pub use names::NamedObject;

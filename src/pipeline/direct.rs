@@ -130,19 +130,14 @@ pub fn direct(
 /// A shot of solved keyframes, without a director's model and without effects.
 pub fn shot_of(scene: &Scene, prompt: &str, solution: Solution, settings: &DirectSettings) -> Shot {
     let path = scene.path.to_string_lossy().into_owned();
+    let size_px = [settings.width, settings.height];
     Shot {
         scene: SceneRef { path, sha256: scene.sha256.clone(), up: Some(scene.up) },
         prompt: prompt.to_owned(),
         seed: settings.seed,
-        model: None,
-        width: settings.width,
-        height: settings.height,
-        fps: settings.rate_fps,
-        duration_secs: solution.duration_secs,
-        keyframes: solution.keyframes,
-        effects: Vec::new(),
         report: solution.report,
         clearance: Some(super::clearance::in_file_order(scene, solution.clearance)),
+        ..Shot::from_keyframes(size_px, settings.rate_fps, solution.duration_secs, solution.keyframes)
     }
 }
 

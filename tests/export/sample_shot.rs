@@ -8,6 +8,8 @@ use cinesplat::geometry::{Pose, rotation};
 use cinesplat::trajectory::{Easing, Keyframe, SceneRef, Shot};
 use glam::{DQuat, DVec3};
 
+use crate::support::shot_over;
+
 pub(super) fn key(time_secs: f64, position: DVec3, rotation: DQuat, fov_y_deg: f64) -> Keyframe {
     Keyframe {
         time_secs,
@@ -21,20 +23,8 @@ pub(super) fn key(time_secs: f64, position: DVec3, rotation: DQuat, fov_y_deg: f
 }
 
 pub(super) fn shot(keyframes: Vec<Keyframe>, up: DVec3) -> Shot {
-    Shot {
-        scene: SceneRef { up: Some(up), ..SceneRef::default() },
-        prompt: String::new(),
-        seed: 0,
-        model: None,
-        width: 1280,
-        height: 720,
-        fps: 24.0,
-        duration_secs: keyframes.last().map_or(0.0, |key| key.time_secs),
-        keyframes,
-        effects: Vec::new(),
-        report: Vec::new(),
-        clearance: None,
-    }
+    let scene = SceneRef { up: Some(up), ..SceneRef::default() };
+    Shot { scene, width: 1280, height: 720, fps: 24.0, ..shot_over(keyframes) }
 }
 
 /// Keys with a zoom, focus distances and a cut at 2 s, in a world with y down.

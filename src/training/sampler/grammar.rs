@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::template::{ObjectPlaceholder, Template};
-use cinesplat_language::LanguageError;
+use cinesplat_language::{GRAMMAR_TEXT, LanguageError};
 use strum::VariantArray;
 
 const FILE: &str = "prompts/grammar.txt";
-static TEXT: &str = include_str!("../../../prompts/grammar.txt");
 
 /// All templates.
 #[derive(Debug, Default)]
@@ -72,7 +71,7 @@ impl Grammar {
     /// [`LanguageError::BadData`] with the first malformed line.
     pub(crate) fn embedded() -> Result<&'static Self, LanguageError> {
         static GRAMMAR: OnceLock<Result<Grammar, LanguageError>> = OnceLock::new();
-        GRAMMAR.get_or_init(|| Self::parse(TEXT)).as_ref().map_err(Clone::clone)
+        GRAMMAR.get_or_init(|| Self::parse(GRAMMAR_TEXT)).as_ref().map_err(Clone::clone)
     }
 
     fn parse(text: &str) -> Result<Self, LanguageError> {

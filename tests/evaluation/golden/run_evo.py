@@ -4,8 +4,8 @@
 evo (https://github.com/MichaelGrupp/evo, GPL-3) is called here as an installed package; no part of it is in this
 repository.
 
-    python3 -m venv /tmp/evo && /tmp/evo/bin/pip install evo==1.38.1
-    /tmp/evo/bin/python tests/evaluation/golden/run_evo.py
+    python3 -m venv target/evo && target/evo/bin/pip install evo==1.38.1
+    target/evo/bin/python tests/evaluation/golden/run_evo.py
 """
 import copy
 import importlib.metadata
