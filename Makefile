@@ -65,7 +65,9 @@ test: deps
 # Long runs, not part of the gate. Training takes hours; models/README.md says what the shipped weights were made with.
 train: build
 	$(BIN) dataset -o target/train/shots
-	$(BIN) train -o target/train/model --shots target/train/shots
+	$(BIN) train --names -o target/train/model --sentences prompts/corpus
+	$(BIN) train -o target/train/model --sentences prompts/corpus --shots target/train/shots
+	$(BIN) train --calibrate target/train/model --sentences prompts/corpus
 
 # Accuracy against time, how cost grows, films against forecasts: CSV, tables and plots in renders/bench. Uses the real scenes in DATA, if there are any.
 bench: build
@@ -74,6 +76,7 @@ bench: build
 		--sizes 1280x720,1920x1080 --overwrite -o renders/bench > /dev/null
 	$(BIN) bench scaling synth:tabletop:1 --overwrite -o renders/bench > /dev/null
 	$(BIN) bench films $(FILM_SCENES) --overwrite -o renders/bench > /dev/null
+	$(BIN) bench director --overwrite -o renders/bench > /dev/null
 
 # Checks that the camera does what the prompts say. Plans the cases of ../shared (not part of this repository) with the
 # solver off and full, from the network's programs and from hand-written ones, and runs the checker of ../shared.

@@ -4,7 +4,7 @@ use strum::VariantArray;
 use super::console;
 use cinesplat::lens::{Decision, Effect, EffectKind};
 use cinesplat::objects::ObjectSet;
-use cinesplat::operator::{Amount, Framing, Speed, Step, SubjectPart};
+use cinesplat::operator::{Amount, Framing, Lens, Look, Speed, Step, SubjectPart};
 use cinesplat::pipeline::Directed;
 use cinesplat::trajectory::ClearanceProof;
 
@@ -59,16 +59,26 @@ fn clearance(proof: &ClearanceProof) -> String {
 }
 
 /// A step in words.
-fn sentence(step: &Step, objects: &ObjectSet) -> String {
+pub(super) fn sentence(step: &Step, objects: &ObjectSet) -> String {
     let mut parts = vec![step.movement.as_ref().to_owned()];
     if step.either_way {
         parts.push("in either direction".to_owned());
     }
+    parts.extend(step.with.iter().map(|second| format!("with {second}")));
     parts.extend(step.amount.map(amount));
     parts.extend(framing("from", &step.start, objects));
     parts.extend(framing("to", &step.end, objects));
     if let Some(via) = &step.via {
         parts.push(format!("{} {}", via.how, names(&via.objects, objects)));
+    }
+    parts.extend(step.look.as_ref().map(|look| match look {
+        Look::At(ids) => format!("looking at {}", names(ids, objects)),
+        Look::Ahead => "looking ahead".to_owned(),
+        Look::Back => "looking back".to_owned(),
+        Look::Room => "looking at the room".to_owned(),
+    }));
+    for (what, ids) in [("keeping in view", &step.keep), ("never showing", &step.avoid)] {
+        parts.extend((!ids.is_empty()).then(|| format!("{what} {}", names(ids, objects))));
     }
     parts.extend((step.speed != Speed::Normal).then(|| step.speed.to_string()));
     parts.extend(step.duration_secs.map(|secs| format!("{secs} s")));
@@ -110,12 +120,34 @@ fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<
     if !framing.subjects.is_empty() {
         let whole = if framing.whole { " whole" } else { "" };
         parts.push(format!("{part}{}{whole}", names(&framing.subjects, objects)));
+    } else if framing.whole {
+        parts.push("the whole room".to_owned());
     }
+    parts.extend(framing.side.map(spaced));
+    parts.extend(framing.place.map(spaced));
+    parts.extend(framing.height_frac.map(|frac| format!("{:.0} % of the frame high", 100.0 * frac)));
+    parts.extend(framing.elevation_deg.map(|degrees| format!("seen from {degrees} degrees above")));
+    parts.extend(framing.height.map(|height| format!("camera {height} units above the floor")));
+    parts.extend(framing.distance.map(|distance| format!("{distance} units away")));
+    parts.extend(framing.lens.map(|lens| match lens {
+        Lens::FocalMm(focal_mm) => format!("{focal_mm} mm"),
+        Lens::FovDeg(fov_deg) => format!("{fov_deg} degrees of view"),
+        Lens::Wide => "wide-angle lens".to_owned(),
+        Lens::Long => "long lens".to_owned(),
+    }));
+    parts.extend(framing.hidden.then(|| "hidden".to_owned()));
     Some(format!("{preposition} {}", parts.join(" ")))
+}
+
+/// A name in kebab case as words.
+fn spaced(name: impl AsRef<str>) -> String {
+    name.as_ref().replace('-', " ")
 }
 
 fn names(ids: &[u32], objects: &ObjectSet) -> String {
     let name = |id: &u32| match objects.get(*id) {
+        // What the scene lacks has no id that a prompt could say.
+        Some(object) if *id > u32::from(u16::MAX) => format!("{} (not in the scene)", console::one_line(&object.label)),
         Some(object) if !object.label.is_empty() => format!("{} <obj-{id}>", console::one_line(&object.label)),
         _ => format!("<obj-{id}>"),
     };

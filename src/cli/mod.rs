@@ -24,6 +24,7 @@ mod outputs;
 mod plan;
 mod progress;
 mod prompts_file;
+mod read;
 mod render;
 mod reproduce;
 mod scene_args;
@@ -31,6 +32,8 @@ mod shot_args;
 mod still;
 #[cfg(feature = "training")]
 mod train;
+#[cfg(feature = "training")]
+mod train_names;
 mod usage;
 
 use std::ffi::OsString;
@@ -72,6 +75,7 @@ denied, 130 interrupted twice.";
 enum Command {
     Info(info::Args),
     Objects(objects::Args),
+    Read(read::Args),
     Plan(plan::Args),
     Render(render::Args),
     Still(still::Args),
@@ -92,6 +96,7 @@ impl Command {
         match self {
             Self::Info(args) => args.run(),
             Self::Objects(args) => args.run(),
+            Self::Read(args) => args.run(),
             Self::Plan(args) => args.run(),
             Self::Render(args) => args.run(),
             Self::Still(args) => args.run(),

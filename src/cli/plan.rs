@@ -43,6 +43,9 @@ pub(super) struct Args {
     /// Print how each clause is understood and what the shot achieves
     #[arg(long, help_heading = heading::OUTPUT)]
     explain: bool,
+    /// Fail with exit code 65 when a clause is not understood or cannot be met
+    #[arg(long, help_heading = heading::SHOT)]
+    strict: bool,
     #[command(flatten)]
     picture: PictureArgs,
     #[command(flatten)]
@@ -103,6 +106,11 @@ impl Args {
         output: Option<&Path>,
     ) -> Result<(), Failure> {
         let mut directed = self.shot.direct(director, (scene, objects), prompt)?;
+        if self.strict
+            && let Some(line) = directed.shot.report.iter().find(|line| !line.met)
+        {
+            return Err(Failure::not_met(line));
+        }
         if let Some(output) = output {
             directed.shot.scene.path = outputs::relative_to(output, &scene.path);
             self.overwrite.write(output, shot_json::write(&directed.shot).as_bytes())?;

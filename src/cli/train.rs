@@ -1,6 +1,6 @@
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -8,11 +8,16 @@ use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::outputs::Overwrite;
-use cinesplat::director::Director;
+use super::train_names;
+use cinesplat::director::{Calibration, Director, ModelFiles};
+use cinesplat::files::Existing;
 use cinesplat::language::program_to_notation;
+use cinesplat::training::corpus::{self, SentenceKind, Split, Writer};
 use cinesplat::training::{
-    EvaluationSplit, ProgramMetrics, Tally, TrainSettings, TrainingProgress, evaluate_director, train,
+    EvaluationSplit, Mentions, NameSettings, ProgramMetrics, Tally, TrainSettings, TrainingProgress, evaluate_director,
+    examine, train,
 };
+use strum::VariantArray;
 
 /// candle's matrix products run on rayon's pool, whose threads spin. Worker threads with one rayon thread each are faster.
 const THREADS_VARIABLE: &str = "RAYON_NUM_THREADS";
@@ -26,11 +31,18 @@ Examples:
   cinesplat dataset -o shots --scenes 400
   cinesplat train -o model --shots shots --steps 12000
   cinesplat train -o model --shots shots --steps 12000 --resume
-  cinesplat train --examine model")]
+  cinesplat train -o names --names --sentences prompts/corpus
+  cinesplat train --examine model
+  cinesplat train --examine names --names --sentences prompts/corpus")]
 pub(super) struct Args {
     /// Folder for the model (three files) and its checkpoint
-    #[arg(short, long, value_name = "DIR", required_unless_present = "examine")]
+    #[arg(short, long, value_name = "DIR", required_unless_present_any = ["examine", "calibrate"])]
     output: Option<PathBuf>,
+    /// Train the network of names instead: which words name which objects
+    ///
+    /// It learns from the training writers of --sentences. The folder receives two files.
+    #[arg(long, requires = "sentences", conflicts_with_all = ["shots", "resume"])]
+    names: bool,
     /// Folder of training shots [default: learn from words only]
     ///
     /// `cinesplat dataset` writes it. Without it the network learns programs, not camera poses.
@@ -39,21 +51,37 @@ pub(super) struct Args {
     /// Share of these shots among the examples
     #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().shots_frac)]
     shots_frac: f64,
+    /// Folder of sentences with their programs, such as prompts/corpus [default: sampled sentences only]
+    #[arg(long, value_name = "DIR")]
+    sentences: Option<PathBuf>,
+    /// Share of these sentences among the examples
+    #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().sentences_frac)]
+    sentences_frac: f64,
     /// Model to start from [default: random weights]
     #[arg(long, value_name = "MODEL")]
     from: Option<PathBuf>,
+    /// Learn the vocabulary anew although there is a model to start from
+    #[arg(long, requires = "from")]
+    new_vocabulary: bool,
     /// Number of optimizer steps
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().steps)]
+    #[arg(default_value_if("names", "true", "6000"))]
     steps: u64,
     /// Examples per step
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().batch)]
+    #[arg(default_value_if("names", "true", "32"))]
     batch: usize,
     /// Highest learning rate
     #[arg(long, value_name = "RATE", default_value_t = TrainSettings::default().peak_rate)]
+    #[arg(default_value_if("names", "true", "0.002"))]
     rate: f32,
     /// Steps of linear warm-up to that rate
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().warm_up)]
     warm_up: u64,
+    /// Share of the values that dropout sets to zero
+    #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().dropout)]
+    #[arg(default_value_if("names", "true", "0.15"))]
+    dropout: f32,
     /// Size of the vocabulary in tokens
     #[arg(long, value_name = "N", default_value_t = TrainSettings::default().vocabulary)]
     vocabulary: usize,
@@ -79,15 +107,31 @@ pub(super) struct Args {
     /// Prints accuracy on each evaluation split and every prompt that the model misunderstands.
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["output", "shots", "from", "resume"])]
     examine: Option<PathBuf>,
+    /// Fit the certainty of a model to the development writers of --sentences instead: a folder, which is rewritten
+    ///
+    /// Also gives the model the name of --name.
+    #[arg(long, value_name = "MODEL", requires = "sentences", conflicts_with_all = ["output", "shots", "from", "resume", "examine"])]
+    calibrate: Option<PathBuf>,
 }
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
+        let sentences = self.sentences.clone().unwrap_or_default();
+        if let Some(model) = self.examine.as_ref().filter(|_| self.names) {
+            return train_names::examine_model(model, &sentences);
+        }
         if let Some(model) = &self.examine {
-            return examine_model(model);
+            return examine_model(model, self.sentences.as_deref());
+        }
+        if let (Some(model), Some(sentences)) = (&self.calibrate, &self.sentences) {
+            return calibrate_model(model, &self.name, sentences);
         }
         if std::env::var_os(THREADS_VARIABLE).is_none_or(|threads| threads != "1") {
             return restart();
+        }
+        if self.names {
+            let out = self.output.clone().unwrap_or_default();
+            return train_names::train(&self.name_settings(), &sentences, &out);
         }
         let interrupt = Interrupt::listen()?;
         let out = self.output.clone().unwrap_or_default();
@@ -104,6 +148,18 @@ impl Args {
         Ok(())
     }
 
+    fn name_settings(&self) -> NameSettings {
+        NameSettings {
+            seed: self.seed,
+            steps: self.steps,
+            batch: self.batch,
+            peak_rate: self.rate,
+            dropout: self.dropout.clamp(0.0, 0.9),
+            from: self.from.clone(),
+            existing: self.overwrite.existing(),
+        }
+    }
+
     fn settings(self) -> TrainSettings {
         TrainSettings {
             seed: self.seed,
@@ -111,11 +167,15 @@ impl Args {
             batch: self.batch,
             peak_rate: self.rate,
             warm_up: self.warm_up,
+            dropout: self.dropout.clamp(0.0, 0.9),
             shots_frac: self.shots_frac.clamp(0.0, 1.0),
+            sentences: self.sentences,
+            sentences_frac: self.sentences_frac.clamp(0.0, 1.0),
             vocabulary: self.vocabulary,
             name: self.name,
             shots: self.shots,
             from: self.from,
+            new_vocabulary: self.new_vocabulary,
             threads: self.threads,
             checkpoint_every: self.checkpoint_every,
             resume: self.resume,
@@ -187,7 +247,7 @@ fn metrics_line(title: &str, metrics: &ProgramMetrics) -> String {
     line
 }
 
-fn examine_model(model: &std::path::Path) -> Result<(), Failure> {
+fn examine_model(model: &Path, sentences: Option<&Path>) -> Result<(), Failure> {
     let director = if model.as_os_str() == "built-in" { Director::embedded()? } else { Director::load(model)? };
     let splits = [
         ("people's sentences", EvaluationSplit::HandWritten),
@@ -195,17 +255,51 @@ fn examine_model(model: &std::path::Path) -> Result<(), Failure> {
         ("wordings as in training", EvaluationSplit::Training { count: 300 }),
     ];
     for (title, split) in splits {
-        let metrics = evaluate_director(&director, split)?;
-        console::data(&format!("{}\n", metrics_line(title, &metrics)))?;
-        for case in &metrics.error_cases {
-            let (meant, understood) = (program_to_notation(&case.intended), program_to_notation(&case.understood));
-            let mistakes: Vec<String> = case.mistakes.iter().map(ToString::to_string).collect();
-            console::data(&format!(
-                "  {}\n    meant      {meant}\n    understood {understood}\n    wrong: {}\n",
-                case.prompt,
-                mistakes.join(", ")
-            ))?;
+        print_metrics(title, &evaluate_director(&director, split)?)?;
+    }
+    let Some(sentences) = sentences else { return Ok(()) };
+    let writers = corpus::read_folder(sentences)?;
+    // The exam belongs to `bench director`: nobody should look at its sentences.
+    for split in [Split::Development] {
+        let writers: Vec<&Writer> = writers.iter().filter(|writer| writer.split == split).collect();
+        for kind in SentenceKind::VARIANTS {
+            for mentions in Mentions::VARIANTS {
+                let examined = examine(&director, &writers, Some(*kind), *mentions)?;
+                print_metrics(&format!("{split}, {kind}, mentions {mentions}"), &examined.metrics)?;
+            }
         }
     }
+    Ok(())
+}
+
+/// Prints metrics and every prompt that was misunderstood.
+fn print_metrics(title: &str, metrics: &ProgramMetrics) -> Result<(), Failure> {
+    console::data(&format!("{}\n", metrics_line(title, metrics)))?;
+    for case in &metrics.error_cases {
+        let (meant, understood) = (program_to_notation(&case.intended), program_to_notation(&case.understood));
+        let mistakes: Vec<String> = case.mistakes.iter().map(ToString::to_string).collect();
+        console::data(&format!(
+            "  {}\n    meant      {meant}\n    understood {understood}\n    wrong: {}\n",
+            case.prompt,
+            mistakes.join(", ")
+        ))?;
+    }
+    Ok(())
+}
+
+/// Fits the certainty of a model to the development writers, and writes it into the model's description.
+fn calibrate_model(folder: &Path, name: &str, sentences: &Path) -> Result<(), Failure> {
+    let files = ModelFiles::read(folder)?.described(name, Calibration::default())?;
+    let director = Director::from_files(&files)?;
+    let writers = corpus::read_folder(sentences)?;
+    let writers: Vec<&Writer> = writers.iter().filter(|writer| writer.split == Split::Development).collect();
+    let examined = examine(&director, &writers, None, Mentions::Found)?;
+    let calibration = Calibration::fit(&examined.certainty);
+    let calibrated = files.described(name, calibration)?;
+    for (name, bytes) in calibrated.named() {
+        cinesplat::files::write(&folder.join(name), bytes, Existing::Replace)?;
+    }
+    let Calibration { slope, offset } = calibration;
+    console::note(&format!("calibrated on {} steps: slope {slope:.3}, offset {offset:.3}", examined.certainty.len()));
     Ok(())
 }

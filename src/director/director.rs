@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, Mention, NamedObject, check_prompt, link_mentions};
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
 use cinesplat_trajectory::{CameraState, ModelRef};
@@ -16,12 +16,14 @@ use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects}
 use crate::keys::{boundaries_of, steps_of};
 use crate::model::Model;
 use crate::model_files::ModelFiles;
+use crate::names::{FoundMention, Names, NamesFiles};
 use crate::network::PromptBatch;
 
 /// Certainty of a step of the program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepCertainty {
-    /// Product of the probabilities of all choices of the step, 0..=1.
+    /// Probability that the step is what the prompt requests, 0..=1: the product of the probabilities of all its choices,
+    /// calibrated on sentences that training has not seen.
     pub probability: f64,
     /// The choice of the lowest probability, and that probability.
     pub weakest: (Choice, f64),
@@ -38,6 +40,8 @@ pub struct Direction {
     pub step_cameras: Vec<StepCameras>,
     /// Certainty of each step.
     pub certainty: Vec<StepCertainty>,
+    /// Bytes of the prompt that ask for something that no program can say.
+    pub unmet: Vec<[usize; 2]>,
 }
 
 /// The facts about a scene that the director needs.
@@ -57,6 +61,7 @@ pub struct SceneContext<'a> {
 #[derive(Debug, Clone)]
 pub struct Director {
     model: Model,
+    names: Names,
 }
 
 impl Director {
@@ -68,21 +73,25 @@ impl Director {
         Self::from_files(&ModelFiles::embedded())
     }
 
-    /// A director from the files of a folder; `path` is the folder, or the `director.json` in it.
+    /// A director from the files of a folder; `path` is the folder, or the `director.json` in it. A folder without the
+    /// network of names takes the built-in one.
     ///
     /// # Errors
     /// [`DirectorError::Read`] · [`DirectorError::BadModel`] when a file is damaged, of another version, or does not fit
     /// the others.
     pub fn load(path: &Path) -> Result<Self, DirectorError> {
-        Self::from_files(&ModelFiles::read(path)?)
+        let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
+        let has_names = NamesFiles::NAMES.iter().any(|name| folder.join(name).exists());
+        let names = if has_names { Names::load(folder)? } else { Names::embedded()? };
+        Ok(Self { names, ..Self::from_files(&ModelFiles::read(path)?)? })
     }
 
-    /// A director from model files in memory.
+    /// A director from model files in memory, with the built-in network of names.
     ///
     /// # Errors
     /// [`DirectorError::BadModel`] when a file is damaged, of another version, or does not fit the others.
     pub fn from_files(files: &ModelFiles) -> Result<Self, DirectorError> {
-        Ok(Self { model: Model::load(files)? })
+        Ok(Self { model: Model::load(files)?, names: Names::embedded()? })
     }
 
     /// Name and hash of the weights, as shots store them.
@@ -90,9 +99,33 @@ impl Director {
         ModelRef { name: self.model.name.clone(), sha256: self.model.weights_sha256.clone() }
     }
 
+    /// The words of a prompt, with its mentions of objects. A mention of something that the scene lacks is a group
+    /// without members.
+    ///
+    /// # Errors
+    /// [`DirectorError::Language`] for a prompt that is empty, too long, or names too many objects or a number that no
+    /// object has · [`DirectorError::Compute`] when a tensor operation fails.
+    pub fn link(&self, prompt: &str, objects: &[NamedObject]) -> Result<Linked, DirectorError> {
+        check_prompt(prompt)?;
+        let found = self.names.mentions(prompt, objects)?;
+        let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
+        let mut linked = link_mentions(prompt, &mentions)?;
+        for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
+            let words = |found: &&FoundMention| {
+                let [start, end] = found.mention.bytes;
+                let words = prompt.get(start..end).unwrap_or_default().trim().to_lowercase();
+                words.ends_with(&group.name.to_lowercase())
+            };
+            group.nearest = found.iter().find(words).map(|found| found.nearest.clone()).unwrap_or_default();
+        }
+        Ok(linked)
+    }
+
     /// Ids of the objects that are inputs of the network: those that the prompt names, then the nearest others.
     pub fn looks_at(linked: &Linked, objects: &[Object]) -> Vec<u32> {
-        linked.slots.iter().copied().chain(other_objects(objects, &linked.slots)).collect()
+        let named = linked.expanded(&linked.slots);
+        let others = other_objects(objects, &named);
+        named.into_iter().chain(others).collect()
     }
 
     /// The program that the prompt requests, and one camera per key. The same input gives the same output.
@@ -102,9 +135,14 @@ impl Director {
     /// [`DirectorError::NotFinite`] when the network outputs a position that is not finite ·
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
-        let others = other_objects(scene.objects, &linked.slots);
+        let others = other_objects(scene.objects, &linked.expanded(&linked.slots));
         let (tokens, grounding) = encode_text(linked, &others, &self.model.vocabulary)?;
-        let seen = || grounding.object_ids.iter().map(|id| scene.objects.iter().find(|object| object.id == *id));
+        // A group looks like its first member.
+        let object = |id: &u32| {
+            let id = linked.expanded(&[*id]).first().copied()?;
+            scene.objects.iter().find(|object| object.id == id)
+        };
+        let seen = || grounding.object_ids.iter().map(object);
         let frame = SceneFrame::new(scene.up, scene.center, scene.size, seen().next().flatten().map(|o| o.center))?;
         let objects = seen().enumerate().map(|(idx, object)| object.map(|o| object_input(o, idx, &frame)));
         let prompt = Prompt {
@@ -114,17 +152,35 @@ impl Director {
             num_named: linked.slots.len(),
         };
         let batch = PromptBatch::new(&[&prompt], &self.model.config)?;
-        let rules = WordRules { is_time: grounding.is_time(), is_move: grounding.is_move(&linked.tokens_text) };
+        let rules = WordRules { kinds: grounding.kinds(), is_move: grounding.is_move(&linked.tokens_text) };
         let decoded = decode(&self.model.network, &prompt, &batch, &rules)?;
-        direction(&decoded, &grounding, &frame)
+        let mut direction = direction(&decoded, &grounding, &frame)?;
+        for certainty in &mut direction.certainty {
+            certainty.probability = self.model.calibration.apply(certainty.probability);
+        }
+        // What the scene lacks stays a group, so that callers can tell it.
+        direction.program = direction.program.with_ids(&|ids| {
+            let members = |id: &u32| if linked.missing(*id).is_some() { vec![*id] } else { linked.expanded(&[*id]) };
+            let mut out: Vec<u32> = Vec::new();
+            for id in ids.iter().flat_map(members) {
+                if !out.contains(&id) {
+                    out.push(id);
+                }
+            }
+            out
+        });
+        Ok(direction)
     }
 }
 
 /// The program and the cameras of decoded keys.
 fn direction(decoded: &DecodedPrompt, grounding: &Grounding, frame: &SceneFrame) -> Result<Direction, DirectorError> {
     let keys: Vec<_> = decoded.keys.iter().map(|code| codes::decode_key(code, grounding)).collect();
-    let program =
-        Program { steps: steps_of(&keys), duration_secs: decoded.film_length.and_then(|idx| grounding.seconds(idx)) };
+    let program = Program {
+        steps: steps_of(&keys),
+        duration_secs: decoded.film_length.and_then(|idx| grounding.seconds(idx)),
+        forbidden: decoded.keys.first().map(codes::forbidden_of).unwrap_or_default(),
+    };
     let step_keys = boundaries_of(&keys);
     let certainty = step_keys
         .iter()
@@ -138,7 +194,8 @@ fn direction(decoded: &DecodedPrompt, grounding: &Grounding, frame: &SceneFrame)
         end: *end,
         secs: end_secs - start_secs,
     });
-    Ok(Direction { program, step_cameras: step_cameras.collect(), certainty })
+    let unmet = grounding.ranges_of(&decoded.unmet);
+    Ok(Direction { program, step_cameras: step_cameras.collect(), certainty, unmet })
 }
 
 /// World cameras of pose codes, each with its time from the start of the film. A degenerate rotation is replaced by the

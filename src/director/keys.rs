@@ -4,7 +4,7 @@
 //! arrives, the framing when the camera departs, and what follows. The conversion keeps everything in both directions,
 //! except a cut on the first step (there is nothing to cut from) and the length of the film.
 
-use cinesplat_operator::{Amount, Framing, Program, Speed, Step, Via};
+use cinesplat_operator::{Amount, Framing, Look, Program, Speed, Step, Via};
 use cinesplat_trajectory::{Easing, Move};
 
 /// Limit on the keys of one prompt.
@@ -38,12 +38,18 @@ pub enum Next {
 pub struct Segment {
     /// The camera move.
     pub movement: Move,
-    /// A second move at the same time.
-    pub with: Option<Move>,
+    /// Further moves at the same time.
+    pub with: Vec<Move>,
     /// Whether the direction of the move is open.
     pub either_way: bool,
     /// Objects that the camera passes, and how.
     pub via: Option<Via>,
+    /// What the camera looks at while it travels elsewhere.
+    pub look: Option<Look>,
+    /// Ids of objects that stay in view.
+    pub keep: Vec<u32>,
+    /// Ids of objects that are never in view.
+    pub avoid: Vec<u32>,
     /// Extent of the move.
     pub amount: Option<Amount>,
     /// Duration.
@@ -104,7 +110,10 @@ pub fn boundaries_of(keys: &[Key]) -> Vec<[usize; 2]> {
 fn segment_of(step: &Step) -> Segment {
     Segment {
         movement: step.movement,
-        with: step.with,
+        with: step.with.clone(),
+        look: step.look.clone(),
+        keep: step.keep.clone(),
+        avoid: step.avoid.clone(),
         either_way: step.either_way,
         via: step.via.clone(),
         amount: step.amount,
@@ -119,7 +128,10 @@ fn segment_of(step: &Step) -> Segment {
 fn step_of(start: Framing, segment: &Segment, end: Framing, cut: bool) -> Step {
     Step {
         movement: segment.movement,
-        with: segment.with,
+        with: segment.with.clone(),
+        look: segment.look.clone(),
+        keep: segment.keep.clone(),
+        avoid: segment.avoid.clone(),
         either_way: segment.either_way,
         start,
         end,

@@ -9,11 +9,13 @@
 //! - [`keys`] converts a program into the keys that the network emits, and back;
 //! - [`codes`] converts keys and camera poses into class numbers, pointers and values, and back;
 //! - [`inputs`] converts a linked prompt and objects into tokens and points;
+//! - [`names`] finds the mentions of objects in a prompt; [`Names`] runs it;
 //! - [`network`] holds the layers, their parameters and padded batches;
 //! - [`ModelFiles`] stores and loads a trained network.
 //!
 //! Only this crate and `training` use candle, and only this crate uses tokenizers.
 
+mod calibration;
 pub mod codes;
 mod decoding;
 mod director;
@@ -24,10 +26,13 @@ pub mod keys;
 mod manifest;
 mod model;
 mod model_files;
+pub mod names;
 pub mod network;
 
+pub use calibration::Calibration;
 pub use decoding::Choice;
 pub use director::{Direction, Director, SceneContext, StepCertainty};
 pub use error::DirectorError;
 pub use frame::SceneFrame;
 pub use model_files::ModelFiles;
+pub use names::{FoundMention, Names, NamesFiles};

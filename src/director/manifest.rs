@@ -1,11 +1,12 @@
 //! The description of a model: `director.json`.
 
 use cinesplat_files::sha256_hex;
-use cinesplat_operator::{Pass, Speed, SubjectPart};
+use cinesplat_operator::{FramePlace, Motion, Pass, Speed, SubjectPart, SubjectSide};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 use serde::{Deserialize, Serialize};
 use strum::VariantArray;
 
+use crate::calibration::Calibration;
 use crate::error::DirectorError;
 use crate::network::ModelConfig;
 
@@ -14,10 +15,10 @@ pub(crate) const MANIFEST_FILE: &str = "director.json";
 /// `format` of the file.
 const FORMAT: &str = "cinesplat.director";
 /// Version of a model's files that this program reads and writes.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The description of a model.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Manifest {
     format: String,
     version: u32,
@@ -27,6 +28,9 @@ pub(crate) struct Manifest {
     pub(crate) config: ModelConfig,
     /// Names of all classes in order, so that weights trained for other classes are rejected.
     choices: Vec<String>,
+    /// Calibration of the probabilities.
+    #[serde(default)]
+    pub(crate) calibration: Calibration,
     /// SHA-256 of the weights file, hexadecimal.
     pub(crate) weights_sha256: String,
     /// SHA-256 of the tokenizer file, hexadecimal.
@@ -42,6 +46,7 @@ impl Manifest {
             name: name.into(),
             config: config.clone(),
             choices: choices(),
+            calibration: Calibration::default(),
             weights_sha256: sha256_hex(weights),
             tokenizer_sha256: sha256_hex(tokenizer),
         }
@@ -53,7 +58,7 @@ impl Manifest {
     /// [`DirectorError::BadModel`] for other JSON, another format or version, invalid sizes, or other classes.
     pub(crate) fn from_json(bytes: &[u8]) -> Result<Self, DirectorError> {
         let manifest: Self =
-            serde_json::from_slice(bytes).map_err(|error| bad(&error, &"a description of version 1"))?;
+            serde_json::from_slice(bytes).map_err(|error| bad(&error, &"a description of version 2"))?;
         if manifest.format != FORMAT {
             return Err(bad(&format!("format {:?}", manifest.format), &format!("{FORMAT:?}")));
         }
@@ -88,7 +93,11 @@ fn choices() -> Vec<String> {
     let parts = SubjectPart::VARIANTS.iter().map(|choice| format!("{choice:?}"));
     let passes = Pass::VARIANTS.iter().map(|choice| format!("{choice:?}"));
     let speeds = Speed::VARIANTS.iter().map(|choice| format!("{choice:?}"));
-    moves.chain(sizes).chain(angles).chain(easings).chain(parts).chain(passes).chain(speeds).collect()
+    let places = FramePlace::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let sides = SubjectSide::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let motions = Motion::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let of_moves = moves.chain(sizes).chain(angles).chain(easings).chain(parts).chain(passes).chain(speeds);
+    of_moves.chain(places).chain(sides).chain(motions).collect()
 }
 
 fn bad(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {

@@ -1,5 +1,6 @@
 //! A trained model in memory, built from checked files.
 
+use crate::calibration::Calibration;
 use crate::error::DirectorError;
 use crate::inputs::Vocabulary;
 use crate::model_files::{ModelFiles, bad_tokenizer, bad_weights};
@@ -14,6 +15,7 @@ pub(crate) struct Model {
     pub(crate) weights_sha256: String,
     pub(crate) config: ModelConfig,
     pub(crate) vocabulary: Vocabulary,
+    pub(crate) calibration: Calibration,
     pub(crate) network: Network,
 }
 
@@ -43,6 +45,7 @@ impl Model {
                 weights_sha256: manifest.weights_sha256,
                 config: manifest.config,
                 vocabulary,
+                calibration: manifest.calibration,
                 network,
             }),
         }

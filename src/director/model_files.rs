@@ -12,6 +12,7 @@ use cinesplat_files::{FileError, sha256_hex};
 use half::f16;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
+use crate::calibration::Calibration;
 use crate::error::DirectorError;
 use crate::inputs::Vocabulary;
 use crate::manifest::{MANIFEST_FILE, Manifest};
@@ -75,6 +76,18 @@ impl ModelFiles {
         Ok(Self { manifest: manifest.into(), weights: weights.into(), tokenizer: tokenizer.into() })
     }
 
+    /// The same model with another name and calibration.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] for a bad description.
+    pub fn described(self, name: &str, calibration: Calibration) -> Result<Self, DirectorError> {
+        let mut manifest = self.manifest()?;
+        name.clone_into(&mut manifest.name);
+        manifest.calibration = calibration;
+        let manifest = manifest.to_json()?;
+        Ok(Self { manifest: manifest.into(), ..self })
+    }
+
     /// Name and bytes of each file, in the order in which they should be written: the description last, so that it never
     /// describes a file that is not there yet.
     pub fn named(&self) -> [(&'static str, &[u8]); 3] {
@@ -84,6 +97,11 @@ impl ModelFiles {
     /// SHA-256 of the weights file, hexadecimal.
     pub fn weights_sha256(&self) -> String {
         sha256_hex(&self.weights)
+    }
+
+    /// Whether the model has the format and the choices of this program, so that it can run.
+    pub fn is_current(&self) -> bool {
+        Manifest::from_json(&self.manifest).is_ok()
     }
 
     /// The vocabulary.
@@ -100,9 +118,7 @@ impl ModelFiles {
     /// [`DirectorError::BadModel`] when the file is not a safetensors file, or a tensor is neither `f16` nor `f32` or holds
     /// a value that is not finite.
     pub fn tensors(&self) -> Result<BTreeMap<String, Tensor>, DirectorError> {
-        let file =
-            SafeTensors::deserialize(&self.weights).map_err(|error| bad_weights(&error, &"a safetensors file"))?;
-        file.iter().map(|(name, view)| Ok((name.to_owned(), read_tensor(name, &view)?))).collect()
+        read_tensors(&self.weights)
     }
 
     /// The description, checked against the bytes of the other two files.
@@ -117,7 +133,7 @@ impl ModelFiles {
     }
 }
 
-fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {
+pub(crate) fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {
     let failed = |source| DirectorError::Read { path: path.to_owned(), source };
     cinesplat_files::read(path, MAX_FILE_BYTES).map_err(|error| match error {
         FileError::Read { path, source } => DirectorError::Read { path, source },
@@ -129,9 +145,15 @@ fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {
     })
 }
 
-fn check_hash(file: &str, bytes: &[u8], expected: &str) -> Result<(), DirectorError> {
+pub(crate) fn check_hash(file: &str, bytes: &[u8], expected: &str) -> Result<(), DirectorError> {
     let found = sha256_hex(bytes);
     if found == expected { Ok(()) } else { Err(bad(&file, &format!("SHA-256 {found}"), &expected)) }
+}
+
+/// All tensors of a safetensors file by name, as `f32`.
+pub(crate) fn read_tensors(bytes: &[u8]) -> Result<BTreeMap<String, Tensor>, DirectorError> {
+    let file = SafeTensors::deserialize(bytes).map_err(|error| bad_weights(&error, &"a safetensors file"))?;
+    file.iter().map(|(name, view)| Ok((name.to_owned(), read_tensor(name, &view)?))).collect()
 }
 
 fn read_tensor(name: &str, view: &TensorView<'_>) -> Result<Tensor, DirectorError> {
@@ -146,7 +168,7 @@ fn read_tensor(name: &str, view: &TensorView<'_>) -> Result<Tensor, DirectorErro
     Ok(Tensor::from_vec(values, view.shape(), &Device::Cpu)?)
 }
 
-fn pack_tensors(tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>) -> Result<Vec<u8>, DirectorError> {
+pub(crate) fn pack_tensors(tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>) -> Result<Vec<u8>, DirectorError> {
     let halves: BTreeMap<&String, (&Vec<usize>, Vec<u8>)> = tensors
         .iter()
         .map(|(name, (shape, values))| {
@@ -172,6 +194,10 @@ pub(crate) fn bad_tokenizer(found: &dyn std::fmt::Display, expected: &dyn std::f
     bad(&TOKENIZER_FILE, found, expected)
 }
 
-fn bad(part: &dyn std::fmt::Display, found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
+pub(crate) fn bad(
+    part: &dyn std::fmt::Display,
+    found: &dyn std::fmt::Display,
+    expected: &dyn std::fmt::Display,
+) -> DirectorError {
     DirectorError::BadModel { part: part.to_string(), found: found.to_string(), expected: expected.to_string() }
 }

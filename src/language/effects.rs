@@ -2,7 +2,7 @@
 
 use super::error::LanguageError;
 use super::lexicon::Lexicon;
-use super::link::Linked;
+use super::linked::Linked;
 
 /// A mention in a prompt of an effect, or of another request that no camera move can meet.
 #[derive(Debug, Clone, PartialEq, Eq)]

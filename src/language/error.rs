@@ -1,6 +1,9 @@
 /// Error of a prompt, or of the embedded language data.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LanguageError {
+    /// The prompt asks for nothing that a camera could do.
+    #[error("nothing in the prompt is something that a camera could do")]
+    NothingToDo,
     /// A prompt that is too long.
     #[error("prompt of {found} bytes, expected at most {limit}")]
     TooLong {
@@ -42,6 +45,7 @@ impl LanguageError {
     /// Stable code for people and scripts.
     pub fn code(&self) -> &'static str {
         match self {
+            Self::NothingToDo => "PROMPT-NOTHING",
             Self::TooLong { .. } => "PROMPT-TOO-LONG",
             Self::Empty => "PROMPT-EMPTY",
             Self::UnknownObject { .. } => "OBJ-UNKNOWN",

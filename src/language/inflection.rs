@@ -66,7 +66,7 @@ fn gerund(verb: &str) -> String {
 
 /// The singular of an English noun, by its ending. Equal words always have equal stems; the stem of another word
 /// need not be a word.
-pub(crate) fn stem(word: &str) -> String {
+pub fn stem(word: &str) -> String {
     let count = word.chars().count();
     if let Some(base) = word.strip_suffix("ies").filter(|_| count > 4) {
         return format!("{base}y");

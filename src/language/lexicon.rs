@@ -4,8 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
+use strum::VariantArray;
+
 use super::error::LanguageError;
-use super::tokenizer::tokenize;
+use super::tokenizer::{Word, tokenize};
 
 const FILE: &str = "prompts/lexicon.txt";
 static TEXT: &str = include_str!("../../prompts/lexicon.txt");
@@ -26,6 +28,24 @@ pub struct Lexicon {
     pub(crate) function: BTreeSet<String>,
     /// Name of an effect and the words of one phrase for it; longest phrases first.
     pub(crate) effects: Vec<(String, Vec<String>)>,
+}
+
+/// A list of words of the lexicon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::VariantArray)]
+pub enum WordList {
+    /// `the`, `my`.
+    Determiners,
+    /// `red`, `wooden`.
+    Adjectives,
+    /// Last words of the names of things.
+    Nouns,
+    /// Words of film and camera.
+    Camera,
+    /// Places and surroundings.
+    Scene,
+    /// Function words.
+    Function,
 }
 
 /// A `[section]` of the file.
@@ -117,6 +137,19 @@ impl Lexicon {
             phrases.split(',').map(|phrase| tokenize(phrase).into_iter().map(|word| word.text).collect::<Vec<_>>());
         self.effects.extend(phrases.filter(|words| !words.is_empty()).map(|words| (name.trim().to_owned(), words)));
         Ok(())
+    }
+
+    /// The lists that hold a word, one flag per [`WordList`].
+    pub fn lists_of(&self, word: &Word) -> [bool; WordList::VARIANTS.len()] {
+        let text = &word.text;
+        [
+            self.determiners.contains(text),
+            self.adjectives.contains(text),
+            self.noun_heads.contains(&word.stem),
+            self.camera.contains(text),
+            self.scene.contains(text),
+            self.function.contains(text),
+        ]
     }
 
     /// Whether the word belongs to the language of shots rather than to the names of objects.

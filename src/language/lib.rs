@@ -15,35 +15,46 @@
 //! Its grammar (EBNF; tokens are separated by spaces and may stand in any order):
 //!
 //! ```text
-//! program   = step { " / " step } [ "|" total ] ;
+//! program   = ( step { " / " step } | "none" ) [ "|" { film } ] ;
+//! film      = "total=" number "s" | "no=" MOTION { "+" MOTION } ;
 //! step      = move { token } ;
 //! move      = MOVE | family ;                       (* push-in | pan *)
-//! token     = direction | framing | pass | amount | duration | speed
-//!           | easing | second | flag ;
+//! token     = direction | framing | pass | look | view | amount | duration | speed
+//!           | easing | further | flag ;
 //! direction = "left" | "right" | "up" | "down" | "in" | "out" | "cw" | "ccw" ;
 //! framing   = side "=" subjects { qualifier }       (* names the subjects *)
 //!           | side qualifier { qualifier } ;        (* adds to a framing *)
 //! side      = "start" | "end" ;
 //! subjects  = "room" | object { "+" object } ;
-//! qualifier = ":" ( SIZE | ANGLE | PART ) | "!" | "+" object ;
-//! pass      = ( "past" | "between" | "over" ) "=" object { "+" object } ;
+//! qualifier = ":" ( SIZE | ANGLE | PART | SIDE | PLACE | lens | measure | "hidden" ) | "!" | "+" object ;
+//! lens      = number "mm" | number "fov" | "wide-lens" | "long-lens" ;
+//! measure   = number "%"                            (* height of the subject over that of the frame *)
+//!           | number "deg"                          (* elevation from which the subject is seen *)
+//!           | "h" number "u"                        (* height of the camera above the floor *)
+//!           | "d" number "u" ;                      (* distance to the subject *)
+//! pass      = PASS "=" object { "+" object } ;
+//! look      = "look=" ( object { "+" object } | "ahead" | "back" | "room" ) ;
+//! view      = ( "keep" | "avoid" ) "=" object { "+" object } ;
 //! amount    = "amount=" ( number ( "deg" | "u" | "x" ) | "slight" | "large" ) ;
 //! duration  = "dur=" number "s" ;
 //! speed     = "slow" | "fast" ;
 //! easing    = "ease=" EASING ;
-//! second    = "with=" MOVE ;
+//! further   = "with=" move [ "+" move ] ;
 //! flag      = "cut" | "returns" | "either" ;
-//! total     = "total=" number "s" ;
 //! object    = integer ;                             (* id of an object *)
 //! ```
 //!
-//! `MOVE`, `SIZE`, `ANGLE`, `EASING` and `PART` are the names of [`Move`](cinesplat_trajectory::Move),
-//! [`ShotSize`](cinesplat_trajectory::ShotSize), [`ShotAngle`](cinesplat_trajectory::ShotAngle),
-//! [`Easing`](cinesplat_trajectory::Easing) and [`SubjectPart`](cinesplat_operator::SubjectPart). A `family` is the name
+//! `MOVE`, `SIZE`, `ANGLE` and `EASING` are the names of [`Move`](cinesplat_trajectory::Move),
+//! [`ShotSize`](cinesplat_trajectory::ShotSize), [`ShotAngle`](cinesplat_trajectory::ShotAngle) and
+//! [`Easing`](cinesplat_trajectory::Easing); `PART`, `SIDE`, `PLACE`, `PASS` and `MOTION` those of
+//! [`SubjectPart`](cinesplat_operator::SubjectPart), [`SubjectSide`](cinesplat_operator::SubjectSide),
+//! [`FramePlace`](cinesplat_operator::FramePlace), [`Pass`](cinesplat_operator::Pass) and
+//! [`Motion`](cinesplat_operator::Motion). What each means in geometry is in their docs and in those of
+//! [`Step`](cinesplat_operator::Step) and [`Framing`](cinesplat_operator::Framing). A `family` is the name
 //! of a move that exists in two directions, without the direction: `pan`, `tilt`, `roll`, `truck`, `pedestal`, `crane`,
 //! `orbit`, `arc`, `zoom`, `dolly-zoom`. A family takes its direction from the step. Without one it gets `right`, `up`,
 //! `in` or `cw` and the step is `either`: both directions are right. `room` means no subject, `!` all subjects wholly in
-//! the frame. Amounts are degrees (`deg`), scene units (`u`) or a factor on the distance or focal length (`x`). The flags
+//! the frame. `none` is a program without steps: nothing that a camera could do. Amounts are degrees (`deg`), scene units (`u`) or a factor on the distance or focal length (`x`). The flags
 //! `cut` and `returns` mean that the step begins with a cut, or ends where the shot began.
 //!
 //! ```
@@ -65,22 +76,31 @@ mod inflection;
 mod known_words;
 mod lexicon;
 mod link;
+mod linked;
+mod mention;
 mod names;
 mod notation;
 mod numbered;
 mod numerals;
 mod quantity;
+mod things;
 mod tokenizer;
 mod unknown;
 
+pub use edit_distance::edit_distance;
 pub use effects::{EffectMention, effect_mentions};
 pub use error::LanguageError;
-pub use inflection::{VerbForm, inflect};
+pub use inflection::{VerbForm, inflect, stem};
 pub use known_words::GRAMMAR_TEXT;
-pub use lexicon::Lexicon;
-pub use link::{Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, link};
-pub use names::NamedObject;
+pub use lexicon::{Lexicon, WordList};
+pub use link::link;
+pub use linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
+pub use mention::{Mention, check_prompt, link_mentions};
+pub use names::{NamedObject, nearest_names};
 pub use notation::{NotationError, program_from_notation, program_to_notation, step_from_notation};
+pub use numbered::{NumberedMention, numbered_mention_at};
 pub use numerals::number_word;
 pub use quantity::{Quantity, QuantityKind};
+pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
+pub use tokenizer::{Word, tokenize};
 pub use unknown::UnknownName;

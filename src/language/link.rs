@@ -7,38 +7,15 @@
 use super::error::LanguageError;
 use super::known_words::KnownWords;
 use super::lexicon::Lexicon;
+use super::linked::{Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
 use super::names::{NameIndex, NameMatch, NamedObject, display_name};
 use super::numbered::numbered_mention_at;
-use super::quantity::{Quantity, is_unread_number, quantity_at};
+use super::quantity::{is_unread_number, quantity_at};
 use super::tokenizer::{Word, span_of, tokenize, word_at};
-use super::unknown::{UnknownName, unknown_candidate_at, unknown_name};
+use super::unknown::{unknown_candidate_at, unknown_name};
 
-/// Limit on the bytes of a prompt.
-pub const MAX_PROMPT_BYTES: usize = 8192;
-/// Limit on the objects of a prompt: the model has the identifiers `<obj-0>` to `<obj-99>`.
-pub const MAX_SLOTS: usize = 100;
-/// Limit on the quantities of a prompt; further ones stay words.
-pub const MAX_QUANTITIES: usize = 32;
 /// Most warnings about numbers and ambiguous mentions.
 const MAX_WARNINGS: usize = 32;
-
-/// A prompt with its objects and quantities replaced by placeholders, as the model reads it.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Linked {
-    /// Lower-case words and punctuation marks, separated by single spaces: `<obj-S>` stands for the object
-    /// `slots[S]`, `<qty-Q>` for `quantities[Q]`.
-    pub tokens_text: String,
-    /// Byte range of the prompt for each word of `tokens_text`, on character boundaries.
-    pub spans: Vec<[usize; 2]>,
-    /// Object id per slot, in order of first mention.
-    pub slots: Vec<u32>,
-    /// The quantities, in order.
-    pub quantities: Vec<Quantity>,
-    /// Names that match no object.
-    pub unknown: Vec<UnknownName>,
-    /// Messages for the user about mentions that fit several objects or are misspelled.
-    pub warnings: Vec<String>,
-}
 
 /// Replaces the objects and quantities of `prompt` by placeholders.
 ///

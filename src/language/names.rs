@@ -8,8 +8,10 @@
 use std::collections::BTreeMap;
 
 use super::edit_distance::edit_distance;
+use super::error::LanguageError;
 use super::inflection::stem;
 use super::lexicon::Lexicon;
+use super::numbered::{NumberedMention, numbered_mention_at};
 use super::tokenizer::{Word, tokenize};
 
 /// An object of the scene with its id and name.
@@ -194,6 +196,21 @@ impl<'a> NameIndex<'a> {
         let mut found = self.labels.iter().enumerate().filter(|(_, label)| near(label)).map(|(i, _)| i);
         found.next().filter(|_| found.next().is_none())
     }
+}
+
+/// The scene's names that are nearest to `name`, best first, at most three: `<obj-3> golden skull`.
+///
+/// # Errors
+/// [`LanguageError::BadData`]: the embedded lexicon is malformed.
+pub fn nearest_names(name: &str, objects: &[NamedObject]) -> Result<Vec<String>, LanguageError> {
+    let words = tokenize(name);
+    if let Some(NumberedMention { id: Some(id), .. }) = numbered_mention_at(&words, 0) {
+        let mut near: Vec<&NamedObject> = objects.iter().collect();
+        near.sort_by_key(|object| (object.id.abs_diff(id), object.id));
+        return Ok(near.into_iter().take(3).map(display_name).collect());
+    }
+    let words: Vec<String> = words.into_iter().map(|word| word.text).collect();
+    Ok(NameIndex::new(objects, Lexicon::embedded()?).nearest(&words, objects))
 }
 
 fn head_is(label: &ParsedLabel, key: &str) -> bool {

@@ -4,15 +4,15 @@ use super::tokenizer::{Word, word_at};
 
 /// A mention of an object by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct NumberedMention {
+pub struct NumberedMention {
     /// Number of words.
-    pub(crate) len: usize,
+    pub len: usize,
     /// The object's id; `None` for a placeholder such as `<obj-N>`.
-    pub(crate) id: Option<u32>,
+    pub id: Option<u32>,
 }
 
 /// The mention by number that begins at word `i`.
-pub(crate) fn numbered_mention_at(words: &[Word], i: usize) -> Option<NumberedMention> {
+pub fn numbered_mention_at(words: &[Word], i: usize) -> Option<NumberedMention> {
     let bracket = usize::from(matches!(word_at(words, i), "<" | "("));
     let angle = word_at(words, i) == "<";
     let mut j = i + bracket;

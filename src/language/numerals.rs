@@ -38,7 +38,7 @@ pub(crate) enum NumeralForm {
     Number,
     /// As `half`, `a quarter`, `a couple`.
     Fraction,
-    /// As `a` or `an`.
+    /// As `a`, `an` or `another`.
     Article,
 }
 
@@ -58,19 +58,47 @@ pub(crate) fn numeral_at(words: &[Word], i: usize) -> Option<Numeral> {
         ("half", "a" | "an", _) | ("a", "half", _) => return fraction(2, 0.5),
         ("half", "of", "a" | "an") => return fraction(3, 0.5),
         ("half", _, _) => return fraction(1, 0.5),
-        ("a" | "one", "quarter", _) => return fraction(2 + of_a(words, i + 2), 0.25),
-        ("a" | "one", "third", _) => return fraction(2 + of_a(words, i + 2), 1.0 / 3.0),
-        ("a", "couple", _) => return fraction(2 + usize::from(word_at(words, i + 2) == "of"), 2.0),
+        ("a" | "one" | "1", part, _) if denominator(part).is_some() => {
+            return fraction(2 + of_a(words, i + 2), 1.0 / denominator(part)?);
+        }
+        ("a", "couple", next) => return fraction(2 + usize::from(next == "of"), 2.0),
+        ("couple", next, _) => return fraction(1 + usize::from(next == "of"), 2.0),
         ("a", "few", _) => return fraction(2, 3.0),
-        ("three", "quarter" | "quarters", _) => return fraction(2 + of_a(words, i + 2), 0.75),
-        ("two", "third" | "thirds", _) => return fraction(2 + of_a(words, i + 2), 2.0 / 3.0),
+        ("few", _, _) => return fraction(1, 3.0),
+        ("three" | "3", "quarter" | "quarters", _) => return fraction(2 + of_a(words, i + 2), 0.75),
+        ("two" | "2", "third" | "thirds", _) => return fraction(2 + of_a(words, i + 2), 2.0 / 3.0),
+        (part, "of", _) if denominator(part).is_some() && !is_ordinal(words, i) => {
+            return fraction(1 + of_a(words, i + 1), 1.0 / denominator(part)?);
+        }
         ("quarter", _, _) => return fraction(1 + of_a(words, i + 1), 0.25),
         _ => {}
     }
     if let Some((len, value)) = cardinal_at(words, i) {
         return Some(with_fraction(words, i, len, value));
     }
-    matches!(word_at(words, i), "a" | "an").then_some(Numeral { len: 1, value: 1.0, form: NumeralForm::Article })
+    matches!(word_at(words, i), "a" | "an" | "another").then_some(Numeral {
+        len: 1,
+        value: 1.0,
+        form: NumeralForm::Article,
+    })
+}
+
+/// Whether the fraction at word `i` follows an article that makes it an ordinal: `the third of them`.
+fn is_ordinal(words: &[Word], i: usize) -> bool {
+    i.checked_sub(1).is_some_and(|before| matches!(word_at(words, before), "the" | "two" | "three" | "2" | "3"))
+}
+
+/// The denominator of a fraction in words.
+fn denominator(word: &str) -> Option<f64> {
+    Some(match word {
+        "third" => 3.0,
+        "quarter" | "fourth" => 4.0,
+        "fifth" => 5.0,
+        "sixth" => 6.0,
+        "eighth" => 8.0,
+        "tenth" => 10.0,
+        _ => return None,
+    })
 }
 
 /// Number of words of `of a` or `of the` at word `i`; 0 without.
@@ -83,7 +111,11 @@ fn of_a(words: &[Word], i: usize) -> usize {
 
 /// The cardinal of `len` words at word `i` with `and a half`, `and a quarter` or a denominator after it.
 fn with_fraction(words: &[Word], i: usize, len: usize, value: f64) -> Numeral {
+    if let Some(mixed) = mixed_number_at(words, i, len, value) {
+        return mixed;
+    }
     match (word_at(words, i + len), word_at(words, i + len + 1), word_at(words, i + len + 2)) {
+        ("and", "half", _) => Numeral { len: len + 2, value: value + 0.5, form: NumeralForm::Number },
         ("and", "a", "half") => Numeral { len: len + 3, value: value + 0.5, form: NumeralForm::Number },
         ("and", "a", "quarter") => Numeral { len: len + 3, value: value + 0.25, form: NumeralForm::Number },
         ("/", below, _) if below.parse::<f64>().is_ok_and(|d| d > 0.0) => {
@@ -92,6 +124,14 @@ fn with_fraction(words: &[Word], i: usize, len: usize, value: f64) -> Numeral {
         }
         _ => Numeral { len, value, form: NumeralForm::Number },
     }
+}
+
+/// A whole number with a fraction in digits after it: `1 1/2`.
+fn mixed_number_at(words: &[Word], i: usize, len: usize, value: f64) -> Option<Numeral> {
+    let digit = |at: usize| word_at(words, at).parse::<f64>().ok().filter(|digit| (1.0..10.0).contains(digit));
+    let (above, below) = (digit(i + len)?, digit(i + len + 2)?);
+    let is_fraction = word_at(words, i + len + 1) == "/" && above < below;
+    is_fraction.then_some(Numeral { len: len + 3, value: value + above / below, form: NumeralForm::Number })
 }
 
 /// The cardinal number in digits or words at word `i`: number of words, value.

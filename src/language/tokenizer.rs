@@ -9,16 +9,20 @@ use super::inflection::stem;
 
 /// One word and the bytes of the prompt that it was made from.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Word {
-    pub(crate) text: String,
+pub struct Word {
+    /// The word: lower case, without accents.
+    pub text: String,
     /// The word as a singular noun, to compare names by.
-    pub(crate) stem: String,
-    pub(crate) span: [usize; 2],
+    pub stem: String,
+    /// Byte range of the prompt.
+    pub span: [usize; 2],
+    /// Whether it is a number that a hyphen joins to the word before: the `6` of `3-6`.
+    pub after_hyphen: bool,
 }
 
 impl Word {
     /// Whether it begins with a letter.
-    pub(crate) fn is_alphabetic(&self) -> bool {
+    pub fn is_alphabetic(&self) -> bool {
         self.text.starts_with(char::is_alphabetic)
     }
 }
@@ -40,6 +44,8 @@ enum Glyph {
     Digit(char),
     Mark(char),
     Apostrophe,
+    /// A double quotation mark, or the sign of inches.
+    Quotation,
     Hyphen,
     Space,
     /// Dropped: it neither belongs to a word nor ends one.
@@ -53,7 +59,15 @@ enum Run {
 }
 
 /// The words of `text`, in order.
-pub(crate) fn tokenize(text: &str) -> Vec<Word> {
+///
+/// # Example
+/// ```
+/// use cinesplat_language::tokenize;
+///
+/// let words: Vec<String> = tokenize("Push-in on the Chairs!").into_iter().map(|word| word.stem).collect();
+/// assert_eq!(words, ["push", "in", "on", "the", "chair", ""]);
+/// ```
+pub fn tokenize(text: &str) -> Vec<Word> {
     let glyphs: Vec<(usize, usize, Glyph)> =
         text.char_indices().map(|(at, c)| (at, at + c.len_utf8(), glyph(c))).collect();
     let mut tokenizer = Tokenizer::default();
@@ -73,6 +87,10 @@ pub(crate) fn tokenize(text: &str) -> Vec<Word> {
 struct Tokenizer {
     words: Vec<Word>,
     current: Option<(Run, Word)>,
+    /// Whether a hyphen before a digit was the last glyph.
+    after_hyphen: bool,
+    /// Whether a quotation is open. Inside one, an apostrophe after a digit ends it and means no feet.
+    in_quotation: bool,
 }
 
 impl Tokenizer {
@@ -89,14 +107,15 @@ impl Tokenizer {
             }
             _ => {
                 self.end_word();
-                self.current = Some((run, Word { text: c.to_string(), stem: String::new(), span }));
+                let after_hyphen = std::mem::take(&mut self.after_hyphen);
+                self.current = Some((run, Word { text: c.to_string(), stem: String::new(), span, after_hyphen }));
             }
         }
     }
 
     fn push_mark(&mut self, text: &str, span: [usize; 2]) {
         self.end_word();
-        self.words.push(Word { text: text.to_owned(), stem: String::new(), span });
+        self.words.push(Word { text: text.to_owned(), stem: String::new(), span, after_hyphen: false });
     }
 
     fn push(&mut self, glyph: Glyph, span: [usize; 2], [before, after]: [Option<Glyph>; 2]) {
@@ -109,7 +128,9 @@ impl Tokenizer {
             Glyph::Mark('.') if next_is_digit && in_digits && !self.has_point() => {
                 self.extend_word(Run::Digits, '.', span);
             }
-            Glyph::Mark('.') if next_is_digit && !matches!(before, Some(Glyph::Digit(_) | Glyph::Letter(_))) => {
+            Glyph::Mark('.')
+                if next_is_digit && !matches!(before, Some(Glyph::Digit(_) | Glyph::Letter(_) | Glyph::Mark('.'))) =>
+            {
                 self.end_word();
                 self.extend_word(Run::Digits, '.', span);
             }
@@ -126,7 +147,19 @@ impl Tokenizer {
             Glyph::Hyphen if matches!(before, Some(Glyph::Space)) && matches!(after, Some(Glyph::Space)) => {
                 self.push_mark(",", span);
             }
-            Glyph::Apostrophe | Glyph::Hyphen | Glyph::Space => self.end_word(),
+            Glyph::Hyphen => {
+                self.end_word();
+                self.after_hyphen = next_is_digit && matches!(before, Some(Glyph::Digit(_) | Glyph::Letter(_)));
+            }
+            // `6'` and `18"` are feet and inches.
+            Glyph::Apostrophe | Glyph::Quotation if matches!(before, Some(Glyph::Digit(_))) && !self.in_quotation => {
+                self.push_mark(if glyph == Glyph::Apostrophe { "'" } else { "\"" }, span);
+            }
+            Glyph::Apostrophe | Glyph::Quotation => {
+                self.end_word();
+                self.in_quotation = next_is_letter || next_is_digit;
+            }
+            Glyph::Space => self.end_word(),
             Glyph::Invisible => {}
         }
     }
@@ -140,6 +173,7 @@ fn glyph(c: char) -> Glyph {
     let c = ascii_of_full_width(c);
     match c {
         '\'' | '\u{2018}' | '\u{2019}' | '\u{201B}' | '\u{2032}' | '`' | '\u{B4}' => Glyph::Apostrophe,
+        '"' | '\u{201C}' | '\u{201D}' | '\u{201E}' | '\u{2033}' | '\u{AB}' | '\u{BB}' => Glyph::Quotation,
         '-' | '_' | '\u{2010}' | '\u{2011}' | '\u{2012}' | '\u{2212}' | '\u{AD}' => Glyph::Hyphen,
         '\u{2013}' | '\u{2014}' | '\u{2015}' | '\u{2192}' | '\u{2794}' | '\u{21D2}' => Glyph::Mark(','),
         '\u{2026}' => Glyph::Mark('.'),

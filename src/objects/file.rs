@@ -63,9 +63,7 @@ const OBJECT_KEYS: [&str; 10] = [
 /// another format or version, [`ObjectsError::BadField`], [`ObjectsError::DuplicateId`], and
 /// [`ObjectsError::BadLabels`]. Each names the file, the entry and the field.
 pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
-    let bytes = cinesplat_files::read(path, MAX_TEXT_BYTES)?;
-    let root: Value = serde_json::from_slice(&bytes)
-        .map_err(|error| ObjectsError::NotJson { path: path.to_owned(), reason: error.to_string() })?;
+    let root = json_of(path)?;
     let top = Entry { path, name: "file".to_owned(), fields: object_of(path, "file", &root)? };
     check_kind(&top)?;
     let up = top.vector("up")?.map(|up| top.unit("up", up)).transpose()?;
@@ -77,6 +75,25 @@ pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
     };
     let set = complete(&top, entries, labels, (scene, up.unwrap_or(scene.up)))?;
     Ok(ObjectsFile { set, up, notes: unknown_keys(&root) })
+}
+
+/// Reads the objects of a file without its scene: ids, labels, and the boxes and points that the file states.
+///
+/// # Errors
+/// As [`read()`], without those of labels.
+pub fn read_boxes(path: &Path) -> Result<Vec<Object>, ObjectsError> {
+    let root = json_of(path)?;
+    let top = Entry { path, name: "file".to_owned(), fields: object_of(path, "file", &root)? };
+    check_kind(&top)?;
+    let entries = entries(&top)?;
+    check_ids(path, &entries)?;
+    Ok(entries.into_iter().map(|entry| entry.object).collect())
+}
+
+fn json_of(path: &Path) -> Result<Value, ObjectsError> {
+    let bytes = cinesplat_files::read(path, MAX_TEXT_BYTES)?;
+    serde_json::from_slice(&bytes)
+        .map_err(|error| ObjectsError::NotJson { path: path.to_owned(), reason: error.to_string() })
 }
 
 /// Reads a label array of a scene: one id per Gaussian in file order, 0 for no object. The ids of Gaussians that the

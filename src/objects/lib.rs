@@ -29,7 +29,7 @@ mod voxels;
 
 pub use cloud::{CloudSettings, fill_clouds};
 pub use error::ObjectsError;
-pub use file::{ObjectsFile, labels_path, read, read_labels, to_json, write};
+pub use file::{ObjectsFile, labels_path, read, read_boxes, read_labels, to_json, write};
 pub use find::{find, from_labels};
 pub use object::{Object, ObjectSet};
 pub use settings::FindSettings;

@@ -26,6 +26,21 @@ pub struct Object {
 }
 
 impl Object {
+    /// An object of which only the box is known, along the axes of the world.
+    pub fn from_box(id: u32, label: &str, center: DVec3, half_extents: DVec3) -> Self {
+        Self {
+            id,
+            label: label.to_owned(),
+            center,
+            half_extents,
+            rotation: DQuat::IDENTITY,
+            num_gaussians: 0,
+            points: Vec::new(),
+            shape_radius: 0.0,
+            mask_iou: 0.0,
+        }
+    }
+
     /// Half the diagonal of the box, scene units.
     pub fn radius(&self) -> f64 {
         self.half_extents.length()

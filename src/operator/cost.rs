@@ -3,12 +3,13 @@
 use glam::{DVec2, DVec3};
 
 use super::clearance::{ClearanceQuery, least_clearance};
-use super::constraint::{Constraint, ConstraintKind, SEARCH_POINTS, measure};
+use super::constraint::{Constraint, ConstraintKind};
 use super::framing::DEFAULT_ASPECT;
+use super::measure::{SEARCH_POINTS, measure};
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::world::World;
 use cinesplat_geometry::{Camera, Intrinsics};
-use cinesplat_trajectory::{CameraPath, CameraState};
+use cinesplat_trajectory::{CameraPath, CameraState, Easing};
 
 /// Limit on the path intervals that branch and bound examines per candidate.
 const SEARCH_INTERVALS: usize = 400;
@@ -26,8 +27,10 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
         violation if violation > 0.0 => 3.0 + 4.0 * violation.min(2.0),
         _ => 0.0,
     };
-    let (expensive, cheap): (Vec<&Constraint>, Vec<&Constraint>) =
-        segment.constraints.iter().partition(|constraint| matches!(constraint.kind, ConstraintKind::Unoccluded(..)));
+    let is_expensive = |constraint: &&Constraint| {
+        matches!(constraint.kind, ConstraintKind::Unoccluded(..) | ConstraintKind::Unseen(..))
+    };
+    let (expensive, cheap): (Vec<&Constraint>, Vec<&Constraint>) = segment.constraints.iter().partition(is_expensive);
     let mut total: f64 = cheap.into_iter().map(charge).sum::<f64>() + clearance_cost(world, &path);
     if total > REJECT_COST {
         return total + REJECT_COST;
@@ -50,6 +53,12 @@ pub(super) fn path_of(world: &World, segment: &MotionSegment) -> CameraPath {
 /// Samples of a segment's path at even times.
 pub(super) fn sampled(path: &CameraPath, segment: &MotionSegment, count: usize) -> Vec<CameraState> {
     (0..count).map(|i| path.sample(segment.secs * i as f64 / (count - 1) as f64)).collect()
+}
+
+/// The cameras of a segment at `count` points that divide its path evenly.
+pub(super) fn evenly_spaced(world: &World, segment: &MotionSegment, count: usize) -> Vec<CameraState> {
+    let even = MotionSegment { easing: Easing::Linear, ..segment.clone() };
+    sampled(&path_of(world, &even), &even, count)
 }
 
 /// Cost of coming closer to matter than the camera's radius, at any moment.

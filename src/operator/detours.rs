@@ -6,7 +6,7 @@
 use super::clearance::{ClearanceIndex, ClearanceQuery, SIGMA_LEVEL, least_clearance, prove};
 use super::cost::{cost, path_of};
 use super::motion::MotionSegment;
-use super::program::Program;
+use super::program::{Pass, Program};
 use super::report::clause;
 use super::route::{NoRoute, Route, route};
 use super::world::{World, default_camera_radius};
@@ -30,7 +30,10 @@ pub(super) struct Detour {
 pub(super) fn reroute(world: &World, program: &Program, segments: &mut [MotionSegment]) -> Vec<Detour> {
     let mut detours = Vec::new();
     for (index, segment) in segments.iter_mut().enumerate() {
-        let passes = program.steps.get(segment.step).is_some_and(|step| step.via.is_some());
+        let passes = program.steps.get(segment.step).is_some_and(|step| {
+            let passes = step.via.as_ref().is_some_and(|via| via.how != Pass::From);
+            passes || step.look.is_some()
+        });
         if passes || !is_free(segment) || is_clear(world, segment) {
             continue;
         }

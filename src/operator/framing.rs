@@ -126,6 +126,14 @@ pub(super) fn unoccluded_frac(state: &CameraState, subject: &Subject, num_points
     f64::from(u32::try_from(seen).unwrap_or(0)) / f64::from(u32::try_from(framed).unwrap_or(1).max(1))
 }
 
+/// Share of all points of a subject that are in the frame and visible.
+pub(super) fn seen_frac(state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
+    let points: Vec<DVec3> =
+        subject.points.iter().step_by((subject.points.len() / num_points).max(1)).copied().collect();
+    let seen = |p: &&DVec3| off_center(state, **p) <= 0.5 && subject.transmittance(state.pose.position, **p) >= 0.5;
+    points.iter().filter(seen).count() as f64 / points.len().max(1) as f64
+}
+
 /// Direction from the aim of a view to its camera.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bearing {

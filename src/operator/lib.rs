@@ -13,28 +13,38 @@
 
 mod capture_region;
 mod clearance;
+mod composition;
 mod constraint;
 mod cost;
 mod detours;
 mod dutch;
+mod forbidden;
 mod framing;
 mod grid;
+mod measure;
 mod motion;
 mod moves;
 mod opacity_grid;
+mod passage;
 mod program;
 mod realize;
 mod report;
 mod route;
 mod search;
 mod settings;
+mod simultaneous;
+mod steadiness;
 mod suggestion;
 mod view;
+mod wording;
 mod world;
 
 pub use clearance::{ClearanceIndex, Nearest, SIGMA_LEVEL};
 pub use detours::prove_clear;
-pub use program::{Amount, Framing, Pass, Program, Speed, Step, SubjectPart, Via};
+pub use program::{
+    Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step, SubjectPart,
+    SubjectSide, Via,
+};
 pub use realize::{Solution, realize};
 pub use route::{NoRoute, Route, route};
 pub use settings::{SolveLevel, SolveSettings};

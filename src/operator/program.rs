@@ -10,13 +10,65 @@ pub struct Program {
     pub steps: Vec<Step>,
     /// Length of the film where the prompt states it.
     pub duration_secs: Option<f64>,
+    /// Motions that the prompt forbids for the whole film, each once, in the order of [`Motion`].
+    pub forbidden: Vec<Motion>,
+}
+
+/// A kind of motion that a prompt can forbid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Motion {
+    /// A change of the lens: the tangent of half the field of view stays constant within 0.5 % between two cuts.
+    Zoom,
+    /// A turn to the left or right: the yaw stays constant within 0.5 degrees between two cuts, in an orbit too.
+    Pan,
+    /// A turn up or down: the pitch stays constant within 0.5 degrees.
+    Tilt,
+    /// A turn about the view axis: the roll stays constant within 0.5 degrees, and with it a level horizon.
+    Roll,
+    /// Any turn: yaw, pitch and roll stay constant.
+    Turn,
+    /// Any change of the position beyond 0.1 % of the scene size.
+    Travel,
+    /// Hand-held shake: a handheld step, or one with a handheld camera.
+    Shake,
+    /// A cut.
+    Cut,
 }
 
 impl Program {
+    /// The program with every list of object ids replaced by `map` of it.
+    #[must_use]
+    pub fn with_ids(mut self, map: &dyn Fn(&[u32]) -> Vec<u32>) -> Self {
+        for step in &mut self.steps {
+            let Step { start, end, via, look, keep, avoid, .. } = step;
+            let passed = via.as_mut().map(|via| &mut via.objects);
+            let looked_at = match look {
+                Some(Look::At(ids)) => Some(ids),
+                _ => None,
+            };
+            let lists =
+                [Some(&mut start.subjects), Some(&mut end.subjects), passed, looked_at, Some(keep), Some(avoid)];
+            for ids in lists.into_iter().flatten() {
+                *ids = map(ids);
+            }
+        }
+        self
+    }
+
     /// Ids of all objects that the steps frame or pass, each once, ascending.
     pub fn object_ids(&self) -> Vec<u32> {
         let passed = |step: &Step| step.via.iter().flat_map(|via| via.objects.clone()).collect::<Vec<u32>>();
-        let named = |step: &Step| [&step.start.subjects[..], &step.end.subjects[..], &passed(step)[..]].concat();
+        let looked_at = |step: &Step| match &step.look {
+            Some(Look::At(ids)) => ids.clone(),
+            _ => Vec::new(),
+        };
+        let named = |step: &Step| {
+            let ends = [&step.start.subjects[..], &step.end.subjects[..]].concat();
+            [&ends[..], &passed(step), &looked_at(step), &step.keep, &step.avoid].concat()
+        };
         let mut ids: Vec<u32> = self.steps.iter().flat_map(named).collect();
         ids.sort_unstable();
         ids.dedup();
@@ -24,14 +76,18 @@ impl Program {
     }
 }
 
+/// Most moves at the same time as the main one.
+pub const MAX_SECOND_MOVES: usize = 2;
+
 /// One step of a program: a move from a framing to a framing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
     /// The move.
     pub movement: Move,
-    /// A second move at the same time, as in `orbit while rising` or `a handheld push-in`. For [`Move::WhipPan`] and
-    /// [`Move::Reveal`] it gives their direction: `whip-pan` with `pan-left`, `reveal` with `pedestal-up`.
-    pub with: Option<Move>,
+    /// Further moves at the same time, at most [`MAX_SECOND_MOVES`], as in `orbit while rising` or `a handheld push-in`.
+    /// For [`Move::WhipPan`] and [`Move::Reveal`] the first gives their direction: `whip-pan` with `pan-left`, `reveal`
+    /// with `pedestal-up`.
+    pub with: Vec<Move>,
     /// The prompt leaves the direction open (`swing over to`, `drift around`): left and right, or in and out, may be
     /// swapped.
     pub either_way: bool,
@@ -41,6 +97,14 @@ pub struct Step {
     pub end: Framing,
     /// Objects that the camera passes.
     pub via: Option<Via>,
+    /// What the camera looks at while it travels elsewhere. The path of the move stays; constraints of the move on what
+    /// its pictures show give way.
+    pub look: Option<Look>,
+    /// Ids of objects besides the subjects that stay in view all the time: at least half of each in every frame, and half
+    /// of that visible in 85 % of the frames.
+    pub keep: Vec<u32>,
+    /// Ids of objects that are never in view: at most 5 % of each is in the frame and visible.
+    pub avoid: Vec<u32>,
     /// Extent of the move, where the prompt states it.
     pub amount: Option<Amount>,
     /// Duration, where the prompt states it for this step.
@@ -62,11 +126,14 @@ impl Step {
     pub fn of(movement: Move) -> Self {
         Self {
             movement,
-            with: None,
+            with: Vec::new(),
             either_way: false,
             start: Framing::default(),
             end: Framing::default(),
             via: None,
+            look: None,
+            keep: Vec::new(),
+            avoid: Vec::new(),
             amount: None,
             duration_secs: None,
             speed: Speed::Normal,
@@ -94,6 +161,98 @@ pub struct Framing {
     pub part: SubjectPart,
     /// All subjects must be wholly in the frame.
     pub whole: bool,
+    /// Height of the projected box of the first subject over the height of the frame, as in `fills half the frame`; met
+    /// within 15 % of itself.
+    pub height_frac: Option<f64>,
+    /// Angle above the horizontal from which the camera sees the center of the first subject, degrees; met within 6.
+    pub elevation_deg: Option<f64>,
+    /// Height of the camera above the bottom of the scene's core box, scene units; met within 10 % or 1 % of the scene
+    /// size.
+    pub height: Option<f64>,
+    /// Distance from the camera to the center of the first subject's box, scene units; met within 10 %. The center, and
+    /// not the nearest point of the box, because that is what a lens is focused on and what all moves measure.
+    pub distance: Option<f64>,
+    /// Lens.
+    pub lens: Option<Lens>,
+    /// Side of the first subject that the camera sees.
+    pub side: Option<SubjectSide>,
+    /// Place of the first subject in the frame.
+    pub place: Option<FramePlace>,
+    /// The subjects must not be visible: at most 10 % of each is in the frame and visible.
+    pub hidden: bool,
+}
+
+/// A lens, as a prompt states it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lens {
+    /// A focal length on full frame (24 mm high), millimeters.
+    FocalMm(f64),
+    /// A vertical field of view, degrees.
+    FovDeg(f64),
+    /// A wide-angle lens: 16 to 28 mm on full frame.
+    Wide,
+    /// A long lens: 70 to 135 mm on full frame.
+    Long,
+}
+
+/// Side of a subject from which the camera sees it. The front of a subject faces the middle of the scene (the best
+/// viewpoint, where the subject itself is in the middle); left and right are those of somebody who sees the front. A camera
+/// is on a side where its azimuth about the subject's center is within 40 degrees of the middle of that side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum SubjectSide {
+    /// From its front.
+    FromFront,
+    /// From behind it.
+    FromBack,
+    /// From its left.
+    FromLeft,
+    /// From its right.
+    FromRight,
+    /// In profile, from its left or right.
+    FromSide,
+}
+
+/// Place in the frame of the point that the camera aims at: the subject's center, unless a part of it is named. Thirds are
+/// a sixth of the frame's width or height from its middle; met within 4 % of the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
+#[derive(strum::VariantArray, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum FramePlace {
+    /// Left third.
+    AtLeft,
+    /// Right third.
+    AtRight,
+    /// Upper third.
+    AtUpper,
+    /// Lower third.
+    AtLower,
+    /// Upper left.
+    AtUpperLeft,
+    /// Upper right.
+    AtUpperRight,
+    /// Lower left.
+    AtLowerLeft,
+    /// Lower right.
+    AtLowerRight,
+    /// The middle.
+    AtCenter,
+}
+
+/// What the camera looks at while it travels elsewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Look {
+    /// Objects, by id: the first one's center, or the common middle of several, is in the middle of every frame.
+    At(Vec<u32>),
+    /// The direction of travel. Where the step has an end target, the camera turns to it on the last 30 % of the path.
+    Ahead,
+    /// Against the direction of travel.
+    Back,
+    /// The middle of the scene.
+    Room,
 }
 
 /// Part of a subject, as in `from its base to its top`.
@@ -120,8 +279,7 @@ pub enum SubjectPart {
 pub struct Via {
     /// How the camera passes them.
     pub how: Pass,
-    /// Object ids: one or more for `Past` and `Over`, two for `Between`. `Between` with one id means through that
-    /// object.
+    /// Object ids: two for `Between`, one or more for the others. `Between` with one id means through that object.
     pub objects: Vec<u32>,
 }
 
@@ -137,6 +295,19 @@ pub enum Pass {
     Between,
     /// Above it.
     Over,
+    /// Below it: the path crosses the space below its box.
+    Under,
+    /// Through an opening of it, such as a door: the path crosses its box, along the shorter horizontal axis.
+    Through,
+    /// On its far side: the path comes within 60 degrees of the middle of its back ([`SubjectSide`]). A reveal starts
+    /// where the object hides the subject.
+    Behind,
+    /// On its near side: the path comes within 60 degrees of the middle of its front.
+    Front,
+    /// Beside it, from one end of it to the other: along at least 80 % of its longer horizontal axis.
+    Along,
+    /// The camera stands at it where the step starts.
+    From,
 }
 
 /// Extent of a move.

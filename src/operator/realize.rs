@@ -2,12 +2,13 @@
 
 use super::detours;
 use super::dutch;
+use super::forbidden;
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::program::{Framing, Program, Step};
 use super::report;
 use super::search::{SearchProblem, best_candidate};
 use super::settings::{SolveLevel, SolveSettings};
-use super::suggestion::{StepCameras, follow_suggestions};
+use super::suggestion::StepCameras;
 use super::world::World;
 use cinesplat_trajectory::{ClearanceProof, Keyframe, Move, ReportLine, retime};
 
@@ -52,12 +53,10 @@ pub fn realize(
     let best = best_candidate(&SearchProblem { world, program, suggestions }, settings);
     let cost = best.cost();
     let mut segments: Vec<MotionSegment> = best.segments.into_iter().flatten().collect();
-    // Without a search the director's cameras are not moved: the report names the matter in their way.
-    let detours = if settings.level == SolveLevel::Off {
-        segments = follow_suggestions(segments, suggestions);
-        Vec::new()
-    } else {
-        detours::reroute(world, program, &mut segments)
+    // A detour is searched: without a search the report names the matter in the way.
+    let detours = match settings.level {
+        SolveLevel::Off => Vec::new(),
+        SolveLevel::Fast | SolveLevel::Full => detours::reroute(world, program, &mut segments),
     };
     fit_duration(&mut segments, program.duration_secs);
     if let Some(degrees) = settings.dutch_deg {
@@ -68,8 +67,9 @@ pub fn realize(
     retime(&mut keys, Some(world.frame));
     let duration_secs = segments.iter().map(|segment| segment.secs).sum();
     let clearance = detours::proof(world, &keys);
-    let mut report = report::report(world, program, prompt, &segments);
+    let mut report = report::report(world, (program, prompt), &segments, settings.level);
     report.extend(detours::clearance_lines(world, (program, prompt), &segments, &detours, &clearance));
+    report.extend(forbidden::lines(world, program, &segments, &keys));
     report.extend(settings.dutch_deg.map(|_| dutch::report_line(world, &keys)));
     let step_keys = step_keys(&segments, program.steps.len());
     Solution { keyframes: keys, duration_secs, report, step_keys, cost, clearance }

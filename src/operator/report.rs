@@ -1,9 +1,12 @@
 //! The report: requested and measured values, one line per constraint.
 
-use super::constraint::{measure, wording};
+use super::constraint::ConstraintKind;
 use super::cost::{captured_frac, path_of, sampled};
+use super::measure::measure;
 use super::motion::MotionSegment;
 use super::program::Program;
+use super::settings::SolveLevel;
+use super::wording::wording;
 use super::world::World;
 use cinesplat_trajectory::ReportLine;
 
@@ -15,14 +18,20 @@ const NUM_SAMPLES: usize = 49;
 const MIN_CAPTURED_FRAC: f64 = 0.9;
 
 /// The report of a film: every constraint of every segment, and the captured region.
-pub(super) fn report(world: &World, program: &Program, prompt: &str, segments: &[MotionSegment]) -> Vec<ReportLine> {
+pub(super) fn report(
+    world: &World,
+    (program, prompt): (&Program, &str),
+    segments: &[MotionSegment],
+    level: SolveLevel,
+) -> Vec<ReportLine> {
     let mut lines: Vec<ReportLine> = Vec::new();
     let mut captured = 1.0_f64;
     for segment in segments {
         let states = sampled(&path_of(world, segment), segment, NUM_SAMPLES);
         captured = captured.min(captured_frac(world, &states));
         let words = program.steps.get(segment.step).and_then(|step| step.words);
-        for constraint in &segment.constraints {
+        let is_listed = |kind: &ConstraintKind| !matches!(kind, ConstraintKind::Without(_));
+        for constraint in segment.constraints.iter().filter(|constraint| is_listed(&constraint.kind)) {
             let measured = measure(world, constraint, &states, usize::MAX);
             let met = measured.violation <= 0.0;
             lines.push(ReportLine {
@@ -30,7 +39,7 @@ pub(super) fn report(world: &World, program: &Program, prompt: &str, segments: &
                 wanted: wording(world, constraint),
                 got: measured.value,
                 met,
-                note: if met { String::new() } else { unmet_note(words.is_some()) },
+                note: if met { String::new() } else { unmet_note(words.is_some(), level) },
             });
         }
     }
@@ -52,7 +61,10 @@ pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, segment: &MotionSe
     if text.is_empty() { segment.movement.as_ref().to_owned() } else { text.to_owned() }
 }
 
-fn unmet_note(has_words: bool) -> String {
-    let why = "no camera was found that meets this and the other constraints";
+fn unmet_note(has_words: bool, level: SolveLevel) -> String {
+    let why = match level {
+        SolveLevel::Off => "the only camera that was tried does not meet this: the search is off",
+        SolveLevel::Fast | SolveLevel::Full => "no camera was found that meets this and the other constraints",
+    };
     if has_words { why.to_owned() } else { format!("{why} (the prompt does not request it)") }
 }

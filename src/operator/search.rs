@@ -4,6 +4,8 @@
 //! The search is bounded and deterministic: the level fixes the number of candidates, every random number comes from
 //! the seed in a fixed order, and ties go to the earlier candidate. The best candidate so far is always kept.
 
+use std::iter;
+
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
@@ -13,7 +15,7 @@ use super::motion::{MotionSegment, NUM_PARAMETERS, StepParameters};
 use super::moves::{StepContext, build};
 use super::program::Program;
 use super::settings::{SolveLevel, SolveSettings};
-use super::suggestion::StepCameras;
+use super::suggestion::{StepCameras, at_viewpoint, parameters_without_search};
 use super::world::World;
 use cinesplat_trajectory::CameraState;
 
@@ -65,9 +67,7 @@ struct Budget {
 impl Budget {
     fn of(settings: &SolveSettings) -> Self {
         let (first, each, width, local) = match settings.level {
-            SolveLevel::Off => {
-                return Self { first_samples: 1, step_samples: 1, beam_width: 1, local_samples: 0 };
-            }
+            SolveLevel::Off => (1.0, 1.0, 1.0, 0.0),
             SolveLevel::Fast => (220.0, 24.0, 10.0, 80.0),
             SolveLevel::Full => (900.0, 64.0, 28.0, 420.0),
         };
@@ -85,6 +85,9 @@ impl Budget {
 
 /// The candidate of least cost.
 pub(super) fn best_candidate(problem: &SearchProblem, settings: &SolveSettings) -> Candidate {
+    if settings.level == SolveLevel::Off {
+        return only_candidate(problem);
+    }
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
     let budget = Budget::of(settings);
     let mut beam = vec![Candidate::default()];
@@ -109,6 +112,17 @@ pub(super) fn best_candidate(problem: &SearchProblem, settings: &SolveSettings) 
     }
     let best = beam.into_iter().next().unwrap_or_default();
     locally_improved(problem, best, budget.local_samples, &mut rng)
+}
+
+/// The candidate of a film that is not searched.
+fn only_candidate(problem: &SearchProblem) -> Candidate {
+    let num_steps = problem.program.steps.len();
+    let given = problem.suggestions.iter().take(num_steps).copied();
+    let suggestions: Vec<StepCameras> =
+        given.chain(iter::repeat_with(|| at_viewpoint(problem.world)).map_while(|c| c)).take(num_steps).collect();
+    let parameters = |index| parameters_without_search(suggestions.get(index));
+    let parameters: Vec<StepParameters> = (0..num_steps).map(parameters).collect();
+    SearchProblem { suggestions: &suggestions, ..*problem }.rebuilt(&Candidate::default(), 0, &parameters)
 }
 
 fn sample_parameters(rng: &mut impl Rng) -> StepParameters {

@@ -6,8 +6,10 @@
 #[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum SolveLevel {
-    /// No search: the path joins the director's cameras. A step without a proposal takes the midpoint of every open
-    /// parameter.
+    /// No search: one candidate. Every move has its exact geometry. The director's first camera of a step gives the
+    /// bearing from which a step without a camera before it sees its subject; without a director that is the bearing of
+    /// the place with the widest view of the scene. Every other open parameter takes the middle of its range, and paths
+    /// are straight. Nothing is tried again where matter is in the way or a subject is hidden: the report says so.
     Off,
     /// About 300 candidates for a program of one step.
     Fast,

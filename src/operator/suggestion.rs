@@ -1,6 +1,10 @@
-//! The cameras that the director proposes, and the film that follows them without a search.
+//! The cameras that the director proposes, and the one candidate of a film that is not searched.
 
-use super::motion::MotionSegment;
+use glam::DQuat;
+
+use super::motion::{NUM_PARAMETERS, StepParameters};
+use super::world::World;
+use cinesplat_geometry::Pose;
 use cinesplat_trajectory::CameraState;
 
 /// The cameras that the director proposes for one step.
@@ -14,34 +18,27 @@ pub struct StepCameras {
     pub secs: f64,
 }
 
-/// Shortest time between the two proposed cameras of a step.
-const MIN_SECS: f64 = 0.5;
+/// Parameters 0 and 1: below 0.4, so that a path between two views is straight, and nearly in the middle of what they
+/// choose elsewhere.
+const STRAIGHT: f64 = 0.39;
+/// Parameter 4 where the director proposes a camera: the last of the preferred azimuths, which is the director's.
+const PROPOSED_AZIMUTH: f64 = 0.64;
 
-/// The segments with their cameras replaced by the director's.
-///
-/// Each step that has a proposal becomes one segment from the first camera to the second, on the path that its move
-/// implies (a circle for an orbit). It lasts as long as the prompt says, or else as the director proposes. Constraints
-/// are kept, so that the report lists the ones that the film misses. Steps without a proposal stay unchanged.
-pub(super) fn follow_suggestions(segments: Vec<MotionSegment>, suggestions: &[StepCameras]) -> Vec<MotionSegment> {
-    let mut out: Vec<MotionSegment> = Vec::with_capacity(segments.len());
-    for segment in segments {
-        let Some(suggestion) = suggestions.get(segment.step) else {
-            out.push(segment);
-            continue;
-        };
-        if let Some(last) = out.last_mut().filter(|last| last.step == segment.step) {
-            // The proposal already leads from view to view: it replaces the step's join as well.
-            let cut = last.cut;
-            *last = between(segment, suggestion);
-            last.cut = cut;
-        } else {
-            out.push(between(segment, suggestion));
-        }
-    }
-    out
+/// Cameras at the place with the widest view of the scene, in place of the director's: for their bearing alone. `None`
+/// where there is no such place.
+pub(super) fn at_viewpoint(world: &World) -> Option<StepCameras> {
+    let pose = Pose { position: *world.viewpoints().first()?, rotation: DQuat::IDENTITY };
+    let camera = CameraState { pose, fov_y_rad: 1.0, focus_distance: None };
+    Some(StepCameras { start: camera, end: camera, secs: 0.0 })
 }
 
-fn between(segment: MotionSegment, suggestion: &StepCameras) -> MotionSegment {
-    let secs = if segment.secs_bind { segment.secs } else { suggestion.secs.max(MIN_SECS) };
-    MotionSegment { states: vec![suggestion.start, suggestion.end], secs, is_join: false, ..segment }
+/// The open parameters of a step without a search ([`SolveLevel::Off`](super::settings::SolveLevel)): the middle of each
+/// range, straight paths, and the bearing of the step's first proposed camera.
+pub(super) fn parameters_without_search(suggestion: Option<&StepCameras>) -> StepParameters {
+    let mut out = [0.5; NUM_PARAMETERS];
+    (out[0], out[1]) = (STRAIGHT, STRAIGHT);
+    if suggestion.is_some() {
+        out[4] = PROPOSED_AZIMUTH;
+    }
+    out
 }

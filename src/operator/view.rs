@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use super::composition::{lens_fov_deg, side_azimuths};
 use super::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use super::motion::StepParameters;
 use super::program::{Framing, SubjectPart};
@@ -47,6 +48,11 @@ pub(super) fn size_fill(size: ShotSize, parameter: f64) -> Fill {
     Fill::Height(lerp((low * 0.93 + high * 0.07, low * 0.2 + high * 0.8), parameter))
 }
 
+/// The fill that a framing states: the height of its first subject, or else its size. `None` where it states neither.
+pub(super) fn stated_fill(framing: &Framing, parameter: f64) -> Option<Fill> {
+    framing.height_frac.map(Fill::Height).or_else(|| framing.size.map(|size| size_fill(size, parameter)))
+}
+
 /// Linear interpolation in a range, `t` in 0..1.
 pub(super) fn lerp(range: (f64, f64), t: f64) -> f64 {
     range.0 + (range.1 - range.0) * t
@@ -63,22 +69,84 @@ pub(super) fn opening_view(
     parameters: &StepParameters,
 ) -> CameraState {
     let proposed = suggestion.map(|cameras| bearing_of(world, target.aim, cameras.start.pose.position));
-    let azimuth_rad = azimuth(range, proposed, parameters);
+    let azimuth_rad = match framing.side {
+        Some(side) => beside(&side_azimuths(world, target.center, side), parameters),
+        None => azimuth(range, proposed, parameters),
+    };
     let band = elevation_band_deg(framing.angle);
     let mut elevation = lerp(band, parameters[1]).to_radians();
     if let (Some(proposed), None) = (proposed, framing.angle) {
         elevation = lerp((elevation, proposed.elevation_rad.clamp(-0.5, 0.9)), 0.5);
     }
-    let bearing = Bearing { azimuth_rad, elevation_rad: elevation };
-    let fill = match framing.size {
-        Some(size) => size_fill(size, parameters[2]),
-        None => Fill::Fit(lerp(range.fill, parameters[2])),
-    };
-    let fill = if framing.whole { Fill::Fit(lerp((0.5, 0.88), parameters[2])) } else { fill };
-    let fov_y_rad = lerp(range.fov_deg, parameters[3]).to_radians();
-    let distance = distance_for(world, target, bearing, fill, fov_y_rad);
-    let view = view_at(world, target.aim, bearing, distance, fov_y_rad);
+    let elevation_rad = framing.elevation_deg.map_or(elevation, f64::to_radians);
+    let bearing = Bearing { azimuth_rad, elevation_rad };
+    let fill = stated_fill(framing, parameters[2]).unwrap_or_else(|| Fill::Fit(lerp(range.fill, parameters[2])));
+    let loose = framing.whole && framing.height_frac.is_none();
+    let fill = if loose { Fill::Fit(lerp((0.5, 0.88), parameters[2])) } else { fill };
+    let fov_deg = framing.lens.map_or(range.fov_deg, lens_fov_deg);
+    let fov_y_rad = lerp(fov_deg, parameters[3]).to_radians();
+    let view = view_from(world, (target, framing), bearing, fill, fov_y_rad);
     aimed_at_side(world, target, framing.part, view)
+}
+
+/// The view of a target from a bearing: at the framing's distance, or else at the distance of a fill. The bearing's
+/// elevation gives way to the framing's height above the floor.
+pub(super) fn view_from(
+    world: &World,
+    (target, framing): (&Target, &Framing),
+    bearing: Bearing,
+    fill: Fill,
+    fov_y_rad: f64,
+) -> CameraState {
+    let distance = |bearing: Bearing| match framing.distance {
+        Some(wanted) => distance_along(world, target, bearing, wanted),
+        None => distance_for(world, target, bearing, fill, fov_y_rad),
+    };
+    let bearing = match framing.height {
+        Some(height) => Bearing { elevation_rad: elevation_at(world, target, height, bearing, &distance), ..bearing },
+        None => bearing,
+    };
+    view_at(world, target.aim, bearing, distance(bearing), fov_y_rad)
+}
+
+/// Distance from a target's aim, in the direction of a bearing, to the point that is `wanted` away from the center of
+/// its first subject.
+pub(super) fn distance_along(world: &World, target: &Target, bearing: Bearing, wanted: f64) -> f64 {
+    let (sin, cos) = bearing.elevation_rad.sin_cos();
+    let away = world.frame.direction(bearing.azimuth_rad) * cos + world.frame.up * sin;
+    let offset = target.aim - target.center;
+    let along = offset.dot(away);
+    (along * along - offset.length_squared() + wanted * wanted).max(0.0).sqrt() - along
+}
+
+/// Elevation, seen from the target's aim, at which the camera is `height` above the floor: 24 bisections of -80 to 80
+/// degrees, on which the camera's height grows.
+fn elevation_at(
+    world: &World,
+    target: &Target,
+    height: f64,
+    bearing: Bearing,
+    distance: &dyn Fn(Bearing) -> f64,
+) -> f64 {
+    let rise = height - world.height_above_floor(target.aim);
+    let limit = 80.0_f64.to_radians();
+    let (mut low, mut high) = (-limit, limit);
+    for _ in 0..24 {
+        let middle = low.midpoint(high);
+        if distance(Bearing { elevation_rad: middle, ..bearing }) * middle.sin() < rise {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low.midpoint(high)
+}
+
+/// One of several azimuths, or up to 20 degrees beside it. Parameter 4 picks it, parameter 0 the deviation.
+pub(super) fn beside(azimuths_rad: &[f64], parameters: &StepParameters) -> f64 {
+    let pick = ((parameters[4] * azimuths_rad.len() as f64) as usize).min(azimuths_rad.len().saturating_sub(1));
+    let off = parameters[0] * 2.0 - 1.0;
+    azimuths_rad.get(pick).copied().unwrap_or(0.0) + off * off.abs() * 0.35
 }
 
 /// A preferred azimuth or any azimuth. The director's counts twice among the preferred ones.

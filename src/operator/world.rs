@@ -42,6 +42,8 @@ pub(super) struct Subject {
     pub(super) center: DVec3,
     /// Corners of its box, world.
     pub(super) corners: Vec<DVec3>,
+    /// Half extents along the box's axes, world.
+    pub(super) half_axes: [DVec3; 3],
     /// Half the diagonal of its box.
     pub(super) radius: f64,
     /// Sample points on it, world.
@@ -103,6 +105,11 @@ impl World {
         self.frame.height(self.bounds.core_min).min(self.frame.height(self.bounds.core_max))
     }
 
+    /// Height of a point above the bottom of the scene's core box.
+    pub(super) fn height_above_floor(&self, point: DVec3) -> f64 {
+        self.frame.height(point) - self.floor_height()
+    }
+
     /// How far a point is below the height of a camera that lies on the floor, over the scene size; 0 above that
     /// height.
     pub(super) fn sunk_frac(&self, point: DVec3) -> f64 {
@@ -156,7 +163,34 @@ impl Subject {
         };
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !own[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
-        Self { label, center: object.center, corners, radius: object.radius(), points, others }
+        let half = object.half_extents;
+        let half_axes = [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z].map(|axis| object.rotation * axis);
+        Self { label, center: object.center, corners, half_axes, radius: object.radius(), points, others }
+    }
+
+    /// A point in the axes of the box, over its half extents: inside where no component is beyond 1.
+    pub(super) fn in_box(&self, point: DVec3) -> DVec3 {
+        let along = |axis: DVec3| (point - self.center).dot(axis) / axis.length_squared().max(1e-18);
+        DVec3::from_array(self.half_axes.map(along))
+    }
+
+    /// Half the extent of the box along a unit direction, from its center.
+    pub(super) fn reach(&self, direction: DVec3) -> f64 {
+        self.half_axes.iter().map(|axis| axis.dot(direction).abs()).sum()
+    }
+
+    /// Index of the box's axis that is nearest to a unit direction.
+    pub(super) fn axis_along(&self, direction: DVec3) -> usize {
+        let along = |i: &usize| self.half_axes[*i].normalize_or_zero().dot(direction).abs();
+        (0..3).max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(0)
+    }
+
+    /// The horizontal axes of the box, half extents along them: the longer one first.
+    pub(super) fn level_axes(&self, up: DVec3) -> [DVec3; 2] {
+        let upright = self.axis_along(up);
+        let flat = |i: usize| self.half_axes[i] - up * self.half_axes[i].dot(up);
+        let (a, b) = (flat((upright + 1) % 3), flat((upright + 2) % 3));
+        if a.length() >= b.length() { [a, b] } else { [b, a] }
     }
 
     /// Transmittance from a point of the subject to `eye` through all matter except the subject, 0..1.

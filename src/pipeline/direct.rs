@@ -1,12 +1,13 @@
 use super::error::PipelineError;
 use super::phases::{Phase, PhaseTimes};
+use super::reading::{Problem, Reading, read};
 use cinesplat_director::{Direction, Director, SceneContext};
-use cinesplat_language::{Linked, NamedObject};
+use cinesplat_language::{EffectMention, LanguageError, Linked, NamedObject};
 use cinesplat_lens::{Decision, EffectCall, EffectChoice, EffectKind};
 use cinesplat_objects::{CloudSettings, ObjectSet};
 use cinesplat_operator::{Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
-use cinesplat_trajectory::{ReportLine, SceneRef, Shot};
+use cinesplat_trajectory::{SceneRef, Shot};
 
 /// Name of the effect that rolls the camera, and its roll in degrees, in the middle of the 5 to 35 degrees that
 /// storyboards use.
@@ -55,6 +56,8 @@ pub struct Directed {
     pub steps: Vec<StepReading>,
     /// The decision about each effect.
     pub effects: Vec<Decision>,
+    /// What the prompt asks for and the program does not contain.
+    pub problems: Vec<Problem>,
     /// Guesses and doubtful choices, one sentence each.
     pub warnings: Vec<String>,
     /// Wall time per phase.
@@ -97,18 +100,20 @@ pub fn direct(
     settings: &DirectSettings,
 ) -> Result<Directed, PipelineError> {
     let mut times = PhaseTimes::default();
-    let linked = times.measure(Phase::Direct, || cinesplat_language::link(prompt, &names(objects)))?;
+    let linked = times.measure(Phase::Direct, || director.link(prompt, &names(objects)))?;
     let objects = times.measure(Phase::Objects, || with_clouds(scene, objects, &linked))?;
     let bounds = scene.bounds();
     let context =
         SceneContext { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
-    let mut direction = times.measure(Phase::Direct, || director.direct(&linked, &context))?;
+    let Reading { linked, mut direction, effects, problems } =
+        times.measure(Phase::Direct, || read(prompt, linked, director, &context))?;
+    refuse_missing(&linked, &direction)?;
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }
     let ids = direction.program.object_ids();
     let world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
-    let mut calls = calls(&linked)?;
+    let mut calls = calls(&effects);
     let dutch =
         calls.iter().position(|call| call.kind == EffectKind::Other(DUTCH.to_owned())).map(|at| calls.remove(at));
     let dutch_deg = dutch.map(|_| DUTCH_DEG);
@@ -122,9 +127,10 @@ pub fn direct(
     shot.model = Some(director.model_ref());
     shot.effects = effects.iter().filter_map(Decision::request).collect();
     shot.report.extend(effects.iter().filter_map(Decision::report_line));
-    shot.report.extend(linked.unknown.iter().map(unknown_name));
+    shot.report.extend(problems.iter().map(Problem::report_line));
     let steps = readings(prompt, &direction);
-    Ok(Directed { shot: shot.validated()?, steps, effects, warnings: linked.warnings, times })
+    let warnings = linked.warnings;
+    Ok(Directed { shot: shot.validated()?, steps, effects, problems, warnings, times })
 }
 
 /// A shot of solved keyframes, without a director's model and without effects.
@@ -157,19 +163,19 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     Ok(set)
 }
 
-fn calls(linked: &Linked) -> Result<Vec<EffectCall>, PipelineError> {
-    let called = cinesplat_language::effect_mentions(linked)?;
-    Ok(called.into_iter().map(|call| EffectCall { kind: call.kind.as_str().into(), because: call.words }).collect())
+fn calls(effects: &[EffectMention]) -> Vec<EffectCall> {
+    effects.iter().map(|call| EffectCall { kind: call.kind.as_str().into(), because: call.words.clone() }).collect()
 }
 
-fn unknown_name(unknown: &cinesplat_language::UnknownName) -> ReportLine {
-    let nearest = unknown.nearest.join(", ");
-    ReportLine {
-        clause: unknown.name.clone(),
-        wanted: "an object of the scene".to_owned(),
-        got: 0.0,
-        met: false,
-        note: format!("no object has this name; nearest: {nearest}"),
+/// Refuses a program that is about something that the scene lacks, and one without steps.
+fn refuse_missing(linked: &Linked, direction: &Direction) -> Result<(), PipelineError> {
+    let missing = direction.program.object_ids().into_iter().find_map(|id| linked.missing(id));
+    match missing {
+        Some(group) => {
+            Err(LanguageError::UnknownObject { name: group.name.clone(), nearest: group.nearest.clone() }.into())
+        }
+        None if direction.program.steps.is_empty() => Err(LanguageError::NothingToDo.into()),
+        None => Ok(()),
     }
 }
 

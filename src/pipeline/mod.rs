@@ -11,6 +11,7 @@ mod forecast;
 mod frames;
 mod opened_scene;
 mod phases;
+mod reading;
 mod stills;
 
 pub use clearance::prove_clearance;
@@ -21,4 +22,5 @@ pub use forecast::{FilmCost, Forecast, Requirements, TimeCost, checked_psnr_db, 
 pub use frames::FrameRange;
 pub use opened_scene::{OpenedScene, open_scene};
 pub use phases::{Phase, PhaseTimes};
+pub use reading::{Problem, ProblemKind, Reading, read};
 pub use stills::{Still, StillOutputs, still};

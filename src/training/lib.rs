@@ -4,14 +4,20 @@
 //! [`write_dataset`] makes shards of realized shots, [`train`] trains a network on sampled prompts and these shards, and
 //! [`evaluate_director`] measures how well a director understands prompts. Equal seeds give equal prompts.
 
+pub mod corpus;
 mod dataset;
+mod names;
 mod sampler;
 mod train;
 mod workers;
 
 pub use dataset::{DatasetError, DatasetSettings, DatasetSummary, write_dataset};
+pub use names::{
+    NameFigures, NameMistake, NameProgress, NameSettings, NameSummary, examine_mentions, examine_names, train_names,
+};
 pub use sampler::{LabeledPrompt, PromptSampler, TemplateSplit, exam, exam_objects};
 pub use train::{
-    ErrorCase, EvaluationSplit, GradientCheck, Mistake, ParameterCheck, ProgramMetrics, ProgressCallback, StepField,
-    Tally, TrainError, TrainSettings, TrainSummary, TrainingProgress, check_gradients, evaluate_director, train,
+    ErrorCase, EvaluationSplit, Examination, GradientCheck, Mentions, Mistake, ParameterCheck, ProgramMetrics,
+    ProgressCallback, StepField, Tally, TrainError, TrainSettings, TrainSummary, TrainingProgress, check_gradients,
+    evaluate_director, examine, train,
 };

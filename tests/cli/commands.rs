@@ -14,6 +14,7 @@ fn help_shows_every_command_and_examples() {
     Commands:
       info         Print what a scene file contains
       objects      Find or read the objects of a scene
+      read         Print what a sentence is understood as, without a scene
       plan         Turn a sentence into keyframes
       render       Render a film from a sentence or a shot
       still        Render still pictures from given cameras

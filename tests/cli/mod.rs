@@ -3,6 +3,7 @@
 mod commands;
 mod errors;
 mod films;
+mod read;
 
 use std::ffi::OsStr;
 use std::path::Path;

@@ -39,7 +39,7 @@ fn sampled_keys_survive_their_codes() {
     let mut num_encoded = 0;
     for (keys, grounding) in sampled_keys(4, 300, &vocabulary) {
         for (key_idx, key) in keys.iter().enumerate() {
-            let Some(code) = encode_key(key, key_idx == 0, &grounding) else { continue };
+            let Some(code) = encode_key(key, key_idx == 0, &[], &grounding) else { continue };
             assert_eq!(without_text(decode_key(&code, &grounding)), without_text(key.clone()));
             num_encoded += 1;
         }

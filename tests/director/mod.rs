@@ -1,8 +1,11 @@
 //! Tests of `director`: keys and their codes, scene frame, vocabulary, model files, directions.
 
+mod calibration;
 mod codes;
 mod direction;
 mod frame;
+mod hostile;
 mod keys;
 mod model_files;
+mod names;
 mod vocabulary;

@@ -47,7 +47,7 @@ fn a_written_model_loads_and_damage_is_named() {
     );
     let manifest =
         |from: &'static str, to: &'static str| edit(folder, "director.json", |bytes| replace(bytes, from, to));
-    let (code, message) = manifest("\"version\": 1", "\"version\": 2");
+    let (code, message) = manifest("\"version\": 2", "\"version\": 1");
     assert_eq!(code, "MODEL-BAD");
     assert!(message.contains("version 2") && message.contains("version 1"), "{message}");
     assert!(manifest("cinesplat.director", "other").1.contains("format"));

@@ -10,6 +10,7 @@ use cinesplat::operator::{Amount, Program};
 mod effects;
 mod exam;
 mod link;
+mod mention;
 mod notation;
 mod prompt_sampler;
 mod quantity;

@@ -1,12 +1,14 @@
 use cinesplat::language::{NotationError, program_from_notation, program_to_notation};
-use cinesplat::operator::{Amount, Framing, Pass, Program, Speed, Step, SubjectPart, Via};
+use cinesplat::operator::{
+    Amount, FramePlace, Framing, Lens, Look, Motion, Pass, Program, Speed, Step, SubjectPart, SubjectSide, Via,
+};
 use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 #[test]
 fn every_token_of_a_step_is_parsed_and_printed() {
-    let text = "orbit-left with=crane-up start=3+5:long:low! end=3:close-up:top between=1+2 amount=45deg dur=2.5s slow ease=ease-in cut returns either | total=8s";
+    let text = "orbit-left with=crane-up+zoom-in start=3+5:long:40%:low:30deg:h1.6u:d0.5u:35mm:from-back:at-upper-left! end=3:close-up:wide-lens:top:hidden between=1+2 look=4 keep=6+7 avoid=8 amount=45deg dur=2.5s slow ease=ease-in cut returns either | total=8s no=zoom+roll";
     let step = Step {
-        with: Some(Move::CraneUp),
+        with: vec![Move::CraneUp, Move::ZoomIn],
         either_way: true,
         start: Framing {
             subjects: vec![3, 5],
@@ -14,15 +16,27 @@ fn every_token_of_a_step_is_parsed_and_printed() {
             angle: Some(ShotAngle::Low),
             part: SubjectPart::Middle,
             whole: true,
+            height_frac: Some(0.4),
+            elevation_deg: Some(30.0),
+            height: Some(1.6),
+            distance: Some(0.5),
+            lens: Some(Lens::FocalMm(35.0)),
+            side: Some(SubjectSide::FromBack),
+            place: Some(FramePlace::AtUpperLeft),
+            hidden: false,
         },
         end: Framing {
             subjects: vec![3],
             size: Some(ShotSize::CloseUp),
-            angle: None,
             part: SubjectPart::Top,
-            whole: false,
+            lens: Some(Lens::Wide),
+            hidden: true,
+            ..Framing::default()
         },
         via: Some(Via { how: Pass::Between, objects: vec![1, 2] }),
+        look: Some(Look::At(vec![4])),
+        keep: vec![6, 7],
+        avoid: vec![8],
         amount: Some(Amount::Degrees(45.0)),
         duration_secs: Some(2.5),
         speed: Speed::Slow,
@@ -31,7 +45,8 @@ fn every_token_of_a_step_is_parsed_and_printed() {
         returns: true,
         ..Step::of(Move::OrbitLeft)
     };
-    let program = Program { steps: vec![step], duration_secs: Some(8.0) };
+    let forbidden = vec![Motion::Zoom, Motion::Roll];
+    let program = Program { steps: vec![step], duration_secs: Some(8.0), forbidden };
     assert_eq!(program_from_notation(text).unwrap(), program);
     assert_eq!(program_to_notation(&program), text);
 }
@@ -44,6 +59,18 @@ fn a_move_takes_its_direction_from_the_step_and_is_either_way_without_one() {
     assert_eq!(step("orbit end=1").movement, Move::OrbitRight);
     assert!(step("orbit end=1").either_way);
     assert_eq!(step("pull-out end=room:long").end, Framing { size: Some(ShotSize::Long), ..Framing::default() });
+}
+
+#[test]
+fn a_program_without_steps_is_none() {
+    assert_eq!(program_from_notation("none").unwrap(), Program::default());
+    assert_eq!(program_to_notation(&Program::default()), "none");
+}
+
+#[test]
+fn a_step_has_at_most_two_further_moves() {
+    assert!(program_from_notation("orbit with=crane-up+zoom-in").is_ok());
+    assert!(program_from_notation("orbit with=crane-up+zoom-in+roll").is_err());
 }
 
 #[test]

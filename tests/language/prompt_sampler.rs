@@ -120,7 +120,7 @@ fn the_direction_word_of_a_prompt_is_the_direction_of_its_move() {
             assert_eq!(name.ends_with("left"), !counter, "{}", sample.prompt);
             checked += 1;
         } else if (name.ends_with("-left") || name.ends_with("-right"))
-            && step.with.is_none()
+            && step.with.is_empty()
             && left + right == 1
             && !step.either_way
         {

@@ -1,8 +1,12 @@
 //! The operator on a small synthetic room.
 
 mod clearance;
+mod composition;
+mod forbidden;
 mod intents;
+mod looks;
 mod moves;
+mod passes;
 mod places;
 mod proof;
 mod route;

@@ -1,4 +1,5 @@
 //! Tests of `training`: dataset and training loop.
 
+mod corpus;
 mod dataset;
 mod train;

@@ -1,3 +1,5 @@
+#[cfg(feature = "training")]
+mod director;
 mod films;
 mod operator;
 mod render;
@@ -13,7 +15,8 @@ Examples:
   cinesplat bench render room.spz --cameras cameras.json -o bench
   cinesplat bench scaling room.spz -o bench
   cinesplat bench films room.spz --cameras cameras.json -o bench
-  cinesplat bench operator moves")]
+  cinesplat bench operator moves
+  cinesplat bench director -o bench")]
 pub(super) struct Args {
     #[command(subcommand)]
     benchmark: Benchmark,
@@ -25,6 +28,8 @@ enum Benchmark {
     Scaling(scaling::Args),
     Films(films::Args),
     Operator(operator::Args),
+    #[cfg(feature = "training")]
+    Director(director::Args),
 }
 
 impl Args {
@@ -34,6 +39,8 @@ impl Args {
             Benchmark::Scaling(args) => args.run(),
             Benchmark::Films(args) => args.run(),
             Benchmark::Operator(args) => args.run(),
+            #[cfg(feature = "training")]
+            Benchmark::Director(args) => args.run(),
         }
     }
 }

@@ -8,6 +8,10 @@ impl From<LanguageError> for Failure {
         use LanguageError as E;
         let (code, message) = (error.code(), error.to_string());
         let (exit, help) = match error {
+            E::NothingToDo => (
+                Exit::BadData,
+                "say where the camera goes or looks; `cinesplat read -p PROMPT` shows what is understood".to_owned(),
+            ),
             E::TooLong { .. } => (Exit::BadData, "shorten the prompt to the camera's moves".to_owned()),
             E::Empty => {
                 (Exit::BadData, "say what the camera does, for example -p \"orbit <obj-3> to the left\"".to_owned())

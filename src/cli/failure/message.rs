@@ -2,6 +2,8 @@ use std::fmt;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
+use cinesplat::trajectory::ReportLine;
+
 use super::exit::Exit;
 
 /// A failed command: the two lines that a person reads and the exit code that a script sees.
@@ -29,6 +31,13 @@ impl Failure {
     pub(crate) fn fault(place: &str) -> Self {
         let help = "this is a fault of cinesplat, not yours: please report it with the command and the file";
         Self::new("FAULT", format!("cinesplat itself failed: {place}"), help, Exit::Fault)
+    }
+
+    /// A line of a shot's report that is not met, where the user wants all of them met.
+    pub(crate) fn not_met(line: &ReportLine) -> Self {
+        let found = if line.note.is_empty() { format!("got {:.3}", line.got) } else { line.note.clone() };
+        let message = format!("\"{}\": {found}, expected {}", line.clause, line.wanted);
+        Self::new("PROMPT-NOT-MET", message, "reword the clause, or plan without --strict", Exit::BadData)
     }
 
     /// An error of the file system on `file`.

@@ -1,3 +1,4 @@
+use cinesplat::training::corpus::CorpusError;
 use cinesplat::training::{DatasetError, TrainError};
 
 use super::exit::Exit;
@@ -10,7 +11,11 @@ impl From<TrainError> for Failure {
             TrainError::Director(error) => return error.into(),
             TrainError::Language(error) => return error.into(),
             TrainError::Dataset(error) => return error.into(),
-            TrainError::File(error) => return error.into(),
+            TrainError::File(error) | TrainError::Corpus(CorpusError::Read(error)) => return error.into(),
+            TrainError::Corpus(CorpusError::List { .. }) => {
+                (Exit::NoInput, "give the folder of the corpus's text files")
+            }
+            TrainError::Corpus(CorpusError::BadLine { .. }) => (Exit::BadData, "correct that line"),
             TrainError::NoExample { .. } => {
                 (Exit::Fault, "this is a fault of the example sampler: report it with the seed")
             }
@@ -21,6 +26,12 @@ impl From<TrainError> for Failure {
             }
         };
         Self::new(code, message, help, exit)
+    }
+}
+
+impl From<CorpusError> for Failure {
+    fn from(error: CorpusError) -> Self {
+        TrainError::from(error).into()
     }
 }
 

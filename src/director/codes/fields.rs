@@ -1,6 +1,6 @@
 //! The choices among classes that a key makes, and how many classes each has.
 
-use cinesplat_operator::{Pass, Speed, SubjectPart};
+use cinesplat_operator::{FramePlace, Motion, Pass, Speed, SubjectPart, SubjectSide};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 use strum::VariantArray;
 
@@ -20,6 +20,24 @@ pub(crate) const AMOUNT_QUANTITY: u8 = 1;
 pub(super) const AMOUNT_SLIGHT: u8 = 2;
 /// Class of [`Field::Amount`]: a lot.
 pub(super) const AMOUNT_LARGE: u8 = 3;
+
+/// Class of [`Field::Look`]: objects.
+pub(crate) const LOOK_AT: u8 = 1;
+/// Class of [`Field::Look`]: the direction of travel.
+pub(super) const LOOK_AHEAD: u8 = 2;
+/// Class of [`Field::Look`]: against the direction of travel.
+pub(super) const LOOK_BACK: u8 = 3;
+/// Class of [`Field::Look`]: the middle of the scene.
+pub(super) const LOOK_ROOM: u8 = 4;
+
+/// Class of a lens field: a focal length of the text.
+pub(crate) const LENS_FOCAL: u8 = 1;
+/// Class of a lens field: a field of view of the text.
+pub(crate) const LENS_FOV: u8 = 2;
+/// Class of a lens field: wide.
+pub(super) const LENS_WIDE: u8 = 3;
+/// Class of a lens field: long.
+pub(super) const LENS_LONG: u8 = 4;
 
 /// A choice among classes that a key makes.
 ///
@@ -74,7 +92,64 @@ pub enum Field {
     /// Whether all subjects are wholly in the frame on departure.
     #[strum(serialize = "start whole")]
     DepartWhole,
+    /// A third move at the same time.
+    #[strum(serialize = "third move")]
+    SecondWith,
+    /// What the camera looks at while it travels elsewhere.
+    Look,
+    /// Lens on arrival: unspecified, a focal length, a field of view, wide, long.
+    #[strum(serialize = "end lens")]
+    ArriveLens,
+    /// Side from which the camera sees the subject on arrival.
+    #[strum(serialize = "end side")]
+    ArriveSide,
+    /// Place of the subject in the frame on arrival.
+    #[strum(serialize = "end place")]
+    ArrivePlace,
+    /// Whether the subjects are hidden on arrival.
+    #[strum(serialize = "end hidden")]
+    ArriveHidden,
+    /// Lens on departure.
+    #[strum(serialize = "start lens")]
+    DepartLens,
+    /// Side on departure.
+    #[strum(serialize = "start side")]
+    DepartSide,
+    /// Place on departure.
+    #[strum(serialize = "start place")]
+    DepartPlace,
+    /// Whether the subjects are hidden on departure.
+    #[strum(serialize = "start hidden")]
+    DepartHidden,
+    /// Whether the film must not zoom.
+    NoZoom,
+    /// Whether the film must not pan.
+    NoPan,
+    /// Whether the film must not tilt.
+    NoTilt,
+    /// Whether the film must not roll.
+    NoRoll,
+    /// Whether the film must not turn.
+    NoTurn,
+    /// Whether the camera must not travel.
+    NoTravel,
+    /// Whether the camera must not shake.
+    NoShake,
+    /// Whether the film must not cut.
+    NoCut,
 }
+
+/// Fields of the motions that a film forbids, in the order of [`Motion`].
+pub(super) const FORBIDDEN: [(Field, Motion); 8] = [
+    (Field::NoZoom, Motion::Zoom),
+    (Field::NoPan, Motion::Pan),
+    (Field::NoTilt, Motion::Tilt),
+    (Field::NoRoll, Motion::Roll),
+    (Field::NoTurn, Motion::Turn),
+    (Field::NoTravel, Motion::Travel),
+    (Field::NoShake, Motion::Shake),
+    (Field::NoCut, Motion::Cut),
+];
 
 impl Field {
     /// Number of classes.
@@ -82,8 +157,24 @@ impl Field {
         match self {
             Self::Next => 3,
             Self::Movement => Move::VARIANTS.len(),
-            Self::With => 1 + Move::VARIANTS.len(),
-            Self::EitherWay | Self::Returns | Self::ArriveWhole | Self::DepartWhole => 2,
+            Self::With | Self::SecondWith => 1 + Move::VARIANTS.len(),
+            Self::EitherWay
+            | Self::Returns
+            | Self::ArriveWhole
+            | Self::DepartWhole
+            | Self::ArriveHidden
+            | Self::DepartHidden
+            | Self::NoZoom
+            | Self::NoPan
+            | Self::NoTilt
+            | Self::NoRoll
+            | Self::NoTurn
+            | Self::NoTravel
+            | Self::NoShake
+            | Self::NoCut => 2,
+            Self::Look | Self::ArriveLens | Self::DepartLens => 5,
+            Self::ArriveSide | Self::DepartSide => 1 + SubjectSide::VARIANTS.len(),
+            Self::ArrivePlace | Self::DepartPlace => 1 + FramePlace::VARIANTS.len(),
             Self::Via => 1 + Pass::VARIANTS.len(),
             Self::Amount => 4,
             Self::Speed => Speed::VARIANTS.len(),
@@ -109,6 +200,7 @@ impl Field {
     pub(crate) fn applies(self, next: u8, is_first: bool) -> bool {
         match self {
             Self::Next => true,
+            _ if self.is_of_film() => is_first,
             _ if self.is_arrival() => !is_first,
             _ => next == NEXT_SEGMENT,
         }
@@ -116,6 +208,21 @@ impl Field {
 
     /// Whether the field describes the frame when the camera arrives at the key.
     pub(crate) fn is_arrival(self) -> bool {
-        matches!(self, Self::ArriveSize | Self::ArriveAngle | Self::ArrivePart | Self::ArriveWhole)
+        matches!(
+            self,
+            Self::ArriveSize
+                | Self::ArriveAngle
+                | Self::ArrivePart
+                | Self::ArriveWhole
+                | Self::ArriveLens
+                | Self::ArriveSide
+                | Self::ArrivePlace
+                | Self::ArriveHidden
+        )
+    }
+
+    /// Whether the field describes the whole film; the first key has it.
+    pub(crate) fn is_of_film(self) -> bool {
+        FORBIDDEN.iter().any(|(field, _)| *field == self)
     }
 }

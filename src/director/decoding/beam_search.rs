@@ -33,6 +33,8 @@ pub(crate) struct DecodedPrompt {
     pub(crate) poses: Vec<PoseCode>,
     /// Index of the quantity that is the length of the film.
     pub(crate) film_length: Option<usize>,
+    /// For each token, whether the notation cannot say it.
+    pub(crate) unmet: Vec<bool>,
 }
 
 impl DecodedPrompt {
@@ -71,6 +73,8 @@ pub(crate) fn decode(
     if encoded.penalty(&decoded) > 0.0 {
         decoded = encoded.beam_search()?;
     }
+    let unmet = network.unmet(&encoded.memory)?.squeeze(0)?.to_vec2::<f32>()?; // [tokens, 2]
+    decoded.unmet = unmet.iter().map(|scores| matches!(scores[..], [said, unsaid] if unsaid > said)).collect();
     decoded.poses = encoded.poses(&decoded.keys)?;
     Ok(decoded)
 }

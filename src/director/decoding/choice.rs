@@ -1,6 +1,6 @@
 //! The choices whose certainty is reported.
 
-use crate::codes::Field;
+use crate::codes::{Field, QuantityRole};
 
 /// A choice that the network makes for a key. Its text is its name in reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,12 +18,18 @@ pub enum Choice {
     /// Objects that the segment passes.
     #[strum(serialize = "objects on the way")]
     PassedObjects,
-    /// The quantity of the text that is the amount.
-    #[strum(serialize = "amount")]
-    Amount,
-    /// The quantity of the text that is the duration of the segment.
-    #[strum(serialize = "duration")]
-    Duration,
+    /// What the camera looks at.
+    #[strum(serialize = "look")]
+    Look,
+    /// Objects that stay in view.
+    #[strum(serialize = "kept in view")]
+    Keep,
+    /// Objects that are never in view.
+    #[strum(serialize = "avoided")]
+    Avoid,
+    /// The quantity of the text that has a role.
+    #[strum(transparent)]
+    Quantity(QuantityRole),
     /// The quantity of the text that is the length of the film.
     #[strum(serialize = "film length")]
     FilmLength,
@@ -35,6 +41,7 @@ impl Choice {
         match self {
             Self::Class(field) => field.is_arrival(),
             Self::EndSubjects => true,
+            Self::Quantity(role) => role.is_arrival(),
             _ => false,
         }
     }

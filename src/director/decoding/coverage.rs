@@ -1,6 +1,8 @@
 //! Coverage of the text by keys: mentions and move words that no step uses.
 
-use crate::codes::{AMOUNT_QUANTITY, Field, KeyCode, MAX_SUBJECTS, NEXT_SEGMENT, NEXT_STOP};
+use strum::VariantArray;
+
+use crate::codes::{Field, KeyCode, MAX_SUBJECTS, NEXT_SEGMENT, NEXT_STOP, QuantityRole};
 use crate::inputs::Prompt;
 
 /// The parts of the text that one step uses.
@@ -66,10 +68,14 @@ fn steps(keys: &[KeyCode]) -> Vec<StepCoverage> {
 fn step(key: &KeyCode, end: Option<&KeyCode>) -> StepCoverage {
     let idx = |pointer: &Option<u8>| pointer.and_then(|pointer| usize::from(pointer).checked_sub(1));
     let arrived = end.map_or(&[][..], |end| &end.objects[..MAX_SUBJECTS]);
-    let amount = key.quantities[0].filter(|_| key.class(Field::Amount) == AMOUNT_QUANTITY);
+    let of_start =
+        QuantityRole::VARIANTS.iter().filter(|role| !role.is_arrival()).filter_map(|role| key.quantity(*role));
+    let of_end = end.into_iter().flat_map(|end| {
+        QuantityRole::VARIANTS.iter().filter(|role| role.is_arrival()).filter_map(|role| end.quantity(*role))
+    });
     StepCoverage {
         span: key.span,
         objects: key.objects[MAX_SUBJECTS..].iter().chain(arrived).filter_map(idx).collect(),
-        quantities: [amount, key.quantities[1]].iter().filter_map(idx).collect(),
+        quantities: of_start.chain(of_end).collect(),
     }
 }

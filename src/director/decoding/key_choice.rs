@@ -7,7 +7,12 @@
 use strum::VariantArray;
 
 use super::choice::Choice;
-use crate::codes::{AMOUNT_QUANTITY, Field, KeyCode, MAX_SUBJECTS, NEXT_CUT, NEXT_SEGMENT, NEXT_STOP, OBJECT_POINTERS};
+use cinesplat_language::QuantityKind;
+
+use crate::codes::{
+    AMOUNT_QUANTITY, AVOID_POINTER, Field, KEEP_POINTER, KeyCode, LENS_FOCAL, LENS_FOV, LOOK_AT, LOOK_POINTER,
+    MAX_SUBJECTS, NEXT_CUT, NEXT_SEGMENT, NEXT_STOP, OBJECT_POINTERS, QUANTITY_POINTERS, QuantityRole,
+};
 use crate::inputs::Prompt;
 use crate::keys::MAX_KEYS;
 use crate::network::Scores;
@@ -24,8 +29,8 @@ pub(crate) struct KeyCertainty {
 /// Facts about the text that do not depend on the network.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WordRules {
-    /// For each quantity, whether it is a time.
-    pub(crate) is_time: Vec<bool>,
+    /// Kind of each quantity.
+    pub(crate) kinds: Vec<QuantityKind>,
     /// For each token, whether it begins a word that names a camera move (`push`, `holding`).
     pub(crate) is_move: Vec<bool>,
 }
@@ -56,7 +61,7 @@ impl ScoreRow {
         Ok(Self {
             classes: scores.classes.flatten_all()?.to_vec1()?,
             objects: scores.objects.reshape((OBJECT_POINTERS, ()))?.to_vec2()?,
-            quantities: scores.quantities.reshape((2, ()))?.to_vec2()?,
+            quantities: scores.quantities.reshape((QUANTITY_POINTERS, ()))?.to_vec2()?,
             words: scores.words.reshape((2, ()))?.to_vec2()?,
             film_length: scores.film_length.flatten_all()?.to_vec1()?,
         })
@@ -104,7 +109,10 @@ impl<'a> Chooser<'a> {
     /// The key, and the number of choices that were made for it.
     fn run(mut self, row: &ScoreRow, before: &[KeyCode]) -> (ChosenKey, usize) {
         let film_length = match before {
-            [] => self.quantity(Choice::FilmLength, &row.film_length, true).and_then(|pointer| pointer.checked_sub(1)),
+            [] => {
+                let pointer = self.quantity(Choice::FilmLength, &row.film_length, true, is_time);
+                pointer.and_then(|pointer| pointer.checked_sub(1))
+            }
             _ => None,
         };
         let key = self.key(row, before);
@@ -144,11 +152,14 @@ impl<'a> Chooser<'a> {
             if field == Field::Next {
                 key.classes[field_idx] = Some(next);
             } else if field.applies(next, is_first) {
-                let has_quantity = self.rules.is_time.iter().any(|is_time| !is_time);
+                let has = |fits: fn(QuantityKind) -> bool| self.rules.kinds.iter().any(|kind| fits(*kind));
                 let has_object = !self.prompt.objects.is_empty();
-                let allowed = |class: usize| match field {
-                    Field::Amount => has_quantity || class != usize::from(AMOUNT_QUANTITY),
-                    Field::Via => has_object || class == 0,
+                let allowed = |class: usize| match (field, class as u8) {
+                    (Field::Amount, AMOUNT_QUANTITY) => has(is_extent),
+                    (Field::Via, class) => has_object || class == 0,
+                    (Field::Look, LOOK_AT) => has_object,
+                    (Field::ArriveLens | Field::DepartLens, LENS_FOCAL) => has(is_focal_length),
+                    (Field::ArriveLens | Field::DepartLens, LENS_FOV) => has(is_angle),
                     _ => true,
                 };
                 key.classes[field_idx] = self.choose(Choice::Class(field), scores, allowed).map(|class| class as u8);
@@ -166,7 +177,8 @@ impl<'a> Chooser<'a> {
         let allowed = |class: usize| match class as u8 {
             NEXT_SEGMENT => room >= 2,
             NEXT_CUT => room >= 3 && !must_move,
-            _ => !must_move || room < 2,
+            // A prompt may ask for nothing that a camera could do.
+            _ => before.is_empty() || !must_move || room < 2,
         };
         let scores = &classes[..Field::Next.num_classes()];
         self.choose(Choice::Class(Field::Next), scores, allowed).map_or(NEXT_STOP, |class| class as u8)
@@ -175,50 +187,94 @@ impl<'a> Chooser<'a> {
     /// Sets the pointers of a key whose classes are set.
     fn point(&mut self, row: &ScoreRow, key: &mut KeyCode, is_first: bool) {
         if !is_first {
-            self.objects(Choice::EndSubjects, &row.objects, 0, false, key);
+            self.objects(Choice::EndSubjects, &row.objects, 0..MAX_SUBJECTS, false, key);
+            self.quantities(row, key, true);
         }
         if key.class(Field::Next) != NEXT_SEGMENT {
             return;
         }
-        self.objects(Choice::StartSubjects, &row.objects, MAX_SUBJECTS, false, key);
+        self.objects(Choice::StartSubjects, &row.objects, MAX_SUBJECTS..2 * MAX_SUBJECTS, false, key);
         if key.class(Field::Via) > 0 {
-            self.objects(Choice::PassedObjects, &row.objects, 2 * MAX_SUBJECTS, true, key);
+            self.objects(Choice::PassedObjects, &row.objects, 2 * MAX_SUBJECTS..3 * MAX_SUBJECTS, true, key);
         }
-        if key.class(Field::Amount) == AMOUNT_QUANTITY {
-            key.quantities[0] = self.quantity(Choice::Amount, &row.quantities[0], false).map(|pointer| pointer as u8);
+        if key.class(Field::Look) == LOOK_AT {
+            self.objects(Choice::Look, &row.objects, LOOK_POINTER..LOOK_POINTER + 1, true, key);
         }
-        key.quantities[1] = self.quantity(Choice::Duration, &row.quantities[1], true).map(|pointer| pointer as u8);
+        self.objects(Choice::Keep, &row.objects, KEEP_POINTER..KEEP_POINTER + 1, false, key);
+        self.objects(Choice::Avoid, &row.objects, AVOID_POINTER..AVOID_POINTER + 1, false, key);
+        self.quantities(row, key, false);
         key.span = self.words(&row.words);
     }
 
-    /// Sets the pointers from `first` on to up to [`MAX_SUBJECTS`] different objects; `needed` requires at least one.
-    fn objects(&mut self, choice: Choice, scores: &[Vec<f32>], first: usize, needed: bool, key: &mut KeyCode) {
+    /// Sets the pointers at the quantities that describe the arrival at the key, or what departs from it.
+    fn quantities(&mut self, row: &ScoreRow, key: &mut KeyCode, arrival: bool) {
+        for role in QuantityRole::VARIANTS.iter().copied().filter(|role| role.is_arrival() == arrival) {
+            let lens = |field| match key.class(field) {
+                LENS_FOCAL => Some(is_focal_length as fn(QuantityKind) -> bool),
+                LENS_FOV => Some(is_angle as fn(QuantityKind) -> bool),
+                _ => None,
+            };
+            let (fits, optional) = match role {
+                QuantityRole::Amount if key.class(Field::Amount) == AMOUNT_QUANTITY => (Some(is_extent as _), false),
+                QuantityRole::Amount => (None, false),
+                QuantityRole::Duration => (Some(is_time as _), true),
+                QuantityRole::ArriveHeightFrac | QuantityRole::DepartHeightFrac => (Some(is_share as _), true),
+                QuantityRole::ArriveElevation | QuantityRole::DepartElevation => (Some(is_angle as _), true),
+                QuantityRole::ArriveLens => (lens(Field::ArriveLens), false),
+                QuantityRole::DepartLens => (lens(Field::DepartLens), false),
+                _ => (Some(is_length as _), true),
+            };
+            if let Some(fits) = fits {
+                let pointer = self.quantity(Choice::Quantity(role), &row.quantities[role as usize], optional, fits);
+                key.quantities[role as usize] = pointer.map(|pointer| pointer as u8);
+            }
+        }
+    }
+
+    /// Sets the pointers of a range to different objects; `needed` requires at least one.
+    fn objects(
+        &mut self,
+        choice: Choice,
+        scores: &[Vec<f32>],
+        pointers: std::ops::Range<usize>,
+        needed: bool,
+        key: &mut KeyCode,
+    ) {
         let named = self.prompt.num_named;
         let limit = if named > 0 { named } else { self.prompt.objects.len() };
         let mut taken: Vec<usize> = Vec::new();
-        for rank in 0..MAX_SUBJECTS {
+        for (rank, place) in pointers.clone().enumerate() {
             let must = needed && rank == 0 && limit > 0;
             let allowed = |pointer: usize| match pointer {
                 0 => !must,
                 pointer => pointer <= limit && !taken.contains(&pointer),
             };
-            let pointer = self.choose(choice, &scores[first + rank], allowed).unwrap_or(0);
+            let pointer = self.choose(choice, &scores[place], allowed).unwrap_or(0);
             if pointer == 0 {
                 break;
             }
             taken.push(pointer);
         }
-        for rank in 0..MAX_SUBJECTS {
-            key.objects[first + rank] = Some(taken.get(rank).map_or(0, |pointer| *pointer as u8));
+        for (rank, place) in pointers.enumerate() {
+            key.objects[place] = Some(taken.get(rank).map_or(0, |pointer| *pointer as u8));
         }
     }
 
-    /// Pointer at a quantity that is a time (`time`) or another kind. Only a time may be omitted (pointer 0).
-    fn quantity(&mut self, choice: Choice, scores: &[f32], time: bool) -> Option<usize> {
-        let is_time = &self.rules.is_time;
+    /// Pointer at a quantity of a kind that `fits`; `optional` allows none (pointer 0).
+    fn quantity(
+        &mut self,
+        choice: Choice,
+        scores: &[f32],
+        optional: bool,
+        fits: impl Fn(QuantityKind) -> bool,
+    ) -> Option<usize> {
+        let kinds = &self.rules.kinds;
+        if optional && !kinds.iter().any(|kind| fits(*kind)) {
+            return Some(0);
+        }
         let allowed = |pointer: usize| match pointer.checked_sub(1) {
-            None => time,
-            Some(idx) => is_time.get(idx) == Some(&time),
+            None => optional,
+            Some(idx) => kinds.get(idx).is_some_and(|kind| fits(*kind)),
         };
         self.choose(choice, scores, allowed)
     }
@@ -233,6 +289,31 @@ impl<'a> Chooser<'a> {
         self.log_likelihood += WORDS_WEIGHT * (log_softmax(&scores[0], first) + log_softmax(&scores[1], last));
         Some([first, last])
     }
+}
+
+fn is_time(kind: QuantityKind) -> bool {
+    kind == QuantityKind::Seconds
+}
+
+fn is_angle(kind: QuantityKind) -> bool {
+    kind == QuantityKind::Degrees
+}
+
+fn is_length(kind: QuantityKind) -> bool {
+    kind == QuantityKind::Units
+}
+
+fn is_share(kind: QuantityKind) -> bool {
+    kind == QuantityKind::Percent
+}
+
+fn is_focal_length(kind: QuantityKind) -> bool {
+    kind == QuantityKind::Millimeters
+}
+
+/// Whether a quantity can be the extent of a move.
+fn is_extent(kind: QuantityKind) -> bool {
+    matches!(kind, QuantityKind::Degrees | QuantityKind::Units | QuantityKind::Factor)
 }
 
 /// Log-probability of one option.

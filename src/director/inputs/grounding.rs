@@ -28,9 +28,9 @@ pub(super) struct TokenSource {
 }
 
 impl Grounding {
-    /// For each quantity, whether it is a time.
-    pub(crate) fn is_time(&self) -> Vec<bool> {
-        self.quantities.iter().map(|quantity| quantity.kind == QuantityKind::Seconds).collect()
+    /// Kind of each quantity.
+    pub(crate) fn kinds(&self) -> Vec<QuantityKind> {
+        self.quantities.iter().map(|quantity| quantity.kind).collect()
     }
 
     /// For each token, whether it begins a word of `text` (the linked text) that names a camera move.
@@ -65,11 +65,16 @@ impl Grounding {
         }
     }
 
-    /// The quantity at an index as an amount; `None` for a time.
+    /// The value of the quantity at an index.
+    pub(crate) fn value(&self, idx: usize) -> Option<f64> {
+        self.quantities.get(idx).map(|quantity| quantity.value)
+    }
+
+    /// The quantity at an index as an amount; `None` for kinds that are none.
     pub(crate) fn amount(&self, idx: usize) -> Option<Amount> {
         let quantity = self.quantities.get(idx)?;
         match quantity.kind {
-            QuantityKind::Seconds => None,
+            QuantityKind::Seconds | QuantityKind::Percent | QuantityKind::Millimeters => None,
             QuantityKind::Degrees => Some(Amount::Degrees(quantity.value)),
             QuantityKind::Units => Some(Amount::Units(quantity.value)),
             QuantityKind::Factor => Some(Amount::Factor(quantity.value)),
@@ -88,6 +93,30 @@ impl Grounding {
         self.quantities.get(idx).filter(is_time).map(|quantity| quantity.value)
     }
 
+    /// For each token, whether it begins in one of these byte ranges of the prompt.
+    pub fn tokens_in(&self, ranges: &[[usize; 2]]) -> Vec<bool> {
+        let inside = |token: &TokenSource| {
+            token.word.is_some() && ranges.iter().any(|[start, end]| (start..end).contains(&&token.bytes[0]))
+        };
+        self.tokens.iter().map(inside).collect()
+    }
+
+    /// Byte ranges of the prompt of the marked tokens; consecutive ones make one range.
+    pub(crate) fn ranges_of(&self, marked: &[bool]) -> Vec<[usize; 2]> {
+        let mut ranges: Vec<[usize; 2]> = Vec::new();
+        let mut continues = false;
+        for (token, is_marked) in self.tokens.iter().zip(marked) {
+            let is_marked = *is_marked && token.word.is_some();
+            match ranges.last_mut() {
+                Some(last) if is_marked && continues => last[1] = last[1].max(token.bytes[1]),
+                _ if is_marked => ranges.push(token.bytes),
+                _ => {}
+            }
+            continues = is_marked;
+        }
+        ranges
+    }
+
     /// First and last token of a byte range of the prompt.
     pub(crate) fn token_range(&self, bytes: [usize; 2]) -> Option<[usize; 2]> {
         let inside = |token: &TokenSource| token.bytes[0] < bytes[1] && token.bytes[1] > bytes[0];
@@ -103,7 +132,7 @@ impl Grounding {
     }
 
     /// Index of the quantity of this kind and value: the first within `span`, else the first of all.
-    fn quantity_idx(&self, kind: QuantityKind, value: f64, span: Option<[usize; 2]>) -> Option<usize> {
+    pub(crate) fn quantity_idx(&self, kind: QuantityKind, value: f64, span: Option<[usize; 2]>) -> Option<usize> {
         let fits = |quantity: &Quantity| {
             quantity.kind == kind && (quantity.value - value).abs() <= 1e-6 * value.abs().max(1.0)
         };

@@ -57,5 +57,7 @@ fn kind_number(kind: QuantityKind) -> u32 {
         QuantityKind::Degrees => 2,
         QuantityKind::Units => 3,
         QuantityKind::Factor => 4,
+        QuantityKind::Percent => 5,
+        QuantityKind::Millimeters => 6,
     }
 }

@@ -122,6 +122,11 @@ impl Vocabulary {
         self.tokenizer.to_string(false).map_err(|error| bad(&error))
     }
 
+    /// Text and id of every token.
+    pub fn pieces(&self) -> BTreeMap<String, u32> {
+        self.tokenizer.get_vocab(true).into_iter().collect()
+    }
+
     /// Number of tokens.
     pub fn size(&self) -> usize {
         self.tokenizer.get_vocab_size(true)

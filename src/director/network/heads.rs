@@ -27,6 +27,8 @@ pub struct Scores {
     pub quantities: Tensor,
     /// First token and last token of the span: `[batch, keys, 2, tokens]`
     pub words: Tensor,
+    /// Per token, whether the notation can say it: yes, no: `[batch, tokens, 2]`
+    pub unmet: Tensor,
     /// Length of the film: nothing, then each quantity: `[batch, 1, 1, 1 + quantities]`
     pub film_length: Tensor,
 }
@@ -93,6 +95,7 @@ pub(super) struct Heads {
     quantities: Pointer,
     words: Pointer,
     film_length: Pointer,
+    unmet: Linear,
 }
 
 impl Heads {
@@ -105,7 +108,13 @@ impl Heads {
             quantities: Pointer::with_nothing(parameters, "head.quantities", QUANTITY_POINTERS, quantity)?,
             words: Pointer::new(parameters, "head.words", 2, quantity)?,
             film_length: Pointer::with_nothing(parameters, "head.film", 1, quantity)?,
+            unmet: Linear::biased(parameters, "head.unmet", width, 2)?,
         })
+    }
+
+    /// Per token, scores of "the notation can say it" and "it cannot": `[batch, tokens, 2]`
+    pub(super) fn unmet(&self, memory: &Memory) -> Result<Tensor> {
+        self.unmet.apply(&memory.text)
     }
 
     /// Scores of the keys that `states` predict.
@@ -119,6 +128,7 @@ impl Heads {
             objects: self.objects.apply(states, &objects, &batch.object_exists)?,
             quantities: self.quantities.apply(states, &quantities, &batch.quantity_exists)?,
             words: self.words.apply(states, &memory.text, &batch.token_exists)?,
+            unmet: self.unmet(memory)?,
             film_length: self.film_length.apply(&whole, &quantities, &batch.quantity_exists)?,
         })
     }

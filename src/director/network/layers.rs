@@ -33,7 +33,8 @@ impl Dropout {
         Self { rate, rng: (rate > 0.0).then(|| RefCell::new(rng)) }
     }
 
-    fn apply(&self, input: &Tensor) -> Result<Tensor> {
+    /// The input with random values set to zero.
+    pub(crate) fn apply(&self, input: &Tensor) -> Result<Tensor> {
         let Some(rng) = &self.rng else { return Ok(input.clone()) };
         let keep = 1.0 - self.rate;
         // One random byte per value: the rate is exact to 1/256.
@@ -48,7 +49,7 @@ impl Dropout {
 
 /// `x W + b`.
 #[derive(Debug, Clone)]
-pub(super) struct Linear {
+pub(crate) struct Linear {
     /// `[in, out]`
     weight: Tensor,
     /// `[out]`
@@ -57,7 +58,7 @@ pub(super) struct Linear {
 
 impl Linear {
     /// Without a bias.
-    pub(super) fn new(parameters: &mut Parameters, name: &str, from: usize, to: usize) -> Result<Self> {
+    pub(crate) fn new(parameters: &mut Parameters, name: &str, from: usize, to: usize) -> Result<Self> {
         Self::scaled(parameters, name, [from, to], 1.0)
     }
 
@@ -68,13 +69,13 @@ impl Linear {
     }
 
     /// With a bias, initially zero.
-    pub(super) fn biased(parameters: &mut Parameters, name: &str, from: usize, to: usize) -> Result<Self> {
+    pub(crate) fn biased(parameters: &mut Parameters, name: &str, from: usize, to: usize) -> Result<Self> {
         let bias = parameters.get(&format!("{name}.bias"), &[to], Start::Constant(0.0))?;
         Ok(Self { bias: Some(bias), ..Self::new(parameters, name, from, to)? })
     }
 
     /// Applies to the last dimension.
-    pub(super) fn apply(&self, input: &Tensor) -> Result<Tensor> {
+    pub(crate) fn apply(&self, input: &Tensor) -> Result<Tensor> {
         let mut shape = input.dims().to_vec();
         let (from, to) = self.weight.dims2()?;
         let rows = input.elem_count() / from;
@@ -92,32 +93,32 @@ impl Linear {
 
 /// Root-mean-square normalization with a learned gain.
 #[derive(Debug, Clone)]
-pub(super) struct Norm {
+pub(crate) struct Norm {
     gain: Tensor,
 }
 
 impl Norm {
-    pub(super) fn new(parameters: &mut Parameters, name: &str, width: usize) -> Result<Self> {
+    pub(crate) fn new(parameters: &mut Parameters, name: &str, width: usize) -> Result<Self> {
         Ok(Self { gain: parameters.get(&format!("{name}.gain"), &[width], Start::Constant(1.0))? })
     }
 
-    pub(super) fn apply(&self, input: &Tensor) -> Result<Tensor> {
+    pub(crate) fn apply(&self, input: &Tensor) -> Result<Tensor> {
         RmsNorm.apply(input, &self.gain)
     }
 }
 
 /// Which keys a query may attend to.
 #[derive(Debug, Clone)]
-pub(super) struct Visibility {
+pub(crate) struct Visibility {
     /// Whether a key exists: `[batch * keys]`
-    pub(super) exists: Arc<[bool]>,
+    pub(crate) exists: Arc<[bool]>,
     /// Whether a query attends only to keys at its own position and before.
-    pub(super) causal: bool,
+    pub(crate) causal: bool,
 }
 
 /// Attention with its normalization and residual connection.
 #[derive(Debug, Clone)]
-pub(super) struct AttentionLayer {
+pub(crate) struct AttentionLayer {
     norm: Norm,
     query: Linear,
     key_value: Linear,
@@ -129,13 +130,13 @@ pub(super) struct AttentionLayer {
 
 impl AttentionLayer {
     /// Self-attention over a sequence, with a learned bias per distance.
-    pub(super) fn over_sequence(parameters: &mut Parameters, name: &str, width: usize, heads: usize) -> Result<Self> {
+    pub(crate) fn over_sequence(parameters: &mut Parameters, name: &str, width: usize, heads: usize) -> Result<Self> {
         let bias = parameters.get(&format!("{name}.distance"), &[heads, 2 * REACH + 1], Start::Normal(0.1))?;
         Self::new(parameters, name, [width, heads], bias)
     }
 
     /// Cross-attention over a memory without order.
-    pub(super) fn over_memory(parameters: &mut Parameters, name: &str, width: usize, heads: usize) -> Result<Self> {
+    pub(crate) fn over_memory(parameters: &mut Parameters, name: &str, width: usize, heads: usize) -> Result<Self> {
         let bias = Tensor::zeros((heads, 1), candle_core::DType::F32, &Device::Cpu)?;
         Self::new(parameters, name, [width, heads], bias)
     }
@@ -152,7 +153,7 @@ impl AttentionLayer {
     }
 
     /// `x + attention(norm(x))`. Keys and values come from `memory`, or from `norm(x)` without one.
-    pub(super) fn apply(
+    pub(crate) fn apply(
         &self,
         x: &Tensor,
         memory: Option<&Tensor>,
@@ -169,14 +170,14 @@ impl AttentionLayer {
 
 /// Two linear layers with a `SiLU` between them, normalization and residual connection.
 #[derive(Debug, Clone)]
-pub(super) struct FeedForward {
+pub(crate) struct FeedForward {
     norm: Norm,
     up: Linear,
     down: Linear,
 }
 
 impl FeedForward {
-    pub(super) fn new(parameters: &mut Parameters, name: &str, width: usize, hidden: usize) -> Result<Self> {
+    pub(crate) fn new(parameters: &mut Parameters, name: &str, width: usize, hidden: usize) -> Result<Self> {
         Ok(Self {
             norm: Norm::new(parameters, &format!("{name}.norm"), width)?,
             up: Linear::new(parameters, &format!("{name}.up"), width, hidden)?,
@@ -184,7 +185,7 @@ impl FeedForward {
         })
     }
 
-    pub(super) fn apply(&self, x: &Tensor, dropout: &Dropout) -> Result<Tensor> {
+    pub(crate) fn apply(&self, x: &Tensor, dropout: &Dropout) -> Result<Tensor> {
         let hidden = Activation::Silu.forward(&self.up.apply(&self.norm.apply(x)?)?)?;
         x.add(&dropout.apply(&self.down.apply(&hidden)?)?)
     }

@@ -22,7 +22,9 @@ pub use decoder::Memory;
 pub use heads::Scores;
 pub use key_batch::{KeyBatch, anchor_objects};
 pub use layers::Dropout;
+pub(crate) use layers::{AttentionLayer, FeedForward, Linear, Norm, Visibility};
 pub use parameters::Parameters;
+pub(crate) use parameters::Start;
 pub use prompt_batch::PromptBatch;
 
 use candle_core::{Result, Tensor};
@@ -97,6 +99,14 @@ impl Network {
     /// A candle error when a tensor operation fails.
     pub fn scores(&self, states: &Tensor, memory: &Memory, batch: &PromptBatch) -> Result<Scores> {
         self.heads.apply(states, memory, batch)
+    }
+
+    /// Per token, scores of "the notation can say it" and "it cannot": `[batch, tokens, 2]`
+    ///
+    /// # Errors
+    /// A candle error when a tensor operation fails.
+    pub fn unmet(&self, memory: &Memory) -> Result<Tensor> {
+        self.heads.unmet(memory)
     }
 
     /// Poses of keys, `[batch, keys, POSE_WIDTH]`; positions are relative to the anchor. `states` are those that predicted

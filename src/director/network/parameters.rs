@@ -8,7 +8,7 @@ use rand_pcg::Pcg64Mcg;
 
 /// Initial values of fresh parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Start {
+pub(crate) enum Start {
     /// Normally distributed with this standard deviation, mean 0.
     Normal(f32),
     /// All equal.
@@ -39,7 +39,7 @@ impl Parameters {
     }
 
     /// The parameter of this name and shape, as `f32`.
-    pub(super) fn get(&mut self, name: &str, shape: &[usize], start: Start) -> Result<Tensor> {
+    pub(crate) fn get(&mut self, name: &str, shape: &[usize], start: Start) -> Result<Tensor> {
         match self {
             Self::Fresh { rng, vars } => {
                 let var = Var::from_vec(draw(rng, shape.iter().product(), start), shape, &Device::Cpu)?;

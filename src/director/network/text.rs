@@ -8,7 +8,7 @@ use super::parameters::{Parameters, Start};
 use super::prompt_batch::PromptBatch;
 
 /// Number of kinds of quantities, plus one for all other tokens.
-const NUM_KINDS: usize = 5;
+const NUM_KINDS: usize = 7;
 
 /// Embedding table and bidirectional layers.
 #[derive(Debug, Clone)]

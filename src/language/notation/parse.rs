@@ -1,8 +1,12 @@
-use cinesplat_operator::{Amount, Framing, Pass, Program, Speed, Step, SubjectPart, Via};
+use cinesplat_operator::{
+    Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step, SubjectPart,
+    SubjectSide, Via,
+};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 use strum::VariantArray;
 
 use super::error::NotationError;
+use super::print::NO_STEPS;
 
 /// Object ids of a name in the notation; `None` for an unknown name.
 type Resolve<'a> = dyn Fn(&str) -> Option<Vec<u32>> + 'a;
@@ -52,13 +56,17 @@ pub fn program_from_notation(text: &str) -> Result<Program, NotationError> {
     let (steps, rest) = text.split_once('|').unwrap_or((text, ""));
     let resolve = |name: &str| name.parse().ok().map(|id| vec![id]);
     let mut program = Program::default();
-    for step in steps.split(" / ") {
+    for step in steps.split(" / ").filter(|step| step.trim() != NO_STEPS) {
         let tokens: Vec<&str> = step.split_whitespace().collect();
         program.steps.push(step_from_notation(&tokens, &resolve)?);
     }
     for token in rest.split_whitespace() {
         let unknown = || NotationError::UnknownToken { token: token.to_owned() };
-        program.duration_secs = Some(seconds(token.strip_prefix("total=").ok_or_else(unknown)?)?);
+        match token.split_once('=') {
+            Some(("total", value)) => program.duration_secs = Some(seconds(value)?),
+            Some(("no", value)) => program.forbidden = forbidden(value).ok_or_else(unknown)?,
+            _ => return Err(unknown()),
+        }
     }
     Ok(program)
 }
@@ -81,10 +89,13 @@ struct StepParser {
     /// Name of the move, perhaps without its direction.
     movement: Option<String>,
     direction: Option<Direction>,
-    with: Option<Move>,
+    with: Vec<Move>,
     start: Framing,
     end: Framing,
     via: Option<Via>,
+    look: Option<Look>,
+    keep: Vec<u32>,
+    avoid: Vec<u32>,
     amount: Option<Amount>,
     duration_secs: Option<f64>,
     speed: Option<Speed>,
@@ -148,7 +159,21 @@ impl StepParser {
             "amount" => set_once(&mut self.amount, amount(value).ok_or_else(unknown)?, value),
             "dur" => set_once(&mut self.duration_secs, seconds(value)?, value),
             "ease" => set_once(&mut self.easing, value.parse().map_err(|_| unknown())?, value),
-            "with" => set_once(&mut self.with, value.parse().map_err(|_| unknown())?, value),
+            "look" => set_once(&mut self.look, look(value, resolve)?, &token()),
+            "keep" => {
+                self.keep.extend(objects(value, resolve)?);
+                Ok(())
+            }
+            "avoid" => {
+                self.avoid.extend(objects(value, resolve)?);
+                Ok(())
+            }
+            "with" => {
+                for name in value.split('+') {
+                    self.with.push(move_from_name(name, None)?.0);
+                }
+                if self.with.len() > MAX_SECOND_MOVES { Err(unknown()) } else { Ok(()) }
+            }
             _ => Err(unknown()),
         }
     }
@@ -169,6 +194,9 @@ impl StepParser {
             start: self.start,
             end: self.end,
             via: self.via,
+            look: self.look,
+            keep: self.keep,
+            avoid: self.avoid,
             amount: self.amount,
             duration_secs: self.duration_secs,
             speed: self.speed.unwrap_or_default(),
@@ -235,9 +263,65 @@ fn qualify(framing: &mut Framing, value: &str) -> Result<(), NotationError> {
     if let Ok(angle) = value.parse::<ShotAngle>() {
         return set_once(&mut framing.angle, angle, value);
     }
-    let unknown = |_| NotationError::UnknownFraming { qualifier: value.to_owned() };
-    framing.part = value.parse::<SubjectPart>().map_err(unknown)?;
-    Ok(())
+    if let Ok(side) = value.parse::<SubjectSide>() {
+        return set_once(&mut framing.side, side, value);
+    }
+    if let Ok(place) = value.parse::<FramePlace>() {
+        return set_once(&mut framing.place, place, value);
+    }
+    if let Some(lens) = lens(value) {
+        return set_once(&mut framing.lens, lens, value);
+    }
+    if let Ok(part) = value.parse::<SubjectPart>() {
+        framing.part = part;
+        return Ok(());
+    }
+    if value == "hidden" {
+        framing.hidden = true;
+        return Ok(());
+    }
+    let unknown = || NotationError::UnknownFraming { qualifier: value.to_owned() };
+    if let Some(percent) = measure(value, "", "%") {
+        return set_once(&mut framing.height_frac, percent / 100.0, value);
+    }
+    if let Some(degrees) = measure(value, "", "deg") {
+        return set_once(&mut framing.elevation_deg, degrees, value);
+    }
+    if let Some(height) = measure(value, "h", "u") {
+        return set_once(&mut framing.height, height, value);
+    }
+    set_once(&mut framing.distance, measure(value, "d", "u").ok_or_else(unknown)?, value)
+}
+
+/// The number between a prefix and a unit.
+fn measure(value: &str, prefix: &str, unit: &str) -> Option<f64> {
+    let number: f64 = value.strip_prefix(prefix)?.strip_suffix(unit)?.parse().ok()?;
+    number.is_finite().then_some(number)
+}
+
+fn lens(value: &str) -> Option<Lens> {
+    match value {
+        "wide-lens" => Some(Lens::Wide),
+        "long-lens" => Some(Lens::Long),
+        _ => measure(value, "", "mm").map(Lens::FocalMm).or_else(|| measure(value, "", "fov").map(Lens::FovDeg)),
+    }
+}
+
+fn look(value: &str, resolve: &Resolve) -> Result<Look, NotationError> {
+    match value {
+        "ahead" => Ok(Look::Ahead),
+        "back" => Ok(Look::Back),
+        "room" => Ok(Look::Room),
+        names => Ok(Look::At(objects(names, resolve)?)),
+    }
+}
+
+/// The forbidden motions of a list, each once, in the order of [`Motion`].
+fn forbidden(list: &str) -> Option<Vec<Motion>> {
+    let mut motions: Vec<Motion> = list.split('+').map(|name| name.parse().ok()).collect::<Option<_>>()?;
+    motions.sort_unstable();
+    motions.dedup();
+    Some(motions)
 }
 
 fn objects(names: &str, resolve: &Resolve) -> Result<Vec<u32>, NotationError> {

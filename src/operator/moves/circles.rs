@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use crate::composition::side_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Target, bearing_of};
 use crate::motion::MotionSegment;
@@ -22,10 +23,10 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
         Move::OrbitLeft | Move::ArcLeft => 1.0,
         _ => -1.0,
     });
-    let degrees = orbit_deg(context);
     let pivot = target.center;
     let away = first.pose.position - pivot;
     let frame = &context.world.frame;
+    let degrees = deg_to_side(context, &target, frame.azimuth(away), sign).unwrap_or_else(|| orbit_deg(context));
     let (radius, rise) = (frame.horizontal(away).length(), frame.height(away));
     let from = frame.azimuth(away);
     let count = (degrees / DEG_PER_KEY).ceil().max(2.0) as usize;
@@ -49,6 +50,15 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     }
     segments.push(require_visible(segment, &target, Scope::All));
     segments
+}
+
+/// Angle of an orbit that ends on a stated side of its subject: at least 20 degrees. `None` where the prompt states no
+/// side, or an angle.
+fn deg_to_side(context: &StepContext, target: &Target, from_rad: f64, sign: f64) -> Option<f64> {
+    let side = context.step.end.side.filter(|_| context.step.amount.is_none())?;
+    let turn = |to: f64| ((to - from_rad) * sign).rem_euclid(std::f64::consts::TAU).to_degrees();
+    let turns = side_azimuths(context.world, target.center, side).into_iter().map(turn);
+    Some(turns.map(|deg| if deg < 20.0 { deg + 360.0 } else { deg }).fold(f64::INFINITY, f64::min))
 }
 
 /// Angle of an orbit: the stated one, or the usual meaning of its words.
@@ -125,16 +135,26 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
         Some(ShotAngle::Worm) => -45.0,
         None => start + sign * lerp((18.0, 38.0), context.parameters[6]),
     };
+    let asked = context.step.end.elevation_deg.unwrap_or(asked);
     // For every end angle a crane must rise or sink visibly.
     let least = start + sign * MIN_CRANE_DEG;
-    let elevation = if upward { asked.max(least) } else { asked.min(least) };
+    let elevation = match (context.step.end.elevation_deg, upward) {
+        (Some(stated), _) if (stated - start) * sign > 0.0 => stated,
+        (_, true) => asked.max(least),
+        (_, false) => asked.min(least),
+    };
+    let to_height =
+        context.step.end.height.map(|height| height - context.world.height_above_floor(first.pose.position));
     let rise = match context.step.amount {
         Some(Amount::Units(units)) => sign * units,
         Some(Amount::Slight) => sign * 0.22 * distance,
         Some(Amount::Large) => sign * 1.2 * distance,
+        _ if to_height.is_some_and(|rise| rise * sign > 0.0) => to_height.unwrap_or_default(),
         _ => (level.length() * elevation.clamp(-70.0, 70.0).to_radians().tan()) - frame.height(away),
     };
     // The jib swings toward the subject as it rises.
-    let swing: DVec3 = -level * lerp((0.0, 0.3), context.parameters[7]) * rise.abs() / (rise.abs() + distance);
+    let swings = context.step.end.elevation_deg.is_none();
+    let swing: DVec3 = f64::from(u8::from(swings)) * -level * lerp((0.0, 0.3), context.parameters[7]) * rise.abs()
+        / (rise.abs() + distance);
     aimed(context.world, &moved(first, frame.up * rise + swing), target.aim)
 }

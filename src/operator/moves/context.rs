@@ -2,10 +2,12 @@
 
 use glam::DVec3;
 
+use super::standing_view::{Standing, standing_view};
+use crate::composition::lens_fov_deg;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Target, off_center};
 use crate::motion::{MotionSegment, StepParameters};
-use crate::program::{Framing, Program, Speed, Step};
+use crate::program::{Framing, Motion, Pass, Program, Speed, Step, SubjectSide};
 use crate::suggestion::StepCameras;
 use crate::view::{ViewRange, aimed, azimuth_across, broadside_azimuths, opening_view};
 use crate::world::World;
@@ -18,6 +20,7 @@ const VISIBLE_FRAC: f64 = 0.6;
 pub(super) const TURN_DEG_PER_SEC: f64 = 17.0;
 
 /// A step with everything that its geometry depends on.
+#[derive(Clone)]
 pub(crate) struct StepContext<'a> {
     pub(super) world: &'a World,
     pub(super) step: &'a Step,
@@ -40,6 +43,8 @@ pub(crate) struct StepContext<'a> {
     /// Azimuths of the opening view that suit this step and those after it.
     pub(super) azimuths_rad: Vec<f64>,
     pub(super) parameters: &'a StepParameters,
+    /// Motions that the prompt forbids.
+    pub(super) forbidden: &'a [Motion],
 }
 
 impl<'a> StepContext<'a> {
@@ -61,7 +66,21 @@ impl<'a> StepContext<'a> {
         let earlier = (0..index).rev().find_map(named);
         let azimuths_rad = preferred_azimuths(world, program, index);
         let is_last = program.steps.get(index + 1).is_none_or(|next| next.cut);
-        Self { world, step, index, is_last, before, origin, start, end, earlier, suggestion, azimuths_rad, parameters }
+        Self {
+            world,
+            step,
+            index,
+            is_last,
+            before,
+            origin,
+            start,
+            end,
+            earlier,
+            suggestion,
+            azimuths_rad,
+            parameters,
+            forbidden: &program.forbidden,
+        }
     }
 
     /// The step's main target: that of its end, else of its start, else of an earlier step, else the scene.
@@ -77,10 +96,60 @@ impl<'a> StepContext<'a> {
 
     /// The framing at the step's start.
     pub(super) fn opening_framing(&self) -> Framing {
-        if self.start.is_some() || self.step.start.size.is_some() || self.step.start.angle.is_some() {
-            return self.step.start.clone();
+        let (start, end) = (&self.step.start, &self.step.end);
+        let mut framing = if self.start.is_some() || start.size.is_some() || start.angle.is_some() {
+            start.clone()
+        } else if is_composed(start) {
+            Framing { angle: start.angle.or(end.angle), ..start.clone() }
+        } else {
+            Framing { angle: end.angle, ..Framing::default() }
+        };
+        framing.side = framing.side.or(self.passed_side());
+        self.inherit(&mut framing);
+        framing
+    }
+
+    /// The side of the passed object from which a truck that goes behind or in front of it sees it.
+    fn passed_side(&self) -> Option<SubjectSide> {
+        let truck = matches!(self.step.movement, Move::TruckLeft | Move::TruckRight);
+        match self.step.via.as_ref().filter(|_| truck)?.how {
+            Pass::Behind => Some(SubjectSide::FromBack),
+            Pass::Front => Some(SubjectSide::FromFront),
+            _ => None,
         }
-        Framing { angle: self.step.end.angle, ..Framing::default() }
+    }
+
+    /// Completes the framing at the start with what the move keeps until the end, where the prompt states it for the end
+    /// alone.
+    pub(super) fn inherit(&self, framing: &mut Framing) {
+        let end = &self.step.end;
+        framing.lens = framing.lens.or(end.lens.filter(|_| !is_lens_move(self.step.movement)));
+        let same = framing.subjects.is_empty() || end.subjects.is_empty() || framing.subjects[0] == end.subjects[0];
+        if !same {
+            return;
+        }
+        let keeps = |quantity: Quantity| kept(self.step.movement).contains(&quantity);
+        framing.side = framing.side.or(end.side.filter(|_| keeps(Quantity::Side)));
+        framing.elevation_deg = framing.elevation_deg.or(end.elevation_deg.filter(|_| keeps(Quantity::Elevation)));
+        framing.height = framing.height.or(end.height.filter(|_| keeps(Quantity::Height)));
+        if keeps(Quantity::Distance) {
+            framing.distance = framing.distance.or(end.distance);
+            framing.height_frac = framing.height_frac.or(end.height_frac.filter(|_| !is_lens_move(self.step.movement)));
+        }
+    }
+
+    /// Vertical field of view at the step's end: the stated lens, or else that of its first camera.
+    pub(super) fn end_fov_rad(&self, first: &CameraState) -> f64 {
+        self.step.end.lens.map_or(first.fov_y_rad, |lens| {
+            let (low, high) = lens_fov_deg(lens);
+            let kept = first.fov_y_rad.to_degrees();
+            if (low..=high).contains(&kept) { first.fov_y_rad } else { low.midpoint(high).to_radians() }
+        })
+    }
+
+    /// The step as far as a stated place of the camera needs it.
+    pub(super) fn standing(&self) -> Standing<'a> {
+        Standing { world: self.world, step: self.step, parameters: self.parameters }
     }
 
     /// An opening view of `target`. `fill` and `fov_deg` are the ranges of size and field of view where the prompt
@@ -92,13 +161,27 @@ impl<'a> StepContext<'a> {
         fill: (f64, f64),
         fov_deg: (f64, f64),
     ) -> CameraState {
+        if let Some(view) = standing_view(&self.standing(), target, framing, fill, fov_deg) {
+            return view;
+        }
         let mut azimuths_rad = self.azimuths_rad.clone();
         azimuths_rad.extend(broadside_azimuths(&self.world.frame, &target.corners));
-        let close = framing.size.is_some_and(|size| size.height_band_frac().0 >= 0.8);
+        let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
+        let close = height.is_some_and(|height| height >= 0.8);
         // Close views use a long lens, so that the camera does not have to stand inside its subject.
         let fov_deg = if close { (fov_deg.0.min(18.0), fov_deg.1.min(44.0)) } else { fov_deg };
+        let (fill, fov_deg) = self.widened(fill, fov_deg);
         let range = ViewRange { fill, fov_deg, azimuths_rad };
         opening_view(self.world, target, framing, &range, self.suggestion, self.parameters)
+    }
+
+    /// The ranges of size and field of view, widened where the step keeps objects in view or avoids them: farther and
+    /// wider views hold more, nearer and narrower ones less.
+    fn widened(&self, (small, large): (f64, f64), (narrow, wide): (f64, f64)) -> ((f64, f64), (f64, f64)) {
+        let (keeps, avoids) = (!self.step.keep.is_empty(), !self.step.avoid.is_empty());
+        let fill = (if keeps { 0.6 * small } else { small }, if avoids { (2.0 * large).min(0.9) } else { large });
+        let fov_deg = (if avoids { 0.5 * narrow } else { narrow }, if keeps { wide.max(74.0) } else { wide });
+        (fill, fov_deg)
     }
 
     /// The camera where the step's own motion begins, aimed at `target`, and a join that turns to it where needed.
@@ -113,7 +196,8 @@ impl<'a> StepContext<'a> {
     /// it is.
     pub(super) fn turned_to(&self, before: &CameraState, point: DVec3) -> (Vec<MotionSegment>, CameraState) {
         let turned = aimed(self.world, before, point);
-        if off_center(before, point) < 0.03 {
+        let forbidden = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
+        if off_center(before, point) < 0.03 || self.forbidden.iter().any(forbidden) {
             return (Vec::new(), *before);
         }
         let angle_deg = rotation::angle_between(before.pose.rotation, turned.pose.rotation).to_degrees();
@@ -164,6 +248,48 @@ impl<'a> StepContext<'a> {
         }
         segment
     }
+}
+
+/// A quantity of the view of a subject.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Side,
+    Elevation,
+    Height,
+    Distance,
+}
+
+/// What a move keeps of the view of its subject.
+fn kept(movement: Move) -> &'static [Quantity] {
+    use Quantity::{Distance, Elevation, Height, Side};
+    match movement {
+        Move::Static
+        | Move::Handheld
+        | Move::RollCw
+        | Move::RollCcw
+        | Move::ZoomIn
+        | Move::ZoomOut
+        | Move::TruckLeft
+        | Move::TruckRight => &[Side, Elevation, Height, Distance],
+        Move::PushIn | Move::PullOut | Move::DollyZoomIn | Move::DollyZoomOut => &[Side, Elevation],
+        Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => &[Elevation, Height, Distance],
+        Move::PedestalUp | Move::PedestalDown | Move::CraneUp | Move::CraneDown => &[Side],
+        _ => &[],
+    }
+}
+
+fn is_lens_move(movement: Move) -> bool {
+    matches!(movement, Move::ZoomIn | Move::ZoomOut | Move::DollyZoomIn | Move::DollyZoomOut)
+}
+
+/// Whether a framing states more than subjects, size, angle, part and whole.
+fn is_composed(framing: &Framing) -> bool {
+    let numbers = [framing.height_frac, framing.elevation_deg, framing.height, framing.distance];
+    numbers.iter().any(Option::is_some)
+        || framing.lens.is_some()
+        || framing.side.is_some()
+        || framing.place.is_some()
+        || framing.hidden
 }
 
 /// The segment with the first two subjects of a target required to be visible.

@@ -1,11 +1,12 @@
 //! Moves of the lens: zoom, dolly zoom, rack focus.
 
 use super::context::{StepContext, require_visible};
+use crate::composition::lens_fov_deg;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
-use crate::view::{lerp, moved, size_fill, with_fov};
+use crate::view::{lerp, moved, stated_fill, with_fov};
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Narrowest and widest vertical field of view that a move chooses, degrees.
@@ -40,6 +41,7 @@ impl StepContext<'_> {
         let mut framing = self.opening_framing();
         if !inward && self.start.is_none() {
             framing.size = None;
+            framing.height_frac = None;
             framing.whole = false;
         }
         framing
@@ -50,10 +52,15 @@ impl StepContext<'_> {
 fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let open = if inward { lerp((0.42, 0.64), context.parameters[6]) } else { lerp((1.5, 2.2), context.parameters[6]) };
     let height = extent_frac(first, &target.corners).y;
-    let by_size = context.step.end.size.map(|size| match size_fill(size, context.parameters[7]) {
+    let by_size = stated_fill(&context.step.end, context.parameters[7]).map(|fill| match fill {
         Fill::Height(wanted) | Fill::Fit(wanted) => height / wanted,
     });
-    let by_size = by_size.filter(|&ratio| if inward { ratio < 0.9 } else { ratio > 1.1 });
+    let by_lens = context.step.end.lens.map(|lens| {
+        let fov_rad = lerp(lens_fov_deg(lens), context.parameters[7]).to_radians();
+        (fov_rad / 2.0).tan() / (first.fov_y_rad / 2.0).tan()
+    });
+    let zooms = |ratio: &f64| if inward { *ratio < 0.9 } else { *ratio > 1.1 };
+    let by_size = by_lens.filter(zooms).or(by_size.filter(zooms));
     let whole = || {
         let end = context.end.as_ref().filter(|_| context.step.end.whole && !inward)?;
         let ratios = (0..30).map(|i| 1.3 * 1.06_f64.powi(i));

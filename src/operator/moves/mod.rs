@@ -3,11 +3,19 @@
 //! Enters: one step of a program, the camera before it, and the values of its open parameters. Leaves: segments whose
 //! camera states carry out the move exactly.
 
+mod beside;
 mod circles;
+mod compose;
 mod context;
 mod lens;
+mod look;
+mod passes;
 mod paths;
+mod requirements;
+mod standing;
+mod standing_view;
 mod straight;
+mod sway;
 mod turns;
 mod with;
 
@@ -19,9 +27,23 @@ use cinesplat_trajectory::Move;
 
 /// The segments of one step.
 pub(super) fn build(context: &StepContext) -> Vec<MotionSegment> {
+    let Some((join, there)) = standing::arrival(context) else { return built(context) };
+    let mut segments = built(&StepContext { before: Some(there), ..context.clone() });
+    segments.insert(0, join);
+    segments
+}
+
+/// The segments of a step that starts at the camera before, or anywhere.
+fn built(context: &StepContext) -> Vec<MotionSegment> {
     let mut segments =
         if context.step.returns && context.origin.is_some() { paths::back_to_origin(context) } else { family(context) };
-    with::add_second_move(context, &mut segments);
+    with::add_second_moves(context, &mut segments);
+    compose::compose(context, &mut segments);
+    if context.step.look.is_some() {
+        look::look(context, &mut segments);
+        compose::rejoin(context, &mut segments);
+    }
+    requirements::require(context, &mut segments);
     if let Some(first) = segments.first_mut() {
         first.cut = context.step.cut;
     }
@@ -29,7 +51,11 @@ pub(super) fn build(context: &StepContext) -> Vec<MotionSegment> {
 }
 
 fn family(context: &StepContext) -> Vec<MotionSegment> {
-    let passes = context.step.via.as_ref().is_some_and(|via| via.how != Pass::Past);
+    let how = context.step.via.as_ref().map(|via| via.how);
+    if let Some(segments) = how.and_then(|how| passing_a_side(context, how)) {
+        return segments;
+    }
+    let passes = how.is_some_and(|how| !matches!(how, Pass::Past | Pass::From));
     match context.step.movement {
         Move::Static => turns::hold(context),
         Move::Handheld => turns::handheld(context),
@@ -37,7 +63,7 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::TiltUp | Move::TiltDown => turns::tilt(context),
         Move::RollCw | Move::RollCcw => turns::roll(context),
         Move::FlyThrough | Move::PushIn | Move::PullOut | Move::Follow | Move::CraneUp | Move::CraneDown if passes => {
-            paths::passing(context)
+            passes::passing(context)
         }
         Move::PushIn | Move::PullOut => straight::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
@@ -48,6 +74,21 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::DollyZoomIn | Move::DollyZoomOut => lens::dolly_zoom(context),
         Move::RackFocus => lens::rack_focus(context),
         Move::Follow | Move::FlyThrough => paths::follow(context),
+        Move::Reveal if matches!(how, Some(Pass::Under | Pass::Through)) => passes::passing(context),
         Move::Reveal => paths::reveal(context),
+    }
+}
+
+/// The segments of a step that passes an object on a side of it; `None` for every other step.
+fn passing_a_side(context: &StepContext, how: Pass) -> Option<Vec<MotionSegment>> {
+    let along = how == Pass::Along;
+    let beside = along || matches!(how, Pass::Behind | Pass::Front);
+    match context.step.movement {
+        Move::TruckLeft | Move::TruckRight if along => beside::truck_along(context),
+        Move::Reveal if how == Pass::Behind => beside::reveal_from_behind(context),
+        Move::FlyThrough | Move::Follow | Move::PushIn | Move::PullOut | Move::CraneUp | Move::CraneDown if beside => {
+            beside::passing_beside(context)
+        }
+        _ => None,
     }
 }

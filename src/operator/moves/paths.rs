@@ -1,13 +1,15 @@
-//! Moves along a free path: between two views, between or over objects, a reveal, back to the start.
+//! Moves along a free path: between two views, a reveal, back to the start.
 
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::standing::turned_away;
+use crate::composition::{short_turn, side_azimuths};
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
-use crate::framing::{Bearing, DEFAULT_ASPECT, Fill, Target, bearing_of, distance_for, off_center, view_at};
+use crate::framing::{Bearing, DEFAULT_ASPECT, Fill, Target, bearing_of};
 use crate::motion::MotionSegment;
-use crate::program::{Pass, Via};
-use crate::view::{aimed, lerp, moved, size_fill};
+use crate::program::Motion;
+use crate::view::{lerp, moved, stated_fill, view_from};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move};
 
@@ -31,7 +33,7 @@ pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
 
 /// A view of the step's end target with the field of view of its start, so that only the camera's travel changes the
 /// picture.
-fn end_view(context: &StepContext, end: &Target, first: &CameraState) -> CameraState {
+pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState) -> CameraState {
     let world = context.world;
     let near = bearing_of(world, end.aim, first.pose.position);
     let parameters = context.parameters;
@@ -46,17 +48,34 @@ fn end_view(context: &StepContext, end: &Target, first: &CameraState) -> CameraS
         Some(band) => lerp(band, parameters[7]),
         None => (near.elevation_rad.to_degrees() * 0.5 + lerp((-6.0, 20.0), parameters[7]) * 0.7).clamp(-12.0, 40.0),
     };
-    let bearing = Bearing {
-        azimuth_rad: near.azimuth_rad + spread(parameters[5]) * 2.4,
-        elevation_rad: elevation_deg.to_radians(),
+    let framing = &context.step.end;
+    let azimuth_rad = match framing.side {
+        Some(side) => nearest(&side_azimuths(world, end.center, side), near.azimuth_rad) + spread(parameters[5]) * 0.35,
+        None => near.azimuth_rad + spread(parameters[5]) * 2.4,
     };
-    let fill = match context.step.end.size {
-        Some(size) => size_fill(size, parameters[6]),
-        None => Fill::Fit(lerp((0.35, 0.7), parameters[6])),
-    };
-    let fill = if context.step.end.whole { Fill::Fit(lerp((0.5, 0.85), parameters[6])) } else { fill };
-    let distance = distance_for(world, end, bearing, fill, first.fov_y_rad);
-    view_at(world, end.aim, bearing, distance, first.fov_y_rad)
+    let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
+    let bearing = unturned(context, first, Bearing { azimuth_rad, elevation_rad });
+    let fill = stated_fill(framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.35, 0.7), parameters[6])));
+    let loose = framing.whole && framing.height_frac.is_none();
+    let fill = if loose { Fill::Fit(lerp((0.5, 0.85), parameters[6])) } else { fill };
+    view_from(world, (end, framing), bearing, fill, context.end_fov_rad(first))
+}
+
+/// The bearing from which a camera sees the end target without the turns that the prompt forbids.
+fn unturned(context: &StepContext, first: &CameraState, bearing: Bearing) -> Bearing {
+    let forbids = |motions: [Motion; 2]| context.forbidden.iter().any(|motion| motions.contains(motion));
+    let frame = &context.world.frame;
+    let angles = frame.angles(first.pose.rotation);
+    let azimuth_rad =
+        if forbids([Motion::Turn, Motion::Pan]) { frame.azimuth(-first.pose.forward()) } else { bearing.azimuth_rad };
+    let elevation_rad = if forbids([Motion::Turn, Motion::Tilt]) { -angles.pitch_rad } else { bearing.elevation_rad };
+    Bearing { azimuth_rad, elevation_rad }
+}
+
+/// The angle of several that is the shortest turn away from another one.
+fn nearest(angles_rad: &[f64], from_rad: f64) -> f64 {
+    let turn = |angle: &&f64| short_turn(**angle - from_rad).abs();
+    angles_rad.iter().min_by(|a, b| turn(a).total_cmp(&turn(b))).copied().unwrap_or(from_rad)
 }
 
 /// A path from one view to another: straight, or bent sideways or up, so that the search can avoid obstacles.
@@ -100,97 +119,15 @@ pub(super) fn back_to_origin(context: &StepContext) -> Vec<MotionSegment> {
     vec![segment]
 }
 
-/// Passes between two objects or over one, toward the end target.
-pub(super) fn passing(context: &StepContext) -> Vec<MotionSegment> {
-    let Some(gate) = context.step.via.as_ref().and_then(|via| gate(context, via)) else { return follow(context) };
-    let frame = &context.world.frame;
-    let goal = context.end.clone();
-    let (mut segments, first) = match &context.before {
-        Some(before) => context.turned_to(before, gate),
-        None => (Vec::new(), before_gate(context, gate, goal.as_ref())),
-    };
-    let last = match &goal {
-        Some(goal) => {
-            let along = (goal.aim - gate).length();
-            let stop = gate.lerp(goal.aim, lerp((0.25, 0.75), context.parameters[6]));
-            let stop = stop + frame.up * lerp((-0.1, 0.25), context.parameters[7]) * along;
-            aimed(context.world, &moved(&first, stop - first.pose.position), goal.aim)
-        }
-        None => moved(&first, (gate - first.pose.position) * 2.0),
-    };
-    let aim = goal.as_ref().map_or(gate + (gate - first.pose.position) * 4.0, |goal| goal.aim);
-    let middle = aimed(context.world, &moved(&first, gate - first.pose.position), aim);
-    let length = first.pose.position.distance(gate) + gate.distance(last.pose.position);
-    let natural = (length / context.world.bounds.size() * 11.0).clamp(3.0, 8.0);
-    let mut segment = context.segment(vec![first, middle, last], natural);
-    if let Some(goal) = goal {
-        if off_center(&first, goal.aim) < 0.5 {
-            segment = segment.about(goal.aim);
-            segment.states[0] = aimed(context.world, &first, goal.aim);
-            if let Some(join) = segments.last_mut() {
-                let end = join.states.len() - 1;
-                join.states[end] = segment.states[0];
-            }
-        }
-        segment = segment.requiring(Scope::All, ConstraintKind::DistanceRatio(goal.aim, (0.0, 0.57)));
-        segment = segment.requiring(Scope::End, ConstraintKind::Centered(goal.clone(), 0.2));
-        segment = require_visible(context.constrained_at_end(segment), &goal, Scope::End);
-    }
-    segments.push(segment);
-    segments
-}
-
-/// The point to pass through: on the line between two objects, or above one.
-fn gate(context: &StepContext, via: &Via) -> Option<DVec3> {
-    let world = context.world;
-    let frame = &world.frame;
-    let subject = |i: usize| via.objects.get(i).and_then(|&id| world.subject(id));
-    let first = subject(0)?;
-    let top = |corners: &[DVec3]| corners.iter().map(|&c| frame.height(c)).fold(f64::NEG_INFINITY, f64::max);
-    match (via.how, subject(1)) {
-        (Pass::Between, Some(second)) => {
-            let at = first.center.lerp(second.center, lerp((0.3, 0.7), context.parameters[0]));
-            let floor = frame.height(world.bounds.core_min).min(frame.height(world.bounds.core_max));
-            let high = top(&first.corners).max(top(&second.corners));
-            let height = lerp((0.35, 1.05), context.parameters[1]) * (high - floor) + floor;
-            Some(frame.horizontal(at) + frame.up * height)
-        }
-        (Pass::Over, _) => {
-            let rise = top(&first.corners) - frame.height(first.center);
-            let over = rise + world.camera_radius * 2.0 + lerp((0.05, 0.7), context.parameters[1]) * first.radius;
-            Some(first.center + frame.up * over)
-        }
-        _ => None,
-    }
-}
-
-/// The camera before it passes the gate, on the side of the gate away from the goal.
-fn before_gate(context: &StepContext, gate: DVec3, goal: Option<&Target>) -> CameraState {
-    let world = context.world;
-    let frame = &world.frame;
-    let size = world.bounds.size();
-    let heading = match goal {
-        Some(goal) => frame.azimuth(goal.aim - gate),
-        None => context.parameters[2] * std::f64::consts::TAU,
-    };
-    let heading = heading + (context.parameters[2] - 0.5) * 1.2;
-    let back = lerp((0.08, 0.4), context.parameters[3]) * size;
-    let rise = (context.parameters[4] - 0.4) * 0.15 * size;
-    let position = gate - frame.direction(heading) * back + frame.up * rise;
-    let fov_y_rad = lerp((40.0, 58.0), context.parameters[5]).to_radians();
-    let state =
-        CameraState { pose: Pose { position, rotation: glam::DQuat::IDENTITY }, fov_y_rad, focus_distance: None };
-    aimed(world, &state, goal.map_or(gate, |goal| goal.aim))
-}
-
 /// Starts with the subject outside the frame and brings it into view.
 pub(super) fn reveal(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
-    let last = match &context.before {
+    let stood = turned_away(context, &target).filter(|_| context.before.is_none());
+    let last = match context.before.as_ref().or(stood.as_ref()) {
         Some(before) => end_view(context, &target, before),
         None => context.view(&target, &context.step.end, (0.4, 0.7), NORMAL_LENS_DEG),
     };
-    let first = match &context.before {
+    let first = match context.before.as_ref().or(stood.as_ref()) {
         Some(before) => *before,
         None => moved(&last, out_of_frame(context, &last, &target)),
     };
@@ -211,7 +148,7 @@ fn out_of_frame(context: &StepContext, last: &CameraState, target: &Target) -> D
     let (right, up) = (last.pose.right(), context.world.frame.up);
     let aside = right * (half_width * 1.05 + target.radius);
     let aloft = up * (half_height * 1.05 + target.radius);
-    match context.step.with {
+    match context.step.with.first() {
         Some(Move::TruckRight | Move::PanRight | Move::OrbitRight | Move::ArcRight) => -aside,
         Some(Move::TruckLeft | Move::PanLeft | Move::OrbitLeft | Move::ArcLeft) => aside,
         Some(Move::PedestalUp | Move::CraneUp | Move::TiltUp) => -aloft,

@@ -3,11 +3,13 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::passes::gate;
+use super::standing_view::stands;
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
 use crate::framing::{Fill, Target, bearing_of, distance_for, frame_position, in_frame_frac};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing, Pass, SubjectPart};
-use crate::view::{aimed, lerp, moved, size_fill};
+use crate::view::{aimed, distance_along, lerp, moved, stated_fill};
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Time to halve or double the distance.
@@ -19,12 +21,15 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let target =
         if inward { context.main_target() } else { context.start.clone().unwrap_or_else(|| pulled_from(context)) };
     let fill = if inward { (0.2, 0.45) } else { (0.55, 0.95) };
-    let (mut segments, first) =
-        if context.before.is_none() && context.step.start.size.is_none() && !context.step.start.whole {
-            (Vec::new(), open_first(context, &target, inward, fill))
-        } else {
-            context.opened_on(&target, fill)
-        };
+    let (mut segments, first) = if context.before.is_none()
+        && context.step.start.size.is_none()
+        && !context.step.start.whole
+        && !stands(&context.standing())
+    {
+        (Vec::new(), open_first(context, &target, inward, fill))
+    } else {
+        context.opened_on(&target, fill)
+    };
     let distance = first.pose.position.distance(target.aim);
     let ratio = distance_ratio(context, &target, &first, inward);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
@@ -68,11 +73,23 @@ fn pulled_from(context: &StepContext) -> Target {
 fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, f64)) -> CameraState {
     let framing = if context.start.is_some() || !inward { context.step.start.clone() } else { Framing::default() };
     let angle = framing.angle.or(context.step.end.angle);
-    let Some(size) = context.step.end.size.filter(|_| inward) else {
-        return context.view(target, &Framing { angle, ..framing }, fill, NORMAL_LENS_DEG);
-    };
+    let mut framing = Framing { angle, ..framing };
+    context.inherit(&mut framing);
+    let stated = &context.step.end;
+    let sized = stated.size.is_some() || stated.height_frac.is_some() || stated.distance.is_some();
+    let nearer = context.step.start.height_frac.is_none() && context.step.start.distance.is_none();
+    if !(inward && nearer && (sized || stated.height.is_some())) {
+        return context.view(target, &framing, fill, NORMAL_LENS_DEG);
+    }
     // The camera at the end, moved back.
-    let end_framing = Framing { size: Some(size), angle, ..framing };
+    let end_framing = Framing {
+        size: stated.size,
+        height_frac: stated.height_frac,
+        distance: stated.distance,
+        height: stated.height,
+        ..framing
+    };
+    let fill = if sized { fill } else { (0.4, 0.8) };
     let end = context.view(target, &end_framing, fill, NORMAL_LENS_DEG);
     let distance = end.pose.position.distance(target.aim);
     let back = lerp((1.4, 2.8), context.parameters[6]);
@@ -83,8 +100,7 @@ fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, 
 fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let distance = first.pose.position.distance(target.aim);
     let open = if inward { lerp((0.42, 0.66), context.parameters[6]) } else { lerp((1.5, 2.8), context.parameters[6]) };
-    let size = context.step.end.size;
-    let by_size = size.and_then(|size| size_ratio(context, target, first, size));
+    let by_size = size_ratio(context, target, first);
     let by_whole = || whole_ratio(context, first, distance);
     let stated = match context.step.amount {
         Some(Amount::Factor(factor)) => Some(factor),
@@ -98,25 +114,33 @@ fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, i
 }
 
 /// Distance ratio that gives the subject the wanted size at the end; `None` where the camera would move the other way.
-fn size_ratio(context: &StepContext, target: &Target, first: &CameraState, size: ShotSize) -> Option<f64> {
+fn size_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
     let inward = context.step.movement == Move::PushIn;
-    let world = context.world;
+    let (world, end) = (context.world, &context.step.end);
     let subject = context.end.as_ref().unwrap_or(target);
-    let wide = matches!(size, ShotSize::Long | ShotSize::ExtremeLong);
+    let wide = matches!(end.size, Some(ShotSize::Long | ShotSize::ExtremeLong));
     let parameter = match (wide && !inward, inward && context.before.is_none()) {
         (true, _) => 0.55 + 0.45 * context.parameters[6],
         // The parameter that chose the size from which the free start was moved back.
         (false, true) => context.parameters[2],
         (false, false) => context.parameters[6],
     };
-    let fill = match size_fill(size, parameter) {
-        Fill::Height(height) if context.step.end.subjects.is_empty() && wide => Fill::Height(height.min(0.4)),
-        fill => fill,
-    };
     let bearing = bearing_of(world, subject.aim, first.pose.position);
-    let wanted = distance_for(world, subject, bearing, fill, first.fov_y_rad);
+    let wanted = match (end.distance, stated_fill(end, parameter)) {
+        (Some(distance), _) => distance_along(world, subject, bearing, distance),
+        (None, Some(fill)) => {
+            let fill = match fill {
+                Fill::Height(height) if end.subjects.is_empty() && wide => Fill::Height(height.min(0.4)),
+                fill => fill,
+            };
+            distance_for(world, subject, bearing, fill, context.end_fov_rad(first))
+        }
+        (None, None) => return None,
+    };
     let ratio = wanted / first.pose.position.distance(target.aim);
-    let is_consistent = if inward { ratio < 0.9 } else { ratio > 1.1 };
+    let exact = end.distance.is_some() || end.height_frac.is_some();
+    let least = if exact { 0.03 } else { 0.1 };
+    let is_consistent = if inward { ratio < 1.0 - least } else { ratio > 1.0 + least };
     is_consistent.then_some(ratio)
 }
 
@@ -186,7 +210,8 @@ fn slide(
     along: impl Fn(&CameraState) -> DVec3,
     way_to: impl Fn(&StepContext, &Target, &CameraState) -> Option<f64>,
 ) -> Vec<MotionSegment> {
-    let passed = context.step.via.as_ref().filter(|via| via.how == Pass::Past);
+    let beside = |how: Pass| matches!(how, Pass::Past | Pass::Front | Pass::Behind);
+    let passed = context.step.via.as_ref().filter(|via| beside(via.how));
     let passed = passed
         .and_then(|via| Target::of(context.world, &Framing { subjects: via.objects.clone(), ..Framing::default() }));
     let same = matches!((&context.start, &context.end), (Some(a), Some(b)) if a.ids.first() == b.ids.first());
@@ -197,19 +222,23 @@ fn slide(
         (Some(before), None) => (Vec::new(), *before),
         _ => context.opened_on(&target, (0.28, 0.6)),
     };
-    if context.before.is_none() && direction.is_vertical() && context.step.start.angle.is_none() {
+    let placed = context.before.is_some() || stands(&context.standing());
+    if !placed && direction.is_vertical() && context.step.start.angle.is_none() {
         first = leveled(context, &first, &target);
     }
     let distance = first.pose.position.distance(target.aim);
+    let rise = rise_to_height(context, direction, &first);
     let way = match (&context.end, travels) {
+        _ if rise.is_some() => rise.unwrap_or_default(),
         (Some(end), true) => way_to(context, end, &first).unwrap_or(0.0),
         _ => free_slide_length(context, &target, &first, &along, distance),
     };
-    if context.before.is_none() && !travels {
+    if !placed && !travels && rise.is_none() {
         // A truck passes its target halfway; a pedestal starts in front of it.
         let lead = if direction.is_vertical() { 0.12 } else { 0.5 };
         first = moved(&first, -along(&first) * way * lead);
     }
+    first = through_gate(context, &first, along(&first) * way);
     let last = moved(&first, along(&first) * way);
     let natural = (way.abs() / distance.max(1e-9) * 5.0).clamp(2.5, 7.0);
     let mut segment = context.segment(vec![first, last], natural);
@@ -233,6 +262,23 @@ fn slide(
     }
     segments.push(context.constrained_at_end(context.constrained_at_start(segment)));
     segments
+}
+
+/// The first camera of a slide under or through an object: shifted so that the middle of the slide is the gate.
+fn through_gate(context: &StepContext, first: &CameraState, way: DVec3) -> CameraState {
+    let via = context.step.via.as_ref().filter(|via| matches!(via.how, Pass::Under | Pass::Through));
+    match via.filter(|_| context.before.is_none()).and_then(|via| gate(context, via)) {
+        Some(gate) => moved(first, gate - first.pose.position - way / 2.0),
+        None => *first,
+    }
+}
+
+/// Travel of a pedestal that ends at a stated height; `None` where no height is stated, or it lies the other way.
+fn rise_to_height(context: &StepContext, direction: TravelDirection, first: &CameraState) -> Option<f64> {
+    let height = context.step.end.height.filter(|_| direction.is_vertical())?;
+    let rise = height - context.world.height_above_floor(first.pose.position);
+    let way = if direction == TravelDirection::Up { rise } else { -rise };
+    (way > 0.0).then_some(way)
 }
 
 /// The camera lowered toward the height of its target, where a pedestal starts with a nearly level view axis.

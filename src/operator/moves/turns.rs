@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, TURN_DEG_PER_SEC, require_visible};
+use super::sway::{num_sways, swayed};
 use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{DEFAULT_ASPECT, Target, extent_frac, frame_position, off_center};
 use crate::motion::MotionSegment;
@@ -26,6 +27,7 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
             framing.size = framing.size.or(context.step.end.size);
             framing.angle = framing.angle.or(context.step.end.angle);
             framing.whole |= context.step.end.whole;
+            context.inherit(&mut framing);
             let view = context.view(&target, &framing, (0.45, 0.75), NORMAL_LENS_DEG);
             (Vec::new(), if is_free(context, &framing) { on_a_third(context, &target, view) } else { view })
         }
@@ -54,7 +56,9 @@ const MAX_THIRD_WIDTH: f64 = 0.5;
 /// needs the subject in the middle.
 fn is_free(context: &StepContext, framing: &Framing) -> bool {
     let alone = framing.subjects.len() <= 1 && !framing.whole && framing.part == SubjectPart::Middle;
-    alone && framing.size.is_none() && framing.angle.is_none() && context.is_last
+    let placed = context.step.start.place.or(context.step.end.place).is_some();
+    let sized = framing.size.is_some() || framing.height_frac.is_some();
+    alone && !sized && framing.angle.is_none() && !placed && context.is_last
 }
 
 /// The view turned so that its subject is on the left or right third, where it fits there.
@@ -90,21 +94,8 @@ pub(super) fn handheld(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
     let base = segment.states[0];
     let distance = base.pose.position.distance(target.aim);
-    let count = ((segment.secs / 0.45).ceil() as usize).max(3);
-    let phase = context.parameters[6] * 60.0;
-    let sway = |i: usize, channel: f64| {
-        // Incommensurate sines: smooth, without repetition within a shot, and deterministic for a seed.
-        let t = i as f64 * 0.45;
-        ((t * 2.1 + channel * 1.7 + phase).sin() + 0.6 * (t * 3.7 + channel * 2.9 + phase * 1.3).sin()) / 1.6
-    };
-    let fade = |i: usize| if i == 0 || i == count { 0.0 } else { 1.0 };
-    let wobbled = |i: usize| {
-        let offset = DVec3::new(sway(i, 1.0), sway(i, 2.0), 0.5 * sway(i, 3.0)) * (0.003 * distance * fade(i));
-        let twist = DVec3::new(sway(i, 4.0), sway(i, 5.0), 0.4 * sway(i, 6.0)) * (0.35_f64.to_radians() * fade(i));
-        let turn = base.pose.rotation;
-        CameraState { pose: Pose::new(base.pose.position + turn * offset, turn * rotation::exp(twist)), ..base }
-    };
-    segment.states = (0..=count).map(wobbled).collect();
+    let count = num_sways(segment.secs);
+    segment.states = swayed(&vec![base; count + 1], distance, context.parameters[6] * 60.0);
     segment.easing = Easing::Linear;
     segments
 }
@@ -112,7 +103,8 @@ pub(super) fn handheld(context: &StepContext) -> Vec<MotionSegment> {
 /// Turns about the world's up, from one subject to another or by an angle.
 pub(super) fn pan(context: &StepContext) -> Vec<MotionSegment> {
     let whip = context.step.movement == Move::WhipPan;
-    let direction = if whip { context.step.with.unwrap_or(Move::WhipPan) } else { context.step.movement };
+    let direction =
+        if whip { context.step.with.first().copied().unwrap_or(Move::WhipPan) } else { context.step.movement };
     let named = if direction == Move::PanLeft { -1.0 } else { 1.0 };
     let sign = context.sign(named);
     turn(

@@ -3,8 +3,12 @@
 use glam::DVec3;
 
 use super::context::StepContext;
-use crate::constraint::{Constraint, ConstraintKind};
+use super::sway::{num_sways, swayed};
+use crate::constraint::{Constraint, ConstraintKind, Scope};
+use crate::cost::evenly_spaced;
+use crate::framing::Target;
 use crate::motion::MotionSegment;
+use crate::program::Amount;
 use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose};
 use cinesplat_trajectory::{CameraState, Move};
@@ -12,20 +16,63 @@ use cinesplat_trajectory::{CameraState, Move};
 /// Least number of keyframes of a combined move, whose path is curved.
 const NUM_KEYS: usize = 5;
 
-/// Adds the step's second move to its last segment. The segment keeps its constraints, except those that the second
+/// Adds the step's further moves to its last segment. The segment keeps its constraints, except those that a further
 /// move inevitably violates.
-pub(super) fn add_second_move(context: &StepContext, segments: &mut [MotionSegment]) {
-    let named_direction = matches!(context.step.movement, Move::WhipPan | Move::Reveal);
-    let Some(second) = context.step.with.filter(|second| *second != context.step.movement && !named_direction) else {
-        return;
+pub(super) fn add_second_moves(context: &StepContext, segments: &mut [MotionSegment]) {
+    // The first of these moves only names the direction of a whip pan or a reveal.
+    let named_direction = usize::from(matches!(context.step.movement, Move::WhipPan | Move::Reveal));
+    let further = || context.step.with.iter().skip(named_direction).filter(|second| **second != context.step.movement);
+    // Turns come last: a travel that keeps its aim would undo them.
+    for turns in [false, true] {
+        for second in further().filter(|second| is_turn(**second) == turns) {
+            add_second_move(context, *second, segments);
+        }
+    }
+    let Some(segment) = segments.iter_mut().rev().find(|segment| !segment.is_join) else { return };
+    let target = context.main_target();
+    for &second in further() {
+        if second == Move::Handheld {
+            sway(context, segment, &target);
+        } else if !opposes(context.step.movement, second) {
+            segment.constraints.push(Constraint { kind: ConstraintKind::Also(second, target.aim), scope: Scope::All });
+        }
+    }
+}
+
+/// Adds the sway of a handheld camera to a moving one.
+fn sway(context: &StepContext, segment: &mut MotionSegment, target: &Target) {
+    let distance = segment.states[0].pose.position.distance(target.aim);
+    let even = evenly_spaced(context.world, segment, num_sways(segment.secs) + 1);
+    segment.states = swayed(&even, distance, context.parameters[6] * 60.0);
+}
+
+/// Whether the main move is of the same kind as the further one: the extents of both then add up or cancel.
+fn opposes(main: Move, second: Move) -> bool {
+    let family = |movement: Move| match movement {
+        Move::PanLeft | Move::PanRight | Move::WhipPan => 1,
+        Move::TiltUp | Move::TiltDown => 2,
+        Move::RollCw | Move::RollCcw => 3,
+        Move::PushIn | Move::PullOut | Move::DollyZoomIn | Move::DollyZoomOut => 4,
+        Move::TruckLeft | Move::TruckRight | Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => 5,
+        Move::PedestalUp | Move::PedestalDown | Move::CraneUp | Move::CraneDown => 6,
+        Move::ZoomIn | Move::ZoomOut => 7,
+        _ => 0,
     };
+    family(main) == family(second)
+}
+
+fn add_second_move(context: &StepContext, second: Move, segments: &mut [MotionSegment]) {
+    if second == Move::Handheld {
+        return;
+    }
     let Some(segment) = segments.iter_mut().rev().find(|segment| !segment.is_join) else { return };
     if segment.states.len() == 2 {
         segment.states = subdivided(context, segment);
     }
     let count = segment.states.len() - 1;
     let target = context.main_target();
-    let keeps_aim = segment.pivot.is_some() || matches!(second, Move::CraneUp | Move::CraneDown);
+    let aims = segment.pivot.is_some() || matches!(second, Move::CraneUp | Move::CraneDown);
+    let keeps_aim = aims && !is_turn(second);
     for (i, state) in segment.states.iter_mut().enumerate() {
         let share = i as f64 / count as f64;
         *state = added(context, second, state, target.aim, share);
@@ -70,13 +117,69 @@ fn subdivided(context: &StepContext, segment: &MotionSegment) -> Vec<CameraState
     (0..NUM_KEYS).map(between).collect()
 }
 
-/// A state with `share` of the second move added, at the move's default amount.
+/// Extent of a further move that the prompt states: an amount that the main move does not take itself. Degrees belong to
+/// a turn or an orbit, a length to a travel, and a factor to a zoom.
+fn stated_extent(context: &StepContext, second: Move) -> Option<f64> {
+    let main = Extent::of(context.step.movement);
+    let extent = Extent::of(second).filter(|extent| main != Some(*extent))?;
+    match (context.step.amount?, extent) {
+        (Amount::Degrees(degrees), Extent::Angle) => Some(degrees),
+        (Amount::Units(units), Extent::Length) => Some(units),
+        (Amount::Factor(factor), Extent::Lens) if factor > 0.0 && main != Some(Extent::Length) => Some(factor),
+        _ => None,
+    }
+}
+
+/// The kind of quantity that measures a move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    Angle,
+    Length,
+    Lens,
+}
+
+impl Extent {
+    fn of(movement: Move) -> Option<Self> {
+        match movement {
+            Move::PanLeft
+            | Move::PanRight
+            | Move::WhipPan
+            | Move::TiltUp
+            | Move::TiltDown
+            | Move::RollCw
+            | Move::RollCcw
+            | Move::OrbitLeft
+            | Move::OrbitRight
+            | Move::ArcLeft
+            | Move::ArcRight => Some(Self::Angle),
+            Move::PushIn
+            | Move::PullOut
+            | Move::TruckLeft
+            | Move::TruckRight
+            | Move::PedestalUp
+            | Move::PedestalDown
+            | Move::CraneUp
+            | Move::CraneDown
+            | Move::DollyZoomIn
+            | Move::DollyZoomOut => Some(Self::Length),
+            Move::ZoomIn | Move::ZoomOut => Some(Self::Lens),
+            Move::Static | Move::Handheld | Move::Follow | Move::FlyThrough | Move::Reveal | Move::RackFocus => None,
+        }
+    }
+}
+
+/// A state with `share` of the second move added: by the stated amount, or else the move's default.
 fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, share: f64) -> CameraState {
     let frame = &context.world.frame;
     let away = state.pose.position - aim;
     let distance = away.length();
+    let stated = stated_extent(context, second);
+    let degrees = |default: f64| stated.unwrap_or(default);
     let reach = lerp((0.25, 0.5), context.parameters[7]);
-    let shift = |by: DVec3| moved(state, by * share);
+    let shift = |by: DVec3| match stated {
+        Some(units) => moved(state, by.normalize_or_zero() * units * share),
+        None => moved(state, by * share),
+    };
     let turn = |yaw_deg: f64, pitch_deg: f64, roll_deg: f64| {
         let angles = frame.angles(state.pose.rotation);
         let turned = LevelAngles {
@@ -88,17 +191,17 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
     };
     let lens = |ratio: f64| with_fov(state, 2.0 * ((state.fov_y_rad / 2.0).tan() * ratio.powf(share)).atan());
     let around = |sign: f64| {
-        let azimuth = frame.azimuth(away) + (sign * 40.0 * share).to_radians();
+        let azimuth = frame.azimuth(away) + (sign * degrees(40.0) * share).to_radians();
         let place = aim + frame.direction(azimuth) * frame.horizontal(away).length() + frame.up * frame.height(away);
         aimed(context.world, &moved(state, place - state.pose.position), aim)
     };
     match second {
-        Move::PanLeft => turn(-18.0, 0.0, 0.0),
-        Move::PanRight => turn(18.0, 0.0, 0.0),
-        Move::TiltUp => turn(0.0, 12.0, 0.0),
-        Move::TiltDown => turn(0.0, -12.0, 0.0),
-        Move::RollCw => turn(0.0, 0.0, 15.0),
-        Move::RollCcw => turn(0.0, 0.0, -15.0),
+        Move::PanLeft => turn(-degrees(18.0), 0.0, 0.0),
+        Move::PanRight => turn(degrees(18.0), 0.0, 0.0),
+        Move::TiltUp => turn(0.0, degrees(12.0), 0.0),
+        Move::TiltDown => turn(0.0, -degrees(12.0), 0.0),
+        Move::RollCw => turn(0.0, 0.0, degrees(15.0)),
+        Move::RollCcw => turn(0.0, 0.0, -degrees(15.0)),
         Move::PushIn | Move::DollyZoomIn => shift(-away * reach),
         Move::PullOut | Move::DollyZoomOut => shift(away * reach * 1.4),
         Move::TruckLeft => shift(-state.pose.right() * distance * reach),
@@ -107,8 +210,8 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
         Move::PedestalDown | Move::CraneDown => shift(-frame.up * distance * reach),
         Move::OrbitLeft | Move::ArcLeft => around(1.0),
         Move::OrbitRight | Move::ArcRight => around(-1.0),
-        Move::ZoomIn => lens(0.6),
-        Move::ZoomOut => lens(1.6),
+        Move::ZoomIn => lens(stated.map_or(0.6, |factor| 1.0 / factor)),
+        Move::ZoomOut => lens(stated.map_or(1.6, |factor| 1.0 / factor)),
         Move::Static
         | Move::Follow
         | Move::FlyThrough

@@ -134,7 +134,11 @@ fn bare_keys(states: &[CameraState], secs: f64) -> Vec<Keyframe> {
 }
 
 /// Cameras at points along a path. Yaw, pitch, roll and field of view are linear in the path length.
-fn states_along(world: &World, (start, goal): (&CameraState, &CameraState), points: &[DVec3]) -> Vec<CameraState> {
+pub(super) fn states_along(
+    world: &World,
+    (start, goal): (&CameraState, &CameraState),
+    points: &[DVec3],
+) -> Vec<CameraState> {
     let frame = &world.frame;
     let (a, b) = (frame.angles(start.pose.rotation), frame.angles(goal.pose.rotation));
     let short = |turn: f64| (turn + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;

@@ -2,6 +2,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::corpus::CorpusError;
 use crate::dataset::DatasetError;
 use cinesplat_director::DirectorError;
 use cinesplat_files::FileError;
@@ -16,6 +17,9 @@ pub enum TrainError {
     /// A prompt cannot be sampled, or an evaluation split cannot be read.
     #[error(transparent)]
     Language(#[from] LanguageError),
+    /// The corpus cannot be read.
+    #[error(transparent)]
+    Corpus(#[from] CorpusError),
     /// The realized shots cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
@@ -65,6 +69,7 @@ impl TrainError {
             Self::Director(error) => error.code(),
             Self::Language(error) => error.code(),
             Self::Dataset(error) => error.code(),
+            Self::Corpus(error) => error.code(),
             Self::File(error) => error.code(),
             Self::NoExample { .. } => "TRAIN-NO-EXAMPLE",
             Self::Diverged { .. } => "TRAIN-DIVERGED",

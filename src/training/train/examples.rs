@@ -15,6 +15,7 @@ use rand_pcg::Pcg64;
 
 use super::augmentation::{Augmentation, noisy_pose};
 use super::error::TrainError;
+use super::sentences::{Sentence, Sentences};
 use crate::dataset::RealizedShot;
 use crate::sampler::{LabeledPrompt, PromptSampler};
 
@@ -29,6 +30,8 @@ pub(super) struct Example {
     pub(super) keys: Vec<KeyCode>,
     /// Pointer at the quantity that is the length of the film, from 1; 0 = none; `None` = unknown, training skips it.
     pub(super) film_length: Option<usize>,
+    /// For each token, whether the notation cannot say it.
+    pub(super) unmet: Vec<bool>,
     /// One per key, or empty for sampled sentences.
     pub(super) poses: Vec<PoseCode>,
     /// The poses with noise, which the decoder gets as earlier poses.
@@ -42,6 +45,10 @@ pub(super) struct ExampleSampler<'a> {
     pub(super) vocabulary: &'a Vocabulary,
     /// Known words, from which augmentation makes unknown ones.
     pub(super) words: &'a [String],
+    /// Sentences of the corpus.
+    pub(super) sentences: &'a Sentences,
+    /// Fraction of the examples that are sentences of the corpus, 0..=1.
+    pub(super) sentences_frac: f64,
     pub(super) shots: &'a [RealizedShot],
     /// Fraction of the examples that are realized shots, 0..=1.
     pub(super) shots_frac: f64,
@@ -70,17 +77,37 @@ impl ExampleSampler<'_> {
         {
             return self.of_shot(shot, rng);
         }
+        if rng.random_bool(self.sentences_frac)
+            && let Some(sentence) = self.sentences.draw(rng)
+        {
+            return self.of_sentence(&sentence, rng);
+        }
         let objects = self.prompts.invent_objects(rng.random_range(3..=12), rng);
         let LabeledPrompt { prompt, program } = self.prompts.sample(&objects, rng);
         let linked = link(&prompt, &objects)?;
         let others = other_ids(&objects, &linked, rng);
         let Some(encoded) = self.encode(&linked, &program, &others, rng)? else { return Ok(None) };
+        Ok(Some(self.without_poses(encoded, &linked, &[], rng)))
+    }
+
+    /// A sentence of the corpus as an example; `None` when the keys cannot express it.
+    fn of_sentence(&self, sentence: &Sentence, rng: &mut Pcg64) -> Result<Option<Example>, TrainError> {
+        let first = 1_000_000 - 64;
+        let others: Vec<u32> = (first..first + rng.random_range(0..=4)).collect();
+        let program = sentence.program.clone().with_ids(&|ids| sentence.linked.grouped(ids));
+        let Some(encoded) = self.encode(&sentence.linked, &program, &others, rng)? else { return Ok(None) };
+        Ok(Some(self.without_poses(encoded, &sentence.linked, &sentence.unmet, rng)))
+    }
+
+    /// An example with random objects. `unmet` are bytes of the prompt that the notation cannot say.
+    fn without_poses(&self, encoded: EncodedSample, linked: &Linked, unmet: &[[usize; 2]], rng: &mut Pcg64) -> Example {
         let objects = (0..encoded.grounding.object_ids.len()).map(|slot| random_object(slot, rng)).collect();
         let prompt = encoded.prompt(objects, linked.slots.len());
-        let mut example =
-            Example { prompt, keys: encoded.keys, film_length: encoded.film_length, ..Example::default() };
+        let unmet = encoded.grounding.tokens_in(unmet);
+        let (keys, film_length) = (encoded.keys, encoded.film_length);
+        let mut example = Example { prompt, keys, film_length, unmet, ..Example::default() };
         self.augmentation.slots(&mut example.prompt, rng);
-        Ok(Some(example))
+        example
     }
 
     /// A realized shot as an example; `None` when its keys and poses do not match.
@@ -94,7 +121,7 @@ impl ExampleSampler<'_> {
         let noisy_poses = inputs.poses.iter().map(|pose| noisy_pose(*pose, rng)).collect();
         let prompt = encoded.prompt(inputs.objects, linked.slots.len());
         let (keys, film_length) = (encoded.keys, encoded.film_length);
-        let mut example = Example { prompt, keys, film_length, poses: inputs.poses, noisy_poses };
+        let mut example = Example { prompt, keys, film_length, poses: inputs.poses, noisy_poses, ..Example::default() };
         self.augmentation.slots(&mut example.prompt, rng);
         Ok(Some(example))
     }
@@ -113,7 +140,7 @@ impl ExampleSampler<'_> {
         }
         let augmented = self.augmentation.words(linked, self.words, rng);
         let (tokens, grounding) = encode_text(&augmented, others, self.vocabulary)?;
-        let codes = keys.iter().enumerate().map(|(idx, key)| encode_key(key, idx == 0, &grounding));
+        let codes = keys.iter().enumerate().map(|(idx, key)| encode_key(key, idx == 0, &program.forbidden, &grounding));
         let Some(keys) = codes.collect::<Option<Vec<_>>>() else { return Ok(None) };
         let film_length = match program.duration_secs {
             Some(secs) => grounding.seconds_idx(secs, None).map(|idx| idx + 1),

@@ -13,6 +13,7 @@ use super::augmentation::Augmentation;
 use super::error::TrainError;
 use super::examples::{Example, ExampleSampler};
 use super::gradients::{BatchSettings, TrainableNetwork};
+use super::sentences::Sentences;
 use crate::sampler::PromptSampler;
 use cinesplat_director::codes::PoseCode;
 use cinesplat_director::inputs::Vocabulary;
@@ -121,7 +122,17 @@ fn small_vocabulary(seed: u64) -> Result<Vocabulary, TrainError> {
 fn posed_examples(seed: u64, count: u64, vocabulary: &Vocabulary) -> Result<Vec<Example>, TrainError> {
     let prompts = PromptSampler::embedded()?;
     let augmentation = Augmentation::NONE;
-    let sampler = ExampleSampler { prompts, vocabulary, words: &[], shots: &[], shots_frac: 0.0, augmentation };
+    let sentences = Sentences::default();
+    let sampler = ExampleSampler {
+        prompts,
+        vocabulary,
+        words: &[],
+        sentences: &sentences,
+        sentences_frac: 0.0,
+        shots: &[],
+        shots_frac: 0.0,
+        augmentation,
+    };
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut examples = (0..count).map(|number| sampler.example(seed, number)).collect::<Result<Vec<_>, _>>()?;
     for example in &mut examples {

@@ -14,6 +14,8 @@ use cinesplat_director::network::{Scores, anchor_objects};
 
 /// Weight of a word span; a class has weight 1.
 const WORDS_WEIGHT: f32 = 0.3;
+/// Weight of a token that the notation can or cannot say; a class has weight 1.
+const UNMET_WEIGHT: f32 = 0.1;
 /// Weight of one value of a pose; a class has weight 1.
 const POSE_WEIGHT: f32 = 0.5;
 /// Relative weights of the values of a pose: position in scene sizes, rotation, field of view, time.
@@ -123,7 +125,7 @@ impl CustomOp1 for Huber {
 }
 
 /// Applies [`CrossEntropy`] over the last dimension of `scores`; each row is one segment.
-fn whole_rows(scores: &Tensor, weight: f32, targets: Vec<Option<usize>>) -> Result<Tensor> {
+pub(crate) fn whole_rows(scores: &Tensor, weight: f32, targets: Vec<Option<usize>>) -> Result<Tensor> {
     let width = scores.dims().last().copied().unwrap_or(1);
     let rows = scores.reshape(((), width))?.contiguous()?;
     rows.apply_op1(CrossEntropy { segments: vec![(0..width, weight)], targets })
@@ -147,10 +149,16 @@ pub(super) fn choice_loss(scores: &Scores, examples: &[&Example], num_keys: usiz
         .collect();
     let words =
         keys().flat_map(|key| (0..2).map(move |end| key.and_then(|key| key.span).map(|span| span[end]))).collect();
+    let num_tokens = scores.unmet.dim(1)?;
+    let unmet = examples.iter().flat_map(|example| {
+        (0..num_tokens).map(|token_idx| example.unmet.get(token_idx).map(|unmet| usize::from(*unmet)))
+    });
+    let unmet = unmet.collect();
     let film_length = examples.iter().map(|example| example.film_length).collect();
     let sum = (classes + whole_rows(&scores.objects, 1.0, objects)?)?;
     let sum = (sum + whole_rows(&scores.quantities, 1.0, quantities)?)?;
     let sum = (sum + whole_rows(&scores.words, WORDS_WEIGHT, words)?)?;
+    let sum = (sum + whole_rows(&scores.unmet, UNMET_WEIGHT, unmet)?)?;
     sum + whole_rows(&scores.film_length, 1.0, film_length)?
 }
 

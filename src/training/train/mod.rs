@@ -12,10 +12,15 @@ mod metrics;
 mod optimizer;
 mod progress;
 mod run;
+mod sentences;
 mod settings;
+mod transfer;
+
+pub(crate) use loss::whole_rows;
+pub(crate) use optimizer::{AdamSettings, AdamW, learning_rate};
 
 pub use error::TrainError;
-pub use evaluation::{EvaluationSplit, evaluate_director};
+pub use evaluation::{EvaluationSplit, Examination, Mentions, evaluate_director, examine};
 pub use gradient_check::{GradientCheck, ParameterCheck, check_gradients};
 pub use metrics::{ErrorCase, Mistake, ProgramMetrics, StepField, Tally};
 pub use progress::{ProgressCallback, TrainingProgress};

@@ -8,17 +8,17 @@ use candle_core::{Device, Result, Tensor, Var};
 
 /// Constants of the optimizer.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct AdamSettings {
+pub(crate) struct AdamSettings {
     /// Decay of the running mean of the gradients.
-    pub(super) beta1: f32,
+    pub(crate) beta1: f32,
     /// Decay of the running mean of the squared gradients.
-    pub(super) beta2: f32,
+    pub(crate) beta2: f32,
     /// Added to the root of the mean square.
-    pub(super) epsilon: f32,
+    pub(crate) epsilon: f32,
     /// Fraction of a weight that a step with learning rate 1 removes.
-    pub(super) weight_decay: f32,
+    pub(crate) weight_decay: f32,
     /// Largest norm of the gradient of all parameters together; a longer gradient is scaled down to it.
-    pub(super) max_norm: f32,
+    pub(crate) max_norm: f32,
 }
 
 impl Default for AdamSettings {
@@ -29,26 +29,26 @@ impl Default for AdamSettings {
 
 /// Running means of one parameter's gradient and of its square.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Moments {
+pub(crate) struct Moments {
     /// Of the gradient.
-    pub(super) mean: Vec<f32>,
+    pub(crate) mean: Vec<f32>,
     /// Of the squared gradient.
-    pub(super) square: Vec<f32>,
+    pub(crate) square: Vec<f32>,
 }
 
 /// The optimizer's state.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct AdamW {
+pub(crate) struct AdamW {
     /// Steps done.
-    pub(super) steps: u64,
+    pub(crate) steps: u64,
     /// By name of the parameter.
-    pub(super) moments: BTreeMap<String, Moments>,
+    pub(crate) moments: BTreeMap<String, Moments>,
 }
 
 impl AdamW {
     /// One step against `gradients`, which are in the order of `vars`. Returns the norm of all gradients before clipping.
     /// If the norm is not finite, the weights stay as they are.
-    pub(super) fn step(
+    pub(crate) fn step(
         &mut self,
         vars: &BTreeMap<String, Var>,
         gradients: &[Vec<f32>],
@@ -86,7 +86,7 @@ impl AdamW {
 }
 
 /// Learning rate of a step: linear up to `peak` over `warm_up` steps, then half a cosine down to 2 % of it at `total`.
-pub(super) fn learning_rate(step: u64, warm_up: u64, total: u64, peak: f32) -> f32 {
+pub(crate) fn learning_rate(step: u64, warm_up: u64, total: u64, peak: f32) -> f32 {
     if step < warm_up {
         return peak * (step + 1) as f32 / warm_up as f32;
     }

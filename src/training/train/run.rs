@@ -19,7 +19,10 @@ use super::gradients::{BatchSettings, TrainableNetwork};
 use super::metrics::ProgramMetrics;
 use super::optimizer::{AdamSettings, AdamW, learning_rate};
 use super::progress::{ProgressCallback, TrainingProgress};
+use super::sentences::Sentences;
 use super::settings::TrainSettings;
+use super::transfer::transfer;
+use crate::corpus::read_folder;
 use crate::dataset::{RealizedShot, read_shards};
 use crate::sampler::PromptSampler;
 use crate::workers::run_on_threads;
@@ -77,21 +80,31 @@ pub fn train(
     let held_out_shots: Vec<RealizedShot> = shots.iter().step_by(HELD_OUT_EVERY).cloned().collect();
     let learned: Vec<RealizedShot> =
         shots.into_iter().enumerate().filter(|(idx, _)| idx % HELD_OUT_EVERY != 0).map(|(_, shot)| shot).collect();
-    let corpus = corpus(settings, prompts)?;
+    let writers = settings.sentences.as_deref().map(read_folder).transpose()?.unwrap_or_default();
+    let sentences = Sentences::of(&writers);
+    let mut corpus = corpus(settings, prompts)?;
+    // The sentences of people weigh as much as the sampled ones.
+    let repeats = corpus.len() / sentences.len().max(1);
+    for _ in 0..repeats.max(1) {
+        corpus.extend(sentences.texts().map(str::to_owned));
+    }
     let words = words(&corpus);
-    let vocabulary = match &settings.from {
-        Some(path) => ModelFiles::read(path)?.vocabulary()?,
-        None => Vocabulary::train(&corpus, settings.vocabulary)?,
+    let from = settings.from.as_deref().map(ModelFiles::read).transpose()?;
+    let vocabulary = match &from {
+        Some(files) if files.is_current() && !settings.new_vocabulary => files.vocabulary()?,
+        _ => Vocabulary::train(&corpus, settings.vocabulary)?,
     };
     let config = ModelConfig::shipped(vocabulary.size());
     let mut parameters = Parameters::seeded(settings.seed);
     let network = Network::new(&mut parameters, &config)?;
-    let vars = trainable(&mut parameters, settings.from.as_deref())?;
+    let vars = trainable(&mut parameters, from.as_ref(), &vocabulary)?;
     let shots_frac = if learned.is_empty() { 0.0 } else { settings.shots_frac };
     let sampler = ExampleSampler {
         prompts,
         vocabulary: &vocabulary,
         words: &words,
+        sentences: &sentences,
+        sentences_frac: settings.sentences_frac,
         shots: &learned,
         shots_frac,
         augmentation: Augmentation::default(),
@@ -120,26 +133,16 @@ fn words(corpus: &[String]) -> Vec<String> {
     words.into_iter().filter(|word| word.chars().all(char::is_alphabetic)).map(str::to_owned).collect()
 }
 
-/// The drawn parameters, with the values of the model at `from` if there is one.
-fn trainable(parameters: &mut Parameters, from: Option<&Path>) -> Result<BTreeMap<String, Var>, TrainError> {
+/// The drawn parameters, with the values of the model `from` if there is one.
+fn trainable(
+    parameters: &mut Parameters,
+    from: Option<&ModelFiles>,
+    vocabulary: &Vocabulary,
+) -> Result<BTreeMap<String, Var>, TrainError> {
     let Parameters::Fresh { vars, .. } = parameters else { return Ok(BTreeMap::new()) };
     let vars = std::mem::take(vars);
-    if let Some(path) = from {
-        let files = ModelFiles::read(path)?;
-        // Checks description, hashes, names and shapes.
-        Director::from_files(&files)?;
-        let stored = files.tensors()?;
-        for (name, var) in &vars {
-            match stored.get(name) {
-                Some(tensor) if tensor.dims() == var.dims() => var.set(tensor)?,
-                found => {
-                    return Err(TrainError::BadCheckpoint {
-                        path: path.to_owned(),
-                        found: format!("{name} of shape {:?}", found.map(candle_core::Tensor::dims)),
-                    });
-                }
-            }
-        }
+    if let Some(files) = from {
+        transfer(&vars, files, vocabulary)?;
     }
     Ok(vars)
 }

@@ -23,18 +23,27 @@ pub struct TrainSettings {
     pub dropout: f32,
     /// Fraction of the examples that are realized shots if there are any, 0..=1.
     pub shots_frac: f64,
+    /// Fraction of the examples that are sentences of the corpus if there is one, 0..=1.
+    pub sentences_frac: f64,
     /// Limit on the tokens of the vocabulary.
     pub vocabulary: usize,
     /// Number of sampled prompts from which the vocabulary is learned.
     pub corpus: usize,
     /// Name of the model, as shots store it.
     pub name: String,
+    /// Folder of the corpus. Without one, the network learns from sampled prompts only.
+    #[serde(skip)]
+    pub sentences: Option<PathBuf>,
     /// Folder of realized shots. Without one, the network learns programs only, not poses.
     #[serde(skip)]
     pub shots: Option<PathBuf>,
     /// Model whose weights and vocabulary the training starts from, instead of random weights.
     #[serde(skip)]
     pub from: Option<PathBuf>,
+    /// Whether the vocabulary is learned anew although there is a model to start from; pieces that both have keep their
+    /// embedding. A model of another format gets a new vocabulary in any case.
+    #[serde(skip)]
+    pub new_vocabulary: bool,
     /// Number of threads.
     #[serde(skip)]
     pub threads: usize,
@@ -65,11 +74,14 @@ impl Default for TrainSettings {
             warm_up: 300,
             dropout: 0.05,
             shots_frac: 0.35,
+            sentences_frac: 0.6,
             vocabulary: 2400,
             corpus: 40_000,
-            name: "director-1".into(),
+            name: "director-2".into(),
+            sentences: None,
             shots: None,
             from: None,
+            new_vocabulary: false,
             threads: 2,
             checkpoint_every: 500,
             report_every: 10,

@@ -63,7 +63,7 @@ pub(super) fn is_consistent(step: &Step) -> bool {
         Move::ArcLeft | Move::ArcRight => !matches!(step.amount, Some(Amount::Degrees(d)) if d > 400.0),
         _ => true,
     };
-    is_possible && step.with != Some(step.movement)
+    is_possible && !step.with.contains(&step.movement)
 }
 
 /// The move from one framing of a subject to another; `None` where they do not differ in size or angle.

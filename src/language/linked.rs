@@ -1,0 +1,76 @@
+//! A prompt whose objects and quantities are placeholders.
+
+use super::quantity::Quantity;
+use super::unknown::UnknownName;
+
+/// Limit on the bytes of a prompt.
+pub const MAX_PROMPT_BYTES: usize = 8192;
+/// Limit on the objects of a prompt: the model has the identifiers `<obj-0>` to `<obj-99>`.
+pub const MAX_SLOTS: usize = 100;
+/// Limit on the quantities of a prompt; further ones stay words.
+pub const MAX_QUANTITIES: usize = 32;
+/// A prompt with its objects and quantities replaced by placeholders, as the model reads it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Linked {
+    /// Lower-case words and punctuation marks, separated by single spaces: `<obj-S>` stands for the object
+    /// `slots[S]`, `<qty-Q>` for `quantities[Q]`.
+    pub tokens_text: String,
+    /// Byte range of the prompt for each word of `tokens_text`, on character boundaries.
+    pub spans: Vec<[usize; 2]>,
+    /// Id of the object or group per slot, in order of first mention.
+    pub slots: Vec<u32>,
+    /// Mentions of several objects or of none, which have one slot each.
+    pub groups: Vec<Group>,
+    /// The quantities, in order.
+    pub quantities: Vec<Quantity>,
+    /// Names that match no object.
+    pub unknown: Vec<UnknownName>,
+    /// Messages for the user about mentions that fit several objects or are misspelled.
+    pub warnings: Vec<String>,
+}
+
+/// A mention of several objects or of none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    /// Id that stands for the group in [`Linked::slots`] and in the network's programs.
+    pub id: u32,
+    /// Ids of its objects, ascending; empty for a thing that the scene lacks.
+    pub members: Vec<u32>,
+    /// The words of its first mention, without an article.
+    pub name: String,
+    /// For something that the scene lacks: the scene's nearest names, best first.
+    pub nearest: Vec<String>,
+}
+
+impl Linked {
+    /// `ids` with each group replaced by its members, each once.
+    pub fn expanded(&self, ids: &[u32]) -> Vec<u32> {
+        let mut out: Vec<u32> = Vec::new();
+        for id in ids {
+            let group = self.groups.iter().find(|group| group.id == *id);
+            let members = group.map_or(std::slice::from_ref(id), |group| &group.members);
+            out.extend(members.iter().filter(|member| !out.contains(member)).copied().collect::<Vec<_>>());
+        }
+        out
+    }
+
+    /// `ids` with the members of a group replaced by the group, where all of them are there; larger groups first.
+    pub fn grouped(&self, ids: &[u32]) -> Vec<u32> {
+        let mut out = ids.to_vec();
+        let mut groups: Vec<&Group> = self.groups.iter().filter(|group| group.members.len() > 1).collect();
+        groups.sort_by_key(|group| std::cmp::Reverse(group.members.len()));
+        for group in groups {
+            let first = out.iter().position(|id| group.members.contains(id));
+            if let Some(first) = first.filter(|_| group.members.iter().all(|member| out.contains(member))) {
+                out[first] = group.id;
+                out.retain(|id| !group.members.contains(id));
+            }
+        }
+        out
+    }
+
+    /// The group of a mention of something that the scene lacks, if `id` is one.
+    pub fn missing(&self, id: u32) -> Option<&Group> {
+        self.groups.iter().find(|group| group.id == id && group.members.is_empty())
+    }
+}

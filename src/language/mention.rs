@@ -1,0 +1,121 @@
+//! Linking with known mentions: the words of a prompt in which placeholders stand for objects and quantities.
+//!
+//! Enters: a prompt, and which of its bytes name which objects. Leaves: [`Linked`]. A mention of several objects, or of
+//! none, gets one placeholder too: a group, whose id lies beyond those of objects.
+
+use super::error::LanguageError;
+use super::linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
+use super::quantity::quantity_at;
+use super::tokenizer::{Word, span_of, tokenize, word_at};
+
+/// Least id of a group. Objects have ids up to 65,535.
+const FIRST_GROUP: u32 = 1 << 20;
+
+/// A mention of objects in a prompt.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mention {
+    /// Its bytes of the prompt.
+    pub bytes: [usize; 2],
+    /// Ids of the objects that it names, ascending; empty for a thing that the scene lacks.
+    pub ids: Vec<u32>,
+}
+
+/// A name without the article before it.
+fn without_article(name: &str) -> &str {
+    let is_article = |word: &str| ["the", "a", "an"].iter().any(|article| word.eq_ignore_ascii_case(article));
+    match name.split_once(' ') {
+        Some((word, rest)) if is_article(word) => rest.trim_start(),
+        _ => name,
+    }
+}
+
+/// Checks that a prompt has words and is not too long.
+///
+/// # Errors
+/// [`LanguageError::TooLong`]: more than [`MAX_PROMPT_BYTES`] · [`LanguageError::Empty`]: no word.
+pub fn check_prompt(prompt: &str) -> Result<(), LanguageError> {
+    if prompt.len() > MAX_PROMPT_BYTES {
+        return Err(LanguageError::TooLong { found: prompt.len(), limit: MAX_PROMPT_BYTES });
+    }
+    if !tokenize(prompt).iter().any(|word| word.text.starts_with(char::is_alphanumeric)) {
+        return Err(LanguageError::Empty);
+    }
+    Ok(())
+}
+
+/// Replaces the given mentions and the quantities of `prompt` by placeholders. A word belongs to a mention if it begins in
+/// its bytes; mentions do not overlap.
+///
+/// # Errors
+/// - [`LanguageError::TooLong`]: more than [`MAX_PROMPT_BYTES`].
+/// - [`LanguageError::Empty`]: no word.
+/// - [`LanguageError::TooManyObjects`]: more than [`MAX_SLOTS`].
+pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, LanguageError> {
+    check_prompt(prompt)?;
+    let words = tokenize(prompt);
+    let mut linked = Linked::default();
+    let mut i = 0;
+    while i < words.len() {
+        let at = span_of(&words[i..=i])[0];
+        let mention = mentions.iter().find(|mention| (mention.bytes[0]..mention.bytes[1]).contains(&at));
+        if let Some(mention) = mention {
+            let inside = |word: &&Word| span_of(std::slice::from_ref(*word))[0] < mention.bytes[1];
+            let len = words[i..].iter().take_while(inside).count().max(1);
+            let slot = linked.slot_of(mention, prompt)?;
+            linked.append(&format!("<obj-{slot}>"), &words[i..i + len]);
+            i += len;
+            continue;
+        }
+        let quantity = quantity_at(&words, i).filter(|_| linked.quantities.len() < MAX_QUANTITIES);
+        let len = quantity.map_or(1, |(len, _)| len);
+        if let Some((_, quantity)) = quantity {
+            linked.append(&format!("<qty-{}>", linked.quantities.len()), &words[i..i + len]);
+            linked.quantities.push(quantity);
+        } else {
+            linked.append(word_at(&words, i), &words[i..=i]);
+        }
+        i += len;
+    }
+    Ok(linked)
+}
+
+impl Linked {
+    /// The slot of a mention's object or group, a new one at its first mention.
+    fn slot_of(&mut self, mention: &Mention, prompt: &str) -> Result<usize, LanguageError> {
+        let id = match mention.ids[..] {
+            [id] => id,
+            _ => self.group_of(mention, prompt),
+        };
+        if let Some(slot) = self.slots.iter().position(|known| *known == id) {
+            return Ok(slot);
+        }
+        if self.slots.len() >= MAX_SLOTS {
+            return Err(LanguageError::TooManyObjects { limit: MAX_SLOTS });
+        }
+        self.slots.push(id);
+        Ok(self.slots.len() - 1)
+    }
+
+    /// Id of the group of a mention. Two things that the scene lacks are the same if their words are.
+    fn group_of(&mut self, mention: &Mention, prompt: &str) -> u32 {
+        let name = without_article(prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default().trim());
+        let is_same = |group: &&Group| {
+            group.members == mention.ids && (!group.members.is_empty() || group.name.eq_ignore_ascii_case(name))
+        };
+        if let Some(group) = self.groups.iter().find(is_same) {
+            return group.id;
+        }
+        let id = FIRST_GROUP + self.groups.len() as u32;
+        self.groups.push(Group { id, members: mention.ids.clone(), name: name.to_owned(), nearest: Vec::new() });
+        id
+    }
+
+    /// Appends `text`, which stands for `words`.
+    fn append(&mut self, text: &str, words: &[Word]) {
+        if !self.tokens_text.is_empty() {
+            self.tokens_text.push(' ');
+        }
+        self.tokens_text.push_str(text);
+        self.spans.push(span_of(words));
+    }
+}

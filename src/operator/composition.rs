@@ -1,0 +1,119 @@
+//! The composition of a picture in numbers: places of the frame, lenses, and the sides of a subject.
+
+use glam::{DVec2, DVec3};
+
+use super::framing::DEFAULT_ASPECT;
+use super::program::{FramePlace, Lens, SubjectSide};
+use super::world::World;
+use cinesplat_geometry::{LevelAngles, Pose};
+use cinesplat_trajectory::CameraState;
+
+/// Distance of a third from the frame's middle, over the frame's width or height.
+const THIRD: f64 = 1.0 / 6.0;
+/// Half the height of a full frame, millimeters.
+const HALF_FULL_FRAME_MM: f64 = 12.0;
+/// Focal lengths on full frame of a wide-angle lens and of a long one, millimeters.
+const WIDE_MM: (f64, f64) = (16.0, 28.0);
+const LONG_MM: (f64, f64) = (70.0, 135.0);
+/// Distance of a subject from the middle of the scene, over the scene size, below which its front faces the best
+/// viewpoint instead.
+const MIDDLE_FRAC: f64 = 0.02;
+
+/// A place of the frame as shares of its width and height from the middle; right and up positive. A third is the line
+/// that divides the frame's outer third from its middle third.
+pub(super) fn frame_place(place: FramePlace) -> DVec2 {
+    let (x, y) = match place {
+        FramePlace::AtLeft => (-THIRD, 0.0),
+        FramePlace::AtRight => (THIRD, 0.0),
+        FramePlace::AtUpper => (0.0, THIRD),
+        FramePlace::AtLower => (0.0, -THIRD),
+        FramePlace::AtUpperLeft => (-THIRD, THIRD),
+        FramePlace::AtUpperRight => (THIRD, THIRD),
+        FramePlace::AtLowerLeft => (-THIRD, -THIRD),
+        FramePlace::AtLowerRight => (THIRD, -THIRD),
+        FramePlace::AtCenter => (0.0, 0.0),
+    };
+    DVec2::new(x, y)
+}
+
+/// A place of the frame in words.
+pub(super) fn place_words(place: FramePlace) -> &'static str {
+    match place {
+        FramePlace::AtLeft => "on the left third",
+        FramePlace::AtRight => "on the right third",
+        FramePlace::AtUpper => "on the upper third",
+        FramePlace::AtLower => "on the lower third",
+        FramePlace::AtUpperLeft => "in the upper left",
+        FramePlace::AtUpperRight => "in the upper right",
+        FramePlace::AtLowerLeft => "in the lower left",
+        FramePlace::AtLowerRight => "in the lower right",
+        FramePlace::AtCenter => "in the middle of the frame",
+    }
+}
+
+/// The camera turned in place, with a level horizon, so that a point projects at a place of the frame: shares of its
+/// width and height from the middle, right and up positive. Unchanged where the point is the camera's position.
+///
+/// In camera axes the point lies along the unit ray r. A level camera of pitch p sees it at the height
+/// `r.z sin p - r.y cos p` above its horizon, which must be that of the direction to the point; then the yaw follows
+/// from the azimuths of both.
+pub(super) fn placed(world: &World, state: &CameraState, point: DVec3, at: DVec2) -> CameraState {
+    let Some(direction) = (point - state.pose.position).try_normalize() else { return *state };
+    let frame = &world.frame;
+    let half = 2.0 * (state.fov_y_rad / 2.0).tan();
+    let ray = DVec3::new(at.x * half * DEFAULT_ASPECT, -at.y * half, 1.0).normalize();
+    let rise = (frame.height(direction) / ray.z.hypot(ray.y)).clamp(-1.0, 1.0).asin();
+    let pitch_rad = rise - (-ray.y).atan2(ray.z);
+    let (sin, cos) = pitch_rad.sin_cos();
+    let yaw_rad = frame.azimuth(direction) - ray.x.atan2(ray.z * cos + ray.y * sin);
+    let rotation = frame.rotation(LevelAngles { yaw_rad, pitch_rad, roll_rad: 0.0 });
+    CameraState { pose: Pose { rotation, ..state.pose }, ..*state }
+}
+
+/// Range of the vertical field of view of a lens, degrees. A focal length f on full frame, 24 mm high, has the field
+/// 2 atan(12 / f). A wide-angle lens has 16 to 28 mm, a long one 70 to 135 mm.
+pub(super) fn lens_fov_deg(lens: Lens) -> (f64, f64) {
+    let fov_deg = |focal_mm: f64| 2.0 * (HALF_FULL_FRAME_MM / focal_mm).atan().to_degrees();
+    match lens {
+        Lens::FocalMm(focal_mm) => (fov_deg(focal_mm.max(1.0)), fov_deg(focal_mm.max(1.0))),
+        Lens::FovDeg(deg) => (deg.clamp(1.0, 150.0), deg.clamp(1.0, 150.0)),
+        Lens::Wide => (fov_deg(WIDE_MM.1), fov_deg(WIDE_MM.0)),
+        Lens::Long => (fov_deg(LONG_MM.1), fov_deg(LONG_MM.0)),
+    }
+}
+
+/// Azimuth, seen from the point, of the middle of the scene, which the front of a subject faces; of the best viewpoint
+/// where the subject itself is in the middle.
+pub(super) fn front_azimuth(world: &World, center: DVec3) -> f64 {
+    let level = |to: DVec3| world.frame.horizontal(to - center);
+    let to_middle = level(world.bounds.center());
+    let near = to_middle.length() < MIDDLE_FRAC * world.bounds.size();
+    let to_viewpoint = world.viewpoints().first().filter(|_| near).map(|&viewpoint| level(viewpoint));
+    world.frame.azimuth(to_viewpoint.unwrap_or(to_middle))
+}
+
+/// Azimuths of a camera, seen from a subject's center, in the middle of a side of the subject. Left and right are those
+/// of somebody who sees the front, and azimuths grow clockwise from above: the left is a quarter turn after the front.
+pub(super) fn side_azimuths(world: &World, center: DVec3, side: SubjectSide) -> Vec<f64> {
+    let front = front_azimuth(world, center);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    match side {
+        SubjectSide::FromFront => vec![front],
+        SubjectSide::FromBack => vec![front + 2.0 * quarter],
+        SubjectSide::FromLeft => vec![front + quarter],
+        SubjectSide::FromRight => vec![front - quarter],
+        SubjectSide::FromSide => vec![front + quarter, front - quarter],
+    }
+}
+
+/// Angle about a subject's center between a camera position and the nearest middle of a side, degrees.
+pub(super) fn off_side_deg(world: &World, center: DVec3, position: DVec3, side: SubjectSide) -> f64 {
+    let azimuth = world.frame.azimuth(position - center);
+    let off = |middle: f64| short_turn(azimuth - middle).abs().to_degrees();
+    side_azimuths(world, center, side).into_iter().map(off).fold(f64::INFINITY, f64::min)
+}
+
+/// An angle as a turn of at most half a circle either way, rad.
+pub(super) fn short_turn(angle_rad: f64) -> f64 {
+    (angle_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
+}

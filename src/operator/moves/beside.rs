@@ -1,0 +1,271 @@
+//! Moves that pass an object on a side of it: behind it, in front of it, along it; and a reveal from behind it.
+//!
+//! The near side of an object is its front, which faces the middle of the scene
+//! ([`SubjectSide`](crate::program::SubjectSide)); the far side is its back.
+
+use glam::DVec3;
+
+use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::paths::end_view;
+use crate::composition::{front_azimuth, lens_fov_deg, short_turn};
+use crate::constraint::{ConstraintKind, Scope, TravelDirection};
+use crate::framing::{Bearing, Fill, Target, extent_frac, view_at};
+use crate::motion::MotionSegment;
+use crate::passage::around;
+use crate::program::{Framing, Pass};
+use crate::route::states_along;
+use crate::view::{aimed, distance_along, lerp, moved, stated_fill, view_from, with_fov};
+use crate::world::Subject;
+use cinesplat_geometry::Pose;
+use cinesplat_trajectory::{CameraState, Move};
+
+/// The object that the step passes.
+fn passed<'a>(context: &StepContext<'a>) -> Option<&'a Subject> {
+    context.world.subject(*context.step.via.as_ref()?.objects.first()?)
+}
+
+fn natural_secs(context: &StepContext, positions: &[DVec3]) -> f64 {
+    let length: f64 = positions.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    (length / context.world.bounds.size() * 11.0).clamp(3.0, 9.0)
+}
+
+/// Travels around an object on its far or near side, or along it, to a view of the end target. `None` where the object is
+/// unknown.
+pub(super) fn passing_beside(context: &StepContext) -> Option<Vec<MotionSegment>> {
+    let (how, subject) = (context.step.via.as_ref()?.how, passed(context)?);
+    let inner = match how {
+        Pass::Along => line_along(context, subject),
+        _ => vec![gate_beside(context, subject, how)],
+    };
+    let first = first_beside(context, subject, &inner);
+    let last = match &context.end {
+        Some(end) => end_view(context, end, &first),
+        None => last_beside(context, subject, &first, &inner),
+    };
+    let positions = joined(context, subject, (first.pose.position, last.pose.position), &inner);
+    let secs = natural_secs(context, &positions);
+    let states = states_along(context.world, (&first, &last), &positions);
+    let mut segment = context.constrained_at_end(context.constrained_at_start(context.segment(states, secs)));
+    if let Some(end) = &context.end {
+        segment = segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.15));
+        segment = require_visible(segment, end, Scope::End);
+    }
+    Some(vec![segment])
+}
+
+/// The path from end to end: around the object to the inner points and away from them, and straight between those.
+fn joined(context: &StepContext, subject: &Subject, (first, last): (DVec3, DVec3), inner: &[DVec3]) -> Vec<DVec3> {
+    let mut out = vec![first];
+    let mut go_to = |point: DVec3, bends: bool| {
+        let from = out[out.len() - 1];
+        if from.distance(point) > 1e-6 * context.world.bounds.size() {
+            if bends {
+                out.extend(around(context.world, subject, from, point));
+            }
+            out.push(point);
+        }
+    };
+    for (i, &point) in inner.iter().enumerate() {
+        go_to(point, i == 0);
+    }
+    go_to(last, true);
+    if out.len() < 2 {
+        out.push(last);
+    }
+    out
+}
+
+/// Room between the object's box and a camera beside it. Parameter 1 chooses it.
+fn margin(context: &StepContext) -> f64 {
+    let world = context.world;
+    2.0 * world.camera_radius + lerp((0.0, 0.12), context.parameters[1]) * world.bounds.size()
+}
+
+/// Height of a camera that passes an object, as an offset from the object's center. Parameter 3 chooses it.
+fn rise(context: &StepContext, subject: &Subject) -> DVec3 {
+    let frame = &context.world.frame;
+    let low = context.world.camera_radius * 1.5 - context.world.height_above_floor(subject.center);
+    let half = subject.reach(frame.up);
+    frame.up * lerp((-0.2 * half, 1.3 * half + 0.05 * context.world.bounds.size()), context.parameters[3]).max(low)
+}
+
+/// The point behind or in front of an object.
+fn gate_beside(context: &StepContext, subject: &Subject, how: Pass) -> DVec3 {
+    let turn = if how == Pass::Behind { std::f64::consts::PI } else { 0.0 };
+    let azimuth = front_azimuth(context.world, subject.center) + turn + (context.parameters[0] - 0.5) * 1.2;
+    let direction = context.world.frame.direction(azimuth);
+    subject.center + direction * (subject.reach(direction) + margin(context)) + rise(context, subject)
+}
+
+/// Both ends of the line beside an object, along its longer horizontal axis: toward the end target, or either way; on the
+/// side of the camera before, or else mostly in front.
+fn line_along(context: &StepContext, subject: &Subject) -> Vec<DVec3> {
+    let world = context.world;
+    let [long, _] = subject.level_axes(world.frame.up);
+    let aside = long.cross(world.frame.up).normalize_or_zero();
+    let (near, from) = match &context.before {
+        Some(before) => (before.pose.position - subject.center, Some(before.pose.position)),
+        None => (world.frame.direction(front_azimuth(world, subject.center)), None),
+    };
+    let other = context.parameters[4] > 0.75 && from.is_none();
+    let aside = if (near.dot(aside) < 0.0) == other { aside } else { -aside };
+    let ahead = match (&context.end, from) {
+        (Some(end), _) => (end.aim - subject.center).dot(long),
+        (None, Some(from)) => (subject.center - from).dot(long),
+        (None, None) => context.parameters[2] - 0.5,
+    };
+    let long = if ahead < 0.0 { -long } else { long };
+    let middle = subject.center + aside * (subject.reach(aside) + margin(context)) + rise(context, subject);
+    vec![middle - long * 1.02, middle + long * 1.02]
+}
+
+/// The camera at the start: the one before, a view of the start target, or one on the way to the first inner point, that
+/// looks along the path.
+fn first_beside(context: &StepContext, subject: &Subject, inner: &[DVec3]) -> CameraState {
+    let world = context.world;
+    if let Some(before) = &context.before {
+        return *before;
+    }
+    if context.start.is_some() {
+        return context.view(&context.opening_target(), &context.opening_framing(), (0.4, 0.7), NORMAL_LENS_DEG);
+    }
+    let (position, next) = if let [from, to, ..] = inner {
+        (*from, *to)
+    } else {
+        let gate = inner.first().copied().unwrap_or(subject.center);
+        let sign = if context.parameters[2] < 0.5 { -1.0 } else { 1.0 };
+        (swung(context, subject, gate, sign * lerp((0.9, 1.9), context.parameters[4])), gate)
+    };
+    let fov_deg = context.opening_framing().lens.map_or(NORMAL_LENS_DEG, lens_fov_deg);
+    let fov_y_rad = lerp(fov_deg, context.parameters[5]).to_radians();
+    let pose = Pose { position, rotation: glam::DQuat::IDENTITY };
+    aimed(world, &CameraState { pose, fov_y_rad, focus_distance: None }, next)
+}
+
+/// A camera position turned about the upright axis through an object.
+fn swung(context: &StepContext, subject: &Subject, position: DVec3, angle_rad: f64) -> DVec3 {
+    let frame = &context.world.frame;
+    let away = position - subject.center;
+    let direction = frame.direction(frame.azimuth(away) + angle_rad);
+    subject.center + direction * frame.horizontal(away).length() + frame.up * frame.height(away)
+}
+
+/// The camera after the object where no end target is named: as far beyond the last inner point as the path came, looking
+/// on along it.
+fn last_beside(context: &StepContext, subject: &Subject, first: &CameraState, inner: &[DVec3]) -> CameraState {
+    let frame = &context.world.frame;
+    let gate = inner.last().copied().unwrap_or(first.pose.position);
+    if inner.len() > 1 {
+        let last = moved(first, gate - first.pose.position);
+        return aimed(context.world, &last, gate + (gate - inner[0]));
+    }
+    let azimuth = |p: DVec3| frame.azimuth(p - subject.center);
+    let turn = short_turn(azimuth(gate) - azimuth(first.pose.position));
+    let turn = turn.signum() * turn.abs().clamp(0.6, 1.9);
+    let position = swung(context, subject, gate, turn);
+    let onward = swung(context, subject, position, turn.signum() * 0.5) - position;
+    aimed(context.world, &moved(first, position - first.pose.position), position + onward)
+}
+
+/// A truck from one end of an object to the other, parallel to its longer horizontal axis and facing it; mostly on its
+/// front side. `None` where the object is unknown or the camera's place is given.
+pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
+    let subject = passed(context).filter(|_| context.before.is_none())?;
+    let world = context.world;
+    let framing = Framing { subjects: context.step.via.as_ref()?.objects.clone(), ..context.opening_framing() };
+    let target = Target::of(world, &framing)?;
+    let [long, _] = subject.level_axes(world.frame.up);
+    let aside = long.cross(world.frame.up).normalize_or_zero();
+    let front = world.frame.direction(front_azimuth(world, subject.center));
+    let aside = if (front.dot(aside) < 0.0) == (context.parameters[4] > 0.75) { aside } else { -aside };
+    let elevation_rad = framing.elevation_deg.unwrap_or(lerp((0.0, 20.0), context.parameters[1])).to_radians();
+    let bearing = Bearing { azimuth_rad: world.frame.azimuth(aside), elevation_rad };
+    let fill = stated_fill(&framing, context.parameters[2]);
+    let fill = fill.unwrap_or_else(|| Fill::Height(lerp((0.3, 0.7), context.parameters[2])));
+    let fov_deg = framing.lens.map_or(NORMAL_LENS_DEG, lens_fov_deg);
+    let fov_y_rad = lerp(fov_deg, context.parameters[3]).to_radians();
+    let middle = view_from(world, (&target, &framing), bearing, fill, fov_y_rad);
+    let sign = context.sign(if context.step.movement == Move::TruckLeft { -1.0 } else { 1.0 });
+    let half = middle.pose.right() * sign * long.length() * lerp((0.95, 1.1), context.parameters[6]);
+    let states = vec![moved(&middle, -half), moved(&middle, half)];
+    let distance = middle.pose.position.distance(target.aim);
+    let direction = if sign > 0.0 { TravelDirection::Right } else { TravelDirection::Left };
+    let secs = (2.0 * half.length() / distance * 5.0).clamp(2.5, 9.0);
+    let segment = context
+        .segment(states, secs)
+        .requiring(Scope::All, ConstraintKind::Travel(direction, target.aim, 0.02))
+        .requiring(Scope::All, ConstraintKind::InFrame(target.ids.iter().take(1).copied().collect(), 0.2));
+    Some(vec![context.constrained_at_end(context.constrained_at_start(require_visible(segment, &target, Scope::All)))])
+}
+
+/// Starts behind an object that hides the subject and slides out from behind it, aimed at the subject. `None` where the
+/// object is unknown or above the subject, or the camera's place is given.
+pub(super) fn reveal_from_behind(context: &StepContext) -> Option<Vec<MotionSegment>> {
+    let cover = passed(context).filter(|_| context.before.is_none())?;
+    let (world, target) = (context.world, context.main_target());
+    let first = covered_view(context, cover, &target)?;
+    let last = aimed(world, &moved(&first, way_out(context, cover, &target, &first)), target.aim);
+    let secs = natural_secs(context, &[first.pose.position, last.pose.position]);
+    let segment = context.segment(vec![first, last], secs).about(target.aim);
+    let mut segment = context.constrained_at_end(segment);
+    for &id in target.ids.iter().take(1) {
+        segment = segment.requiring(Scope::Start, ConstraintKind::Unseen(id, COVERED_FRAC));
+    }
+    Some(vec![require_visible(segment, &target, Scope::End)])
+}
+
+/// A camera aimed at the target on the line from it through the middle of the cover, beyond the cover.
+fn covered_view(context: &StepContext, cover: &Subject, target: &Target) -> Option<CameraState> {
+    let (world, frame) = (context.world, &context.world.frame);
+    let line = cover.center - target.aim;
+    let back = frame.horizontal(line).try_normalize()?;
+    let azimuth_rad = frame.azimuth(back);
+    let room = 2.0 * world.camera_radius + lerp((0.0, 0.15), context.parameters[1]) * world.bounds.size();
+    let near = frame.horizontal(line).length() + cover.reach(back) + room;
+    let distance = context.step.end.distance.map_or(near, |wanted| {
+        distance_along(world, target, Bearing { azimuth_rad, elevation_rad: 0.0 }, wanted).max(near)
+    });
+    let height = frame.height(line) * lerp((0.0, 1.2), context.parameters[3]);
+    let bearing = Bearing { azimuth_rad, elevation_rad: height.atan2(distance) };
+    let fov_y_rad = lerp(NORMAL_LENS_DEG, 0.5).to_radians();
+    Some(filled(context, target, &view_at(world, target.aim, bearing, distance.hypot(height), fov_y_rad)))
+}
+
+/// The slide that brings the target out from behind the cover: to a side or up, beyond the edge of the cover as the
+/// camera sees it, by at least the target's own extent.
+fn way_out(context: &StepContext, cover: &Subject, target: &Target, first: &CameraState) -> DVec3 {
+    let frame = &context.world.frame;
+    let spare = lerp((0.9, 1.8), context.parameters[6]);
+    let level = |v: DVec3| frame.horizontal(v).length();
+    let to_target = level(first.pose.position - target.aim);
+    // The edge of the cover shifts across the target by the camera's travel times this share.
+    let share = (level(cover.center - target.aim) / to_target).max(0.1);
+    let right = frame.horizontal(first.pose.right()).normalize_or_zero();
+    let aside = right * (cover.reach(right) + target.radius) / share * spare;
+    match context.step.with.first() {
+        Some(Move::PedestalUp | Move::CraneUp | Move::TiltUp) => frame.up * (2.0 * cover.reach(frame.up)) * spare,
+        Some(Move::TruckLeft | Move::PanLeft | Move::OrbitLeft | Move::ArcLeft) => -aside,
+        Some(Move::TruckRight | Move::PanRight | Move::OrbitRight | Move::ArcRight) => aside,
+        _ if context.parameters[5] < 0.5 => -aside,
+        _ => aside,
+    }
+}
+
+/// Largest visible share of a subject that a reveal starts behind cover.
+const COVERED_FRAC: f64 = 0.1;
+
+/// The camera with the lens that gives its target the stated height, or the usual one; or with the stated lens.
+fn filled(context: &StepContext, target: &Target, view: &CameraState) -> CameraState {
+    let end = &context.step.end;
+    if let Some(lens) = end.lens {
+        let range = lens_fov_deg(lens);
+        return with_fov(view, lerp(range, context.parameters[2]).to_radians());
+    }
+    let wanted = match stated_fill(end, context.parameters[2]) {
+        Some(Fill::Height(wanted) | Fill::Fit(wanted)) => wanted,
+        None => lerp((0.3, 0.6), context.parameters[2]),
+    };
+    let now = extent_frac(view, &target.corners).y;
+    let tan = (view.fov_y_rad / 2.0).tan() * now / wanted;
+    with_fov(view, (2.0 * tan.atan()).clamp(12.0_f64.to_radians(), 70.0_f64.to_radians()))
+}

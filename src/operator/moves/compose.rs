@@ -1,0 +1,247 @@
+//! The composition of a step's first and last picture: place of the subject in the frame, and lens.
+//!
+//! Enters: the segments of a move, aimed at the middle of their subjects. Leaves: the same segments, with the cameras
+//! turned (of a slide: shifted along its line) and the lens set where the prompt states a place or a lens. Segments
+//! without either stay as they are.
+
+use glam::{DVec2, DVec3};
+
+use super::context::{StepContext, TURN_DEG_PER_SEC};
+use crate::composition::{frame_place, lens_fov_deg, placed, short_turn};
+use crate::constraint::{Constraint, ConstraintKind};
+use crate::framing::{DEFAULT_ASPECT, Target, frame_position};
+use crate::motion::MotionSegment;
+use crate::view::{lerp, moved, with_fov};
+use cinesplat_geometry::{LevelAngles, Pose, rotation};
+use cinesplat_trajectory::{CameraState, Move};
+
+/// Composes the step's own motion, its last segment, and lets its join end where that motion then begins.
+pub(super) fn compose(context: &StepContext, segments: &mut Vec<MotionSegment>) {
+    let places = Places::of(context);
+    let lenses = context.step.start.lens.is_some() || context.step.end.lens.is_some();
+    if (!lenses && places.is_empty()) || segments.last().is_none_or(|segment| segment.is_join) {
+        return;
+    }
+    if let Some(segment) = segments.last_mut() {
+        if lenses {
+            set_lens(context, segment);
+        }
+        if !places.is_empty() {
+            place(context, &places, segment);
+            segment.constraints.retain(|constraint| !places.replaces(constraint));
+        }
+    }
+    rejoin(context, segments);
+}
+
+/// The places of the subjects at both ends of a step, and the points that are to be there.
+struct Places {
+    start: Option<DVec2>,
+    end: Option<DVec2>,
+    from: Target,
+    to: Target,
+    /// Both ends frame the same subject.
+    same: bool,
+}
+
+impl Places {
+    /// Where the prompt states the place for one end, a move that stays with its subject keeps it from the other end on.
+    fn of(context: &StepContext) -> Self {
+        let place = |place: Option<_>| place.map(frame_place);
+        let (start, end) = (place(context.step.start.place), place(context.step.end.place));
+        let (from, to) = (context.opening_target(), context.main_target());
+        let same = from.ids.first() == to.ids.first();
+        let stays = same && stays_with_subject(context.step.movement);
+        let opens = context.before.is_none() || matches!(context.step.movement, Move::Static | Move::Handheld);
+        Self { start: start.or(end.filter(|_| stays && opens)), end: end.or(start.filter(|_| stays)), from, to, same }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.start.is_none() && self.end.is_none()
+    }
+
+    /// Whether a constraint that wants a subject in the middle gives way to its place.
+    fn replaces(&self, constraint: &Constraint) -> bool {
+        match &constraint.kind {
+            ConstraintKind::Centered(target, _) | ConstraintKind::OnThird(target) => {
+                let is_of = |other: &Target| target.ids.first() == other.ids.first();
+                (self.start.is_some() && is_of(&self.from)) || (self.end.is_some() && is_of(&self.to))
+            }
+            _ => false,
+        }
+    }
+}
+
+fn stays_with_subject(movement: Move) -> bool {
+    !matches!(
+        movement,
+        Move::PanLeft
+            | Move::PanRight
+            | Move::WhipPan
+            | Move::TiltUp
+            | Move::TiltDown
+            | Move::Follow
+            | Move::FlyThrough
+            | Move::Reveal
+    ) && !is_slide(movement)
+}
+
+fn is_slide(movement: Move) -> bool {
+    matches!(movement, Move::TruckLeft | Move::TruckRight | Move::PedestalUp | Move::PedestalDown)
+}
+
+/// Share of the way of each state.
+fn shares(segment: &MotionSegment) -> Vec<f64> {
+    let count = segment.states.len() - 1;
+    (0..=count).map(|i| i as f64 / count as f64).collect()
+}
+
+/// Sets the stated lenses at both ends. Between them the focal length changes evenly.
+fn set_lens(context: &StepContext, segment: &mut MotionSegment) {
+    if matches!(context.step.movement, Move::ZoomIn | Move::ZoomOut | Move::DollyZoomIn | Move::DollyZoomOut) {
+        return;
+    }
+    let focal = |fov_rad: f64| 1.0 / (fov_rad / 2.0).tan();
+    let first = context.step.start.lens.map_or(segment.states[0], |lens| {
+        let (low, high) = lens_fov_deg(lens);
+        let kept = segment.states[0].fov_y_rad.to_degrees();
+        let fov_deg = if (low..=high).contains(&kept) { kept } else { low.midpoint(high) };
+        with_fov(&segment.states[0], fov_deg.to_radians())
+    });
+    let (from, to) = (focal(first.fov_y_rad), focal(context.end_fov_rad(&first)));
+    let factor = from / focal(segment.states[0].fov_y_rad);
+    for (share, i) in shares(segment).into_iter().zip(0..) {
+        // Without a stated lens at the end, a zoom at the same time stays.
+        let own = factor * focal(segment.states[i].fov_y_rad);
+        let focal = if context.step.end.lens.is_some() { lerp((from, to), share) } else { own };
+        segment.states[i] = with_fov(&segment.states[i], 2.0 * (1.0 / focal).atan());
+    }
+}
+
+fn place(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
+    match context.step.movement {
+        movement if is_slide(movement) => slide(context, places, segment),
+        Move::ZoomIn | Move::ZoomOut => zoom(context, places, segment),
+        _ if segment.pivot.is_some() && places.same => follow_subject(context, places, segment),
+        _ => turn(context, places, segment),
+    }
+}
+
+/// Places the subject on every state; its place changes evenly from the start to the end.
+fn follow_subject(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
+    let last = segment.states.len() - 1;
+    let now = |state: &CameraState| frame_position(state, places.to.aim).map_or(DVec2::ZERO, |(at, _)| at);
+    let from = places.start.unwrap_or_else(|| now(&segment.states[0]));
+    let to = places.end.unwrap_or_else(|| now(&segment.states[last]));
+    for (share, i) in shares(segment).into_iter().zip(0..) {
+        segment.states[i] = placed(context.world, &segment.states[i], places.to.aim, from.lerp(to, share));
+    }
+}
+
+/// Turns both ends; the turns of the states between them change evenly.
+fn turn(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
+    let frame = &context.world.frame;
+    let last = segment.states.len() - 1;
+    let turned = |state: &CameraState, target: &Target, at: Option<DVec2>| {
+        let Some(at) = at else { return (0.0, 0.0) };
+        let (now, then) = (
+            frame.angles(state.pose.rotation),
+            frame.angles(placed(context.world, state, target.aim, at).pose.rotation),
+        );
+        (short_turn(then.yaw_rad - now.yaw_rad), then.pitch_rad - now.pitch_rad)
+    };
+    let from = turned(&segment.states[0], &places.from, places.start);
+    let to = turned(&segment.states[last], &places.to, places.end);
+    for (share, i) in shares(segment).into_iter().zip(0..) {
+        let by = (lerp((from.0, to.0), share), lerp((from.1, to.1), share));
+        segment.states[i] = turned_by(context, &segment.states[i], by);
+    }
+}
+
+fn turned_by(context: &StepContext, state: &CameraState, (yaw_rad, pitch_rad): (f64, f64)) -> CameraState {
+    let frame = &context.world.frame;
+    let angles = frame.angles(state.pose.rotation);
+    let angles = LevelAngles { yaw_rad: angles.yaw_rad + yaw_rad, pitch_rad: angles.pitch_rad + pitch_rad, ..angles };
+    CameraState { pose: Pose { rotation: frame.rotation(angles), ..state.pose }, ..*state }
+}
+
+/// One turn for all states of a zoom: the place is exact at the end that states it.
+fn zoom(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
+    let at_start = context.step.end.place.is_none();
+    let last = segment.states.len() - 1;
+    let (state, at) = if at_start { (&segment.states[0], places.start) } else { (&segment.states[last], places.end) };
+    let Some(at) = at else { return };
+    let rotation = placed(context.world, state, places.to.aim, at).pose.rotation;
+    segment.states.iter_mut().for_each(|state| state.pose.rotation = rotation);
+}
+
+/// Shifts the ends of a slide along its line, and turns all its states by the same angle for the other direction of the
+/// frame. Where one end alone states a place, a free slide is shifted as a whole.
+fn slide(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
+    let last = segment.states.len() - 1;
+    let free = context.before.is_none();
+    let lone = free && (places.start.is_none() || places.end.is_none());
+    let stated = [(0, &places.from, places.start), (last, &places.to, places.end)];
+    // A shift changes the direction to the subject, and with it the turn: eight rounds settle both.
+    for _ in 0..8 {
+        for (i, target, at) in stated {
+            let Some(at) = at.filter(|_| i > 0 || free) else { continue };
+            if free {
+                square_up(context, segment, i, target.aim, at);
+            }
+            let Some(by) = shift_to(context, &segment.states[i], target.aim, at) else { continue };
+            for (share, state) in shares(segment).into_iter().zip(segment.states.iter_mut()) {
+                let weight = if lone { 1.0 } else { 1.0 - (share - i as f64 / last as f64).abs() };
+                *state = moved(state, by * weight);
+            }
+        }
+    }
+}
+
+/// Turns all states alike, so that a point has the stated position across the line of the slide in one of them.
+fn square_up(context: &StepContext, segment: &mut MotionSegment, index: usize, aim: DVec3, at: DVec2) {
+    let Some((now, _)) = frame_position(&segment.states[index], aim) else { return };
+    let across = if is_vertical(context) { DVec2::new(at.x, now.y) } else { DVec2::new(now.x, at.y) };
+    let rotation = placed(context.world, &segment.states[index], aim, across).pose.rotation;
+    segment.states.iter_mut().for_each(|state| state.pose.rotation = rotation);
+}
+
+/// The shift along the line of a slide that brings a point to its place in the direction of the slide. With the point at
+/// c and the line along a in camera axes, the shift s solves (c.x - s a.x) = k (c.z - s a.z).
+fn shift_to(context: &StepContext, state: &CameraState, aim: DVec3, at: DVec2) -> Option<DVec3> {
+    let axis = if is_vertical(context) { context.world.frame.up } else { state.pose.right() };
+    let (c, a) = (state.pose.to_camera(aim), state.pose.rotation.conjugate() * axis);
+    let half = 2.0 * (state.fov_y_rad / 2.0).tan();
+    let (off, rate) = if is_vertical(context) {
+        (c.y + at.y * half * c.z, a.y + at.y * half * a.z)
+    } else {
+        let k = at.x * half * DEFAULT_ASPECT;
+        (c.x - k * c.z, a.x - k * a.z)
+    };
+    (c.z > 0.0 && rate.abs() > 1e-9).then(|| axis * (off / rate))
+}
+
+fn is_vertical(context: &StepContext) -> bool {
+    matches!(context.step.movement, Move::PedestalUp | Move::PedestalDown)
+}
+
+/// Lets the join end where the step's own motion begins. Adds a join where the camera before has another view or lens.
+pub(super) fn rejoin(context: &StepContext, segments: &mut Vec<MotionSegment>) {
+    let Some(before) = context.before else { return };
+    let Some(first) = segments.last().map(|segment| segment.states[0]) else { return };
+    let count = segments.len();
+    if let Some(join) = segments[..count - 1].last_mut() {
+        let end = join.states.len() - 1;
+        join.states[end] = first;
+        return;
+    }
+    let angle_deg = rotation::angle_between(before.pose.rotation, first.pose.rotation).to_degrees();
+    let same_lens = (before.fov_y_rad - first.fov_y_rad).abs() < 1e-9;
+    let same_place = before.pose.position.distance(first.pose.position) < 1e-9;
+    if angle_deg > 1e-6 || !same_lens || !same_place {
+        let secs = (angle_deg / (2.0 * TURN_DEG_PER_SEC)).clamp(0.8, 2.2);
+        let mut join = MotionSegment::new(context.index, Move::Follow, vec![before, first], secs);
+        join.is_join = true;
+        segments.insert(0, join);
+    }
+}

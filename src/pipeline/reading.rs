@@ -1,0 +1,264 @@
+//! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
+
+use cinesplat_director::{Direction, Director, SceneContext};
+use cinesplat_language::{EffectMention, Linked, effect_mentions};
+use cinesplat_operator::{Look, Motion, Program, Step};
+use cinesplat_trajectory::{Move, ReportLine};
+
+use super::error::PipelineError;
+
+/// Below this probability a step is not carried out, unless it is the only one.
+const LEAST_PROBABILITY: f64 = 0.03;
+/// Below this probability a step is carried out with a warning.
+const SURE_PROBABILITY: f64 = 0.2;
+
+/// The interpretation of a prompt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// The words, with their mentions of objects.
+    pub linked: Linked,
+    /// The program, the cameras that the network proposes, and the certainty of each step.
+    pub direction: Direction,
+    /// Effects that the prompt mentions.
+    pub effects: Vec<EffectMention>,
+    /// What the prompt asks for and the program does not contain.
+    pub problems: Vec<Problem>,
+}
+
+/// A part of a prompt that the program does not contain.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Why.
+    pub kind: ProblemKind,
+    /// The words of the prompt.
+    pub words: String,
+    /// Their bytes of the prompt.
+    pub span: [usize; 2],
+    /// What the program would have done, or which names are near; may be empty.
+    pub note: String,
+}
+
+/// Why a part of a prompt is not in the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(strum::AsRefStr, strum::Display)]
+#[strum(serialize_all = "kebab-case")]
+pub enum ProblemKind {
+    /// The scene has no such object.
+    NotInScene,
+    /// No camera can do it.
+    CannotBeDone,
+    /// It contradicts other words.
+    Contradiction,
+    /// Its meaning is not clear enough.
+    NotUnderstood,
+}
+
+impl Problem {
+    /// The line of the report.
+    pub fn report_line(&self) -> ReportLine {
+        let wanted = match self.kind {
+            ProblemKind::NotInScene => "an object of the scene",
+            ProblemKind::CannotBeDone => "something that a camera can do",
+            ProblemKind::Contradiction => "no contradiction",
+            ProblemKind::NotUnderstood => "words that are understood",
+        };
+        ReportLine {
+            clause: self.words.clone(),
+            wanted: wanted.to_owned(),
+            got: 0.0,
+            met: false,
+            note: self.note.clone(),
+        }
+    }
+}
+
+impl Reading {
+    /// The words of a step; empty for a step without words of its own.
+    pub fn words_of<'a>(&self, step: &Step, prompt: &'a str) -> &'a str {
+        step.words.and_then(|[start, end]| prompt.get(start..end)).unwrap_or_default()
+    }
+
+    /// Words of the prompt that no step, no effect and no problem accounts for, in order, without words that carry no
+    /// request.
+    pub fn unused_words<'a>(&self, prompt: &'a str) -> Vec<&'a str> {
+        let of_steps = self.direction.program.steps.iter().filter_map(|step| step.words);
+        let of_effects = self.effects.iter().map(|effect| effect.span);
+        let of_problems = self.problems.iter().map(|problem| problem.span);
+        let used: Vec<[usize; 2]> = of_steps.chain(of_effects).chain(of_problems).collect();
+        let is_used = |span: &[usize; 2]| used.iter().any(|used| used[0] <= span[0] && span[1] <= used[1]);
+        // A number that no step uses is the length of the film, if that is stated.
+        let has_length = self.direction.program.duration_secs.is_some();
+        let is_length = |word: &str| has_length && word.starts_with("<qty-");
+        let words = self.linked.tokens_text.split(' ').zip(&self.linked.spans);
+        let spans = words.filter(|(word, span)| !is_length(word) && !is_used(span)).map(|(_, span)| span);
+        spans.filter_map(|span| prompt.get(span[0]..span[1])).filter(|word| carries_request(word)).collect()
+    }
+}
+
+/// Reads a prompt about a scene.
+///
+/// # Errors
+/// [`PipelineError::Language`] for a prompt that names no known object where it names one ·
+/// [`PipelineError::Director`] when the network fails.
+pub fn read(
+    prompt: &str,
+    linked: Linked,
+    director: &Director,
+    scene: &SceneContext<'_>,
+) -> Result<Reading, PipelineError> {
+    let effects = effect_mentions(&linked)?;
+    let mut direction = director.direct(&linked, scene)?;
+    let mut problems = Vec::new();
+    problems.extend(unmet(prompt, &direction, &effects));
+    problems.extend(missing_aside(&linked, &mut direction.program));
+    problems.extend(contradictions(prompt, &mut direction.program));
+    problems.extend(uncertain(prompt, &mut direction));
+    Ok(Reading { linked, direction, effects, problems })
+}
+
+/// Words that the notation cannot say and that are no effect.
+fn unmet(prompt: &str, direction: &Direction, effects: &[EffectMention]) -> Vec<Problem> {
+    let overlaps = |a: &[usize; 2], b: &[usize; 2]| a[0] < b[1] && b[0] < a[1];
+    let spans = direction.unmet.iter().filter(|span| !effects.iter().any(|effect| overlaps(&effect.span, span)));
+    let spans = spans.filter(|[start, end]| prompt.get(*start..*end).is_some_and(carries_request));
+    let problem = |span: &[usize; 2]| problem(prompt, ProblemKind::CannotBeDone, *span, String::new());
+    spans.map(problem).collect()
+}
+
+fn problem(prompt: &str, kind: ProblemKind, span: [usize; 2], note: String) -> Problem {
+    let words = prompt.get(span[0]..span[1]).unwrap_or_default().to_owned();
+    Problem { kind, words, span, note }
+}
+
+/// Removes what the scene lacks from where a step only passes, looks at, keeps or avoids it. A step about something that the
+/// scene lacks keeps it: callers refuse such a prompt.
+fn missing_aside(linked: &Linked, program: &mut Program) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for step in &mut program.steps {
+        let span = step.words.unwrap_or_default();
+        let mut keep_known = |ids: &mut Vec<u32>| {
+            ids.retain(|id| {
+                let Some(group) = linked.missing(*id) else { return true };
+                let note = format!("no such object; nearest: {}", group.nearest.join(", "));
+                problems.push(Problem { kind: ProblemKind::NotInScene, words: group.name.clone(), span, note });
+                false
+            });
+        };
+        if let Some(via) = &mut step.via {
+            keep_known(&mut via.objects);
+        }
+        if let Some(Look::At(ids)) = &mut step.look {
+            keep_known(ids);
+        }
+        keep_known(&mut step.keep);
+        keep_known(&mut step.avoid);
+        step.via = step.via.take().filter(|via| !via.objects.is_empty());
+        step.look = step.look.take().filter(|look| *look != Look::At(Vec::new()));
+    }
+    problems
+}
+
+/// Steps that contradict themselves or the motions that the film forbids. Of two opposite moves at once the first stays; a
+/// forbidden move stays too, because the prompt names it.
+fn contradictions(prompt: &str, program: &mut Program) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for step in &mut program.steps {
+        let span = step.words.unwrap_or([0, prompt.len()]);
+        let movement = step.movement;
+        step.with.retain(|second| {
+            let is_possible = !are_opposite(movement, *second);
+            if !is_possible {
+                let note = format!("{movement} and {second} at the same time: carried out as {movement}");
+                problems.push(problem(prompt, ProblemKind::Contradiction, span, note));
+            }
+            is_possible
+        });
+        let moves = std::iter::once(&movement).chain(&step.with);
+        let forbidden = moves.filter_map(|movement| Some((movement, motion_of(*movement)?)));
+        for (movement, motion) in forbidden.filter(|(_, motion)| program.forbidden.contains(motion)) {
+            let note = format!("{movement}, although the prompt rules out \"{motion}\"");
+            problems.push(problem(prompt, ProblemKind::Contradiction, span, note));
+        }
+    }
+    problems
+}
+
+/// Whether two moves have the two directions of one move.
+fn are_opposite(a: Move, b: Move) -> bool {
+    let opposite = match a.as_ref() {
+        "push-in" => Some("pull-out".to_owned()),
+        "pull-out" => Some("push-in".to_owned()),
+        name => name.rsplit_once('-').and_then(|(stem, way)| {
+            let other = match way {
+                "left" => "right",
+                "right" => "left",
+                "up" => "down",
+                "down" => "up",
+                "in" => "out",
+                "out" => "in",
+                "cw" => "ccw",
+                "ccw" => "cw",
+                _ => return None,
+            };
+            Some(format!("{stem}-{other}"))
+        }),
+    };
+    opposite.is_some_and(|opposite| opposite == b.as_ref())
+}
+
+/// The motion that a prompt rules out when it rules out this move.
+fn motion_of(movement: Move) -> Option<Motion> {
+    match movement {
+        Move::ZoomIn | Move::ZoomOut | Move::DollyZoomIn | Move::DollyZoomOut => Some(Motion::Zoom),
+        Move::PanLeft | Move::PanRight | Move::WhipPan => Some(Motion::Pan),
+        Move::TiltUp | Move::TiltDown => Some(Motion::Tilt),
+        Move::RollCw | Move::RollCcw => Some(Motion::Roll),
+        Move::Handheld => Some(Motion::Shake),
+        _ => None,
+    }
+}
+
+/// Removes the steps that are too unlikely, unless they are all; tells of them and of doubtful ones.
+fn uncertain(prompt: &str, direction: &mut Direction) -> Vec<Problem> {
+    let most = direction.certainty.iter().map(|certainty| certainty.probability).fold(0.0, f64::max);
+    let mut problems = Vec::new();
+    let is_kept: Vec<bool> = direction
+        .certainty
+        .iter()
+        .map(|certainty| certainty.probability >= LEAST_PROBABILITY || certainty.probability >= most)
+        .collect();
+    for ((certainty, step), is_kept) in direction.certainty.iter().zip(&direction.program.steps).zip(&is_kept) {
+        if certainty.probability >= SURE_PROBABILITY {
+            continue;
+        }
+        let sure = 100.0 * certainty.probability;
+        let read_as = format!("read as {}, {sure:.0} % sure", step.movement);
+        let note = if *is_kept { read_as } else { format!("left out; {read_as}") };
+        let span = certainty.words.unwrap_or([0, prompt.len()]);
+        problems.push(problem(prompt, ProblemKind::NotUnderstood, span, note));
+    }
+    let mut kept = is_kept.iter();
+    let mut keep = || kept.next().copied().unwrap_or(true);
+    if is_kept.len() == direction.program.steps.len() {
+        direction.program.steps.retain(|_| keep());
+        let mut kept = is_kept.iter();
+        direction.certainty.retain(|_| kept.next().copied().unwrap_or(true));
+        if direction.step_cameras.len() == is_kept.len() {
+            let mut kept = is_kept.iter();
+            direction.step_cameras.retain(|_| kept.next().copied().unwrap_or(true));
+        }
+    }
+    problems
+}
+
+/// Whether a word or phrase may ask for something: it has letters or digits and is no word of courtesy or grammar.
+fn carries_request(words: &str) -> bool {
+    const EMPTY: [&str; 61] = [
+        "a", "an", "the", "and", "then", "please", "thanks", "thank", "you", "i", "we", "me", "my", "us", "our", "it",
+        "its", "is", "are", "be", "to", "of", "on", "in", "at", "so", "ok", "okay", "um", "uh", "well", "just", "like",
+        "that", "this", "there", "can", "could", "would", "want", "need", "let", "lets", "let's", "s", "d", "ll",
+        "with", "for", "as", "but", "or", "total", "camera", "cam", "shot", "video", "film", "hi", "hey", "here",
+    ];
+    let mut words = words.split(|c: char| !c.is_alphanumeric() && c != '\'').filter(|word| !word.is_empty());
+    words.any(|word| !EMPTY.contains(&word.to_lowercase().as_str()))
+}

@@ -1,0 +1,47 @@
+//! Linking with known mentions, and groups.
+
+use cinesplat::language::{Mention, QuantityKind, link_mentions};
+
+fn mention(prompt: &str, words: &str, ids: &[u32]) -> Mention {
+    let start = prompt.find(words).unwrap();
+    Mention { bytes: [start, start + words.len()], ids: ids.to_vec() }
+}
+
+#[test]
+fn a_mention_becomes_one_placeholder_and_numbers_become_quantities() {
+    let prompt = "Circle the big couch twice over 8 s, then hold on the couch.";
+    let mentions = [mention(prompt, "the big couch", &[7]), mention(prompt, "the couch", &[7])];
+    let linked = link_mentions(prompt, &mentions).unwrap();
+    assert_eq!(linked.tokens_text, "circle <obj-0> <qty-0> over <qty-1> , then hold on <obj-0> .");
+    assert_eq!(linked.slots, [7]);
+    assert_eq!(linked.quantities[1].kind, QuantityKind::Seconds);
+    let words: Vec<&str> = linked.spans.iter().map(|[start, end]| &prompt[*start..*end]).collect();
+    assert_eq!(words[1], "the big couch");
+}
+
+#[test]
+fn several_objects_are_a_group_and_expand_to_their_members() {
+    let prompt = "Show both chairs, then the red one.";
+    let mentions = [mention(prompt, "both chairs", &[2, 5]), mention(prompt, "the red one", &[5])];
+    let linked = link_mentions(prompt, &mentions).unwrap();
+    let group = &linked.groups[0];
+    assert_eq!(linked.slots, [group.id, 5]);
+    assert_eq!(linked.expanded(&[group.id, 9]), [2, 5, 9]);
+    assert_eq!(linked.grouped(&[9, 2, 5]), [9, group.id]);
+    assert_eq!(linked.grouped(&[2, 9]), [2, 9]);
+    assert!(linked.missing(group.id).is_none());
+}
+
+#[test]
+fn things_that_the_scene_lacks_are_the_same_if_their_words_are() {
+    let prompt = "From the fountain to the statue, back to The Fountain";
+    let mentions = [
+        mention(prompt, "the fountain", &[]),
+        mention(prompt, "the statue", &[]),
+        mention(prompt, "The Fountain", &[]),
+    ];
+    let linked = link_mentions(prompt, &mentions).unwrap();
+    assert_eq!(linked.groups.len(), 2);
+    assert_eq!(linked.missing(linked.slots[0]).unwrap().name, "fountain");
+    assert_eq!(linked.tokens_text.matches("<obj-0>").count(), 2);
+}

@@ -1,0 +1,122 @@
+//! What the camera looks at while it travels, what stays in view, what is never in view, and simultaneous moves.
+
+use cinesplat::operator::{Amount, Framing, Look, Step};
+use cinesplat::trajectory::{CameraState, Move};
+use glam::DVec3;
+
+use super::composition::{assert_met, in_frame};
+use super::{film, solved, world};
+
+const FIRST: DVec3 = DVec3::new(1.2, 0.6, 0.9);
+const SECOND: DVec3 = DVec3::new(-1.2, 0.5, 0.8);
+
+fn about(id: u32) -> Framing {
+    Framing { subjects: vec![id], ..Framing::default() }
+}
+
+/// The largest turn between two neighboring frames, degrees.
+fn largest_step(frames: &[CameraState]) -> f64 {
+    let step = |pair: &[CameraState]| pair[0].pose.forward().angle_between(pair[1].pose.forward()).to_degrees();
+    frames.windows(2).map(step).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_look_at_an_object_holds_it_in_the_middle_all_the_way() {
+    for movement in [Move::TruckRight, Move::Follow, Move::FlyThrough, Move::PedestalUp] {
+        let step = Step { start: about(1), end: about(1), look: Some(Look::At(vec![2])), ..Step::of(movement) };
+        let solution = solved(&world(), vec![step]);
+        let frames = film(&solution);
+        assert!(frames[0].pose.position.distance(frames[frames.len() - 1].pose.position) > 0.1, "{movement} travels");
+        for state in &frames {
+            assert!(in_frame(state, SECOND).length() < 1e-6, "{movement}: {}", in_frame(state, SECOND));
+        }
+        assert_met(&solution, "look at box 2");
+    }
+}
+
+#[test]
+fn looks_ahead_and_back_follow_the_path_without_a_jump() {
+    for (look, sign) in [(Look::Ahead, 1.0), (Look::Back, -1.0)] {
+        let step = Step { start: about(2), end: about(1), look: Some(look), ..Step::of(Move::Follow) };
+        let solution = solved(&world(), vec![step]);
+        let frames = film(&solution);
+        for pair in frames[..frames.len() * 6 / 10].windows(2) {
+            let way = pair[1].pose.position - pair[0].pose.position;
+            if way.length() > 1e-3 {
+                let off = pair[0].pose.forward().angle_between(way * sign).to_degrees();
+                assert!(off < 16.0, "{off} degrees off the path");
+            }
+        }
+        assert!(largest_step(&frames) < 12.0, "{}", largest_step(&frames));
+        assert_met(&solution, "along the path");
+    }
+}
+
+#[test]
+fn a_look_at_the_room_after_another_step_begins_with_a_turn() {
+    let hold = Step { start: about(1), ..Step::of(Move::Static) };
+    let back = Step { look: Some(Look::Room), ..Step::of(Move::PedestalUp) };
+    let frames = film(&solved(&world(), vec![hold, back]));
+    assert!(largest_step(&frames) < 14.0, "{}", largest_step(&frames));
+    let last = &frames[frames.len() - 1];
+    let middle = DVec3::new(0.0, 1.3, 0.0) - last.pose.position;
+    assert!(last.pose.forward().angle_between(middle).to_degrees() < 25.0);
+}
+
+#[test]
+fn kept_objects_stay_in_view_and_avoided_ones_never_are() {
+    let step = Step { end: about(1), keep: vec![2], ..Step::of(Move::PushIn) };
+    let solution = solved(&world(), vec![step]);
+    for state in film(&solution) {
+        let at = in_frame(&state, SECOND).abs();
+        assert!(at.x < 0.52 && at.y < 0.52, "box 2 at {at}");
+    }
+    assert_met(&solution, "share of box 2 in the frame at least 0.50");
+
+    let step = Step { end: about(1), avoid: vec![2], ..Step::of(Move::PushIn) };
+    let solution = solved(&world(), vec![step]);
+    assert_met(&solution, "visible share of box 2 at most 0.05");
+    for state in film(&solution) {
+        let away = state.pose.rotation.conjugate() * (SECOND - state.pose.position);
+        assert!(away.z <= 0.0 || in_frame(&state, SECOND).abs().max_element() > 0.5, "box 2 is in view");
+    }
+}
+
+#[test]
+fn two_further_moves_happen_at_the_same_time() {
+    let with = vec![Move::PedestalUp, Move::PanRight];
+    let solution = solved(&world(), vec![Step { end: about(1), with, ..Step::of(Move::PushIn) }]);
+    assert_met(&solution, "pedestal-up at the same time");
+    assert_met(&solution, "pan-right at the same time");
+    let frames = film(&solution);
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    let elevation = |s: &CameraState| (s.pose.position - FIRST).normalize().y.asin().to_degrees();
+    assert!(elevation(last) > elevation(first) + 5.0, "rises above the line to the subject");
+    assert!(last.pose.position.distance(FIRST) < first.pose.position.distance(FIRST), "comes nearer");
+    assert!(first.pose.right().dot(last.pose.forward()) > 0.1, "turns to the right");
+
+    let with = vec![Move::RollCw, Move::ZoomIn];
+    let frames = film(&solved(&world(), vec![Step { end: about(1), with, ..Step::of(Move::OrbitLeft) }]));
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    assert!(last.pose.right().y < -0.1, "the right side dips: {}", last.pose.right());
+    assert!(last.fov_y_rad < 0.8 * first.fov_y_rad, "the lens narrows");
+}
+
+#[test]
+fn a_handheld_push_in_sways_on_its_way() {
+    let step = Step { end: about(1), with: vec![Move::Handheld], ..Step::of(Move::PushIn) };
+    let frames = film(&solved(&world(), vec![step]));
+    let line = frames[frames.len() - 1].pose.position - frames[0].pose.position;
+    let off = |s: &CameraState| (s.pose.position - frames[0].pose.position).reject_from(line).length();
+    let most = frames.iter().map(off).fold(0.0, f64::max);
+    assert!(most > 1e-3 && most < 0.02 * line.length().max(1.0), "{most} beside the line");
+}
+
+#[test]
+fn an_amount_that_the_move_does_not_take_is_that_of_the_further_move() {
+    let (with, amount) = (vec![Move::PanRight], Some(Amount::Degrees(30.0)));
+    let frames = film(&solved(&world(), vec![Step { end: about(1), with, amount, ..Step::of(Move::PedestalUp) }]));
+    let level = |s: &CameraState| s.pose.forward().with_y(0.0);
+    let turn = level(&frames[0]).angle_between(level(&frames[frames.len() - 1])).to_degrees();
+    assert!((turn - 30.0).abs() < 1e-6, "{turn}");
+}
