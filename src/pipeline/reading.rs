@@ -7,7 +7,7 @@ use cinesplat_trajectory::{Move, ReportLine};
 
 use super::error::PipelineError;
 
-/// Below this probability a step is not carried out, unless it is the only one.
+/// Below this probability a step is not carried out, unless all others are less likely.
 const LEAST_PROBABILITY: f64 = 0.03;
 /// Below this probability a step is carried out with a warning.
 const SURE_PROBABILITY: f64 = 0.2;
@@ -95,11 +95,10 @@ impl Reading {
     }
 }
 
-/// Reads a prompt about a scene.
+/// Reads a prompt about a scene; `linked` are its words with their mentions ([`Director::link`]).
 ///
 /// # Errors
-/// [`PipelineError::Language`] for a prompt that names no known object where it names one ·
-/// [`PipelineError::Director`] when the network fails.
+/// [`PipelineError::Language`] when the embedded lexicon is malformed · [`PipelineError::Director`] when the network fails.
 pub fn read(
     prompt: &str,
     linked: Linked,
