@@ -65,7 +65,7 @@ enum Run {
 /// use cinesplat_language::tokenize;
 ///
 /// let words: Vec<String> = tokenize("Push-in on the Chairs!").into_iter().map(|word| word.stem).collect();
-/// assert_eq!(words, ["push", "in", "on", "the", "chair", ""]);
+/// assert_eq!(words, ["push", "in", "on", "the", "chair", "!"]);
 /// ```
 pub fn tokenize(text: &str) -> Vec<Word> {
     let glyphs: Vec<(usize, usize, Glyph)> =
