@@ -83,7 +83,7 @@ impl Director {
         let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
         let has_names = NamesFiles::NAMES.iter().any(|name| folder.join(name).exists());
         let names = if has_names { Names::load(folder)? } else { Names::embedded()? };
-        Ok(Self { names, ..Self::from_files(&ModelFiles::read(path)?)? })
+        Ok(Self { model: Model::load(&ModelFiles::read(path)?)?, names })
     }
 
     /// A director from model files in memory, with the built-in network of names.
@@ -113,8 +113,7 @@ impl Director {
         for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
             let words = |found: &&FoundMention| {
                 let [start, end] = found.mention.bytes;
-                let words = prompt.get(start..end).unwrap_or_default().trim().to_lowercase();
-                words.ends_with(&group.name.to_lowercase())
+                prompt.get(start..end).is_some_and(|words| group.is_named(words))
             };
             group.nearest = found.iter().find(words).map(|found| found.nearest.clone()).unwrap_or_default();
         }
@@ -123,7 +122,8 @@ impl Director {
 
     /// Ids of the objects that are inputs of the network: those that the prompt names, then the nearest others.
     pub fn looks_at(linked: &Linked, objects: &[Object]) -> Vec<u32> {
-        let named = linked.expanded(&linked.slots);
+        let mut named = linked.expanded(&linked.slots);
+        named.retain(|id| linked.missing(*id).is_none());
         let others = other_objects(objects, &named);
         named.into_iter().chain(others).collect()
     }
@@ -159,16 +159,7 @@ impl Director {
             certainty.probability = self.model.calibration.apply(certainty.probability);
         }
         // What the scene lacks stays a group, so that callers can tell it.
-        direction.program = direction.program.with_ids(&|ids| {
-            let members = |id: &u32| if linked.missing(*id).is_some() { vec![*id] } else { linked.expanded(&[*id]) };
-            let mut out: Vec<u32> = Vec::new();
-            for id in ids.iter().flat_map(members) {
-                if !out.contains(&id) {
-                    out.push(id);
-                }
-            }
-            out
-        });
+        direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)
     }
 }

@@ -12,6 +12,11 @@ pub fn angle(rotation: DQuat) -> f64 {
     2.0 * rotation.xyz().length().atan2(rotation.w.abs())
 }
 
+/// An angle as a turn of at most half a circle either way, -pi..pi rad.
+pub fn short_turn(angle_rad: f64) -> f64 {
+    (angle_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
+}
+
 /// Angle of the smallest rotation from `a` to `b`, 0..=pi rad.
 pub fn angle_between(a: DQuat, b: DQuat) -> f64 {
     angle(a.conjugate() * b)

@@ -42,12 +42,28 @@ pub struct Group {
     pub nearest: Vec<String>,
 }
 
+impl Group {
+    /// Whether the words of a mention name the group; articles and case do not count.
+    pub fn is_named(&self, words: &str) -> bool {
+        self.name.eq_ignore_ascii_case(without_article(words.trim()))
+    }
+}
+
+/// A name without the article before it.
+pub(crate) fn without_article(name: &str) -> &str {
+    let is_article = |word: &str| ["the", "a", "an"].iter().any(|article| word.eq_ignore_ascii_case(article));
+    match name.split_once(' ') {
+        Some((word, rest)) if is_article(word) => rest.trim_start(),
+        _ => name,
+    }
+}
+
 impl Linked {
-    /// `ids` with each group replaced by its members, each once.
+    /// `ids` with each group replaced by its members, each once. A group without members stays.
     pub fn expanded(&self, ids: &[u32]) -> Vec<u32> {
         let mut out: Vec<u32> = Vec::new();
         for id in ids {
-            let group = self.groups.iter().find(|group| group.id == *id);
+            let group = self.groups.iter().find(|group| group.id == *id && !group.members.is_empty());
             let members = group.map_or(std::slice::from_ref(id), |group| &group.members);
             out.extend(members.iter().filter(|member| !out.contains(member)).copied().collect::<Vec<_>>());
         }

@@ -4,7 +4,7 @@
 //! none, gets one placeholder too: a group, whose id lies beyond those of objects.
 
 use super::error::LanguageError;
-use super::linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
+use super::linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, without_article};
 use super::quantity::quantity_at;
 use super::tokenizer::{Word, span_of, tokenize, word_at};
 
@@ -18,15 +18,6 @@ pub struct Mention {
     pub bytes: [usize; 2],
     /// Ids of the objects that it names, ascending; empty for a thing that the scene lacks.
     pub ids: Vec<u32>,
-}
-
-/// A name without the article before it.
-fn without_article(name: &str) -> &str {
-    let is_article = |word: &str| ["the", "a", "an"].iter().any(|article| word.eq_ignore_ascii_case(article));
-    match name.split_once(' ') {
-        Some((word, rest)) if is_article(word) => rest.trim_start(),
-        _ => name,
-    }
 }
 
 /// Checks that a prompt has words and is not too long.
@@ -99,9 +90,8 @@ impl Linked {
     /// Id of the group of a mention. Two things that the scene lacks are the same if their words are.
     fn group_of(&mut self, mention: &Mention, prompt: &str) -> u32 {
         let name = without_article(prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default().trim());
-        let is_same = |group: &&Group| {
-            group.members == mention.ids && (!group.members.is_empty() || group.name.eq_ignore_ascii_case(name))
-        };
+        let is_same =
+            |group: &&Group| group.members == mention.ids && (!group.members.is_empty() || group.is_named(name));
         if let Some(group) = self.groups.iter().find(is_same) {
             return group.id;
         }

@@ -50,15 +50,9 @@ fn assemble(scene: &Scene, up: DVec3, labels: Vec<u16>, is_surface: &dyn Fn(u32)
         let Some(fitted) = boxes::fit(&scene.gaussians, &members, up) else { continue };
         let label = naming::describe(&scene.gaussians, &members, &fitted, (size, is_surface(id)));
         objects.push(Object {
-            id,
-            label,
-            center: fitted.center,
-            half_extents: fitted.half_extents,
             rotation: fitted.rotation,
             num_gaussians: members.len(),
-            points: Vec::new(),
-            shape_radius: 0.0,
-            mask_iou: 0.0,
+            ..Object::from_box(id, &label, fitted.center, fitted.half_extents)
         });
     }
     naming::make_unique(&mut objects);

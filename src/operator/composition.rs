@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::framing::DEFAULT_ASPECT;
 use super::program::{FramePlace, Lens, SubjectSide};
 use super::world::World;
-use cinesplat_geometry::{LevelAngles, Pose};
+use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::CameraState;
 
 /// Distance of a third from the frame's middle, over the frame's width or height.
@@ -109,11 +109,6 @@ pub(super) fn side_azimuths(world: &World, center: DVec3, side: SubjectSide) -> 
 /// Angle about a subject's center between a camera position and the nearest middle of a side, degrees.
 pub(super) fn off_side_deg(world: &World, center: DVec3, position: DVec3, side: SubjectSide) -> f64 {
     let azimuth = world.frame.azimuth(position - center);
-    let off = |middle: f64| short_turn(azimuth - middle).abs().to_degrees();
+    let off = |middle: f64| rotation::short_turn(azimuth - middle).abs().to_degrees();
     side_azimuths(world, center, side).into_iter().map(off).fold(f64::INFINITY, f64::min)
-}
-
-/// An angle as a turn of at most half a circle either way, rad.
-pub(super) fn short_turn(angle_rad: f64) -> f64 {
-    (angle_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
 }

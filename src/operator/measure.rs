@@ -13,6 +13,7 @@ use super::passage::passage;
 use super::simultaneous::extent;
 use super::steadiness::excess;
 use super::world::World;
+use cinesplat_geometry::rotation;
 use cinesplat_trajectory::CameraState;
 
 /// Sample points per subject for visibility during the search; the report uses all points.
@@ -202,10 +203,7 @@ fn framed(world: &World, state: &CameraState, ids: &[u32]) -> f64 {
 /// Total turn to the right and upward along the samples, degrees.
 fn turn_deg(world: &World, states: &[CameraState]) -> (f64, f64) {
     let angles = |s: &CameraState| world.frame.angles(s.pose.rotation);
-    let step = |pair: &[CameraState]| {
-        let turn = angles(&pair[1]).yaw_rad - angles(&pair[0]).yaw_rad;
-        (turn + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
-    };
+    let step = |pair: &[CameraState]| rotation::short_turn(angles(&pair[1]).yaw_rad - angles(&pair[0]).yaw_rad);
     let yaw: f64 = states.windows(2).map(step).sum();
     let pitch = angles(&states[states.len() - 1]).pitch_rad - angles(&states[0]).pitch_rad;
     (yaw.to_degrees(), pitch.to_degrees())

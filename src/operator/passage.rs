@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::composition::{off_side_deg, short_turn};
+use super::composition::off_side_deg;
 use super::program::{Pass, SubjectSide};
 use super::world::{Subject, World};
+use cinesplat_geometry::rotation;
 use cinesplat_trajectory::CameraState;
 
 /// Largest angle about the object from the middle of its far or near side, degrees.
@@ -142,7 +143,7 @@ pub(super) fn around(world: &World, subject: &Subject, a: DVec3, b: DVec3) -> Ve
         (frame.azimuth(away), frame.horizontal(away).length(), frame.height(away))
     };
     let (from, to) = (polar(a), polar(b));
-    let turn = short_turn(to.0 - from.0);
+    let turn = rotation::short_turn(to.0 - from.0);
     let count = (turn.abs() / MAX_TURN_RAD).ceil() as usize;
     let at = |i: usize| {
         let t = i as f64 / count as f64;

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::composition::short_turn;
 use super::world::World;
+use cinesplat_geometry::rotation;
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Least turn or roll, degrees.
@@ -24,11 +24,11 @@ pub(super) fn extent(world: &World, movement: Move, point: DVec3, states: &[Came
     let frame = &world.frame;
     let angles = |s: &CameraState| frame.angles(s.pose.rotation);
     let (a, b) = (angles(first), angles(last));
-    let yaw = || short_turn(b.yaw_rad - a.yaw_rad).to_degrees();
+    let yaw = || rotation::short_turn(b.yaw_rad - a.yaw_rad).to_degrees();
     let pitch = || (b.pitch_rad - a.pitch_rad).to_degrees();
-    let roll = || short_turn(b.roll_rad - a.roll_rad).to_degrees();
+    let roll = || rotation::short_turn(b.roll_rad - a.roll_rad).to_degrees();
     let azimuth = |s: &CameraState| frame.azimuth(s.pose.position - point);
-    let swing = || short_turn(azimuth(last) - azimuth(first)).to_degrees();
+    let swing = || rotation::short_turn(azimuth(last) - azimuth(first)).to_degrees();
     let distance = first.pose.position.distance(point).max(1e-9);
     let way = (last.pose.position - first.pose.position) / distance;
     let nearer = 1.0 - last.pose.position.distance(point) / distance;

@@ -1,8 +1,8 @@
 //! How much of a motion a stretch of film contains, for motions that a prompt forbids.
 
-use super::composition::short_turn;
 use super::program::Motion;
 use super::world::World;
+use cinesplat_geometry::rotation;
 use cinesplat_trajectory::CameraState;
 
 /// Largest change of an angle that counts as none, degrees.
@@ -49,7 +49,7 @@ fn lens_change(states: &[CameraState]) -> f64 {
 fn angle_range_deg(angles: impl Iterator<Item = f64>) -> f64 {
     let (mut last, mut at, mut low, mut high) = (None, 0.0_f64, 0.0_f64, 0.0_f64);
     for angle in angles {
-        at += last.map_or(0.0, |last| short_turn(angle - last));
+        at += last.map_or(0.0, |last| rotation::short_turn(angle - last));
         last = Some(angle);
         low = low.min(at);
         high = high.max(at);

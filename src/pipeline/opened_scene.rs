@@ -97,14 +97,8 @@ fn generated(name: &Path, settings: &SynthSettings, options: &LoadOptions) -> Op
     }
     let object = |made: cinesplat_synth::SynthObject| Object {
         num_gaussians: counts.get(made.id as usize).copied().unwrap_or(0),
-        id: made.id,
-        label: made.label,
-        center: made.center,
-        half_extents: made.half_extents,
         rotation: made.rotation,
-        points: Vec::new(),
-        shape_radius: 0.0,
-        mask_iou: 0.0,
+        ..Object::from_box(made.id, &made.label, made.center, made.half_extents)
     };
     let objects = ObjectSet { objects: objects.into_iter().map(object).collect(), labels };
     let scene = Scene {

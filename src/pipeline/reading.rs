@@ -165,7 +165,7 @@ fn contradictions(prompt: &str, program: &mut Program) -> Vec<Problem> {
         let span = step.words.unwrap_or([0, prompt.len()]);
         let movement = step.movement;
         step.with.retain(|second| {
-            let is_possible = !are_opposite(movement, *second);
+            let is_possible = movement.opposite() != Some(*second);
             if !is_possible {
                 let note = format!("{movement} and {second} at the same time: carried out as {movement}");
                 problems.push(problem(prompt, ProblemKind::Contradiction, span, note));
@@ -180,29 +180,6 @@ fn contradictions(prompt: &str, program: &mut Program) -> Vec<Problem> {
         }
     }
     problems
-}
-
-/// Whether two moves have the two directions of one move.
-fn are_opposite(a: Move, b: Move) -> bool {
-    let opposite = match a.as_ref() {
-        "push-in" => Some("pull-out".to_owned()),
-        "pull-out" => Some("push-in".to_owned()),
-        name => name.rsplit_once('-').and_then(|(stem, way)| {
-            let other = match way {
-                "left" => "right",
-                "right" => "left",
-                "up" => "down",
-                "down" => "up",
-                "in" => "out",
-                "out" => "in",
-                "cw" => "ccw",
-                "ccw" => "cw",
-                _ => return None,
-            };
-            Some(format!("{stem}-{other}"))
-        }),
-    };
-    opposite.is_some_and(|opposite| opposite == b.as_ref())
 }
 
 /// The motion that a prompt rules out when it rules out this move.
@@ -236,18 +213,16 @@ fn uncertain(prompt: &str, direction: &mut Direction) -> Vec<Problem> {
         let span = certainty.words.unwrap_or([0, prompt.len()]);
         problems.push(problem(prompt, ProblemKind::NotUnderstood, span, note));
     }
-    let mut kept = is_kept.iter();
-    let mut keep = || kept.next().copied().unwrap_or(true);
-    if is_kept.len() == direction.program.steps.len() {
-        direction.program.steps.retain(|_| keep());
-        let mut kept = is_kept.iter();
-        direction.certainty.retain(|_| kept.next().copied().unwrap_or(true));
-        if direction.step_cameras.len() == is_kept.len() {
-            let mut kept = is_kept.iter();
-            direction.step_cameras.retain(|_| kept.next().copied().unwrap_or(true));
-        }
-    }
+    retain_marked(&mut direction.program.steps, &is_kept);
+    retain_marked(&mut direction.certainty, &is_kept);
+    retain_marked(&mut direction.step_cameras, &is_kept);
     problems
+}
+
+/// Removes the items that are not marked; items beyond the marks stay.
+fn retain_marked<T>(items: &mut Vec<T>, marks: &[bool]) {
+    let mut marks = marks.iter();
+    items.retain(|_| marks.next().copied().unwrap_or(true));
 }
 
 /// Whether a word or phrase may ask for something: it has letters or digits and is no word of courtesy or grammar.

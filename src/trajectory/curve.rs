@@ -102,7 +102,7 @@ fn unwrapped(angles: &[f64], signs: &[f64]) -> Vec<f64> {
             out.push(angle);
             continue;
         };
-        let mut step = (angle - last + PI).rem_euclid(TAU) - PI;
+        let mut step = rotation::short_turn(angle - last);
         let sign = signs[i - 1];
         if step * sign < 0.0 && step.abs() > 150.0_f64.to_radians() {
             step += TAU * sign;
@@ -165,7 +165,7 @@ impl RotationCurve {
                 keys.iter().map(|key| aim(frame, key.pose.position, target, key.pose.rotation)).collect();
             if !steep(&aims) {
                 let less = |(a, b): (&LevelAngles, &LevelAngles)| LevelAngles {
-                    yaw_rad: (a.yaw_rad - b.yaw_rad + PI).rem_euclid(TAU) - PI,
+                    yaw_rad: rotation::short_turn(a.yaw_rad - b.yaw_rad),
                     pitch_rad: a.pitch_rad - b.pitch_rad,
                     roll_rad: a.roll_rad - b.roll_rad,
                 };

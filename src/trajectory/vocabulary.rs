@@ -66,6 +66,30 @@ pub enum Move {
     Handheld,
 }
 
+impl Move {
+    /// The same move in the other direction; `None` for a move without one.
+    pub fn opposite(self) -> Option<Self> {
+        let pairs = [
+            [Self::PanLeft, Self::PanRight],
+            [Self::TiltUp, Self::TiltDown],
+            [Self::RollCw, Self::RollCcw],
+            [Self::PushIn, Self::PullOut],
+            [Self::TruckLeft, Self::TruckRight],
+            [Self::PedestalUp, Self::PedestalDown],
+            [Self::CraneUp, Self::CraneDown],
+            [Self::OrbitLeft, Self::OrbitRight],
+            [Self::ArcLeft, Self::ArcRight],
+            [Self::ZoomIn, Self::ZoomOut],
+            [Self::DollyZoomIn, Self::DollyZoomOut],
+        ];
+        pairs.into_iter().find_map(|[a, b]| match self {
+            own if own == a => Some(b),
+            own if own == b => Some(a),
+            _ => None,
+        })
+    }
+}
+
 /// Size of the subject in the frame: its projected height over the frame's height.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]

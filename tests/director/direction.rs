@@ -11,21 +11,6 @@ use cinesplat::training::{EvaluationSplit, StepField, evaluate_director, exam, e
 use cinesplat::trajectory::Move;
 use glam::{DQuat, DVec3};
 
-/// A box along the axes, without a cloud.
-fn object(id: u32, label: &str, center: DVec3, half_extents: DVec3) -> Object {
-    Object {
-        id,
-        label: label.to_owned(),
-        center,
-        half_extents,
-        rotation: DQuat::IDENTITY,
-        num_gaussians: 0,
-        points: Vec::new(),
-        shape_radius: 0.0,
-        mask_iou: 0.0,
-    }
-}
-
 /// Five objects with ids from 10 and clouds of two points.
 fn room() -> Vec<Object> {
     let labels = ["sofa", "floor lamp", "golden skull", "guitar", "table"];
@@ -34,7 +19,7 @@ fn room() -> Vec<Object> {
         Object {
             rotation: DQuat::from_rotation_y(0.2 * idx as f64),
             points: vec![DVec3::new(idx as f64 - 2.2, 0.4, -1.0), DVec3::new(idx as f64 - 1.8, 0.9, -1.2)],
-            ..object(10 + idx as u32, label, center, DVec3::new(0.3, 0.5, 0.2))
+            ..Object::from_box(10 + idx as u32, label, center, DVec3::new(0.3, 0.5, 0.2))
         }
     };
     labels.iter().enumerate().map(placed).collect()
@@ -86,7 +71,7 @@ fn programs_use_the_objects_that_the_sentences_name() {
     let director = Director::embedded().unwrap();
     let named = exam_objects().unwrap();
     let placed = |(idx, named): (usize, &NamedObject)| {
-        object(named.id, &named.label, DVec3::new(idx as f64, 0.0, (idx % 3) as f64), DVec3::splat(0.3))
+        Object::from_box(named.id, &named.label, DVec3::new(idx as f64, 0.0, (idx % 3) as f64), DVec3::splat(0.3))
     };
     let objects: Vec<Object> = named.iter().enumerate().map(placed).collect();
     let ids = |program: &Program| -> BTreeSet<u32> {

@@ -15,7 +15,7 @@ use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Program, SIGMA_LEVEL, Solution, SolveLevel, SolveSettings, Step, World, realize};
 use cinesplat::scene::{Gaussians, SOLID_OPACITY};
 use cinesplat::trajectory::{CameraPath, CameraState, Shot};
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{DVec3, Quat, Vec3};
 
 use crate::support::shot_over;
 
@@ -51,17 +51,7 @@ pub fn room() -> (Gaussians, ObjectSet) {
                 wall(&mut gaussians, corner, du, dv);
             }
         }
-        Object {
-            id,
-            label: format!("box {id}"),
-            center,
-            half_extents: half,
-            rotation: DQuat::IDENTITY,
-            num_gaussians: gaussians.len() - first,
-            points: Vec::new(),
-            shape_radius: 0.0,
-            mask_iou: 0.0,
-        }
+        Object { num_gaussians: gaussians.len() - first, ..Object::from_box(id, &format!("box {id}"), center, half) }
     });
     (gaussians, ObjectSet { objects: objects.to_vec(), labels: Vec::new() })
 }

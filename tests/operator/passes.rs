@@ -4,7 +4,7 @@ use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Framing, Pass, Solution, Step, Via, World};
 use cinesplat::scene::Gaussians;
 use cinesplat::trajectory::{CameraState, Move};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::composition::assert_met;
 use super::{film, room, solved, wall};
@@ -15,17 +15,7 @@ const DOOR: (DVec3, DVec3) = (DVec3::new(-1.2, 0.95, -1.0), DVec3::new(0.55, 0.9
 const POST: (DVec3, DVec3) = (DVec3::new(0.45, 0.8, -0.1), DVec3::new(0.35, 0.8, 0.06));
 
 fn object(id: u32, (center, half_extents): (DVec3, DVec3)) -> Object {
-    Object {
-        id,
-        label: format!("thing {id}"),
-        center,
-        half_extents,
-        rotation: DQuat::IDENTITY,
-        num_gaussians: 0,
-        points: Vec::new(),
-        shape_radius: 0.0,
-        mask_iou: 0.0,
-    }
+    Object::from_box(id, &format!("thing {id}"), center, half_extents)
 }
 
 /// The room with further objects; `post` stands between box 1 and the middle of the room.

@@ -8,6 +8,7 @@ use super::fields::{
     AMOUNT_LARGE, AMOUNT_QUANTITY, AMOUNT_SLIGHT, FORBIDDEN, Field, LENS_FOCAL, LENS_FOV, LENS_LONG, LENS_WIDE,
     LOOK_AHEAD, LOOK_AT, LOOK_BACK, LOOK_ROOM, NEXT_CUT, NEXT_SEGMENT,
 };
+use super::framing_end::{ARRIVAL, DEPARTURE, FramingEnd};
 use super::key_code::{AVOID_POINTER, KEEP_POINTER, KeyCode, LOOK_POINTER, MAX_SUBJECTS, QuantityRole};
 use crate::inputs::Grounding;
 use crate::keys::{Key, Next, Segment};
@@ -20,7 +21,7 @@ pub fn decode_key(code: &KeyCode, grounding: &Grounding) -> Key {
         NEXT_SEGMENT => Next::Segment(decode_segment(code, grounding)),
         _ => Next::Stop,
     };
-    Key { arrive: arrival(code, grounding), depart: departure(code, grounding), next }
+    Key { arrive: framing(code, &ARRIVAL, grounding), depart: framing(code, &DEPARTURE, grounding), next }
 }
 
 /// Motions that the film of a first key forbids.
@@ -28,46 +29,25 @@ pub fn forbidden_of(code: &KeyCode) -> Vec<Motion> {
     FORBIDDEN.iter().filter(|(field, _)| code.class(*field) == 1).map(|(_, motion)| *motion).collect()
 }
 
-fn arrival(code: &KeyCode, grounding: &Grounding) -> Framing {
-    let value = |role| code.quantity(role).and_then(|idx| grounding.value(idx));
+fn framing(code: &KeyCode, end: &FramingEnd, grounding: &Grounding) -> Framing {
+    let [size, angle, part, whole, lens_kind, side, place, hidden] = end.fields.map(|field| code.class(field));
+    let values = end.roles.map(|role| code.quantity(role).and_then(|idx| grounding.value(idx)));
+    let [height_percent, elevation_deg, height, distance, lens_value] = values;
     Framing {
-        subjects: ids_at(code, 0, MAX_SUBJECTS, grounding),
-        size: optional(ShotSize::VARIANTS, code.class(Field::ArriveSize)),
-        angle: optional(ShotAngle::VARIANTS, code.class(Field::ArriveAngle)),
-        part: part_of(code.class(Field::ArrivePart)),
-        whole: code.class(Field::ArriveWhole) == 1,
-        height_frac: value(QuantityRole::ArriveHeightFrac).map(|percent| percent / 100.0),
-        elevation_deg: value(QuantityRole::ArriveElevation),
-        height: value(QuantityRole::ArriveHeight),
-        distance: value(QuantityRole::ArriveDistance),
-        lens: lens(code.class(Field::ArriveLens), value(QuantityRole::ArriveLens)),
-        side: optional(SubjectSide::VARIANTS, code.class(Field::ArriveSide)),
-        place: optional(FramePlace::VARIANTS, code.class(Field::ArrivePlace)),
-        hidden: code.class(Field::ArriveHidden) == 1,
+        subjects: ids_at(code, end.subjects, MAX_SUBJECTS, grounding),
+        size: optional(ShotSize::VARIANTS, size),
+        angle: optional(ShotAngle::VARIANTS, angle),
+        part: SubjectPart::VARIANTS.get(usize::from(part)).copied().unwrap_or_default(),
+        whole: whole == 1,
+        height_frac: height_percent.map(|percent| percent / 100.0),
+        elevation_deg,
+        height,
+        distance,
+        lens: lens(lens_kind, lens_value),
+        side: optional(SubjectSide::VARIANTS, side),
+        place: optional(FramePlace::VARIANTS, place),
+        hidden: hidden == 1,
     }
-}
-
-fn departure(code: &KeyCode, grounding: &Grounding) -> Framing {
-    let value = |role| code.quantity(role).and_then(|idx| grounding.value(idx));
-    Framing {
-        subjects: ids_at(code, MAX_SUBJECTS, MAX_SUBJECTS, grounding),
-        size: optional(ShotSize::VARIANTS, code.class(Field::DepartSize)),
-        angle: optional(ShotAngle::VARIANTS, code.class(Field::DepartAngle)),
-        part: part_of(code.class(Field::DepartPart)),
-        whole: code.class(Field::DepartWhole) == 1,
-        height_frac: value(QuantityRole::DepartHeightFrac).map(|percent| percent / 100.0),
-        elevation_deg: value(QuantityRole::DepartElevation),
-        height: value(QuantityRole::DepartHeight),
-        distance: value(QuantityRole::DepartDistance),
-        lens: lens(code.class(Field::DepartLens), value(QuantityRole::DepartLens)),
-        side: optional(SubjectSide::VARIANTS, code.class(Field::DepartSide)),
-        place: optional(FramePlace::VARIANTS, code.class(Field::DepartPlace)),
-        hidden: code.class(Field::DepartHidden) == 1,
-    }
-}
-
-fn part_of(class: u8) -> SubjectPart {
-    SubjectPart::VARIANTS.get(usize::from(class)).copied().unwrap_or_default()
 }
 
 fn lens(class: u8, value: Option<f64>) -> Option<Lens> {

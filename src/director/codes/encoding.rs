@@ -12,61 +12,10 @@ use super::fields::{
     AMOUNT_LARGE, AMOUNT_QUANTITY, AMOUNT_SLIGHT, FORBIDDEN, Field, LENS_FOCAL, LENS_FOV, LENS_LONG, LENS_WIDE,
     LOOK_AHEAD, LOOK_AT, LOOK_BACK, LOOK_ROOM, NEXT_CUT, NEXT_SEGMENT, NEXT_STOP,
 };
+use super::framing_end::{ARRIVAL, DEPARTURE, FramingEnd};
 use super::key_code::{AVOID_POINTER, KEEP_POINTER, KeyCode, LOOK_POINTER, MAX_SUBJECTS, QuantityRole};
 use crate::inputs::Grounding;
 use crate::keys::{Key, Next, Segment};
-
-/// The fields and roles of a framing at one of its two ends.
-struct End {
-    /// Size, angle, part, whole, lens, side, place, hidden.
-    fields: [Field; 8],
-    /// Height in the frame, elevation, height, distance, lens.
-    roles: [QuantityRole; 5],
-    /// First pointer at the subjects.
-    subjects: usize,
-}
-
-const ARRIVAL: End = End {
-    fields: [
-        Field::ArriveSize,
-        Field::ArriveAngle,
-        Field::ArrivePart,
-        Field::ArriveWhole,
-        Field::ArriveLens,
-        Field::ArriveSide,
-        Field::ArrivePlace,
-        Field::ArriveHidden,
-    ],
-    roles: [
-        QuantityRole::ArriveHeightFrac,
-        QuantityRole::ArriveElevation,
-        QuantityRole::ArriveHeight,
-        QuantityRole::ArriveDistance,
-        QuantityRole::ArriveLens,
-    ],
-    subjects: 0,
-};
-
-const DEPARTURE: End = End {
-    fields: [
-        Field::DepartSize,
-        Field::DepartAngle,
-        Field::DepartPart,
-        Field::DepartWhole,
-        Field::DepartLens,
-        Field::DepartSide,
-        Field::DepartPlace,
-        Field::DepartHidden,
-    ],
-    roles: [
-        QuantityRole::DepartHeightFrac,
-        QuantityRole::DepartElevation,
-        QuantityRole::DepartHeight,
-        QuantityRole::DepartDistance,
-        QuantityRole::DepartLens,
-    ],
-    subjects: MAX_SUBJECTS,
-};
 
 /// Code of a key; `None` when the key names an object that the list of `grounding` lacks, or more objects than there are
 /// pointers. `is_first` marks the film's first key, at which no camera arrives, and which has the motions that the film
@@ -93,7 +42,7 @@ pub fn encode_key(key: &Key, is_first: bool, forbidden: &[Motion], grounding: &G
     Some(code)
 }
 
-fn encode_framing(framing: &Framing, end: &End, grounding: &Grounding, code: &mut KeyCode) -> Option<()> {
+fn encode_framing(framing: &Framing, end: &FramingEnd, grounding: &Grounding, code: &mut KeyCode) -> Option<()> {
     let lens = match framing.lens {
         None => 0,
         Some(Lens::FocalMm(_)) => LENS_FOCAL,

@@ -3,6 +3,7 @@
 mod decoding;
 mod encoding;
 mod fields;
+mod framing_end;
 mod key_code;
 mod pose_code;
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::paths::end_view;
-use crate::composition::{front_azimuth, lens_fov_deg, short_turn};
+use crate::composition::{front_azimuth, lens_fov_deg};
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
 use crate::framing::{Bearing, Fill, Target, extent_frac, view_at};
 use crate::motion::MotionSegment;
@@ -16,7 +16,7 @@ use crate::program::{Framing, Pass};
 use crate::route::states_along;
 use crate::view::{aimed, distance_along, lerp, moved, stated_fill, view_from, with_fov};
 use crate::world::Subject;
-use cinesplat_geometry::Pose;
+use cinesplat_geometry::{Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move};
 
 /// The object that the step passes.
@@ -160,7 +160,7 @@ fn last_beside(context: &StepContext, subject: &Subject, first: &CameraState, in
         return aimed(context.world, &last, gate + (gate - inner[0]));
     }
     let azimuth = |p: DVec3| frame.azimuth(p - subject.center);
-    let turn = short_turn(azimuth(gate) - azimuth(first.pose.position));
+    let turn = rotation::short_turn(azimuth(gate) - azimuth(first.pose.position));
     let turn = turn.signum() * turn.abs().clamp(0.6, 1.9);
     let position = swung(context, subject, gate, turn);
     let onward = swung(context, subject, position, turn.signum() * 0.5) - position;

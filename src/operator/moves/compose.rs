@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::context::{StepContext, TURN_DEG_PER_SEC};
-use crate::composition::{frame_place, lens_fov_deg, placed, short_turn};
+use crate::composition::{frame_place, lens_fov_deg, placed};
 use crate::constraint::{Constraint, ConstraintKind};
 use crate::framing::{DEFAULT_ASPECT, Target, frame_position};
 use crate::motion::MotionSegment;
@@ -148,7 +148,7 @@ fn turn(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
             frame.angles(state.pose.rotation),
             frame.angles(placed(context.world, state, target.aim, at).pose.rotation),
         );
-        (short_turn(then.yaw_rad - now.yaw_rad), then.pitch_rad - now.pitch_rad)
+        (rotation::short_turn(then.yaw_rad - now.yaw_rad), then.pitch_rad - now.pitch_rad)
     };
     let from = turned(&segment.states[0], &places.from, places.start);
     let to = turned(&segment.states[last], &places.to, places.end);

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::standing::turned_away;
-use crate::composition::{short_turn, side_azimuths};
+use crate::composition::side_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Bearing, DEFAULT_ASPECT, Fill, Target, bearing_of};
 use crate::motion::MotionSegment;
@@ -74,7 +74,7 @@ fn unturned(context: &StepContext, first: &CameraState, bearing: Bearing) -> Bea
 
 /// The angle of several that is the shortest turn away from another one.
 fn nearest(angles_rad: &[f64], from_rad: f64) -> f64 {
-    let turn = |angle: &&f64| short_turn(**angle - from_rad).abs();
+    let turn = |angle: &&f64| rotation::short_turn(**angle - from_rad).abs();
     angles_rad.iter().min_by(|a, b| turn(a).total_cmp(&turn(b))).copied().unwrap_or(from_rad)
 }
 
@@ -100,7 +100,7 @@ fn glide(context: &StepContext, first: &CameraState, last: &CameraState) -> Moti
 fn halfway(context: &StepContext, first: &CameraState, last: &CameraState, offset: DVec3) -> CameraState {
     let frame = &context.world.frame;
     let (a, b) = (frame.angles(first.pose.rotation), frame.angles(last.pose.rotation));
-    let turn = (b.yaw_rad - a.yaw_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+    let turn = rotation::short_turn(b.yaw_rad - a.yaw_rad);
     let middle = LevelAngles {
         yaw_rad: a.yaw_rad + turn / 2.0,
         pitch_rad: a.pitch_rad.midpoint(b.pitch_rad),

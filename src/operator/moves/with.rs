@@ -10,7 +10,7 @@ use crate::framing::Target;
 use crate::motion::MotionSegment;
 use crate::program::Amount;
 use crate::view::{aimed, lerp, moved, with_fov};
-use cinesplat_geometry::{LevelAngles, Pose};
+use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Least number of keyframes of a combined move, whose path is curved.
@@ -101,8 +101,7 @@ fn subdivided(context: &StepContext, segment: &MotionSegment) -> Vec<CameraState
     let (a, b) = (segment.states[0], segment.states[1]);
     let frame = &context.world.frame;
     let (from, to) = (frame.angles(a.pose.rotation), frame.angles(b.pose.rotation));
-    let turn =
-        (to.yaw_rad - from.yaw_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+    let turn = rotation::short_turn(to.yaw_rad - from.yaw_rad);
     let between = |i: usize| {
         let t = i as f64 / (NUM_KEYS - 1) as f64;
         let angles = LevelAngles {

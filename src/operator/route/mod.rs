@@ -16,7 +16,7 @@ use self::lattice::{Lattice, LatticePath};
 use super::clearance::prove;
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::world::World;
-use cinesplat_geometry::{LevelAngles, Pose};
+use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraPath, CameraState, ClearanceProof, Easing, Keyframe, Move, retime};
 
 /// Lattices to try, coarse ones first: edge of a cell over the scene size, and clearance beyond the camera's radius
@@ -141,8 +141,7 @@ pub(super) fn states_along(
 ) -> Vec<CameraState> {
     let frame = &world.frame;
     let (a, b) = (frame.angles(start.pose.rotation), frame.angles(goal.pose.rotation));
-    let short = |turn: f64| (turn + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
-    let (yaw, roll) = (short(b.yaw_rad - a.yaw_rad), short(b.roll_rad - a.roll_rad));
+    let (yaw, roll) = (rotation::short_turn(b.yaw_rad - a.yaw_rad), rotation::short_turn(b.roll_rad - a.roll_rad));
     let total: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let mut covered = 0.0;
     let mut states = vec![*start];

@@ -177,15 +177,10 @@ fn shots_of(scene: SceneRecord) -> Result<Vec<RealizedShot>, NotationError> {
 
 fn object_of(record: ObjectRecord) -> Object {
     let [x, y, z, w] = record.rotation_xyzw.map(f64::from);
+    let [center, half_extents] = [record.center, record.half_extents].map(|values| Vec3::from(values).as_dvec3());
     Object {
-        id: record.id,
-        label: record.label,
-        center: Vec3::from(record.center).as_dvec3(),
-        half_extents: Vec3::from(record.half_extents).as_dvec3(),
         rotation: DQuat::from_xyzw(x, y, z, w).normalize(),
-        num_gaussians: 0,
         points: record.points.into_iter().map(|point| Vec3::from(point).as_dvec3()).collect(),
-        shape_radius: 0.0,
-        mask_iou: 0.0,
+        ..Object::from_box(record.id, &record.label, center, half_extents)
     }
 }

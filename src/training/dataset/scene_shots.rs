@@ -70,15 +70,9 @@ fn prepared(made: SynthScene) -> Result<(Scene, ObjectSet), DatasetError> {
         notes: Vec::new(),
     };
     let objects = made.objects.into_iter().map(|object| Object {
-        id: object.id,
-        label: object.label,
-        center: object.center,
-        half_extents: object.half_extents,
         rotation: object.rotation,
         num_gaussians: made.labels.iter().filter(|label| u32::from(**label) == object.id).count(),
-        points: Vec::new(),
-        shape_radius: 0.0,
-        mask_iou: 0.0,
+        ..Object::from_box(object.id, &object.label, object.center, object.half_extents)
     });
     let mut objects = ObjectSet { objects: objects.collect(), labels: made.labels };
     // Fewer views than for a film, because the network sees only 64 points per object.

@@ -94,8 +94,7 @@ impl ExampleSampler<'_> {
     fn of_sentence(&self, sentence: &Sentence, rng: &mut Pcg64) -> Result<Option<Example>, TrainError> {
         let first = 1_000_000 - 64;
         let others: Vec<u32> = (first..first + rng.random_range(0..=4)).collect();
-        let program = sentence.program.clone().with_ids(&|ids| sentence.linked.grouped(ids));
-        let Some(encoded) = self.encode(&sentence.linked, &program, &others, rng)? else { return Ok(None) };
+        let Some(encoded) = self.encode(&sentence.linked, &sentence.program, &others, rng)? else { return Ok(None) };
         Ok(Some(self.without_poses(encoded, &sentence.linked, &sentence.unmet, rng)))
     }
 

@@ -279,7 +279,7 @@ fn canonical(program: &Program) -> Program {
         step.movement = plain(step.movement);
         step.with.iter_mut().for_each(|movement| *movement = level(*movement));
         step.with.sort_by_key(|movement| *movement as usize);
-        step.either_way &= are_opposite_possible(step);
+        step.either_way &= step.movement.opposite().is_some();
         if let Some(via) = &mut step.via {
             via.objects.sort_unstable();
         }
@@ -323,10 +323,4 @@ fn level(movement: Move) -> Move {
         Move::CraneDown => Move::PedestalDown,
         other => other,
     }
-}
-
-/// Whether the move of a step has an opposite one.
-fn are_opposite_possible(step: &Step) -> bool {
-    let stem = <&str>::from(step.movement).rsplit_once('-');
-    stem.is_some_and(|(_, way)| matches!(way, "left" | "right" | "up" | "down" | "in" | "out" | "cw" | "ccw"))
 }

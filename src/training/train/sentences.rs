@@ -33,7 +33,7 @@ const CONNECTIVES: [&str; 14] = [
 /// Distance between the ids of joined sentences.
 const ID_STEP: u32 = 100_000;
 
-/// A sentence with its meaning.
+/// A sentence with its meaning, in which groups stand for their members.
 #[derive(Debug, Clone)]
 pub(super) struct Sentence {
     pub(super) linked: Linked,
@@ -95,7 +95,11 @@ impl Sentences {
 }
 
 fn sentence(sentence: &CorpusSentence) -> Sentence {
-    Sentence { linked: sentence.linked.clone(), program: sentence.program.clone(), unmet: sentence.unmet.clone() }
+    Sentence {
+        linked: sentence.linked.clone(),
+        program: sentence.program.clone().with_ids(&|ids| sentence.linked.grouped(ids)),
+        unmet: sentence.unmet.clone(),
+    }
 }
 
 /// Turns the length of a film of one step into the duration of that step.
