@@ -57,6 +57,9 @@ pub(super) struct Args {
     /// Share of these sentences among the examples
     #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().sentences_frac)]
     sentences_frac: f64,
+    /// Number of these sentences to learn from, drawn at random [default: all]
+    #[arg(long, value_name = "N", requires = "sentences")]
+    max_sentences: Option<usize>,
     /// Model to start from [default: random weights]
     #[arg(long, value_name = "MODEL")]
     from: Option<PathBuf>,
@@ -171,6 +174,7 @@ impl Args {
             shots_frac: self.shots_frac.clamp(0.0, 1.0),
             sentences: self.sentences,
             sentences_frac: self.sentences_frac.clamp(0.0, 1.0),
+            max_sentences: self.max_sentences,
             vocabulary: self.vocabulary,
             name: self.name,
             shots: self.shots,

@@ -2,4 +2,5 @@
 
 mod corpus;
 mod dataset;
+mod phrases;
 mod train;

@@ -7,6 +7,8 @@ use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 
+use super::phrases::Phrases;
+
 /// Rates of augmentation. All fractions are 0..=1.
 #[allow(clippy::struct_field_names, reason = "fractions carry their unit")]
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,16 +19,21 @@ pub(super) struct Augmentation {
     pub(super) words_frac: f64,
     /// Fraction of the examples whose objects get random identifiers instead of 0, 1, ..
     pub(super) slots_frac: f64,
+    /// Fraction of the examples in which phrases are exchanged for others of the same meaning.
+    pub(super) exchanged_frac: f64,
+    /// Fraction of the phrases that are exchanged in such an example.
+    pub(super) phrases_frac: f64,
 }
 
 impl Augmentation {
     /// No change.
-    pub(super) const NONE: Self = Self { examples_frac: 0.0, words_frac: 0.0, slots_frac: 0.0 };
+    pub(super) const NONE: Self =
+        Self { examples_frac: 0.0, words_frac: 0.0, slots_frac: 0.0, exchanged_frac: 0.0, phrases_frac: 0.0 };
 }
 
 impl Default for Augmentation {
     fn default() -> Self {
-        Self { examples_frac: 0.5, words_frac: 0.07, slots_frac: 0.2 }
+        Self { examples_frac: 0.5, words_frac: 0.07, slots_frac: 0.2, exchanged_frac: 0.6, phrases_frac: 0.5 }
     }
 }
 
@@ -46,6 +53,14 @@ impl Augmentation {
             }
         });
         Linked { tokens_text: words.collect::<Vec<_>>().join(" "), ..linked.clone() }
+    }
+
+    /// The linked prompt with some phrases exchanged for others of the same meaning.
+    pub(super) fn phrases(&self, linked: &Linked, rng: &mut Pcg64) -> Linked {
+        if !rng.random_bool(self.exchanged_frac) {
+            return linked.clone();
+        }
+        Phrases::embedded().exchange(linked, self.phrases_frac, rng)
     }
 
     /// Gives the objects of some examples random identifiers, so that the network learns all identifiers.

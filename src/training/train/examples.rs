@@ -137,7 +137,8 @@ impl ExampleSampler<'_> {
         if keys.len() > MAX_KEYS {
             return Ok(None);
         }
-        let augmented = self.augmentation.words(linked, self.words, rng);
+        let exchanged = self.augmentation.phrases(linked, rng);
+        let augmented = self.augmentation.words(&exchanged, self.words, rng);
         let (tokens, grounding) = encode_text(&augmented, others, self.vocabulary)?;
         let codes = keys.iter().enumerate().map(|(idx, key)| encode_key(key, idx == 0, &program.forbidden, &grounding));
         let Some(keys) = codes.collect::<Option<Vec<_>>>() else { return Ok(None) };

@@ -18,6 +18,7 @@ use super::examples::{Example, ExampleSampler};
 use super::gradients::{BatchSettings, TrainableNetwork};
 use super::metrics::ProgramMetrics;
 use super::optimizer::{AdamSettings, AdamW, learning_rate};
+use super::phrases::Phrases;
 use super::progress::{ProgressCallback, TrainingProgress};
 use super::sentences::Sentences;
 use super::settings::TrainSettings;
@@ -81,13 +82,14 @@ pub fn train(
     let learned: Vec<RealizedShot> =
         shots.into_iter().enumerate().filter(|(idx, _)| idx % HELD_OUT_EVERY != 0).map(|(_, shot)| shot).collect();
     let writers = settings.sentences.as_deref().map(read_folder).transpose()?.unwrap_or_default();
-    let sentences = Sentences::of(&writers);
+    let sentences = Sentences::of(&writers, settings.max_sentences, settings.seed);
     let mut corpus = corpus(settings, prompts)?;
     // The sentences of people weigh as much as the sampled ones.
     let repeats = corpus.len() / sentences.len().max(1);
     for _ in 0..repeats.max(1) {
         corpus.extend(sentences.texts().map(str::to_owned));
     }
+    corpus.extend(Phrases::embedded().texts());
     let words = words(&corpus);
     let from = settings.from.as_deref().map(ModelFiles::read).transpose()?;
     let vocabulary = match &from {

@@ -5,8 +5,8 @@
 
 use cinesplat_language::Linked;
 use cinesplat_operator::Program;
-use rand::RngExt;
-use rand::seq::IndexedRandom;
+use rand::seq::{IndexedRandom, SliceRandom};
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::corpus::{CorpusSentence, Split, Writer};
@@ -51,10 +51,14 @@ pub(super) struct Sentences {
 }
 
 impl Sentences {
-    /// The sentences of the training writers.
-    pub(super) fn of(writers: &[Writer]) -> Self {
+    /// The sentences of the training writers, or that many of them, drawn with a seed.
+    pub(super) fn of(writers: &[Writer], limit: Option<usize>, seed: u64) -> Self {
         let training = writers.iter().filter(|writer| writer.split == Split::Training);
-        let all: Vec<Sentence> = training.flat_map(|writer| writer.sentences.iter().map(sentence)).collect();
+        let mut all: Vec<Sentence> = training.flat_map(|writer| writer.sentences.iter().map(sentence)).collect();
+        if let Some(limit) = limit {
+            all.shuffle(&mut Pcg64::seed_from_u64(seed));
+            all.truncate(limit);
+        }
         let is_single = |sentence: &Sentence| {
             sentence.program.steps.len() == 1
                 && sentence.program.forbidden.is_empty()

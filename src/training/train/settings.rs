@@ -25,6 +25,8 @@ pub struct TrainSettings {
     pub shots_frac: f64,
     /// Fraction of the examples that are sentences of the corpus if there is one, 0..=1.
     pub sentences_frac: f64,
+    /// Limit on the number of sentences of the corpus, drawn at random; `None` = all.
+    pub max_sentences: Option<usize>,
     /// Limit on the tokens of the vocabulary.
     pub vocabulary: usize,
     /// Number of sampled prompts from which the vocabulary is learned.
@@ -75,6 +77,7 @@ impl Default for TrainSettings {
             dropout: 0.05,
             shots_frac: 0.35,
             sentences_frac: 0.6,
+            max_sentences: None,
             vocabulary: 2400,
             corpus: 40_000,
             name: "director-2".into(),
