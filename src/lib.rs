@@ -94,7 +94,7 @@
 //! | exactness | [`operator`]: framing, visibility, clearance | |
 //! | measures | [`evaluation`]: trajectory error, motion tags, framing, smoothness | |
 //! | effects | [`lens`]: effects that a shot calls for | |
-//! | generated scenes | [`synth`] | |
+//! | generated scenes, maps | [`synth`]; [`map`]: a shot in its scene from above and from the side | |
 //! | things | [`objects`]: views, masks, alpha shapes, clouds | |
 //! | pictures | [`render`], [`video`] (feature `video`) | FFmpeg, in `video` alone |
 //! | formats | [`scene`]: Gaussians; [`export`]: camera paths | |
@@ -122,6 +122,7 @@ pub use cinesplat_files as files;
 pub use cinesplat_geometry as geometry;
 pub use cinesplat_language as language;
 pub use cinesplat_lens as lens;
+pub use cinesplat_map as map;
 pub use cinesplat_objects as objects;
 pub use cinesplat_operator as operator;
 pub use cinesplat_plot as plot;

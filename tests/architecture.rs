@@ -12,7 +12,7 @@ const ROWS: [&[&str]; 14] = [
     &["scene", "export"],
     &["render", "video"],
     &["objects"],
-    &["synth"],
+    &["synth", "map"],
     &["lens"],
     &["evaluation"],
     &["operator"],

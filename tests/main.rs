@@ -18,6 +18,7 @@ mod files;
 mod geometry;
 mod language;
 mod lens;
+mod map;
 mod objects;
 mod operator;
 mod pipeline;

@@ -19,6 +19,7 @@ mod heading;
 mod import;
 mod info;
 mod interrupt;
+mod map;
 mod objects;
 mod outputs;
 mod plan;
@@ -78,6 +79,7 @@ enum Command {
     Read(read::Args),
     Plan(plan::Args),
     Render(render::Args),
+    Map(map::Args),
     Still(still::Args),
     Export(export::Args),
     Import(import::Args),
@@ -99,6 +101,7 @@ impl Command {
             Self::Read(args) => args.run(),
             Self::Plan(args) => args.run(),
             Self::Render(args) => args.run(),
+            Self::Map(args) => args.run(),
             Self::Still(args) => args.run(),
             Self::Export(args) => args.run(),
             Self::Import(args) => args.run(),

@@ -1,4 +1,4 @@
-use super::outputs::Overwrite;
+use super::outputs::{Overwrite, relative_to};
 use std::path::{Path, PathBuf};
 use strum::VariantArray;
 
@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, explain, heading, outputs, reproduce};
+use super::{console, explain, heading, map, outputs, reproduce};
 use cinesplat::director::Director;
 use cinesplat::export::shot_json;
 use cinesplat::objects::ObjectSet;
@@ -17,14 +17,14 @@ use cinesplat::trajectory::Shot;
 
 /// Turn a sentence into keyframes
 ///
-/// Writes a shot.json without rendering it.
+/// Writes a shot.json without rendering it. The file may be edited by hand: move keys in time, add or remove keys, then
+/// `render --shot shot.json`.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
 Examples:
   cinesplat plan room.spz -p \"push in on <obj-3>\" --objects objects.json -o shot.json
   cinesplat plan room.spz --prompts moves.txt --objects objects.json -o shots/{}.json
-  cinesplat plan synth:demo -p \"push in on the sofa, then crane up\" -o shot.json --explain
-shot.json may be edited by hand: move keys in time, add or remove keys, then `render --shot shot.json`.")]
+  cinesplat plan synth:demo -p \"push in on the sofa, then crane up\" -o shot.json --map map.svg")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
@@ -33,8 +33,13 @@ pub(super) struct Args {
     /// Shot to write, or - for stdout
     ///
     /// With --prompts a name with {} in it, such as shots/{}.json.
-    #[arg(short, long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, required_unless_present_any = ["json", "explain"])]
+    #[arg(short, long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, required_unless_present_any = ["json", "explain", "map"])]
     output: Option<PathBuf>,
+    /// Draw the path in its scene, from above and from the side (.svg or .png)
+    ///
+    /// With --prompts a name with {} in it, such as maps/{}.svg.
+    #[arg(long, value_name = "MAP", help_heading = heading::OUTPUT)]
+    map: Option<PathBuf>,
     #[command(flatten)]
     shot: ShotArgs,
     /// Print the shot on stdout
@@ -69,33 +74,55 @@ struct Words {
     prompts: Option<PathBuf>,
 }
 
+/// Files that a plan writes.
+#[derive(Debug, Clone)]
+struct PlanOutputs {
+    shot: Option<PathBuf>,
+    map: Option<PathBuf>,
+}
+
+impl PlanOutputs {
+    /// Refuses wrong outputs before the scene is read.
+    fn check(&self, overwrite: Overwrite) -> Result<(), Failure> {
+        self.shot.iter().try_for_each(|path| overwrite.check(path))?;
+        self.map.iter().try_for_each(|path| map::check(path, overwrite))?;
+        let named = [("--output", self.shot.as_deref()), ("--map", self.map.as_deref())];
+        outputs::check_distinct(named.into_iter().filter_map(|(flag, path)| Some((flag, path?))))
+    }
+
+    /// The outputs of one prompt of a file.
+    fn for_prompt(&self, name: &str) -> Result<Self, Failure> {
+        let named =
+            |path: &Option<PathBuf>| path.as_deref().map(|path| prompts_file::output_of(path, name)).transpose();
+        Ok(Self { shot: named(&self.shot)?, map: named(&self.map)? })
+    }
+}
+
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let prompts = self.words.prompts.as_deref().map(prompts_file::read).transpose()?;
         let jobs = self.jobs(prompts)?;
-        for (_, output) in &jobs {
-            output.iter().try_for_each(|output| self.overwrite.check(output))?;
-        }
+        jobs.iter().try_for_each(|(_, outputs)| outputs.check(self.overwrite))?;
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
         let director = self.shot.director()?;
-        let plan = |named: &NamedPrompt, output: &Option<PathBuf>| {
-            self.plan(&director, (&scene, &objects), &named.prompt, output.as_deref())
+        let plan = |named: &NamedPrompt, outputs: &PlanOutputs| {
+            self.plan(&director, (&scene, &objects), &named.prompt, outputs)
         };
         match jobs.as_slice() {
-            [(named, output)] if self.words.prompts.is_none() => plan(named, output),
+            [(named, outputs)] if self.words.prompts.is_none() => plan(named, outputs),
             jobs => prompts_file::for_each(jobs, plan),
         }
     }
 
-    /// Every prompt with its output.
-    fn jobs(&self, prompts: Option<Vec<NamedPrompt>>) -> Result<Vec<(NamedPrompt, Option<PathBuf>)>, Failure> {
+    /// Every prompt with its outputs.
+    fn jobs(&self, prompts: Option<Vec<NamedPrompt>>) -> Result<Vec<(NamedPrompt, PlanOutputs)>, Failure> {
+        let outputs = PlanOutputs { shot: self.output.clone(), map: self.map.clone() };
         let Some(prompts) = prompts else {
             let prompt = self.words.prompt.clone().unwrap_or_default();
-            return Ok(vec![(NamedPrompt { name: String::new(), prompt }, self.output.clone())]);
+            return Ok(vec![(NamedPrompt { name: String::new(), prompt }, outputs)]);
         };
-        let output = |name: &str| self.output.as_deref().map(|path| prompts_file::output_of(path, name)).transpose();
-        prompts.into_iter().map(|named| Ok((named.clone(), output(&named.name)?))).collect()
+        prompts.into_iter().map(|named| Ok((named.clone(), outputs.for_prompt(&named.name)?))).collect()
     }
 
     fn plan(
@@ -103,7 +130,7 @@ impl Args {
         director: &Director,
         (scene, objects): (&Scene, &ObjectSet),
         prompt: &str,
-        output: Option<&Path>,
+        outputs: &PlanOutputs,
     ) -> Result<(), Failure> {
         let mut directed = self.shot.direct(director, (scene, objects), prompt)?;
         if self.strict
@@ -111,11 +138,14 @@ impl Args {
         {
             return Err(Failure::not_met(line));
         }
-        if let Some(output) = output {
-            directed.shot.scene.path = outputs::relative_to(output, &scene.path);
+        if let Some(output) = &outputs.shot {
+            directed.shot.scene.path = relative_to(output, &scene.path);
             self.overwrite.write(output, shot_json::write(&directed.shot).as_bytes())?;
             let (keys, secs) = (directed.shot.keyframes.len(), directed.shot.duration_secs);
             console::note(&format!("{}: {keys} keys, {secs:.2} s", output.display()));
+        }
+        if let Some(path) = &outputs.map {
+            map::write(path, (scene, objects), &directed.shot, self.overwrite)?;
         }
         if self.explain {
             self.print_forecasts(scene, &directed.shot)?;

@@ -10,8 +10,9 @@ use super::progress::FrameProgress;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, heading, outputs, reproduce};
+use super::{console, heading, map, outputs, reproduce};
 use cinesplat::export::shot_json;
+use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, FilmReport, FilmSettings, Forecast, FrameRange, Phase, PhaseTimes, Requirements};
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
@@ -73,6 +74,9 @@ pub(super) struct Args {
     /// Write a contact sheet too: twelve small frames of the film
     #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT, hide_short_help = true)]
     sheet: Option<PathBuf>,
+    /// Write a map of the shot too: the path in its scene, from above and from the side (.svg or .png)
+    #[arg(long, value_name = "MAP", help_heading = heading::OUTPUT, hide_short_help = true)]
+    map: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
 }
@@ -123,6 +127,7 @@ impl Args {
         prompts_file::for_each(&jobs, |named, job| {
             let start = Instant::now();
             let directed = job.shot.direct(&director, (&scene, &objects), &named.prompt)?;
+            job.write_map((&scene, &objects), &directed.shot)?;
             job.render((&scene, &renderer), &directed.shot, (directed.times, start), &interrupt)
         })
     }
@@ -134,6 +139,7 @@ impl Args {
             output: output(&self.output)?,
             save_shot: self.save_shot.as_ref().map(output).transpose()?,
             sheet: self.sheet.as_ref().map(output).transpose()?,
+            map: self.map.as_ref().map(output).transpose()?,
             ..self.clone()
         })
     }
@@ -183,15 +189,27 @@ impl Args {
         for path in self.save_shot.iter().chain(&self.sheet) {
             self.overwrite.check(path)?;
         }
+        self.map.as_deref().map_or(Ok(()), |path| map::check(path, self.overwrite))?;
         let shot = self.save_shot.as_deref().map(|path| ("--save-shot", path));
         let sheet = self.sheet.as_deref().map(|path| ("--sheet", path));
-        outputs::check_distinct([("--output", self.output.as_path())].into_iter().chain(shot).chain(sheet))
+        let map = self.map.as_deref().map(|path| ("--map", path));
+        outputs::check_distinct([("--output", self.output.as_path())].into_iter().chain(shot).chain(sheet).chain(map))
+    }
+
+    /// Writes the map of the shot, if one is asked for.
+    fn write_map(&self, scene: (&Scene, &ObjectSet), shot: &Shot) -> Result<(), Failure> {
+        self.map.as_deref().map_or(Ok(()), |path| map::write(path, scene, shot, self.overwrite))
     }
 
     fn open(&self, times: &mut PhaseTimes) -> Result<(Scene, Shot), Failure> {
         if let Some(file) = &self.source.file {
-            let scene = times.measure(Phase::Load, || self.scene.open())?.scene;
+            let opened = || self.scene.open().map(|opened| (opened.scene, ObjectSet::default()));
+            let with_objects = || self.scene.open_with_objects(self.shot.objects.as_deref());
+            // The film needs no objects; the map names them.
+            let (scene, objects) =
+                times.measure(Phase::Load, || if self.map.is_some() { with_objects() } else { opened() })?;
             let shot = self.shot.read_shot(file, &scene)?;
+            self.write_map((&scene, &objects), &shot)?;
             match shot.scene.up {
                 Some(up) => print_up_of(up, "the shot"),
                 None => print_up(&scene),
@@ -204,6 +222,7 @@ impl Args {
         let director = times.measure(Phase::Load, || self.shot.director())?;
         let directed = self.shot.direct(&director, (&scene, &objects), prompt)?;
         times.extend(&directed.times);
+        self.write_map((&scene, &objects), &directed.shot)?;
         Ok((scene, directed.shot))
     }
 

@@ -86,10 +86,7 @@ impl ShotArgs {
     /// Reads a shot and applies the flags to it.
     pub(super) fn read_shot(&self, path: &Path, scene: &Scene) -> Result<Shot, Failure> {
         let shot = read_file(path)?;
-        let made_for_another = !shot.scene.sha256.is_empty() && shot.scene.sha256 != scene.sha256;
-        if made_for_another {
-            console::warnings([format!("{} was made for another scene: {}", path.display(), shot.scene.path)]);
-        }
+        print_other_scene(path, &shot, scene);
         let mut shot = self.changed(shot);
         print_warnings(&shot);
         shot.clearance = Some(pipeline::prove_clearance(scene, &shot)?);
@@ -122,6 +119,13 @@ pub(super) fn read_file(path: &Path) -> Result<Shot, Failure> {
     let read = cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
     console::file_warnings(path, &read.notes);
     Ok(read.shot)
+}
+
+/// Warns of a shot that was made for another scene.
+pub(super) fn print_other_scene(path: &Path, shot: &Shot, scene: &Scene) {
+    if !shot.scene.sha256.is_empty() && shot.scene.sha256 != scene.sha256 {
+        console::warnings([format!("{} was made for another scene: {}", path.display(), shot.scene.path)]);
+    }
 }
 
 /// Warns of keys after the end of the film and of a film without length.

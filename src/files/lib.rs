@@ -1,9 +1,10 @@
 //! File output, `NumPy` arrays, hashes and relative paths for every stage.
 //!
 //! Enters: bytes and paths. Leaves: files that are complete or absent ([`NewFile`], [`write()`]), arrays for `NumPy`
-//! ([`npy`]), hashes, relative paths and warnings of unknown keys. The one invariant: no file is replaced unless the
+//! ([`npy`]), base64, hashes, relative paths and warnings of unknown keys. The one invariant: no file is replaced unless the
 //! caller passes [`Existing::Replace`].
 
+pub mod base64;
 mod error;
 mod hash;
 mod new_file;

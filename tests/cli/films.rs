@@ -148,3 +148,39 @@ fn a_black_film_and_keys_after_its_end_are_warnings() {
     let said = answer(folder.path(), &["export", "shot.json", "-o", "s.tum"]);
     assert!(said.contains(late), "{said}");
 }
+
+#[test]
+fn cases_of_generated_scenes_and_of_a_data_folder_become_shots() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("data")).unwrap();
+    let objects = r#"{"format":"cinesplat.objects","version":1,
+        "objects":[{"id":4,"label":"dial","center":[0,0.9,0],"half_extents":[0.1,0.1,0.1]}]}"#;
+    fs::write(folder.path().join("data/dial.json"), objects).unwrap();
+    let case = |id: &str, objects: &str, prompt: &str| {
+        format!(
+            "{{\"id\":\"{id}\",\"scene\":\"{SMALL_SCENE}\",{objects}\"prompt\":\"{prompt}\",\"expect\":\"a film\"}}\n"
+        )
+    };
+    let cases = case("a", "", "push in on the globe") + &case("b", "\"objects\":\"dial.json\",", "push in on the dial");
+    fs::write(folder.path().join("cases.jsonl"), cases).unwrap();
+    let films =
+        ["bench", "operator", "films", "--cases", "cases.jsonl", "--data", "data", "--solve", "off", "-o", "out"];
+    data(folder.path(), &films);
+    for (id, subject) in [("a", 10), ("b", 4)] {
+        let shot = fs::read(folder.path().join(format!("out/{id}.shot.json"))).unwrap();
+        let shot: serde_json::Value = serde_json::from_slice(&shot).unwrap();
+        assert_eq!(shot["keyframes"][0]["intent"]["subjects"][0], subject, "{id}");
+    }
+}
+
+#[test]
+fn the_projects_film_prompts_have_unique_ids_and_say_what_to_expect() {
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/prompts/films.jsonl")).unwrap();
+    let cases: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let ids: std::collections::BTreeSet<&str> = cases.iter().map(|case| case["id"].as_str().unwrap()).collect();
+    assert_eq!((cases.len(), ids.len()), (60, 60));
+    for case in &cases {
+        assert!(["scene", "prompt", "expect"].iter().all(|key| !case[key].as_str().unwrap().is_empty()), "{case}");
+        assert!(case["scene"].as_str().unwrap().starts_with("synth:") != case["objects"].is_string(), "{case}");
+    }
+}

@@ -3,6 +3,7 @@
 mod commands;
 mod errors;
 mod films;
+mod map;
 mod read;
 
 use std::ffi::OsStr;

@@ -9,6 +9,7 @@ mod exit;
 mod export;
 mod files;
 mod language;
+mod map;
 mod message;
 mod objects;
 mod pipeline;

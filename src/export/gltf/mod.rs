@@ -5,7 +5,6 @@
 //! are f32, as the format requires. An additional key just before a cut holds the pose up to the cut.
 
 mod accessor;
-mod base64;
 mod constants;
 mod read;
 mod write;

@@ -5,8 +5,8 @@ use super::super::json_read::{self, Node};
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
 use super::accessor::{item, size, values};
-use super::base64;
 use super::constants::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER};
+use cinesplat_files::base64;
 use cinesplat_geometry::{Pose, rotation};
 
 /// Deepest chain of nodes above a camera.

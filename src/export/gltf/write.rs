@@ -4,8 +4,8 @@ use super::super::json_write::{Json, object};
 use super::super::opengl::{opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack, fov_y_or_default};
 use super::accessor::{ElementType, FLOAT};
-use super::base64;
 use super::constants::{BINARY_CHUNK, GLB_MAGIC, JSON_CHUNK, POINTER};
+use cinesplat_files::base64;
 use cinesplat_geometry::rotation;
 
 /// Near and far plane over the largest distance of the path from the origin.

@@ -9,7 +9,7 @@ use crate::cli::failure::{Exit, Failure};
 use crate::cli::outputs;
 use cinesplat::director::Director;
 use cinesplat::language::program_from_notation;
-use cinesplat::objects::{self, ObjectSet};
+use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
 use cinesplat::pipeline::{self, DirectSettings};
 use cinesplat::scene::{LoadOptions, Scene};
@@ -19,8 +19,14 @@ use cinesplat::trajectory::Shot;
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct CaseArgs {
     /// File of cases: JSON lines with id, scene, objects and prompt
+    ///
+    /// Scenes and objects files are looked for under --data, then in the folder of the cases. Without objects a case has
+    /// those of its scene.
     #[arg(long, value_name = "CASES.JSONL")]
     cases: PathBuf,
+    /// Folder of scenes and objects files [default: the folder of the cases]
+    #[arg(long, value_name = "DIR")]
+    data: Option<PathBuf>,
     /// Programs by case id [default: the network's reading of each prompt]
     #[arg(long, value_name = "INTENTS.JSON")]
     intents: Option<PathBuf>,
@@ -37,11 +43,14 @@ pub(super) struct CaseArgs {
 pub(super) struct PromptCase {
     pub(super) id: String,
     scene: PathBuf,
-    objects: PathBuf,
+    objects: Option<PathBuf>,
     prompt: String,
     #[serde(skip)]
     program: Option<Program>,
 }
+
+/// A scene and its objects file.
+type SceneFiles = (PathBuf, Option<PathBuf>);
 
 /// A scene with its objects, up axis corrected by the objects file.
 pub(super) struct CaseScene {
@@ -52,7 +61,7 @@ pub(super) struct CaseScene {
 /// Opens scenes and turns cases into shots. The director is loaded only for cases without programs.
 pub(super) struct CaseDirector {
     director: Option<Director>,
-    scenes: BTreeMap<(PathBuf, PathBuf), CaseScene>,
+    scenes: BTreeMap<SceneFiles, CaseScene>,
     seed: u64,
 }
 
@@ -72,7 +81,8 @@ impl CaseArgs {
             if !case.id.contains(&self.only) {
                 continue;
             }
-            (case.scene, case.objects) = (folder.join(&case.scene), folder.join(&case.objects));
+            case.scene = self.located(folder, case.scene);
+            case.objects = case.objects.map(|objects| self.located(folder, objects));
             if let Some(programs) = &programs {
                 let program = programs.get(&case.id).ok_or_else(|| bad(number + 1, "no program in the intents"))?;
                 case.program = Some(program.clone());
@@ -81,6 +91,17 @@ impl CaseArgs {
         }
         let director = if programs.is_none() { Some(Director::embedded()?) } else { None };
         Ok((cases, CaseDirector { director, scenes: BTreeMap::new(), seed: self.seed }))
+    }
+}
+
+impl CaseArgs {
+    /// The place of a file that a case names; a generated scene stays as it is.
+    fn located(&self, folder: &Path, name: PathBuf) -> PathBuf {
+        if name.to_string_lossy().starts_with("synth:") {
+            return name;
+        }
+        let under_data = self.data.as_deref().map(|data| data.join(&name)).filter(|path| path.exists());
+        under_data.unwrap_or_else(|| folder.join(&name))
     }
 }
 
@@ -105,11 +126,11 @@ impl CaseDirector {
     pub(super) fn scene_of(&mut self, case: &PromptCase) -> Result<&CaseScene, Failure> {
         let key = (case.scene.clone(), case.objects.clone());
         if !self.scenes.contains_key(&key) {
-            let mut scene = pipeline::open_scene(&case.scene, &LoadOptions::default())?.scene;
-            let read = objects::read(&case.objects, &scene)?;
-            console::file_warnings(&case.objects, &read.notes);
-            scene.up = read.up.unwrap_or(scene.up);
-            self.scenes.insert(key.clone(), CaseScene { scene, objects: read.set });
+            let opened = pipeline::open_scene(&case.scene, &LoadOptions::default())?;
+            let num_printed = opened.scene.notes.len();
+            let (scene, objects) = opened.with_objects(case.objects.as_deref())?;
+            console::warnings(scene.notes.iter().skip(num_printed));
+            self.scenes.insert(key.clone(), CaseScene { scene, objects });
         }
         self.scenes.get(&key).ok_or_else(|| Failure::fault("a scene that was opened is gone"))
     }
