@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::framing::DEFAULT_ASPECT;
+use super::framing::Target;
 use super::program::{FramePlace, Lens, SubjectSide};
 use super::world::World;
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
@@ -61,7 +61,7 @@ pub(super) fn placed(world: &World, state: &CameraState, point: DVec3, at: DVec2
     let Some(direction) = (point - state.pose.position).try_normalize() else { return *state };
     let frame = &world.frame;
     let half = 2.0 * (state.fov_y_rad / 2.0).tan();
-    let ray = DVec3::new(at.x * half * DEFAULT_ASPECT, -at.y * half, 1.0).normalize();
+    let ray = DVec3::new(at.x * half * world.aspect, -at.y * half, 1.0).normalize();
     let rise = (frame.height(direction) / ray.z.hypot(ray.y)).clamp(-1.0, 1.0).asin();
     let pitch_rad = rise - (-ray.y).atan2(ray.z);
     let (sin, cos) = pitch_rad.sin_cos();
@@ -111,4 +111,47 @@ pub(super) fn off_side_deg(world: &World, center: DVec3, position: DVec3, side: 
     let azimuth = world.frame.azimuth(position - center);
     let off = |middle: f64| rotation::short_turn(azimuth - middle).abs().to_degrees();
     side_azimuths(world, center, side).into_iter().map(off).fold(f64::INFINITY, f64::min)
+}
+
+/// Range of the elevation from which a person sees a target, degrees. Flat things are looked down on, compact ones on the
+/// floor and on tables less so, and tall ones, hanging ones and pictures are seen from their own level. Of nothing is the
+/// underside seen.
+pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64) {
+    let heights: Vec<f64> = target.corners.iter().map(|&c| world.height_above_floor(c)).collect();
+    let (bottom, top) = span(heights.iter().copied());
+    let (narrow, wide) = widths(world, &target.corners);
+    let (height, eye) = (top - bottom, world.eye_height());
+    let is_flat = height < FLAT_FRAC * narrow;
+    let is_thin = narrow < FLAT_FRAC * height;
+    let is_level = |at: f64| at > 0.75 * eye;
+    match (is_flat, world.is_indoor()) {
+        (true, _) => (28.0, 42.0),
+        (false, true) if bottom > 0.85 * eye => (-6.0, 6.0),
+        (false, true) if is_level(bottom.midpoint(top)) || (is_thin && is_level(top)) => (-2.0, 8.0),
+        (false, true) if top > 0.8 * eye => (1.0, 11.0),
+        (false, true) if top < 0.4 * eye => (16.0, 32.0),
+        (false, true) => (10.0, 25.0),
+        (false, false) if height > 1.2 * wide => (1.0, 12.0),
+        (false, false) => (7.0, 22.0),
+    }
+}
+
+/// Thickness of a flat thing over its other extents.
+const FLAT_FRAC: f64 = 0.3;
+
+/// The least and the largest horizontal extent of points: of 36 directions, the least and the one across it.
+fn widths(world: &World, points: &[DVec3]) -> (f64, f64) {
+    let extent = |azimuth: f64| {
+        let along = world.frame.direction(azimuth);
+        let (low, high) = span(points.iter().map(|p| p.dot(along)));
+        high - low
+    };
+    let half_turn = (0..36).map(|i| f64::from(i) * std::f64::consts::PI / 36.0);
+    let thinnest = half_turn.min_by(|a, b| extent(*a).total_cmp(&extent(*b))).unwrap_or(0.0);
+    (extent(thinnest), extent(thinnest + std::f64::consts::FRAC_PI_2))
+}
+
+/// The least and the largest of some values.
+fn span(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }

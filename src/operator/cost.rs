@@ -1,14 +1,11 @@
 //! The cost of a motion segment: violated constraints, clearance, the captured region, and the quality of the pictures.
 
-use glam::{DVec2, DVec3};
-
 use super::clearance::{ClearanceQuery, least_clearance};
 use super::constraint::{Constraint, ConstraintKind};
-use super::framing::DEFAULT_ASPECT;
 use super::measure::{SEARCH_POINTS, measure};
 use super::motion::{MotionSegment, StepLabels, keyframes};
+use super::pictures::{pictures_cost, under_furniture_cost};
 use super::world::World;
-use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_trajectory::{CameraPath, CameraState, Easing};
 
 /// Limit on the path intervals that branch and bound examines per candidate.
@@ -35,12 +32,12 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
     if total > REJECT_COST {
         return total + REJECT_COST;
     }
-    total += region_cost(world, &states);
+    total += region_cost(world, &states) + under_furniture_cost(world, &segment.constraints, &states);
     if total > REJECT_COST {
         return total + REJECT_COST / 2.0;
     }
     total += expensive.into_iter().map(charge).sum::<f64>();
-    total + void_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
+    total + pictures_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
 }
 
 /// The path of a segment by itself.
@@ -77,7 +74,7 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     if sunk > 0.0 && world.is_indoor() {
         return 5.0 + 20.0 * sunk.min(0.4);
     }
-    let beyond = states.iter().map(|s| beyond_corner_frac(world, position(s))).fold(0.0, f64::max);
+    let beyond = states.iter().map(|s| world.beyond_corner_frac(position(s))).fold(0.0, f64::max);
     if beyond > 0.0 && world.is_indoor() {
         return 5.0 + 20.0 * beyond.min(0.4);
     }
@@ -92,55 +89,14 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
 }
 
-/// How far a point lies outside the scene's core box along both horizontal axes at once: the smaller distance over the
-/// scene size. A room is often captured through an open side. The camera may stand in front of that side, but beyond
-/// the planes of the walls next to it, it would see their back faces.
-fn beyond_corner_frac(world: &World, point: DVec3) -> f64 {
-    let bounds = &world.bounds;
-    let outside = (bounds.core_min - point).max(point - bounds.core_max).max(DVec3::ZERO);
-    let mut level = outside;
-    // The vertical axis does not count.
-    level[world.frame.up.abs().max_position()] = f64::INFINITY;
-    level.min_element() / bounds.size()
-}
-
 /// Share of the states inside the captured region, seeing front faces.
 pub(super) fn captured_frac(world: &World, states: &[CameraState]) -> f64 {
     let good = |s: &&CameraState| {
         let p = s.pose.position;
-        let inside = world.sunk_frac(p) <= 0.0 && beyond_corner_frac(world, p) <= 0.0;
+        let inside = world.sunk_frac(p) <= 0.0 && world.beyond_corner_frac(p) <= 0.0;
         world.in_capture_region(p) && world.sees_front_faces(p) && (inside || !world.is_indoor())
     };
     states.iter().filter(good).count() as f64 / states.len() as f64
-}
-
-/// Mean cost of three pictures: void, and matter close before the lens.
-fn void_cost(world: &World, states: &[CameraState]) -> f64 {
-    let picks = [0, states.len() / 2, states.len() - 1];
-    let total: f64 = picks.iter().map(|&i| picture_cost(world, &states[i])).sum();
-    total / picks.len() as f64
-}
-
-fn picture_cost(world: &World, state: &CameraState) -> f64 {
-    let camera = Camera {
-        pose: state.pose,
-        intrinsics: Intrinsics::from_fov_y((9.0 * DEFAULT_ASPECT) as u32, 9, state.fov_y_rad),
-    };
-    let near = 0.05 * world.bounds.size();
-    let (mut void, mut blocked, mut count) = (0.0, 0.0, 0.0);
-    for column in 0..6 {
-        for row in 0..4 {
-            let at = DVec2::new((f64::from(column) + 0.5) / 6.0 * 16.0, (f64::from(row) + 0.5) / 4.0 * 9.0);
-            match world.hit_distance(state.pose.position, camera.ray(at)) {
-                None => void += 1.0,
-                Some(distance) if distance < near => blocked += 1.0,
-                Some(_) => {}
-            }
-            count += 1.0;
-        }
-    }
-    let weight = if world.is_indoor() { 2.6 } else { 0.3 };
-    (weight * void + 1.2 * blocked) / count
 }
 
 /// Distance of the first view from the camera that the director proposes, as a tie breaker.

@@ -7,9 +7,6 @@ use super::world::{Subject, World};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::CameraState;
 
-/// Width over height of the frame that shots are planned for.
-pub(super) const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
-
 /// The target of a view: a point to aim at, and the corners that must fit.
 #[derive(Debug, Clone)]
 pub(super) struct Target {
@@ -36,7 +33,12 @@ impl Target {
         } else {
             first.corners.clone()
         };
-        let aim = if joint { middle(&corners) } else { part_point(world, first, framing.part) };
+        let aim = match framing.place {
+            _ if joint => middle(&corners),
+            // A stated place is that of the subject's center.
+            Some(_) if framing.part == SubjectPart::Middle => first.center,
+            _ => part_point(world, first, framing.part),
+        };
         let radius = corners.iter().map(|c| c.distance(aim)).fold(0.0, f64::max);
         Some(Self { ids: framing.subjects.clone(), aim, center: first.center, corners, radius })
     }
@@ -69,37 +71,53 @@ fn middle(points: &[DVec3]) -> DVec3 {
     (low + high) / 2.0
 }
 
+/// Height over width from which on a subject counts as upright, and from which on its aim is all the way up.
+const UPRIGHT: (f64, f64) = (1.3, 1.9);
+/// Height of the aim of an upright subject above its middle, over half its height. In a picture that it fills from top to
+/// bottom this leaves a headroom of 11 %, and it puts the middle of its box 11 % below that of the frame.
+const UPPER_AIM: f64 = 0.22;
+
 /// The point to aim at for a part of a subject: 60 % of the way from its middle to that end. Left and right give the
-/// middle, because they depend on the camera's position ([`aimed_at_side`](super::view::aimed_at_side)).
+/// middle, because they depend on the camera's position ([`aimed_at_side`](super::view::aimed_at_side)). Where the prompt
+/// names no part, upright subjects are aimed at above their middle, where people have their heads.
 fn part_point(world: &World, subject: &Subject, part: SubjectPart) -> DVec3 {
     let heights = || subject.corners.iter().map(|&c| world.frame.height(c - subject.center));
     let rise = match part {
         SubjectPart::Top => heights().fold(0.0, f64::max),
         SubjectPart::Bottom => heights().fold(0.0, f64::min),
-        SubjectPart::Middle | SubjectPart::Left | SubjectPart::Right => 0.0,
+        SubjectPart::Middle => return subject.center + world.frame.up * upper_aim(world, subject),
+        SubjectPart::Left | SubjectPart::Right => 0.0,
     };
     subject.center + world.frame.up * rise * 0.6
 }
 
+/// Height of a subject's aim above its middle.
+fn upper_aim(world: &World, subject: &Subject) -> f64 {
+    let half_height = subject.reach(world.frame.up);
+    let half_width = subject.level_axes(world.frame.up)[0].length();
+    let upright = (half_height / half_width.max(1e-9) - UPRIGHT.0) / (UPRIGHT.1 - UPRIGHT.0);
+    UPPER_AIM * half_height * upright.clamp(0.0, 1.0)
+}
+
 /// Position in the frame as fractions of its width and height from the middle (right and up positive), and the depth
 /// along the view axis. `None` for points at or behind the camera.
-pub(super) fn frame_position(state: &CameraState, point: DVec3) -> Option<(DVec2, f64)> {
+pub(super) fn frame_position(world: &World, state: &CameraState, point: DVec3) -> Option<(DVec2, f64)> {
     let p = state.pose.to_camera(point);
     let tan = (state.fov_y_rad / 2.0).tan();
-    (p.z > 1e-9).then(|| (DVec2::new(p.x / (2.0 * p.z * tan * DEFAULT_ASPECT), -p.y / (2.0 * p.z * tan)), p.z))
+    (p.z > 1e-9).then(|| (DVec2::new(p.x / (2.0 * p.z * tan * world.aspect), -p.y / (2.0 * p.z * tan)), p.z))
 }
 
 /// Distance of a point from the frame's middle: the larger of |x| over the width and |y| over the height. Infinite
 /// behind the camera.
-pub(super) fn off_center(state: &CameraState, point: DVec3) -> f64 {
-    frame_position(state, point).map_or(f64::INFINITY, |(at, _)| at.abs().max_element())
+pub(super) fn off_center(world: &World, state: &CameraState, point: DVec3) -> f64 {
+    frame_position(world, state, point).map_or(f64::INFINITY, |(at, _)| at.abs().max_element())
 }
 
 /// Width and height of the points' projection over the frame's; infinite where a point is behind the camera.
-pub(super) fn extent_frac(state: &CameraState, points: &[DVec3]) -> DVec2 {
+pub(super) fn extent_frac(world: &World, state: &CameraState, points: &[DVec3]) -> DVec2 {
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for &point in points {
-        let Some((at, _)) = frame_position(state, point) else { return DVec2::INFINITY };
+        let Some((at, _)) = frame_position(world, state, point) else { return DVec2::INFINITY };
         low = low.min(at);
         high = high.max(at);
     }
@@ -107,18 +125,18 @@ pub(super) fn extent_frac(state: &CameraState, points: &[DVec3]) -> DVec2 {
 }
 
 /// Share of the points inside the frame, which is shrunk by `margin` of its size on every side.
-pub(super) fn in_frame_frac(state: &CameraState, points: &[DVec3], margin: f64) -> f64 {
-    let inside = |p: &&DVec3| off_center(state, **p) <= 0.5 - margin;
+pub(super) fn in_frame_frac(world: &World, state: &CameraState, points: &[DVec3], margin: f64) -> f64 {
+    let inside = |p: &&DVec3| off_center(world, state, **p) <= 0.5 - margin;
     points.iter().filter(inside).count() as f64 / points.len().max(1) as f64
 }
 
 /// Visible share of a subject's points in the frame: those with a transmittance of at least 0.5. 0 where no point is in
 /// the frame.
-pub(super) fn unoccluded_frac(state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
+pub(super) fn unoccluded_frac(world: &World, state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
     let stride = (subject.points.len() / num_points).max(1);
     let (mut framed, mut seen) = (0, 0);
     for &point in subject.points.iter().step_by(stride) {
-        if off_center(state, point) <= 0.5 {
+        if off_center(world, state, point) <= 0.5 {
             framed += 1;
             seen += usize::from(subject.transmittance(state.pose.position, point) >= 0.5);
         }
@@ -127,10 +145,11 @@ pub(super) fn unoccluded_frac(state: &CameraState, subject: &Subject, num_points
 }
 
 /// Share of all points of a subject that are in the frame and visible.
-pub(super) fn seen_frac(state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
+pub(super) fn seen_frac(world: &World, state: &CameraState, subject: &Subject, num_points: usize) -> f64 {
     let points: Vec<DVec3> =
         subject.points.iter().step_by((subject.points.len() / num_points).max(1)).copied().collect();
-    let seen = |p: &&DVec3| off_center(state, **p) <= 0.5 && subject.transmittance(state.pose.position, **p) >= 0.5;
+    let seen =
+        |p: &&DVec3| off_center(world, state, **p) <= 0.5 && subject.transmittance(state.pose.position, **p) >= 0.5;
     points.iter().filter(seen).count() as f64 / points.len().max(1) as f64
 }
 
@@ -161,8 +180,8 @@ pub(super) enum Fill {
 }
 
 impl Fill {
-    fn reached(self, state: &CameraState, corners: &[DVec3]) -> bool {
-        let extent = extent_frac(state, corners);
+    fn reached(self, world: &World, state: &CameraState, corners: &[DVec3]) -> bool {
+        let extent = extent_frac(world, state, corners);
         match self {
             Self::Height(wanted) => extent.y >= wanted,
             Self::Fit(wanted) => extent.max_element() >= wanted,
@@ -173,7 +192,7 @@ impl Fill {
 /// The distance at which a target has the wanted size, seen from a bearing. The projection shrinks with the
 /// distance: 40 bisections find it to 1e-9 of the range.
 pub(super) fn distance_for(world: &World, target: &Target, bearing: Bearing, fill: Fill, fov_y_rad: f64) -> f64 {
-    let reached = |d: f64| fill.reached(&view_at(world, target.aim, bearing, d, fov_y_rad), &target.corners);
+    let reached = |d: f64| fill.reached(world, &view_at(world, target.aim, bearing, d, fov_y_rad), &target.corners);
     let (mut near, mut far) = (0.2 * target.radius, 200.0 * target.radius.max(1e-9));
     for _ in 0..40 {
         let middle = (near * far).sqrt();

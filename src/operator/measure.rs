@@ -54,10 +54,10 @@ pub(super) fn measure(
     };
     let (first, last) = (&states[0], &states[states.len() - 1]);
     match &constraint.kind {
-        ConstraintKind::Centered(target, most) => over(&|s| off_center(s, target.aim), (0.0, *most), 0.2),
-        ConstraintKind::OnThird(target) => over(&|s| off_center(s, target.aim), THIRD_BAND, 0.2),
+        ConstraintKind::Centered(target, most) => over(&|s| off_center(world, s, target.aim), (0.0, *most), 0.2),
+        ConstraintKind::OnThird(target) => over(&|s| off_center(world, s, target.aim), THIRD_BAND, 0.2),
         ConstraintKind::Unoccluded(id, least) => visible_share(world, *id, *least, picked, num_points),
-        ConstraintKind::Height(target, band) => over(&|s| height(s, target), *band, 0.3 * band.0.max(0.2)),
+        ConstraintKind::Height(target, band) => over(&|s| height(world, s, target), *band, 0.3 * band.0.max(0.2)),
         ConstraintKind::InFrame(ids, least) => over(&|s| framed(world, s, ids), (*least, 1.0), 0.4),
         ConstraintKind::NotWhole(ids, most) => over(&|s| framed(world, s, ids), (0.0, *most), 0.4),
         ConstraintKind::Pitch(band) => {
@@ -97,7 +97,7 @@ fn composed(world: &World, kind: &ConstraintKind, state: &CameraState, num_point
     let position = state.pose.position;
     match kind {
         ConstraintKind::Placed(target, place) => {
-            let off = frame_position(state, target.aim)
+            let off = frame_position(world, state, target.aim)
                 .map_or(f64::INFINITY, |(at, _)| (at - frame_place(*place)).abs().max_element());
             range_violation(off, (0.0, PLACE_TOLERANCE), 0.2)
         }
@@ -115,14 +115,14 @@ fn composed(world: &World, kind: &ConstraintKind, state: &CameraState, num_point
             range_violation(off_side_deg(world, target.center, position, *side), (0.0, SIDE_TOLERANCE_DEG), 40.0)
         }
         ConstraintKind::Unseen(id, most) => {
-            let share = world.subject(*id).map_or(0.0, |subject| seen_frac(state, subject, num_points));
+            let share = world.subject(*id).map_or(0.0, |subject| seen_frac(world, state, subject, num_points));
             range_violation(share, (0.0, *most), 0.3)
         }
         ConstraintKind::Foreground(id, target) => {
             let off = foreground_off(world, *id, target, state).unwrap_or(f64::NAN);
             range_violation(off, (FOREGROUND_OFF, 0.5), 0.2)
         }
-        ConstraintKind::LookAt(point, _, most) => range_violation(off_center(state, *point), (0.0, *most), 0.2),
+        ConstraintKind::LookAt(point, _, most) => range_violation(off_center(world, state, *point), (0.0, *most), 0.2),
         _ => Measurement { value: f64::NAN, violation: 0.0 },
     }
 }
@@ -136,7 +136,7 @@ fn foreground_off(world: &World, id: u32, target: &Target, state: &CameraState) 
     let inside: Vec<DVec2> = subject
         .points
         .iter()
-        .filter_map(|&point| frame_position(state, point).map(|(at, _)| at))
+        .filter_map(|&point| frame_position(world, state, point).map(|(at, _)| at))
         .filter(|at| at.abs().max_element() <= 0.5)
         .collect();
     let share = inside.len() as f64 / subject.points.len().max(1) as f64;
@@ -174,7 +174,7 @@ fn worst_of(measurements: impl Iterator<Item = Measurement>, scope: Scope) -> Me
 /// The largest share of a subject's points that is visible on at least [`VISIBLE_FRAMES_FRAC`] of the frames.
 fn visible_share(world: &World, id: u32, least: f64, states: &[CameraState], num_points: usize) -> Measurement {
     let Some(subject) = world.subject(id) else { return Measurement { value: 0.0, violation: 1.0 } };
-    let mut shares: Vec<f64> = states.iter().map(|s| unoccluded_frac(s, subject, num_points)).collect();
+    let mut shares: Vec<f64> = states.iter().map(|s| unoccluded_frac(world, s, subject, num_points)).collect();
     shares.sort_by(f64::total_cmp);
     let least = if num_points <= SEARCH_POINTS { least + SEARCH_MARGIN } else { least };
     let enough = shares.iter().filter(|&&share| share >= least).count() as f64 / shares.len() as f64;
@@ -185,8 +185,8 @@ fn visible_share(world: &World, id: u32, least: f64, states: &[CameraState], num
     Measurement { value, violation: if enough >= VISIBLE_FRAMES_FRAC { 0.0 } else { off.max(0.02) } }
 }
 
-fn height(state: &CameraState, target: &Target) -> f64 {
-    extent_frac(state, &target.corners).y
+fn height(world: &World, state: &CameraState, target: &Target) -> f64 {
+    extent_frac(world, state, &target.corners).y
 }
 
 /// The least share, over the subjects, of corners and points inside the frame.
@@ -194,7 +194,7 @@ fn framed(world: &World, state: &CameraState, ids: &[u32]) -> f64 {
     let share = |id: &u32| {
         world.subject(*id).map_or(1.0, |s| {
             let points: Vec<DVec3> = s.points.iter().chain(&s.corners).copied().collect();
-            in_frame_frac(state, &points, 0.012)
+            in_frame_frac(world, state, &points, 0.012)
         })
     };
     ids.iter().map(share).fold(1.0, f64::min)

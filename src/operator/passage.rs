@@ -16,8 +16,6 @@ const BESIDE_FRAC: f64 = 0.3;
 const ALONG_FRAC: f64 = 0.8;
 /// Largest distance from the box of an object of a camera that stands at it, over the scene size.
 pub(super) const STANDING_FRAC: f64 = 0.15;
-/// Height of a standing person's eyes above the floor, over the scene size: 1.5 m in a room of 5 by 5 by 2.6 m.
-const EYE_FRAC: f64 = 0.2;
 /// Points per interval between two samples.
 const POINTS_PER_INTERVAL: usize = 8;
 
@@ -46,14 +44,9 @@ pub(super) fn passage(world: &World, how: Pass, id: u32, states: &[CameraState])
     }
 }
 
-/// Height of a standing person's eyes above the floor.
-pub(super) fn eye_height(world: &World) -> f64 {
-    EYE_FRAC * world.bounds.size()
-}
-
 /// Distance of a point from an object's box, which counts as reaching up to eye height, over the scene size.
 fn apart_frac(world: &World, subject: &Subject, point: DVec3) -> f64 {
-    let spare = eye_height(world) - world.height_above_floor(subject.center) - subject.reach(world.frame.up);
+    let spare = world.eye_height() - world.height_above_floor(subject.center) - subject.reach(world.frame.up);
     let above = world.height_above_floor(point) - world.height_above_floor(subject.center);
     let lowered = point - world.frame.up * spare.min(above).max(0.0);
     let at = subject.in_box(lowered);

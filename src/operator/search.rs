@@ -137,7 +137,8 @@ impl SearchProblem<'_> {
         let context =
             StepContext::new(self.world, (self.program, index), (before, candidate.origin()), suggestion, &parameters);
         let segments = build(&context);
-        let proposed = suggestion.filter(|_| before.is_none()).map(|cameras| cameras.start);
+        // Without a subject the camera stands where people stand, whatever the director proposes.
+        let proposed = suggestion.filter(|_| before.is_none() && context.names_objects()).map(|cameras| cameras.start);
         let own: f64 = segments.iter().map(|segment| cost(self.world, segment, proposed.as_ref())).sum();
         let mut out = candidate.clone();
         out.parameters.push(parameters);

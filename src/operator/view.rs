@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::composition::{lens_fov_deg, side_azimuths};
+use super::composition::{lens_fov_deg, natural_elevation_deg, side_azimuths};
 use super::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use super::motion::StepParameters;
 use super::program::{Framing, SubjectPart};
@@ -28,17 +28,25 @@ pub(super) struct ViewRange {
     pub(super) azimuths_rad: Vec<f64>,
 }
 
-/// Range of the camera's elevation, seen from the subject, for an angle of the shot; degrees. `None`: mostly
-/// from slightly above.
-fn elevation_band_deg(angle: Option<ShotAngle>) -> (f64, f64) {
+/// Range of the camera's elevation, seen from the subject, for an angle of the shot; degrees.
+fn elevation_band_deg(angle: ShotAngle) -> (f64, f64) {
     match angle {
-        Some(ShotAngle::Overhead) => (48.0, 74.0),
-        Some(ShotAngle::High) => (18.0, 38.0),
-        Some(ShotAngle::EyeLevel) => (-4.0, 8.0),
-        Some(ShotAngle::Low) => (-34.0, -11.0),
-        Some(ShotAngle::Worm) => (-65.0, -42.0),
-        None => (-6.0, 26.0),
+        ShotAngle::Overhead => (48.0, 74.0),
+        ShotAngle::High => (18.0, 38.0),
+        ShotAngle::EyeLevel => (-4.0, 8.0),
+        ShotAngle::Low => (-34.0, -11.0),
+        ShotAngle::Worm => (-65.0, -42.0),
     }
+}
+
+/// Elevation of the camera where the words state none: as a person would see the target. Parameter 1 chooses it; its
+/// outer tenths leave the usual range, upward more than downward, where something is in the way.
+fn free_elevation_deg(world: &World, target: &Target, parameter: f64, proposed: Option<Bearing>) -> f64 {
+    let (low, high) = natural_elevation_deg(world, target);
+    let usual = lerp((low, high), ((parameter - 0.1) / 0.8).clamp(0.0, 1.0));
+    let usual = proposed.map_or(usual, |bearing| usual.midpoint(bearing.elevation_rad.to_degrees().clamp(low, high)));
+    let beyond = ((parameter - 0.9) / 0.1).max(0.0) * 16.0 - ((0.1 - parameter) / 0.1).max(0.0) * 0.3 * low.max(0.0);
+    usual + beyond
 }
 
 /// The fill for a shot size: a parameter in 0..1 selects from the inner part of the size's range.
@@ -73,12 +81,11 @@ pub(super) fn opening_view(
         Some(side) => beside(&side_azimuths(world, target.center, side), parameters),
         None => azimuth(range, proposed, parameters),
     };
-    let band = elevation_band_deg(framing.angle);
-    let mut elevation = lerp(band, parameters[1]).to_radians();
-    if let (Some(proposed), None) = (proposed, framing.angle) {
-        elevation = lerp((elevation, proposed.elevation_rad.clamp(-0.5, 0.9)), 0.5);
-    }
-    let elevation_rad = framing.elevation_deg.map_or(elevation, f64::to_radians);
+    let elevation_deg = match framing.angle {
+        Some(angle) => lerp(elevation_band_deg(angle), parameters[1]),
+        None => free_elevation_deg(world, target, parameters[1], proposed),
+    };
+    let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = Bearing { azimuth_rad, elevation_rad };
     let fill = stated_fill(framing, parameters[2]).unwrap_or_else(|| Fill::Fit(lerp(range.fill, parameters[2])));
     let loose = framing.whole && framing.height_frac.is_none();

@@ -2,17 +2,23 @@
 //! covers.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use glam::DVec3;
 
 use super::capture_region::CaptureRegion;
 use super::clearance::ClearanceIndex;
 use super::grid::Grid;
+use super::lookout::{Lookout, Thing};
 use super::opacity_grid::OpacityGrid;
 use cinesplat_geometry::{GeometryError, LevelFrame};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
 
+/// Height of a standing person's eyes above the floor, over the scene size: 1.5 m in a room of 5 by 5 by 2.6 m.
+const EYE_FRAC: f64 = 0.2;
+/// Default width over height of the frame.
+const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 /// Default of the camera's radius, over the scene size.
 const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;
 /// The camera's radius in a scene without extent, scene units.
@@ -26,12 +32,20 @@ pub struct World {
     pub frame: LevelFrame,
     /// Extents of the scene, world.
     pub bounds: Bounds,
+    /// Width over height of the film's frame: every view is planned, and every report measured, for it. Above 0; 16:9
+    /// unless set.
+    pub aspect: f64,
     /// Radius of the camera's ball: the least distance that it keeps from matter, scene units. Above 0.
     pub camera_radius: f64,
     subjects: BTreeMap<u32, Subject>,
     matter: OpacityGrid,
     clearance: ClearanceIndex,
     region: CaptureRegion,
+    /// All objects of the scene.
+    pub(super) things: Vec<Thing>,
+    /// Places where people stand in a room, with what they look at. [`lookouts`](super::lookouts::lookouts) finds them
+    /// where a program first needs them.
+    pub(super) lookouts: OnceLock<Vec<Lookout>>,
 }
 
 /// An object that a shot can frame.
@@ -70,7 +84,20 @@ impl World {
             .map(|object| (object.id, Subject::of(gaussians, object, &objects.labels, &matter.grid)))
             .collect();
         let camera_radius = default_camera_radius(&bounds);
-        Ok(Self { frame, bounds, camera_radius, subjects, matter, clearance, region })
+        let things =
+            objects.objects.iter().map(|object| Thing { center: object.center, radius: object.radius() }).collect();
+        Ok(Self {
+            frame,
+            bounds,
+            aspect: DEFAULT_ASPECT,
+            camera_radius,
+            subjects,
+            matter,
+            clearance,
+            region,
+            things,
+            lookouts: OnceLock::new(),
+        })
     }
 
     /// The subject with an object id.
@@ -105,6 +132,11 @@ impl World {
         self.frame.height(self.bounds.core_min).min(self.frame.height(self.bounds.core_max))
     }
 
+    /// Height of a standing person's eyes above the floor.
+    pub(super) fn eye_height(&self) -> f64 {
+        EYE_FRAC * self.bounds.size()
+    }
+
     /// Height of a point above the bottom of the scene's core box.
     pub(super) fn height_above_floor(&self, point: DVec3) -> f64 {
         self.frame.height(point) - self.floor_height()
@@ -121,6 +153,18 @@ impl World {
     pub(super) fn outside_frac(&self, point: DVec3) -> f64 {
         let inside = point.clamp(self.bounds.core_min, self.bounds.core_max);
         inside.distance(point) / self.bounds.size()
+    }
+
+    /// How far a point lies outside the scene's core box along both horizontal axes at once: the smaller distance over
+    /// the scene size. A room is often captured through an open side. The camera may stand in front of that side, but
+    /// beyond the planes of the walls next to it, it would see their back faces.
+    pub(super) fn beyond_corner_frac(&self, point: DVec3) -> f64 {
+        let bounds = &self.bounds;
+        let outside = (bounds.core_min - point).max(point - bounds.core_max).max(DVec3::ZERO);
+        let mut level = outside;
+        // The vertical axis does not count.
+        level[self.frame.up.abs().max_position()] = f64::INFINITY;
+        level.min_element() / bounds.size()
     }
 
     /// Free places with a wide view of the scene, the best one first; world.

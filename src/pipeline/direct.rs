@@ -33,6 +33,13 @@ pub struct DirectSettings {
     pub effects: EffectChoice,
 }
 
+impl DirectSettings {
+    /// Width over height of the frame.
+    fn aspect(&self) -> f64 {
+        f64::from(self.width.max(1)) / f64::from(self.height.max(1))
+    }
+}
+
 impl Default for DirectSettings {
     fn default() -> Self {
         Self {
@@ -112,7 +119,8 @@ pub fn direct(
         direction.program.duration_secs = settings.duration_secs;
     }
     let ids = direction.program.object_ids();
-    let world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
+    let mut world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
+    world.aspect = settings.aspect();
     let mut calls = calls(&effects);
     let dutch =
         calls.iter().position(|call| call.kind == EffectKind::Other(DUTCH.to_owned())).map(|at| calls.remove(at));

@@ -9,8 +9,9 @@ use glam::{DVec2, DVec3};
 
 use super::{film, solved, world};
 
-const CENTER: DVec3 = DVec3::new(1.2, 0.6, 0.9);
-const HALF: DVec3 = DVec3::new(0.3, 0.6, 0.3);
+/// Center and half extents of box 1.
+pub const CENTER: DVec3 = DVec3::new(1.2, 0.6, 0.9);
+pub const HALF: DVec3 = DVec3::new(0.3, 0.6, 0.3);
 
 fn about(id: u32) -> Framing {
     Framing { subjects: vec![id], ..Framing::default() }

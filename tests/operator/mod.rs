@@ -10,6 +10,7 @@ mod passes;
 mod places;
 mod proof;
 mod route;
+mod viewpoints;
 
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Program, SIGMA_LEVEL, Solution, SolveLevel, SolveSettings, Step, World, realize};

@@ -265,7 +265,7 @@ fn filled(context: &StepContext, target: &Target, view: &CameraState) -> CameraS
         Some(Fill::Height(wanted) | Fill::Fit(wanted)) => wanted,
         None => lerp((0.3, 0.6), context.parameters[2]),
     };
-    let now = extent_frac(view, &target.corners).y;
+    let now = extent_frac(context.world, view, &target.corners).y;
     let tan = (view.fov_y_rad / 2.0).tan() * now / wanted;
     with_fov(view, (2.0 * tan.atan()).clamp(12.0_f64.to_radians(), 70.0_f64.to_radians()))
 }

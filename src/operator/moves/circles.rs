@@ -96,7 +96,7 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
     let band = match (end_angle, upward) {
         (Some(angle), _) => pitch_band_deg(angle),
         (None, true) => (-60.0, -7.0),
-        (None, false) => (-40.0, 25.0),
+        (None, false) => (-40.0, 6.0),
     };
     segment = segment.requiring(Scope::End, ConstraintKind::Pitch(band));
     if let Some(angle) = context.step.start.angle {

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use super::context::{StepContext, TURN_DEG_PER_SEC};
 use crate::composition::{frame_place, lens_fov_deg, placed};
 use crate::constraint::{Constraint, ConstraintKind};
-use crate::framing::{DEFAULT_ASPECT, Target, frame_position};
+use crate::framing::{Target, frame_position};
 use crate::motion::MotionSegment;
 use crate::view::{lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
@@ -130,7 +130,8 @@ fn place(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
 /// Places the subject on every state; its place changes evenly from the start to the end.
 fn follow_subject(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
     let last = segment.states.len() - 1;
-    let now = |state: &CameraState| frame_position(state, places.to.aim).map_or(DVec2::ZERO, |(at, _)| at);
+    let now =
+        |state: &CameraState| frame_position(context.world, state, places.to.aim).map_or(DVec2::ZERO, |(at, _)| at);
     let from = places.start.unwrap_or_else(|| now(&segment.states[0]));
     let to = places.end.unwrap_or_else(|| now(&segment.states[last]));
     for (share, i) in shares(segment).into_iter().zip(0..) {
@@ -200,7 +201,7 @@ fn slide(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
 
 /// Turns all states alike, so that a point has the stated position across the line of the slide in one of them.
 fn square_up(context: &StepContext, segment: &mut MotionSegment, index: usize, aim: DVec3, at: DVec2) {
-    let Some((now, _)) = frame_position(&segment.states[index], aim) else { return };
+    let Some((now, _)) = frame_position(context.world, &segment.states[index], aim) else { return };
     let across = if is_vertical(context) { DVec2::new(at.x, now.y) } else { DVec2::new(now.x, at.y) };
     let rotation = placed(context.world, &segment.states[index], aim, across).pose.rotation;
     segment.states.iter_mut().for_each(|state| state.pose.rotation = rotation);
@@ -215,7 +216,7 @@ fn shift_to(context: &StepContext, state: &CameraState, aim: DVec3, at: DVec2) -
     let (off, rate) = if is_vertical(context) {
         (c.y + at.y * half * c.z, a.y + at.y * half * a.z)
     } else {
-        let k = at.x * half * DEFAULT_ASPECT;
+        let k = at.x * half * context.world.aspect;
         (c.x - k * c.z, a.x - k * a.z)
     };
     (c.z > 0.0 && rate.abs() > 1e-9).then(|| axis * (off / rate))

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::room_view::{room_target, room_view, target_ahead};
 use super::standing_view::{Standing, standing_view};
 use crate::composition::lens_fov_deg;
 use crate::constraint::{ConstraintKind, Scope};
@@ -83,10 +84,25 @@ impl<'a> StepContext<'a> {
         }
     }
 
-    /// The step's main target: that of its end, else of its start, else of an earlier step, else the scene.
+    /// The step's main target: that of its end, else of its start, else of an earlier step, else what there is to see.
     pub(super) fn main_target(&self) -> Target {
         let named = self.end.as_ref().or(self.start.as_ref()).or(self.earlier.as_ref());
-        named.cloned().unwrap_or_else(|| Target::scene(self.world))
+        named.cloned().unwrap_or_else(|| self.unnamed_target())
+    }
+
+    /// The target of a step that names none: in a room what the camera before is aimed at, or what a person who stands
+    /// there looks at; elsewhere the scene as a whole.
+    fn unnamed_target(&self) -> Target {
+        match &self.before {
+            Some(before) if self.world.is_indoor() => target_ahead(self.world, before),
+            _ => room_target(self.world, self.parameters).unwrap_or_else(|| Target::scene(self.world)),
+        }
+    }
+
+    /// Whether the step or one before it names a subject, or an object to pass or to look at.
+    pub(crate) fn names_objects(&self) -> bool {
+        let named = self.end.as_ref().or(self.start.as_ref()).or(self.earlier.as_ref());
+        named.is_some() || self.step.via.is_some() || self.step.look.is_some()
     }
 
     /// The target at the step's start: that of its start, else of an earlier step, else the main one.
@@ -164,6 +180,12 @@ impl<'a> StepContext<'a> {
         if let Some(view) = standing_view(&self.standing(), target, framing, fill, fov_deg) {
             return view;
         }
+        let lens = Some(fov_deg).filter(|&lens| lens != NORMAL_LENS_DEG);
+        if target.ids.is_empty()
+            && let Some(view) = room_view(self.world, target, framing, self.parameters, lens)
+        {
+            return view;
+        }
         let mut azimuths_rad = self.azimuths_rad.clone();
         azimuths_rad.extend(broadside_azimuths(&self.world.frame, &target.corners));
         let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
@@ -197,7 +219,7 @@ impl<'a> StepContext<'a> {
     pub(super) fn turned_to(&self, before: &CameraState, point: DVec3) -> (Vec<MotionSegment>, CameraState) {
         let turned = aimed(self.world, before, point);
         let forbidden = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
-        if off_center(before, point) < 0.03 || self.forbidden.iter().any(forbidden) {
+        if off_center(self.world, before, point) < 0.03 || self.forbidden.iter().any(forbidden) {
             return (Vec::new(), *before);
         }
         let angle_deg = rotation::angle_between(before.pose.rotation, turned.pose.rotation).to_degrees();

@@ -51,7 +51,7 @@ impl StepContext<'_> {
 /// Tangent of half the field of view at the end, over that at the start.
 fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let open = if inward { lerp((0.42, 0.64), context.parameters[6]) } else { lerp((1.5, 2.2), context.parameters[6]) };
-    let height = extent_frac(first, &target.corners).y;
+    let height = extent_frac(context.world, first, &target.corners).y;
     let by_size = stated_fill(&context.step.end, context.parameters[7]).map(|fill| match fill {
         Fill::Height(wanted) | Fill::Fit(wanted) => height / wanted,
     });
@@ -65,7 +65,7 @@ fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inwar
         let end = context.end.as_ref().filter(|_| context.step.end.whole && !inward)?;
         let ratios = (0..30).map(|i| 1.3 * 1.06_f64.powi(i));
         let wider = |ratio: f64| with_fov(first, 2.0 * ((first.fov_y_rad / 2.0).tan() * ratio).atan());
-        ratios.into_iter().find(|&ratio| in_frame_frac(&wider(ratio), &end.corners, 0.03) >= 1.0)
+        ratios.into_iter().find(|&ratio| in_frame_frac(context.world, &wider(ratio), &end.corners, 0.03) >= 1.0)
     };
     match context.step.amount {
         // A stated factor is on the focal length, the reciprocal of the tangent.

@@ -12,6 +12,7 @@ mod look;
 mod passes;
 mod paths;
 mod requirements;
+mod room_view;
 mod standing;
 mod standing_view;
 mod straight;
@@ -55,7 +56,7 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
     if let Some(segments) = how.and_then(|how| passing_a_side(context, how)) {
         return segments;
     }
-    let passes = how.is_some_and(|how| !matches!(how, Pass::Past | Pass::From));
+    let passes = how.is_some_and(|how| !matches!(how, Pass::Past | Pass::From)) && !rises_over_subject(context);
     match context.step.movement {
         Move::Static => turns::hold(context),
         Move::Handheld => turns::handheld(context),
@@ -77,6 +78,14 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::Reveal if matches!(how, Some(Pass::Under | Pass::Through)) => passes::passing(context),
         Move::Reveal => paths::reveal(context),
     }
+}
+
+/// Whether a crane rises or sinks over its own subject, as in `crane up over the sofa`: it then passes nothing.
+fn rises_over_subject(context: &StepContext) -> bool {
+    let step = context.step;
+    let subject = step.end.subjects.first().or(step.start.subjects.first());
+    let over = step.via.as_ref().filter(|via| via.how == Pass::Over);
+    matches!(step.movement, Move::CraneUp | Move::CraneDown) && over.is_some_and(|via| via.objects.first() == subject)
 }
 
 /// The segments of a step that passes an object on a side of it; `None` for every other step.

@@ -39,7 +39,7 @@ pub(super) fn passing(context: &StepContext) -> Vec<MotionSegment> {
     let natural = (length / context.world.bounds.size() * 11.0).clamp(3.0, 8.0);
     let mut segment = context.segment(vec![first, middle, last], natural);
     if let Some(goal) = goal {
-        if off_center(&first, goal.aim) < 0.5 {
+        if off_center(context.world, &first, goal.aim) < 0.5 {
             segment = segment.about(goal.aim);
             segment.states[0] = aimed(context.world, &first, goal.aim);
             if let Some(join) = segments.last_mut() {

@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::standing::turned_away;
-use crate::composition::side_azimuths;
+use crate::composition::{natural_elevation_deg, side_azimuths};
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
-use crate::framing::{Bearing, DEFAULT_ASPECT, Fill, Target, bearing_of};
+use crate::framing::{Bearing, Fill, Target, bearing_of};
 use crate::motion::MotionSegment;
 use crate::program::Motion;
 use crate::view::{lerp, moved, stated_fill, view_from};
@@ -44,9 +44,11 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
         let (low, high) = pitch_band_deg(angle);
         (-high.min(34.0), -low.max(-70.0))
     });
-    let elevation_deg = match band {
-        Some(band) => lerp(band, parameters[7]),
-        None => (near.elevation_rad.to_degrees() * 0.5 + lerp((-6.0, 20.0), parameters[7]) * 0.7).clamp(-12.0, 40.0),
+    let elevation_deg = if let Some(band) = band {
+        lerp(band, parameters[7])
+    } else {
+        let (low, high) = natural_elevation_deg(world, end);
+        near.elevation_rad.to_degrees().midpoint(lerp((low, high), parameters[7])).clamp(low, high + 8.0)
     };
     let framing = &context.step.end;
     let azimuth_rad = match framing.side {
@@ -144,7 +146,7 @@ pub(super) fn reveal(context: &StepContext) -> Vec<MotionSegment> {
 fn out_of_frame(context: &StepContext, last: &CameraState, target: &Target) -> DVec3 {
     let distance = last.pose.position.distance(target.aim);
     let half_height = (last.fov_y_rad / 2.0).tan() * distance;
-    let half_width = half_height * DEFAULT_ASPECT;
+    let half_width = half_height * context.world.aspect;
     let (right, up) = (last.pose.right(), context.world.frame.up);
     let aside = right * (half_width * 1.05 + target.radius);
     let aloft = up * (half_height * 1.05 + target.radius);

@@ -40,7 +40,7 @@ pub(super) fn turned_away(context: &StepContext, target: &Target) -> Option<Came
     let framing = Framing { part: SubjectPart::Middle, ..context.step.start.clone() };
     let view = standing_view(&context.standing(), target, &framing, (0.3, 0.6), (36.0, 56.0))?;
     let away = target.aim - view.pose.position;
-    let half_width = ((view.fov_y_rad / 2.0).tan() * crate::framing::DEFAULT_ASPECT).atan();
+    let half_width = ((view.fov_y_rad / 2.0).tan() * context.world.aspect).atan();
     let angle = 1.1 * half_width + (target.radius / away.length().max(1e-9)).min(1.0).asin();
     let sign = match context.step.with.first() {
         Some(Move::TruckRight | Move::PanRight | Move::OrbitRight | Move::ArcRight) => -1.0,

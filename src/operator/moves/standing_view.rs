@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::composition::{front_azimuth, lens_fov_deg};
 use crate::framing::{Fill, Target, extent_frac};
 use crate::motion::StepParameters;
-use crate::passage::{STANDING_FRAC, eye_height};
+use crate::passage::STANDING_FRAC;
 use crate::program::{Framing, Pass, Step};
 use crate::view::{aimed, aimed_at_side, lerp, stated_fill, with_fov};
 use crate::world::{Subject, World};
@@ -94,8 +94,8 @@ fn beside(standing: &Standing, subject: &Subject, target: &Target, framing: &Fra
     let height = framing.height.unwrap_or_else(|| {
         let center = world.height_above_floor(subject.center);
         let top = center + subject.reach(frame.up);
-        let low = center.min(eye_height(world)).max(1.5 * world.camera_radius);
-        lerp((low, (top + 0.5 * STANDING_FRAC * size).min(eye_height(world).max(center))), parameters[1])
+        let low = center.min(world.eye_height()).max(1.5 * world.camera_radius);
+        lerp((low, (top + 0.5 * STANDING_FRAC * size).min(world.eye_height().max(center))), parameters[1])
     });
     subject.center + direction * (exit + margin) + frame.up * (height - world.height_above_floor(subject.center))
 }
@@ -129,7 +129,7 @@ fn filled(
     if let Some(lens) = framing.lens {
         return with_fov(view, lerp(lens_fov_deg(lens), standing.parameters[3]).to_radians());
     }
-    let extent = extent_frac(view, &target.corners);
+    let extent = extent_frac(standing.world, view, &target.corners);
     let stated = stated_fill(framing, standing.parameters[5]);
     let (now, wanted) = match stated.unwrap_or(Fill::Fit(lerp(fill, standing.parameters[5]))) {
         Fill::Height(wanted) => (extent.y, wanted),

@@ -30,8 +30,9 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     } else {
         context.opened_on(&target, fill)
     };
-    let distance = first.pose.position.distance(target.aim);
     let ratio = distance_ratio(context, &target, &first, inward);
+    let first = if backs_into_view(context, &target, inward) { nearer(&first, &target, ratio) } else { first };
+    let distance = first.pose.position.distance(target.aim);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
     let natural = (ratio.ln().abs() / std::f64::consts::LN_2 * SECS_PER_DOUBLING).clamp(2.2, 7.0);
     let segment = context.segment(vec![first, last], natural);
@@ -61,6 +62,17 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
+/// Whether a pull-out ends, and does not start, at its view: in a room without a subject the way back is a wall.
+fn backs_into_view(context: &StepContext, target: &Target, inward: bool) -> bool {
+    !inward && target.ids.is_empty() && context.before.is_none() && context.world.is_indoor()
+}
+
+/// The camera before a pull-out of a ratio that ends at `last`.
+fn nearer(last: &CameraState, target: &Target, ratio: f64) -> CameraState {
+    let distance = last.pose.position.distance(target.aim);
+    moved(last, last.pose.forward() * distance * (1.0 - 1.0 / ratio))
+}
+
 /// The target that a pull-out without a start framing pulls away from: that of an earlier step, else the first subject
 /// of its end.
 fn pulled_from(context: &StepContext) -> Target {
@@ -78,7 +90,7 @@ fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, 
     let stated = &context.step.end;
     let sized = stated.size.is_some() || stated.height_frac.is_some() || stated.distance.is_some();
     let nearer = context.step.start.height_frac.is_none() && context.step.start.distance.is_none();
-    if !(inward && nearer && (sized || stated.height.is_some())) {
+    if target.ids.is_empty() || !(inward && nearer && (sized || stated.height.is_some())) {
         return context.view(target, &framing, fill, NORMAL_LENS_DEG);
     }
     // The camera at the end, moved back.
@@ -157,7 +169,10 @@ fn whole_ratio(context: &StepContext, first: &CameraState, distance: f64) -> Opt
     let back = |ratio: f64| moved(first, first.pose.forward() * distance * (1.0 - ratio));
     let ratios = (0..40).map(|i| 1.32 * 1.07_f64.powi(i));
     let spare = lerp((1.0, 1.2), context.parameters[7]);
-    ratios.into_iter().find(|&ratio| in_frame_frac(&back(ratio), &corners, 0.02) >= 1.0).map(|ratio| ratio * spare)
+    ratios
+        .into_iter()
+        .find(|&ratio| in_frame_frac(context.world, &back(ratio), &corners, 0.02) >= 1.0)
+        .map(|ratio| ratio * spare)
 }
 
 /// Slides sideways, past or along a subject.
@@ -167,7 +182,7 @@ pub(super) fn truck(context: &StepContext) -> Vec<MotionSegment> {
     let direction = if sign > 0.0 { TravelDirection::Right } else { TravelDirection::Left };
     slide(context, direction, along, |context, target, state| {
         let right = state.pose.right() * sign;
-        frame_depth(state, target.aim).map(|_| (target.aim - state.pose.position).dot(right)).map(|way| {
+        frame_depth(context, state, target.aim).map(|_| (target.aim - state.pose.position).dot(right)).map(|way| {
             let half = target.corners.iter().map(|c| (*c - target.aim).dot(right)).fold(0.0, f64::max);
             way + match context.step.end.part {
                 SubjectPart::Left => -half * 0.8 * sign,
@@ -198,8 +213,8 @@ pub(super) fn pedestal(context: &StepContext) -> Vec<MotionSegment> {
     )
 }
 
-fn frame_depth(state: &CameraState, point: DVec3) -> Option<f64> {
-    frame_position(state, point).map(|(_, depth)| depth)
+fn frame_depth(context: &StepContext, state: &CameraState, point: DVec3) -> Option<f64> {
+    frame_position(context.world, state, point).map(|(_, depth)| depth)
 }
 
 /// A slide in a direction: from the start target to the end target, or past a target.
@@ -223,7 +238,7 @@ fn slide(
         _ => context.opened_on(&target, (0.28, 0.6)),
     };
     let placed = context.before.is_some() || stands(&context.standing());
-    if !placed && direction.is_vertical() && context.step.start.angle.is_none() {
+    if !placed && direction.is_vertical() && context.step.start.angle.is_none() && !target.ids.is_empty() {
         first = leveled(context, &first, &target);
     }
     let distance = first.pose.position.distance(target.aim);
@@ -235,7 +250,7 @@ fn slide(
     };
     if !placed && !travels && rise.is_none() {
         // A truck passes its target halfway; a pedestal starts in front of it.
-        let lead = if direction.is_vertical() { 0.12 } else { 0.5 };
+        let lead = if direction.is_vertical() && !target.ids.is_empty() { 0.12 } else { 0.5 };
         first = moved(&first, -along(&first) * way * lead);
     }
     first = through_gate(context, &first, along(&first) * way);

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, TURN_DEG_PER_SEC, require_visible};
 use super::sway::{num_sways, swayed};
+use crate::composition::front_azimuth;
 use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
-use crate::framing::{DEFAULT_ASPECT, Target, extent_frac, frame_position, off_center};
+use crate::framing::{Target, extent_frac, frame_position, off_center};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing, SubjectPart};
 use crate::view::{aimed, aimed_at_side, lerp};
@@ -28,7 +29,9 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
             framing.angle = framing.angle.or(context.step.end.angle);
             framing.whole |= context.step.end.whole;
             context.inherit(&mut framing);
-            let view = context.view(&target, &framing, (0.45, 0.75), NORMAL_LENS_DEG);
+            // A thing that is all there is fills the picture.
+            let fill = if target.ids.is_empty() { (0.65, 0.88) } else { (0.45, 0.75) };
+            let view = context.view(&target, &framing, fill, NORMAL_LENS_DEG);
             (Vec::new(), if is_free(context, &framing) { on_a_third(context, &target, view) } else { view })
         }
     };
@@ -38,7 +41,7 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
         segment =
             require_visible(context.constrained_at_end(context.constrained_at_start(segment)), &target, Scope::All);
         segment = constrained_in_pitch(context, segment);
-        if (off_center(&state, target.aim) - THIRD).abs() < 1e-4 {
+        if (off_center(context.world, &state, target.aim) - THIRD).abs() < 1e-4 {
             segment = segment.requiring(Scope::All, ConstraintKind::OnThird(target.clone()));
         }
     }
@@ -52,6 +55,9 @@ const THIRD: f64 = 1.0 / 6.0;
 /// edge.
 const MAX_THIRD_WIDTH: f64 = 0.5;
 
+/// Least sine of the angle between the view axis and the front of a subject that faces a side of the picture.
+const LEAST_ACROSS: f64 = 0.3;
+
 /// Whether the composition of a held view is free: one subject, no stated size, part or angle, and no later step that
 /// needs the subject in the middle.
 fn is_free(context: &StepContext, framing: &Framing) -> bool {
@@ -63,20 +69,28 @@ fn is_free(context: &StepContext, framing: &Framing) -> bool {
 
 /// The view turned so that its subject is on the left or right third, where it fits there.
 fn on_a_third(context: &StepContext, target: &Target, view: CameraState) -> CameraState {
-    if target.ids.is_empty() || extent_frac(&view, &target.corners).x > MAX_THIRD_WIDTH {
+    if target.ids.is_empty() || extent_frac(context.world, &view, &target.corners).x > MAX_THIRD_WIDTH {
         return view;
     }
     let distance = view.pose.position.distance(target.aim);
-    let frame_width = 2.0 * distance * (view.fov_y_rad / 2.0).tan() * DEFAULT_ASPECT;
-    let sign = if context.parameters[5] < 0.5 { -1.0 } else { 1.0 };
+    let frame_width = 2.0 * distance * (view.fov_y_rad / 2.0).tan() * context.world.aspect;
+    let sign = looking_room(context, target, &view).unwrap_or(if context.parameters[5] < 0.5 { -1.0 } else { 1.0 });
     let (mut beside, mut out) = (frame_width * THIRD, view);
     // A pitched camera turns on a cone, so that the turn is iterated; each iteration divides the error by ten or more.
     for _ in 0..8 {
         out = aimed(context.world, &view, target.aim + view.pose.right() * (sign * beside));
-        let across = frame_position(&out, target.aim).map_or(THIRD, |(at, _)| at.x.abs());
+        let across = frame_position(context.world, &out, target.aim).map_or(THIRD, |(at, _)| at.x.abs());
         beside *= THIRD / across.max(0.01);
     }
     out
+}
+
+/// Side of the picture that a subject faces, right positive, so that the room is in front of it; `None` where it faces
+/// the camera or away from it.
+fn looking_room(context: &StepContext, target: &Target, view: &CameraState) -> Option<f64> {
+    let front = context.world.frame.direction(front_azimuth(context.world, target.center));
+    let across = front.dot(view.pose.right());
+    (across.abs() > LEAST_ACROSS).then(|| across.signum())
 }
 
 /// The segment with the pitch of a stated angle required at its start.

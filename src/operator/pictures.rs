@@ -1,0 +1,123 @@
+//! What the pictures of a film are worth, by rays: void, matter close before the lens, and depth.
+//!
+//! A film is as good as its worst picture: an end in black is not made good by a fine start.
+
+use glam::DVec2;
+
+use super::constraint::{Constraint, ConstraintKind};
+use super::program::Pass;
+use super::world::World;
+use cinesplat_geometry::{Camera, Intrinsics};
+use cinesplat_trajectory::CameraState;
+
+/// Columns and rows of rays over a picture at the ends of a segment, where void is worst, and over one between them.
+const END_RAYS: (u32, u32) = (8, 6);
+const INNER_RAYS: (u32, u32) = (6, 4);
+/// Distance below which matter blocks the lens, over the scene size.
+const NEAR_FRAC: f64 = 0.08;
+/// Distance up to which a picture counts as shallow, over the scene size.
+const SHALLOW_FRAC: f64 = 0.2;
+/// Void that a picture of a room has at most where another one can be had.
+const MAX_VOID: f64 = 0.25;
+/// Bound of the cost of pictures, which the sum of its terms approaches: less than that of a violated constraint, because
+/// words come first.
+const MAX_COST: f64 = 2.9;
+/// Share of a picture that matter close before the lens fills at most where another one can be had.
+const MAX_BLOCKED: f64 = 0.2;
+/// Weights in a room and outdoors: of void in the worst picture, of void above [`MAX_VOID`] there, and of its mean.
+const ROOM_WEIGHTS: [f64; 3] = [1.8, 2.4, 0.8];
+const OUTDOOR_WEIGHTS: [f64; 3] = [0.1, 0.0, 0.3];
+/// Cost of matter close before the lens in every ray of the worst picture, and of more than [`MAX_BLOCKED`] there.
+const BLOCKED_COST: f64 = 1.2;
+const EXCESS_BLOCKED_COST: f64 = 1.0;
+/// Cost of a room without depth.
+const SHALLOW_COST: f64 = 0.25;
+/// Cost of a camera below furniture.
+const UNDER_COST: f64 = 4.0;
+
+/// Shares of a picture's rays.
+#[derive(Debug, Clone, Copy, Default)]
+struct Picture {
+    void: f64,
+    blocked: f64,
+    shallow: f64,
+}
+
+/// Cost of the pictures of a segment's sampled states: the ends and three moments between.
+pub(super) fn pictures_cost(world: &World, states: &[CameraState]) -> f64 {
+    let last = states.len() - 1;
+    let mut picks = vec![0, last / 4, last / 2, last - last / 4, last];
+    if states[0] == states[last] && states[0] == states[last / 2] {
+        picks.truncate(1);
+    }
+    let at = |&i: &usize| picture(world, &states[i], if i == 0 || i == last { END_RAYS } else { INNER_RAYS });
+    let pictures: Vec<Picture> = picks.iter().map(at).collect();
+    let worst = |share: fn(&Picture) -> f64| pictures.iter().map(share).fold(0.0, f64::max);
+    let mean = |share: fn(&Picture) -> f64| pictures.iter().map(share).sum::<f64>() / pictures.len() as f64;
+    let [of_worst, of_excess, of_mean] = if world.is_indoor() { ROOM_WEIGHTS } else { OUTDOOR_WEIGHTS };
+    let (void, blocked) = (worst(|p| p.void), worst(|p| p.blocked));
+    let shallow = if world.is_indoor() { SHALLOW_COST * mean(|p| p.shallow) } else { 0.0 };
+    let sum = of_worst * void
+        + of_excess * excess(void, MAX_VOID)
+        + of_mean * mean(|p| p.void)
+        + BLOCKED_COST * blocked
+        + EXCESS_BLOCKED_COST * excess(blocked, MAX_BLOCKED)
+        + shallow;
+    MAX_COST * (sum / MAX_COST).tanh()
+}
+
+/// How far a share is above its limit: 0 at or below it, 0.2 just above it, and 1.2 from twice the limit on.
+fn excess(share: f64, limit: f64) -> f64 {
+    if share > limit { 0.2 + ((share - limit) / limit).min(1.0) } else { 0.0 }
+}
+
+fn picture(world: &World, state: &CameraState, (columns, rows): (u32, u32)) -> Picture {
+    let (width, height) = (90.0 * world.aspect, 90.0);
+    let camera = Camera {
+        pose: state.pose,
+        intrinsics: Intrinsics::from_fov_y(width.round().max(1.0) as u32, 90, state.fov_y_rad),
+    };
+    let (near, shallow) = (NEAR_FRAC * world.bounds.size(), SHALLOW_FRAC * world.bounds.size());
+    let each = 1.0 / f64::from(columns * rows);
+    let mut out = Picture::default();
+    for column in 0..columns {
+        for row in 0..rows {
+            let at = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
+            let at = DVec2::new(at(column, columns) * width, at(row, rows) * height);
+            match world.hit_distance(state.pose.position, camera.ray(at)) {
+                None => out.void += each,
+                Some(distance) => {
+                    out.blocked += if distance < near { each } else { 0.0 };
+                    out.shallow += if distance < shallow { each } else { 0.0 };
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Cost of standing under furniture in a room where nothing asks for it: of the ends and the middle, the share that has
+/// matter above the camera and below the eyes of a standing person.
+pub(super) fn under_furniture_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
+    if !world.is_indoor() || constraints.iter().any(|constraint| asks_low(&constraint.kind)) {
+        return 0.0;
+    }
+    let picks = [0, states.len() / 2, states.len() - 1];
+    let is_under = |&&i: &&usize| {
+        let eye = states[i].pose.position;
+        let room = world.eye_height() - world.height_above_floor(eye);
+        room > 0.0 && world.hit_distance(eye, world.frame.up).is_some_and(|distance| distance < room)
+    };
+    UNDER_COST * picks.iter().filter(is_under).count() as f64 / picks.len() as f64
+}
+
+/// Whether a constraint asks for a camera near the floor or below something.
+fn asks_low(kind: &ConstraintKind) -> bool {
+    match kind {
+        ConstraintKind::Pitch((low, _)) => *low > 0.0,
+        ConstraintKind::CameraHeight(_) => true,
+        ConstraintKind::Elevation(_, (low, _)) => *low < 0.0,
+        ConstraintKind::Passed(how, _) => matches!(how, Pass::Under | Pass::Through | Pass::From),
+        _ => false,
+    }
+}
