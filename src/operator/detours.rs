@@ -69,7 +69,7 @@ fn length(segment: &MotionSegment) -> f64 {
     segment.states.windows(2).map(|pair| pair[0].pose.position.distance(pair[1].pose.position)).sum()
 }
 
-fn is_clear(world: &World, segment: &MotionSegment) -> bool {
+pub(super) fn is_clear(world: &World, segment: &MotionSegment) -> bool {
     let radius = world.camera_radius;
     let query = ClearanceQuery { enough: radius, tolerance: 0.1 * radius, max_intervals: MAX_INTERVALS };
     least_clearance(world.ellipsoids(), &path_of(world, segment), &query).bound >= radius
@@ -89,7 +89,7 @@ pub(super) fn proof(world: &World, keys: &[Keyframe]) -> ClearanceProof {
 pub(super) fn clearance_lines(
     world: &World,
     (program, prompt): (&Program, &str),
-    segments: &[MotionSegment],
+    (segments, spans): (&[MotionSegment], &[[f64; 2]]),
     detours: &[Detour],
     proof: &ClearanceProof,
 ) -> Vec<ReportLine> {
@@ -107,7 +107,7 @@ pub(super) fn clearance_lines(
     };
     let mut lines: Vec<ReportLine> = detours.iter().filter_map(around).collect();
     let note = proof.failure.map_or_else(String::new, |failure| {
-        let (index, segment) = segment_at(segments, failure.from_secs);
+        let (index, segment) = segment_at((segments, spans), failure.from_secs);
         let blocked = detours.iter().find(|detour| detour.segment == index).and_then(|detour| detour.found.err());
         let why = blocked.map_or_else(String::new, |why| format!("; no detour: {why}"));
         format!(
@@ -133,13 +133,7 @@ pub(super) fn clearance_lines(
 }
 
 /// The segment that plays at a time, and its index.
-fn segment_at(segments: &[MotionSegment], secs: f64) -> (usize, &MotionSegment) {
-    let mut end = 0.0;
-    for (index, segment) in segments.iter().enumerate() {
-        end += segment.secs;
-        if secs < end {
-            return (index, segment);
-        }
-    }
-    (segments.len() - 1, &segments[segments.len() - 1])
+fn segment_at<'a>((segments, spans): (&'a [MotionSegment], &[[f64; 2]]), secs: f64) -> (usize, &'a MotionSegment) {
+    let index = spans.iter().position(|[_, end]| secs < *end).unwrap_or(segments.len() - 1);
+    (index, &segments[index])
 }

@@ -2,15 +2,18 @@
 
 use super::detours;
 use super::dutch;
+use super::flow::{Flow, Joint, joints, tightened, without_stops};
 use super::forbidden;
+use super::handles::{MAX_FREE_FILM_SECS, handles, settle};
 use super::motion::{MotionSegment, StepLabels, keyframes};
+use super::pacing::pace;
 use super::program::{Framing, Program, Step};
 use super::report;
 use super::search::{SearchProblem, best_candidate};
 use super::settings::{SolveLevel, SolveSettings};
 use super::suggestion::StepCameras;
 use super::world::World;
-use cinesplat_trajectory::{ClearanceProof, Keyframe, Move, ReportLine, retime};
+use cinesplat_trajectory::{CameraPath, ClearanceProof, Keyframe, Move, ReportLine, retime};
 
 /// Shortest time into which a stated total duration compresses the segments of free length.
 const MIN_FREE_SECS: f64 = 0.3;
@@ -53,26 +56,59 @@ pub fn realize(
     let best = best_candidate(&SearchProblem { world, program, suggestions }, settings);
     let cost = best.cost();
     let mut segments: Vec<MotionSegment> = best.segments.into_iter().flatten().collect();
+    settle(&mut segments);
     // A detour is searched: without a search the report names the matter in the way.
     let detours = match settings.level {
         SolveLevel::Off => Vec::new(),
         SolveLevel::Fast | SolveLevel::Full => detours::reroute(world, program, &mut segments),
     };
-    fit_duration(&mut segments, program.duration_secs);
+    pace(world, program, &mut segments);
+    let joints = joints(program, prompt, &segments);
+    without_stops(&mut segments, &joints);
+    let handles = handles(program, &segments);
+    let wanted_secs = program.duration_secs.or_else(|| too_long(&segments, handles));
+    fit_duration(&mut segments, wanted_secs);
     if let Some(degrees) = settings.dutch_deg {
         dutch::roll(&mut segments, degrees);
     }
-    let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
-    let mut keys = keyframes(&segments, &labels);
-    retime(&mut keys, Some(world.frame));
-    let duration_secs = segments.iter().map(|segment| segment.secs).sum();
-    let clearance = detours::proof(world, &keys);
-    let mut report = report::report(world, (program, prompt), &segments, settings.level);
-    report.extend(detours::clearance_lines(world, (program, prompt), &segments, &detours, &clearance));
+    let (flow, keys, clearance) = filmed(world, program, &segments, (joints, handles));
+    let path = CameraPath::fine(keys.clone(), world.frame);
+    let mut report = report::report(world, (program, prompt), (&segments, &flow.spans), &path, settings.level);
+    report.extend(detours::clearance_lines(world, (program, prompt), (&segments, &flow.spans), &detours, &clearance));
     report.extend(forbidden::lines(world, program, &segments, &keys));
     report.extend(settings.dutch_deg.map(|_| dutch::report_line(world, &keys)));
-    let step_keys = step_keys(&segments, program.steps.len());
-    Solution { keyframes: keys, duration_secs, report, step_keys, cost, clearance }
+    let step_keys = step_keys(&flow.segments, program.steps.len());
+    Solution { keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance }
+}
+
+/// The film of the segments, its keyframes, and their clearance certificate. A blend that comes too near to matter is
+/// shortened, and left out where that does not help.
+fn filmed(
+    world: &World,
+    program: &Program,
+    segments: &[MotionSegment],
+    (mut joints, handles): (Vec<Joint>, [f64; 2]),
+) -> (Flow, Vec<Keyframe>, ClearanceProof) {
+    let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
+    loop {
+        let mut flow = Flow::new(world, segments, &joints);
+        flow.add_handles(handles);
+        let mut keys = keyframes(&flow.segments, &labels);
+        retime(&mut keys, Some(world.frame));
+        let proof = detours::proof(world, &keys);
+        match proof.failure.and_then(|failure| flow.blend_in(failure.from_secs, failure.to_secs)) {
+            Some(blocked) => joints = tightened(&joints, blocked),
+            None => return (flow, keys, proof),
+        }
+    }
+}
+
+/// The longest film without a stated length, where the segments would take longer: what is left of it for them.
+fn too_long(segments: &[MotionSegment], handles: [f64; 2]) -> Option<f64> {
+    let secs: f64 = segments.iter().map(|segment| segment.secs).sum();
+    let room = MAX_FREE_FILM_SECS - handles.iter().sum::<f64>();
+    let free = segments.iter().all(|segment| !segment.secs_bind);
+    (free && secs > room).then_some(room)
 }
 
 /// Scales the segments of free length so that the film lasts as long as the prompt says. Segments of stated length are

@@ -1,14 +1,14 @@
 //! The report: requested and measured values, one line per constraint.
 
 use super::constraint::ConstraintKind;
-use super::cost::{captured_frac, path_of, sampled};
+use super::cost::captured_frac;
 use super::measure::measure;
 use super::motion::MotionSegment;
 use super::program::Program;
 use super::settings::SolveLevel;
 use super::wording::wording;
 use super::world::World;
-use cinesplat_trajectory::ReportLine;
+use cinesplat_trajectory::{CameraPath, CameraState, ReportLine};
 
 /// Samples per segment on which constraints are measured.
 const NUM_SAMPLES: usize = 49;
@@ -17,17 +17,19 @@ const NUM_SAMPLES: usize = 49;
 /// estimated from the matter alone and the estimate flickers at its boundary.
 const MIN_CAPTURED_FRAC: f64 = 0.9;
 
-/// The report of a film: every constraint of every segment, and the captured region.
+/// The report of a film: every constraint of every segment on its span of the path, and the captured region.
 pub(super) fn report(
     world: &World,
     (program, prompt): (&Program, &str),
-    segments: &[MotionSegment],
+    (segments, spans): (&[MotionSegment], &[[f64; 2]]),
+    path: &CameraPath,
     level: SolveLevel,
 ) -> Vec<ReportLine> {
     let mut lines: Vec<ReportLine> = Vec::new();
     let mut captured = 1.0_f64;
-    for segment in segments {
-        let states = sampled(&path_of(world, segment), segment, NUM_SAMPLES);
+    for (segment, &[from, to]) in segments.iter().zip(spans) {
+        let at = |i: usize| path.sample(from + (to - from) * i as f64 / (NUM_SAMPLES - 1) as f64);
+        let states: Vec<CameraState> = (0..NUM_SAMPLES).map(at).collect();
         captured = captured.min(captured_frac(world, &states));
         let words = program.steps.get(segment.step).and_then(|step| step.words);
         let is_listed = |kind: &ConstraintKind| !matches!(kind, ConstraintKind::Without(_));

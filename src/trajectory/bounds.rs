@@ -1,6 +1,6 @@
 //! Balls that contain every position of an interval of a path, independent of timing.
 //!
-//! The bounds come from the curves' control values, never from samples: a cubic lies in the convex hull of its Bezier
+//! The bounds come from the curves' control values, never from samples: a polynomial lies in the convex hull of its Bezier
 //! points, and the azimuth, radius and height of an arc each lie between their own Bezier values.
 
 use glam::DVec3;
@@ -51,18 +51,18 @@ impl CameraPath {
 
     /// A ball that contains every position of an interval.
     pub fn bounding_ball(&self, interval: PathInterval) -> BoundingBall {
-        let Some((leg, segment)) = self.leg_after(interval.key_idx) else {
+        let Some(curve) = self.curve_after(interval.key_idx) else {
             return BoundingBall { center: self.keyframes()[interval.key_idx].pose.position, radius: 0.0 };
         };
-        let center = leg.position_at(segment, interval.middle());
-        let radius = leg.max_deviation(segment, (interval.from, interval.to), center);
+        let center = curve.position_at(interval.middle());
+        let radius = curve.max_deviation((interval.from, interval.to), center);
         BoundingBall { center, radius: radius + ROUNDING * center.abs().max_element() }
     }
 
     /// Time at which the camera reaches a fraction of the curve that leaves a key; the first such time where it rests.
     pub fn time_at(&self, key_idx: usize, fraction: f64) -> f64 {
         let keys = self.keyframes();
-        let (Some(next), true) = (keys.get(key_idx + 1), self.leg_after(key_idx).is_some()) else {
+        let (Some(next), true) = (keys.get(key_idx + 1), self.curve_after(key_idx).is_some()) else {
             return keys[key_idx].time_secs;
         };
         let (mut before, mut after) = (keys[key_idx].time_secs, next.time_secs);

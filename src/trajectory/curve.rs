@@ -9,7 +9,7 @@ use super::{Keyframe, Move};
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose, rotation};
 
 /// Beyond this pitch the yaw of a camera is ill-conditioned: rotations are interpolated as quaternions instead.
-const STEEP_PITCH_RAD: f64 = 1.48;
+pub(super) const STEEP_PITCH_RAD: f64 = 1.48;
 
 /// Positions over knots.
 #[derive(Debug, Clone)]

@@ -9,8 +9,8 @@ use std::f64::consts::{FRAC_PI_2, LN_2};
 /// How the camera's speed changes along the segment that starts at a key.
 ///
 /// `smooth`, `linear`, `ease-in` and `ease-out` cruise at constant speed, with a ramp at each end that is at rest, so that
-/// the middle of a move is steady. The others follow one curve from key to key: `in` starts from rest, `out` comes to
-/// rest, `in-out` does both.
+/// the middle of a move is steady. `blend` leads from the motion before to the motion after. The others follow one curve
+/// from key to key: `in` starts from rest, `out` comes to rest, `in-out` does both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
 #[derive(strum::VariantArray, strum::VariantNames)]
@@ -24,6 +24,9 @@ pub enum Easing {
     EaseIn,
     /// Cruise, ramp down: at rest at the end.
     EaseOut,
+    /// From the velocity of the segment before to that of the segment after, continuous up to the acceleration, in
+    /// position, rotation and lens. At rest where there is no such segment.
+    Blend,
     /// A quarter period of a cosine, from rest.
     SineIn,
     /// A quarter period of a sine, to rest.
@@ -159,7 +162,7 @@ impl Easing {
     /// The curve of the easing; `None` for a cruise with ramps.
     pub(super) fn curve(self) -> Option<Curve> {
         let (family, rest) = match self {
-            Self::Smooth | Self::Linear | Self::EaseIn | Self::EaseOut => return None,
+            Self::Smooth | Self::Linear | Self::EaseIn | Self::EaseOut | Self::Blend => return None,
             Self::SineIn => (CurveFamily::Sine, Rest::Start),
             Self::SineOut => (CurveFamily::Sine, Rest::End),
             Self::SineInOut => (CurveFamily::Sine, Rest::Both),

@@ -3,6 +3,7 @@
 //! Enters: keyframes from the director, the operator or a file. Leaves: the camera at any time. The one invariant: at a
 //! key's time the camera is at that key. This crate does no IO; `export` writes files.
 
+mod blend;
 mod bounds;
 mod camera_state;
 mod clearance;
@@ -24,6 +25,7 @@ pub use clearance::{ClearanceFailure, ClearanceProof};
 pub use easing::Easing;
 pub use error::TrajectoryError;
 pub use path::CameraPath;
+pub use profile::ramp_secs;
 pub use shot::{EffectRequest, Intent, Keyframe, MAX_KEYFRAMES, ModelRef, ReportLine, SceneRef, Shot};
 pub use timing::{retime, retimed};
 pub use vocabulary::{Move, ShotAngle, ShotSize};

@@ -16,7 +16,7 @@ const CURVE_RAMP_FRAC: f64 = 0.12;
 const NUM_STEPS: usize = 128;
 
 /// Duration of a ramp to or from rest in a segment of a given duration.
-pub(super) fn ramp_secs(duration_secs: f64) -> f64 {
+pub fn ramp_secs(duration_secs: f64) -> f64 {
     RAMP_SECS.min(RAMP_FRAC * duration_secs)
 }
 

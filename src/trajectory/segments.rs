@@ -7,7 +7,8 @@ use cinesplat_geometry::LevelFrame;
 
 /// The segment between two neighboring keys, before its speed profile is known.
 pub(super) struct MeasuredSegment {
-    /// Index of the leg and of the segment within it; `None` where the camera holds the first key until a cut.
+    /// Index of the leg and of the segment within it; `None` where the camera holds the first key until a cut, and for a
+    /// blend.
     pub(super) leg: Option<(usize, usize)>,
     /// Length in the leg's unit (see [`Leg::length`]).
     pub(super) length: f64,
@@ -40,22 +41,25 @@ pub(super) fn split_into_legs(
     let kind = |i: usize| (!keys[i + 1].cut).then(|| LegKind::between(&keys[i], &keys[i + 1], frame.is_some(), extent));
     let num_segments = keys.len() - 1;
     let kinds: Vec<Option<LegKind>> = (0..num_segments).map(kind).collect();
+    let blends = |i: usize| is_blend(keys, i);
+    let leg_ends = |i: usize| blends(i - 1) || blends(i);
     // Whether the camera rests at key i, as the end of one segment and the start of another.
     let rests = |i: usize| {
         let (Some(before), Some(after)) = (kinds[i - 1], kinds[i]) else { return true };
-        before != after || keys[i - 1].easing.rests_at_end() || keys[i].easing.rests_at_start()
+        (before != after && !leg_ends(i)) || keys[i - 1].easing.rests_at_end() || keys[i].easing.rests_at_start()
     };
     // Whether two segments meet at key i without a cut.
-    let joins = |i: usize| i > 0 && i < num_segments && kinds[i - 1].is_some() && kinds[i].is_some();
+    let joins = |i: usize| i > 0 && i < num_segments && kinds[i - 1].is_some() && kinds[i].is_some() && !leg_ends(i);
     let mut legs = Vec::new();
     let mut segments: Vec<MeasuredSegment> = Vec::with_capacity(num_segments);
     let mut first = 0;
     while first < num_segments {
         let mut end = first + 1;
-        while end < num_segments && !rests(end) {
+        while end < num_segments && !rests(end) && !leg_ends(end) {
             end += 1;
         }
-        let leg = kinds[first].map(|kind| Leg::new(&keys[first..=end], kind, frame, num_chords));
+        let leg =
+            kinds[first].filter(|_| !blends(first)).map(|kind| Leg::new(&keys[first..=end], kind, frame, num_chords));
         for i in first..end {
             segments.push(MeasuredSegment {
                 leg: leg.as_ref().map(|_| (legs.len(), i - first)),
@@ -70,4 +74,9 @@ pub(super) fn split_into_legs(
         first = end;
     }
     (legs, segments)
+}
+
+/// Whether the segment that starts at a key blends its neighbors.
+pub(super) fn is_blend(keys: &[Keyframe], index: usize) -> bool {
+    keys[index].easing == Easing::Blend && !keys[index + 1].cut
 }

@@ -2,6 +2,7 @@
 
 mod clearance;
 mod composition;
+mod flow;
 mod forbidden;
 mod intents;
 mod looks;

@@ -1,6 +1,6 @@
 //! The bounding ball of an interval of a path contains every position of the interval.
 
-use cinesplat::trajectory::{CameraPath, Intent, Keyframe, Move, PathInterval};
+use cinesplat::trajectory::{CameraPath, Easing, Intent, Keyframe, Move, PathInterval};
 use glam::DVec3;
 
 use super::{key, shot};
@@ -46,4 +46,15 @@ fn of_circles_and_spirals() {
     };
     check(vec![around(0.0, 10.0, 2.0, 1.0), around(3.0, -160.0, 2.0, 1.0)]);
     check(vec![around(0.0, 10.0, 2.0, 1.0), around(1.0, -80.0, 3.0, 0.2), around(4.0, -170.0, 1.0, 2.0)]);
+}
+
+#[test]
+fn of_blends() {
+    let blend = |time: f64, at: DVec3| Keyframe { easing: Easing::Blend, ..key(time, at) };
+    check(vec![
+        key(0.0, DVec3::ZERO),
+        blend(2.0, DVec3::new(2.0, 0.5, 0.0)),
+        key(3.0, DVec3::new(2.4, 0.7, 0.4)),
+        key(5.0, DVec3::new(2.5, 1.0, 3.0)),
+    ]);
 }

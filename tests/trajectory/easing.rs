@@ -67,9 +67,14 @@ fn in_and_out_mirror_each_other_and_in_out_mirrors_itself() {
     }
 }
 
+/// Every easing with a speed profile of its own; a blend takes that of its neighbors.
+fn profiles() -> impl Iterator<Item = Easing> {
+    Easing::VARIANTS.iter().copied().filter(|easing| *easing != Easing::Blend)
+}
+
 #[test]
 fn rests_are_where_the_names_say() {
-    for &easing in Easing::VARIANTS {
+    for easing in profiles() {
         let way = progress(easing, 20_000);
         let (start, end) = ((way[1] - way[0]) * 20_000.0, (way[20_000] - way[19_999]) * 20_000.0);
         assert_eq!(start < 0.02, easing.rests_at_start(), "{} starts with speed {start}", easing.as_ref());
@@ -79,8 +84,8 @@ fn rests_are_where_the_names_say() {
 
 #[test]
 fn any_two_easings_meet_at_one_speed() {
-    for &first in Easing::VARIANTS {
-        for &second in Easing::VARIANTS {
+    for first in profiles() {
+        for second in profiles() {
             let mut keys = vec![key(0.0, DVec3::ZERO), key(1.5, DVec3::X), key(2.0, DVec3::X * 3.0)];
             (keys[0].easing, keys[1].easing) = (first, second);
             let path = CameraPath::new(&shot(keys)).unwrap();

@@ -1,5 +1,6 @@
 //! Paths through keyframes.
 
+mod blends;
 mod bounds;
 mod easing;
 mod hard_keys;

@@ -24,11 +24,6 @@ fn passed<'a>(context: &StepContext<'a>) -> Option<&'a Subject> {
     context.world.subject(*context.step.via.as_ref()?.objects.first()?)
 }
 
-fn natural_secs(context: &StepContext, positions: &[DVec3]) -> f64 {
-    let length: f64 = positions.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    (length / context.world.bounds.size() * 11.0).clamp(3.0, 9.0)
-}
-
 /// Travels around an object on its far or near side, or along it, to a view of the end target. `None` where the object is
 /// unknown.
 pub(super) fn passing_beside(context: &StepContext) -> Option<Vec<MotionSegment>> {
@@ -43,9 +38,8 @@ pub(super) fn passing_beside(context: &StepContext) -> Option<Vec<MotionSegment>
         None => last_beside(context, subject, &first, &inner),
     };
     let positions = joined(context, subject, (first.pose.position, last.pose.position), &inner);
-    let secs = natural_secs(context, &positions);
     let states = states_along(context.world, (&first, &last), &positions);
-    let mut segment = context.constrained_at_end(context.constrained_at_start(context.segment(states, secs)));
+    let mut segment = context.constrained_at_end(context.constrained_at_start(context.segment(states)));
     if let Some(end) = &context.end {
         segment = segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.15));
         segment = require_visible(segment, end, Scope::End);
@@ -188,11 +182,9 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let sign = context.sign(if context.step.movement == Move::TruckLeft { -1.0 } else { 1.0 });
     let half = middle.pose.right() * sign * long.length() * lerp((0.95, 1.1), context.parameters[6]);
     let states = vec![moved(&middle, -half), moved(&middle, half)];
-    let distance = middle.pose.position.distance(target.aim);
     let direction = if sign > 0.0 { TravelDirection::Right } else { TravelDirection::Left };
-    let secs = (2.0 * half.length() / distance * 5.0).clamp(2.5, 9.0);
     let segment = context
-        .segment(states, secs)
+        .segment(states)
         .requiring(Scope::All, ConstraintKind::Travel(direction, target.aim, 0.02))
         .requiring(Scope::All, ConstraintKind::InFrame(target.ids.iter().take(1).copied().collect(), 0.2));
     Some(vec![context.constrained_at_end(context.constrained_at_start(require_visible(segment, &target, Scope::All)))])
@@ -205,8 +197,7 @@ pub(super) fn reveal_from_behind(context: &StepContext) -> Option<Vec<MotionSegm
     let (world, target) = (context.world, context.main_target());
     let first = covered_view(context, cover, &target)?;
     let last = aimed(world, &moved(&first, way_out(context, cover, &target, &first)), target.aim);
-    let secs = natural_secs(context, &[first.pose.position, last.pose.position]);
-    let segment = context.segment(vec![first, last], secs).about(target.aim);
+    let segment = context.segment(vec![first, last]).about(target.aim);
     let mut segment = context.constrained_at_end(segment);
     for &id in target.ids.iter().take(1) {
         segment = segment.requiring(Scope::Start, ConstraintKind::Unseen(id, COVERED_FRAC));

@@ -36,7 +36,7 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
         aimed(context.world, &moved(&first, position - first.pose.position), pivot)
     };
     let states: Vec<CameraState> = (0..=count).map(at).collect();
-    let mut segment = context.segment(states, (degrees / 14.0).clamp(3.0, 20.0)).about(pivot);
+    let mut segment = context.segment(states).about(pivot);
     // Where the prompt leaves the direction open, the keyframes record the one that was taken.
     segment.movement = match (context.step.movement, sign > 0.0) {
         (Move::OrbitLeft | Move::OrbitRight, true) => Move::OrbitLeft,
@@ -91,7 +91,7 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
         ..first
     };
     let states = vec![first, aimed(context.world, &middle, target.aim), last];
-    let mut segment = context.segment(states, 4.5).about(target.aim);
+    let mut segment = context.segment(states).about(target.aim);
     let end_angle = context.step.end.angle;
     let band = match (end_angle, upward) {
         (Some(angle), _) => pitch_band_deg(angle),

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::context::{StepContext, TURN_DEG_PER_SEC};
+use super::context::StepContext;
 use crate::composition::{frame_place, lens_fov_deg, placed};
 use crate::constraint::{Constraint, ConstraintKind};
 use crate::framing::{Target, frame_position};
@@ -240,9 +240,6 @@ pub(super) fn rejoin(context: &StepContext, segments: &mut Vec<MotionSegment>) {
     let same_lens = (before.fov_y_rad - first.fov_y_rad).abs() < 1e-9;
     let same_place = before.pose.position.distance(first.pose.position) < 1e-9;
     if angle_deg > 1e-6 || !same_lens || !same_place {
-        let secs = (angle_deg / (2.0 * TURN_DEG_PER_SEC)).clamp(0.8, 2.2);
-        let mut join = MotionSegment::new(context.index, Move::Follow, vec![before, first], secs);
-        join.is_join = true;
-        segments.insert(0, join);
+        segments.insert(0, context.join(before, first));
     }
 }

@@ -8,17 +8,17 @@ use crate::composition::lens_fov_deg;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Target, off_center};
 use crate::motion::{MotionSegment, StepParameters};
-use crate::program::{Framing, Motion, Pass, Program, Speed, Step, SubjectSide};
+use crate::pacing::factor;
+use crate::program::{Framing, Motion, Pass, Program, Step, SubjectSide};
 use crate::suggestion::StepCameras;
 use crate::view::{ViewRange, aimed, azimuth_across, broadside_azimuths, opening_view};
 use crate::world::World;
-use cinesplat_geometry::rotation;
 use cinesplat_trajectory::{CameraState, Easing, Move};
 
 /// Required visible share of a subject's points in the frame.
 const VISIBLE_FRAC: f64 = 0.6;
-/// Turn rate of pans at normal speed, degrees per second: a frame width takes 3 to 4 seconds. Joins turn twice as fast.
-pub(super) const TURN_DEG_PER_SEC: f64 = 17.0;
+/// Duration of a segment before its pace is known.
+pub(super) const PROVISIONAL_SECS: f64 = 4.0;
 
 /// A step with everything that its geometry depends on.
 #[derive(Clone)]
@@ -222,18 +222,25 @@ impl<'a> StepContext<'a> {
         if off_center(self.world, before, point) < 0.03 || self.forbidden.iter().any(forbidden) {
             return (Vec::new(), *before);
         }
-        let angle_deg = rotation::angle_between(before.pose.rotation, turned.pose.rotation).to_degrees();
-        let secs = (angle_deg / (2.0 * TURN_DEG_PER_SEC)).clamp(0.8, 2.2);
-        let mut join = MotionSegment::new(self.index, Move::Follow, vec![*before, turned], secs);
-        join.is_join = true;
-        (vec![join], turned)
+        (vec![self.join(*before, turned)], turned)
     }
 
-    /// A segment of the step's move, with its easing. It lasts as long as the prompt says, or `natural_secs` times the
-    /// factor of the step's speed.
-    pub(super) fn segment(&self, states: Vec<CameraState>, natural_secs: f64) -> MotionSegment {
-        let mut segment =
-            MotionSegment::new(self.index, self.step.movement, states, natural_secs * pace(self.step.speed));
+    /// The way from the camera before to where the step's own motion begins.
+    pub(super) fn join(&self, before: CameraState, first: CameraState) -> MotionSegment {
+        let join = MotionSegment::new(self.index, Move::Follow, vec![before, first], PROVISIONAL_SECS);
+        MotionSegment { is_join: true, ..join }
+    }
+
+    /// A segment of the step's move, with its easing. It lasts as long as the prompt says; where it says nothing, the
+    /// duration here is provisional (see [`pace`](crate::pacing::pace)).
+    pub(super) fn segment(&self, states: Vec<CameraState>) -> MotionSegment {
+        self.lasting(states, PROVISIONAL_SECS)
+    }
+
+    /// As [`Self::segment`], with the duration that the move takes at normal speed.
+    pub(super) fn lasting(&self, states: Vec<CameraState>, natural_secs: f64) -> MotionSegment {
+        let secs = natural_secs * factor(self.step.speed);
+        let mut segment = MotionSegment::new(self.index, self.step.movement, states, secs);
         if let Some(secs) = self.step.duration_secs {
             segment.secs = secs;
             segment.secs_bind = true;
@@ -325,15 +332,6 @@ pub(super) fn require_visible(mut segment: MotionSegment, target: &Target, scope
 /// Range of the vertical field of view of a normal view, degrees: 35 to 60 mm on full frame, which renders rooms and
 /// objects with a natural perspective.
 pub(super) const NORMAL_LENS_DEG: (f64, f64) = (32.0, 56.0);
-
-/// Factor on a step's duration.
-fn pace(speed: Speed) -> f64 {
-    match speed {
-        Speed::Slow => 1.6,
-        Speed::Normal => 1.0,
-        Speed::Fast => 0.5,
-    }
-}
 
 /// Azimuths of the camera, seen from its subject, that suit this step and those after it up to a cut: across the line
 /// between start and end of each, and toward the best viewpoint.

@@ -25,7 +25,7 @@ pub(super) fn zoom(context: &StepContext) -> Vec<MotionSegment> {
     let tan = (first.fov_y_rad / 2.0).tan() * ratio;
     let limits = (LENS_LIMITS_DEG.0.to_radians(), LENS_LIMITS_DEG.1.to_radians());
     let last = with_fov(&first, (2.0 * tan.atan()).clamp(limits.0, limits.1));
-    let mut segment = context.segment(vec![first, last], (ratio.ln().abs() * 4.5).clamp(2.0, 6.0));
+    let mut segment = context.segment(vec![first, last]);
     let wanted = if inward { (0.0, 0.76) } else { (1.3, f64::INFINITY) };
     if context.step.amount.is_none() {
         segment = segment.requiring(Scope::All, ConstraintKind::LensRatio(wanted));
@@ -107,7 +107,7 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     let ratio = open.clamp(tan / limit_tan(LENS_LIMITS_DEG.1), tan / limit_tan(LENS_LIMITS_DEG.0));
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
     let last = with_fov(&last, 2.0 * (tan / ratio).atan());
-    let segment = context.segment(vec![first, last], 4.5);
+    let segment = context.segment(vec![first, last]);
     let mut segment = segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.22));
     let wanted = if inward { (0.0, 0.77) } else { (1.3, f64::INFINITY) };
     segment = segment.requiring(Scope::All, ConstraintKind::DistanceRatio(target.aim, wanted));
@@ -126,7 +126,7 @@ pub(super) fn rack_focus(context: &StepContext) -> Vec<MotionSegment> {
     };
     let depth = |target: &Target| view.pose.to_camera(target.aim).z.max(1e-3 * context.world.bounds.size());
     let focused = |target: &Target| CameraState { focus_distance: Some(depth(target)), ..view };
-    let segment = context.segment(vec![focused(&from), focused(&to)], 2.5);
+    let segment = context.lasting(vec![focused(&from), focused(&to)], 2.5);
     let segment = segment.requiring(Scope::All, ConstraintKind::InFrame(to.ids.iter().take(1).copied().collect(), 0.8));
     segments.push(require_visible(segment, &to, Scope::All));
     segments

@@ -23,26 +23,11 @@ const OFF_CENTER: f64 = 0.08;
 /// Largest angle between the view axis and the path, degrees.
 const OFF_PATH_DEG: f64 = 15.0;
 
-/// Largest mean turn between two keys, degrees per second, and the longest duration that it leads to.
-const DEG_PER_SEC: f64 = 40.0;
-const MAX_SECS: f64 = 12.0;
-
 /// Turns the cameras of the step's own motion to what the step looks at.
 pub(super) fn look(context: &StepContext, segments: &mut [MotionSegment]) {
     let Some(look) = &context.step.look else { return };
     let Some(segment) = segments.iter_mut().rev().find(|segment| !segment.is_join) else { return };
     turn_to(context, look, segment);
-    slow_down(segment);
-}
-
-/// Lengthens a segment without a stated duration so that its turns take [`DEG_PER_SEC`] at most, up to [`MAX_SECS`].
-fn slow_down(segment: &mut MotionSegment) {
-    let count = (segment.states.len() - 1) as f64;
-    let turn = |pair: &[CameraState]| rotation::angle_between(pair[0].pose.rotation, pair[1].pose.rotation);
-    let most = segment.states.windows(2).map(turn).fold(0.0, f64::max).to_degrees();
-    if !segment.secs_bind {
-        segment.secs = segment.secs.max((most * count / DEG_PER_SEC).min(MAX_SECS));
-    }
 }
 
 fn turn_to(context: &StepContext, look: &Look, segment: &mut MotionSegment) {

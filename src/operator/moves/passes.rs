@@ -35,9 +35,7 @@ pub(super) fn passing(context: &StepContext) -> Vec<MotionSegment> {
     };
     let aim = goal.as_ref().map_or(gate + (gate - first.pose.position) * 4.0, |goal| goal.aim);
     let middle = aimed(context.world, &moved(&first, gate - first.pose.position), aim);
-    let length = first.pose.position.distance(gate) + gate.distance(last.pose.position);
-    let natural = (length / context.world.bounds.size() * 11.0).clamp(3.0, 8.0);
-    let mut segment = context.segment(vec![first, middle, last], natural);
+    let mut segment = context.segment(vec![first, middle, last]);
     if let Some(goal) = goal {
         if off_center(context.world, &first, goal.aim) < 0.5 {
             segment = segment.about(goal.aim);
@@ -72,8 +70,7 @@ fn backward(context: &StepContext, gate: DVec3, subject: &Target) -> Vec<MotionS
     let beyond = gate + onward * context.world.bounds.size();
     let at = |position: DVec3| aimed(context.world, &moved(&first, position - first.pose.position), subject.aim);
     let states = vec![first, at(gate), at(beyond)];
-    let length = first.pose.position.distance(gate) + gate.distance(beyond);
-    let segment = context.segment(states, (length / context.world.bounds.size() * 11.0).clamp(3.0, 8.0));
+    let segment = context.segment(states);
     let segment = segment
         .about(subject.aim)
         .requiring(Scope::All, ConstraintKind::Centered(subject.clone(), 0.17))

@@ -6,6 +6,7 @@ use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::standing::turned_away;
 use crate::composition::{natural_elevation_deg, side_azimuths};
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
+use crate::detours::is_clear;
 use crate::framing::{Bearing, Fill, Target, bearing_of};
 use crate::motion::MotionSegment;
 use crate::program::Motion;
@@ -80,22 +81,24 @@ fn nearest(angles_rad: &[f64], from_rad: f64) -> f64 {
     angles_rad.iter().min_by(|a, b| turn(a).total_cmp(&turn(b))).copied().unwrap_or(from_rad)
 }
 
-/// A path from one view to another: straight, or bent sideways or up, so that the search can avoid obstacles.
+/// A path from one view to another: straight where that is clear of matter; else bent sideways or up, so that the search
+/// can avoid obstacles.
 fn glide(context: &StepContext, first: &CameraState, last: &CameraState) -> MotionSegment {
+    let straight = context.segment(vec![*first, *last]);
+    if is_clear(context.world, &straight) {
+        return straight;
+    }
     let way = last.pose.position - first.pose.position;
     let length = way.length();
     let frame = &context.world.frame;
     let aside = way.cross(frame.up).try_normalize().unwrap_or_else(|| first.pose.right());
     let bow = |parameter: f64| if parameter < 0.4 { 0.0 } else { (parameter - 0.7) / 0.3 * 0.35 * length };
     let offset = aside * bow(context.parameters[0]) + frame.up * bow(context.parameters[1]).max(-0.1 * length);
-    let states = if offset.length() > 1e-6 * length && length > 0.0 {
-        vec![*first, halfway(context, first, last, offset), *last]
+    if offset.length() > 1e-6 * length && length > 0.0 {
+        context.segment(vec![*first, halfway(context, first, last, offset), *last])
     } else {
-        vec![*first, *last]
-    };
-    let angle_deg = rotation::angle_between(first.pose.rotation, last.pose.rotation).to_degrees();
-    let natural = (angle_deg / 20.0).max(length / context.world.bounds.size() * 11.0).clamp(2.5, 8.0);
-    context.segment(states, natural)
+        straight
+    }
 }
 
 /// The middle state of two, displaced by `offset`; its yaw, pitch and roll lie halfway between theirs.

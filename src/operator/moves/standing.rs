@@ -1,13 +1,12 @@
 //! Openings whose place the prompt states by another object: from it, and over the shoulder of it.
 
-use super::context::{StepContext, TURN_DEG_PER_SEC};
+use super::context::StepContext;
 use super::standing_view::{shoulder, standing_view};
 use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::framing::Target;
 use crate::motion::MotionSegment;
 use crate::program::{Framing, SubjectPart};
 use crate::view::aimed;
-use cinesplat_geometry::rotation;
 use cinesplat_trajectory::{CameraState, Move};
 
 /// The way from the camera before to the stated place, and the camera there; `None` for a step that states none, or
@@ -18,12 +17,7 @@ pub(super) fn arrival(context: &StepContext) -> Option<(MotionSegment, CameraSta
     let fov_deg = before.fov_y_rad.to_degrees();
     let there =
         standing_view(&context.standing(), &target, &context.opening_framing(), (0.3, 0.6), (fov_deg, fov_deg))?;
-    let length = before.pose.position.distance(there.pose.position);
-    let angle_deg = rotation::angle_between(before.pose.rotation, there.pose.rotation).to_degrees();
-    let secs = (length / context.world.bounds.size() * 11.0).max(angle_deg / (2.0 * TURN_DEG_PER_SEC)).clamp(0.8, 8.0);
-    let mut join = MotionSegment::new(context.index, Move::Follow, vec![before, there], secs);
-    join.is_join = true;
-    Some((join, there))
+    Some((context.join(before, there), there))
 }
 
 /// Adds the constraint that the step sees its subject over the shoulder of an object.

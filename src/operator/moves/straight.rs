@@ -12,9 +12,6 @@ use crate::program::{Amount, Framing, Pass, SubjectPart};
 use crate::view::{aimed, distance_along, lerp, moved, stated_fill};
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
-/// Time to halve or double the distance.
-const SECS_PER_DOUBLING: f64 = 3.4;
-
 /// Moves along the line to the subject, toward it or away from it.
 pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let inward = (context.step.movement == Move::PushIn) != (context.step.either_way && context.parameters[5] < 0.5);
@@ -34,8 +31,7 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let first = if backs_into_view(context, &target, inward) { nearer(&first, &target, ratio) } else { first };
     let distance = first.pose.position.distance(target.aim);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
-    let natural = (ratio.ln().abs() / std::f64::consts::LN_2 * SECS_PER_DOUBLING).clamp(2.2, 7.0);
-    let segment = context.segment(vec![first, last], natural);
+    let segment = context.segment(vec![first, last]);
     let wanted = if inward { (0.0, 0.76) } else { (1.32, f64::INFINITY) };
     let subtle = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_) | Amount::Factor(_)));
     let segment =
@@ -111,7 +107,7 @@ fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, 
 /// Distance at the end over that at the start.
 fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let distance = first.pose.position.distance(target.aim);
-    let open = if inward { lerp((0.42, 0.66), context.parameters[6]) } else { lerp((1.5, 2.8), context.parameters[6]) };
+    let open = if inward { lerp((0.42, 0.66), context.parameters[6]) } else { lerp((1.7, 3.2), context.parameters[6]) };
     let by_size = size_ratio(context, target, first);
     let by_whole = || whole_ratio(context, first, distance);
     let stated = match context.step.amount {
@@ -255,8 +251,7 @@ fn slide(
     }
     first = through_gate(context, &first, along(&first) * way);
     let last = moved(&first, along(&first) * way);
-    let natural = (way.abs() / distance.max(1e-9) * 5.0).clamp(2.5, 7.0);
-    let mut segment = context.segment(vec![first, last], natural);
+    let mut segment = context.segment(vec![first, last]);
     let slight = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_)));
     segment =
         segment.requiring(Scope::All, ConstraintKind::Travel(direction, target.aim, if slight { 0.02 } else { 0.24 }));
@@ -318,6 +313,6 @@ fn free_slide_length(
         Some(Amount::Units(units)) => units,
         Some(Amount::Slight) => 0.12 * distance,
         Some(Amount::Large) => 0.9 * distance,
-        _ => lerp((0.34, 0.75), context.parameters[6]) * distance.max(0.8 * reach),
+        _ => lerp((0.45, 0.95), context.parameters[6]) * distance.max(0.8 * reach),
     }
 }

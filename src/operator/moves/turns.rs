@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::context::{NORMAL_LENS_DEG, StepContext, TURN_DEG_PER_SEC, require_visible};
+use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::sway::{num_sways, swayed};
 use crate::composition::front_azimuth;
 use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
@@ -13,15 +13,16 @@ use crate::view::{aimed, aimed_at_side, lerp};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Easing, Move};
 
-/// Range of the turn of a pan or tilt with a free end, degrees.
-const OPEN_TURN_DEG: (f64, f64) = (24.0, 42.0);
+/// Range of the turn of a pan with a free end, and of a tilt, degrees.
+const OPEN_PAN_DEG: (f64, f64) = (30.0, 55.0);
+const OPEN_TILT_DEG: (f64, f64) = (24.0, 42.0);
 
 /// Holds a view of the step's target.
 pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
     let named = context.start.is_some() || context.end.is_some();
     let (mut segments, state) = match &context.before {
-        Some(before) if named => context.turned_to(before, target.aim),
+        Some(before) if named && off_center(context.world, before, target.aim) > HELD_OFF => context.turned_to(before, target.aim),
         Some(before) => (Vec::new(), *before),
         None => {
             let mut framing = context.step.start.clone();
@@ -36,7 +37,7 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
         }
     };
     let natural = if context.index == 0 && context.before.is_none() { 4.0 } else { 1.5 };
-    let mut segment = context.segment(vec![state, state], natural);
+    let mut segment = context.lasting(vec![state, state], natural);
     if context.before.is_none() {
         segment =
             require_visible(context.constrained_at_end(context.constrained_at_start(segment)), &target, Scope::All);
@@ -49,6 +50,8 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
+/// Largest distance from the frame's middle of a subject that a hold after another step leaves where it is.
+const HELD_OFF: f64 = 0.2;
 /// Distance of the thirds from the frame's middle, over its width.
 const THIRD: f64 = 1.0 / 6.0;
 /// Largest width of a subject that is placed on a third, over the frame's width: a wider one would nearly touch the
@@ -176,7 +179,9 @@ fn turn(
     by: impl Fn(&CameraState, f64) -> CameraState,
     limits: impl Fn(f64) -> (ConstraintKind, ConstraintKind),
 ) -> Vec<MotionSegment> {
-    let open_rad = lerp(OPEN_TURN_DEG, context.parameters[6]).to_radians();
+    let tilts = matches!(context.step.movement, Move::TiltUp | Move::TiltDown);
+    let open_deg = if tilts { OPEN_TILT_DEG } else { OPEN_PAN_DEG };
+    let open_rad = lerp(open_deg, context.parameters[6]).to_radians();
     let stated_rad = match context.step.amount {
         Some(Amount::Degrees(degrees)) => Some(degrees.to_radians()),
         Some(Amount::Slight) => Some(14.0_f64.to_radians()),
@@ -193,12 +198,7 @@ fn turn(
             (segments, first, last)
         }
     };
-    let angle_deg = rotation::angle_between(first.pose.rotation, last.pose.rotation).to_degrees();
-    let natural = if whip { 0.5 } else { (angle_deg / TURN_DEG_PER_SEC).clamp(1.8, 7.0) };
-    let mut segment = context.segment(vec![first, last], natural);
-    if whip && context.step.duration_secs.is_none() {
-        segment.secs = natural;
-    }
+    let mut segment = context.segment(vec![first, last]);
     let (along, across) = limits(sign);
     if !(whip && context.step.either_way) {
         let along = if angle_rad < 0.3 && stated_rad.is_some() { None } else { Some(along) };
@@ -259,7 +259,7 @@ pub(super) fn roll(context: &StepContext) -> Vec<MotionSegment> {
         let pose = Pose::new(first.pose.position, first.pose.rotation * rotation::exp(DVec3::Z * angle));
         CameraState { pose, ..first }
     };
-    let segment = context.segment((0..=count).map(rolled).collect(), (degrees / 12.0).clamp(2.0, 12.0));
+    let segment = context.segment((0..=count).map(rolled).collect());
     segments.push(require_visible(segment, &context.main_target(), Scope::Start));
     segments
 }

@@ -8,6 +8,7 @@ use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::cost::evenly_spaced;
 use crate::framing::Target;
 use crate::motion::MotionSegment;
+use crate::pacing::natural_secs;
 use crate::program::Amount;
 use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
@@ -42,6 +43,9 @@ pub(super) fn add_second_moves(context: &StepContext, segments: &mut [MotionSegm
 /// Adds the sway of a handheld camera to a moving one.
 fn sway(context: &StepContext, segment: &mut MotionSegment, target: &Target) {
     let distance = segment.states[0].pose.position.distance(target.aim);
+    if !segment.secs_bind {
+        segment.secs = natural_secs(context.world, context.step, segment);
+    }
     let even = evenly_spaced(context.world, segment, num_sways(segment.secs) + 1);
     segment.states = swayed(&even, distance, context.parameters[6] * 60.0);
 }

@@ -168,6 +168,11 @@ impl CaseDirector {
 }
 
 impl CaseScene {
+    /// The objects of the scene.
+    pub(super) fn objects(&self) -> &ObjectSet {
+        &self.objects
+    }
+
     /// The shot of a program, with the times of preparing the scene and of solving.
     fn direct(
         &self,

@@ -3,6 +3,7 @@
 mod cases;
 mod curve;
 mod films;
+mod flow_facts;
 mod moves;
 mod pair_trial;
 mod pairs;
@@ -20,6 +21,7 @@ use crate::cli::failure::Failure;
 Examples:
   cinesplat bench operator moves
   cinesplat bench operator films --cases public.jsonl --intents intents.json --solve off -o paths
+  cinesplat bench operator films --cases public.jsonl --shots paths > flow.csv
   cinesplat bench operator void --cases public.jsonl --only ps
   cinesplat bench operator curve --cases public.jsonl --intents intents.json --plot curve.svg
   cinesplat bench operator stages room.spz
