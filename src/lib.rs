@@ -91,6 +91,7 @@
 //! | training | `training` (feature `training`): sampler of sentences, dataset, training, exams | candle |
 //! | network | [`director`]: text encoder, Q-former, decoder | candle, tokenizers |
 //! | words | [`language`]: names, quantities, the notation of programs | |
+//! | taste | [`critic`]: looks at finished moves and chooses | |
 //! | exactness | [`operator`]: framing, visibility, clearance | |
 //! | measures | [`evaluation`]: trajectory error, motion tags, framing, smoothness | |
 //! | effects | [`lens`]: effects that a shot calls for | |
@@ -115,6 +116,7 @@
 //! - A shot is validated before the engine uses it ([`trajectory::Shot::validated`]).
 //! - No file is overwritten unless the caller says so ([`files::Existing`]); a file under its final name is complete.
 
+pub use cinesplat_critic as critic;
 pub use cinesplat_director as director;
 pub use cinesplat_evaluation as evaluation;
 pub use cinesplat_export as export;

@@ -11,6 +11,7 @@
 
 mod architecture;
 mod cli;
+mod critic;
 mod director;
 mod evaluation;
 mod export;

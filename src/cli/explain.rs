@@ -2,10 +2,11 @@ use std::fmt::Write as _;
 use strum::VariantArray;
 
 use super::console;
+use cinesplat::critic::{Candidate, TERMS, Weights, trade};
 use cinesplat::lens::{Decision, Effect, EffectKind};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{Amount, Framing, Lens, Look, Speed, Step, SubjectPart};
-use cinesplat::pipeline::Directed;
+use cinesplat::pipeline::{Critique, Directed};
 use cinesplat::trajectory::ClearanceProof;
 
 /// Explains a shot: the meaning of each clause of its prompt, the report of requested and achieved values, the clearance proof
@@ -26,6 +27,7 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
         let note = if line.note.is_empty() { String::new() } else { format!(" ({})", line.note) };
         let _ = writeln!(text, "  {verdict} {}: wanted {}, got {:.3}{note}", line.clause, line.wanted, line.got);
     }
+    text.extend(directed.critique.as_ref().map(pictures));
     text.push_str("\nclearance\n");
     text.extend(directed.shot.clearance.as_ref().map(clearance));
     text.push_str("\neffects\n");
@@ -37,6 +39,32 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     for decision in directed.effects.iter().filter(|decision| matches!(decision.call.kind, EffectKind::Other(_))) {
         let _ = writeln!(text, "  {}", decision.sentence());
     }
+    text
+}
+
+/// What the critic said about the film and about the runner-up, and what the choice traded.
+fn pictures(critique: &Critique) -> String {
+    let weights = Weights::default();
+    let Some(chosen) = critique.candidates.first() else { return String::new() };
+    let other = critique.candidates.get(1);
+    let num = critique.candidates.len();
+    let moments = chosen.review.pictures.len();
+    let mut text = format!("\npictures: {num} films that clearly differ, each seen at {moments} moments\n");
+    let _ = writeln!(text, "  {:10} {:>6} {:>6} {:>9}  what lowers the mark", "term", "weight", "film", "runner-up");
+    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.2}"));
+    for row in &TERMS {
+        let value = |candidate: &Candidate| candidate.review.value(row.term);
+        let (ours, theirs) = (cell(value(chosen)), cell(other.and_then(value)));
+        let name = row.term.as_ref();
+        let _ = writeln!(text, "  {name:10} {:6.1} {ours:>6} {theirs:>9}  {}", row.weight, row.punishes);
+    }
+    let score = |candidate: &Candidate| candidate.review.score(&weights);
+    let (ours, theirs) = (cell(Some(score(chosen))), cell(other.map(score)));
+    let _ = writeln!(text, "  {:10} {:6} {ours:>6} {theirs:>9}", "all", "");
+    let _ = match other {
+        Some(other) => writeln!(text, "  {}", trade(chosen, other, &weights)),
+        None => writeln!(text, "  No other film that clearly differs meets the words as well."),
+    };
     text
 }
 

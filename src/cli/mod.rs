@@ -23,6 +23,7 @@ mod map;
 mod objects;
 mod outputs;
 mod plan;
+mod plan_outputs;
 mod progress;
 mod prompts_file;
 mod read;
@@ -31,6 +32,7 @@ mod reproduce;
 mod scene_args;
 mod shot_args;
 mod still;
+mod takes;
 #[cfg(feature = "training")]
 mod train;
 #[cfg(feature = "training")]

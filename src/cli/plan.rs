@@ -6,7 +6,8 @@ use super::failure::Failure;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, explain, heading, map, outputs, reproduce};
+use super::plan_outputs::PlanOutputs;
+use super::{console, explain, heading, map, reproduce, takes};
 use cinesplat::director::Director;
 use cinesplat::export::shot_json;
 use cinesplat::objects::ObjectSet;
@@ -24,6 +25,7 @@ use cinesplat::trajectory::Shot;
 Examples:
   cinesplat plan room.spz -p \"push in on <obj-3>\" --objects objects.json -o shot.json
   cinesplat plan room.spz --prompts moves.txt --objects objects.json -o shots/{}.json
+  cinesplat plan room.spz -p \"orbit the lamp\" -o shot.json --takes 3
   cinesplat plan synth:demo -p \"push in on the sofa, then crane up\" -o shot.json --map map.svg")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -48,6 +50,11 @@ pub(super) struct Args {
     /// Print how each clause is understood and what the shot achieves
     #[arg(long, help_heading = heading::OUTPUT)]
     explain: bool,
+    /// Write a sheet of the takes side by side (PNG) [default with --takes: NAME.takes.png]
+    ///
+    /// With --prompts a name with {} in it.
+    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT)]
+    sheet: Option<PathBuf>,
     /// Fail with exit code 65 when a clause is not understood or cannot be met
     #[arg(long, help_heading = heading::SHOT)]
     strict: bool,
@@ -74,30 +81,6 @@ struct Words {
     prompts: Option<PathBuf>,
 }
 
-/// Files that a plan writes.
-#[derive(Debug, Clone)]
-struct PlanOutputs {
-    shot: Option<PathBuf>,
-    map: Option<PathBuf>,
-}
-
-impl PlanOutputs {
-    /// Refuses wrong outputs before the scene is read.
-    fn check(&self, overwrite: Overwrite) -> Result<(), Failure> {
-        self.shot.iter().try_for_each(|path| overwrite.check(path))?;
-        self.map.iter().try_for_each(|path| map::check(path, overwrite))?;
-        let named = [("--output", self.shot.as_deref()), ("--map", self.map.as_deref())];
-        outputs::check_distinct(named.into_iter().filter_map(|(flag, path)| Some((flag, path?))))
-    }
-
-    /// The outputs of one prompt of a file.
-    fn for_prompt(&self, name: &str) -> Result<Self, Failure> {
-        let named =
-            |path: &Option<PathBuf>| path.as_deref().map(|path| prompts_file::output_of(path, name)).transpose();
-        Ok(Self { shot: named(&self.shot)?, map: named(&self.map)? })
-    }
-}
-
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let prompts = self.words.prompts.as_deref().map(prompts_file::read).transpose()?;
@@ -117,12 +100,34 @@ impl Args {
 
     /// Every prompt with its outputs.
     fn jobs(&self, prompts: Option<Vec<NamedPrompt>>) -> Result<Vec<(NamedPrompt, PlanOutputs)>, Failure> {
-        let outputs = PlanOutputs { shot: self.output.clone(), map: self.map.clone() };
+        let outputs = PlanOutputs {
+            shot: self.output.clone(),
+            map: self.map.clone(),
+            named_sheet: self.sheet.clone(),
+            takes: self.shot.takes,
+        };
         let Some(prompts) = prompts else {
             let prompt = self.words.prompt.clone().unwrap_or_default();
             return Ok(vec![(NamedPrompt { name: String::new(), prompt }, outputs)]);
         };
         prompts.into_iter().map(|named| Ok((named.clone(), outputs.for_prompt(&named.name)?))).collect()
+    }
+
+    /// Writes the shot and the map of a take.
+    fn write_take(
+        &self,
+        (scene, objects): (&Scene, &ObjectSet),
+        shot: &Shot,
+        [output, map]: [Option<PathBuf>; 2],
+    ) -> Result<(), Failure> {
+        if let Some(output) = output {
+            let mut saved = shot.clone();
+            saved.scene.path = relative_to(&output, &scene.path);
+            self.overwrite.write(&output, shot_json::write(&saved).as_bytes())?;
+            let (keys, secs) = (shot.keyframes.len(), shot.duration_secs);
+            console::note(&format!("{}: {keys} keys, {secs:.2} s", output.display()));
+        }
+        map.map_or(Ok(()), |path| map::write(&path, (scene, objects), shot, self.overwrite))
     }
 
     fn plan(
@@ -132,20 +137,18 @@ impl Args {
         prompt: &str,
         outputs: &PlanOutputs,
     ) -> Result<(), Failure> {
-        let mut directed = self.shot.direct(director, (scene, objects), prompt)?;
+        let directed = self.shot.direct(director, (scene, objects), prompt)?;
         if self.strict
             && let Some(line) = directed.shot.report.iter().find(|line| !line.met)
         {
             return Err(Failure::not_met(line));
         }
-        if let Some(output) = &outputs.shot {
-            directed.shot.scene.path = relative_to(output, &scene.path);
-            self.overwrite.write(output, shot_json::write(&directed.shot).as_bytes())?;
-            let (keys, secs) = (directed.shot.keyframes.len(), directed.shot.duration_secs);
-            console::note(&format!("{}: {keys} keys, {secs:.2} s", output.display()));
+        for (number, shot) in (1..).zip(&directed.takes) {
+            self.write_take((scene, objects), shot, outputs.of_take(number))?;
         }
-        if let Some(path) = &outputs.map {
-            map::write(path, (scene, objects), &directed.shot, self.overwrite)?;
+        if let Some(sheet) = outputs.sheet() {
+            let renderer = Renderer::new(&scene.gaussians);
+            takes::write_sheet((scene, &renderer), &directed.takes, &sheet, self.overwrite.existing())?;
         }
         if self.explain {
             self.print_forecasts(scene, &directed.shot)?;

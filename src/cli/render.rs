@@ -10,7 +10,7 @@ use super::progress::FrameProgress;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, heading, map, outputs, reproduce};
+use super::{console, heading, map, outputs, reproduce, takes};
 use cinesplat::export::shot_json;
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, FilmReport, FilmSettings, Forecast, FrameRange, Phase, PhaseTimes, Requirements};
@@ -71,7 +71,7 @@ pub(super) struct Args {
     /// Write the shot too
     #[arg(long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, hide_short_help = true)]
     save_shot: Option<PathBuf>,
-    /// Write a contact sheet too: twelve small frames of the film
+    /// Write a contact sheet too: twelve small frames of the film, or with --takes the takes side by side
     #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT, hide_short_help = true)]
     sheet: Option<PathBuf>,
     /// Write a map of the shot too: the path in its scene, from above and from the side (.svg or .png)
@@ -109,9 +109,9 @@ impl Args {
         self.check_outputs()?;
         self.picture.bound_threads()?;
         let mut times = PhaseTimes::default();
-        let (scene, shot) = self.open(&mut times)?;
+        let (scene, objects, shots) = self.open(&mut times)?;
         let renderer = Renderer::new(&scene.gaussians);
-        self.render((&scene, &renderer), &shot, (times, start), &Interrupt::listen()?)
+        self.render_takes((&scene, &objects, &renderer), &shots, (times, start), &Interrupt::listen()?)
     }
 
     /// One film per prompt of a file; scene, director and renderer are prepared once.
@@ -127,9 +127,44 @@ impl Args {
         prompts_file::for_each(&jobs, |named, job| {
             let start = Instant::now();
             let directed = job.shot.direct(&director, (&scene, &objects), &named.prompt)?;
-            job.write_map((&scene, &objects), &directed.shot)?;
-            job.render((&scene, &renderer), &directed.shot, (directed.times, start), &interrupt)
+            job.render_takes((&scene, &objects, &renderer), &directed.takes, (directed.times, start), &interrupt)
         })
+    }
+
+    /// The arguments that render one of several takes. Their sheet is written apart.
+    fn for_take(&self, number: usize) -> Self {
+        let output = |path: &PathBuf| takes::output_of(path, number);
+        Self {
+            output: output(&self.output),
+            save_shot: self.save_shot.as_ref().map(output),
+            map: self.map.as_ref().map(output),
+            sheet: None,
+            ..self.clone()
+        }
+    }
+
+    /// The sheet of several takes: as given, or beside the output.
+    fn sheet_of_takes(&self) -> PathBuf {
+        self.sheet.clone().unwrap_or_else(|| takes::sheet_beside(&self.output))
+    }
+
+    /// Renders the film of each take; with several, a sheet of them first.
+    fn render_takes(
+        &self,
+        (scene, objects, renderer): (&Scene, &ObjectSet, &Renderer<'_>),
+        shots: &[Shot],
+        (times, start): (PhaseTimes, Instant),
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let render = |job: &Self, shot: &Shot| {
+            job.write_map((scene, objects), shot)?;
+            job.render((scene, renderer), shot, (times.clone(), start), interrupt)
+        };
+        if !self.shot.takes.is_several() {
+            return shots.iter().try_for_each(|shot| render(self, shot));
+        }
+        takes::write_sheet((scene, renderer), shots, &self.sheet_of_takes(), self.overwrite.existing())?;
+        (1..).zip(shots).try_for_each(|(number, shot)| render(&self.for_take(number), shot))
     }
 
     /// The arguments that render one prompt of a file.
@@ -185,6 +220,21 @@ impl Args {
 
     /// Refuses wrong outputs before the scene is read.
     fn check_outputs(&self) -> Result<(), Failure> {
+        if !self.shot.takes.is_several() {
+            return self.check_own_outputs();
+        }
+        if self.source.file.is_some() {
+            return Err(Failure::usage(
+                "--takes with --shot: a shot is one take",
+                "leave --takes out, or give a prompt",
+            ));
+        }
+        self.overwrite.check(&self.sheet_of_takes())?;
+        self.shot.takes.numbers().try_for_each(|number| self.for_take(number).check_own_outputs())
+    }
+
+    /// Refuses wrong outputs of one film.
+    fn check_own_outputs(&self) -> Result<(), Failure> {
         video::check_output(&self.output, &self.encoder())?;
         for path in self.save_shot.iter().chain(&self.sheet) {
             self.overwrite.check(path)?;
@@ -201,7 +251,8 @@ impl Args {
         self.map.as_deref().map_or(Ok(()), |path| map::write(path, scene, shot, self.overwrite))
     }
 
-    fn open(&self, times: &mut PhaseTimes) -> Result<(Scene, Shot), Failure> {
+    /// The scene, its objects as far as they are needed, and the shots.
+    fn open(&self, times: &mut PhaseTimes) -> Result<(Scene, ObjectSet, Vec<Shot>), Failure> {
         if let Some(file) = &self.source.file {
             let opened = || self.scene.open().map(|opened| (opened.scene, ObjectSet::default()));
             let with_objects = || self.scene.open_with_objects(self.shot.objects.as_deref());
@@ -209,12 +260,11 @@ impl Args {
             let (scene, objects) =
                 times.measure(Phase::Load, || if self.map.is_some() { with_objects() } else { opened() })?;
             let shot = self.shot.read_shot(file, &scene)?;
-            self.write_map((&scene, &objects), &shot)?;
             match shot.scene.up {
                 Some(up) => print_up_of(up, "the shot"),
                 None => print_up(&scene),
             }
-            return Ok((scene, shot));
+            return Ok((scene, objects, vec![shot]));
         }
         let prompt = self.source.prompt.as_deref().unwrap_or_default();
         let (scene, objects) =
@@ -222,8 +272,7 @@ impl Args {
         let director = times.measure(Phase::Load, || self.shot.director())?;
         let directed = self.shot.direct(&director, (&scene, &objects), prompt)?;
         times.extend(&directed.times);
-        self.write_map((&scene, &objects), &directed.shot)?;
-        Ok((scene, directed.shot))
+        Ok((scene, objects, directed.takes))
     }
 
     /// Encoder settings before the shot is known.

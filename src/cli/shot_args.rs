@@ -1,3 +1,4 @@
+use std::iter;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -5,12 +6,13 @@ use strum::VariantArray;
 
 use super::choice::choice;
 use super::failure::Failure;
+use super::takes::TakesArgs;
 use super::{console, heading, outputs};
 use cinesplat::director::Director;
 use cinesplat::lens::{self, Decision, Effect, EffectCall, EffectChoice};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::SolveLevel;
-use cinesplat::pipeline::{self, DirectSettings, Directed};
+use cinesplat::pipeline::{self, DirectSettings, Directed, FilmChoice};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{Shot, retimed};
 
@@ -40,6 +42,8 @@ pub(super) struct ShotArgs {
     /// Move the inner keys in time so that the camera's speed is constant
     #[arg(long, help_heading = heading::SHOT, hide_short_help = true)]
     retime: bool,
+    #[command(flatten)]
+    pub(super) takes: TakesArgs,
     #[command(flatten)]
     solve: SolveArgs,
     /// Folder with the director's weights [default: the built-in weights]
@@ -73,12 +77,16 @@ impl ShotArgs {
             seed: self.seed.unwrap_or(0),
             solve: self.solve.level,
             effects: self.effects.clone(),
+            choice: FilmChoice { num_takes: usize::from(self.takes.count), ..FilmChoice::default() },
         };
         let mut directed = pipeline::direct(scene, objects, prompt, director, &settings)?;
         if self.retime {
-            directed.shot = retimed(&directed.shot);
-            directed.shot.clearance = Some(pipeline::prove_clearance(scene, &directed.shot)?);
+            for shot in iter::once(&mut directed.shot).chain(&mut directed.takes) {
+                *shot = retimed(shot);
+                shot.clearance = Some(pipeline::prove_clearance(scene, shot)?);
+            }
         }
+        self.takes.note_fewer(directed.takes.len());
         print_gaps(&directed);
         Ok(directed)
     }

@@ -17,6 +17,7 @@ mod composition;
 mod constraint;
 mod cost;
 mod detours;
+mod distinct;
 mod dutch;
 mod flow;
 mod forbidden;
@@ -38,6 +39,7 @@ mod report;
 mod route;
 mod search;
 mod settings;
+mod sighting;
 mod simultaneous;
 mod steadiness;
 mod stops;
@@ -52,8 +54,9 @@ pub use program::{
     Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step, SubjectPart,
     SubjectSide, Via,
 };
-pub use realize::{Solution, realize};
+pub use realize::{Solution, finalists, realize};
 pub use route::{NoRoute, Route, route};
 pub use settings::{SolveLevel, SolveSettings};
+pub use sighting::Sighting;
 pub use suggestion::StepCameras;
 pub use world::World;

@@ -9,8 +9,9 @@ use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
 use super::program::{Framing, Program, Step};
 use super::report;
-use super::search::{SearchProblem, best_candidate};
+use super::search::{Candidate, SearchProblem, best_candidates};
 use super::settings::{SolveLevel, SolveSettings};
+use super::sighting::{Sighting, sightings};
 use super::suggestion::StepCameras;
 use super::world::World;
 use cinesplat_trajectory::{CameraPath, ClearanceProof, Keyframe, Move, ReportLine, retime};
@@ -29,6 +30,8 @@ pub struct Solution {
     pub report: Vec<ReportLine>,
     /// Index of the keyframe at which each step of the program begins, followed by the index of the last keyframe.
     pub step_keys: Vec<usize>,
+    /// When the film should show which object.
+    pub sightings: Vec<Sighting>,
     /// Certified clearance of the whole path.
     pub clearance: ClearanceProof,
     /// The cost that the search minimized. Below 3, every constraint was met during the search.
@@ -46,6 +49,21 @@ pub fn realize(
     suggestions: &[StepCameras],
     settings: &SolveSettings,
 ) -> Solution {
+    let mut best = finalists(world, (program, prompt), suggestions, settings, 1);
+    best.swap_remove(0)
+}
+
+/// Solves a program up to `num` times: films that clearly differ in side, height, distance, lens or path, the one of least
+/// cost first. At least one; only one where the level is [`SolveLevel::Off`]. Inputs are those of [`realize()`].
+///
+/// A film that violates more requirements than the best one is left out.
+pub fn finalists(
+    world: &World,
+    (program, prompt): (&Program, &str),
+    suggestions: &[StepCameras],
+    settings: &SolveSettings,
+    num: usize,
+) -> Vec<Solution> {
     let fallback;
     let program = if program.steps.is_empty() {
         fallback = Program { steps: vec![Step::of(Move::Static)], ..program.clone() };
@@ -53,9 +71,19 @@ pub fn realize(
     } else {
         program
     };
-    let best = best_candidate(&SearchProblem { world, program, suggestions }, settings);
-    let cost = best.cost();
-    let mut segments: Vec<MotionSegment> = best.segments.into_iter().flatten().collect();
+    let candidates = best_candidates(&SearchProblem { world, program, suggestions }, settings, num);
+    candidates.into_iter().map(|candidate| solution(world, (program, prompt), candidate, settings)).collect()
+}
+
+/// The finished film of a candidate: detours, times, keyframes, certificate and report.
+fn solution(
+    world: &World,
+    (program, prompt): (&Program, &str),
+    candidate: Candidate,
+    settings: &SolveSettings,
+) -> Solution {
+    let cost = candidate.cost();
+    let mut segments: Vec<MotionSegment> = candidate.segments.into_iter().flatten().collect();
     settle(&mut segments);
     // A detour is searched: without a search the report names the matter in the way.
     let detours = match settings.level {
@@ -78,7 +106,8 @@ pub fn realize(
     report.extend(forbidden::lines(world, program, &segments, &keys));
     report.extend(settings.dutch_deg.map(|_| dutch::report_line(world, &keys)));
     let step_keys = step_keys(&flow.segments, program.steps.len());
-    Solution { keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance }
+    let sightings = sightings(&segments, &flow.spans);
+    Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance }
 }
 
 /// The film of the segments, its keyframes, and their clearance certificate. A blend that comes too near to matter is

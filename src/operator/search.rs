@@ -11,6 +11,7 @@ use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
 use super::cost::cost;
+use super::distinct::clearly_differ;
 use super::motion::{MotionSegment, NUM_PARAMETERS, StepParameters};
 use super::moves::{StepContext, build};
 use super::program::Program;
@@ -21,6 +22,18 @@ use cinesplat_trajectory::CameraState;
 
 /// Candidates per round of the local search. A round is evaluated in parallel.
 const ROUND_SIZE: usize = 8;
+/// Samples of the local search on another finalist, over those on the best one.
+const OTHER_SHARE: f64 = 0.15;
+/// Alternatives that are carried along, over those that are wanted: some end close to a better one.
+const SPARE: usize = 2;
+/// Spreads of the local search: of the best film, of the others, which keep to their own side, and of the last samples.
+const WIDE_SPREAD: f64 = 0.25;
+const NARROW_SPREAD: f64 = 0.12;
+const LAST_SPREAD: f64 = 0.01;
+/// Cost above the best candidate's from which a film is no alternative: that of one violated constraint.
+const MAX_EXCESS: f64 = 3.0;
+/// Changes the seed for the random numbers of the alternatives.
+const OTHER_STREAM: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A candidate film up to some step: parameters, segments and cost of each step.
 #[derive(Debug, Clone, Default)]
@@ -60,8 +73,10 @@ struct Budget {
     step_samples: usize,
     /// Candidates kept after each step.
     beam_width: usize,
-    /// Candidates of the local search.
+    /// Candidates of the local search on the best film.
     local_samples: usize,
+    /// Candidates of the local search on each other finalist.
+    other_samples: usize,
 }
 
 impl Budget {
@@ -79,39 +94,60 @@ impl Budget {
             step_samples: count(each, root),
             beam_width: count(width, root),
             local_samples: count(local, factor),
+            other_samples: count(local * OTHER_SHARE, factor),
         }
     }
 }
 
-/// The candidate of least cost.
-pub(super) fn best_candidate(problem: &SearchProblem, settings: &SolveSettings) -> Candidate {
+/// Up to `num` candidates that clearly differ, the one of least cost first. Without a search there is one.
+///
+/// The first is the same for every `num`. The local search spends its samples on the first, and a share of them on each of
+/// the others.
+pub(super) fn best_candidates(problem: &SearchProblem, settings: &SolveSettings, num: usize) -> Vec<Candidate> {
     if settings.level == SolveLevel::Off {
-        return only_candidate(problem);
+        return vec![only_candidate(problem)];
     }
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
+    // The alternatives draw from numbers of their own, so that the best film does not depend on how many there are.
+    let mut other_rng = Pcg64Mcg::seed_from_u64(settings.seed ^ OTHER_STREAM);
     let budget = Budget::of(settings);
     let mut beam = vec![Candidate::default()];
+    let mut others: Vec<Candidate> = Vec::new();
     for index in 0..problem.program.steps.len() {
         let starts_anew = index == 0 || problem.program.steps[index].cut;
         let count = if starts_anew { budget.first_samples } else { budget.step_samples };
-        let mut jobs: Vec<(usize, StepParameters)> = Vec::new();
-        for candidate in 0..beam.len() {
-            let shares = if index == 0 { 1 } else { 1 + beam.len() * usize::from(count == budget.first_samples) };
-            // The first sample is the midpoint of every parameter.
-            jobs.extend(
-                (0..count.div_ceil(shares))
-                    .map(|i| (candidate, if i == 0 { [0.5; NUM_PARAMETERS] } else { sample_parameters(&mut rng) })),
-            );
-        }
-        let mut candidates: Vec<Candidate> = jobs
-            .into_par_iter()
-            .map(|(candidate, parameters)| problem.extended(&beam[candidate], index, parameters))
-            .collect();
+        let shares = if index == 0 { 1 } else { 1 + beam.len() * usize::from(count == budget.first_samples) };
+        let mut candidates = problem.sampled(&beam, index, count.div_ceil(shares), &mut rng);
+        candidates.extend(problem.sampled(
+            &others,
+            index,
+            count.div_ceil(shares).min(budget.step_samples),
+            &mut other_rng,
+        ));
         candidates.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+        others = clearly_distinct(problem.world, &candidates, if num > 1 { SPARE * num } else { 0 });
         beam = distinct(problem.world, candidates, budget.beam_width);
+        others.retain(|other| !beam.iter().any(|kept| kept.parameters == other.parameters));
     }
-    let best = beam.into_iter().next().unwrap_or_default();
-    locally_improved(problem, best, budget.local_samples, &mut rng)
+    beam.extend(others);
+    beam.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let first = beam.first().cloned().unwrap_or_default();
+    let local = LocalSearch { num_samples: budget.local_samples, spread: WIDE_SPREAD, apart_from: &[] };
+    let best = local.improved(problem, first, &mut rng);
+    beam.insert(0, best.clone());
+    let mut improved = vec![best];
+    for other in clearly_distinct(problem.world, &beam, SPARE * num).into_iter().skip(1) {
+        if improved.len() == num.max(1) {
+            break;
+        }
+        let local = LocalSearch { num_samples: budget.other_samples, spread: NARROW_SPREAD, apart_from: &improved };
+        let other = local.improved(problem, other, &mut other_rng);
+        if local.is_apart(problem.world, &other) {
+            improved.push(other);
+        }
+    }
+    improved[1..].sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+    improved
 }
 
 /// The candidate of a film that is not searched.
@@ -130,6 +166,18 @@ fn sample_parameters(rng: &mut impl Rng) -> StepParameters {
 }
 
 impl SearchProblem<'_> {
+    /// `num` samples of one more step for each of some candidates. The first sample is the midpoint of every parameter.
+    fn sampled(&self, before: &[Candidate], index: usize, num: usize, rng: &mut impl Rng) -> Vec<Candidate> {
+        let mut jobs: Vec<(usize, StepParameters)> = Vec::new();
+        for candidate in 0..before.len() {
+            let sample = |i| if i == 0 { [0.5; NUM_PARAMETERS] } else { sample_parameters(rng) };
+            jobs.extend((0..num).map(sample).map(|parameters| (candidate, parameters)));
+        }
+        let extended =
+            |(candidate, parameters): (usize, StepParameters)| self.extended(&before[candidate], index, parameters);
+        jobs.into_par_iter().map(extended).collect()
+    }
+
     /// A candidate with one more step.
     fn extended(&self, candidate: &Candidate, index: usize, parameters: StepParameters) -> Candidate {
         let before = if self.program.steps[index].cut { None } else { candidate.last() };
@@ -161,6 +209,23 @@ impl SearchProblem<'_> {
     }
 }
 
+/// The first `num` of candidates in order of cost that clearly differ from every better one. Candidates that violate more
+/// than the best one are no alternatives.
+fn clearly_distinct(world: &World, candidates: &[Candidate], num: usize) -> Vec<Candidate> {
+    let mut kept: Vec<Candidate> = Vec::new();
+    for candidate in candidates {
+        let is_worse = kept.first().is_some_and(|best| candidate.cost() > best.cost() + MAX_EXCESS);
+        if kept.len() >= num || is_worse {
+            break;
+        }
+        let differs = |other: &Candidate| clearly_differ(world.bounds.size(), &candidate.segments, &other.segments);
+        if kept.iter().all(differs) {
+            kept.push(candidate.clone());
+        }
+    }
+    kept
+}
+
 /// The first `width` candidates that do not end close to where a better one ends.
 fn distinct(world: &World, candidates: Vec<Candidate>, width: usize) -> Vec<Candidate> {
     let apart = 0.015 * world.bounds.size();
@@ -184,19 +249,35 @@ fn distinct(world: &World, candidates: Vec<Candidate>, width: usize) -> Vec<Cand
     kept
 }
 
-/// Local search: each round perturbs one step per sample and keeps the best sample where it lowers the cost.
-fn locally_improved(problem: &SearchProblem, mut best: Candidate, num_samples: usize, rng: &mut Pcg64Mcg) -> Candidate {
-    for round in 0..num_samples / ROUND_SIZE {
-        // The step size falls from a quarter of a parameter's range to a hundredth.
-        let spread = 0.25 * 0.04_f64.powf(round as f64 * ROUND_SIZE as f64 / num_samples as f64);
-        let samples: Vec<(usize, Vec<StepParameters>)> =
-            (0..ROUND_SIZE).map(|_| perturbed(&best.parameters, spread, rng)).collect();
-        let candidates: Vec<Candidate> =
-            samples.par_iter().map(|(kept, parameters)| problem.rebuilt(&best, *kept, parameters)).collect();
-        let better = candidates.into_iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
-        best = better.filter(|better| better.cost() < best.cost() - 1e-9).unwrap_or(best);
+/// A local search: each round perturbs one step per sample and keeps the best sample where it lowers the cost.
+struct LocalSearch<'a> {
+    num_samples: usize,
+    /// Share of a parameter's range that the first samples span. The last ones span a hundredth of the range.
+    spread: f64,
+    /// Films from which the result must clearly differ.
+    apart_from: &'a [Candidate],
+}
+
+impl LocalSearch<'_> {
+    fn improved(&self, problem: &SearchProblem, mut best: Candidate, rng: &mut Pcg64Mcg) -> Candidate {
+        for round in 0..self.num_samples / ROUND_SIZE {
+            let progress = round as f64 * ROUND_SIZE as f64 / self.num_samples as f64;
+            let spread = self.spread * (LAST_SPREAD / self.spread).powf(progress);
+            let samples: Vec<(usize, Vec<StepParameters>)> =
+                (0..ROUND_SIZE).map(|_| perturbed(&best.parameters, spread, rng)).collect();
+            let candidates: Vec<Candidate> =
+                samples.par_iter().map(|(kept, parameters)| problem.rebuilt(&best, *kept, parameters)).collect();
+            let apart = candidates.into_iter().filter(|candidate| self.is_apart(problem.world, candidate));
+            let better = apart.min_by(|a, b| a.cost().total_cmp(&b.cost()));
+            best = better.filter(|better| better.cost() < best.cost() - 1e-9).unwrap_or(best);
+        }
+        best
     }
-    best
+
+    fn is_apart(&self, world: &World, candidate: &Candidate) -> bool {
+        let size = world.bounds.size();
+        self.apart_from.iter().all(|other| clearly_differ(size, &candidate.segments, &other.segments))
+    }
 }
 
 /// The parameters with some of one step changed by up to `spread`, and the index of that step.

@@ -1,3 +1,4 @@
+use super::choose_film::{Critique, FilmChoice};
 use super::error::PipelineError;
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
@@ -31,6 +32,8 @@ pub struct DirectSettings {
     pub solve: SolveLevel,
     /// Which lens effects the shot gets.
     pub effects: EffectChoice,
+    /// How the critic chooses among the films that the search finishes.
+    pub choice: FilmChoice,
 }
 
 impl DirectSettings {
@@ -50,6 +53,7 @@ impl Default for DirectSettings {
             seed: 0,
             solve: SolveLevel::default(),
             effects: EffectChoice::default(),
+            choice: FilmChoice::default(),
         }
     }
 }
@@ -59,6 +63,11 @@ impl Default for DirectSettings {
 pub struct Directed {
     /// The shot.
     pub shot: Shot,
+    /// The best shots that clearly differ, the one in `shot` first; as many as there are, up to
+    /// [`FilmChoice::num_takes`].
+    pub takes: Vec<Shot>,
+    /// What the critic said about the films that it chose from; `None` without a search.
+    pub critique: Option<Critique>,
     /// The steps of the prompt's program, in order.
     pub steps: Vec<StepReading>,
     /// The decision about each effect.
@@ -127,18 +136,29 @@ pub fn direct(
     let dutch_deg = dutch.map(|_| DUTCH_DEG);
     let (level, seed) = (settings.solve, settings.seed);
     let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
-    let solution = times.measure(Phase::Solve, || {
-        cinesplat_operator::realize(&world, &direction.program, prompt, &direction.step_cameras, &solve)
+    let program = &direction.program;
+    let num = settings.choice.num_finalists(level);
+    let mut solutions = times.measure(Phase::Solve, || {
+        cinesplat_operator::finalists(&world, (program, prompt), &direction.step_cameras, &solve, num)
     });
-    let mut shot = shot_of(scene, prompt, solution, settings);
-    let effects = cinesplat_lens::decide(&settings.effects, &calls);
-    shot.model = Some(director.model_ref());
-    shot.effects = effects.iter().filter_map(Decision::request).collect();
-    shot.report.extend(effects.iter().filter_map(Decision::report_line));
-    shot.report.extend(problems.iter().map(Problem::report_line));
+    let critique = times.measure(Phase::Judge, || {
+        super::choose_film::choose_film((scene, &objects, &world), program, &mut solutions, settings)
+    })?;
+    solutions.truncate(settings.choice.num_takes.max(1));
+    let decisions = cinesplat_lens::decide(&settings.effects, &calls);
+    let finished = |solution| {
+        let mut shot = shot_of(scene, prompt, solution, settings);
+        shot.model = Some(director.model_ref());
+        shot.effects = decisions.iter().filter_map(Decision::request).collect();
+        shot.report.extend(decisions.iter().filter_map(Decision::report_line));
+        shot.report.extend(problems.iter().map(Problem::report_line));
+        shot.validated()
+    };
+    let takes: Vec<Shot> = solutions.into_iter().map(finished).collect::<Result<_, _>>()?;
+    let shot = takes[0].clone();
     let steps = readings(prompt, &direction);
     let warnings = linked.warnings;
-    Ok(Directed { shot: shot.validated()?, steps, effects, problems, warnings, times })
+    Ok(Directed { shot, takes, critique, steps, effects: decisions, problems, warnings, times })
 }
 
 /// A shot of solved keyframes, without a director's model and without effects.

@@ -3,6 +3,7 @@
 //! Enters: paths, prompts, settings. Leaves: shots, films, stills and the time per phase. Progress goes to a callback;
 //! nothing is printed. The one invariant: a file under its final name is complete.
 
+mod choose_film;
 mod clearance;
 mod direct;
 mod error;
@@ -13,7 +14,9 @@ mod opened_scene;
 mod phases;
 mod reading;
 mod stills;
+mod takes_sheet;
 
+pub use choose_film::{Critique, FilmChoice};
 pub use clearance::prove_clearance;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
@@ -24,3 +27,4 @@ pub use opened_scene::{OpenedScene, open_scene};
 pub use phases::{Phase, PhaseTimes};
 pub use reading::{Problem, ProblemKind, Reading, read};
 pub use stills::{Still, StillOutputs, still};
+pub use takes_sheet::takes_sheet;

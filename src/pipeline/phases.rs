@@ -16,6 +16,8 @@ pub enum Phase {
     World,
     /// Turning the program into keyframes.
     Solve,
+    /// Looking at the films that the search finished.
+    Judge,
     /// Forecasting cost and accuracy of the film.
     Predict,
     /// Rendering frames.

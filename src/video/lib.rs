@@ -19,6 +19,7 @@ mod film;
 mod pattern;
 mod sequence;
 mod settings;
+mod takes_sheet;
 mod writer;
 
 pub use bt709::{Planes420, planes_from_rgb8};
@@ -28,4 +29,5 @@ pub use error::VideoError;
 pub use pattern::FramePattern;
 pub use sequence::write_png;
 pub use settings::{VideoFormat, VideoSettings, X264Preset};
+pub use takes_sheet::TakesSheet;
 pub use writer::{VideoWriter, check_output, odd_size_note};

@@ -81,6 +81,35 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
 }
 
 #[test]
+fn takes_are_numbered_shots_that_differ_with_one_sheet_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let objects: serde_json::Value =
+        serde_json::from_str(&data(folder.path(), &["objects", SMALL_SCENE, "--json"])).unwrap();
+    let prompt = format!("a static shot of <obj-{}>", objects[0]["id"]);
+    let plan = ["plan", SMALL_SCENE, "-p", &prompt, "-o", "shot.json", "--solve", "fast", "--takes", "2", "--explain"];
+    let explained = data(folder.path(), &plan);
+    assert!(explained.contains("films that clearly differ") && explained.contains("runner-up"), "{explained}");
+    let shot = |number: u32| -> serde_json::Value {
+        serde_json::from_str(&fs::read_to_string(folder.path().join(format!("shot.{number}.json"))).unwrap()).unwrap()
+    };
+    let place = |shot: &serde_json::Value| shot["keyframes"][0]["position"].clone();
+    assert_ne!(place(&shot(1)), place(&shot(2)));
+    for shot in [shot(1), shot(2)] {
+        let lines = shot["report"].as_array().unwrap().clone();
+        assert!(lines.iter().any(|line| line["clause"] == "picture: sharpness"), "{lines:?}");
+    }
+    let sheet = image::open(folder.path().join("shot.takes.png")).unwrap();
+    assert_eq!((sheet.width(), sheet.height()), (6 + 2 * 326, 28 + 5 * 186));
+    let refused = answer(folder.path(), &plan);
+    assert!(refused.starts_with("exit 73") && refused.contains("shot.takes.png"), "{refused}");
+    let one = data(folder.path(), &["plan", SMALL_SCENE, "-p", &prompt, "--json", "--solve", "fast"]);
+    let one: serde_json::Value = serde_json::from_str(&one).unwrap();
+    assert!(one["keyframes"].is_array());
+    let several = answer(folder.path(), &["plan", SMALL_SCENE, "-p", &prompt, "-o", "-", "--takes", "2"]);
+    assert!(several.starts_with("exit 2") && several.contains("several shots and one stdout"), "{several}");
+}
+
+#[test]
 fn the_reproducing_command_names_the_quality_that_was_chosen() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());

@@ -1,3 +1,4 @@
+mod critic;
 #[cfg(feature = "training")]
 mod director;
 mod films;
@@ -16,6 +17,7 @@ Examples:
   cinesplat bench scaling room.spz -o bench
   cinesplat bench films room.spz --cameras cameras.json -o bench
   cinesplat bench operator moves
+  cinesplat bench critic --cases public.jsonl -o critic
   cinesplat bench director -o bench")]
 pub(super) struct Args {
     #[command(subcommand)]
@@ -28,6 +30,7 @@ enum Benchmark {
     Scaling(scaling::Args),
     Films(films::Args),
     Operator(operator::Args),
+    Critic(critic::Args),
     #[cfg(feature = "training")]
     Director(director::Args),
 }
@@ -39,6 +42,7 @@ impl Args {
             Benchmark::Scaling(args) => args.run(),
             Benchmark::Films(args) => args.run(),
             Benchmark::Operator(args) => args.run(),
+            Benchmark::Critic(args) => args.run(),
             #[cfg(feature = "training")]
             Benchmark::Director(args) => args.run(),
         }

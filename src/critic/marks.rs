@@ -1,0 +1,84 @@
+//! The mark of each term.
+
+use super::film::Film;
+use super::limits::{due_sights, is_lost};
+use super::picture::{Picture, Sight};
+use super::resolution::MAX_SPLAT_FRAC;
+use super::terms::Term;
+
+/// Cost up to which every requirement was met during the search; the mark of the margin is 0 there.
+const WORST_COST: f64 = 3.0;
+/// Splat size, over the size that the picture still holds, from which a picture is soup; and that at which it is sharp.
+const SOUP: f64 = 4.0;
+const CRISP: f64 = 0.5;
+/// Mean cosine of a subject's surfaces at which it is seen edge-on, and that of a three-quarter view.
+const EDGE_ON: f64 = 0.1;
+const OPEN_FACED: f64 = 0.45;
+/// Share of the frame from which a subject is large.
+const LARGE: f64 = 0.08;
+/// Ratio of far to near depth of a deep picture.
+const DEEP: f64 = 4.0;
+/// Distance of the detail's middle from the frame's middle, over its width, at which a picture falls to one side.
+const LOPSIDED: f64 = 0.2;
+/// Share of the cells with detail of a rich picture.
+const RICH: f64 = 0.7;
+
+/// The mark of a term, 0..=1; `None` where it says nothing about the film.
+pub(super) fn value(term: Term, film: &Film, pictures: &[Picture]) -> Option<f64> {
+    let over = |of: &dyn Fn(&Picture) -> f64| pictures.iter().map(of).collect::<Vec<f64>>();
+    let due = |of: &dyn Fn(&Sight) -> Option<f64>| -> Option<f64> {
+        mean(&due_sights(film, pictures).filter_map(|(_, sight)| of(sight)).collect::<Vec<f64>>())
+    };
+    let clear = |picture: &Picture, share: f64| if film.wants_foreground(picture.time_secs) { 0.0 } else { share };
+    let value = match term {
+        Term::Void => fault(&over(&|picture| picture.void_frac), 0.5).filter(|_| film.is_indoor),
+        Term::Blocked => fault(&over(&|picture| clear(picture, picture.blocked_frac)), 0.4),
+        Term::Haze => fault(&over(&|picture| clear(picture, picture.haze)), 0.3),
+        Term::Wipe => wipe(&over(&|picture| clear(picture, picture.foreground_frac))),
+        Term::Visible => due(&|sight| Some(sight.seen_frac / 0.9)),
+        Term::Kept => due(&|sight| Some(f64::from(u8::from(is_lost(sight))))).map(|lost| 1.0 - lost / 0.2),
+        Term::Sharp => sharpness(film, pictures),
+        Term::Facing => due(&|sight| Some((sight.facing? - EDGE_ON) / (OPEN_FACED - EDGE_ON))),
+        Term::Presence => due(&|sight| Some((sight.area_frac / LARGE).min(1.0).sqrt())),
+        Term::Exposure => mean(&over(&exposure)),
+        Term::Depth => mean(&over(&|picture| (picture.depth_ratio.ln() / DEEP.ln()).min(1.0))),
+        Term::Balance => mean(&over(&|picture| 1.0 - (picture.balance.x.abs() / LOPSIDED).min(1.0))),
+        Term::Interest => mean(&over(&|picture| (picture.interest_frac / RICH).min(1.0))),
+        Term::Margin => Some(1.0 - film.cost / WORST_COST),
+    };
+    value.map(|value| value.clamp(0.0, 1.0))
+}
+
+/// 1 without a fault, 0 where the mean of average and worst share reaches `worst`.
+fn fault(shares: &[f64], worst: f64) -> Option<f64> {
+    let largest = shares.iter().copied().fold(0.0, f64::max);
+    mean(shares).map(|mean| 1.0 - f64::midpoint(mean, largest) / worst)
+}
+
+/// 1 where the foreground never covers much more than it usually does, 0 where it covers 40 % more.
+fn wipe(shares: &[f64]) -> Option<f64> {
+    let mut sorted = shares.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (middle, largest) = (sorted.get(sorted.len() / 2)?, sorted.last()?);
+    Some(1.0 - (largest - middle) / 0.4)
+}
+
+/// Mean over the pictures, on a logarithmic scale between crisp and soup: of the subjects that should be seen, or else of
+/// the whole picture.
+fn sharpness(film: &Film, pictures: &[Picture]) -> Option<f64> {
+    let holds_px = MAX_SPLAT_FRAC * f64::from(film.size_px[1]);
+    let mark = |px: f64| (1.0 - (px / holds_px / CRISP).ln() / (SOUP / CRISP).ln()).clamp(0.0, 1.0);
+    let subjects: Vec<f64> = due_sights(film, pictures).filter_map(|(_, sight)| sight.splat_px.map(mark)).collect();
+    mean(&subjects).or_else(|| mean(&pictures.iter().map(|picture| mark(picture.splat_px)).collect::<Vec<_>>()))
+}
+
+/// 1 for a picture of middling brightness without clipped parts.
+fn exposure(picture: &Picture) -> f64 {
+    let dark = (0.15 - picture.brightness).max(0.0) / 0.15;
+    let bright = (picture.brightness - 0.8).max(0.0) / 0.2;
+    (1.0 - picture.clipped_frac / 0.3 - dark - bright).clamp(0.0, 1.0)
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}

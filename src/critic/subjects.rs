@@ -1,0 +1,166 @@
+//! The Gaussians of the objects that a film is about.
+
+use glam::DVec3;
+
+use super::painted::Painted;
+use cinesplat_objects::{Object, ObjectSet};
+use cinesplat_scene::{Gaussians, NUM_SH_REST, SOLID_OPACITY};
+
+/// Facets per subject from which the critic tells how its surfaces face the camera.
+const MAX_FACETS: usize = 256;
+/// Opacity below which a Gaussian is not seen.
+const LEAST_OPACITY: f32 = 0.05;
+/// A Gaussian is flat where its shortest axis is shorter than its middle one by this factor.
+const FLATNESS: f32 = 0.5;
+
+/// A Gaussian that is not solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ThinMatter {
+    pub(super) mean: DVec3,
+    /// Opacity times the area of its two longer axes at one standard deviation.
+    pub(super) cover: f64,
+}
+
+/// The objects of a scene that films are about, and the scene prepared for looking at them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Subjects {
+    /// The scene painted with what the critic wants to know.
+    pub(super) painted: Painted,
+    /// Gaussians too thin to be solid.
+    pub(super) thin: Vec<ThinMatter>,
+    /// In the order of the ids that they were made from.
+    pub(super) subjects: Vec<Subject>,
+}
+
+/// One object.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Subject {
+    pub(super) id: u32,
+    pub(super) name: String,
+    pub(super) center: DVec3,
+    pub(super) radius: f64,
+    /// Corners of its box, world.
+    pub(super) corners: [DVec3; 8],
+    /// Its own Gaussians.
+    pub(super) cloud: Gaussians,
+    pub(super) facets: Vec<Facet>,
+}
+
+/// A flat Gaussian: where it is, which way it lies and how large it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Facet {
+    pub(super) mean: DVec3,
+    /// Unit normal of either sign.
+    pub(super) normal: DVec3,
+    pub(super) area: f64,
+}
+
+impl Subjects {
+    /// The objects with these ids. An object has the Gaussians with its label, or else those in its box; a Gaussian of two
+    /// objects belongs to the first. Unknown ids are left out.
+    pub fn new(gaussians: &Gaussians, objects: &ObjectSet, ids: &[u32]) -> Self {
+        let mut labels = vec![0; gaussians.len()];
+        let mut subjects: Vec<Subject> = Vec::new();
+        for object in ids.iter().filter_map(|&id| objects.get(id)) {
+            if subjects.len() >= usize::from(u16::MAX) || subjects.iter().any(|known| known.id == object.id) {
+                continue;
+            }
+            let own = gaussians_of(gaussians, object, &objects.labels);
+            subjects.push(Subject::new(gaussians, object, &own));
+            let label = subjects.len() as u16;
+            own.into_iter().filter(|&i| labels[i] == 0).collect::<Vec<_>>().into_iter().for_each(|i| labels[i] = label);
+        }
+        let sizes: Vec<f32> = (0..gaussians.len()).map(|i| size(gaussians, i)).collect();
+        let painted = Painted::new(gaussians, &sizes, &labels, subjects.len());
+        Self { painted, thin: thin_matter(gaussians), subjects }
+    }
+}
+
+impl Subject {
+    fn new(gaussians: &Gaussians, object: &Object, own: &[usize]) -> Self {
+        let name = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
+        let flat: Vec<Facet> = own.iter().filter_map(|&i| facet(gaussians, i)).collect();
+        let facets = flat.iter().step_by(flat.len().div_ceil(MAX_FACETS).max(1)).copied().collect();
+        Self {
+            id: object.id,
+            name,
+            center: object.center,
+            radius: object.radius(),
+            corners: object.corners(),
+            cloud: selected(gaussians, own),
+            facets,
+        }
+    }
+
+    /// Mean cosine between the normals of the facets and the directions to a camera, by area, 0..=1; about 0.5 for round
+    /// things. `None` where no facet is known.
+    pub(super) fn facing(&self, eye: DVec3) -> Option<f64> {
+        let total: f64 = self.facets.iter().map(|facet| facet.area).sum();
+        let cosine = |facet: &Facet| facet.normal.dot((eye - facet.mean).normalize_or_zero()).abs() * facet.area;
+        (total > 0.0).then(|| self.facets.iter().map(cosine).sum::<f64>() / total)
+    }
+}
+
+fn gaussians_of(gaussians: &Gaussians, object: &Object, labels: &[u16]) -> Vec<usize> {
+    let is_labelled = labels.iter().any(|&label| u32::from(label) == object.id);
+    let belongs = |i: &usize| {
+        if is_labelled {
+            labels.get(*i).is_some_and(|&label| u32::from(label) == object.id)
+        } else {
+            object.contains(gaussians.mean_world(*i), 0.0)
+        }
+    };
+    (0..gaussians.len()).filter(belongs).collect()
+}
+
+/// Some Gaussians of a scene.
+fn selected(gaussians: &Gaussians, own: &[usize]) -> Gaussians {
+    let num_rest = NUM_SH_REST[usize::from(gaussians.sh_degree.min(3))];
+    let rest = |&i: &usize| gaussians.sh_rest[i * num_rest..(i + 1) * num_rest].iter().copied();
+    Gaussians {
+        origin: gaussians.origin,
+        means: own.iter().map(|&i| gaussians.means[i]).collect(),
+        scales: own.iter().map(|&i| gaussians.scales[i]).collect(),
+        rotations: own.iter().map(|&i| gaussians.rotations[i]).collect(),
+        opacities: own.iter().map(|&i| gaussians.opacities[i]).collect(),
+        sh_dc: own.iter().map(|&i| gaussians.sh_dc[i]).collect(),
+        sh_degree: gaussians.sh_degree,
+        sh_rest: own.iter().flat_map(rest).collect(),
+        ids: Vec::new(),
+    }
+}
+
+/// Gaussians between invisible and solid.
+fn thin_matter(gaussians: &Gaussians) -> Vec<ThinMatter> {
+    let is_thin = |i: &usize| (LEAST_OPACITY..SOLID_OPACITY).contains(&gaussians.opacities[*i]);
+    let cover = |i: usize| {
+        let mut scale = gaussians.scales[i].to_array();
+        scale.sort_by(f32::total_cmp);
+        f64::from(gaussians.opacities[i] * scale[1] * scale[2]) * std::f64::consts::PI
+    };
+    (0..gaussians.len())
+        .filter(is_thin)
+        .map(|i| ThinMatter { mean: gaussians.mean_world(i), cover: cover(i) })
+        .collect()
+}
+
+fn facet(gaussians: &Gaussians, i: usize) -> Option<Facet> {
+    let scale = gaussians.scales[i];
+    let shortest = scale.min_position();
+    let [a, b] = [scale[(shortest + 1) % 3], scale[(shortest + 2) % 3]];
+    let is_flat = scale[shortest] < FLATNESS * a.min(b) && gaussians.opacities[i] >= SOLID_OPACITY;
+    let axis = DVec3::AXES[shortest];
+    is_flat.then(|| Facet {
+        mean: gaussians.mean_world(i),
+        normal: gaussians.rotations[i].as_dquat() * axis,
+        area: f64::from(a) * f64::from(b),
+    })
+}
+
+/// Size of the detail that a Gaussian can carry, scene units, above 0: twice its middle standard deviation. That is the
+/// shorter side of a flat one, and the width of a needle.
+fn size(gaussians: &Gaussians, i: usize) -> f32 {
+    let mut scale = gaussians.scales[i].to_array();
+    scale.sort_by(f32::total_cmp);
+    (2.0 * scale[1]).max(f32::MIN_POSITIVE)
+}
