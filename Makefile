@@ -23,7 +23,7 @@ FILM_SCENES := $(if $(wildcard $(DATA)/kitchen/scene.spz),$(DATA)/kitchen/scene.
 	--cameras $(DATA)/golden/kitchen.cameras.json --cameras auto,synth:demo)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps build demo test train bench check-shots gallery clean
+.PHONY: help deps build demo test train bench faults check-shots gallery clean
 
 help:
 	@sed -n 's/^# //p' $(firstword $(MAKEFILE_LIST)) | sed -n '1,/^make   /p'
@@ -77,6 +77,11 @@ bench: build
 	$(BIN) bench scaling synth:tabletop:1 --overwrite -o renders/bench > /dev/null
 	$(BIN) bench films $(FILM_SCENES) --overwrite -o renders/bench > /dev/null
 	$(BIN) bench director --overwrite -o renders/bench > /dev/null
+
+# Kills, stops and starves renders and compares their films with undisturbed ones; prints the table of tests/reliability.md.
+# Takes about half an hour. Needs Python, and a C compiler for the rows of failing writes.
+faults: build
+	python3 tests/faults/run.py $(BIN)
 
 # Checks that the camera does what the prompts say. Plans the cases of ../shared (not part of this repository) with the
 # solver off and full, from the network's programs and from hand-written ones, and runs the checker of ../shared.

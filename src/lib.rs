@@ -115,6 +115,8 @@
 //!   iteration over hash maps, every random number from a seed.
 //! - A shot is validated before the engine uses it ([`trajectory::Shot::validated`]).
 //! - No file is overwritten unless the caller says so ([`files::Existing`]); a file under its final name is complete.
+//! - A film that was stopped, killed or refused by the disk goes on from its finished frames, to the same bytes
+//!   ([`pipeline::JobSettings`]).
 
 pub use cinesplat_critic as critic;
 pub use cinesplat_director as director;

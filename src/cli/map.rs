@@ -56,6 +56,11 @@ impl Args {
     }
 }
 
+/// Checks before any work that the name determines a format.
+pub(super) fn check_name(path: &Path) -> Result<(), Failure> {
+    format_of(path).map(|_| ())
+}
+
 /// Checks before any work that a map can be written.
 pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
     format_of(path)?;
@@ -74,7 +79,7 @@ pub(super) fn write(
         MapFormat::Svg => drawing.to_svg()?.into_bytes(),
         MapFormat::Png => drawing.to_png(PNG_SCALE)?,
     };
-    overwrite.write(path, &bytes)?;
+    overwrite.write_once(path, &bytes)?;
     console::note(&format!("{}: map of the shot", path.display()));
     Ok(())
 }

@@ -14,11 +14,14 @@ mod eval_folders;
 mod explain;
 mod export;
 mod failure;
+mod farm;
+mod film_report;
 mod formats;
 mod heading;
 mod import;
 mod info;
 mod interrupt;
+mod job_args;
 mod map;
 mod objects;
 mod outputs;
@@ -82,6 +85,7 @@ enum Command {
     Plan(plan::Args),
     Render(render::Args),
     Map(map::Args),
+    Farm(farm::Args),
     Still(still::Args),
     Export(export::Args),
     Import(import::Args),
@@ -104,6 +108,7 @@ impl Command {
             Self::Plan(args) => args.run(),
             Self::Render(args) => args.run(),
             Self::Map(args) => args.run(),
+            Self::Farm(args) => args.run(),
             Self::Still(args) => args.run(),
             Self::Export(args) => args.run(),
             Self::Import(args) => args.run(),
@@ -121,6 +126,7 @@ impl Command {
 
 /// Runs the program with its arguments, the program's name first; returns the exit code.
 pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    interrupt::survive_file_limit();
     let ended = match Cli::try_parse_from(arguments) {
         Ok(cli) => {
             console::set_quiet(cli.quiet);

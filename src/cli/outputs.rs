@@ -28,6 +28,11 @@ impl Overwrite {
         if is_stdout(path) { Ok(()) } else { Ok(files::check_free(path, self.existing())?) }
     }
 
+    /// As [`Overwrite::write`]; a file that holds these bytes already is left as it is.
+    pub(super) fn write_once(self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+        if files::holds(path, bytes) { Ok(()) } else { self.write(path, bytes) }
+    }
+
     /// Writes a complete file, or data to standard output.
     pub(super) fn write(self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         if is_stdout(path) { console::data_bytes(bytes) } else { Ok(files::write(path, bytes, self.existing())?) }

@@ -1,29 +1,32 @@
 use super::outputs::Overwrite;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::choice::choice;
 use super::failure::{Exit, Failure};
+use super::film_report;
 use super::interrupt::Interrupt;
+use super::job_args::JobArgs;
 use super::progress::FrameProgress;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, heading, map, outputs, reproduce, takes};
 use cinesplat::export::shot_json;
+use cinesplat::files::{self, Existing, MAX_TEXT_BYTES};
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, FilmReport, FilmSettings, Forecast, FrameRange, Phase, PhaseTimes, Requirements};
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
-use cinesplat::video::{self, VideoSettings, X264Preset};
+use cinesplat::video::{self, VideoFormat, VideoSettings, X264Preset};
 
 /// Render a film from a sentence or a shot
 ///
 /// Predicts time and accuracy first, renders, then prints both as measured and the command that reproduces the film.
-/// Ctrl-C ends after the current frame and keeps the finished frames, those of a film as NAME.partial.EXT. A second
-/// Ctrl-C ends at once.
+/// Finished frames are kept in OUT.job until the film is whole: after Ctrl-C, a full disk or a loss of power the same
+/// command goes on from there. Ctrl-C ends after the current frame, a second one ends at once.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -78,6 +81,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "MAP", help_heading = heading::OUTPUT, hide_short_help = true)]
     map: Option<PathBuf>,
     #[command(flatten)]
+    job: JobArgs,
+    #[command(flatten)]
     overwrite: Overwrite,
 }
 
@@ -102,6 +107,11 @@ struct ShotSource {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
+        self.run_with(Interrupt::default())
+    }
+
+    /// `interrupt` listens already, or starts to when the film does: before that, Ctrl-C ends the program at once.
+    fn run_with(self, interrupt: Interrupt) -> Result<(), Failure> {
         if let Some(file) = &self.source.prompts {
             return self.run_prompts(&prompts_file::read(file)?);
         }
@@ -111,7 +121,36 @@ impl Args {
         let mut times = PhaseTimes::default();
         let (scene, objects, shots) = self.open(&mut times)?;
         let renderer = Renderer::new(&scene.gaussians);
-        self.render_takes((&scene, &objects, &renderer), &shots, (times, start), &Interrupt::listen()?)
+        self.render_takes((&scene, &objects, &renderer), &shots, (times, start), &interrupt.listening()?)
+    }
+
+    /// As [`Args::run`], after several programs have rendered the frames.
+    pub(super) fn run_after(mut self, interrupt: Interrupt) -> Result<(), Failure> {
+        self.job.go_on();
+        self.run_with(interrupt)
+    }
+
+    /// Checks the line before several programs render its film. Returns the output.
+    pub(super) fn check_shared(&self) -> Result<PathBuf, Failure> {
+        let refused = [
+            ("--prompts", self.source.prompts.is_some()),
+            ("--takes", self.shot.takes.is_several()),
+            ("--budget", self.budget.is_some()),
+            ("--min-psnr", self.min_psnr.is_some()),
+            ("--part", self.job.part),
+            ("--no-job", self.job.no_job),
+            ("--frames", self.frames != FrameRange::default()),
+        ];
+        if let Some((flag, _)) = refused.iter().find(|(_, is_given)| *is_given) {
+            return Err(Failure::usage(format!("{flag} with several programs"), "leave it out, or use `render`"));
+        }
+        self.check_outputs()?;
+        Ok(self.output.clone())
+    }
+
+    /// Whether frames of an earlier run are thrown away.
+    pub(super) fn starts_fresh(&self) -> bool {
+        self.job.fresh
     }
 
     /// One film per prompt of a file; scene, director and renderer are prepared once.
@@ -163,8 +202,11 @@ impl Args {
         if !self.shot.takes.is_several() {
             return shots.iter().try_for_each(|shot| render(self, shot));
         }
-        takes::write_sheet((scene, renderer), shots, &self.sheet_of_takes(), self.overwrite.existing())?;
-        (1..).zip(shots).try_for_each(|(number, shot)| render(&self.for_take(number), shot))
+        let existing = if self.takes_go_on() { Existing::Replace } else { self.overwrite.existing() };
+        takes::write_sheet((scene, renderer), shots, &self.sheet_of_takes(), existing)?;
+        let takes: Vec<(Self, &Shot)> = (1..).zip(shots).map(|(number, shot)| (self.for_take(number), shot)).collect();
+        let missing: Vec<_> = takes.iter().filter(|(take, _)| !self.has(take)).collect();
+        missing.into_iter().try_for_each(|(take, shot)| render(take, shot))
     }
 
     /// The arguments that render one prompt of a file.
@@ -187,35 +229,61 @@ impl Args {
         (mut times, start): (PhaseTimes, Instant),
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
-        // A second check, now that size and number of frames are known.
+        // A second check, now that size and number of frames are known. Pictures of a stopped sequence are checked when its
+        // job folder is opened.
         let frames = self.frames.of_film(shot.num_frames())?;
         let video = pipeline::video_of(shot, &frames, &self.encoder());
-        let format = video::check_output(&self.output, &video)?;
+        let is_partly_there = self.job.part || self.job.goes_on(&self.output);
+        let check = if is_partly_there { video::check_format } else { video::check_output };
+        let format = check(&self.output, &video)?;
         if let Some(note) = video::odd_size_note(&format, shot.width, shot.height) {
             console::note(&note);
         }
         if let Some(path) = &self.save_shot {
             let mut saved = shot.clone();
             saved.scene.path = outputs::relative_to(path, &scene.path);
-            self.overwrite.write(path, shot_json::write(&saved).as_bytes())?;
+            self.overwrite.write_once(path, shot_json::write(&saved).as_bytes())?;
         }
         let render = self.picture.settings(scene, Quality::Standard, None, None);
-        let mut settings = FilmSettings { render, video, frames: self.frames, sheet: self.sheet.clone() };
-        let predicted = times.measure(Phase::Predict, || self.predict(renderer, shot, &settings))?;
+        let frames = if self.job.part { FrameRange::default() } else { self.frames };
+        let job = self.job.settings(self.inputs(scene, shot)?);
+        let mut settings = FilmSettings { render, video, frames, sheet: self.sheet.clone(), job };
+        if self.job.part {
+            return self.film(renderer, shot, &settings, interrupt).map(|_report| ());
+        }
+        let predicted = times.measure(Phase::Predict, || self.predict(renderer, shot, &mut settings))?;
         settings.render.quality = predicted.quality;
         let report = self.film(renderer, shot, &settings, interrupt)?;
         times.add(Phase::Render, report.render_time);
+        times.add(Phase::Keep, report.keep_time);
         times.add(Phase::Encode, report.encode_time);
-        print_times(&times, &report, start.elapsed());
+        film_report::print_times(&times, &report, start.elapsed());
         let psnr_db = pipeline::checked_psnr_db(renderer, shot, &settings)?;
-        self.print_comparison(&predicted, &report, psnr_db)?;
+        let summary = film_report::compare(&predicted, &report, psnr_db);
+        if self.json {
+            console::data(&format!("{summary:#}\n"))?;
+        }
         let mut decided = deciding(shot).to_vec();
         if self.requirements() != Requirements::default() {
             // The same requirements may choose another quality on another machine.
             decided.push(("--quality", predicted.quality.as_ref().to_owned()));
         }
         reproduce::print(&decided);
-        finish(&report)
+        Ok(())
+    }
+
+    /// What the frames depend on besides the path and the settings.
+    fn inputs(&self, scene: &Scene, shot: &Shot) -> Result<Vec<(&'static str, String)>, Failure> {
+        let is_file = !scene.sha256.is_empty();
+        let content = if is_file { scene.sha256.clone() } else { scene.path.to_string_lossy().into_owned() };
+        let mut inputs = vec![("scene", content)];
+        if self.source.file.is_none() {
+            let objects = self.shot.objects.as_deref().map(|path| files::read(path, MAX_TEXT_BYTES)).transpose()?;
+            inputs.push(("objects", objects.map(|bytes| files::sha256_hex(&bytes)).unwrap_or_default()));
+            inputs.push(("weights", shot.model.as_ref().map(|model| model.sha256.clone()).unwrap_or_default()));
+            inputs.push(("prompt", shot.prompt.clone()));
+        }
+        Ok(inputs)
     }
 
     /// Refuses wrong outputs before the scene is read.
@@ -229,17 +297,37 @@ impl Args {
                 "leave --takes out, or give a prompt",
             ));
         }
-        self.overwrite.check(&self.sheet_of_takes())?;
-        self.shot.takes.numbers().try_for_each(|number| self.for_take(number).check_own_outputs())
+        if !self.takes_go_on() {
+            self.overwrite.check(&self.sheet_of_takes())?;
+        }
+        let missing = self.shot.takes.numbers().map(|number| self.for_take(number)).filter(|take| !self.has(take));
+        missing.into_iter().try_for_each(|take| take.check_own_outputs())
+    }
+
+    /// Whether an earlier run left frames of one of the takes.
+    fn takes_go_on(&self) -> bool {
+        self.shot.takes.numbers().any(|number| self.job.goes_on(&self.for_take(number).output))
+    }
+
+    /// Whether an earlier run, whose frames are there, finished this take.
+    fn has(&self, take: &Self) -> bool {
+        self.takes_go_on() && take.output.exists() && !take.job.goes_on(&take.output)
     }
 
     /// Refuses wrong outputs of one film.
     fn check_own_outputs(&self) -> Result<(), Failure> {
-        video::check_output(&self.output, &self.encoder())?;
-        for path in self.save_shot.iter().chain(&self.sheet) {
+        let format = video::check_format(&self.output, &self.encoder())?;
+        let goes_on = self.job.goes_on(&self.output);
+        if !matches!(format, VideoFormat::Sequence(_)) || !(goes_on || self.job.part) {
+            video::check_output(&self.output, &self.encoder())?;
+        }
+        self.job.check(&self.output)?;
+        // A stopped film may have written them already; they are written again only if they differ.
+        for path in self.save_shot.iter().chain(&self.sheet).filter(|_| !goes_on) {
             self.overwrite.check(path)?;
         }
-        self.map.as_deref().map_or(Ok(()), |path| map::check(path, self.overwrite))?;
+        let check_map = |path: &Path| if goes_on { map::check_name(path) } else { map::check(path, self.overwrite) };
+        self.map.as_deref().map_or(Ok(()), check_map)?;
         let shot = self.save_shot.as_deref().map(|path| ("--save-shot", path));
         let sheet = self.sheet.as_deref().map(|path| ("--sheet", path));
         let map = self.map.as_deref().map(|path| ("--map", path));
@@ -286,8 +374,12 @@ impl Args {
     }
 
     /// Forecast of the film at the quality that meets the requirements.
-    fn predict(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<Forecast, Failure> {
-        let requirements = self.requirements();
+    fn predict(&self, renderer: &Renderer<'_>, shot: &Shot, settings: &mut FilmSettings) -> Result<Forecast, Failure> {
+        let mut requirements = self.requirements();
+        if let Some(quality) = self.kept_quality().filter(|_| requirements != Requirements::default()) {
+            requirements = Requirements::default();
+            settings.render.quality = quality;
+        }
         let forecast = |qualities: &[Quality]| pipeline::forecast(renderer, shot, &self.output, settings, qualities);
         let forecasts = if requirements == Requirements::default() {
             forecast(&[settings.render.quality])?
@@ -312,36 +404,13 @@ impl Args {
         Ok(predicted)
     }
 
-    /// Prints predicted and measured figures side by side.
-    fn print_comparison(&self, predicted: &Forecast, report: &FilmReport, psnr_db: f64) -> Result<(), Failure> {
-        let measured = report.total_time.as_secs_f64();
-        // A film that was stopped took a share of the predicted time.
-        let share = report.num_frames as f64 / report.num_wanted as f64;
-        let expected = |time: Duration| time.as_secs_f64() * share;
-        let film_secs = expected(predicted.film_time);
-        let off_percent = (measured / film_secs.max(1e-9) - 1.0) * 100.0;
-        let quality = predicted.quality.as_ref();
-        console::note(&format!(
-            "{quality}: filmed in {measured:.2} s (predicted {film_secs:.2} s: {off_percent:+.0} %), {psnr_db:.1} dB \
-             (predicted {:.1} dB)",
-            predicted.psnr_db
-        ));
-        if !self.json {
-            return Ok(());
-        }
-        // JSON has no infinity: null stands for an exact picture. Predicted render and encode times are those of each alone,
-        // measured ones are parallel.
-        let summary = serde_json::json!({
-            "path": report.path.to_string_lossy(), "frames": report.num_frames, "quality": quality,
-            "predicted": {"film_secs": film_secs, "render_secs": expected(predicted.render_time),
-                "encode_secs": expected(predicted.encode_time), "psnr_db": predicted.psnr_db,
-                "worst_psnr_db": predicted.worst_psnr_db, "memory_bytes": predicted.memory_bytes},
-            "measured": {"film_secs": measured, "render_secs": report.render_time.as_secs_f64(),
-                "encode_secs": report.encode_time.as_secs_f64(), "psnr_db": psnr_db},
-        });
-        console::data(&format!("{summary:#}\n"))
+    /// The quality of the frames that are kept: a forecast may choose another one than it did when they were rendered.
+    fn kept_quality(&self) -> Option<Quality> {
+        let is_used = self.job.goes_on(&self.output);
+        pipeline::job_field(&self.output, "quality").filter(|_| is_used)?.parse().ok()
     }
 
+    /// Renders the film, or a part of it into its job folder.
     fn film(
         &self,
         renderer: &Renderer<'_>,
@@ -349,44 +418,50 @@ impl Args {
         settings: &FilmSettings,
         interrupt: &Interrupt,
     ) -> Result<FilmReport, Failure> {
-        let mut bar = FrameProgress::new();
+        let (mut bar, mut said) = (FrameProgress::new(), false);
         let mut watch = |progress: pipeline::FilmProgress| {
+            if progress.num_kept > 0 && !said {
+                said = true;
+                let folder = pipeline::job_folder(&self.output);
+                console::note(&format!("going on: {} finished frames are in {}", progress.num_kept, folder.display()));
+            }
             bar.show(progress.done, progress.total);
             if interrupt.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let report = pipeline::film(renderer, shot, &self.output, settings, &mut watch);
+        let report = if self.job.part {
+            pipeline::film_part(renderer, shot, &self.output, (settings, self.frames), &mut watch)
+        } else {
+            pipeline::film(renderer, shot, &self.output, settings, &mut watch)
+        };
         bar.finish();
-        Ok(report?)
+        let report = report.map_err(|error| self.with_line_to_go_on(error.into()))?;
+        if report.num_damaged > 0 {
+            console::warnings([format!("{} damaged frames were rendered again", report.num_damaged)]);
+        }
+        if report.is_partial() { Err(self.stopped(&report, settings.job.is_some())) } else { Ok(report) }
     }
-}
 
-/// Prints the wall time per phase. Encoding runs beside rendering, so the phases sum to more than the total.
-fn print_times(times: &PhaseTimes, report: &FilmReport, total: Duration) {
-    let phases: Vec<String> =
-        times.iter().map(|(phase, time)| format!("{phase} {:.2} s", time.as_secs_f64())).collect();
-    let rate_fps = report.num_frames as f64 / report.total_time.as_secs_f64().max(1e-9);
-    console::note(&format!(
-        "{}: {} frames; {} (parallel to render); total {:.2} s, film {rate_fps:.1} fps",
-        report.path.display(),
-        report.num_frames,
-        phases.join(", "),
-        total.as_secs_f64()
-    ));
-}
-
-/// A film that was stopped is a failure; its finished frames are kept.
-fn finish(report: &FilmReport) -> Result<(), Failure> {
-    if !report.is_partial() {
-        return Ok(());
+    /// A stopped film is a failure; its finished frames are kept.
+    fn stopped(&self, report: &FilmReport, is_kept: bool) -> Failure {
+        let (place, done, wanted) = (self.output.display(), report.num_frames, report.num_wanted);
+        let found = format!("{place}: stopped after {done} of {wanted} frames");
+        let line = reproduce::line_to_go_on();
+        let (found, help) = if is_kept {
+            let folder = pipeline::job_folder(&self.output);
+            (format!("{found}, which are kept in {}", folder.display()), format!("to go on, type: {line}"))
+        } else {
+            (found, format!("without --no-job the finished frames are kept; to start over, type: {line}"))
+        };
+        Failure::new("STOPPED", found, help, Exit::Stopped)
     }
-    let (done, wanted) = (report.num_frames, report.num_wanted);
-    let found = format!("{}: stopped after {done} of {wanted} frames", report.path.display());
-    Err(Failure::new(
-        "STOPPED",
-        found,
-        format!("render the rest with --frames, from frame {done} of this range on"),
-        Exit::Stopped,
-    ))
+
+    /// The failure, and the line to type once its cause is mended, where finished frames are kept.
+    fn with_line_to_go_on(&self, failure: Failure) -> Failure {
+        if failure.exit() != Exit::Io || !pipeline::has_job(&self.output) {
+            return failure;
+        }
+        failure.with_further_help(&format!("then go on with: {}", reproduce::line_to_go_on()))
+    }
 }
 
 fn parse_time(text: &str) -> Result<Duration, String> {

@@ -7,6 +7,34 @@ pub(super) fn print(deciding: &[(&str, String)]) {
     console::note(&format!("reproduce with: {}", command(std::env::args_os().skip(1), deciding)));
 }
 
+/// The line that goes on with a stopped film: the one that was typed, without the flag that starts anew.
+pub(super) fn line_to_go_on() -> String {
+    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    words.filter(|word| word != "--fresh").map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
+}
+
+/// The words with which one of `num_programs` programs renders a part of the film that this line asks for. `command` is the
+/// subcommand of this line.
+pub(super) fn words_of_part(command: &str, num_programs: usize) -> Vec<String> {
+    let given: Vec<String> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    let own = ["--fresh", "--json", "--keep-frames", "--quiet", "-q"];
+    let own_with_value = ["--local", "--save-shot", "--sheet"];
+    let mut words = vec!["render".to_owned(), "--part".to_owned(), "--quiet".to_owned()];
+    let mut skips = false;
+    for word in given {
+        let name = word.split('=').next().unwrap_or_default();
+        let is_value = std::mem::replace(&mut skips, own_with_value.contains(&word.as_str()));
+        if !(is_value || own.contains(&word.as_str()) || own_with_value.contains(&name) || word == command) {
+            words.push(word);
+        }
+    }
+    if !words.iter().any(|word| word.starts_with("--threads")) {
+        let num_threads = (cinesplat::pipeline::num_cores() / num_programs).max(1);
+        words.extend(["--threads".to_owned(), num_threads.to_string()]);
+    }
+    words
+}
+
 fn command(arguments: impl Iterator<Item = OsString>, deciding: &[(&str, String)]) -> String {
     let given: Vec<String> = arguments.map(|argument| argument.to_string_lossy().into_owned()).collect();
     let given =

@@ -5,17 +5,21 @@
 //! caller passes [`Existing::Replace`].
 
 pub mod base64;
+mod disk;
 mod error;
 mod hash;
+mod moved;
 mod new_file;
 pub mod npy;
 mod paths;
 mod read;
 mod unknown_keys;
 
+pub use disk::{free_bytes, sync_file, sync_folder};
 pub use error::FileError;
-pub use hash::sha256_hex;
-pub use new_file::{Existing, NewFile, check_free, create_folder, write};
+pub use hash::{checksum, sha256_hex};
+pub use moved::move_file;
+pub use new_file::{Existing, NewFile, check_free, create_folder, holds, write};
 pub use paths::{beside, folder_of, relative_to};
 pub use read::{MAX_ARRAY_BYTES, MAX_TEXT_BYTES, read};
 pub use unknown_keys::{UnknownKeys, misspelling};

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
 use crate::FileError;
+use crate::disk::sync_folder;
 use crate::paths::folder_of;
 
 /// What happens to a file that has the output's name already.
@@ -52,9 +53,19 @@ impl NewFile {
             Content::Special(File::options().write(true).open(target).map_err(failed)?)
         } else {
             check_free(target, existing)?;
-            Content::Temporary(temporary(target).map_err(failed)?)
+            Content::Temporary(temporary(target, folder_of(target)).map_err(failed)?)
         };
         Ok(Self { target: target.to_owned(), existing, content })
+    }
+
+    /// As [`NewFile::create`], with the temporary file in another folder on the same disk.
+    ///
+    /// # Errors
+    /// As [`NewFile::create`].
+    pub fn create_in(folder: &Path, target: &Path, existing: Existing) -> Result<Self, FileError> {
+        check_free(target, existing)?;
+        let made = temporary(target, folder).map_err(|source| FileError::Create { path: target.to_owned(), source })?;
+        Ok(Self { target: target.to_owned(), existing, content: Content::Temporary(made) })
     }
 
     /// The file, open for reading and writing.
@@ -73,30 +84,32 @@ impl NewFile {
         }
     }
 
-    /// Flushes the data to the disk, then renames the file to its target in one step.
+    /// Flushes the data to the disk, renames the file to its target in one step, and flushes the name.
     ///
     /// # Errors
     /// [`FileError::Exists`] if another program took the name meanwhile, [`FileError::Write`].
     pub fn commit(self) -> Result<(), FileError> {
+        let Content::Temporary(temporary) = &self.content else { return Ok(()) };
+        let flushed = temporary.as_file().sync_all();
+        flushed.map_err(|source| FileError::Write { path: self.target.clone(), source })?;
         let target = self.target.clone();
-        self.commit_as(&target)
+        self.commit_unflushed()?;
+        sync_folder(folder_of(&target))
     }
 
-    /// As [`NewFile::commit`], under another name in the same folder.
+    /// As [`NewFile::commit`] without flushing: the file survives the end of this program, but not that of the machine.
     ///
     /// # Errors
     /// As [`NewFile::commit`].
-    pub fn commit_as(self, target: &Path) -> Result<(), FileError> {
-        let failed = |source| FileError::Write { path: target.to_owned(), source };
-        let Content::Temporary(temporary) = self.content else { return Ok(()) };
-        temporary.as_file().sync_all().map_err(failed)?;
+    pub fn commit_unflushed(self) -> Result<(), FileError> {
+        let (target, Content::Temporary(temporary)) = (self.target, self.content) else { return Ok(()) };
         let named = match self.existing {
-            Existing::Replace => temporary.persist(target),
-            Existing::Keep => temporary.persist_noclobber(target),
+            Existing::Replace => temporary.persist(&target),
+            Existing::Keep => temporary.persist_noclobber(&target),
         };
         named.map(drop).map_err(|error| match error.error.kind() {
-            ErrorKind::AlreadyExists => FileError::Exists { path: target.to_owned() },
-            _ => failed(error.error),
+            ErrorKind::AlreadyExists => FileError::Exists { path: target },
+            _ => FileError::Write { path: target, source: error.error },
         })
     }
 }
@@ -109,6 +122,12 @@ pub fn write(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), FileEr
     let new = NewFile::create(path, existing)?;
     new.file().write_all(bytes).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
     new.commit()
+}
+
+/// Whether a file exists and holds exactly these bytes. A file that cannot be read holds others.
+pub fn holds(path: &Path, bytes: &[u8]) -> bool {
+    fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() == bytes.len() as u64)
+        && fs::read(path).is_ok_and(|found| found == bytes)
 }
 
 /// Creates a folder and those above it where they are missing.
@@ -126,7 +145,7 @@ pub fn create_folder(folder: &Path) -> Result<(), FileError> {
 pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
     let refuse =
         |kind, reason: &str| Err(FileError::Create { path: path.to_owned(), source: io::Error::new(kind, reason) });
-    if path.is_dir() {
+    if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return refuse(ErrorKind::IsADirectory, "it is a folder, expected a file name");
     }
     if existing == Existing::Keep && fs::symlink_metadata(path).is_ok() && !is_special(path) {
@@ -141,12 +160,12 @@ pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
 }
 
 /// Whether a path leads to a device, a pipe or a socket.
-fn is_special(path: &Path) -> bool {
+pub(crate) fn is_special(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
 }
 
-/// A new file in the target's folder whose name no other process has, with the permissions that any new file gets.
-fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+/// A new file whose name no other process has, with the permissions that any new file gets.
+fn temporary(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     let mut prefix = std::ffi::OsString::from(".");
     prefix.push(target.file_name().unwrap_or_default());
     prefix.push(".");
@@ -154,5 +173,5 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     builder.prefix(&prefix).suffix(".part");
     #[cfg(unix)]
     builder.permissions(<Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
-    builder.tempfile_in(folder_of(target))
+    builder.tempfile_in(folder)
 }

@@ -1,5 +1,6 @@
 use thiserror::Error;
 
+use super::job::JobError;
 use cinesplat_director::DirectorError;
 use cinesplat_export::ExportError;
 use cinesplat_geometry::GeometryError;
@@ -40,6 +41,9 @@ pub enum PipelineError {
     /// The film cannot be written.
     #[error(transparent)]
     Video(#[from] VideoError),
+    /// The job folder of a film cannot be used.
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// No generated scene has this name.
     #[error("{found}: unknown generated scene, expected synth:demo, synth:room:SEED or synth:tabletop:SEED")]
     UnknownSynth {
@@ -79,6 +83,7 @@ impl PipelineError {
             Self::Export(error) => error.code(),
             Self::Render(error) => error.code(),
             Self::Video(error) => error.code(),
+            Self::Job(error) => error.code(),
             Self::UnknownSynth { .. } => "SCENE-SYNTH",
             Self::NoSuchFrames { .. } => "SHOT-FRAMES",
             Self::Unreachable { .. } => "COST-BUDGET",

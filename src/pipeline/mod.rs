@@ -1,7 +1,8 @@
 //! Runs the stages in order: scene and sentence to shot, shot to film.
 //!
 //! Enters: paths, prompts, settings. Leaves: shots, films, stills and the time per phase. Progress goes to a callback;
-//! nothing is printed. The one invariant: a file under its final name is complete.
+//! nothing is printed. The one invariant: a file under its final name is complete. A film's finished frames outlive the
+//! program that rendered them.
 
 mod choose_film;
 mod clearance;
@@ -10,6 +11,7 @@ mod error;
 mod film;
 mod forecast;
 mod frames;
+mod job;
 mod opened_scene;
 mod phases;
 mod reading;
@@ -20,9 +22,10 @@ pub use choose_film::{Critique, FilmChoice};
 pub use clearance::prove_clearance;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
-pub use film::{FilmProgress, FilmReport, FilmSettings, camera_at, film, video_of};
+pub use film::{FilmProgress, FilmReport, FilmSettings, camera_at, film, film_part, video_of};
 pub use forecast::{FilmCost, Forecast, Requirements, TimeCost, checked_psnr_db, choose, forecast, num_cores};
 pub use frames::FrameRange;
+pub use job::{JobError, JobSettings, JobStart, check_job, clear_job, has_job, job_field, job_folder, job_progress};
 pub use opened_scene::{OpenedScene, open_scene};
 pub use phases::{Phase, PhaseTimes};
 pub use reading::{Problem, ProblemKind, Reading, read};

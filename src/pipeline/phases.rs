@@ -22,6 +22,8 @@ pub enum Phase {
     Predict,
     /// Rendering frames.
     Render,
+    /// Keeping finished frames in the job folder.
+    Keep,
     /// Encoding frames.
     Encode,
 }

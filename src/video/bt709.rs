@@ -30,6 +30,47 @@ pub struct Planes420 {
     pub cr: Vec<u8>,
 }
 
+impl Planes420 {
+    /// Planes of `width` x `height` codes, both even, from their bytes one after the other: luma, blue, red. `None` for
+    /// another number of bytes.
+    pub fn from_bytes(bytes: &[u8], width: usize, height: usize) -> Option<Self> {
+        let (luma, quarter) = (width * height, width * height / 4);
+        if bytes.len() != luma + 2 * quarter {
+            return None;
+        }
+        let (y, chroma) = bytes.split_at(luma);
+        let (cb, cr) = chroma.split_at(quarter);
+        Some(Self { width, height, y: y.to_owned(), cb: cb.to_owned(), cr: cr.to_owned() })
+    }
+
+    /// The planes, in the order in which [`Planes420::from_bytes`] reads them.
+    pub fn parts(&self) -> [&[u8]; 3] {
+        [&self.y, &self.cb, &self.cr]
+    }
+
+    /// Bytes of all planes.
+    pub fn num_bytes(&self) -> usize {
+        self.parts().iter().map(|part| part.len()).sum()
+    }
+
+    /// The picture as `width` x `height` pixels of r, g, b; every chroma sample colors the four pixels it was made for.
+    pub fn to_rgb8(&self) -> Vec<u8> {
+        let mut rgb8 = Vec::with_capacity(self.width * self.height * 3);
+        for row in 0..self.height {
+            for column in 0..self.width {
+                let chroma_at = row / 2 * (self.width / 2) + column / 2;
+                let luma = (f32::from(self.y[row * self.width + column]) - 16.0) / 219.0;
+                let [blue, red] = [&self.cb, &self.cr].map(|plane| (f32::from(plane[chroma_at]) - 128.0) / 224.0);
+                let (r, b) = (luma + 1.5748 * red, luma + 1.8556 * blue);
+                let g = (luma - 0.2126 * r - 0.0722 * b) / 0.7152;
+                // The cast saturates at 0 and 255.
+                rgb8.extend([r, g, b].map(|value| (value * 255.0).round() as u8));
+            }
+        }
+        rgb8
+    }
+}
+
 /// Weights of one output plane on r, g, b in fixed point, for sums of `1 << scale_bits` pixels.
 struct Weights {
     rgb: [i32; 3],

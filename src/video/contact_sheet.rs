@@ -2,7 +2,7 @@ use std::path::Path;
 
 use cinesplat_files::Existing;
 
-use super::{VideoError, write_png};
+use super::{Planes420, VideoError, encode_png};
 
 /// Columns and rows of thumbnails.
 const GRID: (usize, usize) = (4, 3);
@@ -53,13 +53,35 @@ impl ContactSheet {
         }
     }
 
-    /// Writes the sheet.
+    /// As [`ContactSheet::add_frame`], for a frame as the encoders take it. An odd picture has its last column or row twice.
+    pub fn add_planes(&mut self, frame_idx: usize, planes: &Planes420) {
+        if !self.shows(frame_idx) {
+            return;
+        }
+        let rgb8 = planes.to_rgb8();
+        let rows = rgb8.chunks_exact(planes.width * 3).take(self.size.1);
+        let cropped: Vec<u8> = rows.flat_map(|row| &row[..self.size.0 * 3]).copied().collect();
+        self.add_frame(frame_idx, &cropped);
+    }
+
+    /// Whether frame `frame_idx` is on the sheet.
+    pub fn shows(&self, frame_idx: usize) -> bool {
+        self.frame_of_cell.contains(&frame_idx)
+    }
+
+    /// The frames on the sheet.
+    pub fn shown_frames(&self) -> impl Iterator<Item = usize> {
+        self.frame_of_cell.iter().copied()
+    }
+
+    /// Writes the sheet. A file that holds the same sheet already is left as it is.
     ///
     /// # Errors
-    /// As [`write_png`].
+    /// As [`super::write_png`].
     pub fn write(&self, path: &Path, existing: Existing) -> Result<(), VideoError> {
         let (width, height) = self.sheet_size();
-        write_png(path, &self.rgb8, [width as u32, height as u32], existing)
+        let bytes = encode_png(&self.rgb8, [width as u32, height as u32])?;
+        if cinesplat_files::holds(path, &bytes) { Ok(()) } else { Ok(cinesplat_files::write(path, &bytes, existing)?) }
     }
 
     fn sheet_size(&self) -> (usize, usize) {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::film;
-use super::sequence::png_bytes;
+use super::sequence::encode_png;
 use super::settings::NUM_THREADS;
 use super::{VideoError, VideoFormat, VideoSettings, X264Preset};
 
@@ -23,7 +23,7 @@ pub fn encode_and_discard(path: &Path, settings: &VideoSettings, frames: &[&[u8]
     }
     match VideoFormat::from_path(path)? {
         VideoFormat::Sequence(_) => {
-            frames.iter().try_for_each(|rgb8| png_bytes(path, rgb8, settings.width, settings.height).map(|_bytes| ()))
+            frames.iter().try_for_each(|rgb8| encode_png(rgb8, [settings.width, settings.height]).map(|_bytes| ()))
         }
         format => film::encode_and_discard(path, &format, settings, frames),
     }

@@ -53,6 +53,12 @@ pub enum VideoError {
         /// The output.
         path: PathBuf,
     },
+    /// A picture cannot be encoded as PNG.
+    #[error("encoding a PNG failed: {message}")]
+    Png {
+        /// The encoder's message.
+        message: String,
+    },
     /// A frame of the wrong number of bytes.
     #[error("a frame has {found} bytes, expected {expected}")]
     FrameSize {
@@ -83,6 +89,7 @@ impl VideoError {
             Self::Missing { .. } => "VIDEO-ENCODER",
             Self::File(error) => error.code(),
             Self::Ffmpeg { .. } => "VIDEO-FFMPEG",
+            Self::Png { .. } => "VIDEO-PNG",
             Self::FrameSize { .. } => "VIDEO-FRAME",
             Self::ReadBack { .. } => "VIDEO-READBACK",
         }
@@ -97,7 +104,7 @@ impl VideoError {
             | Self::Ffmpeg { path, .. }
             | Self::ReadBack { path, .. } => Some(path),
             Self::File(error) => Some(error.path()),
-            Self::BadSetting { .. } | Self::FrameSize { .. } => None,
+            Self::BadSetting { .. } | Self::Png { .. } | Self::FrameSize { .. } => None,
         }
     }
 }

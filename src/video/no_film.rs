@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{VideoError, VideoFormat, VideoSettings};
+use super::{Planes420, VideoError, VideoFormat, VideoSettings};
 
 /// Cannot be constructed: there is no encoder.
 pub(crate) enum FilmEncoder {}
@@ -12,11 +12,11 @@ impl FilmEncoder {
         Err(no_ffmpeg(path))
     }
 
-    pub(crate) fn write_frame(&mut self, _rgb8: &[u8]) -> Result<(), VideoError> {
+    pub(crate) fn write_planes(&mut self, _planes: &Planes420) -> Result<(), VideoError> {
         match *self {}
     }
 
-    pub(crate) fn finish(self, _target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
+    pub(crate) fn finish(self) -> Result<PathBuf, VideoError> {
         match self {}
     }
 }

@@ -57,7 +57,7 @@ impl FramePattern {
     }
 
     /// The folder of all frames; empty for the working folder.
-    pub(super) fn folder(&self) -> &Path {
+    pub fn folder(&self) -> &Path {
         &self.folder
     }
 }

@@ -1,7 +1,7 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use cinesplat_files::{Existing, FileError, create_folder};
+use cinesplat_files::{Existing, create_folder};
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 
 use super::{FramePattern, VideoError, VideoSettings};
@@ -42,12 +42,14 @@ impl SequenceWriter {
 /// [`VideoError::FrameSize`] unless `rgb8` holds `width * height * 3` bytes, [`VideoError::File`] with the system's
 /// reason.
 pub fn write_png(path: &Path, rgb8: &[u8], size_px: [u32; 2], existing: Existing) -> Result<(), VideoError> {
-    let bytes = png_bytes(path, rgb8, size_px[0], size_px[1])?;
-    Ok(cinesplat_files::write(path, &bytes, existing)?)
+    Ok(cinesplat_files::write(path, &encode_png(rgb8, size_px)?, existing)?)
 }
 
-/// One 8-bit RGB picture as the bytes of a PNG file; `path` is for messages.
-pub(super) fn png_bytes(path: &Path, rgb8: &[u8], width: u32, height: u32) -> Result<Vec<u8>, VideoError> {
+/// One 8-bit RGB picture of `[width, height]` pixels as the bytes of a PNG file.
+///
+/// # Errors
+/// [`VideoError::FrameSize`] unless `rgb8` holds `width * height * 3` bytes, [`VideoError::Png`] if it cannot be encoded.
+pub fn encode_png(rgb8: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, VideoError> {
     let expected = width as usize * height as usize * 3;
     if rgb8.len() != expected {
         return Err(VideoError::FrameSize { found: rgb8.len(), expected });
@@ -55,10 +57,12 @@ pub(super) fn png_bytes(path: &Path, rgb8: &[u8], width: u32, height: u32) -> Re
     let mut bytes = Cursor::new(Vec::new());
     let encoder = png::PngEncoder::new_with_quality(&mut bytes, png::CompressionType::Fast, png::FilterType::Adaptive);
     let encoded = encoder.write_image(rgb8, width, height, ExtendedColorType::Rgb8);
-    encoded.map_err(|error| writing(path, std::io::Error::other(error)))?;
+    encoded.map_err(|error| VideoError::Png { message: error.to_string() })?;
     Ok(bytes.into_inner())
 }
 
-fn writing(path: &Path, source: std::io::Error) -> VideoError {
-    FileError::Write { path: path.to_owned(), source }.into()
+/// The pixels of a PNG that [`encode_png`] made; `None` for other bytes.
+pub fn decode_png(bytes: &[u8]) -> Option<Vec<u8>> {
+    let picture = image::load_from_memory_with_format(bytes, image::ImageFormat::Png).ok()?;
+    Some(picture.into_rgb8().into_raw())
 }

@@ -2,6 +2,7 @@ use std::path::Path;
 
 use cinesplat_files::Existing;
 
+use super::bt709::{Planes420, planes_from_rgb8};
 use super::{FramePattern, VideoError};
 
 /// Encoder threads. x264 writes their number into the file; a constant keeps the bytes the same on every machine.
@@ -49,6 +50,16 @@ impl VideoSettings {
     /// Bytes of one frame: width x height x 3.
     pub fn frame_bytes(&self) -> usize {
         self.width as usize * self.height as usize * 3
+    }
+
+    /// A frame (`width * height * 3` bytes, row-major, r g b) as the encoders take it.
+    pub fn planes_of(&self, rgb8: &[u8]) -> Planes420 {
+        planes_from_rgb8(rgb8, self.width as usize, self.height as usize)
+    }
+
+    /// Bytes of one frame as the encoders take it.
+    pub fn planes_bytes(&self) -> usize {
+        self.width.next_multiple_of(2) as usize * self.height.next_multiple_of(2) as usize * 3 / 2
     }
 
     /// The settings, checked for `format`.
@@ -124,6 +135,17 @@ impl VideoFormat {
             "webm" => Ok(Self::WebM),
             "png" => FramePattern::parse(path).map(Self::Sequence),
             _ => Err(VideoError::UnknownFormat { found: extension, path: path.to_owned() }),
+        }
+    }
+
+    /// The extension of its files, without a dot.
+    pub fn extension(&self) -> &'static str {
+        match self {
+            Self::Mp4 => "mp4",
+            Self::Mkv => "mkv",
+            Self::Mov => "mov",
+            Self::WebM => "webm",
+            Self::Sequence(_) => "png",
         }
     }
 

@@ -4,7 +4,7 @@ use cinesplat_files::check_free;
 
 use super::film::{self, FilmEncoder};
 use super::sequence::SequenceWriter;
-use super::{VideoError, VideoFormat, VideoSettings};
+use super::{Planes420, VideoError, VideoFormat, VideoSettings};
 
 /// Writes frames to one film file or to a numbered sequence of pictures.
 ///
@@ -48,8 +48,22 @@ impl VideoWriter {
             return Err(VideoError::FrameSize { found: rgb8.len(), expected });
         }
         match &mut self.sink {
-            Sink::Film(film) => film.write_frame(rgb8)?,
+            Sink::Film(film) => film.write_planes(&self.settings.planes_of(rgb8))?,
             Sink::Sequence(sequence) => sequence.write_frame(rgb8)?,
+        }
+        self.num_written += 1;
+        Ok(())
+    }
+
+    /// Adds one frame of a film as [`VideoSettings::planes_of`] converts it.
+    ///
+    /// # Errors
+    /// As [`VideoWriter::write_frame`]; [`VideoError::FrameSize`] also for a picture sequence, which has no such frames.
+    pub fn write_planes(&mut self, planes: &Planes420) -> Result<(), VideoError> {
+        let (found, expected) = (planes.num_bytes(), self.settings.planes_bytes());
+        match &mut self.sink {
+            Sink::Film(film) if found == expected => film.write_planes(planes)?,
+            _ => return Err(VideoError::FrameSize { found, expected }),
         }
         self.num_written += 1;
         Ok(())
@@ -67,18 +81,7 @@ impl VideoWriter {
     /// fails, [`VideoError::File`] if the file cannot be written or named.
     pub fn finish(self) -> Result<PathBuf, VideoError> {
         match self.sink {
-            Sink::Film(film) => film.finish(None),
-            Sink::Sequence(sequence) => Ok(sequence.finish()),
-        }
-    }
-
-    /// As [`VideoWriter::finish`] for an incomplete film: names it `NAME.partial.EXT`.
-    ///
-    /// # Errors
-    /// As [`VideoWriter::finish`].
-    pub fn finish_partial(self, path: &Path) -> Result<PathBuf, VideoError> {
-        match self.sink {
-            Sink::Film(film) => film.finish(Some(partial_name(path))),
+            Sink::Film(film) => film.finish(),
             Sink::Sequence(sequence) => Ok(sequence.finish()),
         }
     }
@@ -87,17 +90,9 @@ impl VideoWriter {
 /// Checks an output without creating it, and returns its format.
 ///
 /// # Errors
-/// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::BadSetting`] for a setting
-/// out of range, [`VideoError::Missing`] without the encoder, [`VideoError::File`] for an existing output that must not
-/// be replaced.
+/// Those of [`check_format`]; [`VideoError::File`] for an existing output that must not be replaced.
 pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat, VideoError> {
-    let format = VideoFormat::from_path(path)?;
-    settings.clone().validated(&format)?;
-    if let Some((_, codec_name)) = format.ffmpeg_names()
-        && !film::has_encoder(codec_name)
-    {
-        return Err(VideoError::Missing { missing: codec_name.to_owned(), path: path.to_owned() });
-    }
+    let format = check_format(path, settings)?;
     match &format {
         VideoFormat::Sequence(pattern) if !pattern.folder().exists() => {}
         VideoFormat::Sequence(pattern) => {
@@ -111,11 +106,20 @@ pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat
     Ok(format)
 }
 
-fn partial_name(path: &Path) -> PathBuf {
-    let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(".partial.");
-    name.push(path.extension().unwrap_or_default());
-    path.with_file_name(name)
+/// Checks name, settings and encoder of an output, and returns its format.
+///
+/// # Errors
+/// [`VideoError::UnknownFormat`] or [`VideoError::BadPattern`] for the name, [`VideoError::BadSetting`] for a setting
+/// out of range, [`VideoError::Missing`] without the encoder.
+pub fn check_format(path: &Path, settings: &VideoSettings) -> Result<VideoFormat, VideoError> {
+    let format = VideoFormat::from_path(path)?;
+    settings.clone().validated(&format)?;
+    if let Some((_, codec_name)) = format.ffmpeg_names()
+        && !film::has_encoder(codec_name)
+    {
+        return Err(VideoError::Missing { missing: codec_name.to_owned(), path: path.to_owned() });
+    }
+    Ok(format)
 }
 
 /// A note for the user if the format cannot hold this odd size: the film is one pixel wider or higher.

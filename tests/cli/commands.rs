@@ -18,6 +18,7 @@ fn help_shows_every_command_and_examples() {
       plan         Turn a sentence into keyframes
       render       Render a film from a sentence or a shot
       map          Draw a shot in its scene, from above and from the side
+      farm         Render a film with several programs over one job folder
       still        Render still pictures from given cameras
       export       Write a shot's camera path for another program
       import       Turn another program's camera path into a shot
@@ -82,7 +83,7 @@ fn help_shows_every_command_and_examples() {
 fn short_help_fits_on_a_screen_and_long_help_says_more() {
     let folder = tempfile::tempdir().unwrap();
     let commands =
-        ["info", "objects", "plan", "render", "map", "still", "export", "import", "eval", "train", "dataset", "bench"];
+        ["info", "objects", "plan", "render", "map", "farm", "still", "export", "import", "eval", "train", "dataset", "bench"];
     for command in commands {
         let (short, long) = (data(folder.path(), &[command, "-h"]), data(folder.path(), &[command, "--help"]));
         assert!(short.lines().count() <= 40, "{command}: {} lines", short.lines().count());

@@ -1,5 +1,4 @@
 use std::fs;
-use std::process::{Command, Stdio};
 
 use super::{SMALL_SCENE, answer, data, run, write_shot};
 
@@ -122,42 +121,6 @@ fn the_reproducing_command_names_the_quality_that_was_chosen() {
     assert!(command.starts_with(&start), "{command}");
     assert!(command.contains("--quality ") && !command.contains("--min-psnr"), "{command}");
     assert!(command.contains("--size 64x36") && command.contains("--seed 0"), "{command}");
-}
-
-#[cfg(unix)]
-#[test]
-fn an_interrupted_film_is_kept_under_another_name() {
-    let folder = tempfile::tempdir().unwrap();
-    write_shot(folder.path());
-    let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
-    fs::write(folder.path().join("shot.json"), text.replace(r#""fps":8"#, r#""fps":1000"#)).unwrap();
-    let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
-    program.args([
-        "render",
-        SMALL_SCENE,
-        "--shot",
-        "shot.json",
-        "-o",
-        "film.mkv",
-        "--size",
-        "640x360",
-        "--duration",
-        "100",
-    ]);
-    let mut film = program.current_dir(folder.path()).stderr(Stdio::piped()).spawn().unwrap();
-    // The temporary file shows that rendering has started.
-    let has_begun =
-        || fs::read_dir(folder.path()).unwrap().any(|e| e.unwrap().file_name().to_string_lossy().ends_with(".part"));
-    while !has_begun() {
-        assert!(film.try_wait().unwrap().is_none(), "the film ended before the interrupt");
-        std::thread::yield_now();
-    }
-    assert!(Command::new("kill").args(["-INT", &film.id().to_string()]).status().unwrap().success());
-    let output = film.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(75), "{said}");
-    assert!(said.contains("error[STOPPED]: film.partial.mkv: stopped after"), "{said}");
-    assert!(folder.path().join("film.partial.mkv").exists() && !folder.path().join("film.mkv").exists());
 }
 
 /// Both used to be made without a word.

@@ -5,6 +5,7 @@ mod errors;
 mod films;
 mod map;
 mod read;
+mod resume;
 
 use std::ffi::OsStr;
 use std::path::Path;

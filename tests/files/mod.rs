@@ -4,7 +4,10 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-use cinesplat::files::{Existing, FileError, NewFile, beside, check_free, npy, read, relative_to, sha256_hex, write};
+use cinesplat::files::{
+    Existing, FileError, NewFile, beside, check_free, checksum, holds, move_file, npy, read, relative_to, sha256_hex,
+    write,
+};
 
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
@@ -154,4 +157,35 @@ fn a_file_above_the_limit_is_refused() {
     let error = read(&path, 4).unwrap_err();
     assert_eq!(error.code(), "FILE-SIZE");
     assert!(error.to_string().ends_with("a.txt: the file has 5 bytes, expected at most 4"), "{error}");
+}
+
+#[test]
+fn checksums_are_those_of_the_specification() {
+    // Test vectors of XXH64 with seed 0, from its specification.
+    assert_eq!(checksum(&[]), 0xEF46_DB37_51D8_E999);
+    assert_eq!(checksum(&[b"abc"]), 0x44BC_2CF5_AD77_0999);
+    assert_eq!(checksum(&[b"a", b"", b"bc"]), checksum(&[b"abc"]));
+}
+
+#[test]
+fn a_file_is_moved_to_a_free_name_or_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let [from, to] = ["from", "to"].map(|name| folder.path().join(name));
+    fs::write(&from, "new").unwrap();
+    fs::write(&to, "old").unwrap();
+    assert!(matches!(move_file(&from, &to, Existing::Keep), Err(FileError::Exists { .. })));
+    assert!(matches!(move_file(&from, &to.join("x"), Existing::Keep), Err(FileError::Write { .. })));
+    assert_eq!((fs::read(&from).unwrap(), fs::read(&to).unwrap()), (b"new".to_vec(), b"old".to_vec()));
+    move_file(&from, &to, Existing::Replace).unwrap();
+    assert_eq!(names(folder.path()), ["to"]);
+    assert!(holds(&to, b"new") && !holds(&to, b"old") && !holds(&to, b"newer") && !holds(&from, b"new"));
+    move_file(&to, &from, Existing::Keep).unwrap();
+    assert_eq!(names(folder.path()), ["from"]);
+}
+
+#[test]
+fn a_name_that_ends_in_a_slash_is_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = format!("{}/new.mp4/", folder.path().display());
+    assert!(matches!(check_free(Path::new(&path), Existing::Keep), Err(FileError::Create { .. })));
 }

@@ -22,6 +22,15 @@ fn color_bars_have_the_codes_of_the_standard() {
 }
 
 #[test]
+fn pixels_come_back_from_planes() {
+    for (rgb, _) in BARS {
+        let back = planes_from_rgb8(&rgb.repeat(16), 4, 4).to_rgb8();
+        let farthest = back.iter().zip(rgb.repeat(16)).map(|(found, exact)| found.abs_diff(exact)).max();
+        assert!(farthest <= Some(2), "{rgb:?}: {:?}", &back[..3]);
+    }
+}
+
+#[test]
 fn every_gray_stays_gray() {
     for gray in 0..=255_u8 {
         let planes = planes_from_rgb8(&[gray; 12], 2, 2);

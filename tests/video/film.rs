@@ -3,7 +3,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use cinesplat::video::{VideoError, VideoSettings, VideoWriter};
+use cinesplat::video::{Planes420, VideoError, VideoSettings, VideoWriter};
 use ffmpeg_next::{codec, color, format, frame, media};
 
 use super::test_frame;
@@ -226,15 +226,25 @@ fn a_dropped_writer_leaves_no_file() {
 }
 
 #[test]
-fn an_incomplete_film_has_partial_in_its_name() {
+fn planes_and_pixels_give_the_same_film() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("film.mp4");
-    let mut writer = VideoWriter::create(&path, &settings(9)).unwrap();
-    (0..5).for_each(|i| writer.write_frame(&test_frame(SIZE.0, SIZE.1, i)).unwrap());
-    let made = writer.finish_partial(&path).unwrap();
-    assert_eq!(made, folder.path().join("film.partial.mp4"));
-    assert_eq!(decode(&made).pictures.len(), 5);
-    assert!(!path.exists());
+    // An odd size: the planes are one column wider.
+    let settings = VideoSettings { width: 65, height: 35, num_frames: 4, ..VideoSettings::default() };
+    let path = folder.path().join("planes.mp4");
+    let mut writer = VideoWriter::create(&path, &settings).unwrap();
+    for frame_idx in 0..4 {
+        let planes = settings.planes_of(&test_frame(65, 35, frame_idx));
+        let bytes = planes.parts().concat();
+        assert_eq!(bytes.len(), settings.planes_bytes());
+        assert_eq!(Planes420::from_bytes(&bytes, 66, 36), Some(planes.clone()));
+        writer.write_planes(&planes).unwrap();
+    }
+    let small = VideoSettings { width: 64, ..settings.clone() }.planes_of(&test_frame(64, 35, 0));
+    assert!(matches!(writer.write_planes(&small), Err(VideoError::FrameSize { .. })));
+    writer.finish().unwrap();
+    let pixels = folder.path().join("pixels.mp4");
+    write_film(&pixels, &settings, 4).unwrap();
+    assert!(fs::read(path).unwrap() == fs::read(pixels).unwrap());
 }
 
 #[test]

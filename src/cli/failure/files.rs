@@ -13,13 +13,20 @@ impl From<FileError> for Failure {
             FileError::Create { source, .. } if source.kind() == ErrorKind::IsADirectory => {
                 (Exit::CannotCreate, "name a file in it")
             }
+            FileError::Create { source, .. } if is_disk_full(source) => (Exit::Io, "free space on the disk"),
             FileError::Create { .. } => (Exit::CannotCreate, "create the folder, or choose one that you may write to"),
             FileError::Read { source, .. } if source.kind() == ErrorKind::NotFound => (Exit::NoInput, "check the path"),
             FileError::Read { .. } => (Exit::Io, "check the path and its permissions"),
             FileError::NotAFile { .. } => (Exit::BadData, "save the data to a file, and name that file"),
             FileError::TooLarge { .. } => (Exit::OverCap, "is this the right file?"),
+            FileError::Write { source, .. } if is_disk_full(source) => (Exit::Io, "free space on the disk"),
             FileError::Write { .. } => (Exit::Io, "check free space and permissions of the folder"),
         };
         Self::new(error.code(), error.to_string(), help, if is_denied { Exit::Permission } else { exit })
     }
+}
+
+/// Whether an error says that there is no room: on the disk, in the user's share of it, or under the limit on file sizes.
+fn is_disk_full(error: &std::io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge)
 }

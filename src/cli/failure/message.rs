@@ -59,6 +59,12 @@ impl Failure {
         self
     }
 
+    /// The same failure with more help.
+    pub(crate) fn with_further_help(mut self, further: &str) -> Self {
+        self.help = format!("{}; {further}", self.help);
+        self
+    }
+
     /// The kind of failure.
     pub(crate) fn exit(&self) -> Exit {
         self.exit

@@ -8,6 +8,7 @@ mod evaluation;
 mod exit;
 mod export;
 mod files;
+mod job;
 mod language;
 mod map;
 mod message;

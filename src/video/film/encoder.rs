@@ -21,7 +21,6 @@ pub(crate) struct FilmEncoder {
     muxer: Output,
     first_error: FirstError,
     file: NewFile,
-    settings: VideoSettings,
     tick: Rational,
     stream_tick: Rational,
     num_sent: usize,
@@ -46,22 +45,21 @@ impl FilmEncoder {
         let io = StreamIo::from_write_seek(watched).map_err(|e| failed("opening the file", e, path))?;
         let mut muxer = format::output_to_stream(io, None, Some(container)).map_err(|_| missing(container))?;
         let stream_tick = write_header(&mut muxer, &encoder, rate, header_options(format, settings))
-            .map_err(|e| failed("starting the file", e, path))?;
-        let (tick, settings, path) = (rate.invert(), settings.clone(), path.to_owned());
-        Ok(Self { encoder, muxer, first_error, file, settings, tick, stream_tick, num_sent: 0, path })
+            .map_err(|e| fault_of(&first_error, "starting the file", e, path))?;
+        let (tick, path) = (rate.invert(), path.to_owned());
+        Ok(Self { encoder, muxer, first_error, file, tick, stream_tick, num_sent: 0, path })
     }
 
-    pub(crate) fn write_frame(&mut self, rgb8: &[u8]) -> Result<(), VideoError> {
-        let (width, height) = (self.settings.width as usize, self.settings.height as usize);
-        let mut picture = picture_of(&bt709::planes_from_rgb8(rgb8, width, height));
+    pub(crate) fn write_planes(&mut self, planes: &Planes420) -> Result<(), VideoError> {
+        let mut picture = picture_of(planes);
         picture.set_pts(Some(self.num_sent as i64));
         self.encoder.send_frame(&picture).map_err(|e| self.fault("encoding", e))?;
         self.num_sent += 1;
         self.drain()
     }
 
-    /// Completes the file, reads it back and renames it to `target`, or to the path that it was created for.
-    pub(crate) fn finish(mut self, target: Option<PathBuf>) -> Result<PathBuf, VideoError> {
+    /// Completes the file, reads it back and gives it its name.
+    pub(crate) fn finish(mut self) -> Result<PathBuf, VideoError> {
         self.encoder.send_eof().map_err(|e| self.fault("encoding", e))?;
         self.drain()?;
         self.muxer.write_trailer().map_err(|e| self.fault("ending the file", e))?;
@@ -71,9 +69,8 @@ impl FilmEncoder {
             return Err(FileError::Write { path: self.path, source }.into());
         }
         read_back::check(self.file.path(), &self.path, self.num_sent, self.tick)?;
-        let target = target.unwrap_or(self.path);
-        self.file.commit_as(&target)?;
-        Ok(target)
+        self.file.commit()?;
+        Ok(self.path)
     }
 
     /// Writes all packets that the encoder has ready.
@@ -91,10 +88,14 @@ impl FilmEncoder {
 
     /// The first system error of the file if there was one, else FFmpeg's error.
     fn fault(&self, action: &'static str, error: ffmpeg_next::Error) -> VideoError {
-        match self.first_error.lock().ok().and_then(|mut first| first.take()) {
-            Some(source) => FileError::Write { path: self.path.clone(), source }.into(),
-            None => failed(action, error, &self.path),
-        }
+        fault_of(&self.first_error, action, error, &self.path)
+    }
+}
+
+fn fault_of(first_error: &FirstError, action: &'static str, error: ffmpeg_next::Error, path: &Path) -> VideoError {
+    match first_error.lock().ok().and_then(|mut first| first.take()) {
+        Some(source) => FileError::Write { path: path.to_owned(), source }.into(),
+        None => failed(action, error, path),
     }
 }
 

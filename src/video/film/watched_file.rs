@@ -24,7 +24,8 @@ impl WatchedFile {
 
 impl Write for WatchedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.watch(|file| file.write(bytes))
+        // FFmpeg takes a short write for a whole one, and an interrupted one for an error.
+        self.watch(|file| file.write_all(bytes)).map(|()| bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {

@@ -5,11 +5,14 @@ use std::time::Instant;
 use crate::cli::failure::Failure;
 use cinesplat::files::Existing;
 use cinesplat::geometry::Camera;
-use cinesplat::pipeline::{self, FilmSettings, TimeCost};
+use cinesplat::pipeline::{self, FilmSettings, JobSettings, TimeCost};
 use cinesplat::render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{CameraPath, Shot};
 use cinesplat::video::{VideoError, VideoSettings, VideoWriter};
+
+/// Films with and without a job folder; an odd number has a median.
+const NUM_PAIRS: usize = 3;
 
 /// A shot on a scene.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +94,34 @@ impl FilmCase<'_> {
         report(self.row(of("film"), film, Some(("every core busy", over_busy))));
         report(self.row(of("predicted"), only(predicted), Some(("film", percent(predicted, film.wall_secs)))));
         report(self.row(of("time to predict"), only(forecast_secs), None));
+        let (plain, kept) = self.film_pair(&renderer, &output.0, settings)?;
+        report(self.row(of("film, frames not kept"), plain, None));
+        let more = percent(kept.wall_secs, plain.wall_secs);
+        report(self.row(of("film, frames kept"), kept, Some(("film, frames not kept", more))));
         Ok(())
+    }
+
+    /// A film without and one with a job folder, alternating: the pair with the median ratio of wall times.
+    fn film_pair(
+        &self,
+        renderer: &Renderer<'_>,
+        output: &Path,
+        settings: &FilmSettings,
+    ) -> Result<(TimeCost, TimeCost), Failure> {
+        let video = VideoSettings { existing: Existing::Replace, ..settings.video.clone() };
+        let plain = FilmSettings { video, ..settings.clone() };
+        let kept = FilmSettings { job: Some(JobSettings::default()), ..plain.clone() };
+        let film = |settings: &FilmSettings| -> Result<TimeCost, Failure> {
+            let (filmed, spent) = TimeCost::measure(|| {
+                pipeline::film(renderer, self.shot, output, settings, &mut |_| ControlFlow::Continue(()))
+            });
+            filmed?;
+            Ok(spent)
+        };
+        let mut pairs =
+            (0..NUM_PAIRS).map(|_| Ok((film(&plain)?, film(&kept)?))).collect::<Result<Vec<_>, Failure>>()?;
+        pairs.sort_by(|a, b| (a.1.wall_secs / a.0.wall_secs).total_cmp(&(b.1.wall_secs / b.0.wall_secs)));
+        Ok(pairs[NUM_PAIRS / 2])
     }
 
     fn encode(&self, output: &Path, video: &VideoSettings, pictures: &[Rgb8Frame]) -> Result<TimeCost, VideoError> {

@@ -33,7 +33,8 @@ Example:
   cinesplat bench films room.spz synth:demo --cameras room.cameras.json --cameras auto -o bench
 Films a dolly: a straight move along the view axis of the first camera (auto: the camera in the middle). Prints one CSV
 line per measurement, with its baseline and the difference in percent. All pictures of a film are kept in
-memory to encode them alone. -o keeps films.csv and a table.")]
+memory to encode them alone. Films that keep their frames in a job folder alternate with films that do not, three
+of each; the pair with the median ratio is printed. -o keeps films.csv and a table.")]
 pub(crate) struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,
@@ -93,7 +94,7 @@ impl Args {
         for (idx, &quality) in self.qualities.iter().enumerate() {
             let render = cinesplat::render::RenderSettings { quality, ..render };
             let (video, frames) = (VideoSettings::default(), FrameRange::default());
-            let settings = FilmSettings { render, video, frames, sheet: None };
+            let settings = FilmSettings { render, video, frames, sheet: None, job: None };
             if idx == 0 {
                 case.stills(&settings, &mut tell)?;
             }

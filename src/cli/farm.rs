@@ -1,0 +1,145 @@
+use std::num::NonZeroU16;
+use std::path::PathBuf;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use super::failure::{Exit, Failure};
+use super::interrupt::Interrupt;
+use super::progress::FrameProgress;
+use super::{console, heading, render, reproduce};
+use cinesplat::pipeline;
+
+/// Time between two looks at the programs.
+const POLL: Duration = Duration::from_millis(50);
+/// Times that a program that was killed is started again.
+const MAX_RESTARTS: usize = 10;
+
+/// Render a film with several programs over one job folder
+///
+/// Each program renders the next frame that no other one has. A program that is killed loses the frame that it was at, and is
+/// started again. When all frames are there, the film is made. The film has the same bytes as that of `render`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Example:
+  cinesplat farm --local 4 room.spz --shot shot.json -o lamp.mp4
+On other machines that share the folder, `cinesplat render .. --part` renders frames of the same film.")]
+pub(super) struct Args {
+    /// Number of programs on this machine
+    #[arg(long, value_name = "N", help_heading = heading::OUTPUT)]
+    local: NonZeroU16,
+    #[command(flatten)]
+    render: render::Args,
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let output = self.render.check_shared()?;
+        if self.render.starts_fresh() {
+            pipeline::clear_job(&output)?;
+        }
+        let interrupt = Interrupt::listen()?;
+        let words = reproduce::words_of_part("farm", usize::from(self.local.get()));
+        let mut programs: Vec<Program> =
+            (0..self.local.get()).map(|_| Program::start(&words)).collect::<Result<_, _>>()?;
+        let mut bar = FrameProgress::new();
+        let ended = watch(&mut programs, &output, &interrupt, &mut bar);
+        bar.finish();
+        if ended? == Ended::Stopped {
+            let (done, total) = pipeline::job_progress(&output).unwrap_or_default();
+            let found = format!("{}: stopped after {done} of {total} frames", output.display());
+            let help = format!("to go on, type: {}", reproduce::line_to_go_on());
+            return Err(Failure::new("STOPPED", found, help, Exit::Stopped));
+        }
+        // Frames that are missing after all are rendered here.
+        self.render.run_after(interrupt)
+    }
+}
+
+/// How the programs ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ended {
+    Done,
+    Stopped,
+}
+
+/// Waits for the programs; starts those again that were killed.
+fn watch(
+    programs: &mut [Program],
+    output: &PathBuf,
+    interrupt: &Interrupt,
+    bar: &mut FrameProgress,
+) -> Result<Ended, Failure> {
+    let (mut is_asked, mut is_stopped) = (false, false);
+    while programs.iter().any(|program| program.child.is_some()) {
+        if interrupt.is_asked() && !is_asked {
+            is_asked = true;
+            programs.iter().for_each(Program::ask_to_stop);
+        }
+        for program in &mut *programs {
+            is_stopped |= program.poll(is_asked)?;
+        }
+        if let Some((done, total)) = pipeline::job_progress(output) {
+            bar.show(done.min(total), total);
+        }
+        thread::sleep(POLL);
+    }
+    Ok(if is_stopped || is_asked { Ended::Stopped } else { Ended::Done })
+}
+
+/// A program that renders a part.
+struct Program {
+    words: Vec<String>,
+    child: Option<Child>,
+    num_restarts: usize,
+}
+
+impl Program {
+    fn start(words: &[String]) -> Result<Self, Failure> {
+        Ok(Self { words: words.to_owned(), child: Some(spawn(words)?), num_restarts: 0 })
+    }
+
+    /// Looks whether the program has ended. Returns whether it was stopped.
+    fn poll(&mut self, is_asked: bool) -> Result<bool, Failure> {
+        let failed = |error: std::io::Error| Failure::fault(&error.to_string());
+        let Some(child) = &mut self.child else { return Ok(false) };
+        let Some(status) = child.try_wait().map_err(failed)? else { return Ok(false) };
+        self.child = None;
+        if was_killed(status) && !is_asked && self.num_restarts < MAX_RESTARTS {
+            self.num_restarts += 1;
+            console::warnings([format!("a program ended with {status}: it is started again")]);
+            self.child = Some(spawn(&self.words)?);
+        }
+        Ok(status.code() == Some(i32::from(Exit::Stopped as u8)))
+    }
+
+    /// Passes a stop on. Ctrl-C on a terminal reaches the program without this; it counts once.
+    fn ask_to_stop(&self) {
+        #[cfg(unix)]
+        if let Some(child) = &self.child {
+            use nix::sys::signal::{Signal, kill};
+            let id = nix::unistd::Pid::from_raw(child.id().cast_signed());
+            // A program that has ended needs no signal.
+            let _ = kill(id, Signal::SIGTERM);
+        }
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        self.ask_to_stop();
+    }
+}
+
+fn was_killed(status: ExitStatus) -> bool {
+    status.code().is_none()
+}
+
+fn spawn(words: &[String]) -> Result<Child, Failure> {
+    let failed = |error: std::io::Error| Failure::fault(&format!("a program cannot be started: {error}"));
+    let mut command = Command::new(std::env::current_exe().map_err(failed)?);
+    // Of their own group: Ctrl-C reaches them once, through this program.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    command.args(words).stdin(Stdio::null()).stdout(Stdio::null()).spawn().map_err(failed)
+}

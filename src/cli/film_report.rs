@@ -1,0 +1,51 @@
+//! What `render` says about a finished film.
+
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use super::console;
+use cinesplat::pipeline::{FilmReport, Forecast, PhaseTimes};
+
+/// Prints the wall time per phase. Encoding runs beside rendering, so the phases sum to more than the total.
+pub(super) fn print_times(times: &PhaseTimes, report: &FilmReport, total: Duration) {
+    let phases: Vec<String> =
+        times.iter().map(|(phase, time)| format!("{phase} {:.2} s", time.as_secs_f64())).collect();
+    let rate_fps = report.num_frames as f64 / report.total_time.as_secs_f64().max(1e-9);
+    console::note(&format!(
+        "{}: {} frames; {} (parallel to render); total {:.2} s, film {rate_fps:.1} fps",
+        report.path.display(),
+        report.num_frames,
+        phases.join(", "),
+        total.as_secs_f64()
+    ));
+}
+
+/// Prints predicted and measured figures side by side, and returns them for programs.
+pub(super) fn compare(predicted: &Forecast, report: &FilmReport, psnr_db: f64) -> Value {
+    let measured = report.total_time.as_secs_f64();
+    let film_secs = predicted.film_time.as_secs_f64();
+    let quality = predicted.quality.as_ref();
+    let against = if report.num_kept == 0 {
+        let off_percent = (measured / film_secs.max(1e-9) - 1.0) * 100.0;
+        format!("predicted {film_secs:.2} s: {off_percent:+.0} %")
+    } else {
+        // Frames that were kept cost no time now.
+        format!("{} of {} frames were kept", report.num_kept, report.num_wanted)
+    };
+    console::note(&format!(
+        "{quality}: filmed in {measured:.2} s ({against}), {psnr_db:.1} dB (predicted {:.1} dB)",
+        predicted.psnr_db
+    ));
+    // JSON has no infinity: null stands for an exact picture. Predicted render and encode times are those of each alone,
+    // measured ones are parallel.
+    json!({
+        "path": report.path.to_string_lossy(), "frames": report.num_frames, "kept_frames": report.num_kept, "quality": quality,
+        "predicted": {"film_secs": film_secs, "render_secs": predicted.render_time.as_secs_f64(),
+            "encode_secs": predicted.encode_time.as_secs_f64(), "psnr_db": predicted.psnr_db,
+            "worst_psnr_db": predicted.worst_psnr_db, "memory_bytes": predicted.memory_bytes},
+        "measured": {"film_secs": measured, "render_secs": report.render_time.as_secs_f64(),
+            "keep_secs": report.keep_time.as_secs_f64(), "encode_secs": report.encode_time.as_secs_f64(),
+            "psnr_db": psnr_db},
+    })
+}

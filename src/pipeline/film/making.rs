@@ -1,0 +1,145 @@
+use std::collections::BTreeSet;
+use std::mem;
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
+
+use super::cameras::camera_at;
+use super::report::FilmReport;
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::job::{Keeper, Kept, Picture};
+use cinesplat_geometry::Camera;
+use cinesplat_render::{RenderSettings, Renderer, Rgb8Frame};
+use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_video::{ContactSheet, planes_from_rgb8};
+
+/// Makes the frames of a film in order: takes those that a job folder holds and renders the others.
+pub(super) struct FrameMaker<'a> {
+    renderer: &'a Renderer<'a>,
+    path: &'a CameraPath,
+    shot: &'a Shot,
+    settings: &'a RenderSettings,
+    is_film: bool,
+    /// Pictures whose memory is free.
+    used: Receiver<Arc<Picture>>,
+    kept: Option<Kept>,
+    keeper: Option<&'a mut Keeper>,
+    /// Places in the output that the contact sheet shows.
+    sheet: BTreeSet<usize>,
+    /// The last picture and its camera.
+    last: Option<(Arc<Picture>, Camera)>,
+    rendered: Rgb8Frame,
+    num_kept: usize,
+    num_damaged: usize,
+    render_time: Duration,
+    keep_time: Duration,
+}
+
+/// A finished frame.
+pub(super) struct Made {
+    /// The picture; `None` where nobody needs it, because it is in its place already.
+    pub(super) picture: Option<Arc<Picture>>,
+    /// Whether the job folder holds it.
+    pub(super) is_kept: bool,
+}
+
+impl<'a> FrameMaker<'a> {
+    pub(super) fn new(
+        (renderer, path, shot): (&'a Renderer<'a>, &'a CameraPath, &'a Shot),
+        settings: &'a RenderSettings,
+        (is_film, used): (bool, Receiver<Arc<Picture>>),
+        (kept, keeper): (Option<Kept>, Option<&'a mut Keeper>),
+    ) -> Self {
+        Self {
+            renderer,
+            path,
+            shot,
+            settings,
+            is_film,
+            used,
+            kept,
+            keeper,
+            sheet: BTreeSet::new(),
+            last: None,
+            rendered: Rgb8Frame::default(),
+            num_kept: 0,
+            num_damaged: 0,
+            render_time: Duration::ZERO,
+            keep_time: Duration::ZERO,
+        }
+    }
+
+    /// Makes pictures for a contact sheet available, even those that nothing else needs.
+    pub(super) fn show_on(&mut self, sheet: &ContactSheet) {
+        self.sheet.extend(sheet.shown_frames());
+    }
+
+    /// Number of frames that the job folder lists.
+    pub(super) fn num_listed(&self, frames: &Range<usize>) -> usize {
+        self.kept.as_ref().map_or(0, |kept| kept.num_listed(frames))
+    }
+
+    /// Frame `frame_idx` of the shot, which is picture `idx` of the output.
+    pub(super) fn make(&mut self, frame_idx: usize, idx: usize) -> Result<Made, PipelineError> {
+        let camera = camera_at(self.path, self.shot, frame_idx);
+        if let Some(made) = self.take_kept(frame_idx, idx, camera) {
+            self.num_kept += 1;
+            return Ok(made);
+        }
+        // The same camera gives the same picture.
+        let repeated = self.last.take().filter(|(_, last)| *last == camera).map(|(picture, _)| picture);
+        let is_repeated = repeated.is_some();
+        let picture = repeated.map_or_else(|| self.render(&camera), Ok)?;
+        let start = Instant::now();
+        if let Some(keeper) = &mut self.keeper {
+            if is_repeated { keeper.keep_again(frame_idx, &picture)? } else { keeper.keep(frame_idx, &picture)? }
+        }
+        self.keep_time += start.elapsed();
+        self.last = Some((Arc::clone(&picture), camera));
+        Ok(Made { picture: Some(picture), is_kept: false })
+    }
+
+    /// Adds what was done to a report.
+    pub(super) fn report_to(&self, report: &mut FilmReport) {
+        (report.num_kept, report.num_damaged) = (self.num_kept, self.num_damaged);
+        (report.render_time, report.keep_time) = (self.render_time, self.keep_time);
+    }
+
+    /// The frame, if the job folder holds it undamaged.
+    fn take_kept(&mut self, frame_idx: usize, idx: usize, camera: Camera) -> Option<Made> {
+        let kept = self.kept.as_ref().filter(|kept| kept.is_listed(frame_idx))?;
+        let needs_picture = self.is_film || self.sheet.contains(&idx);
+        let picture = if needs_picture { kept.picture(frame_idx).map(Arc::new) } else { None };
+        if (needs_picture && picture.is_none()) || (!needs_picture && !kept.is_whole(frame_idx)) {
+            self.num_damaged += 1;
+            return None;
+        }
+        self.last = picture.clone().map(|picture| (picture, camera));
+        Some(Made { picture, is_kept: true })
+    }
+
+    fn render(&mut self, camera: &Camera) -> Result<Arc<Picture>, PipelineError> {
+        let start = Instant::now();
+        let mut frame = self.free_frame();
+        self.renderer.render_rgb8_into(camera, self.settings, &mut frame)?;
+        let picture = if self.is_film {
+            let planes = planes_from_rgb8(&frame.rgb8, frame.width as usize, frame.height as usize);
+            self.rendered = frame;
+            Picture::Planes(planes)
+        } else {
+            Picture::Rgb8(frame)
+        };
+        self.render_time += start.elapsed();
+        Ok(Arc::new(picture))
+    }
+
+    /// A frame whose memory is free: for a film the last one, because only its planes are passed on.
+    fn free_frame(&mut self) -> Rgb8Frame {
+        let written = self.used.try_iter().find_map(Arc::into_inner);
+        match written {
+            Some(Picture::Rgb8(frame)) => frame,
+            _ => mem::take(&mut self.rendered),
+        }
+    }
+}

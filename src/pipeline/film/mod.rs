@@ -1,0 +1,21 @@
+//! A shot becomes a film: one thread renders frames in order while another one encodes them.
+//!
+//! Enters: a renderer, a shot, settings. Leaves: a film or a picture sequence under its final name, complete. With a job
+//! folder ([`super::job`]) every finished frame is kept until then, and a later run goes on from there: its film has the
+//! same bytes as that of a run that nothing disturbed.
+
+mod cameras;
+mod encoding;
+mod making;
+mod part;
+mod report;
+mod settings;
+mod whole;
+
+pub use cameras::camera_at;
+pub(super) use cameras::moving_cameras;
+pub use part::film_part;
+pub use report::{FilmProgress, FilmReport};
+pub use settings::{FilmSettings, video_of};
+pub(super) use whole::QUEUE_FRAMES;
+pub use whole::film;

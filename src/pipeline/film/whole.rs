@@ -1,0 +1,130 @@
+use std::ops::{ControlFlow, Range};
+use std::path::Path;
+use std::sync::mpsc::{channel, sync_channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::encoding::{Encoder, Shown, Sink};
+use super::making::{FrameMaker, Made};
+use super::report::{FilmProgress, FilmReport};
+use super::settings::{FilmSettings, video_of};
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::job::{Access, Job};
+use cinesplat_render::Renderer;
+use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_video::{ContactSheet, VideoFormat, VideoWriter};
+
+/// Capacity of the queue between renderer and encoder, in frames. It absorbs frames that are slow to encode and costs
+/// little memory.
+pub(in crate::pipeline) const QUEUE_FRAMES: usize = 4;
+
+/// Renders the frames of a shot in order while another thread encodes them.
+///
+/// `watch` is called after every frame and may stop the film. With a job folder the finished frames are kept then, and the
+/// same call goes on from them.
+///
+/// # Errors
+/// [`PipelineError::Trajectory`] for keyframes that make no path, [`PipelineError::NoSuchFrames`], [`PipelineError::Render`],
+/// [`PipelineError::Video`] and [`PipelineError::Job`]. No incomplete file is left under the output's name.
+pub fn film(
+    renderer: &Renderer<'_>,
+    shot: &Shot,
+    output: &Path,
+    settings: &FilmSettings,
+    watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
+) -> Result<FilmReport, PipelineError> {
+    let start = Instant::now();
+    let path = CameraPath::new(shot)?;
+    let frames = settings.frames.of_film(shot.num_frames())?;
+    let mut job = settings.open_job(output, shot, &frames, Access::Alone)?;
+    let has_sheet = settings.sheet.as_ref().is_none_or(|sheet| sheet.exists());
+    let mut report = match job.as_ref().and_then(Job::finished_film).filter(|_| has_sheet) {
+        Some(_) => {
+            FilmReport { num_frames: frames.len(), num_kept: frames.len(), ..FilmReport::new(output, frames.len()) }
+        }
+        None => render_and_encode((renderer, &path, shot), output, (settings, &frames), job.as_mut(), watch)?,
+    };
+    match job {
+        Some(mut job) if report.is_partial() => job.flush()?,
+        Some(job) => {
+            if !job.is_sequence() {
+                job.place_film(output, settings.video.existing)?;
+            }
+            if settings.job.as_ref().is_none_or(|settings| !settings.keeps_frames) {
+                job.remove();
+            }
+        }
+        None => {}
+    }
+    report.total_time = start.elapsed();
+    Ok(report)
+}
+
+/// Renders and encodes the frames that the job folder lacks, and encodes those that it holds.
+fn render_and_encode(
+    (renderer, path, shot): (&Renderer<'_>, &CameraPath, &Shot),
+    output: &Path,
+    (settings, frames): (&FilmSettings, &Range<usize>),
+    mut job: Option<&mut Job>,
+    watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
+) -> Result<FilmReport, PipelineError> {
+    let video = video_of(shot, frames, &settings.video);
+    let is_film = !matches!(VideoFormat::from_path(output)?, VideoFormat::Sequence(_));
+    let sheet = settings.sheet.as_ref().map(|_| ContactSheet::new(shot.width, shot.height, frames.len()));
+    let target = job.as_ref().map_or_else(|| output.to_owned(), |job| job.film_path());
+    let writer = if is_film || job.is_none() { Some(VideoWriter::create(&target, &video)?) } else { None };
+    let (kept, keeper) = job.as_mut().map(|job| job.parts()).unzip();
+    // The thread that makes a frame in its final form keeps it: a picture of a sequence is final when it is encoded.
+    let (own_keeper, sink) = match (writer, keeper) {
+        (Some(writer), keeper) => (keeper, Sink::Writer(Box::new(writer))),
+        (None, keeper) => (None, Sink::Keeper(keeper)),
+    };
+    let (sender, receiver) = sync_channel::<Shown>(QUEUE_FRAMES);
+    let (give_back, used) = channel();
+    let encoder = Encoder { sink, sheet, busy: Duration::ZERO, give_back };
+    let mut report = FilmReport::new(output, frames.len());
+    let mut maker = FrameMaker::new((renderer, path, shot), &settings.render, (is_film, used), (kept, own_keeper));
+    if let Some(sheet) = &encoder.sheet {
+        maker.show_on(sheet);
+    }
+    let num_kept = maker.num_listed(frames);
+
+    let (rendered, encoded) = thread::scope(|scope| {
+        let encoding = scope.spawn(move || encoder.run(&receiver));
+        let rendered = frames.clone().enumerate().try_for_each(|(idx, frame_idx)| {
+            let Made { picture, is_kept } = maker.make(frame_idx, idx)?;
+            if let Some(picture) = picture {
+                // The encoder closes the channel when it fails; it returns its error itself.
+                sender.send(Shown { idx, frame_idx, picture, is_kept }).map_err(|_| Interruption::Stopped)?;
+            }
+            report.num_frames += 1;
+            match watch(FilmProgress { done: idx + 1, total: frames.len(), num_kept }) {
+                ControlFlow::Continue(()) => Ok(()),
+                ControlFlow::Break(()) => Err(Interruption::Stopped),
+            }
+        });
+        drop(sender);
+        (rendered, encoding.join())
+    });
+    let encoder = encoded.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    if let Err(Interruption::Failed(error)) = rendered {
+        return Err(*error);
+    }
+    maker.report_to(&mut report);
+    report.encode_time = encoder.finish(settings, report.is_partial())?;
+    Ok(report)
+}
+
+/// Why rendering ends early.
+enum Interruption {
+    /// The caller stopped the film, or the encoder failed.
+    Stopped,
+    /// A stage failed.
+    Failed(Box<PipelineError>),
+}
+
+impl<E: Into<PipelineError>> From<E> for Interruption {
+    fn from(error: E) -> Self {
+        Self::Failed(Box::new(error.into()))
+    }
+}

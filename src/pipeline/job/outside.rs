@@ -1,0 +1,91 @@
+//! What may be asked and done about a job folder without opening it.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use cinesplat_files::{Existing, NewFile, create_folder};
+use cinesplat_video::{VideoFormat, VideoSettings};
+
+use super::cleanup::{remove_contents, remove_empty};
+use super::done_log::DoneLog;
+use super::error::JobError;
+use super::fingerprint::Fingerprint;
+use super::frame_files::FrameFiles;
+use super::lock::{Access, locked, make_folder};
+use crate::pipeline::frames::FrameRange;
+
+/// The job folder of an output: its path with `.job` at the end.
+pub fn job_folder(output: &Path) -> PathBuf {
+    let mut path = OsString::from(output);
+    path.push(".job");
+    PathBuf::from(path)
+}
+
+/// Whether an earlier run left a job folder for this output.
+pub fn has_job(output: &Path) -> bool {
+    job_folder(output).join("job.json").is_file()
+}
+
+/// The value of one field of the fingerprint in the job folder of an output, such as `quality`; `None` without one.
+pub fn job_field(output: &Path, name: &str) -> Option<String> {
+    Fingerprint::read(&job_folder(output)).ok().flatten()?.value(name).map(str::to_owned)
+}
+
+/// Number of frames that the job folder of an output lists, and number of frames of that film; `None` without one.
+pub fn job_progress(output: &Path) -> Option<(usize, usize)> {
+    let frames: FrameRange = job_field(output, "frames")?.parse().ok()?;
+    let log = fs::read_to_string(job_folder(output).join("done.log")).unwrap_or_default();
+    Some((log.lines().count(), frames.end? - frames.start))
+}
+
+/// Throws away the frames that an earlier run left for this output.
+///
+/// # Errors
+/// [`JobError::Locked`], [`JobError::File`].
+pub fn clear_job(output: &Path) -> Result<(), JobError> {
+    let folder = job_folder(output);
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    let format = VideoFormat::from_path(output).map_err(JobError::video)?;
+    let _lock = locked(&folder, Access::Alone)?;
+    let files = FrameFiles::new(&folder, &format, &VideoSettings::default());
+    DoneLog::open(&folder)?.kept(&files).remove_all();
+    remove_contents(&folder, &format);
+    remove_empty(&folder);
+    Ok(())
+}
+
+/// Checks before any work that the job folder of an output can be made and written to, and that no other program works on
+/// it. Leaves no new file.
+///
+/// # Errors
+/// [`JobError::Locked`], [`JobError::File`].
+pub fn check_job(output: &Path) -> Result<(), JobError> {
+    let folder = job_folder(output);
+    if folder.join("lock").exists() {
+        locked(&folder, Access::Alone)?;
+    }
+    let pictures = picture_folder(output)?.filter(|pictures| !pictures.exists());
+    pictures.as_deref().map(create_folder).transpose()?;
+    let is_new = !folder.exists();
+    let probe =
+        make_folder(&folder).and_then(|()| Ok(NewFile::create(&folder.join("lock"), Existing::Replace).map(drop)?));
+    // A failed removal leaves empty folders, which the film takes.
+    if is_new {
+        let _ = fs::remove_dir(&folder);
+    }
+    let _ = pictures.map(fs::remove_dir);
+    probe
+}
+
+/// The folder of the pictures of a sequence, if it is not the working folder.
+pub(super) fn picture_folder(output: &Path) -> Result<Option<PathBuf>, JobError> {
+    match VideoFormat::from_path(output).map_err(JobError::video)? {
+        VideoFormat::Sequence(pattern) if !pattern.folder().as_os_str().is_empty() => {
+            Ok(Some(pattern.folder().to_owned()))
+        }
+        _ => Ok(None),
+    }
+}

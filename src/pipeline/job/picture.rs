@@ -1,0 +1,21 @@
+use cinesplat_render::Rgb8Frame;
+use cinesplat_video::{ContactSheet, Planes420};
+
+/// A finished picture, in the form that its output takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Picture {
+    /// Of a film.
+    Planes(Planes420),
+    /// Of a picture sequence.
+    Rgb8(Rgb8Frame),
+}
+
+impl Picture {
+    /// Adds the picture to a contact sheet that shows it.
+    pub(crate) fn add_to(&self, sheet: &mut ContactSheet, cell_idx: usize) {
+        match self {
+            Self::Planes(planes) => sheet.add_planes(cell_idx, planes),
+            Self::Rgb8(frame) => sheet.add_frame(cell_idx, &frame.rgb8),
+        }
+    }
+}

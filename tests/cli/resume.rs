@@ -1,0 +1,216 @@
+//! Films that are stopped, killed or refused, and what the next run makes of it.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use super::{SMALL_SCENE, answer, data, run, write_shot};
+
+const RENDER: [&str; 7] = ["render", SMALL_SCENE, "--shot", "shot.json", "--size", "320x180", "--fps"];
+
+/// The line that renders the film of these tests: 24 frames.
+fn render<'a>(output: &'a str, flags: &[&'a str]) -> Vec<&'a str> {
+    [&RENDER[..], &["24", "-o", output], flags].concat()
+}
+
+/// The film of an undisturbed run.
+fn undisturbed(folder: &Path) -> Vec<u8> {
+    write_shot(folder);
+    data(folder, &render("whole.mp4", &[]));
+    let bytes = fs::read(folder.join("whole.mp4")).unwrap();
+    fs::remove_file(folder.join("whole.mp4")).unwrap();
+    bytes
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// Starts the program, and returns once its job folder lists `num_frames` frames, or the film has ended.
+fn start(folder: &Path, arguments: &[&str], num_frames: usize) -> Child {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
+    program.args(arguments).current_dir(folder).stderr(Stdio::piped());
+    let mut film = program.spawn().unwrap();
+    let log = folder.join("film.mp4.job/done.log");
+    let num_listed = || fs::read_to_string(&log).map_or(0, |text| text.lines().count());
+    while num_listed() < num_frames && film.try_wait().unwrap().is_none() {
+        std::thread::yield_now();
+    }
+    film
+}
+
+#[test]
+fn a_killed_film_goes_on_and_has_the_bytes_of_an_undisturbed_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    for num_frames in [1, 4, 11, 23] {
+        let mut film = start(folder.path(), &render("film.mp4", &[]), num_frames);
+        film.kill().unwrap();
+        film.wait().unwrap();
+        let listed = fs::read_to_string(folder.path().join("film.mp4.job/done.log")).unwrap_or_default();
+        let said = answer(folder.path(), &render("film.mp4", &["--overwrite"]));
+        assert!(said.starts_with("exit 0\n"), "{said}");
+        // The kill may have come after the last frame; then nothing is left to go on from.
+        if !listed.is_empty() {
+            let going_on = format!("going on: {} finished frames are in film.mp4.job", listed.lines().count());
+            assert!(said.contains(&going_on), "{going_on}: {said}");
+        }
+        assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole, "killed after {num_frames} frames");
+        assert_eq!(names(folder.path()), ["film.mp4", "shot.json"], "nothing else is left");
+        fs::remove_file(folder.path().join("film.mp4")).unwrap();
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_stopped_film_says_the_line_that_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    for signal in ["-INT", "-TERM"] {
+        let film =
+            start(folder.path(), &render("film.mp4", &["--fresh", "--save-shot", "saved.json", "--sheet", "s.png"]), 2);
+        assert!(Command::new("kill").args([signal, &film.id().to_string()]).status().unwrap().success());
+        let output = film.wait_with_output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(75), "{said}");
+        assert!(
+            said.contains("error[STOPPED]: film.mp4: stopped after ") && said.contains("kept in film.mp4.job"),
+            "{said}"
+        );
+        let line = said.lines().find_map(|line| line.strip_prefix("help: to go on, type: ")).unwrap();
+        assert!(!line.contains("--fresh"), "{line}");
+        let typed = Command::new("sh").args(["-c", line]).current_dir(folder.path()).output().unwrap();
+        assert!(typed.status.success(), "{}", String::from_utf8_lossy(&typed.stderr));
+        assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole, "{signal}");
+        assert_eq!(names(folder.path()), ["film.mp4", "s.png", "saved.json", "shot.json"]);
+        for name in ["film.mp4", "s.png", "saved.json"] {
+            fs::remove_file(folder.path().join(name)).unwrap();
+        }
+    }
+}
+
+#[test]
+fn frames_of_another_film_are_refused_field_by_field() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    // A film under a name that is taken meanwhile leaves its job folder.
+    let small = ["render", SMALL_SCENE, "--shot", "shot.json", "-o", "film.mp4", "--keep-frames"];
+    data(folder.path(), &small);
+    fs::remove_file(folder.path().join("film.mp4")).unwrap();
+    let other = [&small[..], &["--quality", "draft", "--fps", "4", "--crf", "30"]].concat();
+    insta::assert_snapshot!(answer(folder.path(), &[&other[..], &["-q"]].concat()), @r"
+    exit 65
+    error[JOB-MISMATCH]: film.mp4.job: its frames are of another film: fps was 8, now 4; frames was 0..8, now 0..4; quality was standard, now draft; crf was 18, now 30
+    help: type the line of that film to go on with it, or pass --fresh to throw its frames away
+    ");
+    assert_eq!(names(&folder.path().join("film.mp4.job/frames")).len(), 8, "the frames stay");
+    data(folder.path(), &[&other[..], &["--fresh"]].concat());
+    assert_eq!(names(&folder.path().join("film.mp4.job/frames")).len(), 4);
+    assert!(folder.path().join("film.mp4").exists());
+}
+
+#[test]
+fn one_program_works_on_a_film_and_a_lock_without_a_holder_is_none() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    fs::create_dir(folder.path().join("film.mp4.job")).unwrap();
+    let lock = fs::File::create(folder.path().join("film.mp4.job/lock")).unwrap();
+    lock.lock().unwrap();
+    insta::assert_snapshot!(answer(folder.path(), &["render", "no.ply", "-p", "x", "-o", "film.mp4"]), @r"
+    exit 75
+    error[JOB-LOCKED]: film.mp4.job: another cinesplat is working on this film
+    help: wait until it ends, or give this film another name
+    ");
+    drop(lock);
+    data(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "film.mp4"]);
+    assert_eq!(names(folder.path()), ["film.mp4", "shot.json"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn places_that_cannot_be_written_are_refused_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = format!("{}.mp4", "a".repeat(250));
+    fs::write(folder.path().join("taken.mp4.job"), "a file").unwrap();
+    for (output, code) in [("/proc/film.mp4", "73"), (&long, "73"), ("new.mp4/", "73"), ("taken.mp4", "73")] {
+        // The scene does not exist, but the output is checked first.
+        let said = answer(folder.path(), &["render", "no.ply", "-p", "x", "-o", output]);
+        assert!(said.starts_with(&format!("exit {code}\nerror[OUTPUT-CREATE]: ")), "{output}: {said}");
+    }
+    assert_eq!(names(folder.path()), ["taken.mp4.job"]);
+}
+
+/// A full disk used to throw the whole film away.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_film_that_does_not_fit_in_its_place_is_kept_and_put_there_later() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    let output = folder.path().join("film.mp4");
+    std::os::unix::fs::symlink("/dev/full", &output).unwrap();
+    let said = answer(folder.path(), &render("film.mp4", &[]));
+    let expected = "error[JOB-NAME]: film.mp4: cannot write: No space left on device (os error 28); the finished film is film.mp4.job/film.mp4\nhelp: ";
+    assert!(said.starts_with("exit 74\n") && said.contains(expected), "{said}");
+    assert!(fs::read(folder.path().join("film.mp4.job/film.mp4")).unwrap() == whole);
+    fs::remove_file(&output).unwrap();
+    data(folder.path(), &render("film.mp4", &[]));
+    assert!(fs::read(&output).unwrap() == whole);
+    assert_eq!(names(folder.path()), ["film.mp4", "shot.json"]);
+}
+
+/// The limit used to end the program without a word.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_on_file_sizes_is_an_error_that_keeps_the_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    // A frame of 320 x 180 takes 85 KiB. The film is larger than that: its reserved index alone takes 9 KiB.
+    let blocks = (whole.len() / 1024).to_string();
+    let mut shell = Command::new("sh");
+    shell.args(["-c", r#"ulimit -f $0; exec "$@""#, &blocks, env!("CARGO_BIN_EXE_cinesplat")]);
+    let output = shell.args(render("film.mp4", &[])).current_dir(folder.path()).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(74), "{said}");
+    assert!(said.contains("File too large") && said.contains("then go on with: "), "{said}");
+    let said = answer(folder.path(), &render("film.mp4", &[]));
+    assert!(said.starts_with("exit 0\n"), "{said}");
+    assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
+    assert_eq!(names(folder.path()), ["film.mp4", "shot.json"]);
+}
+
+#[test]
+fn without_a_job_folder_a_stopped_film_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    data(folder.path(), &render("film.mp4", &["--no-job"]));
+    assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole, "the same film");
+    let output = run(folder.path(), &render("other.mp4", &["--no-job", "--fresh"]));
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[cfg(unix)]
+#[test]
+fn several_programs_render_one_film() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    let mut parts = ["0..16", "8..24"].map(|frames| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
+        program.args(render("film.mp4", &["--part", "--frames", frames])).current_dir(folder.path());
+        program.stderr(Stdio::null()).spawn().unwrap()
+    });
+    for part in &mut parts {
+        assert!(part.wait().unwrap().success());
+    }
+    let listed = fs::read_to_string(folder.path().join("film.mp4.job/done.log")).unwrap();
+    let mut frames: Vec<usize> = listed.lines().map(|line| line.split_once(' ').unwrap().0.parse().unwrap()).collect();
+    frames.sort_unstable();
+    assert_eq!(frames, (0..24).collect::<Vec<_>>(), "every frame once");
+    data(folder.path(), &render("film.mp4", &[]));
+    assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
+    data(folder.path(), &[&["farm", "--local", "2"], &render("farmed.mp4", &[])[1..]].concat());
+    assert!(fs::read(folder.path().join("farmed.mp4")).unwrap() == whole);
+    assert_eq!(names(folder.path()), ["farmed.mp4", "film.mp4", "shot.json"]);
+}

@@ -1,0 +1,354 @@
+"""Disturbs renders in every way that `tests/reliability.md` lists, and prints that page's table.
+
+Usage: python3 tests/faults/run.py target/release/cinesplat [--kills 200] [--only ROW ..]
+
+Every row compares the film of a disturbed run, and of the runs that go on from it, with the film of an undisturbed run,
+byte by byte. Needs Linux and, for the rows of failing writes, a C compiler. Exits with 1 if a row finds a fault.
+"""
+
+import argparse
+import collections
+import json
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENE = "synth:tabletop:1:0.02"
+STOPPED, IO_ERROR = 75, 74
+
+
+def shot(duration, fps):
+    """A shot of the small scene: the camera moves to the right."""
+    key = lambda time, x: {"time_secs": time, "position": [x, 1.2, 1.5], "rotation_xyzw": [1, 0, 0, 0], "fov_y_deg": 50, "easing": "smooth"}
+    return {"format": "cinesplat.shot", "version": 1, "width": 320, "height": 180, "fps": fps, "duration_secs": duration,
+            "scene": {"path": SCENE, "up": [0, 1, 0]}, "keyframes": [key(0, 0), key(duration, 0.2)]}
+
+
+class Bench:
+    """A folder with a shot of `num_frames` frames and the bytes of its undisturbed film."""
+
+    def __init__(self, program, num_frames):
+        self.program, self.num_frames = program, num_frames
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="cinesplat-faults-"))
+        self.film, self.job = self.folder / "film.mp4", self.folder / "film.mp4.job"
+        (self.folder / "shot.json").write_text(json.dumps(shot(num_frames / 30, 30)))
+        start = time.monotonic()
+        assert self.run().returncode == 0, "the undisturbed film fails"
+        self.secs = time.monotonic() - start
+        self.whole = self.film.read_bytes()
+        self.clear()
+
+    def words(self, *flags, command=("render",)):
+        return [self.program, *command, SCENE, "--shot", "shot.json", "-o", "film.mp4", *flags]
+
+    def start(self, *flags, command=("render",), **options):
+        return subprocess.Popen(self.words(*flags, command=command), cwd=self.folder, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE, text=True, **options)
+
+    def run(self, *flags, **options):
+        return subprocess.run(self.words(*flags), cwd=self.folder, capture_output=True, text=True, **options)
+
+    def frames(self):
+        """The frame numbers that the log lists, in order."""
+        try:
+            lines = (self.job / "done.log").read_text(errors="replace").splitlines()
+        except FileNotFoundError:
+            return []
+        return [int(line.split()[0]) for line in lines if len(line.split()) == 2]
+
+    def is_whole(self):
+        return self.film.exists() and self.film.read_bytes() == self.whole
+
+    def leftovers(self):
+        return sorted(path.name for path in self.folder.iterdir() if path.name not in ("shot.json", "film.mp4"))
+
+    def clear(self):
+        self.film.unlink(missing_ok=True)
+        shutil.rmtree(self.job, ignore_errors=True)
+
+    def close(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+class Row:
+    """One line of the table."""
+
+    def __init__(self, fault, tried):
+        self.fault, self.tried, self.faults, self.result = fault, tried, [], ""
+
+    def check(self, is_right, what):
+        if not is_right:
+            self.faults.append(what)
+
+
+def after_some_frames(bench, child, rng):
+    """Waits for a random number of further frames, or for a random part of a run."""
+    if rng.random() < 0.3:
+        time.sleep(rng.uniform(0, bench.secs))
+        return
+    goal = len(bench.frames()) + rng.randint(0, bench.num_frames // 3)
+    while child.poll() is None and len(bench.frames()) < goal:
+        time.sleep(0.001)
+    time.sleep(rng.uniform(0, 0.01))
+
+
+def kills(program, num):
+    """SIGKILL at random times; the next run goes on."""
+    bench, rng, row = Bench(program, 60), random.Random(1), Row("SIGKILL at random times, film of 60 frames", "")
+    num_films = num_lost = num_twice = num_torn = 0
+    num_killed = 0
+    while num_killed < num:
+        before = set(bench.frames())
+        child = bench.start("--keep-frames")
+        after_some_frames(bench, child, rng)
+        child.kill()
+        child.communicate()
+        if child.returncode == -signal.SIGKILL:
+            num_killed += 1
+        else:
+            row.check(child.returncode == 0, f"exit {child.returncode}")
+        listed = collections.Counter(bench.frames())
+        num_lost += len(before - set(listed))
+        # A frame whose line was written and that was killed before it had its name is rendered again: one per kill at most.
+        num_twice = max(num_twice, sum(count - 1 for count in listed.values()))
+        row.check(not bench.film.exists() or bench.is_whole(), "a film that is not whole")
+        if bench.film.exists():
+            row.check(len(listed) == 60, f"{len(listed)} frames listed")
+            num_films += 1
+            num_torn += sum(count - 1 for count in listed.values())
+            bench.clear()
+    last = bench.run()
+    row.check(last.returncode == 0 and bench.is_whole(), "the last film is not whole")
+    row.check(bench.leftovers() == [], f"left: {bench.leftovers()}")
+    row.check(num_lost == 0, f"{num_lost} frames lost")
+    row.check(num_torn <= num_killed, f"{num_torn} frames twice")
+    row.tried = f"{num_killed} kills, {num_films + 1} films"
+    row.result = f"0 frames lost, {num_torn} kept twice, all films byte-identical"
+    bench.close()
+    return row
+
+
+def stops(program, num):
+    """SIGINT and SIGTERM once; then the line that the program says is typed."""
+    bench, rng, row = Bench(program, 60), random.Random(2), Row("SIGINT, SIGTERM at random times, then the line that it says", "")
+    codes = collections.Counter()
+    for idx in range(num):
+        child = bench.start()
+        goal = rng.randint(1, 59)
+        while child.poll() is None and len(bench.frames()) < goal:
+            time.sleep(0.001)
+        child.send_signal(rng.choice([signal.SIGINT, signal.SIGTERM]))
+        said = child.communicate()[1]
+        codes[child.returncode] += 1
+        if child.returncode == STOPPED:
+            line = next((line.split("type: ", 1)[1] for line in said.splitlines() if line.startswith("help: to go on")), "false")
+            typed = subprocess.run(["sh", "-c", line], cwd=bench.folder, capture_output=True)
+            row.check(typed.returncode == 0, f"the line {line} ends with {typed.returncode}")
+        else:
+            row.check(child.returncode == 0, f"exit {child.returncode}: {said}")
+        row.check(bench.is_whole() and bench.leftovers() == [], f"not whole, or left: {bench.leftovers()}")
+        bench.clear()
+    row.tried = f"{num} signals"
+    row.result = f"{codes[STOPPED]} times exit 75, {codes[0]} times done before; all films byte-identical"
+    bench.close()
+    return row
+
+
+def farm(program, num):
+    """Two of the programs of a farm are killed per film."""
+    bench, rng, row = Bench(program, 60), random.Random(3), Row("SIGKILL of programs of `farm --local 3`", "")
+    num_killed, num_twice = 0, 0
+    for idx in range(num):
+        child = bench.start("--keep-frames", command=("farm", "--local", "3"))
+        for _ in range(2):
+            goal = rng.randint(1, 50)
+            while child.poll() is None and len(set(bench.frames())) < goal:
+                time.sleep(0.001)
+            parts = subprocess.run(["pgrep", "-P", str(child.pid)], capture_output=True, text=True).stdout.split()
+            if parts:
+                os.kill(int(rng.choice(parts)), signal.SIGKILL)
+                num_killed += 1
+        said = child.communicate()[1]
+        listed = collections.Counter(bench.frames())
+        num_twice += sum(count - 1 for count in listed.values())
+        row.check(child.returncode == 0 and bench.is_whole(), f"exit {child.returncode}: {said[-300:]}")
+        row.check(len(listed) == 60, f"{len(listed)} frames")
+        bench.clear()
+    row.check(num_twice <= num_killed, f"{num_twice} frames twice")
+    row.tried = f"{num_killed} kills, {num} films"
+    row.result = f"0 frames lost, {num_twice} kept twice, all films byte-identical"
+    bench.close()
+    return row
+
+
+def losses(program, num):
+    """A loss of power: the end of the log and of the last frames is cut or filled with zeros."""
+    bench, rng, row = Bench(program, 60), random.Random(4), Row("Loss of power: log and last frames cut or zeroed", "")
+    num_redone = 0
+    for idx in range(num):
+        child = bench.start()
+        goal = rng.randint(3, 50)
+        while child.poll() is None and len(bench.frames()) < goal:
+            time.sleep(0.001)
+        child.kill()
+        child.communicate()
+        if not bench.job.exists():
+            bench.clear()
+            continue
+        log = bench.job / "done.log"
+        text = log.read_bytes()
+        cut = rng.randint(max(0, len(text) - 120), len(text))
+        log.write_bytes(text[:cut] + b"\0" * rng.choice([0, 0, 17]))
+        for path in sorted((bench.job / "frames").glob("*.yuv"))[-3:]:
+            bytes_, at = path.read_bytes(), rng.randint(0, 86400)
+            path.write_bytes(rng.choice([bytes_[:at], bytes_[:at] + b"\0" * (len(bytes_) - at), bytes_]))
+        again = bench.run()
+        num_redone += "damaged" in again.stderr
+        row.check(again.returncode == 0 and bench.is_whole(), f"exit {again.returncode}: {again.stderr[-300:]}")
+        bench.clear()
+    row.tried = f"{num} losses"
+    row.result = f"all films byte-identical; {num_redone} times damaged frames were found and rendered again"
+    bench.close()
+    return row
+
+
+def calls(program, kind):
+    """The nth call that writes fails, n = 1, 2, .. until a run passes without reaching it."""
+    bench, row = Bench(program, 3), Row(f"nth write fails: {kind}, film of 3 frames", "")
+    library = bench.folder.parent / f"{bench.folder.name}.so"
+    built = subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, HERE / "nth_call.c", "-ldl"])
+    assert built.returncode == 0, "no C compiler"
+    codes, call = collections.Counter(), 0
+    reached = pathlib.Path(f"{library}.reached")
+    while True:
+        call += 1
+        reached.unlink(missing_ok=True)
+        faulty = {**os.environ, "LD_PRELOAD": str(library), "FAULT_KIND": kind, "FAULT_CALL": str(call), "FAULT_REACHED": str(reached)}
+        first = bench.run(env=faulty)
+        codes[first.returncode] += 1
+        where = f"call {call}: exit {first.returncode}: {first.stderr[-300:]}"
+        expected = {0} if kind in ("eintr", "short") else {0, IO_ERROR, 73}
+        row.check(first.returncode in expected, where)
+        row.check(not bench.film.exists() or bench.is_whole(), f"{where}: a film that is not whole")
+        row.check(first.returncode != 0 or bench.is_whole(), f"{where}: no film")
+        if first.returncode != 0:
+            again = bench.run()
+            row.check(again.returncode == 0 and bench.is_whole(), f"{where}, then exit {again.returncode}: {again.stderr[-300:]}")
+        row.check(bench.leftovers() == [], f"{where}: left {bench.leftovers()}")
+        bench.clear()
+        if not reached.exists():
+            break
+    library.unlink()
+    row.tried = f"{call - 1} calls"
+    row.result = ", ".join(f"exit {code}: {count}" for code, count in sorted(codes.items())) + "; the next run makes the film"
+    bench.close()
+    return row
+
+
+def file_limits(program):
+    """`ulimit -f` from 1 KB to beyond the film's size."""
+    bench, row, codes = Bench(program, 60), Row("`ulimit -f` from 1 KB to 2 MB", ""), collections.Counter()
+    sizes = [1, 2, 4, 8, 16, 24, 32, 48, 64, 80, 90, 100, 128, 256, 512, 1024, 2048]
+    for size in sizes:
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size * 1024, size * 1024))
+        first = bench.run(preexec_fn=limit)
+        codes[first.returncode] += 1
+        row.check(first.returncode in (0, IO_ERROR), f"{size} KB: exit {first.returncode}: {first.stderr[-300:]}")
+        if first.returncode != 0:
+            again = bench.run()
+            row.check(again.returncode == 0, f"{size} KB, then exit {again.returncode}")
+        row.check(bench.is_whole() and bench.leftovers() == [], f"{size} KB: left {bench.leftovers()}")
+        bench.clear()
+    row.tried = f"{len(sizes)} limits"
+    row.result = f"exit 74: {codes[IO_ERROR]}, exit 0: {codes[0]}; the next run makes the film"
+    bench.close()
+    return row
+
+
+def memory_limits(program):
+    """`ulimit -v` from 64 MB to 4 GB."""
+    bench, row, codes = Bench(program, 3), Row("`ulimit -v` from 64 MB to 4 GB", ""), collections.Counter()
+    sizes = [64, 96, 128, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 3072, 4096]
+    for size in sizes:
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (size << 20, size << 20))
+        first = bench.run(preexec_fn=limit)
+        codes[first.returncode] += 1
+        row.check(first.returncode >= 0 and first.returncode != 134, f"{size} MB: exit {first.returncode}: {first.stderr[-200:]}")
+        row.check(not bench.film.exists() or bench.is_whole(), f"{size} MB: a film that is not whole")
+        bench.clear()
+    row.tried = f"{len(sizes)} limits"
+    row.result = ", ".join(f"exit {code}: {count}" for code, count in sorted(codes.items()))
+    bench.close()
+    return row
+
+
+def small_disk(program):
+    """A disk of a few hundred kilobytes fills up at every stage."""
+    bench, row, codes = Bench(program, 20), Row("Disk of 100 KB to 3 MB fills up", ""), collections.Counter()
+    disk = bench.folder / "disk"
+    disk.mkdir()
+    sizes = [100, 300, 500, 800, 1200, 1600, 1800, 2000, 3000]
+    for size in sizes:
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", disk], capture_output=True)
+        if mounted.returncode != 0:
+            row.tried, row.result = "0", "skipped: only root may mount a disk"
+            break
+        line = [program, "render", SCENE, "--shot", "../shot.json", "-o", "film.mp4"]
+        first = subprocess.run(line, cwd=disk, capture_output=True, text=True)
+        codes[first.returncode] += 1
+        row.check(first.returncode in (0, IO_ERROR), f"{size} KB: exit {first.returncode}: {first.stderr[-300:]}")
+        film = disk / "film.mp4"
+        row.check(not film.exists() or film.read_bytes() == bench.whole, f"{size} KB: a film that is not whole")
+        subprocess.run(["mount", "-o", "remount,size=20m", disk], check=True)
+        if first.returncode != 0:
+            again = subprocess.run(line, cwd=disk, capture_output=True, text=True)
+            row.check(again.returncode == 0, f"{size} KB, then exit {again.returncode}: {again.stderr[-300:]}")
+        row.check(film.read_bytes() == bench.whole and len(list(disk.iterdir())) == 1, f"{size} KB: not whole")
+        subprocess.run(["umount", disk], check=True)
+    row.tried = row.tried or f"{len(sizes)} sizes"
+    row.result = row.result or f"exit 74: {codes[IO_ERROR]}, exit 0: {codes[0]}; with space the next run makes the film"
+    bench.close()
+    return row
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--kills", type=int, default=200)
+    parser.add_argument("--only", nargs="*")
+    arguments = parser.parse_args()
+    program, num = os.path.abspath(arguments.program), arguments.kills
+    rows = {
+        "kills": lambda: kills(program, num),
+        "stops": lambda: stops(program, max(1, num // 4)),
+        "farm": lambda: farm(program, max(1, num // 20)),
+        "losses": lambda: losses(program, max(1, num // 4)),
+        **{kind: lambda kind=kind: calls(program, kind) for kind in ("enospc", "eio", "eintr", "short")},
+        "disk": lambda: small_disk(program),
+        "file-limits": lambda: file_limits(program),
+        "memory-limits": lambda: memory_limits(program),
+    }
+    print("| fault | tried | result |\n|---|---|---|", flush=True)
+    num_faults = 0
+    for name, make in rows.items():
+        if arguments.only and name not in arguments.only:
+            continue
+        row = make()
+        num_faults += len(row.faults)
+        result = row.result if not row.faults else f"**{len(row.faults)} faults** ({row.result})"
+        print(f"| {row.fault} | {row.tried} | {result} |", flush=True)
+        for fault in row.faults[:5]:
+            print(f"{name}: {fault}", file=sys.stderr, flush=True)
+    sys.exit(1 if num_faults else 0)
+
+
+if __name__ == "__main__":
+    main()
