@@ -7,16 +7,16 @@
 //! use std::path::Path;
 //!
 //! use cinesplat::director::Director;
-//! use cinesplat::pipeline::{self, DirectSettings, FilmSettings};
+//! use cinesplat::pipeline::{self, DirectSettings, FilmSettings, Interpreter};
 //! use cinesplat::render::Renderer;
 //! use cinesplat::scene::LoadOptions;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let opened = pipeline::open_scene(Path::new("room.spz"), &LoadOptions::default())?;
 //! let (scene, objects) = opened.with_objects(Some(Path::new("objects.json")))?;
-//! let director = Director::embedded()?;
+//! let interpreter = Interpreter::from(Director::embedded()?);
 //! let prompt = "push in on the lamp, then orbit it to the left";
-//! let directed = pipeline::direct(&scene, &objects, prompt, &director, &DirectSettings::default())?;
+//! let directed = pipeline::direct(&scene, &objects, prompt, &interpreter, &DirectSettings::default())?;
 //! for line in directed.shot.report.iter().filter(|line| !line.met) {
 //!     eprintln!("{}: wanted {}, got {}", line.clause, line.wanted, line.got);
 //! }
@@ -89,7 +89,7 @@
 //! |---|---|---|
 //! | composition | [`pipeline`], in this crate | all below but training |
 //! | training | `training` (feature `training`): sampler of sentences, dataset, training, exams | candle |
-//! | network | [`director`]: text encoder, Q-former, decoder | candle, tokenizers |
+//! | network | [`director`]: text encoder, Q-former, decoder; [`reader`]: a language model in its place (feature `reader`) | candle, tokenizers |
 //! | words | [`language`]: names, quantities, the notation of programs | |
 //! | taste | [`critic`]: looks at finished moves and chooses | |
 //! | exactness | [`operator`]: framing, visibility, clearance | |
@@ -130,6 +130,7 @@ pub use cinesplat_map as map;
 pub use cinesplat_objects as objects;
 pub use cinesplat_operator as operator;
 pub use cinesplat_plot as plot;
+pub use cinesplat_reader as reader;
 pub use cinesplat_render as render;
 pub use cinesplat_scene as scene;
 pub use cinesplat_synth as synth;

@@ -18,16 +18,18 @@ const ROWS: [&[&str]; 15] = [
     &["operator"],
     &["critic"],
     &["language"],
-    &["director"],
+    &["director", "reader"],
     &["training"],
     &["bench"],
     &["cinesplat"],
 ];
 
 /// Packages that some crates alone depend on.
-const OWNED: [(&[&str], &[&str]); 3] = [
+const OWNED: [(&[&str], &[&str]); 5] = [
     (&["clap", "anyhow", "indicatif", "ctrlc"], &["cinesplat"]),
-    (&["candle-core", "candle-nn", "tokenizers"], &["director", "training"]),
+    (&["candle-core", "tokenizers"], &["director", "reader", "training"]),
+    (&["candle-nn"], &["director", "training"]),
+    (&["candle-transformers"], &["reader"]),
     (&["ffmpeg-next"], &["video"]),
 ];
 

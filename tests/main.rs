@@ -23,6 +23,7 @@ mod map;
 mod objects;
 mod operator;
 mod pipeline;
+mod reader;
 mod render;
 mod scene;
 mod support;

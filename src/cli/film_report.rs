@@ -1,11 +1,13 @@
-//! What `render` says about a finished film.
+//! What `render` says about a film that is finished or stopped.
 
+use std::path::Path;
 use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use super::console;
-use cinesplat::pipeline::{FilmReport, Forecast, PhaseTimes};
+use super::failure::{Exit, Failure};
+use super::{console, reproduce};
+use cinesplat::pipeline::{self, FilmReport, Forecast, PhaseTimes};
 
 /// Prints the wall time per phase. Encoding runs beside rendering, so the phases sum to more than the total.
 pub(super) fn print_times(times: &PhaseTimes, report: &FilmReport, total: Duration) {
@@ -48,4 +50,26 @@ pub(super) fn compare(predicted: &Forecast, report: &FilmReport, psnr_db: f64) -
             "keep_secs": report.keep_time.as_secs_f64(), "encode_secs": report.encode_time.as_secs_f64(),
             "psnr_db": psnr_db},
     })
+}
+
+/// A stopped film is a failure; its finished frames are kept, unless the user did not want that.
+pub(super) fn stopped(report: &FilmReport, output: &Path, is_kept: bool) -> Failure {
+    let (place, done, wanted) = (output.display(), report.num_frames, report.num_wanted);
+    let found = format!("{place}: stopped after {done} of {wanted} frames");
+    let line = reproduce::line_to_go_on();
+    let (found, help) = if is_kept {
+        let folder = pipeline::job_folder(output);
+        (format!("{found}, which are kept in {}", folder.display()), format!("to go on, type: {line}"))
+    } else {
+        (found, format!("without --no-job the finished frames are kept; to start over, type: {line}"))
+    };
+    Failure::new("STOPPED", found, help, Exit::Stopped)
+}
+
+/// The failure, and the line to type once its cause is mended, where finished frames are kept.
+pub(super) fn with_line_to_go_on(failure: Failure, output: &Path) -> Failure {
+    if failure.exit() != Exit::Io || !pipeline::has_job(output) {
+        return failure;
+    }
+    failure.with_further_help(&format!("then go on with: {}", reproduce::line_to_go_on()))
 }

@@ -23,6 +23,7 @@ mod info;
 mod interrupt;
 mod job_args;
 mod map;
+mod model_args;
 mod objects;
 mod outputs;
 mod plan;

@@ -3,15 +3,14 @@ use std::path::{Path, PathBuf};
 use strum::VariantArray;
 
 use super::failure::Failure;
+use super::plan_outputs::PlanOutputs;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
-use super::plan_outputs::PlanOutputs;
 use super::{console, explain, heading, map, reproduce, takes};
-use cinesplat::director::Director;
 use cinesplat::export::shot_json;
 use cinesplat::objects::ObjectSet;
-use cinesplat::pipeline::{self, FilmSettings};
+use cinesplat::pipeline::{self, FilmSettings, Interpreter};
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
@@ -88,9 +87,9 @@ impl Args {
         jobs.iter().try_for_each(|(_, outputs)| outputs.check(self.overwrite))?;
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
-        let director = self.shot.director()?;
+        let interpreter = self.shot.interpreter()?;
         let plan = |named: &NamedPrompt, outputs: &PlanOutputs| {
-            self.plan(&director, (&scene, &objects), &named.prompt, outputs)
+            self.plan(&interpreter, (&scene, &objects), &named.prompt, outputs)
         };
         match jobs.as_slice() {
             [(named, outputs)] if self.words.prompts.is_none() => plan(named, outputs),
@@ -132,12 +131,12 @@ impl Args {
 
     fn plan(
         &self,
-        director: &Director,
+        interpreter: &Interpreter,
         (scene, objects): (&Scene, &ObjectSet),
         prompt: &str,
         outputs: &PlanOutputs,
     ) -> Result<(), Failure> {
-        let directed = self.shot.direct(director, (scene, objects), prompt)?;
+        let directed = self.shot.direct(interpreter, (scene, objects), prompt)?;
         if self.strict
             && let Some(line) = directed.shot.report.iter().find(|line| !line.met)
         {

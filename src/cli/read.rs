@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use cinesplat::director::{Director, SceneContext};
+use cinesplat::director::SceneContext;
 use cinesplat::language::{NamedObject, QuantityKind, program_to_notation};
 use cinesplat::objects::{self, Object, ObjectSet};
 use cinesplat::operator::Program;
@@ -10,6 +10,7 @@ use glam::DVec3;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
+use super::model_args::ModelArgs;
 use super::{console, explain, heading};
 
 /// Print what a sentence is understood as, without a scene
@@ -33,9 +34,8 @@ pub(super) struct Args {
     /// Names of the scene's objects, separated by commas; their ids are 1, 2 ..
     #[arg(long, value_name = "NAMES", value_delimiter = ',', help_heading = heading::SHOT)]
     names: Vec<String>,
-    /// Model to read with: its folder [default: built in]
-    #[arg(long, value_name = "DIR", help_heading = heading::SHOT)]
-    model: Option<PathBuf>,
+    #[command(flatten)]
+    models: ModelArgs,
     /// Print JSON
     #[arg(long, help_heading = heading::OUTPUT)]
     json: bool,
@@ -43,10 +43,8 @@ pub(super) struct Args {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let director = match &self.model {
-            Some(folder) => Director::load(folder)?,
-            None => Director::embedded()?,
-        };
+        let interpreter = self.models.interpreter()?;
+        let director = &interpreter.director;
         let mut names = self.objects()?;
         let mut linked = director.link(&self.prompt, &names)?;
         if self.objects.is_none() && self.names.is_empty() {
@@ -59,7 +57,7 @@ impl Args {
         let objects: Vec<Object> = names.iter().enumerate().map(|(idx, name)| placeholder(idx, name)).collect();
         let scene =
             SceneContext { objects: &objects, up: DVec3::Y, center: DVec3::ZERO, size: objects.len() as f64 + 2.0 };
-        let reading = pipeline::read(&self.prompt, linked, &director, &scene)?;
+        let reading = pipeline::read(&self.prompt, linked, &interpreter, &scene)?;
         if self.json {
             return console::data(&format!("{:#}\n", document(&self.prompt, &reading, &names)));
         }
@@ -135,7 +133,7 @@ fn document(prompt: &str, reading: &Reading, names: &[NamedObject]) -> Value {
                 "words": step.words,
                 "text": reading.words_of(step, prompt),
                 "probability": certainty.probability,
-                "least_sure_of": certainty.weakest.0.to_string(),
+                "least_sure_of": certainty.weakest.0,
             })
         })
         .collect();

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::choice::choice;
-use super::failure::{Exit, Failure};
+use super::failure::Failure;
 use super::film_report;
 use super::interrupt::Interrupt;
 use super::job_args::JobArgs;
@@ -155,17 +155,20 @@ impl Args {
 
     /// One film per prompt of a file; scene, director and renderer are prepared once.
     fn run_prompts(&self, prompts: &[NamedPrompt]) -> Result<(), Failure> {
-        let jobs: Vec<(NamedPrompt, Self)> =
+        let mut jobs: Vec<(NamedPrompt, Self)> =
             prompts.iter().map(|named| Ok((named.clone(), self.for_prompt(named)?))).collect::<Result<_, Failure>>()?;
+        if jobs.iter().any(|(_, job)| job.job.goes_on(&job.output)) {
+            jobs.retain(|(_, job)| !job.is_finished());
+        }
         jobs.iter().try_for_each(|(_, job)| job.check_outputs())?;
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
-        let director = self.shot.director()?;
+        let interpreter = self.shot.interpreter()?;
         let renderer = Renderer::new(&scene.gaussians);
         let interrupt = Interrupt::listen()?;
         prompts_file::for_each(&jobs, |named, job| {
             let start = Instant::now();
-            let directed = job.shot.direct(&director, (&scene, &objects), &named.prompt)?;
+            let directed = job.shot.direct(&interpreter, (&scene, &objects), &named.prompt)?;
             job.render_takes((&scene, &objects, &renderer), &directed.takes, (directed.times, start), &interrupt)
         })
     }
@@ -209,6 +212,20 @@ impl Args {
         missing.into_iter().try_for_each(|(take, shot)| render(take, shot))
     }
 
+    /// Whether the film is there already: in a file of prompts of which a film was stopped, those before it are. Says so.
+    fn is_finished(&self) -> bool {
+        let first = match VideoFormat::from_path(&self.output) {
+            Ok(VideoFormat::Sequence(pattern)) => pattern.path(self.frames.start),
+            _ => self.output.clone(),
+        };
+        let is_finished =
+            self.overwrite.existing() == Existing::Keep && !self.job.goes_on(&self.output) && first.exists();
+        if is_finished {
+            console::note(&format!("{}: exists already, left as it is", self.output.display()));
+        }
+        is_finished
+    }
+
     /// The arguments that render one prompt of a file.
     fn for_prompt(&self, named: &NamedPrompt) -> Result<Self, Failure> {
         let output = |path: &PathBuf| prompts_file::output_of(path, &named.name);
@@ -249,7 +266,12 @@ impl Args {
         let job = self.job.settings(self.inputs(scene, shot)?);
         let mut settings = FilmSettings { render, video, frames, sheet: self.sheet.clone(), job };
         if self.job.part {
-            return self.film(renderer, shot, &settings, interrupt).map(|_report| ());
+            self.film(renderer, shot, &settings, interrupt)?;
+            console::note(&format!(
+                "frames are in {}; the same line without --part makes the film",
+                pipeline::job_folder(&self.output).display()
+            ));
+            return Ok(());
         }
         let predicted = times.measure(Phase::Predict, || self.predict(renderer, shot, &mut settings))?;
         settings.render.quality = predicted.quality;
@@ -357,8 +379,8 @@ impl Args {
         let prompt = self.source.prompt.as_deref().unwrap_or_default();
         let (scene, objects) =
             times.measure(Phase::Load, || self.scene.open_with_objects(self.shot.objects.as_deref()))?;
-        let director = times.measure(Phase::Load, || self.shot.director())?;
-        let directed = self.shot.direct(&director, (&scene, &objects), prompt)?;
+        let interpreter = times.measure(Phase::Load, || self.shot.interpreter())?;
+        let directed = self.shot.direct(&interpreter, (&scene, &objects), prompt)?;
         times.extend(&directed.times);
         Ok((scene, objects, directed.takes))
     }
@@ -434,33 +456,15 @@ impl Args {
             pipeline::film(renderer, shot, &self.output, settings, &mut watch)
         };
         bar.finish();
-        let report = report.map_err(|error| self.with_line_to_go_on(error.into()))?;
+        let report = report.map_err(|error| film_report::with_line_to_go_on(error.into(), &self.output))?;
         if report.num_damaged > 0 {
             console::warnings([format!("{} damaged frames were rendered again", report.num_damaged)]);
         }
-        if report.is_partial() { Err(self.stopped(&report, settings.job.is_some())) } else { Ok(report) }
-    }
-
-    /// A stopped film is a failure; its finished frames are kept.
-    fn stopped(&self, report: &FilmReport, is_kept: bool) -> Failure {
-        let (place, done, wanted) = (self.output.display(), report.num_frames, report.num_wanted);
-        let found = format!("{place}: stopped after {done} of {wanted} frames");
-        let line = reproduce::line_to_go_on();
-        let (found, help) = if is_kept {
-            let folder = pipeline::job_folder(&self.output);
-            (format!("{found}, which are kept in {}", folder.display()), format!("to go on, type: {line}"))
+        if report.is_partial() {
+            Err(film_report::stopped(&report, &self.output, settings.job.is_some()))
         } else {
-            (found, format!("without --no-job the finished frames are kept; to start over, type: {line}"))
-        };
-        Failure::new("STOPPED", found, help, Exit::Stopped)
-    }
-
-    /// The failure, and the line to type once its cause is mended, where finished frames are kept.
-    fn with_line_to_go_on(&self, failure: Failure) -> Failure {
-        if failure.exit() != Exit::Io || !pipeline::has_job(&self.output) {
-            return failure;
+            Ok(report)
         }
-        failure.with_further_help(&format!("then go on with: {}", reproduce::line_to_go_on()))
     }
 }
 

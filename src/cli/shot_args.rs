@@ -6,13 +6,13 @@ use strum::VariantArray;
 
 use super::choice::choice;
 use super::failure::Failure;
+use super::model_args::ModelArgs;
 use super::takes::TakesArgs;
 use super::{console, heading, outputs};
-use cinesplat::director::Director;
 use cinesplat::lens::{self, Decision, Effect, EffectCall, EffectChoice};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::SolveLevel;
-use cinesplat::pipeline::{self, DirectSettings, Directed, FilmChoice};
+use cinesplat::pipeline::{self, DirectSettings, Directed, FilmChoice, Interpreter};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::{Shot, retimed};
 
@@ -46,25 +46,20 @@ pub(super) struct ShotArgs {
     pub(super) takes: TakesArgs,
     #[command(flatten)]
     solve: SolveArgs,
-    /// Folder with the director's weights [default: the built-in weights]
-    #[arg(long, value_name = "DIR", help_heading = heading::SHOT, hide_short_help = true)]
-    model: Option<PathBuf>,
+    #[command(flatten)]
+    models: ModelArgs,
 }
 
 impl ShotArgs {
-    /// Loads the director's network.
-    pub(super) fn director(&self) -> Result<Director, Failure> {
-        let director = match &self.model {
-            Some(folder) => Director::load(folder),
-            None => Director::embedded(),
-        };
-        Ok(director?)
+    /// Loads the models that read prompts.
+    pub(super) fn interpreter(&self) -> Result<Interpreter, Failure> {
+        self.models.interpreter()
     }
 
     /// Turns a prompt into a shot. Prints guesses and unmet requirements to stderr.
     pub(super) fn direct(
         &self,
-        director: &Director,
+        interpreter: &Interpreter,
         (scene, objects): (&Scene, &ObjectSet),
         prompt: &str,
     ) -> Result<Directed, Failure> {
@@ -79,7 +74,7 @@ impl ShotArgs {
             effects: self.effects.clone(),
             choice: FilmChoice { num_takes: usize::from(self.takes.count), ..FilmChoice::default() },
         };
-        let mut directed = pipeline::direct(scene, objects, prompt, director, &settings)?;
+        let mut directed = pipeline::direct(scene, objects, prompt, interpreter, &settings)?;
         if self.retime {
             for shot in iter::once(&mut directed.shot).chain(&mut directed.takes) {
                 *shot = retimed(shot);

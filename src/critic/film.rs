@@ -3,6 +3,9 @@
 use cinesplat_operator::{Pass, Program, Sighting, Solution, Step, World};
 use cinesplat_trajectory::{CameraPath, Move};
 
+/// Times closer than this are one moment.
+const MOMENT_SECS: f64 = 1e-3;
+
 /// A film to judge: where the camera is at each moment, and what its words ask for.
 #[derive(Debug, Clone)]
 pub struct Film {
@@ -45,10 +48,10 @@ impl Film {
     pub(super) fn moments(&self, num: usize) -> Vec<f64> {
         let last = num.max(2) - 1;
         let mut times: Vec<f64> = (0..=last).map(|i| self.duration_secs * i as f64 / last as f64).collect();
-        let single = self.sightings.iter().filter(|sighting| sighting.from_secs == sighting.to_secs);
+        let single = self.sightings.iter().filter(|sighting| sighting.to_secs - sighting.from_secs < MOMENT_SECS);
         times.extend(single.map(|sighting| sighting.from_secs.clamp(0.0, self.duration_secs)));
         times.sort_by(f64::total_cmp);
-        times.dedup_by(|a, b| *a - *b < 1e-3);
+        times.dedup_by(|a, b| *a - *b < MOMENT_SECS);
         times
     }
 }

@@ -31,7 +31,7 @@ fn limit_line(check: &LimitCheck) -> ReportLine {
         Limit::Black => ("picture: black frames", "of the frames"),
     };
     let note = match check.at_secs.filter(|_| !check.is_kept()) {
-        Some(secs) => format!("worst at {secs:.1} s; no other film did better"),
+        Some(secs) => format!("worst at {secs:.1} s"),
         None => String::new(),
     };
     let wanted = format!("at most {:.0} % {of}", 100.0 * check.most);

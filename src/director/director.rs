@@ -25,8 +25,8 @@ pub struct StepCertainty {
     /// Probability that the step is what the prompt requests, 0..=1: the product of the probabilities of all its choices,
     /// calibrated on sentences that training has not seen.
     pub probability: f64,
-    /// The choice of the lowest probability, and that probability.
-    pub weakest: (Choice, f64),
+    /// The name of the choice of the lowest probability ([`Choice`]), and that probability.
+    pub weakest: (&'static str, f64),
     /// Byte range of the prompt that the step comes from.
     pub words: Option<[usize; 2]>,
 }
@@ -226,14 +226,14 @@ fn certainty(
     let of = |key_idx: usize| certainties.get(key_idx).map_or(&[][..], |certainty| &certainty.choices);
     let starts = of(start).iter().filter(|(choice, _)| !choice.is_arrival());
     let ends = of(end).iter().filter(|(choice, _)| choice.is_arrival());
-    let mut out = StepCertainty { probability: 1.0, weakest: (Choice::Class(Field::Next), 1.0), words };
+    let mut out = StepCertainty { probability: 1.0, weakest: (Choice::Class(Field::Next).into(), 1.0), words };
     if keys.get(start).is_none_or(|key| key.class(Field::Next) != NEXT_SEGMENT) {
         out.probability = 0.0;
     }
     for (choice, probability) in starts.chain(ends) {
         out.probability *= probability;
         if *probability < out.weakest.1 {
-            out.weakest = (*choice, *probability);
+            out.weakest = ((*choice).into(), *probability);
         }
     }
     out

@@ -68,6 +68,9 @@
 //! assert_eq!(program_to_notation(&program), "orbit-left end=3:low! amount=45deg slow | total=8s");
 //! # Ok::<(), cinesplat_language::NotationError>(())
 //! ```
+//!
+//! What [`program_to_notation`] prints is also a [`Pattern`] ([`program_pattern`]). Its [`Automaton`] holds a writer to
+//! the notation byte by byte: whatever it lets pass parses.
 
 mod edit_distance;
 mod effects;
@@ -97,7 +100,10 @@ pub use link::link;
 pub use linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
 pub use mention::{Mention, check_prompt, link_mentions};
 pub use names::{NamedObject, nearest_names};
-pub use notation::{NotationError, program_from_notation, program_to_notation, step_from_notation};
+pub use notation::{
+    Automaton, MAX_LISTED, MAX_STEPS, NotationError, Pattern, States, program_from_notation, program_pattern,
+    program_to_notation, step_from_notation,
+};
 pub use numbered::{NumberedMention, numbered_mention_at};
 pub use numerals::number_word;
 pub use quantity::{Quantity, QuantityKind};

@@ -95,7 +95,10 @@ fn screen_travel(world: &World, step: &Step, segment: &MotionSegment) -> f64 {
         let seen = aim.and_then(|aim| frame_position(world, state, aim)).map(|(_, depth)| depth);
         seen.map_or(free, |depth| depth.clamp(0.2 * free, 4.0 * free))
     };
-    states.windows(2).map(|pair| flow(world, pair, depth(&pair[0])).max(flow(world, pair, BACKGROUND * depth(&pair[0])))).sum()
+    states
+        .windows(2)
+        .map(|pair| flow(world, pair, depth(&pair[0])).max(flow(world, pair, BACKGROUND * depth(&pair[0]))))
+        .sum()
 }
 
 /// Median way of the points of the first picture at a distance until the second one, in frame widths. Points that leave

@@ -4,7 +4,6 @@ use cinesplat_operator::{Program, Solution, SolveLevel, World};
 use cinesplat_render::Renderer;
 use cinesplat_scene::Scene;
 
-use super::direct::DirectSettings;
 use super::error::PipelineError;
 
 /// How the critic chooses among the films that the search finishes.
@@ -52,8 +51,7 @@ pub struct Critique {
     pub ranks: Vec<usize>,
 }
 
-/// Sorts the finished films of a program, the best first, and adds the critic's lines to their reports. `None` without a
-/// search: then nobody looks at the film.
+/// Sorts the finished films of a program, the best first, and adds the critic's lines to their reports.
 ///
 /// # Errors
 /// [`PipelineError::Render`] when the pictures cannot be rendered.
@@ -61,25 +59,22 @@ pub(super) fn choose_film(
     (scene, objects, world): (&Scene, &ObjectSet, &World),
     program: &Program,
     solutions: &mut Vec<Solution>,
-    settings: &DirectSettings,
-) -> Result<Option<Critique>, PipelineError> {
-    if settings.solve == SolveLevel::Off {
-        return Ok(None);
-    }
-    let size_px = [settings.width, settings.height];
+    size_px: [u32; 2],
+    choice: &FilmChoice,
+) -> Result<Critique, PipelineError> {
     let renderer = Renderer::new(&scene.gaussians);
     let subjects = Subjects::new(&scene.gaussians, objects, &program.object_ids());
-    let critic = Critic::new((scene, &world.bounds), &renderer, &subjects, settings.choice.critic);
+    let critic = Critic::new((scene, &world.bounds), &renderer, &subjects, choice.critic);
     let films: Vec<Film> = solutions.iter().map(|solution| Film::new(world, program, solution, size_px)).collect();
     let mut candidates = Vec::new();
     for (solution, film) in solutions.iter().zip(&films) {
         let num_unmet = solution.report.iter().filter(|line| !line.met).count();
         candidates.push(Candidate { num_unmet, review: critic.glance(film)? });
     }
-    let weights = &settings.choice.weights;
+    let weights = &choice.weights;
     let mut ranks = ranked(&candidates, weights);
     // A closer look at those that come into question. More moments find more faults: the others stay behind them.
-    let num_close = (settings.choice.num_takes + 1).min(ranks.len());
+    let num_close = (choice.num_takes + 1).min(ranks.len());
     for &rank in &ranks[..num_close] {
         let review = critic.review(&films[rank], Some(&candidates[rank].review))?;
         candidates[rank].review = review;
@@ -93,5 +88,5 @@ pub(super) fn choose_film(
     *solutions = ranks.iter().map(|&rank| solutions[rank].clone()).collect();
     let films = ranks.iter().map(|&rank| films[rank].clone()).collect();
     let candidates = ranks.iter().map(|&rank| candidates[rank].clone()).collect();
-    Ok(Some(Critique { candidates, films, ranks }))
+    Ok(Critique { candidates, films, ranks })
 }

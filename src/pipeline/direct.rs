@@ -1,5 +1,6 @@
-use super::choose_film::{Critique, FilmChoice};
+use super::choose_film::{Critique, FilmChoice, choose_film};
 use super::error::PipelineError;
+use super::interpreter::Interpreter;
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use cinesplat_director::{Direction, Director, SceneContext};
@@ -87,7 +88,7 @@ pub struct StepReading {
     pub words: String,
     /// The step that they mean.
     pub step: Step,
-    /// Probability of the whole step according to the network, 0..=1.
+    /// Probability of the whole step according to the model, 0..=1.
     pub probability: f64,
     /// The least probable choice of the step, and its probability.
     pub weakest: (&'static str, f64),
@@ -112,17 +113,17 @@ pub fn direct(
     scene: &Scene,
     objects: &ObjectSet,
     prompt: &str,
-    director: &Director,
+    interpreter: &Interpreter,
     settings: &DirectSettings,
 ) -> Result<Directed, PipelineError> {
     let mut times = PhaseTimes::default();
-    let linked = times.measure(Phase::Direct, || director.link(prompt, &names(objects)))?;
+    let linked = times.measure(Phase::Direct, || interpreter.director.link(prompt, &names(objects)))?;
     let objects = times.measure(Phase::Objects, || with_clouds(scene, objects, &linked))?;
     let bounds = scene.bounds();
     let context =
         SceneContext { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
     let Reading { linked, mut direction, effects, problems } =
-        times.measure(Phase::Direct, || read(prompt, linked, director, &context))?;
+        times.measure(Phase::Direct, || read(prompt, linked, interpreter, &context))?;
     refuse_missing(&linked, &direction)?;
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
@@ -141,14 +142,15 @@ pub fn direct(
     let mut solutions = times.measure(Phase::Solve, || {
         cinesplat_operator::finalists(&world, (program, prompt), &direction.step_cameras, &solve, num)
     });
-    let critique = times.measure(Phase::Judge, || {
-        super::choose_film::choose_film((scene, &objects, &world), program, &mut solutions, settings)
-    })?;
+    let size_px = [settings.width, settings.height];
+    let judge = || choose_film((scene, &objects, &world), program, &mut solutions, size_px, &settings.choice);
+    // Without a search nobody looks at the film.
+    let critique = if level == SolveLevel::Off { None } else { Some(times.measure(Phase::Judge, judge)?) };
     solutions.truncate(settings.choice.num_takes.max(1));
     let decisions = cinesplat_lens::decide(&settings.effects, &calls);
     let finished = |solution| {
         let mut shot = shot_of(scene, prompt, solution, settings);
-        shot.model = Some(director.model_ref());
+        shot.model = Some(interpreter.model_ref());
         shot.effects = decisions.iter().filter_map(Decision::request).collect();
         shot.report.extend(decisions.iter().filter_map(Decision::report_line));
         shot.report.extend(problems.iter().map(Problem::report_line));
@@ -215,7 +217,7 @@ fn readings(prompt: &str, direction: &Direction) -> Vec<StepReading> {
             words: words(step),
             step: step.clone(),
             probability: sure.probability,
-            weakest: (sure.weakest.0.into(), sure.weakest.1),
+            weakest: sure.weakest,
         })
         .collect()
 }

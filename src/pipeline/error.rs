@@ -6,6 +6,7 @@ use cinesplat_export::ExportError;
 use cinesplat_geometry::GeometryError;
 use cinesplat_language::LanguageError;
 use cinesplat_objects::ObjectsError;
+use cinesplat_reader::ReaderError;
 use cinesplat_render::RenderError;
 use cinesplat_scene::SceneError;
 use cinesplat_trajectory::TrajectoryError;
@@ -26,6 +27,9 @@ pub enum PipelineError {
     /// The director cannot turn the prompt into a program.
     #[error(transparent)]
     Director(#[from] DirectorError),
+    /// The language model cannot turn the prompt into a program.
+    #[error(transparent)]
+    Reader(#[from] ReaderError),
     /// The keyframes make no path.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
@@ -78,6 +82,7 @@ impl PipelineError {
             Self::Objects(error) => error.code(),
             Self::Language(error) => error.code(),
             Self::Director(error) => error.code(),
+            Self::Reader(error) => error.code(),
             Self::Trajectory(error) => error.code(),
             Self::Geometry(error) => error.code(),
             Self::Export(error) => error.code(),

@@ -1,11 +1,12 @@
 //! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
 
-use cinesplat_director::{Direction, Director, SceneContext};
+use cinesplat_director::{Direction, SceneContext};
 use cinesplat_language::{EffectMention, Linked, effect_mentions};
 use cinesplat_operator::{Look, Motion, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
 use super::error::PipelineError;
+use super::interpreter::Interpreter;
 
 /// Below this probability a step is not carried out, unless all others are less likely.
 const LEAST_PROBABILITY: f64 = 0.03;
@@ -95,18 +96,20 @@ impl Reading {
     }
 }
 
-/// Reads a prompt about a scene; `linked` are its words with their mentions ([`Director::link`]).
+/// Reads a prompt about a scene; `linked` are its words with their mentions
+/// ([`Director::link`](cinesplat_director::Director::link)).
 ///
 /// # Errors
-/// [`PipelineError::Language`] when the embedded lexicon is malformed · [`PipelineError::Director`] when the network fails.
+/// [`PipelineError::Language`] when the embedded lexicon is malformed · [`PipelineError::Director`] when the network fails ·
+/// [`PipelineError::Reader`] when the language model fails.
 pub fn read(
     prompt: &str,
     linked: Linked,
-    director: &Director,
+    interpreter: &Interpreter,
     scene: &SceneContext<'_>,
 ) -> Result<Reading, PipelineError> {
     let effects = effect_mentions(&linked)?;
-    let mut direction = director.direct(&linked, scene)?;
+    let mut direction = interpreter.direct(prompt, &linked, scene)?;
     let mut problems = Vec::new();
     problems.extend(unmet(prompt, &direction, &effects));
     problems.extend(missing_aside(&linked, &mut direction.program));

@@ -82,8 +82,10 @@ fn help_shows_every_command_and_examples() {
 #[test]
 fn short_help_fits_on_a_screen_and_long_help_says_more() {
     let folder = tempfile::tempdir().unwrap();
-    let commands =
-        ["info", "objects", "plan", "render", "map", "farm", "still", "export", "import", "eval", "train", "dataset", "bench"];
+    let commands = [
+        "info", "objects", "plan", "render", "map", "farm", "still", "export", "import", "eval", "train", "dataset",
+        "bench",
+    ];
     for command in commands {
         let (short, long) = (data(folder.path(), &[command, "-h"]), data(folder.path(), &[command, "--help"]));
         assert!(short.lines().count() <= 40, "{command}: {} lines", short.lines().count());

@@ -6,17 +6,29 @@ use std::process::{Child, Command, Stdio};
 
 use super::{SMALL_SCENE, answer, data, run, write_shot};
 
-const RENDER: [&str; 7] = ["render", SMALL_SCENE, "--shot", "shot.json", "--size", "320x180", "--fps"];
+const RENDER: [&str; 4] = ["render", SMALL_SCENE, "--shot", "shot.json"];
+/// A film of 24 frames.
+const SHORT: [&str; 4] = ["--size", "320x180", "--fps", "24"];
+/// A film of 300 frames: a signal comes before its end.
+const LONG: [&str; 4] = ["--size", "320x180", "--fps", "300"];
 
-/// The line that renders the film of these tests: 24 frames.
+/// The line that renders the film of most of these tests.
 fn render<'a>(output: &'a str, flags: &[&'a str]) -> Vec<&'a str> {
-    [&RENDER[..], &["24", "-o", output], flags].concat()
+    render_sized(&SHORT, output, flags)
+}
+
+fn render_sized<'a>(size: &[&'a str], output: &'a str, flags: &[&'a str]) -> Vec<&'a str> {
+    [&RENDER[..], size, &["-o", output], flags].concat()
 }
 
 /// The film of an undisturbed run.
 fn undisturbed(folder: &Path) -> Vec<u8> {
+    undisturbed_sized(folder, &SHORT)
+}
+
+fn undisturbed_sized(folder: &Path, size: &[&str]) -> Vec<u8> {
     write_shot(folder);
-    data(folder, &render("whole.mp4", &[]));
+    data(folder, &render_sized(size, "whole.mp4", &[]));
     let bytes = fs::read(folder.join("whole.mp4")).unwrap();
     fs::remove_file(folder.join("whole.mp4")).unwrap();
     bytes
@@ -68,10 +80,10 @@ fn a_killed_film_goes_on_and_has_the_bytes_of_an_undisturbed_one() {
 #[test]
 fn a_stopped_film_says_the_line_that_goes_on() {
     let folder = tempfile::tempdir().unwrap();
-    let whole = undisturbed(folder.path());
+    let whole = undisturbed_sized(folder.path(), &LONG);
     for signal in ["-INT", "-TERM"] {
-        let film =
-            start(folder.path(), &render("film.mp4", &["--fresh", "--save-shot", "saved.json", "--sheet", "s.png"]), 2);
+        let flags = ["--fresh", "--save-shot", "saved.json", "--sheet", "s.png"];
+        let film = start(folder.path(), &render_sized(&LONG, "film.mp4", &flags), 2);
         assert!(Command::new("kill").args([signal, &film.id().to_string()]).status().unwrap().success());
         let output = film.wait_with_output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
@@ -135,7 +147,7 @@ fn places_that_cannot_be_written_are_refused_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
     let long = format!("{}.mp4", "a".repeat(250));
     fs::write(folder.path().join("taken.mp4.job"), "a file").unwrap();
-    for (output, code) in [("/proc/film.mp4", "73"), (&long, "73"), ("new.mp4/", "73"), ("taken.mp4", "73")] {
+    for (output, code) in [("/proc/film.mp4", "77"), (&long, "73"), ("new.mp4/", "73"), ("taken.mp4", "73")] {
         // The scene does not exist, but the output is checked first.
         let said = answer(folder.path(), &["render", "no.ply", "-p", "x", "-o", output]);
         assert!(said.starts_with(&format!("exit {code}\nerror[OUTPUT-CREATE]: ")), "{output}: {said}");
@@ -166,19 +178,37 @@ fn a_film_that_does_not_fit_in_its_place_is_kept_and_put_there_later() {
 #[test]
 fn a_limit_on_file_sizes_is_an_error_that_keeps_the_frames() {
     let folder = tempfile::tempdir().unwrap();
-    let whole = undisturbed(folder.path());
-    // A frame of 320 x 180 takes 85 KiB. The film is larger than that: its reserved index alone takes 9 KiB.
-    let blocks = (whole.len() / 1024).to_string();
+    // A frame takes 3.4 KB, the film more than the 12.8 KB of its index. The unit of the limit is 512 or 1024 bytes.
+    let size = ["--size", "64x36", "--fps", "96"];
+    let whole = undisturbed_sized(folder.path(), &size);
+    assert!(whole.len() > 16 << 10);
     let mut shell = Command::new("sh");
-    shell.args(["-c", r#"ulimit -f $0; exec "$@""#, &blocks, env!("CARGO_BIN_EXE_cinesplat")]);
-    let output = shell.args(render("film.mp4", &[])).current_dir(folder.path()).output().unwrap();
+    shell.args(["-c", r#"ulimit -f 16; exec "$0" "$@""#, env!("CARGO_BIN_EXE_cinesplat")]);
+    let output = shell.args(render_sized(&size, "film.mp4", &[])).current_dir(folder.path()).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(74), "{said}");
     assert!(said.contains("File too large") && said.contains("then go on with: "), "{said}");
-    let said = answer(folder.path(), &render("film.mp4", &[]));
+    let said = answer(folder.path(), &render_sized(&size, "film.mp4", &[]));
     assert!(said.starts_with("exit 0\n"), "{said}");
     assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
     assert_eq!(names(folder.path()), ["film.mp4", "shot.json"]);
+}
+
+/// Typing the line of a stopped list of prompts again used to be refused, because its first films exist.
+#[cfg(unix)]
+#[test]
+fn a_list_of_prompts_goes_on_at_the_film_that_was_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("moves.txt"), "one\tpan left\nfilm\tpan right\n").unwrap();
+    let line = ["render", SMALL_SCENE, "--prompts", "moves.txt", "-o", "{}.mp4", "--size", "640x360", "--solve", "off"];
+    let film = start(folder.path(), &line, 3);
+    assert!(Command::new("kill").args(["-INT", &film.id().to_string()]).status().unwrap().success());
+    assert_eq!(film.wait_with_output().unwrap().status.code(), Some(75));
+    let first = fs::metadata(folder.path().join("one.mp4")).unwrap().modified().unwrap();
+    let said = answer(folder.path(), &line);
+    assert!(said.starts_with("exit 0\n") && said.contains("one.mp4: exists already, left as it is"), "{said}");
+    assert_eq!(fs::metadata(folder.path().join("one.mp4")).unwrap().modified().unwrap(), first);
+    assert_eq!(names(folder.path()), ["film.mp4", "moves.txt", "one.mp4"]);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use cinesplat::operator::{Amount, Program};
 
 mod effects;
 mod exam;
+mod grammar;
 mod link;
 mod mention;
 mod notation;

@@ -1,3 +1,4 @@
+mod cases;
 mod critic;
 #[cfg(feature = "training")]
 mod director;

@@ -13,6 +13,7 @@ impl From<PipelineError> for Failure {
             PipelineError::Objects(error) => return error.into(),
             PipelineError::Language(error) => return error.into(),
             PipelineError::Director(error) => return error.into(),
+            PipelineError::Reader(error) => return error.into(),
             PipelineError::Trajectory(error) => return error.into(),
             PipelineError::Geometry(error) => return error.into(),
             PipelineError::Export(error) => return error.into(),

@@ -22,7 +22,9 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
     let named = context.start.is_some() || context.end.is_some();
     let (mut segments, state) = match &context.before {
-        Some(before) if named && off_center(context.world, before, target.aim) > HELD_OFF => context.turned_to(before, target.aim),
+        Some(before) if named && off_center(context.world, before, target.aim) > HELD_OFF => {
+            context.turned_to(before, target.aim)
+        }
         Some(before) => (Vec::new(), *before),
         None => {
             let mut framing = context.step.start.clone();

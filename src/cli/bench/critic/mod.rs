@@ -8,7 +8,7 @@ mod sheet;
 
 use std::path::PathBuf;
 
-use super::operator::cases::CaseArgs;
+use super::cases::{CaseArgs, CaseDirector, PromptCase};
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::heading;
@@ -67,42 +67,52 @@ impl Args {
         console::data(&film_row::csv_header())?;
         let (mut rows, mut curve) = (Vec::new(), curve::Curve::default());
         for case in &cases {
-            let directed = match director.direct_with(case, &self.settings(None)) {
-                Ok(directed) => directed,
-                Err(failure) => {
-                    console::error(&failure);
-                    continue;
-                }
-            };
-            let Some(critique) = directed.critique.clone() else {
-                return Err(Failure::usage("--solve off: nobody looks at the film", "choose --solve fast or full"));
-            };
-            if self.curve {
-                curve.add(&critique);
-                for &num in &curve::FINALISTS {
-                    let timed = director.direct_with(case, &self.settings(Some(num)))?;
-                    curve.add_times(num, &timed.times);
-                }
+            match self.bench_case(case, &mut director, &mut curve) {
+                Ok(row) => rows.push(row),
+                // A prompt that cannot be planned does not stop the others.
+                Err(failure) => console::error(&failure),
             }
-            if self.sheets {
-                let scene = &director.scene_of(case)?.scene;
-                sheet::write(scene, &directed.shot, &sheet_of(&case.id), self.overwrite.existing())?;
-            }
-            let time =
-                |phase| directed.times.iter().find(|(known, _)| *known == phase).map_or(0.0, |(_, t)| t.as_secs_f64());
-            let row = FilmRow::new(&case.id, &directed.shot, critique, [time(Phase::Solve), time(Phase::Judge)]);
-            console::data(&row.csv_line())?;
-            rows.push(row);
         }
-        self.write("films.csv", &film_row::to_csv(&rows))?;
+        self.write_results(&rows, &curve)
+    }
+
+    /// Plans and measures one case; prints its line.
+    fn bench_case(
+        &self,
+        case: &PromptCase,
+        director: &mut CaseDirector,
+        curve: &mut curve::Curve,
+    ) -> Result<FilmRow, Failure> {
+        let directed = director.direct_with(case, &self.settings(None))?;
+        let Some(critique) = directed.critique else {
+            return Err(Failure::usage("--solve off: nobody looks at the film", "choose --solve fast or full"));
+        };
+        if self.curve {
+            curve.add(&critique);
+            for &num in &curve::FINALISTS {
+                curve.add_times(num, &director.direct_with(case, &self.settings(Some(num)))?.times);
+            }
+        }
+        if self.sheets {
+            let path = self.output.join(format!("{}.png", case.id));
+            sheet::write(&director.scene_of(case)?.scene, &directed.shot, &path, self.overwrite.existing())?;
+        }
+        let time =
+            |phase| directed.times.iter().find(|(known, _)| *known == phase).map_or(0.0, |(_, t)| t.as_secs_f64());
+        let row = FilmRow::new(&case.id, &directed.shot, critique, [time(Phase::Solve), time(Phase::Judge)]);
+        console::data(&row.csv_line())?;
+        Ok(row)
+    }
+
+    /// Writes the files of the folder, and prints the summary.
+    fn write_results(&self, rows: &[FilmRow], curve: &curve::Curve) -> Result<(), Failure> {
+        self.write("films.csv", &film_row::to_csv(rows))?;
         let critiques: Vec<&Critique> = rows.iter().map(|row| &row.critique).collect();
         let ablation = ablation::ablation(&critiques);
-        let summary = film_row::summary(&rows);
+        let summary = film_row::summary(rows);
         console::note(&summary);
-        self.write(
-            "films.md",
-            &format!("{summary}\n{}\n{}", ablation::to_table(&ablation), film_row::to_table(&rows)),
-        )?;
+        let text = format!("{summary}\n{}\n{}", ablation::to_table(&ablation), film_row::to_table(rows));
+        self.write("films.md", &text)?;
         self.write("ablation.csv", &ablation::to_csv(&ablation))?;
         if self.curve {
             let text = curve.to_csv();

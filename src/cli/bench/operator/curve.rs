@@ -2,8 +2,8 @@ use crate::cli::outputs::Overwrite;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::cases::CaseArgs;
 use super::statistics::Summary;
+use crate::cli::bench::cases::CaseArgs;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use cinesplat::operator::{SolveLevel, SolveSettings};

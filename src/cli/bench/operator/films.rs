@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
-use super::cases::{CaseArgs, CaseDirector, PromptCase};
 use super::flow_facts::{self, FlowFacts};
+use crate::cli::bench::cases::{CaseArgs, CaseDirector, PromptCase};
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::outputs::{self, Overwrite};

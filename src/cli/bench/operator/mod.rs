@@ -1,6 +1,5 @@
 //! `bench operator`: measures how exact and safe finished shots are, with code that is independent of the operator.
 
-pub(super) mod cases;
 mod curve;
 mod films;
 mod flow_facts;

@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 
-use super::cases::CaseArgs;
 use super::statistics::Summary;
+use crate::cli::bench::cases::CaseArgs;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::shot_args::SolveArgs;

@@ -11,13 +11,13 @@ use cinesplat::director::Director;
 use cinesplat::language::program_from_notation;
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
-use cinesplat::pipeline::{self, DirectSettings, Directed};
+use cinesplat::pipeline::{self, DirectSettings, Directed, Interpreter};
 use cinesplat::scene::{LoadOptions, Scene};
 use cinesplat::trajectory::Shot;
 
 /// Prompts on scenes, and how they are solved.
 #[derive(Debug, Clone, clap::Args)]
-pub(in crate::cli::bench) struct CaseArgs {
+pub(super) struct CaseArgs {
     /// File of cases: JSON lines with id, scene, objects and prompt
     ///
     /// Scenes and objects files are looked for under --data, then in the folder of the cases. Without objects a case has
@@ -40,11 +40,11 @@ pub(in crate::cli::bench) struct CaseArgs {
 
 /// A prompt on a scene.
 #[derive(Debug, Clone, Deserialize)]
-pub(in crate::cli::bench) struct PromptCase {
-    pub(in crate::cli::bench) id: String,
+pub(super) struct PromptCase {
+    pub(super) id: String,
     scene: PathBuf,
     objects: Option<PathBuf>,
-    pub(in crate::cli::bench) prompt: String,
+    pub(super) prompt: String,
     #[serde(skip)]
     program: Option<Program>,
 }
@@ -53,21 +53,21 @@ pub(in crate::cli::bench) struct PromptCase {
 type SceneFiles = (PathBuf, Option<PathBuf>);
 
 /// A scene with its objects, up axis corrected by the objects file.
-pub(in crate::cli::bench) struct CaseScene {
-    pub(in crate::cli::bench) scene: Scene,
+pub(super) struct CaseScene {
+    pub(super) scene: Scene,
     objects: ObjectSet,
 }
 
 /// Opens scenes and turns cases into shots. The director is loaded only for cases without programs.
-pub(in crate::cli::bench) struct CaseDirector {
-    director: Option<Director>,
+pub(super) struct CaseDirector {
+    interpreter: Option<Interpreter>,
     scenes: BTreeMap<SceneFiles, CaseScene>,
     seed: u64,
 }
 
 impl CaseArgs {
     /// Reads the cases with their programs.
-    pub(in crate::cli::bench) fn open(&self) -> Result<(Vec<PromptCase>, CaseDirector), Failure> {
+    pub(super) fn open(&self) -> Result<(Vec<PromptCase>, CaseDirector), Failure> {
         let programs = self.intents.as_deref().map(programs).transpose()?;
         let folder = self.cases.parent().unwrap_or(Path::new("."));
         let bad = |line: usize, found: &str| {
@@ -89,8 +89,8 @@ impl CaseArgs {
             }
             cases.push(case);
         }
-        let director = if programs.is_none() { Some(Director::embedded()?) } else { None };
-        Ok((cases, CaseDirector { director, scenes: BTreeMap::new(), seed: self.seed }))
+        let interpreter = if programs.is_none() { Some(Director::embedded()?.into()) } else { None };
+        Ok((cases, CaseDirector { interpreter, scenes: BTreeMap::new(), seed: self.seed }))
     }
 }
 
@@ -123,7 +123,7 @@ fn programs(path: &Path) -> Result<BTreeMap<String, Program>, Failure> {
 
 impl CaseDirector {
     /// The scene of a case, opened on first use.
-    pub(in crate::cli::bench) fn scene_of(&mut self, case: &PromptCase) -> Result<&CaseScene, Failure> {
+    pub(super) fn scene_of(&mut self, case: &PromptCase) -> Result<&CaseScene, Failure> {
         let key = (case.scene.clone(), case.objects.clone());
         if !self.scenes.contains_key(&key) {
             let opened = pipeline::open_scene(&case.scene, &LoadOptions::default())?;
@@ -144,22 +144,18 @@ impl CaseDirector {
             let solve = SolveSettings { level, seed: self.seed, ..SolveSettings::default() };
             return Ok(opened.direct(program, &case.prompt, &solve, &settings)?.0);
         }
-        let director = self.director.as_ref().ok_or_else(|| Failure::fault("no director was opened"))?;
-        Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, director, &settings)?.shot)
+        let interpreter = self.interpreter.as_ref().ok_or_else(|| Failure::fault("no director was opened"))?;
+        Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, interpreter, &settings)?.shot)
     }
 
     /// The shot of a case as `plan` makes it, with what was said about it. Needs a director.
-    pub(in crate::cli::bench) fn direct_with(
-        &mut self,
-        case: &PromptCase,
-        settings: &DirectSettings,
-    ) -> Result<Directed, Failure> {
+    pub(super) fn direct_with(&mut self, case: &PromptCase, settings: &DirectSettings) -> Result<Directed, Failure> {
         self.scene_of(case)?;
         let opened = &self.scenes[&(case.scene.clone(), case.objects.clone())];
-        let director =
-            self.director.as_ref().ok_or_else(|| Failure::usage("programs of cases", "leave --intents out"))?;
+        let interpreter =
+            self.interpreter.as_ref().ok_or_else(|| Failure::usage("programs of cases", "leave --intents out"))?;
         let settings = DirectSettings { seed: self.seed, ..settings.clone() };
-        Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, director, &settings)?)
+        Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, interpreter, &settings)?)
     }
 
     /// Shots of a case for several search settings, each with the time of its search. Needs programs.
