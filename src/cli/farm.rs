@@ -1,5 +1,5 @@
 use std::num::NonZeroU16;
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::Duration;
@@ -66,7 +66,7 @@ enum Ended {
 /// Waits for the programs; starts those again that were killed.
 fn watch(
     programs: &mut [Program],
-    output: &PathBuf,
+    output: &Path,
     interrupt: &Interrupt,
     bar: &mut FrameProgress,
 ) -> Result<Ended, Failure> {

@@ -23,7 +23,6 @@ use cinesplat::trajectory::Shot;
 #[command(after_help = "\
 Examples:
   cinesplat plan room.spz -p \"push in on <obj-3>\" --objects objects.json -o shot.json
-  cinesplat plan room.spz --prompts moves.txt --objects objects.json -o shots/{}.json
   cinesplat plan room.spz -p \"orbit the lamp\" -o shot.json --takes 3
   cinesplat plan synth:demo -p \"push in on the sofa, then crane up\" -o shot.json --map map.svg")]
 pub(super) struct Args {
@@ -44,7 +43,7 @@ pub(super) struct Args {
     #[command(flatten)]
     shot: ShotArgs,
     /// Print the shot on stdout
-    #[arg(long, help_heading = heading::OUTPUT)]
+    #[arg(long, help_heading = heading::OUTPUT, hide_short_help = true)]
     json: bool,
     /// Print how each clause is understood and what the shot achieves
     #[arg(long, help_heading = heading::OUTPUT)]
@@ -52,7 +51,7 @@ pub(super) struct Args {
     /// Write a sheet of the takes side by side (PNG) [default with --takes: NAME.takes.png]
     ///
     /// With --prompts a name with {} in it.
-    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT)]
+    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT, hide_short_help = true)]
     sheet: Option<PathBuf>,
     /// Fail with exit code 65 when a clause is not understood or cannot be met
     #[arg(long, help_heading = heading::SHOT)]

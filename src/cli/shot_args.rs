@@ -37,7 +37,7 @@ pub(super) struct ShotArgs {
     #[arg(long, value_name = "LIST", help_heading = heading::SHOT, default_value = "auto", long_help = effects_help())]
     effects: EffectChoice,
     /// Seed of the camera search [default: 0, or the shot's]
-    #[arg(long, value_name = "N", help_heading = heading::SHOT)]
+    #[arg(long, value_name = "N", help_heading = heading::SHOT, hide_short_help = true)]
     seed: Option<u64>,
     /// Move the inner keys in time so that the camera's speed is constant
     #[arg(long, help_heading = heading::SHOT, hide_short_help = true)]

@@ -81,17 +81,3 @@ pub(super) fn write_sheet(
     console::note(&format!("{}: {} takes side by side", path.display(), shots.len()));
     Ok(())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn takes_are_numbered_before_the_extension_or_at_the_braces() {
-        assert_eq!(output_of(Path::new("a/shot.json"), 2), Path::new("a/shot.2.json"));
-        assert_eq!(output_of(Path::new("a/take-{}.json"), 3), Path::new("a/take-3.json"));
-        assert_eq!(output_of(Path::new("shot"), 1), Path::new("shot.1"));
-        assert_eq!(sheet_beside(Path::new("a/shot.json")), Path::new("a/shot.takes.png"));
-        assert_eq!(sheet_beside(Path::new("a/take-{}.json")), Path::new("a/take-takes.png"));
-    }
-}

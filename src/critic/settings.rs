@@ -12,6 +12,6 @@ pub struct CriticSettings {
 
 impl Default for CriticSettings {
     fn default() -> Self {
-        Self { num_moments: 16, num_first_moments: 6, num_pixels: 128 * 72 }
+        Self { num_moments: 13, num_first_moments: 5, num_pixels: 128 * 72 }
     }
 }

@@ -106,7 +106,7 @@ fn solution(
     report.extend(forbidden::lines(world, program, &segments, &keys));
     report.extend(settings.dutch_deg.map(|_| dutch::report_line(world, &keys)));
     let step_keys = step_keys(&flow.segments, program.steps.len());
-    let sightings = sightings(&segments, &flow.spans);
+    let sightings = sightings(&segments, &flow.spans, flow.secs());
     Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance }
 }
 

@@ -15,10 +15,12 @@ pub struct Sighting {
 }
 
 /// The sightings of a film: of every object whose visibility is a constraint of a segment. `spans` are start and end of
-/// each segment in the film.
-pub(super) fn sightings(segments: &[MotionSegment], spans: &[[f64; 2]]) -> Vec<Sighting> {
+/// each segment in the film; the rest before the first segment belongs to it, and the rest after the last one to the last.
+pub(super) fn sightings(segments: &[MotionSegment], spans: &[[f64; 2]], film_secs: f64) -> Vec<Sighting> {
     let mut out = Vec::new();
-    for (segment, &span) in segments.iter().zip(spans) {
+    let last = spans.len().saturating_sub(1);
+    for (i, (segment, &[start, end])) in segments.iter().zip(spans).enumerate() {
+        let span = [if i == 0 { 0.0 } else { start }, if i == last { film_secs } else { end }];
         for sighting in segment.constraints.iter().filter_map(|constraint| sighting(constraint, span)) {
             if !out.contains(&sighting) {
                 out.push(sighting);

@@ -11,7 +11,7 @@ use super::error::PipelineError;
 pub struct FilmChoice {
     /// Number of films to keep that clearly differ, the best first.
     pub num_takes: usize,
-    /// Films to finish and look at; `None` = 5 for [`SolveLevel::Full`], 2 for [`SolveLevel::Fast`].
+    /// Films to finish and look at; `None` = 4 for [`SolveLevel::Full`], 2 for [`SolveLevel::Fast`].
     /// [`SolveLevel::Off`] finishes one, and nobody looks at it.
     pub num_finalists: Option<usize>,
     /// How closely the critic looks.
@@ -32,7 +32,7 @@ impl FilmChoice {
         let num = self.num_finalists.unwrap_or(match level {
             SolveLevel::Off => 1,
             SolveLevel::Fast => 2,
-            SolveLevel::Full => 5,
+            SolveLevel::Full => 4,
         });
         // Some finalists end alike after the local search: a few more than the takes.
         let for_takes = if self.num_takes > 1 { self.num_takes + self.num_takes / 2 } else { 1 };

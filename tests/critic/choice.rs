@@ -115,11 +115,11 @@ fn soft_pictures_are_reported_and_met() {
 #[test]
 fn a_closer_look_adds_to_a_glance_what_a_look_from_the_start_sees() {
     let stage = stage();
-    let (glance, closer) = stage.judged(16, |critic| {
+    let (glance, closer) = stage.judged(13, |critic| {
         let glance = critic.glance(&hidden_film()).unwrap();
         let closer = critic.review(&hidden_film(), Some(&glance)).unwrap();
         (glance, closer)
     });
-    assert_eq!((glance.pictures.len(), closer.pictures.len()), (6, 16));
-    assert_eq!(closer, stage.review(&hidden_film(), 16));
+    assert_eq!((glance.pictures.len(), closer.pictures.len()), (5, 13));
+    assert_eq!(closer, stage.review(&hidden_film(), 13));
 }

@@ -33,7 +33,7 @@ fn every_printed_program_of_the_corpus_is_accepted() {
     let (said, others): (Vec<String>, Vec<String>) = texts.partition(is_said);
     let refused: Vec<&String> = said.iter().filter(|text| !automaton.accepts(text)).collect();
     assert!(refused.is_empty(), "{refused:#?}");
-    assert!(said.len() > 8000 && others.len() < 20, "{} said, not {others:#?}", said.len());
+    assert!(said.len() > 8000 && 400 * others.len() < said.len(), "{} said, not {others:#?}", said.len());
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn labels_do_not_cover_each_other() {
     for (i, a) in found.iter().enumerate() {
         for b in &found[..i] {
             let apart = a.0.cmpge(b.1).any() || a.1.cmple(b.0).any();
-            assert!(apart, "{:?} and {:?}", a, b);
+            assert!(apart, "{a:?} and {b:?}");
         }
     }
     let inside =

@@ -30,7 +30,7 @@ pub(super) fn remove_contents(folder: &Path, format: &VideoFormat) {
 
 /// Removes temporary files that a killed program left.
 pub(super) fn remove_temporary(folder: &Path) {
-    remove_files(folder, |name| name.starts_with('.') && name.ends_with(".part"));
+    remove_files(folder, |name| name.starts_with('.') && name.strip_suffix(".part").is_some());
 }
 
 fn remove_files(folder: &Path, is_removed: impl Fn(&str) -> bool) {

@@ -1,7 +1,7 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -70,14 +70,11 @@ impl Drop for Flusher {
     }
 }
 
-fn run(receiver: &Receiver<PathBuf>, log: &PathBuf, is_abandoned: &AtomicBool) -> Result<(), FileError> {
+fn run(receiver: &Receiver<PathBuf>, log: &Path, is_abandoned: &AtomicBool) -> Result<(), FileError> {
     while let Ok(first) = receiver.recv() {
         let (mut paths, start) = (vec![first], Instant::now());
-        loop {
-            match receiver.recv_timeout(INTERVAL.saturating_sub(start.elapsed())) {
-                Ok(path) => paths.push(path),
-                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => break,
-            }
+        while let Ok(path) = receiver.recv_timeout(INTERVAL.saturating_sub(start.elapsed())) {
+            paths.push(path);
         }
         if is_abandoned.load(Ordering::Relaxed) {
             return Ok(());

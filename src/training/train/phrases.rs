@@ -103,7 +103,8 @@ impl Phrases {
         // `close-up` and `close shot` are exchanged, but not in `close-up of the`.
         let of_follows = words.get(at + phrase.len()) == Some(&"of") && phrase.last().is_none_or(|word| word != "of");
         let is_noun = words[at.saturating_sub(2)..at].iter().any(|word| ARTICLES.contains(word));
-        (!of_follows && !(is_noun && self.are_commands[*set])).then_some((phrase.len(), *set))
+        let stays = of_follows || (is_noun && self.are_commands[*set]);
+        (!stays).then_some((phrase.len(), *set))
     }
 }
 

@@ -80,7 +80,7 @@ impl Default for TrainSettings {
             max_sentences: None,
             vocabulary: 2400,
             corpus: 40_000,
-            name: "director-2".into(),
+            name: "director-3".into(),
             sentences: None,
             shots: None,
             from: None,

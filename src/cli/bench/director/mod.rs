@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use cinesplat::director::{Director, ModelFiles};
+use cinesplat::files::create_folder;
 use cinesplat::plot::{Axis, COLORS, Chart, Marker, Series, grid};
 use cinesplat::training::corpus::{self, SentenceKind, Split, Writer};
 use cinesplat::training::{Examination, Mentions, Tally, examine};
@@ -68,6 +69,9 @@ impl Args {
             return Ok(());
         }
         let output = self.output.clone().unwrap_or_default();
+        if self.output.is_some() {
+            create_folder(&output)?;
+        }
         let (csv, plot) = (output.join("director.csv"), output.join("reliability.svg"));
         self.overwrite.check(&csv)?;
         self.overwrite.check(&plot)?;

@@ -95,9 +95,9 @@ impl FilmCase<'_> {
         report(self.row(of("predicted"), only(predicted), Some(("film", percent(predicted, film.wall_secs)))));
         report(self.row(of("time to predict"), only(forecast_secs), None));
         let (plain, kept) = self.film_pair(&renderer, &output.0, settings)?;
-        report(self.row(of("film, frames not kept"), plain, None));
+        report(self.row(of("film without kept frames"), plain, None));
         let more = percent(kept.wall_secs, plain.wall_secs);
-        report(self.row(of("film, frames kept"), kept, Some(("film, frames not kept", more))));
+        report(self.row(of("film with kept frames"), kept, Some(("film without kept frames", more))));
         Ok(())
     }
 
