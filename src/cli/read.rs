@@ -49,8 +49,8 @@ impl Args {
         let mut linked = director.link(&self.prompt, &names)?;
         if self.objects.is_none() && self.names.is_empty() {
             // Every thing that the sentence names becomes an object.
-            let missing = linked.groups.iter().filter(|group| group.members.is_empty());
-            let named = (1..).zip(missing).map(|(id, group)| NamedObject { id, label: group.name.clone() });
+            let named =
+                (1..).zip(linked.missing_groups()).map(|(id, group)| NamedObject { id, label: group.name.clone() });
             names = named.collect();
             linked = director.link(&self.prompt, &names)?;
         }
@@ -61,7 +61,7 @@ impl Args {
         if self.json {
             return console::data(&format!("{:#}\n", document(&self.prompt, &reading, &names)));
         }
-        let missing = reading.linked.groups.iter().filter(|group| group.members.is_empty());
+        let missing = reading.linked.missing_groups();
         let missing = missing.map(|group| placeholder(0, &NamedObject { id: group.id, label: group.name.clone() }));
         let objects: Vec<Object> = objects.iter().cloned().chain(missing).collect();
         console::text(&text(&self.prompt, &reading, &ObjectSet { objects, labels: Vec::new() }))
@@ -107,7 +107,7 @@ fn text(prompt: &str, reading: &Reading, objects: &ObjectSet) -> String {
         let note = if problem.note.is_empty() { String::new() } else { format!(": {}", problem.note) };
         let _ = writeln!(text, "{}: \"{}\"{note}", problem.kind, problem.words);
     }
-    for group in reading.linked.groups.iter().filter(|group| group.members.is_empty()) {
+    for group in reading.linked.missing_groups() {
         let _ = writeln!(text, "not in the scene: \"{}\"", group.name);
     }
     let unused = reading.unused_words(prompt);
@@ -147,7 +147,7 @@ fn document(prompt: &str, reading: &Reading, names: &[NamedObject]) -> Value {
     let kind = |kind: QuantityKind| format!("{kind:?}").to_lowercase();
     let quantities: Vec<Value> =
         reading.linked.quantities.iter().map(|q| json!({"kind": kind(q.kind), "value": q.value})).collect();
-    let missing = reading.linked.groups.iter().filter(|group| group.members.is_empty());
+    let missing = reading.linked.missing_groups();
     json!({
         "prompt": prompt,
         "program": program_to_notation(program),

@@ -157,8 +157,13 @@ impl Args {
     fn run_prompts(&self, prompts: &[NamedPrompt]) -> Result<(), Failure> {
         let mut jobs: Vec<(NamedPrompt, Self)> =
             prompts.iter().map(|named| Ok((named.clone(), self.for_prompt(named)?))).collect::<Result<_, Failure>>()?;
-        if jobs.iter().any(|(_, job)| job.job.goes_on(&job.output)) {
-            jobs.retain(|(_, job)| !job.is_finished());
+        // The films before one that was stopped are there already.
+        if self.overwrite.existing() == Existing::Keep && jobs.iter().any(|(_, job)| job.job.goes_on(&job.output)) {
+            let (finished, left): (Vec<_>, Vec<_>) = jobs.into_iter().partition(|(_, job)| job.is_finished());
+            for (_, job) in finished {
+                console::note(&format!("{}: exists already, left as it is", job.output.display()));
+            }
+            jobs = left;
         }
         jobs.iter().try_for_each(|(_, job)| job.check_outputs())?;
         self.picture.bound_threads()?;
@@ -212,18 +217,13 @@ impl Args {
         missing.into_iter().try_for_each(|(take, shot)| render(take, shot))
     }
 
-    /// Whether the film is there already: in a file of prompts of which a film was stopped, those before it are. Says so.
+    /// Whether the film is there, and no frames to go on from.
     fn is_finished(&self) -> bool {
         let first = match VideoFormat::from_path(&self.output) {
             Ok(VideoFormat::Sequence(pattern)) => pattern.path(self.frames.start),
             _ => self.output.clone(),
         };
-        let is_finished =
-            self.overwrite.existing() == Existing::Keep && !self.job.goes_on(&self.output) && first.exists();
-        if is_finished {
-            console::note(&format!("{}: exists already, left as it is", self.output.display()));
-        }
-        is_finished
+        !self.job.goes_on(&self.output) && first.exists()
     }
 
     /// The arguments that render one prompt of a file.
@@ -333,7 +333,7 @@ impl Args {
 
     /// Whether an earlier run, whose frames are there, finished this take.
     fn has(&self, take: &Self) -> bool {
-        self.takes_go_on() && take.output.exists() && !take.job.goes_on(&take.output)
+        self.takes_go_on() && take.is_finished()
     }
 
     /// Refuses wrong outputs of one film.

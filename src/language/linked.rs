@@ -85,8 +85,13 @@ impl Linked {
         out
     }
 
+    /// The groups of what the scene lacks, in order of first mention.
+    pub fn missing_groups(&self) -> impl Iterator<Item = &Group> {
+        self.groups.iter().filter(|group| group.members.is_empty())
+    }
+
     /// The group of a mention of something that the scene lacks, if `id` is one.
     pub fn missing(&self, id: u32) -> Option<&Group> {
-        self.groups.iter().find(|group| group.id == id && group.members.is_empty())
+        self.missing_groups().find(|group| group.id == id)
     }
 }

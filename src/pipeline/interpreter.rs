@@ -55,7 +55,6 @@ fn question(prompt: &str, linked: &Linked, scene: &SceneContext<'_>) -> Question
     objects.sort_by_key(|object| (!named.contains(&object.id), object.id));
     objects.truncate(cinesplat_reader::MAX_OBJECTS);
     objects.sort_by_key(|object| object.id);
-    let missing = linked.groups.iter().filter(|group| group.members.is_empty());
-    let missing = missing.map(|group| NamedObject { id: group.id, label: group.name.clone() });
+    let missing = linked.missing_groups().map(|group| NamedObject { id: group.id, label: group.name.clone() });
     Question::new(prompt, &objects, &missing.collect::<Vec<_>>())
 }

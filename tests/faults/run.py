@@ -64,6 +64,11 @@ class Bench:
             return []
         return [int(line.split()[0]) for line in lines if len(line.split()) == 2]
 
+    def wait_for(self, child, goal):
+        """Waits until the log lists `goal` different frames, or the program ends."""
+        while child.poll() is None and len(set(self.frames())) < goal:
+            time.sleep(0.001)
+
     def is_whole(self):
         return self.film.exists() and self.film.read_bytes() == self.whole
 
@@ -94,9 +99,7 @@ def after_some_frames(bench, child, rng):
     if rng.random() < 0.3:
         time.sleep(rng.uniform(0, bench.secs))
         return
-    goal = len(bench.frames()) + rng.randint(0, bench.num_frames // 3)
-    while child.poll() is None and len(bench.frames()) < goal:
-        time.sleep(0.001)
+    bench.wait_for(child, len(set(bench.frames())) + rng.randint(0, bench.num_frames // 3))
     time.sleep(rng.uniform(0, 0.01))
 
 
@@ -142,9 +145,7 @@ def stops(program, num):
     codes = collections.Counter()
     for idx in range(num):
         child = bench.start()
-        goal = rng.randint(1, 59)
-        while child.poll() is None and len(bench.frames()) < goal:
-            time.sleep(0.001)
+        bench.wait_for(child, rng.randint(1, 59))
         child.send_signal(rng.choice([signal.SIGINT, signal.SIGTERM]))
         said = child.communicate()[1]
         codes[child.returncode] += 1
@@ -169,9 +170,7 @@ def farm(program, num):
     for idx in range(num):
         child = bench.start("--keep-frames", command=("farm", "--local", "3"))
         for _ in range(2):
-            goal = rng.randint(1, 50)
-            while child.poll() is None and len(set(bench.frames())) < goal:
-                time.sleep(0.001)
+            bench.wait_for(child, rng.randint(1, 50))
             parts = subprocess.run(["pgrep", "-P", str(child.pid)], capture_output=True, text=True).stdout.split()
             if parts:
                 os.kill(int(rng.choice(parts)), signal.SIGKILL)
@@ -195,9 +194,7 @@ def losses(program, num):
     num_redone = 0
     for idx in range(num):
         child = bench.start()
-        goal = rng.randint(3, 50)
-        while child.poll() is None and len(bench.frames()) < goal:
-            time.sleep(0.001)
+        bench.wait_for(child, rng.randint(3, 50))
         child.kill()
         child.communicate()
         if not bench.job.exists():

@@ -172,7 +172,7 @@ fn sentence(line: &str, number: usize) -> Result<CorpusSentence, String> {
     let (marked, notation) = split_program(rest).ok_or("no program")?;
     let marked = parse_marked(marked.trim())?;
     let linked = link_mentions(&marked.text, &marked.mentions).map_err(|error| error.to_string())?;
-    let missing = linked.groups.iter().find(|group| group.members.is_empty());
+    let missing = linked.missing_groups().next();
     let parse = |notation: &str| {
         let notation = match missing {
             Some(group) => notation.replace('?', &group.id.to_string()),
