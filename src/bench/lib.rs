@@ -3,10 +3,12 @@
 //! Enters: a renderer, cameras and [`Variant`]s of its settings. Leaves: [`BenchRow`]s, and from them a CSV, Markdown
 //! tables and Pareto plots. Times are those of 8-bit color, which films use. Accuracy is that of the same picture in
 //! `f32`. The time of other outputs ([`RenderOutput`]) is measured alternately with that of color alone.
-//! [`scaling`] measures how time and memory grow with the amount of work. The one invariant: a variant of
+//! [`LensBench`] measures motion blur and depth of field. [`scaling`] measures how time and memory grow with the amount of work. The one invariant: a variant of
 //! [`KnobKind::Free`] must equal the picture of `standard` bit by bit; all others are compared with `reference`.
 
 mod difference;
+mod lens;
+mod lens_report;
 mod measure;
 mod output;
 mod pareto;
@@ -15,6 +17,8 @@ pub mod scaling;
 mod variants;
 
 pub use difference::{Difference, difference};
+pub use lens::{BlurSource, LENS_CASES, LensBench, LensCase, LensMethod, LensRow};
+pub use lens_report::{LENS_CSV_HEADER, lens_csv_line, lens_svg};
 pub use measure::{BenchPlan, BenchRow, Timing, measure};
 pub use output::RenderOutput;
 pub use pareto::{AccuracyAxis, pareto_svg};

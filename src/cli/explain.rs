@@ -1,17 +1,16 @@
 use std::fmt::Write as _;
-use strum::VariantArray;
 
 use super::console;
 use cinesplat::critic::{Candidate, TERMS, Weights, trade};
-use cinesplat::lens::{Decision, Effect, EffectKind};
+use cinesplat::lens::{EffectPlan, Unmet};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{Amount, Framing, Lens, Look, Speed, Step, SubjectPart};
 use cinesplat::pipeline::{Critique, Directed};
 use cinesplat::trajectory::ClearanceProof;
 
 /// Explains a shot: the meaning of each clause of its prompt, the report of requested and achieved values, the clearance proof
-/// and the decision about each effect.
-pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
+/// and the plan of effects.
+pub(super) fn explanation(directed: &Directed, plan: &EffectPlan, objects: &ObjectSet) -> String {
     let mut text = format!("prompt: {}\n\nunderstood as\n", directed.shot.prompt);
     for (number, reading) in directed.steps.iter().enumerate() {
         let words = if reading.words.is_empty() { "(no words)" } else { &reading.words };
@@ -31,13 +30,8 @@ pub(super) fn explanation(directed: &Directed, objects: &ObjectSet) -> String {
     text.push_str("\nclearance\n");
     text.extend(directed.shot.clearance.as_ref().map(clearance));
     text.push_str("\neffects\n");
-    for effect in Effect::VARIANTS {
-        let decided = directed.effects.iter().find(|decision| decision.call.kind == EffectKind::Known(*effect));
-        let sentence = decided.map_or_else(|| format!("{}: not requested", effect.as_ref()), Decision::sentence);
-        let _ = writeln!(text, "  {sentence}");
-    }
-    for decision in directed.effects.iter().filter(|decision| matches!(decision.call.kind, EffectKind::Other(_))) {
-        let _ = writeln!(text, "  {}", decision.sentence());
+    for line in plan.sentences().into_iter().chain(directed.effects.unmet.iter().map(Unmet::sentence)) {
+        let _ = writeln!(text, "  {line}");
     }
     text
 }

@@ -23,6 +23,13 @@ pub(super) fn print_times(times: &PhaseTimes, report: &FilmReport, total: Durati
     ));
 }
 
+/// Prints where each effect of the film ran, and why; nothing for a film without effects.
+pub(super) fn print_effects(report: &FilmReport) {
+    if !report.effects.effects.is_empty() {
+        report.effects.sentences().iter().for_each(|line| console::note(line));
+    }
+}
+
 /// Prints predicted and measured figures side by side, and returns them for programs.
 pub(super) fn compare(predicted: &Forecast, report: &FilmReport, psnr_db: f64) -> Value {
     let measured = report.total_time.as_secs_f64();

@@ -9,8 +9,9 @@ use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
 use super::{console, explain, heading, map, reproduce, takes};
 use cinesplat::export::shot_json;
+use cinesplat::lens::{EffectChoice, EffectPlan};
 use cinesplat::objects::ObjectSet;
-use cinesplat::pipeline::{self, FilmSettings, Interpreter};
+use cinesplat::pipeline::{self, Directed, FilmSettings, Interpreter};
 use cinesplat::render::{Quality, Renderer};
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
@@ -135,7 +136,8 @@ impl Args {
         prompt: &str,
         outputs: &PlanOutputs,
     ) -> Result<(), Failure> {
-        let directed = self.shot.direct(interpreter, (scene, objects), prompt)?;
+        let mut directed = self.shot.direct(interpreter, (scene, objects), prompt)?;
+        let effects = self.plan_effects(scene, &mut directed)?;
         if self.strict
             && let Some(line) = directed.shot.report.iter().find(|line| !line.met)
         {
@@ -150,7 +152,7 @@ impl Args {
         }
         if self.explain {
             self.print_forecasts(scene, &directed.shot)?;
-            let text = explain::explanation(&directed, objects);
+            let text = explain::explanation(&directed, &effects, objects);
             if self.json { console::note(&text) } else { console::text(&text)? }
         }
         if self.json {
@@ -158,6 +160,19 @@ impl Args {
         }
         reproduce::print(&deciding(&directed.shot));
         Ok(())
+    }
+
+    /// Finds out on which frames the effects of each take run, and returns the plan of the first.
+    fn plan_effects(&self, scene: &Scene, directed: &mut Directed) -> Result<EffectPlan, Failure> {
+        if directed.effects.effects.is_empty() {
+            return Ok(EffectPlan::default());
+        }
+        let renderer = Renderer::new(&scene.gaussians);
+        let render = self.picture.settings(scene, Quality::Standard, None, None);
+        for shot in std::iter::once(&mut directed.shot).chain(&mut directed.takes) {
+            pipeline::plan_effects((&renderer, &render), shot, &EffectChoice::Auto)?.write_to(shot);
+        }
+        Ok(pipeline::plan_effects((&renderer, &render), &directed.shot, &EffectChoice::Auto)?)
     }
 
     /// Prints forecasts of the film as H.264 with the defaults of `render`. They go to stderr because they differ from run

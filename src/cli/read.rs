@@ -2,11 +2,12 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use cinesplat::director::SceneContext;
-use cinesplat::language::{NamedObject, QuantityKind, program_to_notation};
+use cinesplat::language::{EffectMention, NamedObject, QuantityKind, program_to_notation};
 use cinesplat::objects::{self, Object, ObjectSet};
 use cinesplat::operator::Program;
 use cinesplat::pipeline::{self, Reading};
 use glam::DVec3;
+
 use serde_json::{Value, json};
 
 use super::failure::Failure;
@@ -101,7 +102,8 @@ fn text(prompt: &str, reading: &Reading, objects: &ObjectSet) -> String {
         let _ = writeln!(text, "ruled out: {motion}");
     }
     for effect in &reading.effects {
-        let _ = writeln!(text, "effect: {} (\"{}\")", effect.kind, effect.words);
+        let forbidden = if effect.is_forbidden { ", forbidden" } else { "" };
+        let _ = writeln!(text, "effect: {} (\"{}\"){forbidden}", effect.call.name, effect.call.because);
     }
     for problem in &reading.problems {
         let note = if problem.note.is_empty() { String::new() } else { format!(": {}", problem.note) };
@@ -157,8 +159,15 @@ fn document(prompt: &str, reading: &Reading, names: &[NamedObject]) -> Value {
         "objects": names.iter().map(|name| json!({"id": name.id, "label": name.label})).collect::<Vec<_>>(),
         "missing": missing.map(|group| json!({"name": group.name, "nearest": group.nearest})).collect::<Vec<_>>(),
         "quantities": quantities,
-        "effects": reading.effects.iter().map(|e| json!({"kind": e.kind, "text": e.words})).collect::<Vec<_>>(),
+        "effects": reading.effects.iter().map(|e| effect_json(e)).collect::<Vec<_>>(),
         "problems": problems,
         "unused_words": reading.unused_words(prompt),
     })
+}
+
+fn effect_json(mention: &EffectMention) -> Value {
+    let call = &mention.call;
+    let settings: serde_json::Map<String, Value> =
+        call.settings.iter().map(|(name, value)| (name.clone(), json!(value))).collect();
+    json!({"kind": call.name, "text": call.because, "forbidden": mention.is_forbidden, "settings": settings})
 }

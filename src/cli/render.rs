@@ -38,7 +38,7 @@ pub(super) struct Args {
     scene: SceneArgs,
     #[command(flatten)]
     source: ShotSource,
-    /// Film (.mp4 .mkv .webm .mov), or pictures such as frames/%05d.png
+    /// Film (.mp4 .mkv .webm .mov), or pictures such as frames/%05d.png or .exr
     ///
     /// With --prompts a name with {} in it, such as films/{}.mp4.
     #[arg(short, long, value_name = "OUT", help_heading = heading::OUTPUT)]
@@ -258,13 +258,22 @@ impl Args {
         }
         if let Some(path) = &self.save_shot {
             let mut saved = shot.clone();
+            let render = self.picture.settings(scene, Quality::Standard, None, None);
+            pipeline::plan_effects((renderer, &render), shot, self.shot.effects())?.write_to(&mut saved);
             saved.scene.path = outputs::relative_to(path, &scene.path);
             self.overwrite.write_once(path, shot_json::write(&saved).as_bytes())?;
         }
         let render = self.picture.settings(scene, Quality::Standard, None, None);
         let frames = if self.job.part { FrameRange::default() } else { self.frames };
         let job = self.job.settings(self.inputs(scene, shot)?);
-        let mut settings = FilmSettings { render, video, frames, sheet: self.sheet.clone(), job };
+        let mut settings = FilmSettings {
+            render,
+            effects: self.shot.effects().clone(),
+            video,
+            frames,
+            sheet: self.sheet.clone(),
+            job,
+        };
         if self.job.part {
             self.film(renderer, shot, &settings, interrupt)?;
             console::note(&format!(
@@ -273,6 +282,7 @@ impl Args {
             ));
             return Ok(());
         }
+        self.note_lost_opacity(&format, shot);
         let predicted = times.measure(Phase::Predict, || self.predict(renderer, shot, &mut settings))?;
         settings.render.quality = predicted.quality;
         let report = self.film(renderer, shot, &settings, interrupt)?;
@@ -280,6 +290,7 @@ impl Args {
         times.add(Phase::Keep, report.keep_time);
         times.add(Phase::Encode, report.encode_time);
         film_report::print_times(&times, &report, start.elapsed());
+        film_report::print_effects(&report);
         let psnr_db = pipeline::checked_psnr_db(renderer, shot, &settings)?;
         let summary = film_report::compare(&predicted, &report, psnr_db);
         if self.json {
@@ -292,6 +303,17 @@ impl Args {
         }
         reproduce::print(&decided);
         Ok(())
+    }
+
+    /// Says that a film of this format cannot be transparent, where the shot asks for it.
+    fn note_lost_opacity(&self, format: &VideoFormat, shot: &Shot) {
+        let called = pipeline::called_effects(shot, self.shot.effects(), 1.0);
+        let is_transparent = called.effects.iter().any(|called| called.effect.is_transparent());
+        if is_transparent && !matches!(format, VideoFormat::Sequence(_)) {
+            console::note(
+                "a transparent background needs pictures such as frames/%05d.png or .exr: this film is over black",
+            );
+        }
     }
 
     /// What the frames depend on besides the path and the settings.

@@ -2,14 +2,13 @@ use std::iter;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use strum::VariantArray;
 
 use super::choice::choice;
 use super::failure::Failure;
 use super::model_args::ModelArgs;
 use super::takes::TakesArgs;
 use super::{console, heading, outputs};
-use cinesplat::lens::{self, Decision, Effect, EffectCall, EffectChoice};
+use cinesplat::lens::{self, Called, EffectChoice};
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::SolveLevel;
 use cinesplat::pipeline::{self, DirectSettings, Directed, FilmChoice, Interpreter};
@@ -51,6 +50,11 @@ pub(super) struct ShotArgs {
 }
 
 impl ShotArgs {
+    /// Which effects the user allows.
+    pub(super) fn effects(&self) -> &EffectChoice {
+        &self.effects
+    }
+
     /// Loads the models that read prompts.
     pub(super) fn interpreter(&self) -> Result<Interpreter, Failure> {
         self.models.interpreter()
@@ -81,6 +85,13 @@ impl ShotArgs {
                 shot.clearance = Some(pipeline::prove_clearance(scene, shot)?);
             }
         }
+        if self.size.is_none() && directed.effects.effects.iter().any(|called| called.effect.is_panorama()) {
+            // All directions are twice as wide as high.
+            console::note(&format!("all directions in one picture: {}x{height}", 2 * height));
+            for shot in iter::once(&mut directed.shot).chain(&mut directed.takes) {
+                shot.width = 2 * height;
+            }
+        }
         self.takes.note_fewer(directed.takes.len());
         print_gaps(&directed);
         Ok(directed)
@@ -92,14 +103,10 @@ impl ShotArgs {
         print_other_scene(path, &shot, scene);
         let mut shot = self.changed(shot);
         print_warnings(&shot);
+        let called = pipeline::complete_effects(&mut shot, &self.effects, scene.bounds().size());
+        print_effects(&called);
         shot.clearance = Some(pipeline::prove_clearance(scene, &shot)?);
         print_clearance(&shot);
-        let calls =
-            shot.effects.iter().map(|e| EffectCall { kind: e.kind.as_str().into(), because: e.because.clone() });
-        let decisions = lens::decide(&self.effects, &calls.collect::<Vec<_>>());
-        let requested: Vec<_> = decisions.iter().filter_map(Decision::request).collect();
-        shot.effects.retain(|effect| requested.iter().any(|request| request.kind == effect.kind));
-        print_effects(&decisions);
         Ok(shot)
     }
 
@@ -160,15 +167,16 @@ fn print_clearance(shot: &Shot) {
 fn print_gaps(directed: &Directed) {
     console::warnings(&directed.warnings);
     print_effects(&directed.effects);
-    let is_effect = |clause: &str| directed.effects.iter().any(|decision| decision.call.because == clause);
+    let is_effect = |clause: &str| directed.effects.unmet.iter().any(|unmet| unmet.call.because == clause);
     for line in directed.shot.report.iter().filter(|line| !line.met && !is_effect(&line.clause)) {
         console::note(&format!("not met: {}: wanted {}, got {:.3}: {}", line.clause, line.wanted, line.got, line.note));
     }
 }
 
-fn print_effects(decisions: &[Decision]) {
-    for decision in decisions {
-        console::note(&format!("effect: {}", decision.sentence()));
+/// Prints the calls that lead to no effect.
+fn print_effects(called: &Called) {
+    for unmet in &called.unmet {
+        console::note(&format!("effect: {}", unmet.sentence()));
     }
 }
 
@@ -183,9 +191,10 @@ pub(super) struct SolveArgs {
 }
 
 fn effects_help() -> String {
-    let names = Effect::VARIANTS.iter().map(AsRef::as_ref).collect::<Vec<&str>>().join(" ");
+    let built = lens::names().filter(|name| !lens::NOT_BUILT.contains(name)).collect::<Vec<&str>>().join(" ");
+    let missing = lens::NOT_BUILT.join(" ");
     format!(
-        "Lens effects: auto, off, or names separated by commas\n\n`auto` takes the effects that the words call for. Names: {names}."
+        "Lens effects: auto, off, or names separated by commas\n\n`auto` takes the effects that the words call for. Names: {built}. Known and not implemented: {missing}."
     )
 }
 

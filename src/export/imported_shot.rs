@@ -56,6 +56,7 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
         pose: frame.pose,
         fov_y_rad: settings.fov_y_rad.or(frame.fov_y_rad).unwrap_or(DEFAULT_FOV_Y_DEG.to_radians()),
         focus_distance: frame.focus_distance,
+        optics: cinesplat_trajectory::KeyOptics::default(),
         easing: frame.easing,
         cut: frame.cut,
         intent: None,

@@ -11,6 +11,7 @@ mod clearance_json;
 mod colmap;
 mod columns;
 mod csv;
+mod effects_json;
 mod encode;
 mod error;
 mod euler_edits;

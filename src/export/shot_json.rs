@@ -9,12 +9,13 @@ use glam::DQuat;
 
 use super::ExportError;
 use super::clearance_json;
+use super::effects_json;
 use super::euler_edits;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose};
 use cinesplat_trajectory::Easing;
-use cinesplat_trajectory::{EffectRequest, Intent, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
+use cinesplat_trajectory::{Intent, KeyOptics, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
 
 /// Value of the `format` key.
 pub(super) const FORMAT: &str = "cinesplat.shot";
@@ -39,8 +40,19 @@ const TOP_KEYS: [&str; 14] = [
 ];
 const SCENE_KEYS: [&str; 3] = ["path", "sha256", "up"];
 const MODEL_KEYS: [&str; 2] = ["name", "sha256"];
-const KEYFRAME_KEYS: [&str; 9] =
-    ["time_secs", "position", "rotation_xyzw", "euler_deg", "fov_y_deg", "focus_distance", "easing", "cut", "intent"];
+const KEYFRAME_KEYS: [&str; 11] = [
+    "time_secs",
+    "position",
+    "rotation_xyzw",
+    "euler_deg",
+    "fov_y_deg",
+    "focus_distance",
+    "f_stop",
+    "shutter_angle_deg",
+    "easing",
+    "cut",
+    "intent",
+];
 const EULER_KEYS: [&str; 3] = ["yaw", "pitch", "roll"];
 const INTENT_KEYS: [&str; 6] = ["subjects", "size", "move", "angle", "words", "pivot"];
 const REPORT_KEYS: [&str; 5] = ["clause", "wanted", "got", "met", "note"];
@@ -81,7 +93,7 @@ pub fn read(text: &str) -> Result<ShotFile, ExportError> {
         fps: root.field("fps", "frames per second")?.number()?,
         duration_secs: root.field("duration_secs", "seconds")?.number()?,
         keyframes: keys.iter().map(read_keyframe).collect::<Result<_, _>>()?,
-        effects: root.optional("effects").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_effect))?,
+        effects: root.optional("effects").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, effects_json::read))?,
         report: root.optional("report").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_report_line))?,
         clearance: None,
     };
@@ -177,6 +189,10 @@ fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
         pose: Pose { position, rotation },
         fov_y_rad: node.field("fov_y_deg", "degrees")?.number()?.to_radians(),
         focus_distance: node.optional("focus_distance").map(|d| d.number()).transpose()?,
+        optics: KeyOptics {
+            f_stop: node.optional("f_stop").map(|f_stop| f_stop.number()).transpose()?,
+            shutter_angle_rad: node.optional("shutter_angle_deg").map(|a| a.number()).transpose()?.map(f64::to_radians),
+        },
         easing: node.optional("easing").map_or(Ok(Easing::Smooth), |easing| easing.choice())?,
         cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
         intent: node.optional("intent").map(|intent| read_intent(&intent)).transpose()?,
@@ -200,14 +216,6 @@ fn read_intent(node: &Node) -> Result<Intent, ExportError> {
         words: words.transpose()?,
         pivot: node.optional("pivot").map(|pivot| pivot.vector()).transpose()?,
     })
-}
-
-fn read_effect(node: &Node) -> Result<EffectRequest, ExportError> {
-    let is_setting = |name: &str| name != "kind" && name != "because";
-    let numbers = node.fields().into_iter().filter(|(name, _)| is_setting(name));
-    let settings = numbers.filter_map(|(name, value)| value.number().ok().map(|v| (name.to_owned(), v))).collect();
-    let kind = node.field("kind", "the name of an effect")?.text()?.to_owned();
-    Ok(EffectRequest { kind, because: text_or_empty(node, "because")?, settings })
 }
 
 fn read_report_line(node: &Node) -> Result<ReportLine, ExportError> {
@@ -245,7 +253,7 @@ pub fn write(shot: &Shot) -> String {
         ("fps", shot.fps.into()),
         ("duration_secs", shot.duration_secs.into()),
         ("keyframes", Json::list(keyframes)),
-        ("effects", Json::list(shot.effects.iter().map(effect_json))),
+        ("effects", Json::list(shot.effects.iter().map(effects_json::write))),
         ("report", Json::list(shot.report.iter().map(report_json))),
     ]);
     fields.extend(shot.clearance.as_ref().map(|proof| ("clearance", clearance_json::write(proof, shot))));
@@ -286,12 +294,10 @@ fn keyframe_json(key: &Keyframe, euler: Option<LevelAngles>) -> Json {
         let euler = [("yaw", angles.yaw_rad), ("pitch", angles.pitch_rad), ("roll", angles.roll_rad)];
         fields.push(("euler_deg", object(euler.map(|(name, rad)| (name, degrees(rad))))));
     }
-    fields.extend([
-        ("fov_y_deg", key.fov_y_rad.to_degrees().into()),
-        ("focus_distance", key.focus_distance.into()),
-        ("easing", key.easing.as_ref().into()),
-        ("cut", key.cut.into()),
-    ]);
+    fields.extend([("fov_y_deg", key.fov_y_rad.to_degrees().into()), ("focus_distance", key.focus_distance.into())]);
+    fields.extend(key.optics.f_stop.map(|f_stop| ("f_stop", f_stop.into())));
+    fields.extend(key.optics.shutter_angle_rad.map(|angle| ("shutter_angle_deg", angle.to_degrees().into())));
+    fields.extend([("easing", key.easing.as_ref().into()), ("cut", key.cut.into())]);
     if let Some(intent) = &key.intent {
         fields.push(("intent", intent_json(intent)));
     }
@@ -308,13 +314,6 @@ fn intent_json(intent: &Intent) -> Json {
     fields.extend(names.into_iter().filter_map(|(field, name)| Some((field.to_owned(), name?.into()))));
     fields.extend(intent.words.map(|words| ("words".to_owned(), Json::list(words))));
     fields.extend(intent.pivot.map(|pivot| ("pivot".to_owned(), pivot.into())));
-    Json::Object(fields)
-}
-
-fn effect_json(effect: &EffectRequest) -> Json {
-    let mut fields = vec![("kind".to_owned(), effect.kind.as_str().into())];
-    fields.extend(effect.settings.iter().map(|(name, value)| (name.clone(), (*value).into())));
-    fields.push(("because".to_owned(), effect.because.as_str().into()));
     Json::Object(fields)
 }
 

@@ -1,4 +1,4 @@
-//! The lexicon file: lists of adjectives, nouns, synonyms, camera words and effects. `prompts/lexicon.txt` describes its
+//! The lexicon file: lists of adjectives, nouns, synonyms, camera words. `prompts/lexicon.txt` describes its
 //! own format.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,8 +26,6 @@ pub struct Lexicon {
     pub(crate) camera: BTreeSet<String>,
     scene: BTreeSet<String>,
     pub(crate) function: BTreeSet<String>,
-    /// Name of an effect and the words of one phrase for it; longest phrases first.
-    pub(crate) effects: Vec<(String, Vec<String>)>,
 }
 
 /// A list of words of the lexicon.
@@ -60,15 +58,13 @@ enum Section {
     Camera,
     Scene,
     Function,
-    Effects,
 }
 
 impl Lexicon {
     /// The lexicon that the program ships, read once.
     ///
     /// # Errors
-    /// [`LanguageError::BadData`] when the embedded file has an unknown section, an entry before any section, or an
-    /// effect without a colon.
+    /// [`LanguageError::BadData`] when the embedded file has an unknown section or an entry before any section.
     pub fn embedded() -> Result<&'static Self, LanguageError> {
         static LEXICON: OnceLock<Result<Lexicon, LanguageError>> = OnceLock::new();
         LEXICON.get_or_init(|| Self::parse(TEXT)).as_ref().map_err(Clone::clone)
@@ -97,14 +93,13 @@ impl Lexicon {
                 section = Some(name.parse().map_err(|_| bad(format!("unknown section \"{name}\"")))?);
             } else {
                 let section = section.ok_or_else(|| bad("an entry before any section".to_owned()))?;
-                lexicon.add(section, line).map_err(bad)?;
+                lexicon.add(section, line);
             }
         }
-        lexicon.effects.sort_by_key(|(_, phrase)| std::cmp::Reverse(phrase.len()));
         Ok(lexicon)
     }
 
-    fn add(&mut self, section: Section, line: &str) -> Result<(), String> {
+    fn add(&mut self, section: Section, line: &str) {
         let entries = || line.split(',').map(str::trim).filter(|entry| !entry.is_empty());
         let words = || entries().flat_map(tokenize).map(|word| word.text);
         match section {
@@ -118,9 +113,7 @@ impl Lexicon {
                 self.noun_heads.extend(entries().filter_map(last_stem));
             }
             Section::Synonyms => self.add_synonyms(&entries().map(stems).collect::<Vec<_>>()),
-            Section::Effects => self.add_effect(line)?,
         }
-        Ok(())
     }
 
     fn add_synonyms(&mut self, group: &[String]) {
@@ -128,15 +121,6 @@ impl Lexicon {
             let others = group.iter().filter(|other| *other != name).cloned();
             self.synonyms.entry(name.clone()).or_default().extend(others);
         }
-    }
-
-    /// `name: phrase, phrase ..`.
-    fn add_effect(&mut self, line: &str) -> Result<(), String> {
-        let (name, phrases) = line.split_once(':').ok_or_else(|| format!("no colon in \"{line}\""))?;
-        let phrases =
-            phrases.split(',').map(|phrase| tokenize(phrase).into_iter().map(|word| word.text).collect::<Vec<_>>());
-        self.effects.extend(phrases.filter(|words| !words.is_empty()).map(|words| (name.trim().to_owned(), words)));
-        Ok(())
     }
 
     /// The lists that hold a word, one flag per [`WordList`].

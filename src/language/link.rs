@@ -4,6 +4,7 @@
 //! bytes of the prompt. One pass from left to right; at each word a mention by number is tried first, then a name, a
 //! quantity, an unknown name.
 
+use super::effects::effect_words;
 use super::error::LanguageError;
 use super::known_words::KnownWords;
 use super::lexicon::Lexicon;
@@ -52,6 +53,7 @@ pub fn link(prompt: &str, objects: &[NamedObject]) -> Result<Linked, LanguageErr
     }
     let lexicon = Lexicon::embedded()?;
     let index = NameIndex::new(objects, lexicon);
+    let is_effect = effect_words(prompt, &words)?;
     let mut linker = Linker {
         prompt,
         words: &words,
@@ -59,6 +61,7 @@ pub fn link(prompt: &str, objects: &[NamedObject]) -> Result<Linked, LanguageErr
         lexicon,
         known_words: KnownWords::embedded(),
         index,
+        is_effect,
         linked: Linked::default(),
     };
     linker.run()?;
@@ -72,6 +75,8 @@ struct Linker<'a> {
     lexicon: &'a Lexicon,
     known_words: &'a KnownWords,
     index: NameIndex<'a>,
+    /// Words of phrases for effects.
+    is_effect: Vec<bool>,
     linked: Linked,
 }
 
@@ -85,6 +90,7 @@ impl Linker<'_> {
                 continue;
             }
             if self.linked.quantities.len() < MAX_QUANTITIES
+                && !self.is_effect[i]
                 && let Some((len, quantity)) = quantity_at(self.words, i)
             {
                 self.push(&format!("<qty-{}>", self.linked.quantities.len()), i, len);
@@ -151,7 +157,9 @@ impl Linker<'_> {
     /// a misspelled name to the warnings, any other to the unknown names.
     fn unknown_at(&mut self, i: usize) -> Option<(usize, Option<usize>)> {
         let is_known = |at: usize| {
-            self.known_words.contains(word_at(self.words, at)) || self.index.match_at(self.words, at).is_some()
+            self.is_effect.get(at) == Some(&true)
+                || self.known_words.contains(word_at(self.words, at))
+                || self.index.match_at(self.words, at).is_some()
         };
         let mut candidate = unknown_candidate_at(self.words, i, self.lexicon, &is_known)?;
         candidate.certain &= !self.is_after_preposition_of_place();

@@ -1,81 +1,107 @@
-//! The effects, and the choice among them.
+//! What an effect is.
 
-use std::str::FromStr;
+use std::fmt::Debug;
+use std::sync::Arc;
 
-use thiserror::Error;
+use cinesplat_geometry::Camera;
+use cinesplat_render::RenderError;
 
-/// An effect of the lens or the film stock. Its name is the same in `--effects` and in `shot.json`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
-#[derive(strum::VariantArray, strum::VariantNames)]
-#[strum(serialize_all = "kebab-case")]
-pub enum Effect {
-    /// Blur outside the focus distance.
-    DepthOfField,
-    /// The focus distance moves from one subject to another.
-    RackFocus,
-    /// Blur of motion during the exposure.
-    MotionBlur,
-    /// Small, unsteady motion of the camera.
-    Handheld,
-    /// The rows of a picture are exposed one after another.
-    RollingShutter,
-    /// Radial distortion of a lens.
-    LensDistortion,
-    /// A very wide lens that maps angles to distances in the picture.
-    Fisheye,
-    /// All directions in one picture.
-    Panorama,
-    /// Horizontally squeezed optics: oval bokeh, streaked flares.
-    Anamorphic,
-    /// A tilted focal plane.
-    TiltShift,
-    /// Haze that grows with the distance.
-    Fog,
-    /// Noise of film stock.
-    FilmGrain,
-    /// Darker corners.
-    Vignette,
-    /// Ghosts of light sources.
-    LensFlare,
-    /// Glow around bright areas.
-    Bloom,
-    /// Color fringes toward the corners.
-    ChromaticAberration,
+use super::budget::{Budget, Loss};
+use super::calls::{Call, Calls};
+use super::light::Picture;
+use super::moment::Moment;
+use super::seen::FrameFacts;
+
+/// Makes the picture of a moment without the effect that asks, but with all effects inside it.
+pub type Next<'a> = &'a mut dyn FnMut(&Moment<'_>) -> Result<Picture, RenderError>;
+
+/// What calls for an effect.
+pub trait EffectKind: Effect + Sized {
+    /// Name, as in `--effects` and in `shot.json`.
+    const NAME: &'static str;
+
+    /// Other names that ask for the effect.
+    const ALSO: &'static [&'static str] = &[];
+
+    /// The call that asks for the effect. Without an own version: the first call by one of its names.
+    fn call(calls: &Calls<'_>) -> Option<Call> {
+        calls.calls.iter().find(|call| call.name == Self::NAME || Self::ALSO.contains(&call.name.as_str())).cloned()
+    }
+
+    /// The effect as the call asks for it. `None` if the call's settings make it do nothing.
+    fn called_for(call: &Call, calls: &Calls<'_>) -> Option<Self>;
 }
 
-/// The effects that the user allows.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum EffectChoice {
-    /// The effects that the prompt requests.
-    #[default]
-    Auto,
-    /// No effects, even if the prompt requests some.
-    Off,
-    /// Exactly these effects. The requests of the prompt are ignored.
-    These(Vec<Effect>),
-}
+/// An effect with its settings.
+///
+/// Implementors are plain data: equal settings, seed and moment give equal pictures, whichever frame is rendered first.
+pub trait Effect: Debug + Send + Sync {
+    /// Every setting with its value: [`EffectKind::called_for`] makes the same effect from them.
+    fn settings(&self) -> Vec<(&'static str, f64)>;
 
-/// A name in `--effects` that is not an effect.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no effect is named {found:?}, expected auto, off, or a list of: {}", <Effect as strum::VariantNames>::VARIANTS.join(" "))]
-pub struct UnknownEffect {
-    /// The name.
-    pub found: String,
-}
+    /// What [`Loss::error`] is, and its unit: `("circle of confusion", "px")`.
+    fn measure(&self) -> (&'static str, &'static str);
 
-impl FromStr for EffectChoice {
-    type Err = UnknownEffect;
+    /// What leaving the effect out of a frame would cost, against the budget.
+    ///
+    /// # Errors
+    /// Those of the renderer, where the answer depends on what is seen.
+    fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError>;
 
-    /// Parses `auto`, `off`, or a comma-separated list of names.
-    fn from_str(text: &str) -> Result<Self, UnknownEffect> {
-        match text.trim() {
-            "auto" => Ok(Self::Auto),
-            "off" => Ok(Self::Off),
-            names => {
-                let named = |name: &str| name.parse::<Effect>().ok().ok_or(UnknownEffect { found: name.to_owned() });
-                names.split(',').map(|name| named(name.trim())).collect::<Result<_, _>>().map(Self::These)
-            }
-        }
+    /// The effect with what it takes from the first frame of the shot, such as the distance of what it focuses on. `None`
+    /// if it takes nothing.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    fn measured(&self, first: &FrameFacts<'_>) -> Result<Option<Arc<dyn Effect>>, RenderError> {
+        let _ = first;
+        Ok(None)
+    }
+
+    /// The camera as the effect moves it. Where this is all that the effect does ([`Effect::develops`]), frames stay
+    /// plain.
+    fn moved(&self, camera: Camera, time_secs: f64) -> Camera {
+        let _ = time_secs;
+        camera
+    }
+
+    /// Largest distance between the camera and its path, scene units.
+    fn reach(&self) -> f64 {
+        0.0
+    }
+
+    /// Whether the effect does anything besides [`Effect::moved`].
+    fn develops(&self) -> bool {
+        true
+    }
+
+    /// Whether the film carries how much of each pixel the scene covers.
+    fn is_transparent(&self) -> bool {
+        false
+    }
+
+    /// Whether its pictures show all directions, by longitude and latitude.
+    fn is_panorama(&self) -> bool {
+        false
+    }
+
+    /// Pictures' worth of work that the samples of a frame take.
+    fn num_pictures(&self, samples: u32) -> u32 {
+        samples
+    }
+
+    /// Whether two frames with the same camera have different pictures.
+    fn changes_with_time(&self) -> bool {
+        true
+    }
+
+    /// The picture of a moment with the effect, made from pictures that `next` gives. `samples` are those of
+    /// [`Loss::samples`].
+    ///
+    /// # Errors
+    /// Those of `next`.
+    fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
+        let _ = samples;
+        next(moment)
     }
 }

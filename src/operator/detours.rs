@@ -11,7 +11,7 @@ use super::report::clause;
 use super::route::{NoRoute, Route, route};
 use super::world::{World, default_camera_radius};
 use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
-use cinesplat_trajectory::{CameraPath, ClearanceProof, Keyframe, Move, ReportLine};
+use cinesplat_trajectory::{CameraPath, ClearanceFailure, ClearanceProof, Keyframe, Move, ReportLine};
 
 /// Largest factor by which a detour may lengthen a segment's duration.
 const MAX_SLOWDOWN: f64 = 2.5;
@@ -77,7 +77,20 @@ pub(super) fn is_clear(world: &World, segment: &MotionSegment) -> bool {
 
 /// Certifies the distance between a path and the matter of a scene, for a camera of the default radius.
 pub fn prove_clear(gaussians: &Gaussians, path: &CameraPath) -> ClearanceProof {
-    prove(&ClearanceIndex::new(gaussians), path, default_camera_radius(&Bounds::of(gaussians)))
+    prove_clear_around(gaussians, path, 0.0)
+}
+
+/// As [`prove_clear`], for a camera that leaves the path by up to `reach`, scene units.
+pub fn prove_clear_around(gaussians: &Gaussians, path: &CameraPath, reach: f64) -> ClearanceProof {
+    let radius = default_camera_radius(&Bounds::of(gaussians));
+    let index = ClearanceIndex::new(gaussians);
+    if !(reach > 0.0) {
+        return prove(&index, path, radius);
+    }
+    // A ball about the path that holds the ball about the camera wherever it is.
+    let proof = prove(&index, path, radius + reach);
+    let failure = proof.failure.map(|failure| ClearanceFailure { distance: failure.distance - reach, ..failure });
+    ClearanceProof { camera_radius: radius, min_distance: (proof.min_distance - reach).max(0.0), failure, ..proof }
 }
 
 /// Certifies the clearance of the path through a film's keyframes.

@@ -104,6 +104,7 @@ pub(super) fn keyframes(segments: &[MotionSegment], labels: &[StepLabels]) -> Ve
                 pose: state.pose,
                 fov_y_rad: state.fov_y_rad,
                 focus_distance: state.focus_distance,
+                optics: cinesplat_trajectory::KeyOptics::default(),
                 easing: interval_easing(segment.easing, i.min(num_intervals - 1), num_intervals),
                 cut: segment.cut && p > 0 && i == 0,
                 intent: labels.get(segment.step).map(|label| intent(segment, label, i)),

@@ -1,4 +1,6 @@
 use super::error::PipelineError;
+use super::film::called_effects;
+use cinesplat_lens::EffectChoice;
 use cinesplat_operator;
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::{CameraPath, ClearanceProof, Shot};
@@ -9,7 +11,13 @@ use cinesplat_trajectory::{CameraPath, ClearanceProof, Shot};
 /// [`PipelineError::Trajectory`] for keyframes that make no path.
 pub fn prove_clearance(scene: &Scene, shot: &Shot) -> Result<ClearanceProof, PipelineError> {
     let path = CameraPath::new(shot)?;
-    Ok(in_file_order(scene, cinesplat_operator::prove_clear(&scene.gaussians, &path)))
+    Ok(in_file_order(scene, cinesplat_operator::prove_clear_around(&scene.gaussians, &path, reach(scene, shot))))
+}
+
+/// How far the effects of a shot take the camera from its path, scene units.
+fn reach(scene: &Scene, shot: &Shot) -> f64 {
+    let size = scene.bounds().size();
+    called_effects(shot, &EffectChoice::Auto, size).effects.iter().map(|called| called.effect.reach()).sum()
 }
 
 /// The proof with indices of Gaussians in the scene's file, where dropped Gaussians count too.

@@ -5,11 +5,11 @@ use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{EffectMention, LanguageError, Linked, NamedObject};
-use cinesplat_lens::{Decision, EffectCall, EffectChoice, EffectKind};
+use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
-use cinesplat_operator::{Solution, SolveLevel, SolveSettings, Step, World};
+use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
-use cinesplat_trajectory::{SceneRef, Shot};
+use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot};
 
 /// Name of the effect that rolls the camera, and its roll in degrees, in the middle of the 5 to 35 degrees that
 /// storyboards use.
@@ -71,8 +71,8 @@ pub struct Directed {
     pub critique: Option<Critique>,
     /// The steps of the prompt's program, in order.
     pub steps: Vec<StepReading>,
-    /// The decision about each effect.
-    pub effects: Vec<Decision>,
+    /// The effects that the shot calls for, and the calls that lead to none.
+    pub effects: Called,
     /// What the prompt asks for and the program does not contain.
     pub problems: Vec<Problem>,
     /// Guesses and doubtful choices, one sentence each.
@@ -131,10 +131,8 @@ pub fn direct(
     let ids = direction.program.object_ids();
     let mut world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
     world.aspect = settings.aspect();
-    let mut calls = calls(&effects);
-    let dutch =
-        calls.iter().position(|call| call.kind == EffectKind::Other(DUTCH.to_owned())).map(|at| calls.remove(at));
-    let dutch_deg = dutch.map(|_| DUTCH_DEG);
+    let is_dutch = |mention: &&EffectMention| mention.call.name == DUTCH && !mention.is_forbidden;
+    let dutch_deg = effects.iter().find(is_dutch).map(|_| DUTCH_DEG);
     let (level, seed) = (settings.solve, settings.seed);
     let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
     let program = &direction.program;
@@ -147,20 +145,29 @@ pub fn direct(
     // Without a search nobody looks at the film.
     let critique = if level == SolveLevel::Off { None } else { Some(times.measure(Phase::Judge, judge)?) };
     solutions.truncate(settings.choice.num_takes.max(1));
-    let decisions = cinesplat_lens::decide(&settings.effects, &calls);
+    let called = called(&effects, program, settings, bounds.size());
     let finished = |solution| {
         let mut shot = shot_of(scene, prompt, solution, settings);
         shot.model = Some(interpreter.model_ref());
-        shot.effects = decisions.iter().filter_map(Decision::request).collect();
-        shot.report.extend(decisions.iter().filter_map(Decision::report_line));
+        shot.effects = called.effects.iter().map(CalledEffect::request).collect();
+        let missing = called.unmet.iter().filter(|unmet| unmet.is_missing());
+        shot.report.extend(missing.map(missing_effect));
         shot.report.extend(problems.iter().map(Problem::report_line));
         shot.validated()
     };
-    let takes: Vec<Shot> = solutions.into_iter().map(finished).collect::<Result<_, _>>()?;
+    let mut takes: Vec<Shot> = solutions.into_iter().map(finished).collect::<Result<_, _>>()?;
+    if called.effects.iter().any(|called| called.effect.reach() > 0.0) {
+        for shot in &mut takes {
+            shot.clearance = Some(super::clearance::prove_clearance(scene, shot)?);
+        }
+    }
+    for shot in &mut takes {
+        super::focus::focus(scene, &objects, shot)?;
+    }
     let shot = takes[0].clone();
     let steps = readings(prompt, &direction);
     let warnings = linked.warnings;
-    Ok(Directed { shot, takes, critique, steps, effects: decisions, problems, warnings, times })
+    Ok(Directed { shot, takes, critique, steps, effects: called, problems, warnings, times })
 }
 
 /// A shot of solved keyframes, without a director's model and without effects.
@@ -193,8 +200,24 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     Ok(set)
 }
 
-fn calls(effects: &[EffectMention]) -> Vec<EffectCall> {
-    effects.iter().map(|call| EffectCall { kind: call.kind.as_str().into(), because: call.words.clone() }).collect()
+/// The effects that the words and the moves of a program call for.
+fn called(mentions: &[EffectMention], program: &Program, settings: &DirectSettings, scene_size: f64) -> Called {
+    let wanted = mentions.iter().filter(|mention| !mention.is_forbidden && mention.call.name != DUTCH);
+    let calls: Vec<Call> = wanted.map(|mention| mention.call.clone()).collect();
+    let forbidden = mentions.iter().filter(|mention| mention.is_forbidden);
+    let forbidden: Vec<_> =
+        forbidden.map(|mention| (mention.call.name.clone(), mention.call.because.clone())).collect();
+    let moves = program.steps.iter().flat_map(|step| std::iter::once(step.movement).chain(step.with.iter().copied()));
+    let moves: Vec<Move> = moves.collect();
+    let seed = settings.seed;
+    let calls = Calls { calls: &calls, forbidden: &forbidden, moves: &moves, keyframes: &[], scene_size, seed };
+    Called::of(&settings.effects, &calls)
+}
+
+/// The report's line of a call that the film lacks.
+fn missing_effect(unmet: &Unmet) -> ReportLine {
+    let (clause, wanted) = (unmet.call.because.clone(), unmet.call.name.clone());
+    ReportLine { clause, wanted, got: 0.0, met: false, note: unmet.sentence() }
 }
 
 /// Refuses a program that is about something that the scene lacks, and one without steps.

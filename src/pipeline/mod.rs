@@ -9,6 +9,7 @@ mod clearance;
 mod direct;
 mod error;
 mod film;
+mod focus;
 mod forecast;
 mod frames;
 mod interpreter;
@@ -23,7 +24,10 @@ pub use choose_film::{Critique, FilmChoice};
 pub use clearance::prove_clearance;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of};
 pub use error::PipelineError;
-pub use film::{FilmProgress, FilmReport, FilmSettings, camera_at, film, film_part, video_of};
+pub use film::{
+    FilmProgress, FilmReport, FilmSettings, called_effects, camera_at, complete_effects, film, film_part, plan_effects,
+    video_of,
+};
 pub use forecast::{FilmCost, Forecast, Requirements, TimeCost, checked_psnr_db, choose, forecast, num_cores};
 pub use frames::FrameRange;
 pub use interpreter::Interpreter;

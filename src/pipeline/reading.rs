@@ -108,7 +108,7 @@ pub fn read(
     interpreter: &Interpreter,
     scene: &SceneContext<'_>,
 ) -> Result<Reading, PipelineError> {
-    let effects = effect_mentions(&linked)?;
+    let effects = effect_mentions(prompt, &linked)?;
     let mut direction = interpreter.direct(prompt, &linked, scene)?;
     let mut problems = Vec::new();
     problems.extend(unmet(prompt, &direction, &effects));

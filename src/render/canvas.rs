@@ -1,9 +1,10 @@
-//! Target of a picture: `f32` color and transmittance, or 8-bit color only, for films.
+//! Target of a picture: `f32` color and transmittance, 8-bit color only, for films, or a sum of light, for exposures.
 
 use std::sync::{Mutex, PoisonError};
 
 use pulp::{Simd, WithSimd};
 
+use super::light::light;
 use super::pixels::TilePixels;
 use super::tiles::TILE_PX;
 use super::{Frame, Rgb8Frame};
@@ -15,6 +16,39 @@ pub(super) enum Canvas<'a> {
     Linear { rgb: &'a mut [f32], transmittance: &'a mut [f32] },
     /// Color in 8 bits.
     Rgb8(&'a mut [u8]),
+    /// Sums over pictures.
+    Light(LightSums<'a>),
+}
+
+/// Sums over the pictures of an exposure, each times its weight.
+#[derive(Debug)]
+pub(super) struct LightSums<'a> {
+    /// Light of the colors.
+    pub(super) light: &'a mut [f32],
+    /// Transmittance.
+    pub(super) transmittance: &'a mut [f32],
+    /// Weight of this picture.
+    pub(super) weight: f32,
+    /// Whether this is the first picture, which overwrites the sums.
+    pub(super) is_first: bool,
+}
+
+impl LightSums<'_> {
+    /// Adds colors and transmittances, from position `first` (in pixels) on.
+    #[inline(always)]
+    pub(super) fn add(&mut self, first: usize, rgb: &[f32], rest: &[f32]) {
+        let weight = self.weight;
+        let sums = self.light[first * 3..].iter_mut().zip(rgb);
+        let rests = self.transmittance[first..].iter_mut().zip(rest);
+        if self.is_first {
+            // Not multiplied by 0: the old values may be NaN.
+            sums.for_each(|(sum, &value)| *sum = weight * light(value));
+            rests.for_each(|(sum, &value)| *sum = weight * value);
+        } else {
+            sums.for_each(|(sum, &value)| *sum += weight * light(value));
+            rests.for_each(|(sum, &value)| *sum += weight * value);
+        }
+    }
 }
 
 impl<'a> From<&'a mut Frame> for Canvas<'a> {
@@ -46,6 +80,11 @@ impl<'a> Canvas<'a> {
                 parts.map(|(rgb, transmittance)| Self::Linear { rgb, transmittance }).collect()
             }
             Self::Rgb8(rgb8) => rgb8.chunks_mut(3 * num_pixels).map(Self::Rgb8).collect(),
+            Self::Light(LightSums { light, transmittance, weight, is_first }) => {
+                let parts = light.chunks_mut(3 * num_pixels).zip(transmittance.chunks_mut(num_pixels));
+                let sums = |(light, transmittance)| LightSums { light, transmittance, weight, is_first };
+                parts.map(|part| Self::Light(sums(part))).collect()
+            }
         }
     }
 }
@@ -80,6 +119,14 @@ impl WithSimd for FinishedTile<'_, '_> {
             Canvas::Rgb8(rgb8) => {
                 for (row, rgb8) in rgb8.chunks_mut(width * 3).enumerate() {
                     pixels.row(row, background).write_rgb8(&mut rgb8[left * 3..right * 3]);
+                }
+            }
+            Canvas::Light(sums) => {
+                let (mut rgb, mut rest) = ([0.0; 3 * TILE_PX], [0.0; TILE_PX]);
+                let (rgb, rest) = (&mut rgb[..(right - left) * 3], &mut rest[..right - left]);
+                for row in 0..sums.transmittance.len() / width {
+                    pixels.row(row, background).write_linear(rgb, rest);
+                    sums.add(row * width + left, rgb, rest);
                 }
             }
         }

@@ -112,6 +112,7 @@ pub(super) fn render<P: Payload>(
     };
     let mut outputs = Vec::with_capacity(grid.len());
     picture.render_rows(0..grid.down, &mut outputs)?;
+    picture.stats.counts.num_subframes = 1;
     let Picture { stats, num_in_view, .. } = picture;
     buffers.visible_frac = Some((stats.counts.num_splats as f64 / num_in_view.max(1) as f64).min(1.0));
     Ok((stats, outputs))
@@ -222,7 +223,7 @@ impl<P: Payload> Picture<'_, P> {
             let tile =
                 Tile { origin_px, places, splats, view, workspace: &mut *workspace, sink: &mut sink, arithmetic };
             view.instructions.dispatch(tile);
-            let background = self.settings.background.to_array();
+            let background = self.settings.visible_background().to_array();
             let pixels = workspace.pixels();
             view.instructions.dispatch(FinishedTile { pixels, band: &self.bands[row], column, width, background });
             (workspace.num_block_blends(), self.payload.finish(sink, area))

@@ -52,6 +52,9 @@
 //! | bin | `bin` | splats to tiles of 64 x 64 pixels |
 //! | blend | `blend`, `coverage`, `kernel` | tiles to pixels, front to back, in blocks of 8 x 4 pixels in SIMD registers |
 //!
+//! Effects of the lens are extra inputs of these stages: `blur` widens the splats of one picture, `exposure` averages
+//! several pictures. A picture without them runs the code that it would run if they did not exist.
+//!
 //! `fast` runs these stages in `f32`. `reference` renders the same picture in `f64`, pixel by pixel; it defines the
 //! *spec image* that every accuracy is measured against. `spec` holds the constants of both.
 //!
@@ -68,12 +71,16 @@
 mod batch;
 mod bin;
 mod blend;
+mod blur;
+mod blur_extent;
 mod canvas;
 mod coverage;
 mod depth;
 mod error;
+mod exposure;
 mod fast;
 mod features;
+mod fog;
 mod frame;
 mod groups;
 mod harmonics;
@@ -81,6 +88,8 @@ mod ids;
 mod instruction_set;
 mod kernel;
 mod lift;
+mod light;
+mod logarithm;
 mod memory;
 mod order;
 mod payload;
@@ -91,19 +100,22 @@ mod reference;
 mod renderer;
 mod settings;
 mod sort;
-
 mod spec;
 mod splat;
 mod splats;
+mod spread;
 mod stats;
 mod tiles;
 mod upsample;
 mod view;
 mod weights;
 
+pub use blur::{SplatBlur, SubFrame, ThinLens};
+pub use blur_extent::BlurExtent;
 pub use depth::DepthMap;
 pub use error::RenderError;
 pub use features::FeatureMap;
+pub use fog::Fog;
 pub use frame::{Frame, Rgb8Frame};
 pub use ids::IdMap;
 pub use instruction_set::InstructionSet;

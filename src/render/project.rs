@@ -10,7 +10,9 @@ use pulp::{Simd, WithSimd};
 
 use super::batch::Batch;
 use super::groups::{Group, LANES, Lane, Pack};
+use super::logarithm::log2;
 use super::splat::{EXPONENT_DIVISOR, Splat, whitening_unit};
+use super::spread::Spread;
 use super::tiles::{TILE_PX, TileGrid};
 use super::{View, harmonics, reference};
 use cinesplat_scene::Gaussians;
@@ -33,22 +35,25 @@ struct Outputs {
     skew_px: Lane,
     /// See [`Splat::tile_rect`].
     tile_rect: [[u16; LANES]; 4],
+    /// Blur; see [`AddedVariance`]. Zeros without blur.
+    disk_px2: [Lane; 2],
+    smear_px: [Lane; 2],
 }
 
-/// Projects the members of one group; compiled for every instruction set.
-struct GroupMembers<'a> {
+/// Projects the members of one group, with or without blur; compiled for every instruction set.
+struct GroupMembers<'a, const IS_BLURRED: bool> {
     projection: &'a Projection,
     gaussians: &'a Gaussians,
     packs: &'a [Pack],
     batch: &'a mut Batch,
 }
 
-impl WithSimd for GroupMembers<'_> {
+impl<const IS_BLURRED: bool> WithSimd for GroupMembers<'_, IS_BLURRED> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.projection.project_packs(self.gaussians, self.packs, self.batch);
+        self.projection.project_packs::<IS_BLURRED>(self.gaussians, self.packs, self.batch);
     }
 }
 
@@ -66,6 +71,7 @@ pub(super) struct Projection {
     /// 1 if opacity compensates for the dilation, else 0.
     compensation: f32,
     cut_level: f32,
+    spread: Spread,
     unit: f32,
     /// Width and height of the picture.
     size_px: [f32; 2],
@@ -92,6 +98,7 @@ impl Projection {
             dilation_px2: view.dilation_px2 as f32,
             compensation: f32::from(u8::from(view.is_compensated)),
             cut_level: (view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32,
+            spread: Spread::above(view.alpha_cut),
             unit: whitening_unit() as f32,
             size_px: [view.width, view.height].map(|size| size as f32),
             grid,
@@ -115,11 +122,13 @@ impl Projection {
         if center.z + radius <= view.near || sigmas.is_nan() {
             return false;
         }
+        let blur_px = view.blur.map_or(0.0, |blur| sigmas * blur.max_deviation_px(center, radius));
+        let margin_px = MARGIN_PX + blur_px;
         // Whether the group lies outside the strip between two lines across the picture.
         let is_beside = |focal: f64, bounds: (f64, f64), along: f64, [first_px, last_px]: [f64; 2]| {
             let stretch = focal * (1.0 + bounds.0.abs().max(bounds.1).powi(2)).sqrt();
             let reach = sigmas * f64::from(group.max_scale) * stretch;
-            let (before, after) = ((focal, MARGIN_PX - first_px), (-focal, MARGIN_PX + last_px));
+            let (before, after) = ((focal, margin_px - first_px), (-focal, margin_px + last_px));
             [before, after].into_iter().any(|(a, b)| a * along + b * center.z + a.hypot(b) * radius + reach < 0.0)
         };
         let ([fx, fy], [px, py]) = (view.focal_px, view.principal_px);
@@ -130,15 +139,22 @@ impl Projection {
 
     /// Appends the splats of a group's members.
     pub(super) fn project_group(&self, gaussians: &Gaussians, packs: &[Pack], batch: &mut Batch) {
-        self.view.instructions.dispatch(GroupMembers { projection: self, gaussians, packs, batch });
+        if self.view.blur.is_some() {
+            self.view.instructions.dispatch(GroupMembers::<true> { projection: self, gaussians, packs, batch });
+        } else {
+            self.view.instructions.dispatch(GroupMembers::<false> { projection: self, gaussians, packs, batch });
+        }
     }
 
     #[inline(always)]
-    fn project_packs(&self, gaussians: &Gaussians, packs: &[Pack], batch: &mut Batch) {
+    fn project_packs<const IS_BLURRED: bool>(&self, gaussians: &Gaussians, packs: &[Pack], batch: &mut Batch) {
         let mut outputs = Outputs::default();
         for pack in packs {
             self.centers(pack, &mut outputs);
-            self.shapes(pack, &mut outputs);
+            if IS_BLURRED {
+                self.blurs(pack, &mut outputs);
+            }
+            self.shapes::<IS_BLURRED>(pack, &mut outputs);
             for lane in 0..LANES {
                 if outputs.visibility[lane] != 0.0
                     && let Some((splat, rect)) = self.finish_lane(gaussians, pack, &outputs, lane)
@@ -173,10 +189,24 @@ impl Projection {
         }
     }
 
+    /// Computes what blur adds to the covariance.
+    #[inline(always)]
+    fn blurs(&self, inputs: &Pack, outputs: &mut Outputs) {
+        let Some(blur) = self.view.blur else { return };
+        for lane in 0..LANES {
+            let mean = DVec3::from([0, 1, 2].map(|axis| f64::from(inputs.mean[axis][lane])));
+            let added = blur.added(mean, f64::from(outputs.depth[lane]));
+            for axis in 0..2 {
+                outputs.disk_px2[axis][lane] = added.disk[axis] as f32;
+                outputs.smear_px[axis][lane] = added.smear[axis] as f32;
+            }
+        }
+    }
+
     /// Computes shape and opacity; clears `visibility` if the splat is below the alpha cut or outside the picture.
     #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, which prevents vectorization")]
     #[inline(always)]
-    fn shapes(&self, inputs: &Pack, out: &mut Outputs) {
+    fn shapes<const IS_BLURRED: bool>(&self, inputs: &Pack, out: &mut Outputs) {
         let [r0, r1, r2] = self.rows;
         for lane in 0..LANES {
             let inverse_depth = 1.0 / out.depth[lane];
@@ -199,11 +229,23 @@ impl Projection {
             let v2 = [dot(axis_y, columns[0]) * s[0], dot(axis_y, columns[1]) * s[1], dot(axis_y, columns[2]) * s[2]];
             let cross = [v1[1] * v2[2] - v1[2] * v2[1], v1[2] * v2[0] - v1[0] * v2[2], v1[0] * v2[1] - v1[1] * v2[0]];
             let (raw_x, raw_y, raw, dilation) = (dot(v1, v1), dot(v2, v2), dot(cross, cross), self.dilation_px2);
-            let (a, b, c) = (raw_x + dilation, dot(v1, v2), raw_y + dilation);
-            let det = raw + dilation * (raw_x + raw_y) + dilation * dilation;
+            let (mut a, mut b, mut c) = (raw_x + dilation, dot(v1, v2), raw_y + dilation);
+            let mut det = raw + dilation * (raw_x + raw_y) + dilation * dilation;
 
             let kept_frac = (raw / det).sqrt() * self.compensation + (1.0 - self.compensation);
-            let level = log2(inputs.opacity[lane] * kept_frac).min(0.0) * (1.0 / EXPONENT_DIVISOR as f32);
+            let mut opacity = inputs.opacity[lane] * kept_frac;
+            if IS_BLURRED {
+                // The smear is a fourth column of V, the disk dilates.
+                let [smear_x, smear_y] = [out.smear_px[0][lane], out.smear_px[1][lane]];
+                let [disk_x, disk_y] = [dilation + out.disk_px2[0][lane], dilation + out.disk_px2[1][lane]];
+                let minors = [0, 1, 2].map(|column| v1[column] * smear_y - v2[column] * smear_x);
+                let (wide_x, wide_y) = (raw_x + smear_x * smear_x, raw_y + smear_y * smear_y);
+                let sharp = det;
+                det = raw + dot(minors, minors) + disk_y * wide_x + disk_x * wide_y + disk_x * disk_y;
+                (a, b, c) = (wide_x + disk_x, b + smear_x * smear_y, wide_y + disk_y);
+                opacity = self.spread.opacity(opacity, (sharp / det).sqrt());
+            }
+            let level = log2(opacity).min(0.0) * (1.0 / EXPONENT_DIVISOR as f32);
             let reach = level - self.cut_level;
             let sigmas = reach.max(0.0).sqrt() / self.unit;
             let (sd_x, sd_y) = (a.sqrt(), c.sqrt());
@@ -274,6 +316,13 @@ impl Projection {
             let mean = DVec3::from(pack.mean.map(|axis| f64::from(axis[lane])));
             harmonics::color_f32(mean - self.view.center, sh_dc, gaussians.sh_rest_of(gaussian_idx as usize))
         };
+        let color = match &self.view.fog {
+            None => color,
+            Some(fog) => {
+                let mean = DVec3::from(pack.mean.map(|axis| f64::from(axis[lane])));
+                fog.tinted(color.as_dvec3(), mean - self.view.center).as_vec3()
+            }
+        };
         Some((splat.with_source(gaussian_idx, color.min(Vec3::splat(self.view.max_color))), rect))
     }
 }
@@ -284,30 +333,4 @@ impl Projection {
 fn tile(position_px: f32, [first, last]: [f32; 2]) -> u16 {
     const SHIFT: f32 = 8_388_608.0;
     ((position_px * (1.0 / TILE_PX as f32)).max(first).min(last).floor() + SHIFT).to_bits() as u16
-}
-
-/// Binary logarithm of a positive normal number with an absolute error below 1e-7; vectorizes.
-///
-/// x = 2^e m with m in sqrt(1/2)..sqrt(2); log2(m) is a polynomial in m - 1, fitted at Chebyshev nodes.
-#[inline(always)]
-fn log2(x: f32) -> f32 {
-    const SQRT_HALF_BITS: u32 = 0x3f35_04f3;
-    const POLYNOMIAL: [f32; 8] = [
-        std::f32::consts::LOG2_E,
-        -0.721_352_76,
-        0.480_924_04,
-        -0.360_242,
-        0.287_075_6,
-        -0.248_821_8,
-        0.234_209_85,
-        -0.146_203_53,
-    ];
-    let shifted = x.to_bits().wrapping_sub(SQRT_HALF_BITS);
-    let exponent = (shifted as i32) >> 23;
-    let t = f32::from_bits((shifted & 0x007f_ffff).wrapping_add(SQRT_HALF_BITS)) - 1.0;
-    let mut sum = POLYNOMIAL[7];
-    for coefficient in POLYNOMIAL[..7].iter().rev() {
-        sum = sum * t + coefficient;
-    }
-    exponent as f32 + t * sum
 }

@@ -9,8 +9,9 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::blur::AddedVariance;
 use super::memory::Budget;
-use super::{Limits, RenderError, View, WorkCounts, harmonics, spec};
+use super::{Limits, RenderError, View, WorkCounts, harmonics, spec, spread};
 use cinesplat_scene::Gaussians;
 
 /// Edge of a tile in pixels.
@@ -63,7 +64,7 @@ pub(super) fn project(gaussians: &Gaussians, gaussian_idx: usize, view: &View) -
     let opacity = f64::from(gaussians.opacities[gaussian_idx]) * compensation;
     let principal_px = DVec2::from(view.principal_px);
     let mean_px = DVec2::new(fx * slope.x, fy * slope.y) + principal_px;
-    let splat = ExactSplat {
+    let mut splat = ExactSplat {
         mean_px,
         depth,
         variance_x: raw_x + dilation,
@@ -72,11 +73,34 @@ pub(super) fn project(gaussians: &Gaussians, gaussian_idx: usize, view: &View) -
         determinant,
         opacity: opacity.min(1.0),
     };
-    let is_finite = determinant > 0.0 && determinant.is_finite() && mean_px.is_finite();
+    if let Some(blur) = &view.blur {
+        let added = blur.added(gaussians.means[gaussian_idx].as_dvec3(), depth);
+        splat = splat.blurred((v1, v2), added, view);
+    }
+    let is_finite = splat.determinant > 0.0 && splat.determinant.is_finite() && mean_px.is_finite();
     (is_finite && opacity >= view.alpha_cut && splat.reaches(view)).then_some(splat)
 }
 
 impl ExactSplat {
+    /// The splat with blur. `v1` and `v2` are the rows of V, see [`project`]: the smear is a fourth column of V.
+    fn blurred(self, (v1, v2): (DVec3, DVec3), added: AddedVariance, view: &View) -> Self {
+        let AddedVariance { disk, smear } = added;
+        let disk = disk + view.dilation_px2;
+        let minors = v1 * smear.y - v2 * smear.x;
+        let (wide_x, wide_y) = (v1.length_squared() + smear.x * smear.x, v2.length_squared() + smear.y * smear.y);
+        let raw = v1.cross(v2).length_squared() + minors.length_squared();
+        let determinant = raw + disk.y * wide_x + disk.x * wide_y + disk.x * disk.y;
+        let area_frac = (self.determinant / determinant).sqrt();
+        Self {
+            variance_x: wide_x + disk.x,
+            covariance: self.covariance + smear.x * smear.y,
+            variance_y: wide_y + disk.y,
+            determinant,
+            opacity: spread::opacity(self.opacity, area_frac, view.alpha_cut),
+            ..self
+        }
+    }
+
     /// Whether the splat is drawn; see [`spec::reaches`].
     fn reaches(&self, view: &View) -> bool {
         let radius_px = spec::radius_px(self.variance_x, self.covariance, self.variance_y);
@@ -132,7 +156,7 @@ pub(super) fn render(
         })
         .sum();
     let (num_projected, num_splats) = (usable.len() as u64, splats.len() as u64);
-    Ok(WorkCounts { num_projected, num_splats, num_pairs, num_block_blends: num_blends })
+    Ok(WorkCounts { num_subframes: 1, num_projected, num_splats, num_pairs, num_block_blends: num_blends })
 }
 
 /// All visible splats, nearest first; ties in `f32` keep the order of the file.
@@ -142,6 +166,7 @@ fn sorted_splats(gaussians: &Gaussians, usable: &[u32], view: &View) -> Vec<Colo
         let splat = project(gaussians, idx, view)?;
         let mean = gaussians.means[idx].as_dvec3();
         let color = harmonics::color(mean - view.center, gaussians.sh_dc[idx], gaussians.sh_rest_of(idx));
+        let color = view.fog.map_or(color, |fog| fog.tinted(color, mean - view.center));
         let color = color.min(DVec3::splat(view.max_color.into()));
         Some(Colored { splat, color, sort_distance: view.sort_distance(mean, splat.depth) })
     };

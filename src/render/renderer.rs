@@ -1,11 +1,12 @@
 use std::time::Instant;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
+use super::blur::SubFrame;
 use super::canvas::Canvas;
 use super::depth::{DepthMap, DepthPayload};
 use super::fast::{self, Buffers, Pool};
-use super::groups::Groups;
+use super::groups::{Groups, Pack};
 use super::ids::{IdMap, IdPayload};
 use super::lift::{LiftPayload, LiftedValues};
 use super::memory::{SharedBudget, bytes_of};
@@ -25,19 +26,30 @@ pub struct Renderer<'scene> {
     groups: Groups,
     buffers: Pool<Buffers>,
     small_frames: Pool<Frame>,
+    /// Sums of light.
+    light_frames: Pool<Frame>,
 }
 
 impl<'scene> Renderer<'scene> {
     /// A renderer of `gaussians`. Never draws Gaussians with a value that is not finite, a rotation of length zero or
     /// an opacity of 0.
     pub fn new(gaussians: &'scene Gaussians) -> Self {
-        Self { gaussians, groups: Groups::new(gaussians), buffers: Pool::default(), small_frames: Pool::default() }
+        Self {
+            gaussians,
+            groups: Groups::new(gaussians),
+            buffers: Pool::default(),
+            small_frames: Pool::default(),
+            light_frames: Pool::default(),
+        }
     }
 
     /// Bytes that the renderer holds between pictures, without the scene and the returned pictures.
     pub fn memory_bytes(&self) -> u64 {
         let small = |frame: &Frame| bytes_of(&frame.rgb) + bytes_of(&frame.transmittance);
-        self.groups.bytes() + self.buffers.sum(Buffers::bytes) + self.small_frames.sum(small)
+        self.groups.bytes()
+            + self.buffers.sum(Buffers::bytes)
+            + self.small_frames.sum(small)
+            + self.light_frames.sum(small)
     }
 
     /// Number of Gaussians of the scene.
@@ -66,12 +78,22 @@ impl<'scene> Renderer<'scene> {
         settings: &RenderSettings,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        let view = View::new(camera, self.gaussians.origin, settings)?;
+        self.render_subframe_into(&SubFrame::from(*camera), settings, frame)
+    }
+
+    /// As [`Renderer::render_into`], with blur.
+    pub(super) fn render_subframe_into(
+        &self,
+        subframe: &SubFrame,
+        settings: &RenderSettings,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        let view = self.view_of(subframe, settings)?;
         frame.resize(view.width, view.height);
         if settings.quality == Quality::Reference {
             return self.render_reference(&view, settings, frame);
         }
-        frame.stats = self.render_onto(Canvas::from(&mut *frame), camera, &view, settings)?;
+        frame.stats = self.render_onto(Canvas::from(&mut *frame), subframe, &view, settings)?;
         Ok(())
     }
 
@@ -86,24 +108,56 @@ impl<'scene> Renderer<'scene> {
         settings: &RenderSettings,
         frame: &mut Rgb8Frame,
     ) -> Result<(), RenderError> {
-        let view = View::new(camera, self.gaussians.origin, settings)?;
+        self.render_subframe_rgb8_into(&SubFrame::from(*camera), settings, frame)
+    }
+
+    /// As [`Renderer::render_rgb8_into`], with blur.
+    pub(super) fn render_subframe_rgb8_into(
+        &self,
+        subframe: &SubFrame,
+        settings: &RenderSettings,
+        frame: &mut Rgb8Frame,
+    ) -> Result<(), RenderError> {
+        let view = self.view_of(subframe, settings)?;
         (frame.width, frame.height) = (view.width, view.height);
         if settings.quality == Quality::Reference {
-            let linear = self.render(camera, settings)?;
+            let mut linear = Frame::default();
+            self.render_subframe_into(subframe, settings, &mut linear)?;
             linear.write_rgb8(&mut frame.rgb8);
             frame.stats = linear.stats;
             return Ok(());
         }
         frame.rgb8.resize(view.width as usize * view.height as usize * 3, 0);
-        frame.stats = self.render_onto(Canvas::from(&mut *frame), camera, &view, settings)?;
+        frame.stats = self.render_onto(Canvas::from(&mut *frame), subframe, &view, settings)?;
         Ok(())
     }
 
+    /// The view of a sub-frame.
+    pub(super) fn view_of(&self, subframe: &SubFrame, settings: &RenderSettings) -> Result<View, RenderError> {
+        let origin = self.gaussians.origin;
+        View::new(&subframe.camera, origin, settings)?.blurred(&subframe.blur, origin)
+    }
+
+    /// Calls `work` with a frame whose memory is reused.
+    pub(super) fn with_light<R>(&self, work: impl FnOnce(&mut Frame) -> R) -> R {
+        self.light_frames.with(work)
+    }
+
+    /// The Gaussians that can be drawn, in packs.
+    pub(super) fn packs(&self) -> &[Pack] {
+        &self.groups.packs
+    }
+
+    /// Origin of the scene.
+    pub(super) fn origin(&self) -> DVec3 {
+        self.gaussians.origin
+    }
+
     /// Renders onto a canvas of the view's size, at the resolution that the accuracy knobs set.
-    fn render_onto(
+    pub(super) fn render_onto(
         &self,
         canvas: Canvas<'_>,
-        camera: &Camera,
+        subframe: &SubFrame,
         view: &View,
         settings: &RenderSettings,
     ) -> Result<RenderStats, RenderError> {
@@ -111,8 +165,7 @@ impl<'scene> Renderer<'scene> {
         if resolution_frac >= 1.0 {
             return Ok(self.render_payload(view, settings, canvas, &ColorOnly)?.0);
         }
-        let intrinsics = camera.intrinsics.scaled(resolution_frac);
-        let mut small_view = View::new(&Camera { pose: camera.pose, intrinsics }, self.gaussians.origin, settings)?;
+        let mut small_view = self.view_of(&subframe.scaled(resolution_frac), settings)?;
         // Keeps the dilation that the large picture has. The small picture then samples the large one, and enlarging
         // interpolates only between samples.
         small_view.dilation_px2 *= resolution_frac * resolution_frac;
@@ -212,7 +265,7 @@ impl<'scene> Renderer<'scene> {
         let counts = reference::render(scene, view, &settings.limits, output)?;
         frame.stats = RenderStats { counts, ..RenderStats::default() };
         frame.stats.times.blend = start.elapsed();
-        add_background(frame, settings.background);
+        add_background(frame, settings.visible_background());
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{InstructionSet, RenderError, spec};
+use super::{Fog, InstructionSet, RenderError, spec};
 use cinesplat_scene::{Scene, SplatFilter};
 
 /// Preset of accuracy against time.
@@ -146,6 +146,8 @@ pub struct RenderSettings {
     pub near: f64,
     /// Background color, in the colors of the trained scene.
     pub background: Vec3,
+    /// Fog between the camera and the scene; `None` = none.
+    pub fog: Option<Fog>,
     /// Depth that orders the splats.
     pub sort: SortMode,
     /// Where colors are clamped.
@@ -169,6 +171,7 @@ impl Default for RenderSettings {
             filter: SplatFilter::Classic,
             near: 0.2,
             background: Vec3::ZERO,
+            fog: None,
             sort: SortMode::default(),
             color_clamp: ColorClamp::default(),
             accuracy: None,
@@ -196,8 +199,13 @@ impl RenderSettings {
         self.accuracy.unwrap_or_else(|| self.quality.accuracy())
     }
 
+    /// The background as it is seen: nothing but fog, if there is fog.
+    pub(super) fn visible_background(&self) -> Vec3 {
+        self.fog.filter(|fog| fog.density > 0.0).map_or(self.background, |fog| fog.color)
+    }
+
     /// Dilation: added to both diagonal entries of a splat's covariance, pixels squared.
-    pub(super) fn dilation_px2(&self) -> f64 {
+    pub fn dilation_px2(&self) -> f64 {
         match self.filter {
             SplatFilter::Classic | SplatFilter::Mip => 0.3,
             SplatFilter::MipSmall => 0.1,
@@ -231,6 +239,12 @@ impl RenderSettings {
                 "above 0 and up to 1",
             ),
             ("background", f64::from(self.background.length()), self.background.is_finite(), "three finite numbers"),
+            (
+                "fog",
+                self.fog.map_or(0.0, |fog| fog.density),
+                self.fog.is_none_or(|fog| fog.density >= 0.0 && fog.density.is_finite() && fog.color.is_finite()),
+                "a color, and a finite density of 0 or more",
+            ),
         ];
         match ranges.into_iter().find(|(_, _, good, _)| !good) {
             Some((name, found, _, expected)) => Err(RenderError::Setting { name, found, expected }),

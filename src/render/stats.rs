@@ -1,3 +1,4 @@
+use std::ops::AddAssign;
 use std::time::Duration;
 
 /// Wall time of each stage of one picture.
@@ -23,6 +24,8 @@ impl StageTimes {
 /// Counters of the work for one picture, summed over its bands: a splat that overlaps two bands counts twice.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct WorkCounts {
+    /// Pictures that were rendered: 1, or the number of sub-frames of an exposure.
+    pub num_subframes: u64,
     /// Gaussians that were projected; the others were rejected group by group.
     pub num_projected: u64,
     /// Splats that overlap the picture.
@@ -33,6 +36,16 @@ pub struct WorkCounts {
     pub num_block_blends: u64,
 }
 
+impl AddAssign for WorkCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.num_subframes += other.num_subframes;
+        self.num_projected += other.num_projected;
+        self.num_splats += other.num_splats;
+        self.num_pairs += other.num_pairs;
+        self.num_block_blends += other.num_block_blends;
+    }
+}
+
 /// Time and work of one picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct RenderStats {
@@ -40,4 +53,15 @@ pub struct RenderStats {
     pub times: StageTimes,
     /// Counters of the work.
     pub counts: WorkCounts,
+}
+
+impl AddAssign for RenderStats {
+    fn add_assign(&mut self, other: Self) {
+        let StageTimes { project, sort, bin, blend } = other.times;
+        self.times.project += project;
+        self.times.sort += sort;
+        self.times.bin += bin;
+        self.times.blend += blend;
+        self.counts += other.counts;
+    }
 }

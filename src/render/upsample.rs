@@ -69,6 +69,12 @@ impl WithSimd for EnlargedRow<'_> {
                     *rgb = [r, g, b];
                 }
             }
+            Canvas::Light(mut sums) => {
+                for (place, pixel) in pixels.enumerate() {
+                    let [r, g, b, t] = pixel.max(Vec4::ZERO).to_array();
+                    sums.add(place, &[r, g, b], &[t.min(1.0)]);
+                }
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 use glam::{DMat3, DVec3};
 
-use super::{InstructionSet, RenderError, RenderSettings, SortMode, spec};
+use super::blur::{SplatBlur, ViewBlur};
+use super::{Fog, InstructionSet, RenderError, RenderSettings, SortMode, spec};
 use cinesplat_geometry::Camera;
 
 /// A camera and the settings in the form that rendering needs.
@@ -34,12 +35,16 @@ pub(super) struct View {
     pub(super) transmittance_stop: f64,
     /// Depth that orders the splats.
     pub(super) sort: SortMode,
+    /// Fog between the camera and the scene.
+    pub(super) fog: Option<Fog>,
     /// Upper bound of a Gaussian's color.
     pub(super) max_color: f32,
     /// Instruction set to use.
     pub(super) instructions: InstructionSet,
     /// Whether to start from the depth order of the previous picture.
     pub(super) reuses_order: bool,
+    /// Blur of splats.
+    pub(super) blur: Option<ViewBlur>,
 }
 
 impl View {
@@ -73,10 +78,21 @@ impl View {
             alpha_cut: accuracy.alpha_cut,
             transmittance_stop: accuracy.transmittance_stop,
             sort: settings.sort,
+            fog: settings.fog,
             max_color: settings.color_clamp.max_color(),
             instructions: settings.instructions,
             reuses_order: settings.reuses_order,
+            blur: None,
         })
+    }
+
+    /// The view with blur of splats.
+    ///
+    /// # Errors
+    /// [`RenderError::Setting`] for a lens out of range, [`RenderError::Camera`] for an unusable camera.
+    pub(super) fn blurred(self, blur: &SplatBlur, origin: DVec3) -> Result<Self, RenderError> {
+        let blur = ViewBlur::new(blur, (self.focal_px, self.near), origin)?;
+        Ok(Self { blur, ..self })
     }
 
     /// Depth that a Gaussian is sorted by, scene units: along the view axis, or its distance in mode `ray`. Rounded

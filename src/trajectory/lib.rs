@@ -26,6 +26,8 @@ pub use easing::Easing;
 pub use error::TrajectoryError;
 pub use path::CameraPath;
 pub use profile::ramp_secs;
-pub use shot::{EffectRequest, Intent, Keyframe, MAX_KEYFRAMES, ModelRef, ReportLine, SceneRef, Shot};
+pub use shot::{
+    EffectRequest, EffectRuns, Intent, KeyOptics, Keyframe, MAX_KEYFRAMES, ModelRef, ReportLine, SceneRef, Shot,
+};
 pub use timing::{retime, retimed};
 pub use vocabulary::{Move, ShotAngle, ShotSize};

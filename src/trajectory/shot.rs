@@ -69,12 +69,23 @@ pub struct Keyframe {
     pub fov_y_rad: f64,
     /// Distance of sharpest focus along the view axis, scene units; `None` without depth of field.
     pub focus_distance: Option<f64>,
+    /// The lens and the shutter, as far as the key sets them.
+    pub optics: KeyOptics,
     /// Speed profile of the segment that starts here.
     pub easing: Easing,
     /// Whether the camera jumps from the key before to this one.
     pub cut: bool,
     /// Purpose of the key.
     pub intent: Option<Intent>,
+}
+
+/// What a key says about the lens and the shutter. JSON keys `f_stop` and `shutter_angle_deg`, additions to version 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct KeyOptics {
+    /// Focal length over the diameter of the aperture; `None` = not set here.
+    pub f_stop: Option<f64>,
+    /// Share of the frame's time that the shutter is open, as an angle of a full turn; `None` = not set here.
+    pub shutter_angle_rad: Option<f64>,
 }
 
 /// The purpose of a key, and of the segment that starts at it.
@@ -104,6 +115,23 @@ pub struct EffectRequest {
     pub because: String,
     /// Further settings as names and values.
     pub settings: Vec<(String, f64)>,
+    /// Where it runs; `None` if no film was planned yet. A record: it is found anew for every film.
+    pub runs: Option<EffectRuns>,
+}
+
+/// The frames that an effect runs on, and the number that decided.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectRuns {
+    /// First frame of each run, and one past its last.
+    pub frames: Vec<[usize; 2]>,
+    /// Fewest and most samples of a frame; 0 if it runs on none.
+    pub samples: [u32; 2],
+    /// What was measured, and its unit.
+    pub measure: String,
+    /// The largest error of a film without the effect.
+    pub error: f64,
+    /// The error that was allowed.
+    pub allowed: f64,
 }
 
 /// One line of the report: the requested and the achieved value of a clause.
@@ -231,6 +259,14 @@ fn check_keyframe(index: usize, key: &Keyframe) -> Result<(), TrajectoryError> {
     }
     if key.focus_distance.is_some_and(|d| !(d > 0.0 && d.is_finite())) {
         return bad("focus_distance", format!("{:?}", key.focus_distance), "above 0, or null");
+    }
+    let KeyOptics { f_stop, shutter_angle_rad } = key.optics;
+    if let Some(found) = f_stop.filter(|f_stop| !(*f_stop >= 0.1 && *f_stop <= 1000.0)) {
+        return bad("f_stop", found.to_string(), "0.1..1000, or null");
+    }
+    let angle_deg = shutter_angle_rad.map(f64::to_degrees);
+    if let Some(found) = angle_deg.filter(|angle| !(*angle >= 0.0 && *angle <= 3600.0)) {
+        return bad("shutter_angle_deg", found.to_string(), "0..3600, or null");
     }
     Ok(())
 }

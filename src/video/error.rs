@@ -53,6 +53,12 @@ pub enum VideoError {
         /// The output.
         path: PathBuf,
     },
+    /// A picture cannot be compressed for `OpenEXR`.
+    #[error("encoding an EXR failed: {message}")]
+    Exr {
+        /// The compressor's message.
+        message: String,
+    },
     /// A picture cannot be encoded as PNG.
     #[error("encoding a PNG failed: {message}")]
     Png {
@@ -90,6 +96,7 @@ impl VideoError {
             Self::File(error) => error.code(),
             Self::Ffmpeg { .. } => "VIDEO-FFMPEG",
             Self::Png { .. } => "VIDEO-PNG",
+            Self::Exr { .. } => "VIDEO-EXR",
             Self::FrameSize { .. } => "VIDEO-FRAME",
             Self::ReadBack { .. } => "VIDEO-READBACK",
         }
@@ -104,7 +111,7 @@ impl VideoError {
             | Self::Ffmpeg { path, .. }
             | Self::ReadBack { path, .. } => Some(path),
             Self::File(error) => Some(error.path()),
-            Self::BadSetting { .. } | Self::Png { .. } | Self::FrameSize { .. } => None,
+            Self::BadSetting { .. } | Self::Png { .. } | Self::Exr { .. } | Self::FrameSize { .. } => None,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Writes frames to a film file or to a numbered sequence of pictures.
 //!
 //! Enters: 8-bit RGB frames, in order. Leaves: H.264 (MP4, Matroska, QuickTime) or VP9 (WebM) with exact timestamps
-//! and BT.709 color tags, or one PNG per frame. The invariant: a film file appears under its own name only when it is
+//! and BT.709 color tags, or one PNG or `OpenEXR` file per frame. The invariant: a film file appears under its own name only when it is
 //! complete and has been read back.
 //!
 //! [`VideoWriter`] writes either kind; the extension of the path decides ([`VideoFormat::from_path`]). Films need the
@@ -11,6 +11,7 @@ mod bt709;
 mod contact_sheet;
 mod dry_run;
 mod error;
+mod exr;
 #[cfg(feature = "ffmpeg")]
 mod film;
 #[cfg(not(feature = "ffmpeg"))]
@@ -26,8 +27,9 @@ pub use bt709::{Planes420, planes_from_rgb8};
 pub use contact_sheet::ContactSheet;
 pub use dry_run::{encode_and_discard, encoder_delay_frames};
 pub use error::VideoError;
+pub use exr::encode_exr;
 pub use pattern::FramePattern;
-pub use sequence::{decode_png, encode_png, write_png};
+pub use sequence::{decode_png, encode_png, encode_png_with_alpha, write_png};
 pub use settings::{VideoFormat, VideoSettings, X264Preset};
 pub use takes_sheet::TakesSheet;
 pub use writer::{VideoWriter, check_format, check_output, odd_size_note};

@@ -56,6 +56,11 @@ impl FramePattern {
         self.folder.join(OsString::from(format!("{}{frame_idx:0digits$}{}", self.before, self.after)))
     }
 
+    /// Whether the pictures are `OpenEXR` files.
+    pub fn is_exr(&self) -> bool {
+        self.after.to_ascii_lowercase().ends_with(".exr")
+    }
+
     /// The folder of all frames; empty for the working folder.
     pub fn folder(&self) -> &Path {
         &self.folder

@@ -30,6 +30,13 @@ impl SequenceWriter {
         Ok(())
     }
 
+    /// Writes the next picture as it is.
+    pub(super) fn write_file(&mut self, bytes: &[u8]) -> Result<(), VideoError> {
+        cinesplat_files::write(&self.pattern.path(self.next_frame), bytes, self.settings.existing)?;
+        self.next_frame += 1;
+        Ok(())
+    }
+
     /// The folder of the pictures.
     pub(super) fn finish(self) -> PathBuf {
         self.pattern.folder().to_owned()
@@ -45,19 +52,32 @@ pub fn write_png(path: &Path, rgb8: &[u8], size_px: [u32; 2], existing: Existing
     Ok(cinesplat_files::write(path, &encode_png(rgb8, size_px)?, existing)?)
 }
 
+/// One 8-bit picture of `[width, height]` pixels with red, green, blue and opacity (not multiplied into the colors) as the
+/// bytes of a PNG file.
+///
+/// # Errors
+/// As [`encode_png`], for `width * height * 4` bytes.
+pub fn encode_png_with_alpha(rgba8: &[u8], size_px: [u32; 2]) -> Result<Vec<u8>, VideoError> {
+    encoded(rgba8, size_px, ExtendedColorType::Rgba8)
+}
+
 /// One 8-bit RGB picture of `[width, height]` pixels as the bytes of a PNG file.
 ///
 /// # Errors
 /// [`VideoError::FrameSize`] unless `rgb8` holds `width * height * 3` bytes, [`VideoError::Png`] if it cannot be encoded.
-pub fn encode_png(rgb8: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, VideoError> {
-    let expected = width as usize * height as usize * 3;
-    if rgb8.len() != expected {
-        return Err(VideoError::FrameSize { found: rgb8.len(), expected });
+pub fn encode_png(rgb8: &[u8], size_px: [u32; 2]) -> Result<Vec<u8>, VideoError> {
+    encoded(rgb8, size_px, ExtendedColorType::Rgb8)
+}
+
+fn encoded(pixels: &[u8], [width, height]: [u32; 2], color: ExtendedColorType) -> Result<Vec<u8>, VideoError> {
+    let expected = width as usize * height as usize * usize::from(color.channel_count());
+    if pixels.len() != expected {
+        return Err(VideoError::FrameSize { found: pixels.len(), expected });
     }
     let mut bytes = Cursor::new(Vec::new());
     let encoder = png::PngEncoder::new_with_quality(&mut bytes, png::CompressionType::Fast, png::FilterType::Adaptive);
-    let encoded = encoder.write_image(rgb8, width, height, ExtendedColorType::Rgb8);
-    encoded.map_err(|error| VideoError::Png { message: error.to_string() })?;
+    let written = encoder.write_image(pixels, width, height, color);
+    written.map_err(|error| VideoError::Png { message: error.to_string() })?;
     Ok(bytes.into_inner())
 }
 

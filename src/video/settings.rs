@@ -27,6 +27,8 @@ pub struct VideoSettings {
     /// Expected number of frames, 0 = unknown. If it is known, an MP4 or MOV reserves room for its index at the front,
     /// so that it plays while it loads.
     pub num_frames: usize,
+    /// Whether the frames show all directions, by longitude and latitude: MP4 and MOV then say so to players.
+    pub is_panorama: bool,
     /// Whether files that already have the output's name are kept or replaced.
     pub existing: Existing,
 }
@@ -41,6 +43,7 @@ impl Default for VideoSettings {
             preset: X264Preset::Medium,
             first_frame: 0,
             num_frames: 0,
+            is_panorama: false,
             existing: Existing::Keep,
         }
     }
@@ -116,12 +119,13 @@ pub enum VideoFormat {
     Mov,
     /// VP9 in WebM.
     WebM,
-    /// One PNG per frame.
+    /// One PNG or `OpenEXR` file per frame.
     Sequence(FramePattern),
 }
 
 impl VideoFormat {
-    /// The format of a path, by its extension: `.mp4`, `.m4v`, `.mkv`, `.mov`, `.webm`, or `.png` for a sequence.
+    /// The format of a path, by its extension: `.mp4`, `.m4v`, `.mkv`, `.mov`, `.webm`, or `.png` and `.exr`
+    /// for a sequence.
     ///
     /// # Errors
     /// [`VideoError::UnknownFormat`] for another extension, [`VideoError::BadPattern`] for a `.png` name that is not a
@@ -133,7 +137,7 @@ impl VideoFormat {
             "mkv" => Ok(Self::Mkv),
             "mov" => Ok(Self::Mov),
             "webm" => Ok(Self::WebM),
-            "png" => FramePattern::parse(path).map(Self::Sequence),
+            "png" | "exr" => FramePattern::parse(path).map(Self::Sequence),
             _ => Err(VideoError::UnknownFormat { found: extension, path: path.to_owned() }),
         }
     }
@@ -145,6 +149,7 @@ impl VideoFormat {
             Self::Mkv => "mkv",
             Self::Mov => "mov",
             Self::WebM => "webm",
+            Self::Sequence(pattern) if pattern.is_exr() => "exr",
             Self::Sequence(_) => "png",
         }
     }

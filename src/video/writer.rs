@@ -69,6 +69,22 @@ impl VideoWriter {
         Ok(())
     }
 
+    /// Adds one frame of a picture sequence as the bytes of its file.
+    ///
+    /// # Errors
+    /// [`VideoError::FrameSize`] for a film, [`VideoError::File`] if the file cannot be written.
+    pub fn write_file(&mut self, bytes: &[u8]) -> Result<(), VideoError> {
+        match &mut self.sink {
+            Sink::Sequence(sequence) => sequence.write_file(bytes)?,
+            Sink::Film(_) => {
+                let expected = self.settings.planes_bytes();
+                return Err(VideoError::FrameSize { found: bytes.len(), expected });
+            }
+        }
+        self.num_written += 1;
+        Ok(())
+    }
+
     /// Number of frames written so far.
     pub fn num_written(&self) -> usize {
         self.num_written

@@ -287,6 +287,23 @@ fn bench_render_prints_rows_and_writes_table_and_plots() {
 }
 
 #[test]
+fn bench_lens_prints_rows_and_writes_a_plot() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = data(folder.path(), &["bench", "lens", SMALL_SCENE, "--size", "64x36", "--runs", "1", "-o", "out"]);
+    assert_eq!(fs::read_to_string(folder.path().join("out/lens.csv")).unwrap(), csv);
+    assert!(folder.path().join("out/lens.svg").exists());
+    let rows: Vec<Vec<String>> = csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect();
+    // Eight kinds of blur: three presets, no blur, and both methods.
+    assert_eq!(rows.len(), 8 * (3 + 1 + 5 + 4), "{csv}");
+    let psnr_db = |row: &Vec<String>| row[7].parse::<f64>().unwrap();
+    let of = |method: &str, samples: &str| -> Vec<f64> {
+        rows.iter().filter(|row| row[5] == method && row[6] == samples).map(psnr_db).collect()
+    };
+    let (blurred, plain) = (of("blurred", "16"), of("plain", "1"));
+    assert!(blurred.len() == 8 && blurred.iter().zip(&plain).all(|(blurred, plain)| blurred > plain), "{csv}");
+}
+
+#[test]
 fn bench_films_compares_films_with_stills_and_forecasts() {
     let folder = tempfile::tempdir().unwrap();
     let bench =

@@ -54,15 +54,15 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     let folder = tempfile::tempdir().unwrap();
     let objects = data(folder.path(), &["objects", SMALL_SCENE, "--json"]);
     let objects: serde_json::Value = serde_json::from_str(&objects).unwrap();
-    let prompt = format!("push in on <obj-{}> with film grain", objects[0]["id"]);
+    let prompt = format!("push in on <obj-{}> with film grain and a lens flare", objects[0]["id"]);
     let plan =
         ["plan", SMALL_SCENE, "-p", &prompt, "-o", "shot.json", "--solve", "fast", "--size", "64x36", "--explain"];
     let output = run(folder.path(), &plan);
     let (explained, said) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert!(output.status.success(), "{said}");
-    assert!(explained.contains("push-in") && explained.contains("film-grain requested by"), "{explained}");
+    assert!(explained.contains("push-in") && explained.contains("lens-flare requested by"), "{explained}");
     assert!(
-        said.contains("effect: film-grain requested by 'film grain': not implemented, rendered without it"),
+        said.contains("effect: lens-flare requested by 'lens flare': not implemented, rendered without it"),
         "{said}"
     );
     let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
@@ -70,13 +70,13 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     assert_eq!(shot["scene"]["path"], SMALL_SCENE);
     assert!(
         shot["report"].as_array().unwrap().iter().any(|line| line["met"] == false),
-        "the report says that the grain is missing"
+        "the report says that the flare is missing"
     );
     let again = ["plan", SMALL_SCENE, "-p", &prompt, "--json", "--solve", "fast", "--size", "64x36"];
     assert_eq!(data(folder.path(), &again), text, "the same sentence gives the same shot");
     let said =
         answer(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4", "--frames", "0..2"]);
-    assert!(said.contains("effect: film-grain requested by"), "{said}");
+    assert!(said.contains("film grain: on 2 of 2 frames"), "{said}");
 }
 
 #[test]

@@ -102,6 +102,7 @@ fn film(from: DVec3, to: DVec3, objects: &[u32]) -> Film {
         pose: Pose::new(position, DQuat::IDENTITY),
         fov_y_rad: FOV_RAD,
         focus_distance: None,
+        optics: cinesplat::trajectory::KeyOptics::default(),
         easing: Easing::Linear,
         cut: false,
         intent: None,

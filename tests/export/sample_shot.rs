@@ -16,6 +16,7 @@ pub(super) fn key(time_secs: f64, position: DVec3, rotation: DQuat, fov_y_deg: f
         pose: Pose::new(position, rotation),
         fov_y_rad: fov_y_deg.to_radians(),
         focus_distance: None,
+        optics: cinesplat::trajectory::KeyOptics::default(),
         easing: Easing::Linear,
         cut: false,
         intent: None,

@@ -2,11 +2,11 @@ use cinesplat::language::{EffectMention, NamedObject, effect_mentions, link};
 
 fn mentions(prompt: &str) -> Vec<EffectMention> {
     let objects = [NamedObject { id: 1, label: "vase".to_owned() }];
-    effect_mentions(&link(prompt, &objects).unwrap()).unwrap()
+    effect_mentions(prompt, &link(prompt, &objects).unwrap()).unwrap()
 }
 
 fn kinds(prompt: &str) -> Vec<String> {
-    mentions(prompt).into_iter().map(|mention| mention.kind).collect()
+    mentions(prompt).into_iter().filter(|mention| !mention.is_forbidden).map(|mention| mention.call.name).collect()
 }
 
 #[test]

@@ -36,6 +36,7 @@ pub fn key(time_secs: f64, position: DVec3, forward: DVec3, up: DVec3) -> Keyfra
         pose: Pose::facing(position, forward.normalize(), up, None),
         fov_y_rad: FOV_Y_DEG.to_radians(),
         focus_distance: None,
+        optics: cinesplat::trajectory::KeyOptics::default(),
         easing: Easing::Smooth,
         cut: false,
         intent: Some(Intent { subjects: vec![7], ..Intent::default() }),

@@ -26,6 +26,7 @@ fn shot() -> Shot {
 
 fn settings() -> FilmSettings {
     FilmSettings {
+        effects: cinesplat::lens::EffectChoice::Auto,
         render: RenderSettings { quality: Quality::Draft, near: 0.05, ..RenderSettings::default() },
         video: VideoSettings::default(),
         frames: FrameRange::default(),

@@ -2,6 +2,7 @@
 
 mod bands;
 mod bench;
+mod blur;
 mod goldens;
 mod hard_cases;
 mod oracle;

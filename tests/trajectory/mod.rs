@@ -22,6 +22,7 @@ pub fn key(time_secs: f64, position: DVec3) -> Keyframe {
         pose: Pose { position, rotation },
         fov_y_rad: 0.8,
         focus_distance: None,
+        optics: cinesplat::trajectory::KeyOptics::default(),
         easing: Easing::Linear,
         cut: false,
         intent: None,

@@ -3,6 +3,7 @@ mod critic;
 #[cfg(feature = "training")]
 mod director;
 mod films;
+mod lens;
 mod operator;
 mod render;
 mod scaling;
@@ -17,6 +18,7 @@ Examples:
   cinesplat bench render room.spz --cameras cameras.json -o bench
   cinesplat bench scaling room.spz -o bench
   cinesplat bench films room.spz --cameras cameras.json -o bench
+  cinesplat bench lens room.spz --cameras cameras.json -o bench
   cinesplat bench operator moves
   cinesplat bench critic --cases public.jsonl -o critic
   cinesplat bench director -o bench")]
@@ -30,6 +32,7 @@ enum Benchmark {
     Render(render::Args),
     Scaling(scaling::Args),
     Films(films::Args),
+    Lens(lens::Args),
     Operator(operator::Args),
     Critic(critic::Args),
     #[cfg(feature = "training")]
@@ -42,6 +45,7 @@ impl Args {
             Benchmark::Render(args) => args.run(),
             Benchmark::Scaling(args) => args.run(),
             Benchmark::Films(args) => args.run(),
+            Benchmark::Lens(args) => args.run(),
             Benchmark::Operator(args) => args.run(),
             Benchmark::Critic(args) => args.run(),
             #[cfg(feature = "training")]

@@ -20,7 +20,7 @@ impl From<VideoError> for Failure {
                 (Exit::Unavailable, "install FFmpeg with x264 and VP9 (Debian's has both), or write frames/%05d.png")
             }
             E::Ffmpeg { .. } => (Exit::Fault, "try another size or container, or write frames/%05d.png"),
-            E::Png { .. } | E::FrameSize { .. } => {
+            E::Png { .. } | E::Exr { .. } | E::FrameSize { .. } => {
                 (Exit::Fault, "this is a fault of cinesplat: please report the command")
             }
             E::ReadBack { .. } => (Exit::Io, "the disk or FFmpeg lost frames: render again, or write frames/%05d.png"),

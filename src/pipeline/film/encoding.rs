@@ -54,6 +54,7 @@ impl Encoder<'_> {
         match (&mut self.sink, shown.picture.as_ref()) {
             (Sink::Writer(writer), Picture::Planes(planes)) => writer.write_planes(planes)?,
             (Sink::Writer(writer), Picture::Rgb8(frame)) => writer.write_frame(&frame.rgb8)?,
+            (Sink::Writer(writer), Picture::File(bytes, _)) => writer.write_file(bytes)?,
             (Sink::Keeper(Some(keeper)), picture) if !shown.is_kept => keeper.keep(shown.frame_idx, picture)?,
             (Sink::Keeper(_), _) => {}
         }

@@ -5,22 +5,23 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
-use super::cameras::camera_at;
+use super::effects::Filmed;
+use super::form::Form;
 use super::report::FilmReport;
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Keeper, Kept, Picture};
 use cinesplat_geometry::Camera;
+use cinesplat_lens::EffectPlan;
 use cinesplat_render::{RenderSettings, Renderer, Rgb8Frame};
-use cinesplat_trajectory::{CameraPath, Shot};
 use cinesplat_video::{ContactSheet, planes_from_rgb8};
 
 /// Makes the frames of a film in order: takes those that a job folder holds and renders the others.
 pub(super) struct FrameMaker<'a> {
     renderer: &'a Renderer<'a>,
-    path: &'a CameraPath,
-    shot: &'a Shot,
+    filmed: &'a Filmed<'a>,
+    effects: &'a EffectPlan,
     settings: &'a RenderSettings,
-    is_film: bool,
+    form: Form,
     /// Pictures whose memory is free.
     used: Receiver<Arc<Picture>>,
     kept: Option<Kept>,
@@ -46,17 +47,17 @@ pub(super) struct Made {
 
 impl<'a> FrameMaker<'a> {
     pub(super) fn new(
-        (renderer, path, shot): (&'a Renderer<'a>, &'a CameraPath, &'a Shot),
+        (renderer, filmed, effects): (&'a Renderer<'a>, &'a Filmed<'a>, &'a EffectPlan),
         settings: &'a RenderSettings,
-        (is_film, used): (bool, Receiver<Arc<Picture>>),
+        (form, used): (Form, Receiver<Arc<Picture>>),
         (kept, keeper): (Option<Kept>, Option<&'a mut Keeper>),
     ) -> Self {
         Self {
             renderer,
-            path,
-            shot,
+            filmed,
+            effects,
             settings,
-            is_film,
+            form,
             used,
             kept,
             keeper,
@@ -82,15 +83,18 @@ impl<'a> FrameMaker<'a> {
 
     /// Frame `frame_idx` of the shot, which is picture `idx` of the output.
     pub(super) fn make(&mut self, frame_idx: usize, idx: usize) -> Result<Made, PipelineError> {
-        let camera = camera_at(self.path, self.shot, frame_idx);
+        let camera = self.filmed.camera(frame_idx);
         if let Some(made) = self.take_kept(frame_idx, idx, camera) {
             self.num_kept += 1;
             return Ok(made);
         }
-        // The same camera gives the same picture.
-        let repeated = self.last.take().filter(|(_, last)| *last == camera).map(|(picture, _)| picture);
+        // The same camera gives the same picture, unless an effect changes it with time or begins or ends here.
+        let is_new = |idx: usize| self.effects.changes_with_time(idx);
+        let before = frame_idx.saturating_sub(1);
+        let may_repeat = !is_new(frame_idx) && self.effects.has_same_layers(before, frame_idx);
+        let repeated = self.last.take().filter(|(_, last)| may_repeat && *last == camera).map(|(picture, _)| picture);
         let is_repeated = repeated.is_some();
-        let picture = repeated.map_or_else(|| self.render(&camera), Ok)?;
+        let picture = repeated.map_or_else(|| self.render(frame_idx), Ok)?;
         let start = Instant::now();
         if let Some(keeper) = &mut self.keeper {
             if is_repeated { keeper.keep_again(frame_idx, &picture)? } else { keeper.keep(frame_idx, &picture)? }
@@ -109,7 +113,7 @@ impl<'a> FrameMaker<'a> {
     /// The frame, if the job folder holds it undamaged.
     fn take_kept(&mut self, frame_idx: usize, idx: usize, camera: Camera) -> Option<Made> {
         let kept = self.kept.as_ref().filter(|kept| kept.is_listed(frame_idx))?;
-        let needs_picture = self.is_film || self.sheet.contains(&idx);
+        let needs_picture = self.form == Form::Planes || self.sheet.contains(&idx);
         let picture = if needs_picture { kept.picture(frame_idx).map(Arc::new) } else { None };
         if (needs_picture && picture.is_none()) || (!needs_picture && !kept.is_whole(frame_idx)) {
             self.num_damaged += 1;
@@ -119,16 +123,27 @@ impl<'a> FrameMaker<'a> {
         Some(Made { picture, is_kept: true })
     }
 
-    fn render(&mut self, camera: &Camera) -> Result<Arc<Picture>, PipelineError> {
+    fn render(&mut self, frame_idx: usize) -> Result<Arc<Picture>, PipelineError> {
         let start = Instant::now();
         let mut frame = self.free_frame();
-        self.renderer.render_rgb8_into(camera, self.settings, &mut frame)?;
-        let picture = if self.is_film {
-            let planes = planes_from_rgb8(&frame.rgb8, frame.width as usize, frame.height as usize);
-            self.rendered = frame;
-            Picture::Planes(planes)
-        } else {
-            Picture::Rgb8(frame)
+        let (renderer, settings) = (self.renderer, self.settings);
+        let picture = match self.form {
+            Form::Planes => {
+                self.filmed.render_rgb8(self.effects, frame_idx, (renderer, settings), &mut frame)?;
+                let planes = planes_from_rgb8(&frame.rgb8, frame.width as usize, frame.height as usize);
+                self.rendered = frame;
+                Picture::Planes(planes)
+            }
+            Form::Rgb8 => {
+                self.filmed.render_rgb8(self.effects, frame_idx, (renderer, settings), &mut frame)?;
+                Picture::Rgb8(frame)
+            }
+            Form::Alpha | Form::Exr => {
+                let developed = self.filmed.expose(self.effects, frame_idx, (renderer, settings))?;
+                let bytes = self.form.file_of(&developed, self.effects.is_transparent())?;
+                developed.into_rgb8(&mut frame);
+                Picture::File(bytes, frame)
+            }
         };
         self.render_time += start.elapsed();
         Ok(Arc::new(picture))

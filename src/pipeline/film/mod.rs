@@ -5,7 +5,9 @@
 //! same bytes as that of a run that nothing disturbed.
 
 mod cameras;
+mod effects;
 mod encoding;
+mod form;
 mod making;
 mod part;
 mod report;
@@ -13,7 +15,8 @@ mod settings;
 mod whole;
 
 pub use cameras::camera_at;
-pub(super) use cameras::moving_cameras;
+pub(super) use effects::Filmed;
+pub use effects::{called_effects, complete_effects, plan_effects};
 pub use part::film_part;
 pub use report::{FilmProgress, FilmReport};
 pub use settings::{FilmSettings, video_of};

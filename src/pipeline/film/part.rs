@@ -3,6 +3,8 @@ use std::path::Path;
 use std::sync::mpsc::channel;
 use std::time::Instant;
 
+use super::effects::Filmed;
+use super::form::Form;
 use super::making::FrameMaker;
 use super::report::{FilmProgress, FilmReport};
 use super::settings::FilmSettings;
@@ -31,14 +33,20 @@ pub fn film_part(
     let start = Instant::now();
     let path = CameraPath::new(shot)?;
     let frames = settings.frames.of_film(shot.num_frames())?;
+    let filmed = Filmed::new((&path, shot), &settings.effects, &settings.render);
+    let effects = filmed.plan(frames.clone(), (renderer, &settings.render))?;
     let part = part.of_film(frames.end)?;
     let settings = FilmSettings { job: Some(settings.job.clone().unwrap_or_default()), ..settings.clone() };
-    let is_film = !matches!(VideoFormat::from_path(output)?, VideoFormat::Sequence(_));
     let Some(mut job) = settings.open_job(output, shot, &frames, Access::Shared)? else {
         return Ok(FilmReport::new(output, part.len()));
     };
     let (_, used) = channel();
-    let mut maker = FrameMaker::new((renderer, &path, shot), &settings.render, (is_film, used), (None, None));
+    let mut maker = FrameMaker::new(
+        (renderer, &filmed, &effects),
+        &settings.render,
+        (Form::of(&VideoFormat::from_path(output)?, &effects), used),
+        (None, None),
+    );
     let mut report = FilmReport::new(output, part.len());
     let num_kept = job.parts().0.num_listed(&part);
     for (idx, frame_idx) in part.clone().enumerate() {
@@ -56,5 +64,6 @@ pub fn film_part(
     maker.report_to(&mut report);
     job.flush()?;
     report.total_time = start.elapsed();
+    report.effects = effects;
     Ok(report)
 }

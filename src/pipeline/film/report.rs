@@ -1,6 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use cinesplat_lens::EffectPlan;
 use cinesplat_video::VideoFormat;
 
 /// Progress of a film.
@@ -15,7 +16,7 @@ pub struct FilmProgress {
 }
 
 /// Result of a film.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct FilmReport {
     /// The film, or the folder of its pictures. A film that was stopped is not there yet.
     pub path: PathBuf,
@@ -35,6 +36,8 @@ pub struct FilmReport {
     pub encode_time: Duration,
     /// Wall time of the whole film.
     pub total_time: Duration,
+    /// The effects, and the frames that they ran on.
+    pub effects: EffectPlan,
 }
 
 impl FilmReport {
@@ -59,6 +62,7 @@ impl FilmReport {
             keep_time: Duration::ZERO,
             encode_time: Duration::ZERO,
             total_time: Duration::ZERO,
+            effects: EffectPlan::default(),
         }
     }
 }

@@ -1,9 +1,11 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use super::effects::{Filmed, called_effects};
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::frames::FrameRange;
 use crate::pipeline::job::{Access, Fingerprint, Job, JobSettings};
+use cinesplat_lens::EffectChoice;
 use cinesplat_render::RenderSettings;
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::Shot;
@@ -14,6 +16,8 @@ use cinesplat_video::VideoSettings;
 pub struct FilmSettings {
     /// How frames are rendered.
     pub render: RenderSettings,
+    /// Which effects the film gets.
+    pub effects: EffectChoice,
     /// How frames are encoded. Size, rate and frame numbers come from the shot instead.
     pub video: VideoSettings,
     /// The frames to render.
@@ -34,7 +38,9 @@ impl FilmSettings {
     /// The fingerprint of a film of these frames of a shot.
     fn fingerprint(&self, shot: &Shot, frames: &Range<usize>) -> Fingerprint {
         let inputs = self.job.as_ref().map(|job| job.inputs.as_slice()).unwrap_or_default();
-        Fingerprint::of(shot, &self.render, &video_of(shot, frames, &self.video), inputs)
+        let effects = Filmed::requests(&called_effects(shot, &self.effects, 0.0));
+        let shot = Shot { effects, ..shot.clone() };
+        Fingerprint::of(&shot, &self.render, &video_of(&shot, frames, &self.video), inputs)
     }
 
     /// The job folder of a film of these frames, if there is to be one.

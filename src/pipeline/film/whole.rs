@@ -4,15 +4,18 @@ use std::sync::mpsc::{channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use super::effects::Filmed;
 use super::encoding::{Encoder, Shown, Sink};
+use super::form::Form;
 use super::making::{FrameMaker, Made};
 use super::report::{FilmProgress, FilmReport};
 use super::settings::{FilmSettings, video_of};
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Access, Job};
+use cinesplat_lens::EffectPlan;
 use cinesplat_render::Renderer;
 use cinesplat_trajectory::{CameraPath, Shot};
-use cinesplat_video::{ContactSheet, VideoFormat, VideoWriter};
+use cinesplat_video::{ContactSheet, VideoFormat, VideoSettings, VideoWriter};
 
 /// Capacity of the queue between renderer and encoder, in frames. It absorbs frames that are slow to encode and costs
 /// little memory.
@@ -36,13 +39,17 @@ pub fn film(
     let start = Instant::now();
     let path = CameraPath::new(shot)?;
     let frames = settings.frames.of_film(shot.num_frames())?;
+    let filmed = Filmed::new((&path, shot), &settings.effects, &settings.render);
+    let effects = filmed.plan(frames.clone(), (renderer, &settings.render))?;
     let mut job = settings.open_job(output, shot, &frames, Access::Alone)?;
     let has_sheet = settings.sheet.as_ref().is_none_or(|sheet| sheet.exists());
     let mut report = match job.as_ref().and_then(Job::finished_film).filter(|_| has_sheet) {
         Some(_) => {
             FilmReport { num_frames: frames.len(), num_kept: frames.len(), ..FilmReport::new(output, frames.len()) }
         }
-        None => render_and_encode((renderer, &path, shot), output, (settings, &frames), job.as_mut(), watch)?,
+        None => {
+            render_and_encode((renderer, &filmed, &effects), (shot, output), (settings, &frames), job.as_mut(), watch)?
+        }
     };
     match job {
         Some(mut job) if report.is_partial() => job.flush()?,
@@ -57,18 +64,20 @@ pub fn film(
         None => {}
     }
     report.total_time = start.elapsed();
+    report.effects = effects;
     Ok(report)
 }
 
 /// Renders and encodes the frames that the job folder lacks, and encodes those that it holds.
 fn render_and_encode(
-    (renderer, path, shot): (&Renderer<'_>, &CameraPath, &Shot),
-    output: &Path,
+    (renderer, filmed, effects): (&Renderer<'_>, &Filmed<'_>, &EffectPlan),
+    (shot, output): (&Shot, &Path),
     (settings, frames): (&FilmSettings, &Range<usize>),
     mut job: Option<&mut Job>,
     watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
 ) -> Result<FilmReport, PipelineError> {
-    let video = video_of(shot, frames, &settings.video);
+    let is_panorama = effects.is_panorama();
+    let video = VideoSettings { is_panorama, ..video_of(shot, frames, &settings.video) };
     let is_film = !matches!(VideoFormat::from_path(output)?, VideoFormat::Sequence(_));
     let sheet = settings.sheet.as_ref().map(|_| ContactSheet::new(shot.width, shot.height, frames.len()));
     let target = job.as_ref().map_or_else(|| output.to_owned(), |job| job.film_path());
@@ -83,7 +92,12 @@ fn render_and_encode(
     let (give_back, used) = channel();
     let encoder = Encoder { sink, sheet, busy: Duration::ZERO, give_back };
     let mut report = FilmReport::new(output, frames.len());
-    let mut maker = FrameMaker::new((renderer, path, shot), &settings.render, (is_film, used), (kept, own_keeper));
+    let mut maker = FrameMaker::new(
+        (renderer, filmed, effects),
+        &settings.render,
+        (Form::of(&VideoFormat::from_path(output)?, effects), used),
+        (kept, own_keeper),
+    );
     if let Some(sheet) = &encoder.sheet {
         maker.show_on(sheet);
     }

@@ -16,7 +16,7 @@ use strum::VariantArray;
 pub use cost::{FilmCost, TimeCost, num_cores};
 
 use super::error::PipelineError;
-use super::film::{self, FilmSettings, camera_at};
+use super::film::{self, FilmSettings, Filmed, camera_at};
 use accuracy::{ReferenceSample, mean_square, psnr_db};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
@@ -85,7 +85,9 @@ pub fn forecast(
 ) -> Result<Vec<Forecast>, PipelineError> {
     let limit = TimeLimit::new(TIME_LIMIT_SECS);
     let frames = settings.frames.of_film(shot.num_frames())?;
-    let cameras = film::moving_cameras(&CameraPath::new(shot)?, shot, frames.clone());
+    let path = CameraPath::new(shot)?;
+    let with_effects = Filmed::new((&path, shot), &settings.effects, &settings.render);
+    let cameras = with_effects.moving_cameras(frames.clone());
     let sampler = Sampler { renderer, cameras: &cameras, settings: &settings.render };
     let timed = timed_qualities(qualities);
     let mut samples = vec![Samples::default(); timed.len()];
@@ -108,6 +110,7 @@ pub fn forecast(
     let is_empty = mean_work[3] <= 0.0;
     sample_further(&sampler, &timed, &mut samples, &limit)?;
 
+    let factor = with_effects.cost_factor(&frames, (renderer, &settings.render))?;
     let num_ahead = encoder_delay_frames(&VideoFormat::from_path(output)?, &video);
     let cost = FilmCost {
         num_frames: frames.len(),
@@ -121,7 +124,7 @@ pub fn forecast(
     };
     let memory_bytes = renderer.memory_bytes() + held_bytes(&video, num_ahead);
     let of_fast = |(&quality, samples): (&Quality, &Samples)| {
-        let cost = FilmCost { render: samples.frame(mean_work), ..cost };
+        let cost = FilmCost { render: samples.frame(mean_work).times(factor), ..cost };
         let worst = samples.mean_squares.iter().copied().fold(0.0, f64::max);
         let psnr_db = [
             psnr_db(samples.mean_squares.iter().copied(), exact.final_db),
@@ -135,7 +138,7 @@ pub fn forecast(
         let more = mean_work[3] / sampler.work_at(middle)?[3].max(1.0);
         let wall_secs = exact.reference_secs(renderer, middle, &settings.render)? * more;
         let cpu_secs = wall_secs * rayon::current_num_threads().min(num_cores()) as f64;
-        let cost = FilmCost { render: TimeCost { wall_secs, cpu_secs }, ..cost };
+        let cost = FilmCost { render: TimeCost { wall_secs, cpu_secs }.times(factor), ..cost };
         let exact = Forecast::new(Quality::Reference, &cost, [f64::INFINITY; 2], memory_bytes);
         forecasts.push(Forecast { is_empty, ..exact });
     }

@@ -28,7 +28,17 @@ impl Fingerprint {
     ) -> Self {
         // Every field is named: one that is added does not compile until it is decided whether it counts.
         let RenderSettings { quality, filter, near, background, sort, color_clamp, accuracy, .. } = render;
-        let VideoSettings { width, height, rate_fps, crf, preset, first_frame, num_frames, existing: _ } = video;
+        let VideoSettings {
+            width,
+            height,
+            rate_fps,
+            crf,
+            preset,
+            first_frame,
+            num_frames,
+            existing: _,
+            is_panorama: _,
+        } = video;
         let own = [
             ("engine", env!("CARGO_PKG_VERSION").to_owned()),
             ("size", format!("{width}x{height}")),

@@ -50,6 +50,7 @@ impl Keeper {
                 let bytes = encode_png(&frame.rgb8, [frame.width, frame.height]).map_err(JobError::video)?;
                 self.write(frame_idx, &[&bytes])
             }
+            Picture::File(bytes, _) => self.write(frame_idx, &[bytes]),
         }
     }
 

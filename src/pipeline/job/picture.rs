@@ -8,6 +8,8 @@ pub(crate) enum Picture {
     Planes(Planes420),
     /// Of a picture sequence.
     Rgb8(Rgb8Frame),
+    /// Of a picture sequence whose files hold more than 8-bit colors: the bytes of its file, and how it looks.
+    File(Vec<u8>, Rgb8Frame),
 }
 
 impl Picture {
@@ -15,7 +17,7 @@ impl Picture {
     pub(crate) fn add_to(&self, sheet: &mut ContactSheet, cell_idx: usize) {
         match self {
             Self::Planes(planes) => sheet.add_planes(cell_idx, planes),
-            Self::Rgb8(frame) => sheet.add_frame(cell_idx, &frame.rgb8),
+            Self::Rgb8(frame) | Self::File(_, frame) => sheet.add_frame(cell_idx, &frame.rgb8),
         }
     }
 }

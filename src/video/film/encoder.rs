@@ -6,7 +6,7 @@ use ffmpeg_next::format::context::{Output, StreamIo};
 use ffmpeg_next::{Dictionary, Packet, Rational, codec, color, encoder, format, frame};
 
 use super::watched_file::{FirstError, WatchedFile};
-use super::{rate, read_back};
+use super::{rate, read_back, spherical};
 use crate::bt709::{self, Planes420};
 use crate::settings::NUM_THREADS;
 use crate::{VideoError, VideoFormat, VideoSettings};
@@ -24,6 +24,7 @@ pub(crate) struct FilmEncoder {
     tick: Rational,
     stream_tick: Rational,
     num_sent: usize,
+    is_panorama: bool,
     path: PathBuf,
 }
 
@@ -46,8 +47,9 @@ impl FilmEncoder {
         let mut muxer = format::output_to_stream(io, None, Some(container)).map_err(|_| missing(container))?;
         let stream_tick = write_header(&mut muxer, &encoder, rate, header_options(format, settings))
             .map_err(|e| fault_of(&first_error, "starting the file", e, path))?;
+        let is_panorama = settings.is_panorama && matches!(format, VideoFormat::Mp4 | VideoFormat::Mov);
         let (tick, path) = (rate.invert(), path.to_owned());
-        Ok(Self { encoder, muxer, first_error, file, tick, stream_tick, num_sent: 0, path })
+        Ok(Self { encoder, muxer, first_error, file, tick, stream_tick, num_sent: 0, is_panorama, path })
     }
 
     pub(crate) fn write_planes(&mut self, planes: &Planes420) -> Result<(), VideoError> {
@@ -67,6 +69,9 @@ impl FilmEncoder {
         drop(self.muxer);
         if let Some(source) = self.first_error.lock().ok().and_then(|mut first| first.take()) {
             return Err(FileError::Write { path: self.path, source }.into());
+        }
+        if self.is_panorama {
+            spherical::mark(self.file.file()).map_err(|source| FileError::Write { path: self.path.clone(), source })?;
         }
         read_back::check(self.file.path(), &self.path, self.num_sent, self.tick)?;
         self.file.commit()?;

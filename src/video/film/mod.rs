@@ -6,6 +6,7 @@
 mod encoder;
 mod rate;
 mod read_back;
+mod spherical;
 mod watched_file;
 
 pub(crate) use encoder::{FilmEncoder, encode_and_discard};

@@ -89,6 +89,7 @@ fn a_film_without_blur_has_the_levels_of_the_still() {
     let folder = tempfile::tempdir().unwrap();
     for quality in [Quality::Draft, Quality::Standard, Quality::Final] {
         let film_settings = FilmSettings {
+            effects: cinesplat::lens::EffectChoice::Auto,
             render: settings(quality),
             video: VideoSettings { existing: Existing::Replace, ..VideoSettings::default() },
             frames: FrameRange::default(),

@@ -94,7 +94,7 @@ impl Args {
         for (idx, &quality) in self.qualities.iter().enumerate() {
             let render = cinesplat::render::RenderSettings { quality, ..render };
             let (video, frames) = (VideoSettings::default(), FrameRange::default());
-            let settings = FilmSettings { render, video, frames, sheet: None, job: None };
+            let settings = FilmSettings { render, video, frames, ..FilmSettings::default() };
             if idx == 0 {
                 case.stills(&settings, &mut tell)?;
             }
@@ -111,7 +111,16 @@ fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot
         let mut pose = camera.pose;
         pose.position += pose.forward() * distance;
         let (fov_y_rad, easing) = (camera.intrinsics.fov_y_rad(), Easing::Linear);
-        Keyframe { time_secs, pose, fov_y_rad, focus_distance: None, easing, cut: false, intent: None }
+        Keyframe {
+            time_secs,
+            pose,
+            fov_y_rad,
+            focus_distance: None,
+            optics: cinesplat::trajectory::KeyOptics::default(),
+            easing,
+            cut: false,
+            intent: None,
+        }
     };
     let Intrinsics { width, height, .. } = camera.intrinsics;
     let keyframes = vec![key(0.0, 0.0), key(duration_secs, travel)];

@@ -77,7 +77,16 @@ fn shot(up: DVec3, keyframes: Vec<Keyframe>, duration_secs: f64) -> Shot {
 
 fn key(time_secs: f64, pose: Pose, intent: Option<Intent>) -> Keyframe {
     let easing = Easing::Linear;
-    Keyframe { time_secs, pose, fov_y_rad: 0.8, focus_distance: None, easing, cut: false, intent }
+    Keyframe {
+        time_secs,
+        pose,
+        fov_y_rad: 0.8,
+        focus_distance: None,
+        optics: cinesplat::trajectory::KeyOptics::default(),
+        easing,
+        cut: false,
+        intent,
+    }
 }
 
 /// An orbit of 300 degrees in `count` keys, shifted along the circle by up to `uneven` times their spacing.

@@ -1,0 +1,113 @@
+//! The table of phrases; `prompts/effects.txt` describes its own format.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
+
+use super::phrase::{Found, Part, first_words, match_at, parts_of};
+use super::row::{Row, row_of};
+use crate::error::LanguageError;
+use crate::tokenizer::Word;
+
+const FILE: &str = "prompts/effects.txt";
+static TEXT: &str = include_str!("../../../prompts/effects.txt");
+
+/// A phrase and the line that it is of.
+#[derive(Debug, Clone)]
+pub(super) struct Phrase {
+    parts: Vec<Part>,
+    /// Whether it ends in a stuff (`*`).
+    is_stuff: bool,
+    row: usize,
+}
+
+/// Words around phrases, by what they do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(strum::EnumString)]
+#[strum(serialize_all = "kebab-case")]
+pub(super) enum WordKind {
+    /// Asks for little.
+    Slight,
+    /// Asks for much.
+    Strong,
+    /// Forbids what follows.
+    Negation,
+    /// Takes back the negation before it.
+    TakesBack,
+    /// Makes the negation before it a matter of degree.
+    Moderates,
+    /// May stand between a negation and what it forbids.
+    Filler,
+}
+
+/// All phrases.
+#[derive(Debug, Default)]
+pub(super) struct Table {
+    words: BTreeMap<WordKind, BTreeSet<String>>,
+    rows: Vec<Row>,
+    /// Phrases by their first word; those that begin with a number under an empty one.
+    phrases: BTreeMap<String, Vec<Phrase>>,
+}
+
+impl Table {
+    /// The table that the program ships, read once.
+    ///
+    /// # Errors
+    /// [`LanguageError::BadData`] for a line without a colon or a phrase with open brackets.
+    pub(super) fn embedded() -> Result<&'static Self, LanguageError> {
+        static TABLE: OnceLock<Result<Table, LanguageError>> = OnceLock::new();
+        TABLE.get_or_init(|| Self::parse(TEXT)).as_ref().map_err(Clone::clone)
+    }
+
+    fn parse(text: &str) -> Result<Self, LanguageError> {
+        let mut table = Self::default();
+        for (index, line) in text.lines().enumerate() {
+            let line = line.trim();
+            if !line.is_empty() && !line.starts_with("# ") && line != "#" {
+                let bad = |what: &str| LanguageError::BadData { file: FILE, line: index + 1, what: what.to_owned() };
+                table.add(line).map_err(bad)?;
+            }
+        }
+        Ok(table)
+    }
+
+    fn add(&mut self, line: &str) -> Result<(), &'static str> {
+        let (head, phrases) = line.split_once(':').ok_or("no colon")?;
+        if let Some(kind) = head.strip_prefix('@') {
+            let kind = kind.parse().map_err(|_| "an unknown list of words")?;
+            self.words.entry(kind).or_default().extend(phrases.split(',').map(|word| word.trim().to_owned()));
+            return Ok(());
+        }
+        let row = self.rows.len();
+        self.rows.push(row_of(head)?);
+        for text in phrases.split(',').map(str::trim).filter(|text| !text.is_empty()) {
+            let is_stuff = text.ends_with('*');
+            let parts = parts_of(text.trim_end_matches('*'))?;
+            for first in first_words(&parts) {
+                let phrase = Phrase { parts: parts.clone(), is_stuff, row };
+                self.phrases.entry(first).or_default().push(phrase);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the table lists a word under a kind.
+    pub(super) fn lists(&self, kind: WordKind, word: &str) -> bool {
+        self.words.get(&kind).is_some_and(|words| words.contains(word))
+    }
+
+    /// The longest phrase that begins at a word.
+    pub(super) fn longest_at<'a>(&'a self, prompt: &str, words: &[Word], at: usize) -> Option<Found<'a>> {
+        let first = words.get(at)?.text.as_str();
+        let own = self.phrases.get(first).into_iter().flatten();
+        let numbers = self.phrases.get("").into_iter().flatten();
+        let mut best: Option<Found<'a>> = None;
+        for phrase in own.chain(numbers) {
+            if let Some((len, number)) = match_at(&phrase.parts, (prompt, words), at)
+                && best.as_ref().is_none_or(|best| len > best.len)
+            {
+                best = Some(Found { start: at, len, number, is_stuff: phrase.is_stuff, row: &self.rows[phrase.row] });
+            }
+        }
+        best
+    }
+}

@@ -1,0 +1,128 @@
+//! Which effects a shot calls for.
+
+use std::sync::Arc;
+
+use super::calls::{Call, Calls, Source};
+use super::choice::EffectChoice;
+use super::effect::Effect;
+use super::kinds::{KINDS, Kind, is_known};
+
+/// The effects that a shot calls for.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Called {
+    /// The effects, outermost layer first.
+    pub effects: Vec<CalledEffect>,
+    /// Calls that lead to no effect.
+    pub unmet: Vec<Unmet>,
+}
+
+/// An effect and the reason for it.
+#[derive(Debug, Clone)]
+pub struct CalledEffect {
+    /// Its name.
+    pub name: &'static str,
+    /// The effect.
+    pub effect: Arc<dyn Effect>,
+    /// The words, the flag, the move or the keyframe that calls for it.
+    pub because: String,
+}
+
+impl PartialEq for CalledEffect {
+    /// Equal names, settings and reasons.
+    fn eq(&self, other: &Self) -> bool {
+        let parts = |called: &Self| (called.name, called.effect.settings(), called.because.clone());
+        parts(self) == parts(other)
+    }
+}
+
+/// A call that leads to no effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unmet {
+    /// The call.
+    pub call: Call,
+    /// Why.
+    pub reason: UnmetReason,
+}
+
+/// Why a call leads to no effect.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum UnmetReason {
+    /// `--effects` excludes it.
+    Disabled,
+    /// These words of the prompt forbid it.
+    Forbidden(String),
+    /// Its settings make it do nothing.
+    DoesNothing,
+    /// It is not built: the film is rendered without it.
+    NotBuilt,
+    /// The request is not an effect of the camera.
+    NotAnEffect,
+}
+
+impl Called {
+    /// The effects that a shot calls for and the user allows.
+    pub fn of(choice: &EffectChoice, calls: &Calls<'_>) -> Self {
+        let mut called = Self::default();
+        for kind in KINDS {
+            called.add(kind, choice, calls);
+        }
+        let is_built = |name: &str| KINDS.iter().any(|kind| kind.is_named(name));
+        for call in calls.calls.iter().filter(|call| !is_built(&call.name)) {
+            let is_listed = choice.listed().contains(&call.name);
+            let reason = match choice {
+                _ if !is_known(&call.name) => UnmetReason::NotAnEffect,
+                EffectChoice::Off => UnmetReason::Disabled,
+                EffectChoice::These(_) if !is_listed => UnmetReason::Disabled,
+                _ => UnmetReason::NotBuilt,
+            };
+            called.unmet.push(Unmet { call: call.clone(), reason });
+        }
+        for name in choice.listed().iter().filter(|name| !is_built(name) && calls.named(name).is_none()) {
+            let call = Call::new(name, "--effects", Source::Choice);
+            called.unmet.push(Unmet { call, reason: UnmetReason::NotBuilt });
+        }
+        called
+    }
+
+    fn add(&mut self, kind: &'static Kind, choice: &EffectChoice, calls: &Calls<'_>) {
+        let asked = (kind.call)(calls);
+        let listed = choice.listed().iter().find(|name| kind.is_named(name));
+        let (call, reason) = match (choice, asked, listed) {
+            (EffectChoice::Auto, Some(call), _) => {
+                let forbidden = calls.forbids(kind.name).filter(|_| call.source == Source::Words);
+                (call, forbidden.map(|words| UnmetReason::Forbidden(words.to_owned())))
+            }
+            (EffectChoice::These(_), asked, Some(name)) => {
+                (asked.unwrap_or_else(|| Call::new(name, "--effects", Source::Choice)), None)
+            }
+            (_, Some(call), _) => (call, Some(UnmetReason::Disabled)),
+            (_, None, _) => return,
+        };
+        match (reason, (kind.make)(&call, calls)) {
+            (None, Some(effect)) => {
+                self.effects.push(CalledEffect { name: kind.name, effect, because: call.because });
+            }
+            (reason, _) => self.unmet.push(Unmet { call, reason: reason.unwrap_or(UnmetReason::DoesNothing) }),
+        }
+    }
+}
+
+impl Unmet {
+    /// The call and its fate as one sentence.
+    pub fn sentence(&self) -> String {
+        let Call { name, because, .. } = &self.call;
+        let reason = match &self.reason {
+            UnmetReason::Disabled => "disabled by --effects".to_owned(),
+            UnmetReason::Forbidden(words) => format!("left out, the words '{words}' forbid it"),
+            UnmetReason::DoesNothing => "left out, its settings do nothing".to_owned(),
+            UnmetReason::NotBuilt => "not implemented, rendered without it".to_owned(),
+            UnmetReason::NotAnEffect => "not an effect of the camera, rendered without it".to_owned(),
+        };
+        format!("{name} requested by '{because}': {reason}")
+    }
+
+    /// Whether the film lacks something that somebody asked for.
+    pub fn is_missing(&self) -> bool {
+        matches!(self.reason, UnmetReason::NotBuilt | UnmetReason::NotAnEffect)
+    }
+}

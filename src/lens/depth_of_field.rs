@@ -1,0 +1,198 @@
+//! The aperture.
+
+use std::sync::Arc;
+
+use cinesplat_geometry::Camera;
+use cinesplat_render::{RenderError, SplatBlur, ThinLens};
+use cinesplat_trajectory::Move;
+use glam::{DVec2, DVec3};
+
+use super::budget::{Budget, Loss};
+use super::calls::{Call, Calls};
+use super::effect::{Effect, EffectKind, Next};
+use super::light::Picture;
+use super::moment::Moment;
+use super::optics::Aperture;
+use super::seen::FrameFacts;
+
+/// Names of the settings of [`Focus::Point`].
+const POINT_SETTINGS: [&str; 4] = ["focus_x", "focus_y", "focus_z", "focus_nearer"];
+/// Share of the frame, about its middle, that the camera focuses on where nothing else is said.
+const MIDDLE: f64 = 0.2;
+/// Range of f-stops that is used where the words state none.
+const F_STOPS: [f64; 2] = [0.1, 64.0];
+
+/// What the lens is focused on, where no keyframe has a focus distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Focus {
+    /// What is in the middle of the first frame.
+    Middle,
+    /// A point of the scene, less a distance toward the camera: the middle of a subject, and how much nearer its surface
+    /// is.
+    Point {
+        /// The point, world.
+        point: DVec3,
+        /// Distance from it toward the camera, scene units.
+        nearer: f64,
+    },
+}
+
+/// How wide the aperture is, where no keyframe has an f-stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Opening {
+    /// Focal length over diameter, on a sensor of [`super::SENSOR_M`].
+    FStop(f64),
+    /// Diameter of the circle of confusion at twice the focus distance of the first frame, as a fraction of the frame's
+    /// height: what words such as `shallow` promise, on a lens of any angle and in a scene of any size.
+    BackgroundBlur(f64),
+}
+
+/// Blur of what is nearer or farther than the focus distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DepthOfField {
+    opening: Opening,
+    /// Meters per scene unit.
+    pub meters_per_unit: f64,
+    /// What the lens is focused on.
+    pub focus: Focus,
+}
+
+impl DepthOfField {
+    /// The depth of field that a call asks for; `None` for a closed aperture.
+    pub(super) fn of_call(call: &Call) -> Option<Self> {
+        let opening = match call.setting("f_stop") {
+            Some(f_stop) => Opening::FStop(f_stop),
+            None => Opening::BackgroundBlur(call.setting_or("background_blur", [0.008, 0.018, 0.04]).min(1.0)),
+        };
+        let is_open = matches!(opening, Opening::FStop(amount) | Opening::BackgroundBlur(amount) if amount > 0.0);
+        let focus = match POINT_SETTINGS.map(|name| call.setting(name)) {
+            [Some(x), Some(y), Some(z), nearer] => {
+                Focus::Point { point: DVec3::new(x, y, z), nearer: nearer.unwrap_or(0.0) }
+            }
+            _ => Focus::Middle,
+        };
+        let meters_per_unit = call.setting("meters_per_unit").filter(|scale| *scale > 0.0).unwrap_or(1.0);
+        is_open.then_some(Self { opening, meters_per_unit, focus })
+    }
+
+    /// The focus distance of a moment, scene units; `None` if it is not known.
+    fn focus_distance(&self, moment: &Moment<'_>) -> Option<f64> {
+        let of_point = || match self.focus {
+            Focus::Middle => None,
+            Focus::Point { point, nearer } => {
+                // Behind the camera there is no focus.
+                let depth = (moment.take.camera_at)(moment.time_secs).pose.to_camera(point).z - nearer;
+                Some(depth.max(moment.render.near.max(1e-6)))
+            }
+        };
+        moment.take.optics.focus_distance(moment.time_secs).or_else(of_point)
+    }
+
+    /// The lens of a moment; `None` if its focus or its aperture is not known.
+    fn lens(&self, moment: &Moment<'_>) -> Option<ThinLens> {
+        let f_stop = moment.take.optics.f_stop(moment.time_secs).or(match self.opening {
+            Opening::FStop(f_stop) => Some(f_stop),
+            Opening::BackgroundBlur(_) => None,
+        })?;
+        let aperture = Aperture { f_stop, meters_per_unit: self.meters_per_unit };
+        let Camera { intrinsics, .. } = (moment.take.camera_at)(moment.time_secs);
+        Some(aperture.lens(&intrinsics, self.focus_distance(moment)?))
+    }
+
+    /// The effect with a focus and an f-stop.
+    pub(super) fn settled(&self, first: &FrameFacts<'_>) -> Result<Self, RenderError> {
+        let mut settled = *self;
+        if self.focus_distance(&first.moment).is_none() {
+            let Camera { pose, .. } = first.moment.camera;
+            let distance = middle_depth(first)?;
+            settled.focus = Focus::Point { point: pose.position + pose.forward() * distance, nearer: 0.0 };
+        }
+        if let (Opening::BackgroundBlur(frac), Some(focus)) = (self.opening, settled.focus_distance(&first.moment)) {
+            let Camera { intrinsics, .. } = first.moment.camera;
+            // At twice the focus distance the circle has half the diameter of one at infinity.
+            let circle_px = 2.0 * frac * f64::from(intrinsics.height);
+            let unit = Aperture { f_stop: 1.0, meters_per_unit: self.meters_per_unit }.lens(&intrinsics, focus);
+            let f_stop = unit.circle_px(intrinsics.fx_px, f64::INFINITY) / circle_px;
+            settled.opening = Opening::FStop(f_stop.clamp(F_STOPS[0], F_STOPS[1]));
+        }
+        Ok(settled)
+    }
+}
+
+/// Median depth of the middle of a frame; of the whole frame, if there is nothing in the middle.
+fn middle_depth(frame: &FrameFacts<'_>) -> Result<f64, RenderError> {
+    let size = frame.moment.camera.intrinsics;
+    let half = DVec2::new(f64::from(size.width), f64::from(size.height)) / 2.0;
+    let seen = frame.seen()?;
+    let is_middle = |position_px: DVec2| ((position_px - half) / half).abs().max_element() <= MIDDLE;
+    let mut depths: Vec<f64> =
+        seen.iter().filter(|point| is_middle(point.position_px)).map(|point| point.depth).collect();
+    if depths.is_empty() {
+        depths = seen.iter().map(|point| point.depth).collect();
+    }
+    depths.sort_by(f64::total_cmp);
+    Ok(depths.get(depths.len() / 2).copied().unwrap_or(f64::MAX.sqrt()))
+}
+
+/// Name of the effect that pulls the focus.
+pub(super) const RACK_FOCUS: &str = "rack-focus";
+
+/// The call for a rack focus, by words or by the move.
+pub(super) fn rack_focus_call(calls: &Calls<'_>) -> Option<Call> {
+    calls.named(RACK_FOCUS).cloned().or_else(|| calls.of_move(RACK_FOCUS, Move::RackFocus))
+}
+
+impl EffectKind for DepthOfField {
+    const NAME: &'static str = "depth-of-field";
+
+    fn call(calls: &Calls<'_>) -> Option<Call> {
+        // A rack focus has a depth of field of its own.
+        if rack_focus_call(calls).is_some() {
+            return None;
+        }
+        let of_key = || calls.of_keyframes(Self::NAME, "f_stop", |key| key.optics.f_stop.is_some());
+        let of_focus = || calls.of_keyframes(Self::NAME, "focus_distance", |key| key.focus_distance.is_some());
+        calls.named(Self::NAME).cloned().or_else(of_key).or_else(of_focus)
+    }
+
+    fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
+        Self::of_call(call)
+    }
+}
+
+impl Effect for DepthOfField {
+    fn settings(&self) -> Vec<(&'static str, f64)> {
+        let mut settings = match self.opening {
+            Opening::FStop(f_stop) => vec![("f_stop", f_stop)],
+            Opening::BackgroundBlur(frac) => vec![("background_blur", frac)],
+        };
+        settings.push(("meters_per_unit", self.meters_per_unit));
+        if let Focus::Point { point, nearer } = self.focus {
+            settings.extend(POINT_SETTINGS.into_iter().zip([point.x, point.y, point.z, nearer]));
+        }
+        settings
+    }
+
+    fn measure(&self) -> (&'static str, &'static str) {
+        ("circle of confusion", "px")
+    }
+
+    fn measured(&self, first: &FrameFacts<'_>) -> Result<Option<Arc<dyn Effect>>, RenderError> {
+        Ok(Some(Arc::new(self.settled(first)?)))
+    }
+
+    fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
+        let circle_px = frame.blur_extent(&SplatBlur { lens: self.lens(&frame.moment), motion: None })?.circle_px;
+        Ok(Loss { error: circle_px, allowed: budget.blur_px, samples: budget.lens_samples(circle_px) })
+    }
+
+    fn changes_with_time(&self) -> bool {
+        // Only with the focus distances of keyframes, which the camera does not show.
+        true
+    }
+
+    fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
+        let lens = self.lens(moment);
+        next(&moment.exposed(|exposing| exposing.lens = lens, samples))
+    }
+}

@@ -1,0 +1,76 @@
+//! A very wide lens.
+
+use cinesplat_geometry::Intrinsics;
+use cinesplat_render::RenderError;
+use glam::DVec3;
+
+use super::budget::{Budget, Loss};
+use super::calls::{Call, Calls};
+use super::effect::{Effect, EffectKind, Next};
+use super::light::Picture;
+use super::moment::Moment;
+use super::resample::through;
+use super::seen::FrameFacts;
+
+/// A fisheye lens that fills the frame: the distance from the middle is proportional to the angle from the view axis. It
+/// takes the place of the shot's lens: a zoom does not change it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fisheye {
+    /// Angle of view from corner to corner, radians.
+    pub fov_rad: f64,
+}
+
+impl Fisheye {
+    /// The direction of a position in a frame; `None` beyond straight behind.
+    fn direction(&self, intrinsics: &Intrinsics, [x, y]: [f64; 2]) -> Option<DVec3> {
+        let (x, y) = (x - f64::from(intrinsics.width) / 2.0, y - f64::from(intrinsics.height) / 2.0);
+        let corner = 0.5 * f64::from(intrinsics.width).hypot(f64::from(intrinsics.height));
+        let radius = x.hypot(y);
+        let angle = radius / corner * self.fov_rad / 2.0;
+        if angle >= std::f64::consts::PI {
+            return None;
+        }
+        let across = if radius > 0.0 { angle.sin() / radius } else { 0.0 };
+        Some(DVec3::new(x * across, y * across, angle.cos()))
+    }
+}
+
+impl EffectKind for Fisheye {
+    const NAME: &'static str = "fisheye";
+
+    fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
+        let fov_deg = call.setting_or("fov_deg", [140.0, 175.0, 220.0]).clamp(1.0, 360.0);
+        Some(Self { fov_rad: fov_deg.to_radians() })
+    }
+}
+
+impl Effect for Fisheye {
+    fn settings(&self) -> Vec<(&'static str, f64)> {
+        vec![("fov_deg", self.fov_rad.to_degrees())]
+    }
+
+    fn measure(&self) -> (&'static str, &'static str) {
+        ("shift of the corners", "px")
+    }
+
+    fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
+        let intrinsics = frame.moment.camera.intrinsics;
+        let corner = 0.5 * f64::from(intrinsics.width).hypot(f64::from(intrinsics.height));
+        // The plain picture shows the same direction elsewhere, or nowhere.
+        let plain = if self.fov_rad < std::f64::consts::PI {
+            intrinsics.fx_px * (self.fov_rad / 2.0).tan()
+        } else {
+            f64::INFINITY
+        };
+        Ok(Loss::of_one_sample((plain - corner).abs(), budget.shift_px))
+    }
+
+    fn changes_with_time(&self) -> bool {
+        false
+    }
+
+    fn apply(&self, moment: &Moment<'_>, _: u32, next: Next<'_>) -> Result<Picture, RenderError> {
+        let intrinsics = moment.camera.intrinsics;
+        through(moment, &|place| self.direction(&intrinsics, place), next)
+    }
+}

@@ -1,0 +1,89 @@
+//! The one list of effects.
+
+use std::sync::Arc;
+
+use super::anamorphic::Anamorphic;
+use super::background::Background;
+use super::bloom::Bloom;
+use super::chromatic_aberration::ChromaticAberration;
+use super::calls::{Call, Calls};
+use super::depth_of_field::DepthOfField;
+use super::effect::{Effect, EffectKind};
+use super::exposure::Exposure;
+use super::film_grain::FilmGrain;
+use super::fisheye::Fisheye;
+use super::fog::Fog;
+use super::handheld::Handheld;
+use super::lens_distortion::LensDistortion;
+use super::panorama::Panorama;
+use super::rolling_shutter::RollingShutter;
+use super::motion_blur::MotionBlur;
+use super::rack_focus::RackFocus;
+use super::vignette::Vignette;
+
+/// All effects that are built, the outermost layer first: a frame passes through them from the end of the list to its
+/// front.
+pub const KINDS: &[Kind] = &[
+    // The film.
+    Kind::of::<FilmGrain>(),
+    Kind::of::<Bloom>(),
+    Kind::of::<Exposure>(),
+    // The lens.
+    Kind::of::<Anamorphic>(),
+    Kind::of::<Vignette>(),
+    Kind::of::<ChromaticAberration>(),
+    Kind::of::<LensDistortion>(),
+    Kind::of::<Fisheye>(),
+    Kind::of::<Panorama>(),
+    // The shutter.
+    Kind::of::<RollingShutter>(),
+    Kind::of::<MotionBlur>(),
+    // The aperture.
+    Kind::of::<RackFocus>(),
+    Kind::of::<DepthOfField>(),
+    // What is in front of the lens, and the hand that holds it.
+    Kind::of::<Fog>(),
+    Kind::of::<Background>(),
+    Kind::of::<Handheld>(),
+];
+
+/// Names of effects that are known and not built.
+pub const NOT_BUILT: &[&str] = &["tilt-shift", "lens-flare", "stereo"];
+
+/// A kind of effect.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Name, as in `--effects`.
+    pub name: &'static str,
+    /// Other names that ask for it.
+    pub also: &'static [&'static str],
+    /// The call that asks for it.
+    pub(super) call: fn(&Calls<'_>) -> Option<Call>,
+    /// The effect as a call asks for it.
+    pub(super) make: fn(&Call, &Calls<'_>) -> Option<Arc<dyn Effect>>,
+}
+
+impl Kind {
+    const fn of<E: EffectKind + 'static>() -> Self {
+        Self { name: E::NAME, also: E::ALSO, call: E::call, make: make::<E> }
+    }
+
+    pub(super) fn is_named(&self, name: &str) -> bool {
+        self.name == name || self.also.contains(&name)
+    }
+}
+
+fn make<E: EffectKind + 'static>(call: &Call, calls: &Calls<'_>) -> Option<Arc<dyn Effect>> {
+    Some(Arc::new(E::called_for(call, calls)?))
+}
+
+/// Names of all effects, built or not.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    let built = KINDS.iter().flat_map(|kind| std::iter::once(kind.name).chain(kind.also.iter().copied()));
+    built.chain(NOT_BUILT.iter().copied())
+}
+
+/// Whether an effect has this name.
+pub fn is_known(name: &str) -> bool {
+    names().any(|known| known == name)
+}

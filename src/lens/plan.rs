@@ -1,0 +1,256 @@
+//! Which effects run on which frames, as data.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use cinesplat_geometry::Camera;
+use cinesplat_render::{Frame, RenderError, RenderSettings, Renderer};
+use cinesplat_trajectory::{EffectRequest, EffectRuns, Shot};
+
+use super::budget::{Budget, Loss};
+use super::called::CalledEffect;
+use super::effect::Effect;
+use super::kinds::KINDS;
+use super::light::Picture;
+use super::moment::{Moment, Take};
+use super::seen::FrameFacts;
+
+/// The effects of a film, and the frames that they run on.
+#[derive(Debug, Clone, Default)]
+pub struct EffectPlan {
+    /// The effects that the shot calls for, outermost layer first.
+    pub effects: Vec<PlannedEffect>,
+    /// First frame that was examined.
+    first_frame: usize,
+}
+
+/// An effect of a film.
+#[derive(Debug, Clone)]
+pub struct PlannedEffect {
+    /// Its name.
+    pub name: &'static str,
+    /// What calls for it.
+    pub because: String,
+    effect: Arc<dyn Effect>,
+    /// What leaving it out would cost, per frame.
+    losses: Vec<Loss>,
+}
+
+impl EffectPlan {
+    /// Asks every effect on every frame what leaving it out would cost.
+    ///
+    /// # Errors
+    /// Those of the renderer, where the answer depends on what is seen.
+    pub fn of(
+        called: &[CalledEffect],
+        take: Take<'_>,
+        frames: Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<Self, RenderError> {
+        let budget = Budget::of(render.quality);
+        let planned = |called: &CalledEffect| {
+            let CalledEffect { name, effect, because } = called.clone();
+            PlannedEffect { name, because, effect, losses: Vec::with_capacity(frames.len()) }
+        };
+        let mut effects: Vec<PlannedEffect> = called.iter().map(planned).collect();
+        if !effects.is_empty() {
+            let first = FrameFacts::new(Moment::of_frame(take, 0, render), renderer);
+            for planned in &mut effects {
+                if let Some(measured) = planned.effect.measured(&first)? {
+                    planned.effect = measured;
+                }
+            }
+            for frame_idx in frames.clone() {
+                let facts = FrameFacts::new(Moment::of_frame(take, frame_idx, render), renderer);
+                for planned in &mut effects {
+                    planned.losses.push(planned.effect.error_if_skipped(&facts, &budget)?);
+                }
+            }
+        }
+        Ok(Self { effects, first_frame: frames.start })
+    }
+
+    /// A camera of the path, as the effects move it.
+    pub fn moved(called: &[CalledEffect], camera: Camera, time_secs: f64) -> Camera {
+        called.iter().rev().fold(camera, |camera, called| called.effect.moved(camera, time_secs))
+    }
+
+    /// The layers of a frame, outermost first, with their samples.
+    fn layers(&self, frame_idx: usize) -> Vec<(&dyn Effect, u32)> {
+        let layer = |planned: &'_ PlannedEffect| self.layer_samples(planned, frame_idx);
+        let layered = |planned| Some((PlannedEffect::effect(planned), layer(planned)?));
+        self.effects.iter().filter_map(layered).collect()
+    }
+
+    /// Samples of an effect on a frame; `None` where it does not run.
+    fn layer_samples(&self, planned: &PlannedEffect, frame_idx: usize) -> Option<u32> {
+        let loss = planned.losses.get(frame_idx.checked_sub(self.first_frame)?)?;
+        (loss.shows() && planned.effect.develops()).then_some(loss.samples)
+    }
+
+    /// Whether the plain renderer makes a frame.
+    pub fn is_plain(&self, frame_idx: usize) -> bool {
+        self.layers(frame_idx).is_empty()
+    }
+
+    /// Whether the picture of a frame depends on more than its camera.
+    pub fn changes_with_time(&self, frame_idx: usize) -> bool {
+        self.layers(frame_idx).iter().any(|(effect, _)| effect.changes_with_time())
+    }
+
+    /// Whether the film carries how much of each pixel the scene covers.
+    pub fn is_transparent(&self) -> bool {
+        self.effects.iter().any(|planned| planned.effect.is_transparent())
+    }
+
+    /// Whether the film shows all directions.
+    pub fn is_panorama(&self) -> bool {
+        self.effects.iter().any(|planned| planned.effect.is_panorama())
+    }
+
+    /// Whether two frames have the same effects with the same samples.
+    pub fn has_same_layers(&self, frame_idx: usize, other_idx: usize) -> bool {
+        let sketch =
+            |idx: usize| self.effects.iter().map(move |planned| self.layer_samples(planned, idx)).collect::<Vec<_>>();
+        sketch(frame_idx) == sketch(other_idx)
+    }
+
+    /// Pictures' worth of work that a frame takes: the product over its effects.
+    pub fn num_samples(&self, frame_idx: usize) -> u32 {
+        self.layers(frame_idx).iter().map(|(effect, samples)| effect.num_pictures(*samples)).product()
+    }
+
+    /// The picture of a moment with the effects that run on its frame.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn expose(&self, moment: &Moment<'_>, renderer: &Renderer<'_>) -> Result<Picture, RenderError> {
+        expose(&self.layers(moment.frame_idx), moment, renderer)
+    }
+
+    /// Writes the plan into a shot: settings, frames, samples, and the number that decided.
+    pub fn write_to(&self, shot: &mut Shot) {
+        let is_planned = |request: &EffectRequest| self.effects.iter().any(|planned| planned.name == request.kind);
+        let planned = self.effects.iter().map(PlannedEffect::request);
+        let others = shot.effects.iter().filter(|request| !is_planned(request)).cloned();
+        shot.effects = planned.chain(others).collect();
+    }
+
+    /// One line per effect that is called for, and one for all others.
+    pub fn sentences(&self) -> Vec<String> {
+        let is_called = |name: &str| self.effects.iter().any(|planned| planned.name == name);
+        let rest: Vec<&str> = KINDS.iter().map(|kind| kind.name).filter(|name| !is_called(name)).collect();
+        let mut lines: Vec<String> = self.effects.iter().map(PlannedEffect::sentence).collect();
+        if !rest.is_empty() {
+            lines.push(format!("not called for: {}", rest.join(", ")));
+        }
+        lines
+    }
+}
+
+/// The picture of a moment through layers of effects, the outermost first.
+fn expose(layers: &[(&dyn Effect, u32)], moment: &Moment<'_>, renderer: &Renderer<'_>) -> Result<Picture, RenderError> {
+    match layers.split_first() {
+        Some(((effect, samples), inner)) => effect.apply(moment, *samples, &mut |asked| expose(inner, asked, renderer)),
+        None => {
+            let mut frame = Frame::default();
+            renderer.expose_into(&moment.subframes(), &moment.render, &mut frame)?;
+            Ok(Picture::of_display(frame))
+        }
+    }
+}
+
+impl PlannedEffect {
+    /// The effect.
+    pub fn effect(&self) -> &dyn Effect {
+        self.effect.as_ref()
+    }
+
+    /// What leaving the effect out would cost, per frame.
+    pub fn losses(&self) -> &[Loss] {
+        &self.losses
+    }
+
+    /// The settings of the effect.
+    pub fn settings(&self) -> Vec<(&'static str, f64)> {
+        self.effect.settings()
+    }
+
+    /// The frames that the effect runs on, as ranges of indices of `losses`.
+    fn runs(&self) -> Vec<Range<usize>> {
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        for (at, _) in self.losses.iter().enumerate().filter(|(_, loss)| loss.shows()) {
+            match runs.last_mut() {
+                Some(run) if run.end == at => run.end = at + 1,
+                _ => runs.push(at..at + 1),
+            }
+        }
+        runs
+    }
+
+    /// Fewest and most samples of the frames that the effect runs on.
+    fn samples(&self) -> [u32; 2] {
+        let samples = || self.losses.iter().filter(|loss| loss.shows()).map(|loss| loss.samples);
+        [samples().min().unwrap_or(0), samples().max().unwrap_or(0)]
+    }
+
+    /// The loss with the largest error, of the frames that show it or of those that do not.
+    fn worst(&self, shows: bool) -> Option<Loss> {
+        let losses = self.losses.iter().filter(|loss| loss.shows() == shows);
+        losses.max_by(|a, b| a.error.total_cmp(&b.error)).copied()
+    }
+
+    fn request(&self) -> EffectRequest {
+        let (measure, unit) = self.effect.measure();
+        let worst = self.worst(true).or_else(|| self.worst(false));
+        let runs = worst.map(|worst| EffectRuns {
+            frames: self.runs().into_iter().map(|run| [run.start, run.end]).collect(),
+            samples: self.samples(),
+            measure: format!("{measure}, {unit}"),
+            error: worst.error,
+            allowed: worst.allowed,
+        });
+        EffectRequest { runs, ..request(self.name, self.effect(), &self.because) }
+    }
+
+    /// Frames, samples and the number that decided, such as `depth of field: skipped on 180 of 240 frames, circle of
+    /// confusion 0.31 px < 0.50`.
+    pub fn sentence(&self) -> String {
+        let total = self.losses.len();
+        let num_on = self.losses.iter().filter(|loss| loss.shows()).count();
+        let (measure, unit) = self.effect.measure();
+        let number =
+            |loss: Loss, sign: &str| format!("{measure} {} {unit} {sign} {}", shown(loss.error), shown(loss.allowed));
+        let mut parts = Vec::new();
+        if let Some(worst) = self.worst(true) {
+            let samples = match self.samples() {
+                [1, 1] => String::new(),
+                [a, b] if a == b => format!(", {a} samples per frame"),
+                [a, b] => format!(", {a} to {b} samples per frame"),
+            };
+            parts.push(format!("on {num_on} of {total} frames, {}{samples}", number(worst, ">")));
+        }
+        if let Some(worst) = self.worst(false) {
+            parts.push(format!("skipped on {} of {total} frames, {}", total - num_on, number(worst, "<")));
+        }
+        format!("{}: {} ('{}')", self.name.replace('-', " "), parts.join("; "), self.because)
+    }
+}
+
+/// The entry of an effect in a shot.
+fn request(name: &str, effect: &dyn Effect, because: &str) -> EffectRequest {
+    let settings = effect.settings().into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+    EffectRequest { kind: name.to_owned(), because: because.to_owned(), settings, runs: None }
+}
+
+impl CalledEffect {
+    /// The effect as an entry of a shot, without the frames that it runs on.
+    pub fn request(&self) -> EffectRequest {
+        request(self.name, self.effect.as_ref(), &self.because)
+    }
+}
+
+/// A number with two digits after the point, or three significant ones where it is small.
+fn shown(value: f64) -> String {
+    if value.abs() >= 0.1 || value.abs() <= 0.0 { format!("{value:.2}") } else { format!("{value:.4}") }
+}

@@ -1,0 +1,73 @@
+//! Rows of a picture that are exposed one after another.
+
+use cinesplat_geometry::{Camera, Intrinsics};
+use cinesplat_render::{Frame, RenderError};
+
+use super::budget::{Budget, Loss};
+use super::calls::{Call, Calls};
+use super::effect::{Effect, EffectKind, Next};
+use super::light::Picture;
+use super::moment::Moment;
+use super::seen::FrameFacts;
+
+/// A sensor that is read from the first row to the last: each row shows the camera at its own time.
+///
+/// The frame is made of strips, each with the camera of the time of its middle row. Their number keeps the steps between
+/// two strips below the budget of the quality.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollingShutter {
+    /// Time from the first row to the last over the time of a frame.
+    pub readout: f64,
+}
+
+impl EffectKind for RollingShutter {
+    const NAME: &'static str = "rolling-shutter";
+
+    fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
+        let readout = call.setting_or("readout", [0.35, 0.7, 1.0]).clamp(0.0, 1.0);
+        (readout > 0.0).then_some(Self { readout })
+    }
+}
+
+impl Effect for RollingShutter {
+    fn settings(&self) -> Vec<(&'static str, f64)> {
+        vec![("readout", self.readout)]
+    }
+
+    fn measure(&self) -> (&'static str, &'static str) {
+        ("skew from the first row to the last", "px")
+    }
+
+    fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
+        let half = 0.5 * self.readout * frame.moment.frame_secs();
+        let time = frame.moment.time_secs;
+        let skew_px = frame.travel_px(time - half, time + half)?;
+        let rows = frame.moment.camera.intrinsics.height;
+        let strips = (skew_px / budget.shift_px).ceil().clamp(1.0, f64::from(rows)) as u32;
+        Ok(Loss { error: skew_px, allowed: budget.shift_px, samples: strips })
+    }
+
+    fn num_pictures(&self, _: u32) -> u32 {
+        // The strips are parts of one picture.
+        1
+    }
+
+    fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
+        let whole = moment.camera.intrinsics;
+        let mut frame = Frame { width: whole.width, height: whole.height, ..Frame::default() };
+        let strips = samples.clamp(1, whole.height);
+        for strip in 0..strips {
+            let [first, end] =
+                [strip, strip + 1].map(|strip| (u64::from(whole.height) * u64::from(strip) / u64::from(strips)) as u32);
+            let middle = 0.5 * (f64::from(first) + f64::from(end)) / f64::from(whole.height) - 0.5;
+            let then = moment.at(moment.time_secs + middle * self.readout * moment.frame_secs());
+            let own = then.camera.intrinsics;
+            let intrinsics = Intrinsics { height: end - first, cy_px: own.cy_px - f64::from(first), ..own };
+            let mut picture = next(&then.with_camera(Camera { intrinsics, ..then.camera }))?;
+            let rows = picture.display();
+            frame.rgb.append(&mut rows.rgb);
+            frame.transmittance.append(&mut rows.transmittance);
+        }
+        Ok(Picture::of_display(frame))
+    }
+}

@@ -1,0 +1,189 @@
+use std::ops::Range;
+use std::time::Instant;
+
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::film::cameras::path_camera;
+use cinesplat_geometry::Camera;
+use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, EffectPlan, Moment, OpticsTrack, Picture, Take};
+use cinesplat_render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
+use cinesplat_trajectory::{CameraPath, EffectRequest, Shot};
+
+/// Size of a scene over its near plane, where the scene itself is not at hand.
+const SIZE_OF_NEAR: f64 = 100.0;
+/// Frames of a film that are examined for the cost of its effects.
+const NUM_COSTED: usize = 12;
+
+/// The effects that a shot calls for by its `effects` and its keyframes.
+///
+/// `scene_size` is the scale of settings that the shot leaves out.
+pub fn called_effects(shot: &Shot, choice: &EffectChoice, scene_size: f64) -> Called {
+    let calls: Vec<Call> = shot.effects.iter().map(Call::of_request).collect();
+    let keyframes = &shot.keyframes;
+    let seed = shot.seed;
+    Called::of(choice, &Calls { calls: &calls, forbidden: &[], moves: &[], keyframes, scene_size, seed })
+}
+
+/// The camera of a shot, frame by frame, with its effects.
+pub(in crate::pipeline) struct Filmed<'a> {
+    path: &'a CameraPath,
+    shot: &'a Shot,
+    called: Vec<CalledEffect>,
+    optics: OpticsTrack,
+}
+
+impl<'a> Filmed<'a> {
+    pub(in crate::pipeline) fn new(
+        (path, shot): (&'a CameraPath, &'a Shot),
+        choice: &EffectChoice,
+        render: &RenderSettings,
+    ) -> Self {
+        let called = called_effects(shot, choice, SIZE_OF_NEAR * render.near).effects;
+        Self { path, shot, called, optics: OpticsTrack::new(&shot.keyframes) }
+    }
+
+    /// The camera of a frame, with the motion that effects add.
+    pub(in crate::pipeline) fn camera(&self, frame_idx: usize) -> Camera {
+        self.camera_at(self.shot.frame_time_secs(frame_idx))
+    }
+
+    /// Cameras of the frames that a film renders. Frames with the camera of the frame before are not rendered again.
+    pub(in crate::pipeline) fn moving_cameras(&self, frames: Range<usize>) -> Vec<Camera> {
+        let mut cameras: Vec<Camera> = frames.map(|frame_idx| self.camera(frame_idx)).collect();
+        let changes = |called: &CalledEffect| called.effect.develops() && called.effect.changes_with_time();
+        if !self.called.iter().any(changes) {
+            cameras.dedup();
+        }
+        cameras
+    }
+
+    fn camera_at(&self, time_secs: f64) -> Camera {
+        EffectPlan::moved(&self.called, path_camera(self.path, self.shot, time_secs), time_secs)
+    }
+
+    /// Calls `work` with the source of the shot's cameras.
+    fn with_take<T>(&self, work: impl FnOnce(Take<'_>) -> T) -> T {
+        let camera_at = |time_secs: f64| self.camera_at(time_secs);
+        work(Take {
+            camera_at: &camera_at,
+            optics: &self.optics,
+            up: self.shot.scene.up,
+            fps: self.shot.fps,
+            seed: self.shot.seed,
+        })
+    }
+
+    /// The effects of some frames.
+    pub(in crate::pipeline) fn plan(
+        &self,
+        frames: Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<EffectPlan, RenderError> {
+        self.with_take(|take| EffectPlan::of(&self.called, take, frames, (renderer, render)))
+    }
+
+    /// A frame with the effects that run on it.
+    pub(in crate::pipeline) fn expose(
+        &self,
+        plan: &EffectPlan,
+        frame_idx: usize,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<Picture, RenderError> {
+        self.with_take(|take| plan.expose(&Moment::of_frame(take, frame_idx, render), renderer))
+    }
+
+    /// A frame in 8 bits. Without effects the plain renderer makes it.
+    pub(in crate::pipeline) fn render_rgb8(
+        &self,
+        plan: &EffectPlan,
+        frame_idx: usize,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+        into: &mut Rgb8Frame,
+    ) -> Result<(), RenderError> {
+        if plan.is_plain(frame_idx) {
+            return renderer.render_rgb8_into(&self.camera(frame_idx), render, into);
+        }
+        self.expose(plan, frame_idx, (renderer, render))?.into_rgb8(into);
+        Ok(())
+    }
+
+    /// Time of a frame with the effects over that of a plain one, as a mean over the film: the pictures that sampled frames
+    /// take, times what the effects add to one picture, which is measured on a frame that has some.
+    pub(in crate::pipeline) fn cost_factor(
+        &self,
+        frames: &Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<f64, RenderError> {
+        if !self.called.iter().any(|called| called.effect.develops()) {
+            return Ok(1.0);
+        }
+        let num = NUM_COSTED.min(frames.len()).max(1);
+        let (mut pictures, mut num_plain, mut measured) = (0.0, 0_u32, None);
+        for idx in 0..num {
+            let frame_idx = frames.start + (2 * idx + 1) * frames.len() / (2 * num);
+            let plan = self.plan(frame_idx..frame_idx + 1, (renderer, render))?;
+            if plan.is_plain(frame_idx) {
+                num_plain += 1;
+                continue;
+            }
+            let samples = f64::from(plan.num_samples(frame_idx));
+            pictures += samples;
+            if measured.is_none() {
+                measured = Some(self.measured_factor(&plan, frame_idx, (renderer, render))? / samples);
+            }
+        }
+        Ok((f64::from(num_plain) + pictures * measured.unwrap_or(1.0)) / num as f64)
+    }
+
+    /// Time of a frame with effects over that of the plain frame.
+    fn measured_factor(
+        &self,
+        plan: &EffectPlan,
+        frame_idx: usize,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<f64, RenderError> {
+        let mut frame = Rgb8Frame::default();
+        let mut secs = [0.0, 0.0];
+        // The first time allocates memory.
+        for _ in 0..2 {
+            let start = Instant::now();
+            renderer.render_rgb8_into(&self.camera(frame_idx), render, &mut frame)?;
+            secs[0] = start.elapsed().as_secs_f64();
+            let start = Instant::now();
+            self.render_rgb8(plan, frame_idx, (renderer, render), &mut frame)?;
+            secs[1] = start.elapsed().as_secs_f64();
+        }
+        Ok(secs[1] / secs[0].max(1e-9))
+    }
+
+    /// Entries of the effects without the frames that they run on: what the frames depend on.
+    pub(in crate::pipeline) fn requests(called: &Called) -> Vec<EffectRequest> {
+        called.effects.iter().map(CalledEffect::request).collect()
+    }
+}
+
+/// The plan of effects for the frames of a film.
+///
+/// # Errors
+/// [`PipelineError::Trajectory`] for keyframes that make no path, [`PipelineError::Render`].
+pub fn plan_effects(
+    (renderer, render): (&Renderer<'_>, &RenderSettings),
+    shot: &Shot,
+    choice: &EffectChoice,
+) -> Result<EffectPlan, PipelineError> {
+    let path = CameraPath::new(shot)?;
+    let filmed = Filmed::new((&path, shot), choice, render);
+    Ok(filmed.plan(0..shot.num_frames(), (renderer, render))?)
+}
+
+/// Completes the effects of a shot: those that its keyframes call for are added, those that the user excludes are removed,
+/// and every setting has a value. Returns the calls.
+pub fn complete_effects(shot: &mut Shot, choice: &EffectChoice, scene_size: f64) -> Called {
+    let called = called_effects(shot, choice, scene_size);
+    let is_kept = |request: &EffectRequest| {
+        called.unmet.iter().any(|unmet| unmet.is_missing() && unmet.call.name == request.kind)
+    };
+    let missing: Vec<EffectRequest> = shot.effects.iter().filter(|request| is_kept(request)).cloned().collect();
+    shot.effects = Filmed::requests(&called);
+    shot.effects.extend(missing);
+    called
+}

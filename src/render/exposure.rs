@@ -1,0 +1,128 @@
+//! Exposures: the mean light of several pictures, as a shutter that stays open or an open aperture collects it.
+//!
+//! Enters: sub-frames. Leaves: one picture. The invariant: an exposure of one sub-frame without blur has the bits of
+//! the plain picture.
+
+use pulp::{Simd, WithSimd};
+use rayon::prelude::*;
+
+use super::blur::SubFrame;
+use super::canvas::{Canvas, LightSums};
+use super::frame::level;
+use super::light::color_value;
+use super::renderer::check_len;
+use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Renderer, Rgb8Frame};
+
+/// Values that one job converts.
+const VALUES_PER_JOB: usize = 1 << 15;
+
+impl Renderer<'_> {
+    /// Renders the exposure of sub-frames: the mean of their light, in the colors of the scene. Colors are light in the
+    /// encoding of sRGB; more than one sub-frame clamps them to 0..=1.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::render`]; [`RenderError::Setting`] for a lens out of range; [`RenderError::Length`] without
+    /// sub-frames or if their pictures differ in size.
+    pub fn expose_into(
+        &self,
+        subframes: &[SubFrame],
+        settings: &RenderSettings,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        match subframes {
+            [one] => self.render_subframe_into(one, settings, frame),
+            _ => {
+                self.sum_light(subframes, settings, frame)?;
+                frame.rgb.par_chunks_mut(VALUES_PER_JOB).for_each(|light| {
+                    settings.instructions.dispatch(InPlace { light });
+                });
+                Ok(())
+            }
+        }
+    }
+
+    /// As [`Renderer::expose_into`], in 8 bits. The result equals [`Frame::to_rgb8`].
+    ///
+    /// # Errors
+    /// Those of [`Renderer::expose_into`].
+    pub fn expose_rgb8_into(
+        &self,
+        subframes: &[SubFrame],
+        settings: &RenderSettings,
+        frame: &mut Rgb8Frame,
+    ) -> Result<(), RenderError> {
+        match subframes {
+            [one] => self.render_subframe_rgb8_into(one, settings, frame),
+            _ => self.with_light(|sums| {
+                self.sum_light(subframes, settings, sums)?;
+                (frame.width, frame.height, frame.stats) = (sums.width, sums.height, sums.stats);
+                frame.rgb8.resize(sums.rgb.len(), 0);
+                let jobs = frame.rgb8.par_chunks_mut(VALUES_PER_JOB).zip(sums.rgb.par_chunks(VALUES_PER_JOB));
+                jobs.for_each(|(levels, light)| settings.instructions.dispatch(ToLevels { light, levels }));
+                Ok(())
+            }),
+        }
+    }
+
+    /// Writes the mean light of the sub-frames, and their mean transmittance, into `sums`.
+    fn sum_light(
+        &self,
+        subframes: &[SubFrame],
+        settings: &RenderSettings,
+        sums: &mut Frame,
+    ) -> Result<(), RenderError> {
+        check_len("sub-frames of an exposure", subframes.len().min(1), 1)?;
+        let weight = (1.0 / subframes.len() as f64) as f32;
+        let mut stats = RenderStats::default();
+        for (idx, subframe) in subframes.iter().enumerate() {
+            let view = self.view_of(subframe, settings)?;
+            if idx == 0 {
+                sums.resize(view.width, view.height);
+            }
+            check_len("pixels across a sub-frame", view.width as usize, sums.width as usize)?;
+            check_len("pixels down a sub-frame", view.height as usize, sums.height as usize)?;
+            let Frame { rgb, transmittance, width, .. } = &mut *sums;
+            let mut canvas = LightSums { light: rgb, transmittance, weight, is_first: idx == 0 };
+            stats += if settings.quality == Quality::Reference {
+                let mut picture = Frame::default();
+                self.render_subframe_into(subframe, settings, &mut picture)?;
+                let rows = picture.rgb.chunks(*width as usize * 3).zip(picture.transmittance.chunks(*width as usize));
+                rows.enumerate().for_each(|(row, (rgb, rest))| canvas.add(row * *width as usize, rgb, rest));
+                picture.stats
+            } else {
+                self.render_onto(Canvas::Light(canvas), subframe, &view, settings)?
+            };
+        }
+        sums.stats = stats;
+        Ok(())
+    }
+}
+
+/// Light to color values.
+struct InPlace<'a> {
+    light: &'a mut [f32],
+}
+
+impl WithSimd for InPlace<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.light.iter_mut().for_each(|value| *value = color_value(*value));
+    }
+}
+
+/// Light to color in 8 bits.
+struct ToLevels<'a> {
+    light: &'a [f32],
+    levels: &'a mut [u8],
+}
+
+impl WithSimd for ToLevels<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.levels.iter_mut().zip(self.light).for_each(|(to, &light)| *to = level(color_value(light)));
+    }
+}

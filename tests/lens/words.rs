@@ -1,0 +1,93 @@
+//! Sentences that call for effects, forbid them, or have nothing to do with them, written by others than the author of the
+//! words.
+
+use std::collections::BTreeSet;
+
+use cinesplat::language::{effect_mentions, link};
+use cinesplat::lens::Degree::{Medium, Slight, Strong};
+use cinesplat::lens::is_known;
+
+/// Least share of the sentences that give exactly the right sets.
+const LEAST: f64 = 0.95;
+
+type Names = BTreeSet<String>;
+
+/// The effects that a sentence calls for, and those that it forbids.
+fn read(prompt: &str) -> [Names; 2] {
+    let linked = link(prompt, &[]).unwrap_or_default();
+    let mentions = effect_mentions(prompt, &linked).unwrap();
+    [false, true].map(|is_forbidden| {
+        let chosen = mentions.iter().filter(|mention| mention.is_forbidden == is_forbidden);
+        chosen.map(|mention| mention.call.name.clone()).filter(|name| is_known(name)).collect()
+    })
+}
+
+#[test]
+fn sentences_of_others_call_for_exactly_the_right_effects() {
+    let (mut right, mut missed) = (0, Vec::new());
+    for line in include_str!("sentences.jsonl").lines().filter(|line| !line.trim().is_empty()) {
+        let sentence: serde_json::Value = serde_json::from_str(line).unwrap();
+        let names = |field: &str| -> Names {
+            sentence[field].as_array().unwrap().iter().map(|name| name.as_str().unwrap().to_owned()).collect()
+        };
+        let prompt = sentence["prompt"].as_str().unwrap();
+        let (wanted, got) = ([names("effects"), names("forbids")], read(prompt));
+        if wanted == got { right += 1 } else { missed.push(format!("{prompt}: {wanted:?}, read {got:?}")) }
+    }
+    let total = right + missed.len();
+    assert!(total >= 60 && right as f64 >= LEAST * total as f64, "{right} of {total}\n{}", missed.join("\n"));
+}
+
+#[test]
+fn words_that_only_look_like_an_effect_call_for_none() {
+    for prompt in [
+        "focus on the mug, then truck left",
+        "circle the grain silo",
+        "fly past the fog lamp",
+        "go 360 around the vase",
+        "a 360 degree orbit of the vase",
+        "the wood grain of the table in close-up",
+        "close the shutters and pull back",
+        "a shaky ladder, pan right",
+        "the handheld blender, push in",
+        "orbit the whisky barrel",
+        "a vintage radio on the shelf",
+        "flowers in full bloom, crane down",
+        "the bright lamp on the table",
+        "shift our attention to the window",
+    ] {
+        assert_eq!(read(prompt), [Names::new(), Names::new()], "{prompt}");
+    }
+}
+
+#[test]
+fn negations_reach_as_far_as_they_say() {
+    let said = |prompt: &str| read(prompt).map(|names| names.into_iter().collect::<Vec<_>>().join(" "));
+    assert_eq!(said("no motion blur, shallow depth of field"), ["depth-of-field", "motion-blur"]);
+    assert_eq!(said("without fog, film grain or a vignette"), ["", "film-grain fog vignette"]);
+    assert_eq!(said("not too much grain"), ["film-grain", ""]);
+    assert_eq!(said("don't lose the bokeh"), ["depth-of-field", ""]);
+    assert_eq!(said("crisp, no blur"), ["", "depth-of-field motion-blur"]);
+    assert_eq!(said("film grain yes, flares no"), ["film-grain", "lens-flare"]);
+    assert_eq!(said("locked off on a tripod"), ["", "handheld"]);
+}
+
+#[test]
+fn phrases_state_settings_and_degrees() {
+    let setting = |prompt: &str, name: &str| {
+        let mentions = effect_mentions(prompt, &link(prompt, &[]).unwrap()).unwrap();
+        mentions[0].call.setting(name)
+    };
+    assert_eq!(setting("push in at f/1.8", "f_stop"), Some(1.8));
+    assert_eq!(setting("pan right, 180 degree shutter", "shutter_angle_deg"), Some(180.0));
+    assert_eq!(setting("two stops under, orbit", "stops"), Some(-2.0));
+    assert_eq!(setting("-1 ev, orbit", "stops"), Some(-1.0));
+    let degree = |prompt: &str| effect_mentions(prompt, &link(prompt, &[]).unwrap()).unwrap()[0].call.degree;
+    assert_eq!(["a bit of fog", "fog", "very thick fog"].map(degree), [Slight, Medium, Strong]);
+}
+
+#[test]
+fn a_number_of_the_lens_is_no_quantity_of_a_move() {
+    assert_eq!(link("orbit it with a 180 degree shutter at f/2.8", &[]).unwrap().quantities, []);
+    assert_eq!(link("orbit it 180 degrees", &[]).unwrap().quantities.len(), 1);
+}
