@@ -14,8 +14,8 @@ use cinesplat::files::Existing;
 use cinesplat::language::program_to_notation;
 use cinesplat::training::corpus::{self, SentenceKind, Split, Writer};
 use cinesplat::training::{
-    EvaluationSplit, Mentions, NameSettings, ProgramMetrics, Tally, TrainSettings, TrainingProgress, evaluate_director,
-    examine, train,
+    EvaluationSplit, Mentions, NameSettings, ProgramMetrics, Tally, TrainSettings, TrainingProgress, drawn_sentences,
+    evaluate_director, examine, train,
 };
 use strum::VariantArray;
 
@@ -36,7 +36,7 @@ Examples:
   cinesplat train --examine names --names --sentences prompts/corpus")]
 pub(super) struct Args {
     /// Folder for the model (three files) and its checkpoint
-    #[arg(short, long, value_name = "DIR", required_unless_present_any = ["examine", "calibrate"])]
+    #[arg(short, long, value_name = "DIR", required_unless_present_any = ["examine", "calibrate", "draw"])]
     output: Option<PathBuf>,
     /// Train the network of names instead: which words name which objects
     ///
@@ -115,6 +115,9 @@ pub(super) struct Args {
     /// Also gives the model the name of --name.
     #[arg(long, value_name = "MODEL", requires = "sentences", conflicts_with_all = ["output", "shots", "from", "resume", "examine"])]
     calibrate: Option<PathBuf>,
+    /// Print that many sentences as training draws them from --sentences, with their programs, instead
+    #[arg(long, value_name = "N", requires = "sentences", conflicts_with_all = ["output", "shots", "from", "resume", "examine"])]
+    draw: Option<usize>,
 }
 
 impl Args {
@@ -128,6 +131,12 @@ impl Args {
         }
         if let (Some(model), Some(sentences)) = (&self.calibrate, &self.sentences) {
             return calibrate_model(model, &self.name, sentences);
+        }
+        if let Some(count) = self.draw {
+            for (linked, program) in drawn_sentences(&sentences, count, self.seed)? {
+                console::data(&format!("{}\n  {}\n", linked.tokens_text, program_to_notation(&program)))?;
+            }
+            return Ok(());
         }
         if std::env::var_os(THREADS_VARIABLE).is_none_or(|threads| threads != "1") {
             return restart();

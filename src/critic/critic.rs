@@ -23,7 +23,7 @@ const SHOWN: f32 = 0.5;
 /// Looks at films of one scene.
 #[derive(Debug)]
 pub struct Critic<'a> {
-    renderer: &'a Renderer<'a>,
+    renderer: Renderer<'a>,
     subjects: &'a Subjects,
     painted: Vec<Renderer<'a>>,
     /// One renderer per subject, of its own Gaussians.
@@ -34,13 +34,8 @@ pub struct Critic<'a> {
 }
 
 impl<'a> Critic<'a> {
-    /// A critic of films of a scene. `renderer` is one of the scene's Gaussians.
-    pub fn new(
-        (scene, bounds): (&Scene, &Bounds),
-        renderer: &'a Renderer<'a>,
-        subjects: &'a Subjects,
-        settings: CriticSettings,
-    ) -> Self {
+    /// A critic of films of a scene.
+    pub fn new((scene, bounds): (&Scene, &Bounds), subjects: &'a Subjects, settings: CriticSettings) -> Self {
         let render = RenderSettings {
             quality: Quality::Draft,
             filter: scene.filter.unwrap_or(RenderSettings::default().filter),
@@ -48,7 +43,7 @@ impl<'a> Critic<'a> {
             ..RenderSettings::default()
         };
         Self {
-            renderer,
+            renderer: Renderer::new(&subjects.scene),
             subjects,
             painted: subjects.painted.renderers(),
             alone: subjects.subjects.iter().map(|subject| Renderer::new(&subject.cloud)).collect(),

@@ -14,6 +14,7 @@
 mod choice;
 mod critic;
 mod film;
+mod front;
 mod limits;
 mod marks;
 mod painted;
@@ -24,6 +25,7 @@ mod review;
 mod settings;
 mod subjects;
 mod terms;
+mod thinned;
 mod trade;
 
 pub use choice::{Candidate, ranked};

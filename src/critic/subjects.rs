@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::painted::Painted;
+use super::thinned::thinned;
 use cinesplat_objects::{Object, ObjectSet};
-use cinesplat_scene::{Gaussians, NUM_SH_REST, SOLID_OPACITY};
+use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
 /// Facets per subject from which the critic tells how its surfaces face the camera.
 const MAX_FACETS: usize = 256;
@@ -24,7 +25,9 @@ pub(super) struct ThinMatter {
 /// The objects of a scene that films are about, and the scene prepared for looking at them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Subjects {
-    /// The scene painted with what the critic wants to know.
+    /// The scene as small pictures show it, without view-dependent color.
+    pub(super) scene: Gaussians,
+    /// The same painted with what the critic wants to know.
     pub(super) painted: Painted,
     /// Gaussians too thin to be solid.
     pub(super) thin: Vec<ThinMatter>,
@@ -70,9 +73,14 @@ impl Subjects {
             let label = subjects.len() as u16;
             own.into_iter().filter(|&i| labels[i] == 0).collect::<Vec<_>>().into_iter().for_each(|i| labels[i] = label);
         }
-        let sizes: Vec<f32> = (0..gaussians.len()).map(|i| size(gaussians, i)).collect();
-        let painted = Painted::new(gaussians, &sizes, &labels, subjects.len());
-        Self { painted, thin: thin_matter(gaussians), subjects }
+        let (kept, growth) = thinned(gaussians, &labels);
+        let sizes: Vec<f32> = kept.iter().map(|&i| size(gaussians, i)).collect();
+        let kept_labels: Vec<u16> = kept.iter().map(|&i| labels[i]).collect();
+        let mut scene = plain(gaussians, &kept);
+        let background = scene.scales.iter_mut().zip(&kept_labels).filter(|(_, label)| **label == 0);
+        background.for_each(|(scale, _)| *scale *= growth);
+        let painted = Painted::new(&scene, &sizes, &kept_labels, subjects.len());
+        Self { scene, painted, thin: thin_matter(gaussians), subjects }
     }
 }
 
@@ -87,7 +95,7 @@ impl Subject {
             center: object.center,
             radius: object.radius(),
             corners: object.corners(),
-            cloud: selected(gaussians, own),
+            cloud: plain(gaussians, own),
             facets,
         }
     }
@@ -113,10 +121,8 @@ fn gaussians_of(gaussians: &Gaussians, object: &Object, labels: &[u16]) -> Vec<u
     (0..gaussians.len()).filter(belongs).collect()
 }
 
-/// Some Gaussians of a scene.
-fn selected(gaussians: &Gaussians, own: &[usize]) -> Gaussians {
-    let num_rest = NUM_SH_REST[usize::from(gaussians.sh_degree.min(3))];
-    let rest = |&i: &usize| gaussians.sh_rest[i * num_rest..(i + 1) * num_rest].iter().copied();
+/// Some Gaussians of a scene, without view-dependent color.
+fn plain(gaussians: &Gaussians, own: &[usize]) -> Gaussians {
     Gaussians {
         origin: gaussians.origin,
         means: own.iter().map(|&i| gaussians.means[i]).collect(),
@@ -124,8 +130,8 @@ fn selected(gaussians: &Gaussians, own: &[usize]) -> Gaussians {
         rotations: own.iter().map(|&i| gaussians.rotations[i]).collect(),
         opacities: own.iter().map(|&i| gaussians.opacities[i]).collect(),
         sh_dc: own.iter().map(|&i| gaussians.sh_dc[i]).collect(),
-        sh_degree: gaussians.sh_degree,
-        sh_rest: own.iter().flat_map(rest).collect(),
+        sh_degree: 0,
+        sh_rest: Vec::new(),
         ids: Vec::new(),
     }
 }

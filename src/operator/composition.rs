@@ -82,9 +82,12 @@ pub(super) fn lens_fov_deg(lens: Lens) -> (f64, f64) {
     }
 }
 
-/// Azimuth, seen from the point, of the middle of the scene, which the front of a subject faces; of the best viewpoint
-/// where the subject itself is in the middle.
+/// Azimuth, seen from the point, of the front of the subject there: the known one, or else that of the middle of the
+/// scene, or of the best viewpoint where the subject itself is in the middle.
 pub(super) fn front_azimuth(world: &World, center: DVec3) -> f64 {
+    if let Some(known) = world.known_front(center) {
+        return known;
+    }
     let level = |to: DVec3| world.frame.horizontal(to - center);
     let to_middle = level(world.bounds.center());
     let near = to_middle.length() < MIDDLE_FRAC * world.bounds.size();

@@ -28,6 +28,17 @@ pub(super) enum Scope {
     Any,
 }
 
+impl Scope {
+    /// The states that it means, of at least one.
+    pub(super) fn of<T>(self, states: &[T]) -> &[T] {
+        match self {
+            Self::Start => &states[..1],
+            Self::End => &states[states.len() - 1..],
+            Self::All | Self::Any => states,
+        }
+    }
+}
+
 /// The requirement of a constraint. Values over the whole segment, such as a turn, ignore the scope.
 #[derive(Debug, Clone)]
 pub(super) enum ConstraintKind {

@@ -1,5 +1,6 @@
 //! The cost of a motion segment: violated constraints, clearance, the captured region, and the quality of the pictures.
 
+use super::captured_side::{back_cost, off_front_cost};
 use super::clearance::{ClearanceQuery, least_clearance};
 use super::constraint::{Constraint, ConstraintKind};
 use super::measure::{SEARCH_POINTS, measure};
@@ -37,6 +38,7 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
         return total + REJECT_COST / 2.0;
     }
     total += expensive.into_iter().map(charge).sum::<f64>();
+    total += back_cost(world, &segment.constraints, &states) + off_front_cost(world, &segment.constraints, &states);
     total + pictures_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
 }
 

@@ -12,6 +12,7 @@
 //! The crate does no IO.
 
 mod capture_region;
+mod captured_side;
 mod clearance;
 mod composition;
 mod constraint;

@@ -44,11 +44,7 @@ pub(super) fn measure(
     states: &[CameraState],
     num_points: usize,
 ) -> Measurement {
-    let picked: &[CameraState] = match constraint.scope {
-        Scope::Start => &states[..1],
-        Scope::End => &states[states.len() - 1..],
-        Scope::All | Scope::Any => states,
-    };
+    let picked = constraint.scope.of(states);
     let over = |value: &dyn Fn(&CameraState) -> f64, band: (f64, f64), unit: f64| {
         worst_of(picked.iter().map(|s| range_violation(value(s), band, unit)), constraint.scope)
     };

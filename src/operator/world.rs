@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use glam::DVec3;
 
 use super::capture_region::CaptureRegion;
+use super::captured_side::Facets;
 use super::clearance::ClearanceIndex;
 use super::grid::Grid;
 use super::lookout::{Lookout, Thing};
@@ -62,6 +63,10 @@ pub(super) struct Subject {
     pub(super) radius: f64,
     /// Sample points on it, world.
     pub(super) points: Vec<DVec3>,
+    /// Its surface as far as it was captured.
+    pub(super) facets: Facets,
+    /// Azimuth of its front, seen from its middle, where that is known.
+    pub(super) front_rad: Option<f64>,
     /// All Gaussians except its own: what can occlude it.
     others: OpacityGrid,
 }
@@ -103,6 +108,19 @@ impl World {
     /// The subject with an object id.
     pub(super) fn subject(&self, id: u32) -> Option<&Subject> {
         self.subjects.get(&id)
+    }
+
+    /// Says which way the front of a subject faces, by a direction from its middle.
+    pub fn set_front(&mut self, id: u32, direction: DVec3) {
+        let azimuth = self.frame.azimuth(direction);
+        if let Some(subject) = self.subjects.get_mut(&id) {
+            subject.front_rad = Some(azimuth);
+        }
+    }
+
+    /// Azimuth of the front of the subject with this middle, where it is known.
+    pub(super) fn known_front(&self, center: DVec3) -> Option<f64> {
+        self.subjects.values().find(|subject| subject.center == center)?.front_rad
     }
 
     /// Distance from a world point to the nearest matter, scene units; 0 inside. At most a little more than twice the
@@ -205,11 +223,22 @@ impl Subject {
         } else {
             corners.clone()
         };
+        let facets = Facets::of(gaussians, &solid, object.center);
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !own[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
         let half = object.half_extents;
         let half_axes = [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z].map(|axis| object.rotation * axis);
-        Self { label, center: object.center, corners, half_axes, radius: object.radius(), points, others }
+        Self {
+            label,
+            center: object.center,
+            corners,
+            half_axes,
+            radius: object.radius(),
+            points,
+            facets,
+            front_rad: None,
+            others,
+        }
     }
 
     /// A point in the axes of the box, over its half extents: inside where no component is beyond 1.

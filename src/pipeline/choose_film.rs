@@ -1,7 +1,6 @@
 use cinesplat_critic::{Candidate, Critic, CriticSettings, Film, Subjects, Weights, ranked, report_lines};
 use cinesplat_objects::ObjectSet;
 use cinesplat_operator::{Program, Solution, SolveLevel, World};
-use cinesplat_render::Renderer;
 use cinesplat_scene::Scene;
 
 use super::error::PipelineError;
@@ -62,9 +61,8 @@ pub(super) fn choose_film(
     size_px: [u32; 2],
     choice: &FilmChoice,
 ) -> Result<Critique, PipelineError> {
-    let renderer = Renderer::new(&scene.gaussians);
     let subjects = Subjects::new(&scene.gaussians, objects, &program.object_ids());
-    let critic = Critic::new((scene, &world.bounds), &renderer, &subjects, choice.critic);
+    let critic = Critic::new((scene, &world.bounds), &subjects, choice.critic);
     let films: Vec<Film> = solutions.iter().map(|solution| Film::new(world, program, solution, size_px)).collect();
     let mut candidates = Vec::new();
     for (solution, film) in solutions.iter().zip(&films) {

@@ -3,6 +3,7 @@ use super::error::PipelineError;
 use super::interpreter::Interpreter;
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
+use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{EffectMention, LanguageError, Linked, NamedObject};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
@@ -131,6 +132,10 @@ pub fn direct(
     let ids = direction.program.object_ids();
     let mut world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
     world.aspect = settings.aspect();
+    if !world.is_indoor() && settings.solve != SolveLevel::Off {
+        let subjects = Subjects::new(&scene.gaussians, &objects, &ids);
+        subjects.fronts(&world.frame)?.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
+    }
     let is_dutch = |mention: &&EffectMention| mention.call.name == DUTCH && !mention.is_forbidden;
     let dutch_deg = effects.iter().find(is_dutch).map(|_| DUTCH_DEG);
     let (level, seed) = (settings.solve, settings.seed);

@@ -1,6 +1,7 @@
 //! The critic on hand-made scenes with known answers.
 
 mod choice;
+mod fronts;
 mod limits;
 mod pictures;
 
@@ -8,7 +9,6 @@ use cinesplat::critic::{Critic, CriticSettings, Film, Picture, Review, Subjects}
 use cinesplat::geometry::{LevelFrame, Pose};
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::Sighting;
-use cinesplat::render::Renderer;
 use cinesplat::scene::{Gaussians, Scene, UpSource};
 use cinesplat::trajectory::{CameraPath, CameraState, Easing, Keyframe};
 use glam::{DQuat, DVec3, Quat, Vec3};
@@ -74,9 +74,8 @@ impl Stage {
     }
 
     fn judged<T>(&self, num_moments: usize, with: impl FnOnce(&Critic<'_>) -> T) -> T {
-        let renderer = Renderer::new(&self.scene.gaussians);
         let settings = CriticSettings { num_moments, ..CriticSettings::default() };
-        with(&Critic::new((&self.scene, &self.scene.bounds()), &renderer, &self.subjects, settings))
+        with(&Critic::new((&self.scene, &self.scene.bounds()), &self.subjects, settings))
     }
 
     /// A picture from the origin along +z.

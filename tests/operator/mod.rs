@@ -12,6 +12,7 @@ mod passes;
 mod places;
 mod proof;
 mod route;
+mod sides;
 mod viewpoints;
 
 use cinesplat::objects::{Object, ObjectSet};

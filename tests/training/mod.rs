@@ -2,5 +2,6 @@
 
 mod corpus;
 mod dataset;
+mod modifiers;
 mod phrases;
 mod train;

@@ -17,6 +17,11 @@ use cinesplat_trajectory::{CameraState, Easing, Move};
 const OPEN_PAN_DEG: (f64, f64) = (30.0, 55.0);
 const OPEN_TILT_DEG: (f64, f64) = (24.0, 42.0);
 
+/// Change of pitch that a pan may have before its ends are brought nearer to one pitch.
+const LEVEL_PAN_RAD: f64 = 0.1;
+/// Largest shift of a pan's subject from the middle of its picture, over the height of the picture.
+const LEVELED_FRAC: f64 = 0.11;
+
 /// Holds a view of the step's target.
 pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
@@ -200,6 +205,8 @@ fn turn(
             (segments, first, last)
         }
     };
+    let is_pinned = context.before.is_some() || !segments.is_empty() || stated_rad.is_some();
+    let (first, last) = if tilts { (first, last) } else { leveled(context, [first, last], is_pinned) };
     let mut segment = context.segment(vec![first, last]);
     let (along, across) = limits(sign);
     if !(whip && context.step.either_way) {
@@ -216,6 +223,19 @@ fn turn(
     }
     segments.push(segment);
     segments
+}
+
+/// The ends of a pan, brought nearer to one pitch where its subjects are at different heights: each may stand a little
+/// above or below the middle of its picture. The first end stays where it `is_pinned`.
+fn leveled(context: &StepContext, [first, last]: [CameraState; 2], is_pinned: bool) -> (CameraState, CameraState) {
+    let pitch = |state: &CameraState| context.world.frame.angles(state.pose.rotation).pitch_rad;
+    let climb_rad = pitch(&last) - pitch(&first);
+    let excess_rad = (climb_rad.abs() - LEVEL_PAN_RAD).max(0.0);
+    let most_rad = LEVELED_FRAC * first.fov_y_rad.min(last.fov_y_rad);
+    let share = if is_pinned { 1.0 } else { 0.5 };
+    let by_rad = (share * excess_rad).min(most_rad).copysign(climb_rad);
+    let first = if is_pinned { first } else { turned(context, &first, 0.0, by_rad) };
+    (first, turned(context, &last, 0.0, -by_rad))
 }
 
 /// A turn that ends on a target: from the start target, from the camera before, or from a view turned away from the

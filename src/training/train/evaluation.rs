@@ -71,6 +71,16 @@ pub struct Examination {
     pub readers: Tally,
 }
 
+impl Examination {
+    /// Adds what the director made of other sentences.
+    pub fn extend(&mut self, other: Self) {
+        self.metrics.extend(other.metrics);
+        self.certainty.extend(other.certainty);
+        self.latencies_secs.extend(other.latencies_secs);
+        self.readers.extend(other.readers);
+    }
+}
+
 /// Examines a director on the sentences of writers: those of one kind, or all.
 ///
 /// A sentence that the director rejects counts as an empty program. All things that the scene lacks count as one.

@@ -19,6 +19,12 @@ impl Tally {
         self.correct as f64 / self.total.max(1) as f64
     }
 
+    /// Adds the items of another tally.
+    pub(super) fn extend(&mut self, other: Self) {
+        self.correct += other.correct;
+        self.total += other.total;
+    }
+
     pub(crate) fn add(&mut self, is_correct: bool) {
         self.correct += usize::from(is_correct);
         self.total += 1;
@@ -194,6 +200,14 @@ impl Default for ProgramMetrics {
 }
 
 impl ProgramMetrics {
+    /// Adds the prompts of other metrics.
+    pub(super) fn extend(&mut self, other: Self) {
+        self.programs.extend(other.programs);
+        self.steps.extend(other.steps);
+        self.fields.iter_mut().zip(other.fields).for_each(|((_, own), (_, tally))| own.extend(tally));
+        self.error_cases.extend(other.error_cases);
+    }
+
     /// Adds one prompt with the programs that its readers have given it.
     pub(super) fn add(&mut self, prompt: String, readings: &[Program], understood: Program) {
         // Of several readings the one counts that the understood program equals, else the first.

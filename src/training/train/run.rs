@@ -17,6 +17,7 @@ use super::evaluation::{EvaluationSplit, evaluate_director};
 use super::examples::{Example, ExampleSampler};
 use super::gradients::{BatchSettings, TrainableNetwork};
 use super::metrics::ProgramMetrics;
+use super::modifiers::Modifiers;
 use super::optimizer::{AdamSettings, AdamW, learning_rate};
 use super::phrases::Phrases;
 use super::progress::{ProgressCallback, TrainingProgress};
@@ -90,6 +91,7 @@ pub fn train(
         corpus.extend(sentences.texts().map(str::to_owned));
     }
     corpus.extend(Phrases::embedded().texts());
+    corpus.extend(Modifiers::embedded().texts());
     let words = words(&corpus);
     let from = settings.from.as_deref().map(ModelFiles::read).transpose()?;
     let vocabulary = match &from {

@@ -1,40 +1,43 @@
-//! Sentences of the corpus as training data, alone or joined.
+//! Sentences of the corpus as training data: alone, joined, with wishes, corrections and asides.
 //!
-//! Two or three sentences of one step each, joined by a connective, give a sentence of several steps: their clauses are
-//! people's, only their order is random.
+//! What people add to a request (`no zoom`, `keep it in the middle`, `8 seconds`, `no wait, the other one`) they add to any
+//! request. So training glues the phrases of `prompts/modifiers.txt` to the sentences of the corpus, and sentences to each
+//! other as lists: the clauses are people's, only their combination is random.
 
-use cinesplat_language::Linked;
+use std::path::Path;
+
+use cinesplat_language::{Linked, Mention, link_mentions};
 use cinesplat_operator::Program;
 use rand::seq::{IndexedRandom, SliceRandom};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::corpus::{CorpusSentence, Split, Writer};
+use super::joining::join;
+use super::modifiers::{Modifier, Modifiers, Position, Wish};
+use super::slips::with_slip;
+use super::wishes::with_wish;
+use crate::corpus::{CorpusError, CorpusSentence, Split, Writer, read_folder};
 
 /// Fraction of the draws that join sentences.
-const JOINED_FRAC: f64 = 0.2;
-/// Words between joined sentences, each one token of the linked text.
-const CONNECTIVES: [&str; 14] = [
-    ", then",
-    ". then",
-    "then",
-    ", and then",
-    "and then",
-    ".",
-    ". next ,",
-    ", after that",
-    "and",
-    ",",
-    ";",
-    "- >",
-    "/",
-    ", followed by",
-];
-/// Distance between the ids of joined sentences.
-const ID_STEP: u32 = 100_000;
+const JOINED_FRAC: f64 = 0.3;
+/// Fraction of the sentences of one step that get a wish; a third of them get two.
+const WISH_FRAC: f64 = 0.3;
+/// Fraction of all draws that get a wish for the film.
+const FILM_WISH_FRAC: f64 = 0.15;
+/// Fraction of all draws with an aside before them, and the same behind.
+const ASIDE_FRAC: f64 = 0.15;
+/// Fraction of the sentences of one step that follow a request that is taken back.
+const CORRECTION_FRAC: f64 = 0.03;
+/// Fraction of the sentences of one step in which a direction is said wrongly first.
+const SLIP_FRAC: f64 = 0.06;
+/// Words between joined sentences besides those of the modifiers.
+const CONNECTIVES: [&str; 12] =
+    [", then", ". then", "then", ", and then", ".", ". next,", ", after that", "and", ",", ";", "->", "/"];
+/// Most words of a joined sentence.
+const MAX_WORDS: usize = 90;
 
-/// A sentence with its meaning, in which groups stand for their members.
-#[derive(Debug, Clone)]
+/// A sentence with its meaning, in which groups stand for their members. A phrase is a sentence without steps.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Sentence {
     pub(super) linked: Linked,
     pub(super) program: Program,
@@ -70,7 +73,7 @@ impl Sentences {
         Self { all, single }
     }
 
-    /// The texts with placeholders.
+    /// The texts with placeholders, those of the modifiers too.
     pub(super) fn texts(&self) -> impl Iterator<Item = &str> {
         self.all.iter().map(|sentence| sentence.linked.tokens_text.as_str())
     }
@@ -80,22 +83,179 @@ impl Sentences {
         self.all.len()
     }
 
-    /// A random sentence, or several of one step joined; `None` without sentences.
+    /// A random sentence as somebody might type it; `None` without sentences.
     pub(super) fn draw(&self, rng: &mut Pcg64) -> Option<Sentence> {
-        if self.single.len() < 2 || !rng.random_bool(JOINED_FRAC) {
-            return self.all.choose(rng).cloned();
+        let joined = if rng.random_bool(JOINED_FRAC) { self.draw_list(rng) } else { None };
+        let mut drawn = match joined {
+            Some(joined) => joined,
+            None => self.draw_one(rng)?,
+        };
+        let modifiers = Modifiers::embedded();
+        if rng.random_bool(FILM_WISH_FRAC) {
+            drawn = wished(drawn, &modifiers.films, rng);
         }
-        let count = if rng.random_bool(0.3) { 3 } else { 2 };
-        let mut joined = self.all.get(*self.single.choose(rng)?)?.clone();
-        own_duration(&mut joined);
-        for _ in 1..count {
-            let mut next = self.all.get(*self.single.choose(rng)?)?.clone();
-            own_duration(&mut next);
-            let connective = CONNECTIVES.choose(rng).copied().unwrap_or_default();
-            joined = join(joined, connective, &next);
+        if rng.random_bool(ASIDE_FRAC) {
+            drawn = beside(drawn, modifiers.asides.draw(Position::Before, rng), Position::Before);
         }
-        Some(joined)
+        if rng.random_bool(ASIDE_FRAC) {
+            drawn = beside(drawn, modifiers.asides.draw(Position::After, rng), Position::After);
+        }
+        Some(drawn)
     }
+
+    /// A sentence of the corpus; one of one step perhaps with wishes or slips.
+    fn draw_one(&self, rng: &mut Pcg64) -> Option<Sentence> {
+        let idx = (!self.all.is_empty()).then(|| rng.random_range(0..self.all.len()))?;
+        if self.single.binary_search(&idx).is_err() {
+            return self.all.get(idx).cloned();
+        }
+        let mut drawn = self.with_wishes(self.all.get(idx)?.clone(), rng);
+        if rng.random_bool(SLIP_FRAC) {
+            drawn = with_slip(drawn, &Modifiers::embedded().corrections, rng);
+        }
+        if rng.random_bool(CORRECTION_FRAC) {
+            drawn = self.corrected(drawn, rng);
+        }
+        Some(drawn)
+    }
+
+    fn with_wishes(&self, mut sentence: Sentence, rng: &mut Pcg64) -> Sentence {
+        if rng.random_bool(WISH_FRAC) {
+            sentence = wished(sentence, &Modifiers::embedded().steps, rng);
+            if rng.random_bool(0.33) {
+                sentence = wished(sentence, &Modifiers::embedded().steps, rng);
+            }
+        }
+        sentence
+    }
+
+    /// Another request, which the correction behind it takes back, and the sentence.
+    fn corrected(&self, sentence: Sentence, rng: &mut Pcg64) -> Sentence {
+        let wrong = self.single.choose(rng).and_then(|idx| self.all.get(*idx));
+        let mark = Modifiers::embedded().corrections.choose(rng);
+        let (Some(wrong), Some(mark)) = (wrong, mark) else { return sentence };
+        let wrong = Sentence { program: Program::default(), ..wrong.clone() };
+        let joined = join(wrong, &phrase(mark)).and_then(|(both, _)| join(both, &sentence));
+        joined.map_or(sentence, |(joined, _)| joined)
+    }
+
+    /// Two to five sentences of one step as a list; `None` without enough sentences.
+    fn draw_list(&self, rng: &mut Pcg64) -> Option<Sentence> {
+        let count = 2 + [0.5, 0.4, 0.4].iter().take_while(|more| rng.random_bool(**more)).count();
+        let form = Form::draw(rng);
+        let mut list: Option<Sentence> = None;
+        for number in 0..count {
+            let mut next = self.with_wishes(self.all.get(*self.single.choose(rng)?)?.clone(), rng);
+            own_duration(&mut next);
+            let so_far = list.as_ref().map_or(0, |list| list.linked.spans.len());
+            if so_far + next.linked.spans.len() > MAX_WORDS {
+                break;
+            }
+            let words = phrase(&form.words(number, count, &mut next, rng));
+            let begun = match list.take() {
+                Some(list) => join(list, &words)?.0,
+                None => words,
+            };
+            list = Some(join(begun, &next)?.0);
+        }
+        list
+    }
+}
+
+/// How the parts of a list are told apart.
+enum Form {
+    /// Words between the parts.
+    Links,
+    /// Number or words at each part.
+    Orders([String; 3]),
+    /// A number and this sign at each part.
+    Numbers(&'static str),
+    /// Times at each part, counted from the start of the film so far.
+    Times(std::cell::Cell<u32>),
+}
+
+impl Form {
+    fn draw(rng: &mut Pcg64) -> Self {
+        let orders = Modifiers::embedded().orders.choose(rng).cloned();
+        match rng.random_range(0..10) {
+            0 => Self::Numbers([".", ")", ":", " -"][rng.random_range(0..4)]),
+            1 => Self::Times(0.into()),
+            2 => orders.map_or(Self::Links, Self::Orders),
+            _ => Self::Links,
+        }
+    }
+
+    /// Words before part `number`, whose step they may cut to or time.
+    fn words(&self, number: usize, count: usize, part: &mut Sentence, rng: &mut Pcg64) -> String {
+        let modifiers = Modifiers::embedded();
+        let Some(step) = part.program.steps.first_mut() else { return String::new() };
+        match self {
+            Self::Links if number == 0 => String::new(),
+            Self::Links if rng.random_bool(0.12) && !modifiers.cuts.is_empty() => {
+                step.cut = true;
+                modifiers.cuts.choose(rng).cloned().unwrap_or_default()
+            }
+            Self::Links if rng.random_bool(0.5) => modifiers.links.choose(rng).cloned().unwrap_or_default(),
+            Self::Links => CONNECTIVES.choose(rng).copied().unwrap_or_default().to_owned(),
+            Self::Orders([first, ..]) if number == 0 => first.clone(),
+            Self::Orders([.., last]) if number + 1 == count => format!(", {last}"),
+            Self::Orders([_, next, _]) => format!(", {next}"),
+            Self::Numbers(sign) => format!("{}{}{sign}", if number == 0 { "" } else { ". " }, number + 1),
+            Self::Times(now) if step.duration_secs.is_none() => {
+                let secs = rng.random_range(2..=8);
+                let (start, end) = (now.get(), now.get() + secs);
+                now.set(end);
+                step.duration_secs = Some(f64::from(secs));
+                let clock = |at: u32| format!("{}:{:02}", at / 60, at % 60);
+                format!("{}{}-{}", if number == 0 { "" } else { ", " }, clock(start), clock(end))
+            }
+            Self::Times(_) => ",".to_owned(),
+        }
+    }
+}
+
+/// The words without steps; an empty sentence for words that are none.
+fn phrase(text: &str) -> Sentence {
+    let padded = link_mentions(&format!("{text} x"), &[] as &[Mention]).unwrap_or_default();
+    let mut linked = padded;
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let kept = words.len().saturating_sub(1);
+    linked.tokens_text = words[..kept].join(" ");
+    linked.spans.truncate(kept);
+    Sentence { linked, ..Sentence::default() }
+}
+
+/// The sentence with one of the wishes, or as it is where the wish does not fit.
+fn wished(sentence: Sentence, wishes: &[Modifier], rng: &mut Pcg64) -> Sentence {
+    let position = if rng.random_bool(0.25) { Position::Before } else { Position::After };
+    let Some(wish) = wishes.choose(rng).and_then(|modifier| modifier.draw(position, rng)) else { return sentence };
+    let words = Sentence { linked: wish.linked.clone(), ..Sentence::default() };
+    let joined = match position {
+        Position::Before => join(words, &sentence).map(|(joined, _)| (joined, 0)),
+        Position::After => join(sentence.clone(), &words),
+    };
+    let Some((mut joined, id_offset)) = joined else { return sentence };
+    let Some(program) = with_wish(&joined.program, &wish, [1 + id_offset, 2 + id_offset]) else { return sentence };
+    joined.program = program;
+    if !wish.step.is_empty() {
+        let whole =
+            joined.linked.spans.first().zip(joined.linked.spans.last()).map(|([start, _], [_, end])| [*start, *end]);
+        if let [step] = &mut joined.program.steps[..] {
+            step.words = step.words.and(whole);
+        }
+    }
+    joined
+}
+
+/// The sentence with a phrase that means nothing to the camera.
+fn beside(sentence: Sentence, wish: Option<Wish>, position: Position) -> Sentence {
+    let Some(wish) = wish else { return sentence };
+    let words = Sentence { linked: wish.linked, ..Sentence::default() };
+    let joined = match position {
+        Position::Before => join(words, &sentence),
+        Position::After => join(sentence.clone(), &words),
+    };
+    joined.map_or(sentence, |(joined, _)| joined)
 }
 
 fn sentence(sentence: &CorpusSentence) -> Sentence {
@@ -113,38 +273,13 @@ fn own_duration(sentence: &mut Sentence) {
     }
 }
 
-/// `first`, the connective, then `second` with other ids.
-fn join(mut first: Sentence, connective: &str, second: &Sentence) -> Sentence {
-    let linked = &mut first.linked;
-    let trimmed = linked.tokens_text.trim_end_matches([' ', '.', '!']).len();
-    let num_words = linked.tokens_text[..trimmed].split(' ').count();
-    linked.tokens_text.truncate(trimmed);
-    linked.spans.truncate(num_words);
-    let offset = linked.spans.last().map_or(0, |[_, end]| *end) + 1;
-    for (nth, word) in connective.split(' ').enumerate() {
-        linked.tokens_text.push(' ');
-        linked.tokens_text.push_str(word);
-        linked.spans.push([offset + nth, offset + nth + 1]);
-    }
-    let offset = offset + 16;
-    let (num_slots, num_quantities) = (linked.slots.len(), linked.quantities.len());
-    for word in second.linked.tokens_text.split(' ') {
-        let shifted = |prefix: &str, by: usize| {
-            let number: usize = word.strip_prefix(prefix)?.strip_suffix('>')?.parse().ok()?;
-            Some(format!("{prefix}{}>", number + by))
-        };
-        let word = shifted("<obj-", num_slots).or_else(|| shifted("<qty-", num_quantities)).unwrap_or(word.to_owned());
-        linked.tokens_text.push(' ');
-        linked.tokens_text.push_str(&word);
-    }
-    linked.spans.extend(second.linked.spans.iter().map(|span| span.map(|byte| byte + offset)));
-    let id_offset = ID_STEP * (linked.slots.iter().max().copied().unwrap_or(0) / ID_STEP + 1);
-    linked.slots.extend(second.linked.slots.iter().map(|id| id + id_offset));
-    linked.quantities.extend(second.linked.quantities.iter().copied());
-    let program = second.program.clone().with_ids(&|ids| ids.iter().map(|id| id + id_offset).collect());
-    for mut step in program.steps {
-        step.words = step.words.map(|words| words.map(|byte| byte + offset));
-        first.program.steps.push(step);
-    }
-    first
+/// Sentences as training draws them: words with placeholders, and the program.
+///
+/// # Errors
+/// [`CorpusError`] of the first file of `folder` that cannot be read.
+pub fn drawn_sentences(folder: &Path, count: usize, seed: u64) -> Result<Vec<(Linked, Program)>, CorpusError> {
+    let sentences = Sentences::of(&read_folder(folder)?, None, seed);
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let drawn = std::iter::repeat_with(|| sentences.draw(&mut rng)).map_while(|drawn| drawn);
+    Ok(drawn.take(count).map(|Sentence { linked, program, .. }| (linked, program)).collect())
 }

@@ -109,19 +109,25 @@ fn rows_of(
     split: Split,
     writers: &[&Writer],
 ) -> Result<Vec<Row>, Failure> {
-    let kinds = SentenceKind::VARIANTS.iter().copied().map(Some).chain([None]);
     let mut rows = Vec::new();
-    for kind in kinds {
-        for mentions in Mentions::VARIANTS.iter().copied() {
-            let examination = examine(director, writers, kind, mentions)?;
-            let kind = kind.map_or("all", |kind| match kind {
-                SentenceKind::Single => "one clause",
-                SentenceKind::Several => "several clauses",
-                SentenceKind::Free => "free",
-            });
-            rows.push(Row { model: model.display().to_string(), num_bytes, split, kind, mentions, examination });
+    let mut all = Mentions::VARIANTS.iter().map(|_| Examination::default()).collect::<Vec<_>>();
+    let row = |kind, mentions, examination| {
+        let model = model.display().to_string();
+        Row { model, num_bytes, split, kind, mentions, examination }
+    };
+    for kind in SentenceKind::VARIANTS.iter().copied() {
+        let name = match kind {
+            SentenceKind::Single => "one clause",
+            SentenceKind::Several => "several clauses",
+            SentenceKind::Free => "free",
+        };
+        for (mentions, all) in Mentions::VARIANTS.iter().copied().zip(&mut all) {
+            let examination = examine(director, writers, Some(kind), mentions)?;
+            all.extend(examination.clone());
+            rows.push(row(name, mentions, examination));
         }
     }
+    rows.extend(Mentions::VARIANTS.iter().copied().zip(all).map(|(mentions, all)| row("all", mentions, all)));
     Ok(rows)
 }
 

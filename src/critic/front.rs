@@ -1,0 +1,82 @@
+//! The front of a lone thing: the side that shows the most.
+
+use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
+use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer};
+use glam::DVec3;
+
+use super::subjects::{Subject, Subjects};
+
+/// Directions from which a thing is looked at.
+const NUM_SIDES: usize = 16;
+/// Height of the camera above the thing's middle over its distance.
+const RISE: f64 = 0.15;
+/// Distance of the camera over the thing's radius, and the field of view that holds it.
+const DISTANCE: f64 = 3.0;
+const FOV_DEG: f64 = 40.0;
+/// Pixels of a picture's side.
+const SIZE_PX: u32 = 96;
+/// Transmittance below which a pixel shows the thing.
+const SOLID: f32 = 0.3;
+/// Weight of brightness beside detail.
+const BRIGHTNESS: f64 = 0.1;
+/// Worth of the front over the mean of all sides from which a thing has one.
+const LEAST_CONTRAST: f64 = 1.12;
+
+impl Subjects {
+    /// The fronts of the subjects that have one: the id of the object, and the level unit direction from its middle.
+    ///
+    /// Every thing is rendered alone from 16 sides. Its front is the side with the most detail (change of luminance from
+    /// pixel to pixel) and light, where it stands out from the others: a guitar has strings, its back is plain wood.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::render`].
+    pub fn fronts(&self, frame: &LevelFrame) -> Result<Vec<(u32, DVec3)>, RenderError> {
+        let mut fronts = Vec::new();
+        for subject in &self.subjects {
+            fronts.extend(front(subject, frame)?.map(|direction| (subject.id, direction)));
+        }
+        Ok(fronts)
+    }
+}
+
+fn front(subject: &Subject, frame: &LevelFrame) -> Result<Option<DVec3>, RenderError> {
+    let renderer = Renderer::new(&subject.cloud);
+    let direction = |side: usize| frame.direction(std::f64::consts::TAU * side as f64 / NUM_SIDES as f64);
+    let mut worths = Vec::with_capacity(NUM_SIDES);
+    for side in 0..NUM_SIDES {
+        worths.push(worth(&renderer, subject, direction(side), frame.up)?);
+    }
+    // A side counts with its neighbors: the front is the middle of what is worth seeing.
+    let at = |side: usize, by: usize| worths[(side + NUM_SIDES + by - 1) % NUM_SIDES];
+    let smooth: Vec<f64> = (0..NUM_SIDES).map(|i| 0.25 * at(i, 0) + 0.5 * at(i, 1) + 0.25 * at(i, 2)).collect();
+    let mean = smooth.iter().sum::<f64>() / NUM_SIDES as f64;
+    let best = (0..NUM_SIDES).max_by(|a, b| smooth[*a].total_cmp(&smooth[*b])).unwrap_or(0);
+    Ok((mean > 0.0 && smooth[best] > LEAST_CONTRAST * mean).then(|| direction(best)))
+}
+
+/// Detail and light of one side, over the pixels that show the thing.
+fn worth(renderer: &Renderer<'_>, subject: &Subject, toward: DVec3, up: DVec3) -> Result<f64, RenderError> {
+    let distance = DISTANCE * subject.radius;
+    let eye = subject.center + (toward + up * RISE).normalize_or_zero() * distance;
+    let Ok(pose) = Pose::look_at(eye, subject.center, up, None) else { return Ok(0.0) };
+    let intrinsics = Intrinsics::from_fov_y(SIZE_PX, SIZE_PX, FOV_DEG.to_radians());
+    let settings = RenderSettings { quality: Quality::Draft, near: 0.01 * distance, ..RenderSettings::default() };
+    Ok(shown(&renderer.render(&Camera { pose, intrinsics }, &settings)?))
+}
+
+fn shown(frame: &Frame) -> f64 {
+    let width = frame.width as usize;
+    let luminance =
+        |i: usize| f64::from(0.2126 * frame.rgb[3 * i] + 0.7152 * frame.rgb[3 * i + 1] + 0.0722 * frame.rgb[3 * i + 2]);
+    let is_solid = |i: usize| frame.transmittance[i] < SOLID;
+    let (mut num, mut change, mut light) = (0.0, 0.0, 0.0);
+    for i in 0..frame.transmittance.len().saturating_sub(width + 1) {
+        let is_inside = (i + 1) % width != 0 && is_solid(i) && is_solid(i + 1) && is_solid(i + width);
+        if is_inside {
+            num += 1.0;
+            change += (luminance(i + 1) - luminance(i)).abs() + (luminance(i + width) - luminance(i)).abs();
+            light += luminance(i);
+        }
+    }
+    if num > 0.0 { (change + BRIGHTNESS * light) / num } else { 0.0 }
+}

@@ -1,0 +1,44 @@
+//! The front of a lone thing.
+
+use cinesplat::critic::Subjects;
+use cinesplat::geometry::LevelFrame;
+use cinesplat::objects::{Object, ObjectSet};
+use cinesplat::scene::Gaussians;
+use glam::{DVec3, Quat, Vec3};
+
+/// A closed box whose sides are gray except one, which is striped.
+fn striped(toward: Option<DVec3>) -> (Gaussians, ObjectSet) {
+    let mut scene = Gaussians::default();
+    let steps = || (-12..=12).map(|i| f64::from(i) / 25.0);
+    for normal in [DVec3::X, -DVec3::X, DVec3::Z, -DVec3::Z] {
+        let across = DVec3::Y.cross(normal);
+        for (x, y) in steps().flat_map(|x| steps().map(move |y| (x, y))) {
+            let is_dark = Some(normal) == toward && (x * 25.0).rem_euclid(6.0) < 3.0;
+            scene.means.push((0.5 * normal + across * x + DVec3::Y * y).as_vec3());
+            scene.scales.push(Vec3::new(0.025, 0.025, 0.001));
+            scene.rotations.push(Quat::from_rotation_arc(Vec3::Z, normal.as_vec3()));
+            scene.opacities.push(0.99);
+            scene.sh_dc.push((Vec3::splat(if is_dark { 0.1 } else { 0.6 }) - 0.5) / 0.282_094_8);
+        }
+    }
+    let objects = vec![Object::from_box(7, "box", DVec3::ZERO, DVec3::splat(0.6))];
+    (scene, ObjectSet { objects, labels: Vec::new() })
+}
+
+#[test]
+fn the_striped_side_of_a_box_is_its_front() {
+    let frame = LevelFrame::new(DVec3::Y).unwrap();
+    for toward in [DVec3::X, -DVec3::X, DVec3::Z, -DVec3::Z] {
+        let (scene, objects) = striped(Some(toward));
+        let fronts = Subjects::new(&scene, &objects, &[7]).fronts(&frame).unwrap();
+        let [(7, front)] = fronts[..] else { panic!("{fronts:?}") };
+        assert!(front.angle_between(toward).to_degrees() < 25.0, "striped toward {toward}, front {front}");
+    }
+}
+
+#[test]
+fn a_box_with_equal_sides_has_no_front() {
+    let (scene, objects) = striped(None);
+    let frame = LevelFrame::new(DVec3::Y).unwrap();
+    assert_eq!(Subjects::new(&scene, &objects, &[7]).fronts(&frame).unwrap(), []);
+}

@@ -1,0 +1,65 @@
+//! Which side of a subject a film shows where the words leave it open: the captured one, and the front of a lone thing.
+
+use cinesplat::objects::{Object, ObjectSet};
+use cinesplat::operator::{Framing, Step, World};
+use cinesplat::scene::Gaussians;
+use cinesplat::trajectory::Move;
+use glam::{DVec3, Quat, Vec3};
+
+use super::{add, film, solved, wall};
+
+/// The half of a ball of radius 0.5 about the origin whose azimuth is within a quarter turn of a direction, as flat Gaussians.
+fn half_shell(toward: DVec3) -> (Gaussians, ObjectSet) {
+    let mut gaussians = Gaussians::default();
+    for i in 0..2000 {
+        let height = 1.0 - 2.0 * (f64::from(i) + 0.5) / 2000.0;
+        let turn = f64::from(i) * 2.399_963;
+        let normal = DVec3::new(
+            (1.0 - height * height).sqrt() * turn.cos(),
+            height,
+            (1.0 - height * height).sqrt() * turn.sin(),
+        );
+        if normal.dot(toward) > 0.0 {
+            let rotation = Quat::from_rotation_arc(Vec3::Z, normal.as_vec3());
+            add(&mut gaussians, 0.5 * normal, Vec3::new(0.03, 0.03, 0.002), rotation, 0.95);
+        }
+    }
+    let ball = Object::from_box(1, "ball", DVec3::ZERO, DVec3::splat(0.5));
+    let objects = vec![Object { num_gaussians: gaussians.len(), ..ball }];
+    (gaussians, ObjectSet { objects, labels: Vec::new() })
+}
+
+fn still_of(id: u32) -> Vec<Step> {
+    vec![Step { end: Framing { subjects: vec![id], ..Framing::default() }, ..Step::of(Move::Static) }]
+}
+
+#[test]
+fn a_thing_captured_from_one_side_is_filmed_from_there() {
+    for toward in [DVec3::X, DVec3::Z, -DVec3::X, -DVec3::Z] {
+        let (gaussians, objects) = half_shell(toward);
+        let world = World::new(&gaussians, DVec3::Y, &objects, &[1]).unwrap();
+        let eye = film(&solved(&world, still_of(1)))[0].pose.position;
+        assert!(eye.dot(toward) > 0.0, "captured from {toward}, filmed from {eye}");
+    }
+}
+
+#[test]
+fn a_lone_thing_is_filmed_from_its_front() {
+    let mut gaussians = Gaussians::default();
+    for axis in 0..3 {
+        let [u, v] = [DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]];
+        for side in [-0.5, 0.5] {
+            wall(&mut gaussians, DVec3::AXES[axis] * side - 0.5 * (u + v), u, v);
+        }
+    }
+    let cube = Object::from_box(1, "cube", DVec3::ZERO, DVec3::splat(0.5));
+    let objects = vec![Object { num_gaussians: gaussians.len(), ..cube }];
+    let objects = ObjectSet { objects, labels: Vec::new() };
+    for front in [DVec3::X, -DVec3::X, DVec3::Z] {
+        let mut world = World::new(&gaussians, DVec3::Y, &objects, &[1]).unwrap();
+        world.set_front(1, front);
+        let eye = film(&solved(&world, still_of(1)))[0].pose.position;
+        let off_deg = eye.with_y(0.0).angle_between(front).to_degrees();
+        assert!(off_deg < 75.0, "front {front}, filmed {off_deg} degrees off");
+    }
+}
