@@ -23,7 +23,7 @@ FILM_SCENES := $(if $(wildcard $(DATA)/kitchen/scene.spz),$(DATA)/kitchen/scene.
 	--cameras $(DATA)/golden/kitchen.cameras.json --cameras auto,synth:demo)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps build demo test train bench faults check-shots gallery clean
+.PHONY: help deps build demo test train bench faults check-shots check-exchange gallery clean
 
 help:
 	@sed -n 's/^# //p' $(firstword $(MAKEFILE_LIST)) | sed -n '1,/^make   /p'
@@ -96,6 +96,17 @@ check-shots: build
 			$(CHECKER) --cases $(CASES) --paths target/shots/$$by-$$solve; \
 		done; \
 	done || true
+
+# Opens exports in the programs that they are for, and compares `eval --like-evo` with evo on the data of evo's repository.
+# Prints the tables of tests/exchange/README.md. Needs PyPI and GitHub; takes half an hour.
+EVO_DATA := target/exchange/evo/test/data
+check-exchange: build
+	test -x target/exchange/venv/bin/python || python3 -m venv target/exchange/venv
+	target/exchange/venv/bin/pip install -q evo==1.38.1 pycolmap usd-core pygltflib
+	test -d target/exchange/evo || git clone -q --depth 1 https://github.com/MichaelGrupp/evo target/exchange/evo
+	$(BIN) plan $(DEMO_SCENE) -p "$(DEMO_PROMPT)" -o target/exchange/demo.shot.json --overwrite
+	target/exchange/venv/bin/python tests/exchange/open_exports.py $(BIN) target/exchange/demo.shot.json
+	target/exchange/venv/bin/python tests/exchange/evo_figures.py $(BIN) $(EVO_DATA)
 
 # The animated picture of the README, from the demo film. Needs the program ffmpeg.
 gallery: demo

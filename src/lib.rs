@@ -99,8 +99,8 @@
 //! | things | [`objects`]: views, masks, alpha shapes, clouds | |
 //! | pictures | [`render`], [`video`] (feature `video`) | FFmpeg, in `video` alone |
 //! | formats | [`scene`]: Gaussians; [`export`]: camera paths | |
-//! | paths | [`trajectory`]: keyframes, splines, timing | |
-//! | ground | [`geometry`]: poses, cameras; [`plot`]: charts as SVG; [`files`]: atomic output | |
+//! | paths, drawings | [`trajectory`]: keyframes, splines, timing; [`plot`]: charts as SVG, PNG and PDF | |
+//! | ground | [`geometry`]: poses, cameras; [`files`]: atomic output | |
 //!
 //! The program `cinesplat` is built on this crate with the feature `cli`. `tests/architecture.rs` checks the table.
 //!

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 /// Rows of the table from the bottom up. A crate depends only on crates of rows below its own.
 const ROWS: [&[&str]; 15] = [
-    &["files", "geometry", "plot"],
-    &["trajectory"],
+    &["files", "geometry"],
+    &["trajectory", "plot"],
     &["scene", "export"],
     &["render", "video"],
     &["objects"],

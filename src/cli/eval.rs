@@ -6,14 +6,15 @@ use glam::DVec3;
 
 use super::choice::choice;
 use super::failure::Failure;
-use super::{console, eval_folders, formats, heading};
+use super::{console, eval_folders, eval_paths, figures, heading};
 use cinesplat::evaluation::{
-    Align, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, PairSettings, Relation, SubjectSphere,
-    Trajectory, evaluate, motion_text, plot_svg, summary_csv, summary_json, summary_text,
+    Align, BatchRow, Convention, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, MotionFilter,
+    PairSettings, Reduction, Relation, SubjectSphere, Trajectory, error_figure, evaluate, motion_text, path_figure,
+    result_latex, result_markdown, summary_csv, summary_json, summary_text,
 };
-use cinesplat::export::{self, Format, PoseTrack};
+use cinesplat::export::Format;
 
-/// Compare two camera paths: absolute and relative pose error
+/// Compare camera paths: absolute and relative pose error
 ///
 /// Reads every format that `import` reads. Prints statistics of the error over matched poses.
 #[derive(Debug, clap::Args)]
@@ -22,18 +23,18 @@ use cinesplat::export::{self, Format, PoseTrack};
 Examples:
   cinesplat eval groundtruth.txt estimate.txt --align se3
   cinesplat eval plan.shot.json flown.tum --rpe --delta 1 --unit m --relation angle_deg --json
+  cinesplat eval groundtruth.txt orb.txt dso.txt --align sim3 --plot-errors errors.pdf --table latex
   cinesplat eval planned/ flown/ --align se3 --csv > all.csv
-  cinesplat eval a.shot.json b.shot.json --subject 0,1,-2,0.4 --motion
 Paths are aligned only with --align. A shot.json is sampled at the frames of its film. Of two folders, files with the
 same name up to the first dot are compared.")]
 pub(super) struct Args {
     /// Reference path, or a folder of paths
     #[arg(value_name = "REF")]
     reference: PathBuf,
-    /// Path to compare with it, or a folder of paths
-    #[arg(value_name = "EST")]
-    estimate: PathBuf,
-    /// Format of both files [default: by their contents]
+    /// Paths to compare with it, or a folder of paths
+    #[arg(value_name = "EST", required = true)]
+    estimates: Vec<PathBuf>,
+    /// Format of all files [default: by their contents]
     #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]
     from: Option<Format>,
     /// How the estimate is aligned to the reference first
@@ -57,22 +58,43 @@ pub(super) struct Args {
     /// Measure --delta along the reference instead of the estimate
     #[arg(long, hide_short_help = true, requires = "rpe")]
     pairs_from_reference: bool,
+    /// Choose as evo where this program chooses otherwise
+    ///
+    /// A pose may be matched with two others, interpolation keeps only times with a pose nearby, and positions alone
+    /// determine the alignment of nearly straight paths.
+    #[arg(long)]
+    like_evo: bool,
     /// Number of first poses used for the alignment [default: all]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", hide_short_help = true)]
     align_poses: Option<usize>,
-    /// Interpolate the estimate at the reference's times [default: match nearest poses]
+    /// Interpolate the path with more poses at the times of the other [default: match nearest poses]
     #[arg(long)]
     interpolate: bool,
+    /// First time to use, on the clock of the files
+    #[arg(long, value_name = "SECS", hide_short_help = true, allow_hyphen_values = true)]
+    start: Option<f64>,
+    /// Last time to use
+    #[arg(long, value_name = "SECS", hide_short_help = true, allow_hyphen_values = true)]
+    end: Option<f64>,
+    /// Use at most N poses of each file, evenly chosen
+    #[arg(long, value_name = "N", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..))]
+    downsample: Option<u32>,
+    /// Use only poses this far, or turned this much, from the one before
+    #[arg(long, value_name = "DIST,DEG", hide_short_help = true, value_parser = parse_motion_filter)]
+    motion_filter: Option<MotionFilter>,
+    /// Compare all estimates as one path, in order of their times
+    #[arg(long, hide_short_help = true)]
+    merge: bool,
     /// Seconds added to the estimate's times
     #[arg(long, value_name = "SECS", default_value_t = 0.0, allow_hyphen_values = true)]
     time_offset: f64,
     /// Diameter for relative errors, scene units [default: the reference's]
-    #[arg(long, value_name = "D")]
+    #[arg(long, value_name = "D", hide_short_help = true)]
     diameter: Option<f64>,
     /// Compare the framing of a sphere: center and radius, scene units
     #[arg(long, value_name = "X,Y,Z,R", value_parser = parse_subject, allow_hyphen_values = true)]
     subject: Option<SubjectSphere>,
-    /// Also describe the motion of both paths: smoothness, motion tags, tables of poses
+    /// Also describe the motion of the paths: moves, smoothness, motion tags, tables of poses
     #[arg(long)]
     motion: bool,
     /// Largest time difference of matched poses in seconds
@@ -81,32 +103,108 @@ pub(super) struct Args {
     /// Print one JSON object instead of lines
     #[arg(long, help_heading = heading::OUTPUT)]
     json: bool,
-    /// Print a CSV table instead of lines; for folders
+    /// Print a CSV table instead of lines
     #[arg(long, help_heading = heading::OUTPUT, conflicts_with = "json")]
     csv: bool,
-    /// Plot both paths and their x, y, z, roll, pitch and yaw
-    #[arg(long, value_name = "OUT.SVG", help_heading = heading::OUTPUT)]
+    /// Print a table for a text instead of lines
+    #[arg(long, value_name = "LANGUAGE", help_heading = heading::OUTPUT, conflicts_with_all = ["json", "csv"], value_parser = choice::<TableLanguage>())]
+    table: Option<TableLanguage>,
+    /// Plot the paths and their x, y, z, roll, pitch and yaw (.svg, .png or .pdf)
+    #[arg(long, value_name = "FIGURE", help_heading = heading::OUTPUT)]
     plot: Option<PathBuf>,
+    /// Plot the errors: as a map, over time, per axis, their distribution and their growth
+    #[arg(long, value_name = "FIGURE", help_heading = heading::OUTPUT)]
+    plot_errors: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
 }
 
+/// What a table for a text is written in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+enum TableLanguage {
+    /// Markdown.
+    Markdown,
+    /// LaTeX with the package booktabs.
+    Latex,
+}
+
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        if let Some(plot) = &self.plot {
-            self.overwrite.check(plot)?;
-        }
+        let figures = || self.plot.iter().chain(&self.plot_errors);
+        figures().try_for_each(|figure| figures::check(figure, self.overwrite))?;
         let settings = self.settings()?;
-        if self.reference.is_dir() && self.estimate.is_dir() {
-            return self.run_folders(&settings);
+        if let [estimate] = &self.estimates[..]
+            && self.reference.is_dir()
+            && estimate.is_dir()
+        {
+            return self.run_folders(estimate, &settings);
         }
-        let (reference, estimate) = (self.read(&self.reference)?, self.read(&self.estimate)?);
-        let evaluation = evaluate(&reference, &estimate, &settings)?;
-        if let Some(plot) = &self.plot {
-            let paths = [("reference", &evaluation.matches.reference), ("estimate", &evaluation.matches.estimate)];
-            self.overwrite.write(plot, plot_svg(&title(&evaluation), &paths, &[]).as_bytes())?;
-            console::note(&format!("{}: both paths", plot.display()));
+        let reference = self.read(&self.reference)?;
+        let rows = self.compare(&reference, &settings)?;
+        self.draw(&rows)?;
+        let is_table = self.csv || self.table.is_some();
+        match (&rows[..], is_table) {
+            ([BatchRow { outcome: Ok(_), .. }], false) => {}
+            _ => return self.print_rows(&rows),
         }
+        for evaluation in rows.iter().filter_map(|row| row.outcome.as_ref().ok()) {
+            self.print(evaluation)?;
+        }
+        Ok(())
+    }
+
+    /// The comparison of each estimate, or of all as one path. Of one estimate alone an error ends the command.
+    fn compare(&self, reference: &Trajectory, settings: &EvalSettings) -> Result<Vec<BatchRow>, Failure> {
+        let paths = self.estimates.iter().map(|path| self.read(path)).collect::<Result<Vec<_>, _>>()?;
+        let named: Vec<(String, Trajectory)> = if self.merge {
+            vec![(self.names().join(" + "), Trajectory::merged(&paths)?)]
+        } else {
+            self.names().into_iter().zip(paths).collect()
+        };
+        let is_alone = named.len() == 1;
+        let mut rows = Vec::with_capacity(named.len());
+        for (name, estimate) in named {
+            let outcome = evaluate(reference, &estimate, settings);
+            if is_alone && let Err(error) = outcome {
+                return Err(error.into());
+            }
+            rows.push(BatchRow { name, outcome });
+        }
+        Ok(rows)
+    }
+
+    /// The estimates' file names, or their paths where two have the same name.
+    fn names(&self) -> Vec<String> {
+        let short: Vec<String> = self.estimates.iter().map(|path| short_name(path)).collect();
+        let is_shared = |name: &String| short.iter().filter(|other| *other == name).count() > 1;
+        let name = |(path, name): (&PathBuf, &String)| {
+            if is_shared(name) { path.display().to_string() } else { name.clone() }
+        };
+        self.estimates.iter().zip(&short).map(name).collect()
+    }
+
+    /// Writes the figures.
+    fn draw(&self, rows: &[BatchRow]) -> Result<(), Failure> {
+        let compared: Vec<(&str, &Evaluation)> =
+            rows.iter().filter_map(|row| Some((row.name.as_str(), row.outcome.as_ref().ok()?))).collect();
+        let (Some((_, first)), reference_name) = (compared.first(), short_name(&self.reference)) else {
+            return Ok(());
+        };
+        if let Some(figure) = &self.plot {
+            let estimates = compared.iter().map(|(name, found)| (*name, &found.matches.estimate));
+            let paths: Vec<(&str, &Trajectory)> =
+                std::iter::once((reference_name.as_str(), &first.matches.reference)).chain(estimates).collect();
+            figures::write(figure, &path_figure(&first.title(), &paths, &[]), "the paths", self.overwrite)?;
+        }
+        if let Some(figure) = &self.plot_errors {
+            figures::write(figure, &error_figure(&reference_name, &compared), "the errors", self.overwrite)?;
+        }
+        Ok(())
+    }
+
+    /// Prints one comparison.
+    fn print(&self, evaluation: &Evaluation) -> Result<(), Failure> {
         if self.json {
             let json = if self.motion { evaluation.to_json_with_motion() } else { evaluation.to_json() };
             return console::data(&json);
@@ -114,7 +212,7 @@ impl Args {
         for line in &evaluation.notes {
             console::note(&format!("note: {line}"));
         }
-        console::text(&text(&evaluation))?;
+        console::text(&text(evaluation))?;
         if self.motion {
             console::text(&motion_text("reference", &evaluation.matches.reference))?;
             console::text(&motion_text("estimate", &evaluation.matches.estimate))?;
@@ -122,20 +220,35 @@ impl Args {
         Ok(())
     }
 
+    /// Prints several comparisons as a table.
+    fn print_rows(&self, rows: &[BatchRow]) -> Result<(), Failure> {
+        for (row, found) in rows.iter().filter_map(|row| Some((row, row.outcome.as_ref().ok()?))) {
+            found.notes.iter().for_each(|line| console::note(&format!("note: {}: {line}", row.name)));
+        }
+        match (self.json, self.csv, self.table) {
+            (true, ..) => console::data(&summary_json(rows))?,
+            (_, true, _) => console::data(&summary_csv(rows))?,
+            (.., Some(TableLanguage::Markdown)) => console::data(&result_markdown(rows))?,
+            (.., Some(TableLanguage::Latex)) => console::data(&result_latex(rows))?,
+            _ => console::text(&summary_text(rows))?,
+        }
+        if self.motion && !self.json && !self.csv && self.table.is_none() {
+            for (row, found) in rows.iter().filter_map(|row| Some((row, row.outcome.as_ref().ok()?))) {
+                console::text(&motion_text(&row.name, &found.matches.estimate))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Prints a table over pairs of files.
-    fn run_folders(&self, settings: &EvalSettings) -> Result<(), Failure> {
-        if self.plot.is_some() || self.motion {
+    fn run_folders(&self, estimate: &Path, settings: &EvalSettings) -> Result<(), Failure> {
+        if self.plot.is_some() || self.plot_errors.is_some() || self.motion {
             return Err(Failure::usage(
-                "--plot and --motion compare two files, found two folders",
-                "give two files, or leave these flags out",
+                "--plot, --plot-errors and --motion compare files, found two folders",
+                "give files, or leave these flags out",
             ));
         }
-        let rows = eval_folders::compare([&self.reference, &self.estimate], settings, |path| self.read(path))?;
-        match (self.json, self.csv) {
-            (true, _) => console::data(&summary_json(&rows)),
-            (_, true) => console::data(&summary_csv(&rows)),
-            _ => console::text(&summary_text(&rows)),
-        }
+        self.print_rows(&eval_folders::compare([&self.reference, estimate], settings, |path| self.read(path))?)
     }
 
     fn settings(&self) -> Result<EvalSettings, Failure> {
@@ -147,21 +260,21 @@ impl Args {
             max_diff_secs: self.max_diff,
             estimate_offset_secs: self.time_offset,
             matching: if self.interpolate { Matching::Interpolated } else { Matching::Nearest },
+            convention: if self.like_evo { Convention::Evo } else { Convention::Cinesplat },
             scene_diameter: self.diameter,
             subject: self.subject,
         })
     }
 
     fn read(&self, path: &Path) -> Result<Trajectory, Failure> {
-        let in_file = |error| Failure::from(error).in_file(path);
-        let imported = export::read(path, self.from).map_err(in_file)?;
-        formats::note_doubt(path, imported.doubt.as_ref());
-        console::file_warnings(path, &imported.notes);
-        let track = match &imported.shot {
-            Some(shot) => PoseTrack::sampled(shot, None)?,
-            None => imported.track,
+        let track = eval_paths::read(path, self.from)?;
+        let reduction = Reduction {
+            start_secs: self.start,
+            end_secs: self.end,
+            max_poses: self.downsample.map(|poses| poses as usize),
+            motion: self.motion_filter,
         };
-        Ok(Trajectory::from(&track))
+        reduction.apply(&Trajectory::from(&track)).map_err(|error| Failure::from(error).in_file(path))
     }
 
     fn metric(&self) -> Result<Metric, Failure> {
@@ -174,20 +287,14 @@ impl Args {
     }
 }
 
-fn title(evaluation: &Evaluation) -> String {
-    let settings = &evaluation.settings;
-    let metric = match settings.metric {
-        Metric::Ape => "absolute pose error",
-        Metric::Rpe { .. } => "relative pose error",
-    };
-    let (relation, align) = (settings.relation.as_ref(), settings.align.as_ref());
-    format!("{metric}, {relation}, align {align}, {} errors", evaluation.errors.len())
+fn short_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 fn text(evaluation: &Evaluation) -> String {
     let settings = &evaluation.settings;
     let unit = settings.relation.unit();
-    let mut text = title(evaluation) + "\n";
+    let mut text = evaluation.title() + "\n";
     for (name, value) in evaluation.statistics.named() {
         let _ = writeln!(text, "{name:<7} {value:.9} {}", if name == "sse" { "" } else { unit });
     }
@@ -210,7 +317,7 @@ fn text(evaluation: &Evaluation) -> String {
     text.lines().fold(String::new(), |text, line| text + line.trim_end() + "\n")
 }
 
-fn parse_subject(text: &str) -> Result<SubjectSphere, String> {
+pub(super) fn parse_subject(text: &str) -> Result<SubjectSphere, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
     let sphere = numbers
         .ok()
@@ -218,4 +325,14 @@ fn parse_subject(text: &str) -> Result<SubjectSphere, String> {
         .map(|[x, y, z, radius]| SubjectSphere { center: DVec3::new(x, y, z), radius });
     let usable = sphere.filter(|sphere| sphere.center.is_finite() && sphere.radius > 0.0 && sphere.radius.is_finite());
     usable.ok_or_else(|| "expected x, y, z and a radius above 0 separated by commas, such as 0,1,-2,0.4".to_owned())
+}
+
+fn parse_motion_filter(text: &str) -> Result<MotionFilter, String> {
+    let numbers: Vec<Option<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers[..] {
+        [Some(distance), Some(degrees)] if distance >= 0.0 && degrees >= 0.0 => {
+            Ok(MotionFilter { distance, angle_rad: degrees.to_radians() })
+        }
+        _ => Err("expected a distance in scene units and an angle in degrees, such as 0.1,5".to_owned()),
+    }
 }

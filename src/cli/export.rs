@@ -1,7 +1,7 @@
 use super::choice::choice;
 use super::outputs::Overwrite;
 use std::path::PathBuf;
-use strum::VariantNames;
+use strum::{VariantArray, VariantNames};
 
 use super::failure::Failure;
 use super::{console, formats, heading, outputs, shot_args};
@@ -51,6 +51,14 @@ impl Args {
                 format!("{}: the name does not determine the format, expected --to FORMAT", self.output.display());
             Failure::usage(found, format!("add --to with one of {}", <Format as VariantNames>::VARIANTS.join(" ")))
         })?;
+        if !format.is_written() {
+            let written =
+                <Format as VariantArray>::VARIANTS.iter().filter(|format| format.is_written()).map(AsRef::as_ref);
+            return Err(Failure::usage(
+                format!("{format} is read and not written"),
+                format!("choose one of {}", written.collect::<Vec<&str>>().join(" ")),
+            ));
+        }
         let layout = Layout::of_path(&self.output);
         match (outputs::is_stdout(&self.output), export::output_files(&self.output, format, layout).len()) {
             (true, 1) => {}

@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::scene_args::parse_vector;
 use super::shot_args::{parse_rate, parse_size};
 use super::{console, formats, heading};
-use cinesplat::export::{self, Format, ImportSettings, shot_json};
+use cinesplat::export::{self, Format, ImportSettings, ReadSettings, shot_json};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -22,7 +22,7 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, after_long_help = formats::table_with(EXAMPLES))]
 pub(super) struct Args {
-    /// Camera path to read, or the folder of a COLMAP, EuRoC or nerfstudio capture
+    /// Camera path to read, or the folder of a COLMAP, EuRoC, nerfstudio or 7-Scenes capture
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Shot to write, or - for stdout
@@ -31,6 +31,9 @@ pub(super) struct Args {
     /// Format to read [default: by the content of the file]
     #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Format>())]
     from: Option<Format>,
+    /// Camera to read of a file that holds several [default: the first]
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
     /// Frames per second [default: the file's, or what its times show]
     #[arg(long, value_name = "FPS", help_heading = heading::SHOT, value_parser = parse_rate)]
     fps: Option<f64>,
@@ -51,7 +54,8 @@ impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         self.overwrite.check(&self.output)?;
         let in_file = |error| Failure::from(error).in_file(&self.file);
-        let imported = export::read(&self.file, self.from).map_err(in_file)?;
+        let how = ReadSettings { format: self.from, camera: self.camera.clone() };
+        let imported = export::read_with(&self.file, &how).map_err(in_file)?;
         let format = imported.format;
         formats::note_doubt(&self.file, imported.doubt.as_ref());
         let settings =

@@ -9,12 +9,15 @@ mod completions;
 mod console;
 #[cfg(feature = "training")]
 mod dataset;
+mod describe;
 mod eval;
 mod eval_folders;
+mod eval_paths;
 mod explain;
 mod export;
 mod failure;
 mod farm;
+mod figures;
 mod film_report;
 mod formats;
 mod heading;
@@ -90,6 +93,7 @@ enum Command {
     Still(still::Args),
     Export(export::Args),
     Import(import::Args),
+    Describe(describe::Args),
     Eval(eval::Args),
     #[cfg(feature = "training")]
     Train(train::Args),
@@ -113,6 +117,7 @@ impl Command {
             Self::Still(args) => args.run(),
             Self::Export(args) => args.run(),
             Self::Import(args) => args.run(),
+            Self::Describe(args) => args.run(),
             Self::Eval(args) => args.run(),
             #[cfg(feature = "training")]
             Self::Train(args) => args.run(),

@@ -36,7 +36,7 @@ pub(super) struct Args {
     /// With --prompts a name with {} in it, such as shots/{}.json.
     #[arg(short, long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, required_unless_present_any = ["json", "explain", "map"])]
     output: Option<PathBuf>,
-    /// Draw the path in its scene, from above and from the side (.svg or .png)
+    /// Draw the path in its scene, from above and from the side (.svg, .png or .pdf)
     ///
     /// With --prompts a name with {} in it, such as maps/{}.svg.
     #[arg(long, value_name = "MAP", help_heading = heading::OUTPUT)]

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::outputs::{self, Overwrite};
 use super::takes::{self, TakesArgs};
-use super::{map, prompts_file};
+use super::{figures, prompts_file};
 
 /// Files that a plan writes for one prompt.
 #[derive(Debug, Clone)]
@@ -50,7 +50,7 @@ impl PlanOutputs {
         for number in self.takes.numbers() {
             let [shot, map] = self.of_take(number);
             shot.iter().try_for_each(|path| overwrite.check(path))?;
-            map.iter().try_for_each(|path| map::check(path, overwrite))?;
+            map.iter().try_for_each(|path| figures::check(path, overwrite))?;
         }
         let named: [(&str, Option<&Path>); 3] =
             [("--output", self.shot.as_deref()), ("--map", self.map.as_deref()), ("--sheet", sheet.as_deref())];

@@ -12,7 +12,7 @@ use super::progress::FrameProgress;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, heading, map, outputs, reproduce, takes};
+use super::{console, figures, heading, map, outputs, reproduce, takes};
 use cinesplat::export::shot_json;
 use cinesplat::files::{self, Existing, MAX_TEXT_BYTES};
 use cinesplat::objects::ObjectSet;
@@ -77,7 +77,7 @@ pub(super) struct Args {
     /// Write a contact sheet too: twelve small frames of the film, or with --takes the takes side by side
     #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT, hide_short_help = true)]
     sheet: Option<PathBuf>,
-    /// Write a map of the shot too: the path in its scene, from above and from the side (.svg or .png)
+    /// Write a map of the shot too: the path in its scene, from above and from the side (.svg, .png or .pdf)
     #[arg(long, value_name = "MAP", help_heading = heading::OUTPUT, hide_short_help = true)]
     map: Option<PathBuf>,
     #[command(flatten)]
@@ -370,7 +370,8 @@ impl Args {
         for path in self.save_shot.iter().chain(&self.sheet).filter(|_| !goes_on) {
             self.overwrite.check(path)?;
         }
-        let check_map = |path: &Path| if goes_on { map::check_name(path) } else { map::check(path, self.overwrite) };
+        let check_map =
+            |path: &Path| if goes_on { figures::check_name(path) } else { figures::check(path, self.overwrite) };
         self.map.as_deref().map_or(Ok(()), check_map)?;
         let shot = self.save_shot.as_deref().map(|path| ("--save-shot", path));
         let sheet = self.sheet.as_deref().map(|path| ("--sheet", path));

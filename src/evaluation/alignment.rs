@@ -7,6 +7,7 @@
 
 use glam::{DMat3, DVec3};
 
+use super::convention::Convention;
 use super::error::{EvaluationError, SettingName};
 use super::svd::{Svd, nearest_rotation, svd};
 use super::trajectory::Trajectory;
@@ -75,8 +76,18 @@ impl Alignment {
     }
 }
 
-/// The alignment of `estimate` to `reference`, whose poses are matched by index, from the first `num_poses` of them
-/// (all for `None`).
+/// Settings of [`align`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct AlignSettings {
+    /// The transform.
+    pub mode: Align,
+    /// Number of poses from the start that determine it; `None` for all.
+    pub num_poses: Option<usize>,
+    /// By evo's convention positions alone determine the rotation as long as they do so numerically.
+    pub convention: Convention,
+}
+
+/// The alignment of `estimate` to `reference`, whose poses are matched by index.
 ///
 /// It is defined for every non-empty input (see the module's documentation for straight and stationary paths). Yaw
 /// rotates about the reference's up, or about the mean up of its cameras if the file states none.
@@ -86,9 +97,9 @@ impl Alignment {
 pub fn align(
     reference: &Trajectory,
     estimate: &Trajectory,
-    mode: Align,
-    num_poses: Option<usize>,
+    settings: &AlignSettings,
 ) -> Result<Alignment, EvaluationError> {
+    let AlignSettings { mode, num_poses, convention } = *settings;
     let count = num_poses.unwrap_or(usize::MAX).min(reference.len()).min(estimate.len());
     if num_poses == Some(0) {
         let found = "0".into();
@@ -103,7 +114,7 @@ pub fn align(
         Align::None => Alignment::identity(mode),
         Align::Origin => origin(&reference, &estimate),
         Align::Yaw => yaw(&reference, &estimate),
-        Align::Se3 | Align::Sim3 | Align::Scale => umeyama(&reference, &estimate, mode),
+        Align::Se3 | Align::Sim3 | Align::Scale => umeyama(&reference, &estimate, mode, convention),
     })
 }
 
@@ -150,7 +161,7 @@ impl Moments {
     }
 }
 
-fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignment {
+fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align, convention: Convention) -> Alignment {
     let m = moments(reference, estimate);
     let Svd { u, values, v } = svd(m.covariance);
     let handed = if u.determinant() * v.determinant() < 0.0 { -1.0 } else { 1.0 };
@@ -159,7 +170,7 @@ fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignm
             mean_rotation(reference, estimate),
             Some("a path is stationary: the cameras' rotations determine the rotation, scale stays 1"),
         )
-    } else if values.y <= RANK_TOLERANCE * values.x {
+    } else if values.y <= straight_below(values, convention) {
         let note = "positions lie on a straight line: the cameras' rotations determine the rotation about it";
         (rotation_about_line(reference, estimate, u.x_axis, v.x_axis), Some(note))
     } else {
@@ -174,6 +185,15 @@ fn umeyama(reference: &Trajectory, estimate: &Trajectory, mode: Align) -> Alignm
     }
     let translation = m.mean_reference - rotation * (m.mean_estimate * scale);
     Alignment { mode, scale, rotation, translation, note: note.map(str::to_owned) }
+}
+
+/// The second singular value of the covariance up to which a path counts as straight.
+fn straight_below(values: DVec3, convention: Convention) -> f64 {
+    match convention {
+        Convention::Cinesplat => RANK_TOLERANCE * values.x,
+        // Below it evo refuses to align.
+        Convention::Evo => f64::EPSILON,
+    }
 }
 
 /// The mean rotation from the estimate's cameras to the reference's, in the least-squares sense.

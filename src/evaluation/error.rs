@@ -75,6 +75,12 @@ pub enum EvaluationError {
         /// Length of the whole path in that unit.
         available: f64,
     },
+    /// A path without times where times are needed.
+    #[error("a path has no times, expected times for {wanted}")]
+    NoTimes {
+        /// What needs them.
+        wanted: &'static str,
+    },
     /// A setting out of range.
     #[error("{setting} is {found}, expected {expected}")]
     BadSetting {
@@ -96,6 +102,7 @@ impl EvaluationError {
             Self::SameStem { .. } => "EVAL-SAME-STEM",
             Self::NoMatches { .. } => "EVAL-NO-MATCHES",
             Self::NoPairs { .. } => "EVAL-NO-PAIRS",
+            Self::NoTimes { .. } => "EVAL-NO-TIMES",
             Self::BadSetting { .. } => "EVAL-SETTING",
         }
     }

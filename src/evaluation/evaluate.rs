@@ -4,8 +4,8 @@ use super::error::{EvaluationError, SettingName};
 use super::focal::focal_error;
 use super::relation::Rigid;
 use super::{
-    Align, Alignment, FocalError, FramingError, Matches, Matching, PairSettings, Relation, Statistics, SubjectSphere,
-    Trajectory, align, associate, framing_error, pairs,
+    Align, AlignSettings, Alignment, Convention, FocalError, FramingError, MatchSettings, Matches, Matching,
+    PairSettings, Relation, Statistics, SubjectSphere, Trajectory, align, associate, framing_error, pairs,
 };
 
 /// The error to compute.
@@ -40,6 +40,8 @@ pub struct EvalSettings {
     pub estimate_offset_secs: f64,
     /// Method of matching poses.
     pub matching: Matching,
+    /// Whose choices decide where this program and evo differ.
+    pub convention: Convention,
     /// Diameter of the scene for the relative error; `None` for that of the reference path.
     pub scene_diameter: Option<f64>,
     /// Subject whose framing is compared.
@@ -56,6 +58,7 @@ impl Default for EvalSettings {
             max_diff_secs: 0.01,
             estimate_offset_secs: 0.0,
             matching: Matching::Nearest,
+            convention: Convention::Cinesplat,
             scene_diameter: None,
             subject: None,
         }
@@ -73,6 +76,8 @@ pub struct Evaluation {
     pub errors: Vec<f64>,
     /// Time of each error on the reference's clock, of the later pose for a pair; pose indices without times.
     pub at_secs: Vec<f64>,
+    /// Index of the matched pose of each error, of the later one for a pair.
+    pub pose_idx: Vec<usize>,
     /// The alignment.
     pub alignment: Alignment,
     /// Matched poses, with the aligned estimate.
@@ -105,8 +110,10 @@ pub fn evaluate(
             *time += settings.estimate_offset_secs;
         }
     }
-    let mut matches = associate(reference, &shifted, settings.max_diff_secs, settings.matching)?;
-    let alignment = align(&matches.reference, &matches.estimate, settings.align, settings.align_poses)?;
+    let EvalSettings { max_diff_secs, matching, convention, align: mode, align_poses: num_poses, .. } = *settings;
+    let mut matches = associate(reference, &shifted, &MatchSettings { max_diff_secs, matching, convention })?;
+    let how = AlignSettings { mode, num_poses, convention };
+    let alignment = align(&matches.reference, &matches.estimate, &how)?;
     matches.estimate = alignment.apply(&matches.estimate);
     let mut notes = matches.notes.clone();
     notes.extend(alignment.note.clone());
@@ -124,6 +131,7 @@ pub fn evaluate(
     Ok(Evaluation {
         statistics,
         at_secs: ends.iter().filter_map(|idx: &usize| times.get(*idx).copied()).collect(),
+        pose_idx: ends,
         errors,
         alignment,
         focal: focal_error(&matches.reference, &matches.estimate),
@@ -133,6 +141,19 @@ pub fn evaluate(
         notes,
         settings: settings.clone(),
     })
+}
+
+impl Evaluation {
+    /// What was compared and how: metric, relation, alignment, number of errors.
+    pub fn title(&self) -> String {
+        let Self { settings, errors, .. } = self;
+        let metric = match settings.metric {
+            Metric::Ape => "absolute pose error",
+            Metric::Rpe { .. } => "relative pose error",
+        };
+        let (relation, align) = (settings.relation.as_ref(), settings.align.as_ref());
+        format!("{metric}, {relation}, align {align}, {} errors", errors.len())
+    }
 }
 
 fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {
@@ -169,7 +190,7 @@ fn absolute_errors(matches: &Matches, relation: Relation) -> Vec<f64> {
 }
 
 /// Error of each pair and the index of its later pose.
-fn relative_errors(
+pub(super) fn relative_errors(
     matches: &Matches,
     pairs: &[(usize, usize)],
     relation: Relation,

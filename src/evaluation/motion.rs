@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use super::table::{rows_json, table_text};
-use super::{Smoothness, Tagger, Trajectory, keyframe_table, smoothness};
+use super::{Description, Smoothness, Tagger, Trajectory, keyframe_table, smoothness};
 use cinesplat_export::json_write::{Json, object};
 
-/// The motion of a path: smoothness, the motion tags of both taggers, and a table of its poses.
+/// The motion of a path: its moves, smoothness, the motion tags of both taggers, and a table of its poses.
 pub(super) fn motion_value(path: &Trajectory) -> Json {
     let segments = |tagger: Tagger| {
         let segment = |s: &super::TagSegment| {
@@ -20,6 +20,7 @@ pub(super) fn motion_value(path: &Trajectory) -> Json {
     object([
         ("poses", path.len().into()),
         ("path_length", path.path_length().into()),
+        ("moves", Description::new(path, &[], None).sentence().as_str().into()),
         ("smoothness", smooth),
         ("tags_et", segments(Tagger::Et)),
         ("tags_gendop", segments(Tagger::Gendop)),
@@ -31,6 +32,7 @@ pub(super) fn motion_value(path: &Trajectory) -> Json {
 pub fn motion_text(name: &str, path: &Trajectory) -> String {
     const MAX_ROWS: usize = 24;
     let mut out = format!("{name}: {} poses, length {:.4}\n", path.len(), path.path_length());
+    let _ = writeln!(out, "  moves: {}", Description::new(path, &[], None).sentence());
     for (name, value) in smoothness(path).iter().flat_map(named) {
         let _ = writeln!(out, "  {name:<31} {}", value.map_or("-".to_owned(), |value| format!("{value:.6}")));
     }

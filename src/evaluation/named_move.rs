@@ -145,6 +145,33 @@ fn aimed_at(path: &Trajectory) -> Option<DVec3> {
     (matrix.determinant().abs() > 1e-9 * count.powi(3)).then(|| matrix.inverse() * right)
 }
 
+/// The extent of a move over a path whose middle makes it. At its ends another move may flow in.
+pub(super) fn extent(path: &Trajectory, name: Move) -> Option<f64> {
+    let level = LevelFrame::new(path.up_or_mean()).ok()?;
+    let angles = total_angles(path, &level)?;
+    let moved = *path.positions.last()? - *path.positions.first()?;
+    Some(match name {
+        Move::PanLeft | Move::PanRight => angles.yaw_rad.abs(),
+        Move::TiltUp | Move::TiltDown => angles.pitch_rad.abs(),
+        Move::RollCw | Move::RollCcw => angles.roll_rad.abs(),
+        Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown => level.height(moved).abs(),
+        Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => {
+            swept_rad(path, &level, aimed_at(path)?).abs()
+        }
+        Move::ZoomIn | Move::ZoomOut => zoom_factor(path),
+        Move::Static => 0.0,
+        _ => moved.length(),
+    })
+}
+
+/// The angle that a path sweeps about an upright axis through a point, positive to the operator's right.
+fn swept_rad(path: &Trajectory, level: &LevelFrame, center: DVec3) -> f64 {
+    let azimuths: Vec<f64> = path.positions.iter().map(|p| level.azimuth(*p - center)).collect();
+    let wrapped = |pair: &[f64]| (pair[1] - pair[0]).sin().atan2((pair[1] - pair[0]).cos());
+    // Azimuths grow clockwise seen from above, which is travel to the operator's left about a point ahead.
+    -azimuths.windows(2).map(wrapped).sum::<f64>()
+}
+
 /// The move of a path whose position and rotation change: an arc, an orbit or a crane.
 fn circling(path: &Trajectory, level: &LevelFrame) -> Option<NamedMove> {
     let center = aimed_at(path)?;
@@ -163,10 +190,7 @@ fn circling(path: &Trajectory, level: &LevelFrame) -> Option<NamedMove> {
     if !aims || far > RADIUS_FACTOR * near {
         return None;
     }
-    let azimuths: Vec<f64> = path.positions.iter().map(|p| level.azimuth(*p - center)).collect();
-    let wrapped = |pair: &[f64]| (pair[1] - pair[0]).sin().atan2((pair[1] - pair[0]).cos());
-    // Azimuths grow clockwise seen from above, which is travel to the operator's left about a point ahead.
-    let swept = -azimuths.windows(2).map(wrapped).sum::<f64>();
+    let swept = swept_rad(path, level, center);
     if swept.abs() >= ORBIT_RAD {
         return Some(signed(swept, Move::OrbitRight, Move::OrbitLeft));
     }

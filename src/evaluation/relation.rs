@@ -37,6 +37,19 @@ impl Relation {
         matches!(self, Self::Trans | Self::PointDistance)
     }
 
+    /// What is measured, with its unit.
+    pub(crate) fn name_with_unit(self) -> &'static str {
+        match self {
+            Self::Full => "norm of the error pose",
+            Self::Rot => "norm of the rotation",
+            Self::Trans => "position, scene units",
+            Self::PointDistance => "distance, scene units",
+            Self::AngleDeg => "rotation, degrees",
+            Self::AngleRad => "rotation, rad",
+            Self::PointDistanceRatio => "distance, %",
+        }
+    }
+
     /// Unit of the errors; empty for norms of matrices.
     pub fn unit(self) -> &'static str {
         match self {

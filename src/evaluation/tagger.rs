@@ -6,7 +6,7 @@
 //!
 //! The motion from each frame to the next is expressed in the camera's axes. An axis is active if its speed is above a
 //! threshold in scene units per second and no other axis is much faster. A mode filter smooths the classes, and runs
-//! that are too short are merged into their neighbors. The thresholds are those of the two systems; they are not
+//! that are too short are given to their neighbors. The thresholds are those of the two systems; they are not
 //! independent of the path's scale.
 
 use std::fmt;
@@ -203,11 +203,15 @@ fn translation_class(velocity: DVec3) -> usize {
     9 * digit(0) + 3 * digit(1) + digit(2)
 }
 
-/// The class of a rotation vector in OpenGL axes: 0 without a turn, else 1 + 2 axis, plus 1 for a negative rotation.
+/// The class of a rotation vector in OpenGL axes: 0 without a turn or with two equal largest components, else
+/// 1 + 2 axis, plus 1 for a negative rotation.
 fn rotation_class(turn: DVec3) -> usize {
     let t = turn.to_array();
-    let axis = (1..3).fold(0, |best, axis| if t[axis].abs() > t[best].abs() { axis } else { best });
-    if t[axis].abs() > ACTIVE_TURN { 1 + 2 * axis + usize::from(t[axis] < 0.0) } else { 0 }
+    let is_main = |axis: usize| (0..3).all(|other| other == axis || t[axis].abs() > t[other].abs());
+    match (0..3).find(|axis| is_main(*axis)) {
+        Some(axis) if t[axis].abs() > ACTIVE_TURN => 1 + 2 * axis + usize::from(t[axis] < 0.0),
+        _ => 0,
+    }
 }
 
 /// The classes after a mode filter; unchanged if there are fewer than the window is long.
@@ -252,29 +256,46 @@ fn runs_of(classes: &[usize]) -> Vec<Run> {
     found
 }
 
-/// The runs after those shorter than `shortest` are merged into their neighbors, the shortest first.
+/// The runs after those shorter than `shortest` are given to their neighbors, the shortest first and of equal ones the
+/// first.
 ///
 /// A run at an end goes to its only neighbor. A run between two is split in half, with the odd motion in the first
-/// half.
+/// half. As in both published systems, two neighbors of one class stay two runs until the end: each may still be too
+/// short by itself.
 fn without_short_runs(classes: &[usize], shortest: usize) -> Vec<Run> {
-    let mut classes = classes.to_vec();
-    loop {
-        let runs = runs_of(&classes);
-        let Some(idx) = (0..runs.len()).min_by_key(|idx| runs[*idx].end - runs[*idx].start) else {
-            return runs;
-        };
-        let run = runs[idx];
-        if runs.len() == 1 || run.end - run.start >= shortest {
-            return runs;
+    let mut runs = runs_of(classes);
+    while runs.len() > 1 {
+        let Some(idx) = (0..runs.len()).min_by_key(|idx| runs[*idx].end - runs[*idx].start) else { break };
+        let Run { start, end, .. } = runs[idx];
+        if end - start >= shortest {
+            break;
         }
-        let before = idx.checked_sub(1).map(|idx| runs[idx].class);
-        let after = runs.get(idx + 1).map(|run| run.class);
-        let split = match (before, after) {
-            (Some(_), Some(_)) => run.start + (run.end - run.start).div_ceil(2),
-            (None, _) => run.start,
-            _ => run.end,
+        let has_before = idx > 0;
+        let has_after = idx + 1 < runs.len();
+        let split = match (has_before, has_after) {
+            (true, true) => start + (end - start).div_ceil(2),
+            (true, false) => end,
+            _ => start,
         };
-        classes[run.start..split].fill(before.unwrap_or(run.class));
-        classes[split..run.end].fill(after.unwrap_or(run.class));
+        if has_before {
+            runs[idx - 1].end = split;
+        }
+        if has_after {
+            runs[idx + 1].start = split;
+        }
+        runs.remove(idx);
     }
+    joined(&runs)
+}
+
+/// The runs with neighbors of one class joined.
+fn joined(runs: &[Run]) -> Vec<Run> {
+    let mut found: Vec<Run> = Vec::with_capacity(runs.len());
+    for run in runs {
+        match found.last_mut() {
+            Some(last) if last.class == run.class => last.end = run.end,
+            _ => found.push(*run),
+        }
+    }
+    found
 }

@@ -1,7 +1,11 @@
 use glam::{DMat3, DVec3};
 
+use super::svd::svd;
 use cinesplat_export::PoseTrack;
 use cinesplat_geometry::Pose;
+
+/// Length of the mean up direction of cameras that are upright: their up is within about 45 degrees of it.
+const UPRIGHT: f64 = 0.7;
 
 /// A camera path for error measures: poses with the rotation matrices of their file.
 ///
@@ -88,8 +92,20 @@ impl Trajectory {
     }
 
     /// World up: the file's, else the mean of the cameras' up directions, else `-y`.
+    ///
+    /// Where the cameras' up directions do not agree, the poses are those of a body with other axes: up is the world
+    /// direction that stays most constant in the body.
     pub(crate) fn up_or_mean(&self) -> DVec3 {
-        let mean: DVec3 = self.rotations.iter().map(|rotation| -rotation.y_axis).sum();
-        self.up.or(mean.try_normalize()).unwrap_or(DVec3::NEG_Y)
+        if let Some(up) = self.up {
+            return up;
+        }
+        let sum = self.rotations.iter().fold(DMat3::ZERO, |sum, rotation| sum + *rotation);
+        let mean = -sum.y_axis / self.len().max(1) as f64;
+        if mean.length() >= UPRIGHT {
+            return mean.normalize();
+        }
+        let found = svd(sum).u.x_axis;
+        let agrees = found.dot(mean) >= 0.0;
+        (if agrees { found } else { -found }).try_normalize().unwrap_or(DVec3::NEG_Y)
     }
 }

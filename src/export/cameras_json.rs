@@ -3,9 +3,14 @@
 use strum::{AsRefStr, Display, EnumString, IntoStaticStr, VariantArray, VariantNames};
 
 use super::ExportError;
+use super::inria;
 use super::json_read::{self, Node};
+use super::json_write::{Json, matrix_rows, object};
+use super::lens_losses::LensLosses;
+use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_files::UnknownKeys;
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
+use cinesplat_trajectory::Shot;
 
 /// The splat filter that a file or caller requests.
 #[derive(
@@ -67,9 +72,15 @@ pub struct NamedCamera {
 /// # Errors
 /// [`ExportError::NotJson`] for text that is not JSON, [`ExportError::WrongVersion`] for a `version` other than 1,
 /// [`ExportError::NoPoses`] without cameras, [`ExportError::BadField`] naming the camera and the field.
+///
+/// A list in place of an object is INRIA's file of the same name: cameras without a scene, filter or near plane.
 pub fn read(text: &str) -> Result<StillCameras, ExportError> {
     let value = json_read::parse(text)?;
     let root = Node::root(&value);
+    if value.is_array() {
+        let cameras = inria::read_cameras(&root)?;
+        return Ok(StillCameras { scene: None, filter: None, near: None, cameras, notes: Vec::new() });
+    }
     if let Some(found) =
         root.optional("version").map(|version| version.number()).transpose()?.filter(|v| !v.total_cmp(&1.0).is_eq())
     {
@@ -86,6 +97,49 @@ pub fn read(text: &str) -> Result<StillCameras, ExportError> {
     }
     let (filter, near) = (read_filter(&root)?, read_near(&root)?);
     Ok(StillCameras { scene: string("scene")?, filter, near, cameras, notes: unknown.into_notes() })
+}
+
+/// The cameras in order, as a path without times.
+pub(super) fn track(cameras: &[NamedCamera]) -> Result<PoseTrack, ExportError> {
+    let mut losses = LensLosses::default();
+    let frame = |(idx, named): (usize, &NamedCamera)| {
+        let Camera { pose, intrinsics } = named.camera;
+        let middle = [f64::from(intrinsics.width) / 2.0, f64::from(intrinsics.height) / 2.0];
+        losses.principal_point_px([intrinsics.cx_px - middle[0], intrinsics.cy_px - middle[1]]);
+        losses.focal_px(intrinsics.fx_px, intrinsics.fy_px);
+        PoseFrame { fov_y_rad: Some(intrinsics.fov_y_rad()), ..PoseFrame::new(idx as f64 / DEFAULT_FPS, pose) }
+    };
+    let frames: Vec<PoseFrame> = cameras.iter().enumerate().map(frame).collect();
+    let sizes: Vec<(u32, u32)> =
+        cameras.iter().map(|named| (named.camera.intrinsics.width, named.camera.intrinsics.height)).collect();
+    let first = *sizes.first().ok_or(ExportError::NoPoses)?;
+    let num_other = sizes.iter().filter(|size| **size != first).count();
+    let mut unread = losses.into_lines();
+    if num_other > 0 {
+        unread.push(format!("{num_other} cameras have other image sizes than the first, {} x {}", first.0, first.1));
+    }
+    Ok(PoseTrack { size_px: Some(first), unread, ..PoseTrack::untimed(frames) })
+}
+
+/// The poses of a track as cameras named by their number.
+pub(super) fn write(shot: &Shot, track: &PoseTrack) -> String {
+    let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
+    let cameras = track.frames.iter().enumerate().map(|(idx, frame)| {
+        let lens = Intrinsics::from_fov_y(width, height, fov_y_or_default(frame));
+        object([
+            ("name", format!("{idx:05}").as_str().into()),
+            ("width", width.into()),
+            ("height", height.into()),
+            ("fx", lens.fx_px.into()),
+            ("fy", lens.fy_px.into()),
+            ("cx", lens.cx_px.into()),
+            ("cy", lens.cy_px.into()),
+            ("world_from_camera", matrix_rows(frame.pose.world_from_camera())),
+        ])
+    });
+    let scene = (!shot.scene.path.is_empty()).then(|| ("scene".to_owned(), shot.scene.path.as_str().into()));
+    let fields = scene.into_iter().chain([("cameras".to_owned(), Json::list(cameras))]);
+    Json::Object(fields.collect()).pretty()
 }
 
 fn read_filter(root: &Node) -> Result<Option<FilterChoice>, ExportError> {

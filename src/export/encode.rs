@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use cinesplat_files::{Existing, FileError};
+use strum::VariantArray;
 
 use super::imported_shot::{ImportSettings, shot_of};
 use super::losses::losses;
+use super::stray;
 use super::{
-    ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, redwood_log,
-    shot_json, supersplat, transforms, tum, usd,
+    ExportError, Format, PoseTrack, blender, cameras_json, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio,
+    redwood_log, shot_json, supersplat, transforms, tum, usd,
 };
 use cinesplat_trajectory::{Easing, Shot};
 
@@ -81,9 +83,8 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
         return Ok(Encoded { files: EncodedFiles::Single(shot_json::write(shot).into_bytes()), losses: Vec::new() });
     }
     let mut encoded = encode_poses(format, shot, &track, settings.layout)?;
-    if settings.content == Content::Keyframes && shot.keyframes.len() > 2 {
-        let what = "interpolates between keyframes with its own curve: export every frame for the path of the film";
-        encoded.losses.push(format!("{format} {what}"));
+    if settings.content == Content::Keyframes && shot.keyframes.len() > 1 {
+        encoded.losses.extend(stray::line(format, shot)?);
     }
     Ok(encoded)
 }
@@ -120,6 +121,10 @@ fn encode_poses(format: Format, shot: &Shot, track: &PoseTrack, layout: Layout) 
     if track.frames.is_empty() {
         return Err(ExportError::NoPoses);
     }
+    if !format.is_written() {
+        let expected = Format::VARIANTS.iter().filter(|format| format.is_written()).map(|format| (*format).into());
+        return Err(ExportError::NotWritable { format: format.into(), expected: expected.collect() });
+    }
     let losses = losses(format, track);
     let text = match format {
         Format::Colmap => {
@@ -145,6 +150,14 @@ fn encode_poses(format: Format, shot: &Shot, track: &PoseTrack, layout: Layout) 
         Format::Blender => blender::write(track),
         Format::Csv => csv::write(track),
         Format::Log => redwood_log::write(track),
+        Format::Cameras => cameras_json::write(shot, track),
+        Format::Inria
+        | Format::Re10k
+        | Format::Aria
+        | Format::SevenScenes
+        | Format::Dpvo
+        | Format::MotionCtrl
+        | Format::ReCamMaster => String::new(),
     };
     Ok(Encoded { files: EncodedFiles::Single(text.into_bytes()), losses })
 }

@@ -81,6 +81,14 @@ pub enum ExportError {
     /// No camera in the file.
     #[error("no camera poses in the file, expected at least one")]
     NoPoses,
+    /// A format that is only read.
+    #[error("{format} is read and not written, expected one of {}", .expected.join(", "))]
+    NotWritable {
+        /// The format's name.
+        format: &'static str,
+        /// The formats that are written.
+        expected: Vec<&'static str>,
+    },
     /// A format, or a variant of it, without a reader.
     #[error("{format}: {reason}")]
     NotReadable {
@@ -105,6 +113,7 @@ impl ExportError {
             Self::BadBytes { .. } => "EXCHANGE-BYTES",
             Self::BadShot(_) => "EXCHANGE-SHOT",
             Self::NoPoses => "EXCHANGE-EMPTY",
+            Self::NotWritable { .. } => "EXCHANGE-READ-ONLY",
             Self::NotReadable { .. } => "EXCHANGE-UNREADABLE",
         }
     }

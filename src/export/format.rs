@@ -38,6 +38,25 @@ pub enum Format {
     Csv,
     /// Redwood and Open3D trajectory log: 4 x 4 matrices.
     Log,
+    /// `cameras.json` of `still`: named cameras, each with its own lens.
+    Cameras,
+    /// `cameras.json` of INRIA's 3D Gaussian splatting; read only.
+    Inria,
+    /// RealEstate10K and CameraCtrl; read only.
+    Re10k,
+    /// Project Aria's closed-loop trajectory, CSV; read only.
+    Aria,
+    /// A folder of 7-Scenes with one matrix per frame; read only.
+    #[strum(serialize = "7scenes")]
+    SevenScenes,
+    /// DPVO and others: as TUM, with times in nanoseconds; read only.
+    Dpvo,
+    /// MotionCtrl's list of matrices; read only.
+    #[strum(serialize = "motionctrl")]
+    MotionCtrl,
+    /// ReCamMaster's cameras; read only.
+    #[strum(serialize = "recammaster")]
+    ReCamMaster,
     /// A `shot.json` of cinesplat.
     Shot,
 }
@@ -76,6 +95,7 @@ impl Format {
             "images.txt" | "images.bin" | "cameras.bin" | "cameras.txt" => return Some(Self::Colmap),
             "settings.json" => return Some(Self::Supersplat),
             "trajectory.log" => return Some(Self::Log),
+            "cameras.json" => return Some(Self::Cameras),
             _ => {}
         }
         let (stem, extension) = name.rsplit_once('.')?;
@@ -109,6 +129,20 @@ impl Format {
         detect_with_layout(bytes).map(|(format, _)| format)
     }
 
+    /// Whether files of the format can be written. Every format can be read.
+    pub fn is_written(self) -> bool {
+        !matches!(
+            self,
+            Self::Inria
+                | Self::Re10k
+                | Self::Aria
+                | Self::SevenScenes
+                | Self::Dpvo
+                | Self::MotionCtrl
+                | Self::ReCamMaster
+        )
+    }
+
     /// What files of the format can hold.
     pub(super) fn holds(self) -> Holds {
         let none = Holds {
@@ -123,11 +157,12 @@ impl Format {
         };
         let timed = Holds { times: true, ..none };
         match self {
-            Self::Tum | Self::Euroc => Holds { clock: true, ..timed },
-            Self::Kitti | Self::Log => none,
+            Self::Tum | Self::Euroc | Self::Dpvo | Self::Aria => Holds { clock: true, ..timed },
+            Self::Kitti | Self::Log | Self::SevenScenes | Self::MotionCtrl | Self::ReCamMaster => none,
+            Self::Re10k => Holds { clock: true, fov: true, ..timed },
             Self::Nerfstudio => Holds { fov: true, size: true, ..timed },
-            Self::Transforms | Self::Colmap => Holds { fov: true, size: true, ..none },
-            Self::Supersplat => Holds { fov: true, roll: false, ..timed },
+            Self::Transforms | Self::Colmap | Self::Inria | Self::Cameras => Holds { fov: true, size: true, ..none },
+            Self::Supersplat => Holds { fov: true, roll: false, cuts: true, ..timed },
             Self::Lichtfeld => Holds { fov: true, easing: true, ..timed },
             Self::Gltf => Holds { fov: true, cuts: true, ..timed },
             Self::Usd | Self::Blender => Holds { fov: true, size: true, focus: true, cuts: true, ..timed },
@@ -152,7 +187,8 @@ pub(super) fn detect_with_layout(bytes: &[u8]) -> Option<(Format, Option<FoundLa
         return Some((Format::Gltf, None));
     }
     if bytes.starts_with(b"PK\x03\x04") {
-        return Some((Format::Supersplat, None));
+        let format = if super::usd::is_package(bytes) { Format::Usd } else { Format::Supersplat };
+        return Some((format, None));
     }
     if bytes.starts_with(b"#usda") || bytes.starts_with(b"PXR-USDC") {
         return Some((Format::Usd, None));
@@ -188,7 +224,7 @@ impl Doubt {
         let (other, other_layout) = match format {
             _ if !is_own => (format, own),
             Format::Tum => (Format::Euroc, LineLayout::EUROC),
-            _ => (Format::Tum, LineLayout::TUM),
+            _ => (Format::Dpvo, LineLayout::DPVO),
         };
         let reading = |layout: LineLayout| format!("{}, quaternion {}", layout.unit, layout.order);
         Some(Self {
@@ -208,20 +244,30 @@ fn detect_json(value: &Value) -> Option<Format> {
         _ if has("animTracks") || has("poseSets") => Some(Format::Supersplat),
         _ if has("clip_duration") || value.pointer("/keyframes/0/focal_length_mm").is_some() => Some(Format::Lichtfeld),
         _ if value.pointer("/frames/0/transform_matrix").is_some() => Some(Format::Transforms),
+        _ if value.pointer("/cameras/0/world_from_camera").is_some() => Some(Format::Cameras),
+        _ if value.pointer("/0/rotation").is_some() && value.pointer("/0/position").is_some() => Some(Format::Inria),
+        _ if value.pointer("/0/0").is_some() => Some(Format::MotionCtrl),
+        _ if has("frame0") => Some(Format::ReCamMaster),
         _ => None,
     }
 }
 
 /// The line-based format of a text. Lines of a time, a position and a quaternion come with their layout.
 fn detect_columns(text: &str) -> Option<(Format, Option<FoundLayout>)> {
-    let line = data_lines(text).next()?.1;
+    // RealEstate10K starts with the address of the film.
+    let line = data_lines(text).map(|(_, line)| line).find(|line| !line.starts_with("http"))?;
     let columns = cells(line);
+    if columns.contains(&super::aria::TIME) {
+        return Some((Format::Aria, None));
+    }
     if columns.contains(&"time_secs") {
         return Some((Format::Csv, None));
     }
     let numbers: Vec<f64> = columns.iter().filter_map(|column| column.parse().ok()).collect();
     let format = match (columns.len(), numbers.len()) {
         (12, 12) if are_orthonormal_rows(&numbers) => Some(Format::Kitti),
+        (13, 13) if are_orthonormal_rows(&numbers[1..]) => Some(Format::Kitti),
+        (super::re10k::COLUMNS, super::re10k::COLUMNS) if are_orthonormal_rows(&numbers[7..]) => Some(Format::Re10k),
         (3, 3) => Some(Format::Log),
         (10, 9) => Some(Format::Colmap),
         (len, numeric)

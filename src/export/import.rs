@@ -7,9 +7,11 @@ use cinesplat_files::FileError;
 
 use super::format::{self, Doubt};
 use super::imported_shot::{ImportSettings, overrule, shot_of};
+use super::line_layout::LineLayout;
 use super::{
-    ExportError, Format, PoseTrack, blender, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio, pose_lines,
-    redwood_log, shot_json, supersplat, transforms, tum, usd,
+    ExportError, Format, PoseTrack, aria, blender, cameras_json, colmap, csv, euroc, gltf, inria, kitti, lichtfeld,
+    motionctrl, nerfstudio, pose_lines, re10k, recammaster, redwood_log, seven_scenes, shot_json, supersplat,
+    transforms, tum, usd,
 };
 use cinesplat_trajectory::Shot;
 
@@ -61,18 +63,40 @@ impl Imported {
     }
 }
 
-/// The camera path in a file, or in a folder that holds a COLMAP, EuRoC or nerfstudio capture.
+/// How a file is read.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ReadSettings {
+    /// Its format; `None` for what its content says.
+    pub format: Option<Format>,
+    /// Name of the camera in a file of several; `None` for the first.
+    pub camera: Option<String>,
+}
+
+/// As [`read_with`], with the camera that the file holds first.
+///
+/// # Errors
+/// Those of [`read_with`].
+pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError> {
+    read_with(path, &ReadSettings { format, camera: None })
+}
+
+/// The camera path in a file, or in a folder that holds a COLMAP, EuRoC, nerfstudio or 7-Scenes capture.
 ///
 /// Without a format, the content of the file determines it.
 ///
 /// # Errors
 /// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is
 /// none of the known formats, and the errors of the format's reader.
-pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError> {
+pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, ExportError> {
+    let ReadSettings { format, camera } = settings;
+    let pose_files = if path.is_dir() { seven_scenes::pose_files(path) } else { Vec::new() };
+    if !pose_files.is_empty() && format.is_none_or(|format| format == Format::SevenScenes) {
+        return imported(Format::SevenScenes, seven_scenes::read(&pose_files)?);
+    }
     let path = &file_of(path)?;
     let bytes = read_bytes(path)?;
     let by_name = || Format::from_path(path).filter(|format| *format == Format::Colmap);
-    let (format, lines) = match format.or_else(by_name) {
+    let (format, lines) = match (*format).or_else(by_name) {
         Some(format) => (format, None),
         None => format::detect_with_layout(&bytes).ok_or_else(unknown_content)?,
     };
@@ -90,7 +114,15 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
                     None if format == Format::Tum => tum::read(text),
                     None => euroc::read(text),
                 },
-                Format::Kitti => kitti::read(text),
+                Format::Kitti => kitti::read(text).map(|track| kitti::with_times_beside(track, path)),
+                Format::Dpvo => pose_lines::read(text, LineLayout::DPVO),
+                Format::Cameras => cameras_json::track(&cameras_json::read(text)?.cameras),
+                Format::Inria => inria::read(text),
+                Format::Re10k => re10k::read(text),
+                Format::Aria => aria::read(text),
+                Format::MotionCtrl => motionctrl::read(text),
+                Format::ReCamMaster => recammaster::read(text, camera.as_deref()),
+                Format::SevenScenes => seven_scenes::read(&[path.clone()]),
                 Format::Nerfstudio => nerfstudio::read(text),
                 Format::Transforms => transforms::read(text),
                 Format::Supersplat => supersplat::read(text),
@@ -107,11 +139,17 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
             }
         }
     }?;
+    let read = imported(format, track)?;
+    let doubt = lines.and_then(|found| Doubt::new(format, &found));
+    Ok(Imported { shot, doubt, notes, ..read })
+}
+
+/// A track without a shot, doubts and notes.
+fn imported(format: Format, track: PoseTrack) -> Result<Imported, ExportError> {
     if track.frames.is_empty() {
         return Err(ExportError::NoPoses);
     }
-    let doubt = lines.and_then(|found| Doubt::new(format, &found));
-    Ok(Imported { format, track, shot, doubt, notes })
+    Ok(Imported { format, track, shot: None, doubt: None, notes: Vec::new() })
 }
 
 fn unknown_content() -> ExportError {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::ExportError;
-use super::track::{DEFAULT_FOV_Y_DEG, DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack};
+use super::track::{DEFAULT_FOV_Y_DEG, DEFAULT_FPS, DEFAULT_SIZE_PX, LensSide, PoseFrame, PoseTrack};
 use cinesplat_trajectory::{Easing, Keyframe, SceneRef, Shot};
 
 /// Largest distance of an even stamp from its place, s.
@@ -43,6 +43,14 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     let (size_px, line) = size_px(track, settings);
     lines.extend(line);
     lines.extend(fov_line(track, settings));
+    let lens = |fov_y_rad: f64| match track.lens_side {
+        LensSide::Vertical => fov_y_rad,
+        LensSide::Larger => refitted(fov_y_rad, size_px),
+    };
+    if track.lens_side == LensSide::Larger && settings.fov_y_rad.is_none() {
+        let (width, height) = size_px;
+        lines.push(format!("the field of view is along the larger side: of an image of {width} x {height}"));
+    }
     let up = settings.up.and_then(DVec3::try_normalize).or(track.up);
     if up.is_none() {
         lines.push("the file has no world up: the shot states none".to_owned());
@@ -54,7 +62,7 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     let keyframe = |(idx, frame): (usize, &PoseFrame)| Keyframe {
         time_secs: times(idx, frame),
         pose: frame.pose,
-        fov_y_rad: settings.fov_y_rad.or(frame.fov_y_rad).unwrap_or(DEFAULT_FOV_Y_DEG.to_radians()),
+        fov_y_rad: settings.fov_y_rad.or(frame.fov_y_rad.map(lens)).unwrap_or(DEFAULT_FOV_Y_DEG.to_radians()),
         focus_distance: frame.focus_distance,
         optics: cinesplat_trajectory::KeyOptics::default(),
         easing: frame.easing,
@@ -68,6 +76,14 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     let scene = SceneRef { up, ..SceneRef::default() };
     let shot = Shot { scene, ..Shot::from_keyframes(size_px.into(), fps, duration_secs, keyframes) };
     Ok((shot.validated()?, lines))
+}
+
+/// The vertical field of view in an image of a size, from that in the default size with the same field of view along the
+/// larger side.
+fn refitted(fov_y_rad: f64, (width, height): (u32, u32)) -> f64 {
+    let larger_over_height = |(width, height): (u32, u32)| (f64::from(width) / f64::from(height)).max(1.0);
+    let tangent = (fov_y_rad / 2.0).tan() * larger_over_height(DEFAULT_SIZE_PX) / larger_over_height((width, height));
+    2.0 * tangent.atan()
 }
 
 /// Replaces what the settings state in a shot.

@@ -1,11 +1,19 @@
 //! KITTI odometry poses: per line the 12 numbers of a 3 x 4 `world_from_camera` matrix in row-major order, with OpenCV
-//! camera axes and no times.
+//! camera axes. Times may stand before them, in 13 columns, or in a file beside it, `times.txt` or `NAME_times.txt`, with
+//! one per line, s.
+
+use std::path::Path;
 
 use super::ExportError;
-use super::columns::{bad_line, data_lines, joined, numbers};
+use super::columns::{bad_line, cells, data_lines, joined, numbers};
 use super::json_read::matrix_from_rows;
 use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack};
 use cinesplat_geometry::Pose;
+
+/// Columns of a line with a time.
+const TIMED_COLUMNS: usize = 13;
+/// Most bytes of a file of times.
+const MAX_TIMES_BYTES: u64 = 1 << 28;
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let mut out = String::new();
@@ -19,11 +27,37 @@ pub(super) fn write(track: &PoseTrack) -> String {
 
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let mut frames = Vec::new();
+    let is_timed = data_lines(text).next().is_some_and(|(_, line)| cells(line).len() == TIMED_COLUMNS);
     for (line, text) in data_lines(text) {
-        let rows = numbers::<12>(line, text)?;
-        frames.push(matrix_frame(frames.len(), &rows).map_err(|reason| bad_line(line, text, reason))?);
+        let (time_secs, rows) = if is_timed {
+            let [time_secs, rows @ ..] = numbers::<TIMED_COLUMNS>(line, text)?;
+            (Some(time_secs), rows)
+        } else {
+            (None, numbers::<12>(line, text)?)
+        };
+        let frame = matrix_frame(frames.len(), &rows).map_err(|reason| bad_line(line, text, reason))?;
+        frames.push(PoseFrame { time_secs: time_secs.unwrap_or(frame.time_secs), ..frame });
     }
-    Ok(PoseTrack::untimed(frames))
+    Ok(PoseTrack { timed: is_timed, ..PoseTrack::untimed(frames) })
+}
+
+/// The track with the times of a file beside `path`, if there is one with as many times as poses.
+pub(super) fn with_times_beside(mut track: PoseTrack, path: &Path) -> PoseTrack {
+    let own = path.file_stem().map(|stem| format!("{}_times.txt", stem.to_string_lossy()));
+    let names = own.into_iter().chain(["times.txt".to_owned()]).map(|name| path.with_file_name(name));
+    let times_in = |file: &Path| {
+        let text = String::from_utf8(cinesplat_files::read(file, MAX_TIMES_BYTES).ok()?).ok()?;
+        let times: Option<Vec<f64>> = data_lines(&text).map(|(_, line)| line.parse().ok()).collect();
+        times.filter(|times| times.len() == track.frames.len() && times.iter().all(|time| time.is_finite()))
+    };
+    let found = if track.timed { None } else { names.into_iter().find_map(|file| Some((times_in(&file)?, file))) };
+    if let Some((times, file)) = found {
+        track.frames.iter_mut().zip(times).for_each(|(frame, time_secs)| frame.time_secs = time_secs);
+        track.timed = true;
+        let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        track.unread.push(format!("the times are those of {name}"));
+    }
+    track
 }
 
 /// Frame `frame_idx` from a row-major matrix; the error is the expectation that the numbers fail.

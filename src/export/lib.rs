@@ -5,6 +5,7 @@
 //! its format. Only this crate and `geometry::frames` flip the signs of axes. The one invariant: warnings name
 //! every property that a format cannot hold.
 
+mod aria;
 mod blender;
 pub mod cameras_json;
 mod clearance_json;
@@ -20,17 +21,25 @@ mod format;
 mod gltf;
 mod import;
 mod imported_shot;
+mod inria;
 mod json_read;
 pub mod json_write;
 mod kitti;
+mod lens_losses;
 mod lichtfeld;
 mod line_layout;
+mod look_at;
 mod losses;
+mod motionctrl;
 mod nerfstudio;
 mod opengl;
 mod pose_lines;
+mod re10k;
+mod recammaster;
 mod redwood_log;
+mod seven_scenes;
 pub mod shot_json;
+mod stray;
 mod supersplat;
 mod track;
 mod transforms;
@@ -40,6 +49,6 @@ mod usd;
 pub use encode::{Content, Encoded, EncodedFiles, ExportSettings, Layout, check_output, encode, output_files, write};
 pub use error::ExportError;
 pub use format::{Doubt, Format};
-pub use import::{Imported, read};
+pub use import::{Imported, ReadSettings, read, read_with};
 pub use imported_shot::ImportSettings;
-pub use track::{PoseFrame, PoseTrack};
+pub use track::{LensSide, PoseFrame, PoseTrack};

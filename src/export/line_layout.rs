@@ -58,6 +58,8 @@ impl LineLayout {
     /// TUM RGB-D.
     pub(super) const TUM: Self =
         Self { unit: StampUnit::Seconds, order: QuaternionOrder::Xyzw, columns: ColumnCount::Exact };
+    /// DPVO: TUM with nanoseconds.
+    pub(super) const DPVO: Self = Self { unit: StampUnit::Nanoseconds, ..Self::TUM };
     /// EuRoC MAV ground truth.
     pub(super) const EUROC: Self =
         Self { unit: StampUnit::Nanoseconds, order: QuaternionOrder::Wxyz, columns: ColumnCount::AtLeast };

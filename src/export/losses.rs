@@ -44,6 +44,13 @@ pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
         roll > LEVEL_RAD,
         format!("holds no roll: up to {:.1} degrees relative to its up (-y) are lost", roll.to_degrees()),
     );
+    if format == Format::Gltf && fov_changes(track) {
+        lines.push(format!(
+            "gltf animates the field of view by KHR_animation_pointer, which three.js and others ignore: there it stays \
+             that of the first frame, of {}",
+            fov_range(track)
+        ));
+    }
     lines.extend(out_of_range(format, track));
     lines
 }
@@ -64,6 +71,11 @@ fn out_of_range(format: Format, track: &PoseTrack) -> Option<String> {
         Format::Blender if track.up.is_none() => Some("blender takes +z as up: the scene's up is not known".into()),
         _ => None,
     }
+}
+
+fn fov_changes(track: &PoseTrack) -> bool {
+    let mut fovs = track.frames.iter().filter_map(|frame| frame.fov_y_rad);
+    fovs.next().is_some_and(|first| fovs.any(|fov| (fov - first).abs() > 1e-6))
 }
 
 fn fov_range(track: &PoseTrack) -> String {

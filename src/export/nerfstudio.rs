@@ -2,7 +2,7 @@
 //!
 //! Matrices are `world_from_camera` with OpenGL camera axes, 16 numbers in row-major order. Fields of view are
 //! vertical, in degrees. `ns-render` renders `camera_path` at `len / seconds` frames per second and ignores `keyframes`
-//! and `fps`; the viewer loads only `keyframes`. Positions are in the scene file's world, which is that of nerfstudio
+//! and `fps`; the viewer loads only `keyframes`, so both hold every frame. Positions are in the scene file's world, which is that of nerfstudio
 //! if nerfstudio exported the scene.
 
 use glam::DMat4;
@@ -16,8 +16,9 @@ use cinesplat_geometry::frames::{from_opengl, to_opengl};
 pub(super) fn write(track: &PoseTrack) -> String {
     let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
     let aspect = track.aspect();
-    let keys = if track.keys.is_empty() { &track.frames } else { &track.keys };
-    let default_fov_deg = keys.first().map_or(0.0, |key| fov_y_or_default(key).to_degrees());
+    // The viewer joins its keys with a spline of its own. With every frame as a key it has nothing to add.
+    let keys = &track.frames;
+    let default_fov_deg = default_fov_deg(keys);
     let seconds = track.duration_secs();
     let num_frames = track.frames.len() as f64;
     let camera = |frame: &PoseFrame, matrix_name| {
@@ -52,6 +53,13 @@ pub(super) fn write(track: &PoseTrack) -> String {
         ("crop", Json::NULL()),
     ])
     .pretty()
+}
+
+/// A default that no key has: the viewer ignores the field of view of a key that has the default.
+fn default_fov_deg(keys: &[PoseFrame]) -> f64 {
+    const USUAL_DEG: f64 = 75.0;
+    let is_taken = |degrees: f64| keys.iter().any(|key| (fov_y_or_default(key).to_degrees() - degrees).abs() < 0.01);
+    (0..=keys.len()).map(|step| USUAL_DEG + 0.1 * step as f64).find(|degrees| !is_taken(*degrees)).unwrap_or(USUAL_DEG)
 }
 
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {

@@ -13,6 +13,7 @@ use super::effects_json;
 use super::euler_edits;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
+use super::look_at;
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose};
 use cinesplat_trajectory::Easing;
 use cinesplat_trajectory::{Intent, KeyOptics, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
@@ -40,7 +41,7 @@ const TOP_KEYS: [&str; 14] = [
 ];
 const SCENE_KEYS: [&str; 3] = ["path", "sha256", "up"];
 const MODEL_KEYS: [&str; 2] = ["name", "sha256"];
-const KEYFRAME_KEYS: [&str; 11] = [
+const KEYFRAME_KEYS: [&str; 12] = [
     "time_secs",
     "position",
     "rotation_xyzw",
@@ -52,6 +53,7 @@ const KEYFRAME_KEYS: [&str; 11] = [
     "easing",
     "cut",
     "intent",
+    "look_at",
 ];
 const EULER_KEYS: [&str; 3] = ["yaw", "pitch", "roll"];
 const INTENT_KEYS: [&str; 6] = ["subjects", "size", "move", "angle", "words", "pivot"];
@@ -110,6 +112,7 @@ pub fn read(text: &str) -> Result<ShotFile, ExportError> {
     let angles = keys.iter().map(read_euler).collect::<Result<Vec<_>, _>>()?;
     let mut notes = unknown_keys(&root, &keys).into_notes();
     notes.extend(euler_edits::apply(&mut shot.keyframes, &angles, shot.scene.up));
+    notes.extend(look_at::apply(&mut shot.keyframes, shot.scene.up));
     Ok(ShotFile { shot, notes })
 }
 
@@ -195,8 +198,19 @@ fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
         },
         easing: node.optional("easing").map_or(Ok(Easing::Smooth), |easing| easing.choice())?,
         cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
-        intent: node.optional("intent").map(|intent| read_intent(&intent)).transpose()?,
+        intent: with_look_at(node, node.optional("intent").map(|intent| read_intent(&intent)).transpose()?)?,
     })
+}
+
+/// The intent with the point that the keyframe looks at.
+fn with_look_at(keyframe: &Node, intent: Option<Intent>) -> Result<Option<Intent>, ExportError> {
+    let Some(node) = keyframe.optional("look_at") else { return Ok(intent) };
+    let point = node.vector().map_err(|_| node.error("a point: 3 finite numbers"))?;
+    let position = keyframe.field("position", "3 finite numbers")?.vector()?;
+    if !(point.distance(position) > 0.0) {
+        return Err(node.error("a point other than the key's own position"));
+    }
+    Ok(Some(Intent { look_at: Some(point), ..intent.unwrap_or_default() }))
 }
 
 fn read_intent(node: &Node) -> Result<Intent, ExportError> {
@@ -215,6 +229,7 @@ fn read_intent(node: &Node) -> Result<Intent, ExportError> {
         angle: node.optional("angle").map(|angle| angle.choice()).transpose()?,
         words: words.transpose()?,
         pivot: node.optional("pivot").map(|pivot| pivot.vector()).transpose()?,
+        look_at: None,
     })
 }
 
@@ -299,7 +314,10 @@ fn keyframe_json(key: &Keyframe, euler: Option<LevelAngles>) -> Json {
     fields.extend(key.optics.shutter_angle_rad.map(|angle| ("shutter_angle_deg", angle.to_degrees().into())));
     fields.extend([("easing", key.easing.as_ref().into()), ("cut", key.cut.into())]);
     if let Some(intent) = &key.intent {
-        fields.push(("intent", intent_json(intent)));
+        fields.extend(intent.look_at.map(|point| ("look_at", point.into())));
+        if *intent != (Intent { look_at: intent.look_at, ..Intent::default() }) {
+            fields.push(("intent", intent_json(intent)));
+        }
     }
     Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }

@@ -10,9 +10,12 @@ use glam::DVec3;
 use super::ExportError;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
-use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
+use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, LensSide, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::Easing;
+
+/// Time between the repeated keys around a cut, frames.
+const HOLD_FRAMES: f64 = 1e-3;
 
 /// Largest document inside a project that is read, bytes.
 const MAX_DOCUMENT_BYTES: u64 = 64 << 20;
@@ -38,23 +41,27 @@ pub(super) fn write(track: &PoseTrack) -> String {
     let distance = target_distance(track);
     let target =
         |frame: &PoseFrame| frame.pose.position + frame.pose.forward() * frame.focus_distance.unwrap_or(distance);
-    let flat = |point: fn(&PoseFrame) -> DVec3| track.frames.iter().flat_map(move |f| turned(point(f)).to_array());
-    let targets = track.frames.iter().flat_map(|frame| turned(target(frame)).to_array());
+    let keys = keys_with_holds(track, fps);
+    let positions = keys.iter().flat_map(|(_, frame)| turned(frame.pose.position).to_array());
+    let targets = keys.iter().flat_map(|(_, frame)| turned(target(frame)).to_array());
+    // The viewer's spline returns to the first key after the last one: the animation ends at the last.
+    let last_secs = keys.last().map_or(0.0, |(time, _)| time / fps);
+    let duration_secs = if last_secs > 0.0 { last_secs } else { 1.0 / fps };
     let fov_deg = |frame: &PoseFrame| larger_fov(fov_y_or_default(frame), aspect).to_degrees();
     let keyframes = object([
-        ("times", Json::list(track.since_start().map(|(secs, _)| secs * fps))),
+        ("times", Json::list(keys.iter().map(|(time, _)| *time))),
         (
             "values",
             object([
-                ("position", Json::list(flat(|frame| frame.pose.position))),
+                ("position", Json::list(positions)),
                 ("target", Json::list(targets)),
-                ("fov", Json::list(track.frames.iter().map(fov_deg))),
+                ("fov", Json::list(keys.iter().map(|(_, frame)| fov_deg(frame)))),
             ]),
         ),
     ]);
     let animation = object([
         ("name", "cinesplat".into()),
-        ("duration", track.duration_secs().into()),
+        ("duration", duration_secs.into()),
         ("frameRate", fps.into()),
         ("loopMode", "none".into()),
         ("interpolation", "spline".into()),
@@ -81,6 +88,43 @@ pub(super) fn write(track: &PoseTrack) -> String {
         ("startMode", "animTrack".into()),
     ])
     .pretty()
+}
+
+/// Each frame with its time in frames. Around a cut the poses on both sides are repeated within an instant, so that the
+/// viewer's spline neither sweeps from one to the other nor swings beside them.
+fn keys_with_holds(track: &PoseTrack, fps: f64) -> Vec<(f64, &PoseFrame)> {
+    let mut keys: Vec<(f64, &PoseFrame)> = Vec::with_capacity(track.frames.len());
+    for (secs, frame) in track.since_start() {
+        let time = secs * fps;
+        match keys.last().copied().filter(|_| frame.cut) {
+            Some((_, before)) => {
+                keys.extend([(time - 2.0 * HOLD_FRAMES, before), (time - HOLD_FRAMES, before)]);
+                keys.extend([(time, frame), (time + HOLD_FRAMES, frame)]);
+            }
+            None => keys.push((time, frame)),
+        }
+    }
+    keys
+}
+
+/// The frames without the repeated poses around cuts, which are marked as cuts.
+fn without_holds(frames: Vec<PoseFrame>, fps: f64) -> Vec<PoseFrame> {
+    let mut kept: Vec<PoseFrame> = Vec::with_capacity(frames.len());
+    let is_near = |a: &PoseFrame, b: &PoseFrame| (b.time_secs - a.time_secs) * fps < 1.5 * HOLD_FRAMES;
+    let mut idx = 0;
+    while idx < frames.len() {
+        match &frames[idx..] {
+            [a, b, c, d, ..] if is_near(a, b) && is_near(b, c) && is_near(c, d) && idx > 0 => {
+                kept.push(PoseFrame { cut: true, ..c.clone() });
+                idx += 4;
+            }
+            _ => {
+                kept.push(frames[idx].clone());
+                idx += 1;
+            }
+        }
+    }
+    kept
 }
 
 /// All post effects that the schema requires, disabled.
@@ -142,7 +186,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         let place = || format!("animTracks[0].keyframes, key {idx}");
         frames.push(frame(time / fps, position, target, *fov_deg).ok_or_else(|| no_direction(place()))?);
     }
-    Ok(track_of(frames, fps))
+    Ok(track_of(without_holds(frames, fps), fps))
 }
 
 /// Reads the poses of a project's document.
@@ -186,7 +230,8 @@ fn frame(time_secs: f64, position: DVec3, target: DVec3, fov_deg: f64) -> Option
 }
 
 fn track_of(frames: Vec<PoseFrame>, fps: f64) -> PoseTrack {
-    PoseTrack { fps: Some(fps), up: Some(DVec3::NEG_Y), timed: true, ..PoseTrack::untimed(frames) }
+    let lens_side = LensSide::Larger;
+    PoseTrack { fps: Some(fps), up: Some(DVec3::NEG_Y), timed: true, lens_side, ..PoseTrack::untimed(frames) }
 }
 
 /// The document inside a project file.

@@ -21,6 +21,8 @@ pub struct PoseTrack {
     pub fps: Option<f64>,
     /// World up; `None` if the file does not state it.
     pub up: Option<DVec3>,
+    /// The side of the image along which the file states fields of view.
+    pub lens_side: LensSide,
     /// Whether the file holds times. If not, `time_secs` counts frames at 30 per second.
     pub timed: bool,
     /// The poses in order of time (in file order without times), at least one.
@@ -30,6 +32,17 @@ pub struct PoseTrack {
     pub keys: Vec<PoseFrame>,
     /// One line per thing in the file that was not read.
     pub unread: Vec<String>,
+}
+
+/// The side of the image along which a file states fields of view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LensSide {
+    /// Upward.
+    #[default]
+    Vertical,
+    /// The larger side, of an image whose size the file does not state. The vertical fields of view in memory are those of
+    /// the default size.
+    Larger,
 }
 
 /// The camera at one moment of a [`PoseTrack`].
@@ -82,6 +95,7 @@ impl PoseTrack {
             stated_aspect: None,
             fps: None,
             up: None,
+            lens_side: LensSide::Vertical,
             timed: false,
             frames,
             keys: Vec::new(),

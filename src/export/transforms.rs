@@ -9,6 +9,7 @@ use glam::DMat3;
 use super::ExportError;
 use super::json_read::{self, Node};
 use super::json_write::{Json, matrix_rows, object};
+use super::lens_losses::LensLosses;
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::frames::{from_opengl, to_opengl};
 
@@ -40,6 +41,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let mut frames = Vec::with_capacity(nodes.len());
     let mut timed = !nodes.is_empty();
     let mut size_px = None;
+    let mut losses = LensLosses::default();
     for (idx, node) in nodes.iter().enumerate() {
         let time_secs = node.optional("time_secs").map(|time| time.number()).transpose()?;
         timed &= time_secs.is_some();
@@ -47,6 +49,8 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         let matrix = matrix_node.matrix()?;
         let pose = from_opengl(matrix).map_err(|error| matrix_node.error(format!("a rigid pose ({error})")))?;
         let intrinsics = FrameIntrinsics::read(node, &root)?;
+        intrinsics.note_losses(&mut losses);
+        note_distortion(node, &root, &mut losses)?;
         size_px = size_px.or(intrinsics.size_px());
         let opencv_axes = DMat3::from_mat4(matrix) * DMat3::from_diagonal(glam::DVec3::new(1.0, -1.0, -1.0));
         frames.push(PoseFrame {
@@ -55,7 +59,16 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
             ..PoseFrame::new(time_secs.unwrap_or(idx as f64 / fps.unwrap_or(DEFAULT_FPS)), pose)
         });
     }
-    Ok(PoseTrack { size_px, fps, timed, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { size_px, fps, timed, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
+}
+
+fn note_distortion(frame: &Node, root: &Node, losses: &mut LensLosses) -> Result<(), ExportError> {
+    for name in ["k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"] {
+        if let Some(node) = frame.optional(name).or_else(|| root.optional(name)) {
+            losses.distortion(name, node.number()?);
+        }
+    }
+    Ok(())
 }
 
 /// Intrinsics of a frame, from its own keys or from those at the top level.
@@ -66,6 +79,8 @@ struct FrameIntrinsics {
     fl_y: Option<f64>,
     angle_x: Option<f64>,
     angle_y: Option<f64>,
+    cx: Option<f64>,
+    cy: Option<f64>,
 }
 
 impl FrameIntrinsics {
@@ -81,7 +96,17 @@ impl FrameIntrinsics {
             fl_y: get("fl_y")?,
             angle_x: get("camera_angle_x")?,
             angle_y: get("camera_angle_y")?,
+            cx: get("cx")?,
+            cy: get("cy")?,
         })
+    }
+
+    fn note_losses(&self, losses: &mut LensLosses) {
+        let off = |center: Option<f64>, size: Option<f64>| center.zip(size).map_or(0.0, |(at, size)| at - size / 2.0);
+        losses.principal_point_px([off(self.cx, self.width), off(self.cy, self.height)]);
+        if let (Some(fl_x), Some(fl_y)) = (self.fl_x, self.fl_y) {
+            losses.focal_px(fl_x, fl_y);
+        }
     }
 
     fn size_px(&self) -> Option<(u32, u32)> {

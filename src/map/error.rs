@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use cinesplat_geometry::GeometryError;
+use cinesplat_plot::PlotError;
 use cinesplat_render::RenderError;
 use cinesplat_trajectory::TrajectoryError;
 
@@ -16,12 +17,9 @@ pub enum MapError {
     /// The matter around the path cannot be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// A picture cannot be encoded.
-    #[error("the picture of the map cannot be encoded: {reason}")]
-    Picture {
-        /// What is wrong with it.
-        reason: String,
-    },
+    /// The map cannot be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
 }
 
 impl MapError {
@@ -31,7 +29,7 @@ impl MapError {
             Self::Trajectory(error) => error.code(),
             Self::Geometry(error) => error.code(),
             Self::Render(error) => error.code(),
-            Self::Picture { .. } => "MAP-PICTURE",
+            Self::Plot(error) => error.code(),
         }
     }
 }

@@ -4,11 +4,11 @@ use cinesplat_trajectory::{CameraState, Keyframe};
 use glam::{DVec2, DVec3};
 
 use crate::cones;
-use crate::drawing::{Anchor, Mark, Stroke, TextStyle, text_width_px};
 use crate::labels::Labels;
 use crate::panel::{Panel, View};
 use crate::route::Route;
 use crate::style::{CONE, INK, WHITE};
+use cinesplat_plot::drawing::{Anchor, Mark, Stroke, TextStyle, text_width_px};
 
 /// Keys nearer than this on the page share a mark, px.
 const SAME_PLACE_PX: f64 = 17.0;
@@ -89,7 +89,7 @@ pub(crate) fn view_numbers(panel: &Panel, route: &Route, labels: &mut Labels) ->
     marks
 }
 
-fn number(center_px: DVec2, text: String, ink: crate::drawing::Ink) -> Mark {
+fn number(center_px: DVec2, text: String, ink: cinesplat_plot::drawing::Ink) -> Mark {
     let style = TextStyle { size_px: NUMBER_PX, ink, anchor: Anchor::Middle, is_bold: true };
     Mark::Text { at_px: center_px + DVec2::new(0.0, 0.36 * NUMBER_PX), style, halo_px: 0.0, text }
 }

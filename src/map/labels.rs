@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use crate::drawing::{Anchor, Ink, Mark, Stroke, TextStyle, text_width_px};
 use crate::style::INK;
+use cinesplat_plot::drawing::{Anchor, Ink, Mark, Stroke, TextStyle, text_width_px};
 
 /// A rectangle by its upper left and lower right corner, px.
 type Rect = (DVec2, DVec2);

@@ -4,10 +4,10 @@ use cinesplat_objects::ObjectSet;
 use cinesplat_trajectory::{Intent, Shot};
 use glam::DVec2;
 
-use crate::drawing::{Anchor, Ink, Mark, Stroke, TextStyle, text_width_px};
 use crate::path_marks::tick_secs;
 use crate::route::Route;
 use crate::style::{CLEARANCE, CONE, GRAY, INK, PALE, SUBJECT, WHITE, number, speed_ink};
+use cinesplat_plot::drawing::{Anchor, Ink, Mark, Stroke, TextStyle, text_width_px};
 
 const TEXT_PX: f64 = 11.0;
 const LINE_PX: f64 = 16.0;

@@ -5,7 +5,6 @@
 //! cut below a ceiling and in front of the path. The one invariant: the same input gives the same bytes.
 
 mod cones;
-pub mod drawing;
 mod error;
 mod keys;
 mod labels;
@@ -14,7 +13,6 @@ mod matter;
 mod page;
 mod panel;
 mod path_marks;
-mod png;
 mod roof;
 mod route;
 mod space;
@@ -22,6 +20,6 @@ mod style;
 mod things;
 mod walls;
 
-pub use drawing::Drawing;
+pub use cinesplat_plot::drawing::{self, Drawing};
 pub use error::MapError;
 pub use page::draw;

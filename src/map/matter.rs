@@ -5,10 +5,10 @@ use cinesplat_render::{Frame, Quality, RenderSettings, Renderer};
 use cinesplat_scene::{Gaussians, Scene};
 use glam::{DMat3, DQuat, DVec2};
 
-use crate::drawing::Picture;
 use crate::error::MapError;
 use crate::panel::{Panel, View};
 use crate::space::Space;
+use cinesplat_plot::drawing::Picture;
 
 /// Pixels of the picture per px of the page.
 const PIXELS_PER_PX: f64 = 1.6;
@@ -35,10 +35,8 @@ pub(crate) fn picture(scene: &Scene, space: &Space, panel: &Panel) -> Result<Pic
     let size = (panel.size_px() * PIXELS_PER_PX).round().max(DVec2::ONE);
     let intrinsics = Intrinsics::from_fov_y(size.x as u32, size.y as u32, 1.0);
     if kept.is_empty() {
-        return Ok(Picture {
-            size: [size.x as u32, size.y as u32],
-            rgb8: vec![255; size.x as usize * size.y as usize * 3],
-        });
+        let white = vec![255; size.x as usize * size.y as usize * 3];
+        return Ok(Picture::new([size.x as u32, size.y as u32], white)?);
     }
     let extent = (space.high - space.low).max_element();
     let distance = DISTANCE * extent;
@@ -54,7 +52,7 @@ pub(crate) fn picture(scene: &Scene, space: &Space, panel: &Panel) -> Result<Pic
     let (frame, depth) = (renderer.render(&camera, &settings)?, renderer.depth(&camera, &settings)?);
     let relief = Relief { depths: &depth.median, width: size.x as usize, pixel: distance as f32 / focal_px as f32 };
     let rgb8 = (0..frame.transmittance.len()).flat_map(|i| shade(&frame, &relief, i)).collect();
-    Ok(Picture { size: [size.x as u32, size.y as u32], rgb8 })
+    Ok(Picture::new([size.x as u32, size.y as u32], rgb8)?)
 }
 
 /// The Gaussians inside the extent along the view axis and behind its cut, without colors that depend on the direction: no

@@ -6,7 +6,6 @@ use cinesplat_scene::Scene;
 use cinesplat_trajectory::Shot;
 use glam::{DVec2, DVec3};
 
-use crate::drawing::{Anchor, Drawing, Mark, Stroke, TextStyle};
 use crate::error::MapError;
 use crate::labels::Labels;
 use crate::legend::{Column, text, wrapped};
@@ -15,6 +14,7 @@ use crate::route::Route;
 use crate::space::Space;
 use crate::style::{GRAY, INK, PALE, WHITE, number};
 use crate::{keys, matter, path_marks, things};
+use cinesplat_plot::drawing::{Anchor, Drawing, Mark, Stroke, TextStyle};
 
 /// Empty border of the page, px.
 const MARGIN: f64 = 26.0;

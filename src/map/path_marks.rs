@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use crate::drawing::{Mark, Stroke};
 use crate::labels::{Label, Labels};
 use crate::panel::{Panel, View};
 use crate::route::{Route, Sample};
 use crate::style::{GRAY, INK, WHITE, speed_ink};
+use cinesplat_plot::drawing::{Mark, Stroke};
 
 /// Widths of the line and of the dark line behind it, px.
 const LINE_PX: f64 = 3.4;

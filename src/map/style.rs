@@ -1,6 +1,6 @@
 //! Colors and sizes of the map.
 
-use crate::drawing::Ink;
+use cinesplat_plot::drawing::Ink;
 
 /// Lines and text.
 pub(crate) const INK: Ink = Ink::new([24, 24, 28]);

@@ -6,12 +6,12 @@ use cinesplat_trajectory::ClearanceProof;
 use glam::DVec2;
 
 use crate::cones::hull;
-use crate::drawing::{Mark, Stroke};
 use crate::labels::{Label, Labels};
 use crate::panel::Panel;
 use crate::route::Route;
 use crate::space::Space;
 use crate::style::{CLEARANCE, GRAY, SUBJECT, WHITE, number};
+use cinesplat_plot::drawing::{Mark, Stroke};
 
 /// Most other objects with a name.
 const MAX_NAMES: usize = 12;

@@ -163,5 +163,6 @@ fn intent(segment: &MotionSegment, label: &StepLabels, key: usize) -> Intent {
         angle: if at_end { label.end_angle } else { label.start_angle.filter(|_| at_start) },
         words: label.words,
         pivot: segment.pivot,
+        look_at: None,
     }
 }

@@ -1,6 +1,6 @@
 //! Labels beside points, each at the candidate position with the least overlap.
 
-use super::text::text_width;
+use super::drawing::text_width_px;
 
 /// Left, top, right, bottom, px.
 type Rect = [f64; 4];
@@ -24,7 +24,7 @@ impl Labels {
 
     /// Left end of the base line of a label beside the dot at a point. The label's area becomes occupied.
     pub(super) fn place(&mut self, (x, y): (f64, f64), radius: f64, label: &str, font_px: f64) -> (f64, f64) {
-        let (width, height) = (text_width(label, font_px), font_px);
+        let (width, height) = (text_width_px(label, font_px), font_px);
         // Right, left, above, below, the corners; then the same farther away.
         let sides =
             [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (-1.0, 1.0)];

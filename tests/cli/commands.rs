@@ -22,7 +22,8 @@ fn help_shows_every_command_and_examples() {
       still        Render still pictures from given cameras
       export       Write a shot's camera path for another program
       import       Turn another program's camera path into a shot
-      eval         Compare two camera paths: absolute and relative pose error
+      describe     Say what a camera does, from its path alone
+      eval         Compare camera paths: absolute and relative pose error
       train        Train the director's network, which understands sentences
       dataset      Generate training data for the director's network
       bench        Measure time, memory and accuracy
@@ -55,10 +56,11 @@ fn help_shows_every_command_and_examples() {
     Usage: cinesplat import [OPTIONS] --output <SHOT.JSON> <FILE>
 
     Arguments:
-      <FILE>  Camera path to read, or the folder of a COLMAP, EuRoC or nerfstudio capture
+      <FILE>  Camera path to read, or the folder of a COLMAP, EuRoC, nerfstudio or 7-Scenes capture
 
     Options:
           --from <FORMAT>  Format to read [default: by the content of the file]
+          --camera <NAME>  Camera to read of a file that holds several [default: the first]
       -q, --quiet          Print only data and errors: no notes, warnings or progress
       -h, --help           Print help (see more with '--help')
 

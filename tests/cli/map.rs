@@ -33,10 +33,10 @@ fn plan_and_render_write_the_same_map() {
 #[test]
 fn a_wrong_name_of_a_map_is_refused_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
-    insta::assert_snapshot!(answer(folder.path(), &["plan", "no.ply", "-p", "pan left", "--map", "map.pdf"]), @r"
+    insta::assert_snapshot!(answer(folder.path(), &["plan", "no.ply", "-p", "pan left", "--map", "map.gif"]), @r"
     exit 2
-    error[USAGE]: map.pdf: the name does not determine the format of the map, expected .svg or .png
-    help: name the map something such as map.svg
+    error[USAGE]: map.gif: the name does not determine the format of the figure, expected .svg, .png or .pdf
+    help: name the figure something such as figure.svg
     ");
     let same = ["render", "no.ply", "-p", "pan left", "-o", "a.mp4", "--sheet", "a.png", "--map", "a.png"];
     assert!(answer(folder.path(), &same).contains("--sheet and --map both write this file"));

@@ -3,7 +3,9 @@
 
 mod associate;
 mod batch;
+mod conventions;
 mod degenerate;
+mod describe;
 mod evo_pairs;
 mod evo_parity;
 mod framing;

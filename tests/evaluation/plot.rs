@@ -1,4 +1,7 @@
-use cinesplat::evaluation::{Trajectory, plot_svg};
+use cinesplat::evaluation::{
+    Align, BatchRow, EvalSettings, EvaluationError, Trajectory, error_figure, evaluate, path_figure, result_latex,
+    result_markdown,
+};
 use glam::{DQuat, DVec3};
 
 use super::paths::through;
@@ -23,10 +26,15 @@ fn is_well_formed(svg: &str) -> bool {
 #[test]
 fn draws_every_path_in_every_chart() {
     let path = |shift: f64| through((0..50).map(move |k| DVec3::new(f64::from(k) * 0.1, shift, 0.0)), DQuat::IDENTITY);
-    let svg = plot_svg("one < two & \"three\"", &[("reference", &path(0.0)), ("estimate", &path(0.2))], &[0.0, 1.0]);
+    let figure =
+        path_figure("one < two & \"three\"", &[("reference", &path(0.0)), ("estimate", &path(0.2))], &[0.0, 1.0]);
+    let svg = figure.to_svg();
     assert!(is_well_formed(&svg), "{svg}");
-    // Two views and six charts.
-    assert_eq!(svg.matches("<polyline").count(), 2 * 8);
+    // Two views and six charts, each with a line per path, and the legend with one per path.
+    for color in ["#888888", "#d55e00"] {
+        let lines = svg.lines().filter(|line| line.starts_with("<polyline") && line.contains(color));
+        assert_eq!(lines.count(), 8 + 1, "{color}");
+    }
     for name in
         ["seen from above", "seen from the side", "x, scene units", "roll, degrees", "yaw, degrees", "one &lt; two"]
     {
@@ -40,7 +48,7 @@ fn still_single_and_empty_paths_draw_without_nonsense() {
     let still = through(std::iter::repeat_n(DVec3::ONE, 20), DQuat::IDENTITY);
     let single = through(std::iter::once(DVec3::ZERO), DQuat::IDENTITY);
     for path in [&still, &single, &Trajectory::default()] {
-        let svg = plot_svg("still", &[("path", path)], &[]);
+        let svg = path_figure("still", &[("path", path)], &[]).to_svg();
         assert!(is_well_formed(&svg) && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
     }
 }
@@ -48,5 +56,105 @@ fn still_single_and_empty_paths_draw_without_nonsense() {
 #[test]
 fn long_recordings_stay_small() {
     let long = through((0..200_000).map(|k| DVec3::new(f64::from(k) * 1e-4, 0.0, 0.0)), DQuat::IDENTITY);
-    assert!(plot_svg("long", &[("path", &long)], &[]).len() < 400_000);
+    assert!(path_figure("long", &[("path", &long)], &[]).to_svg().len() < 400_000);
+}
+
+#[test]
+fn yaw_of_an_estimate_stays_beside_the_references() {
+    // The reference turns once around; the estimate misses the half turn in the middle.
+    let turning = |frames: &mut dyn Iterator<Item = usize>| {
+        let poses: Vec<_> = frames
+            .map(|k| {
+                let turn = DQuat::from_rotation_y((k as f64 * 3.6).to_radians());
+                (k as f64 / 10.0, cinesplat::geometry::Pose::new(DVec3::X * k as f64, turn))
+            })
+            .collect();
+        let (times, poses): (Vec<f64>, Vec<_>) = poses.into_iter().unzip();
+        Trajectory { up: Some(DVec3::NEG_Y), ..Trajectory::from_poses(Some(times), &poses) }
+    };
+    let whole = turning(&mut (0..100));
+    let gapped = turning(&mut (0..20).chain(80..100));
+    let svg = path_figure("turn", &[("reference", &whole), ("estimate", &gapped)], &[]).to_svg();
+    // The last chart is that of the yaw: its labels end within one turn of 0.
+    let labels = svg.rsplit("yaw, degrees").nth(1).unwrap_or_default();
+    assert!(!svg.contains(">-400<") && !svg.contains(">-300<"), "{labels}");
+}
+
+fn compared(noise: f64) -> cinesplat::evaluation::Evaluation {
+    let wave = |scale: f64| {
+        let at = move |k: i32| {
+            let t = f64::from(k) * 0.05;
+            DVec3::new(t, (3.0 * t).sin() + scale * (17.0 * t).sin(), 0.3 * (2.0 * t).cos())
+        };
+        through((0..300).map(at), DQuat::IDENTITY)
+    };
+    evaluate(&wave(0.0), &wave(noise), &EvalSettings { align: Align::Se3, ..EvalSettings::default() }).unwrap()
+}
+
+#[test]
+fn the_figure_of_errors_shows_maps_times_axes_and_spreads_of_every_estimate() {
+    let (near, far) = (compared(0.01), compared(0.1));
+    let svg = error_figure("truth.txt", &[("near.txt", &near), ("far.txt", &far)]).to_svg();
+    assert!(is_well_formed(&svg) && !svg.contains("NaN") && !svg.contains("inf"));
+    for name in [
+        "near.txt (300 errors)",
+        "far.txt: rmse",
+        "truth.txt",
+        "error over time",
+        "error of x",
+        "distribution",
+        "relative error of the position",
+        "relative error of the rotation",
+        "position, scene units",
+    ] {
+        assert!(svg.contains(name), "{name}");
+    }
+    // Five distances with a box of each estimate, in two charts: boxes are the only marks with an opacity of 0.35.
+    assert_eq!(svg.matches("fill-opacity=\"0.35\"").count(), 2 * 5 * 2);
+    let still = through(std::iter::repeat_n(DVec3::ONE, 20), DQuat::IDENTITY);
+    let still = evaluate(&still, &still, &EvalSettings::default()).unwrap();
+    let svg = error_figure("still", &[("still", &still)]).to_svg();
+    assert!(is_well_formed(&svg) && !svg.contains("NaN") && svg.contains("the reference is stationary"));
+}
+
+#[test]
+fn a_pdf_says_where_each_of_its_objects_starts() {
+    let pdf = error_figure("truth", &[("near", &compared(0.01))]).to_pdf();
+    let text = String::from_utf8_lossy(&pdf);
+    let table = text.rsplit_once("startxref\n").unwrap().1.lines().next().unwrap().parse::<usize>().unwrap();
+    assert!(pdf[table..].starts_with(b"xref"));
+    let starts = String::from_utf8_lossy(&pdf[table..]).into_owned();
+    for (number, line) in starts.lines().skip(3).take_while(|line| line.ends_with("n ")).enumerate() {
+        let start: usize = line[..10].parse().unwrap();
+        assert!(pdf[start..].starts_with(format!("{} 0 obj", number + 1).as_bytes()), "object {}", number + 1);
+    }
+    assert!(text.contains("/BaseFont /Helvetica ") && !text.contains("NaN"));
+}
+
+#[test]
+fn tables_for_a_text_mark_the_best_row() {
+    let failed = EvaluationError::Empty { which: "estimate" };
+    let rows = [("a_b", Ok(compared(0.1))), ("c|d", Ok(compared(0.01))), ("e", Err(failed))]
+        .map(|(name, outcome)| BatchRow { name: name.to_owned(), outcome });
+    insta::assert_snapshot!(result_markdown(&rows), @r"
+    absolute pose error, trans, align se3, 300 errors
+
+    | estimate | pairs | rmse | mean | median | std | min | max |
+    |---|---:|---:|---:|---:|---:|---:|---:|
+    | a_b | 300 | 0.07063 | 0.06352 | 0.0709 | 0.03088 | 3.667e-5 | 0.1008 |
+    | c\|d | 300 | **0.007063** | 0.006352 | 0.00709 | 0.003088 | 3.668e-6 | 0.01008 |
+    | e | | the estimate has no poses, expected at least one | | | | | |
+    ");
+    insta::assert_snapshot!(result_latex(&rows), @r"
+    % absolute pose error, trans, align se3, 300 errors
+    \begin{tabular}{lrrrrrrr}
+    \toprule
+    estimate & pairs & rmse & mean & median & std & min & max \\
+    \midrule
+    a\_b & 300 & 0.07063 & 0.06352 & 0.0709 & 0.03088 & 3.667e-5 & 0.1008 \\
+    c|d & 300 & \textbf{0.007063} & 0.006352 & 0.00709 & 0.003088 & 3.668e-6 & 0.01008 \\
+    e & \multicolumn{7}{l}{the estimate has no poses, expected at least one} \\
+    \bottomrule
+    \end{tabular}
+    ");
 }

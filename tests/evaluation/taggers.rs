@@ -1,6 +1,7 @@
-use cinesplat::evaluation::{MotionTag, Tagger, Trajectory};
+use cinesplat::evaluation::{MotionTag, TagSegment, Tagger, Trajectory, Turn};
 use cinesplat::geometry::Pose;
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
+use strum::VariantArray;
 
 use super::paths::{at_30_fps, through, track_of};
 
@@ -105,4 +106,80 @@ fn at_most_four_segments_are_left() {
 fn nothing_to_tag_gives_no_segments() {
     assert!(Tagger::Gendop.segments(&Trajectory::default()).is_empty());
     assert!(Tagger::Et.segments(&through(std::iter::once(DVec3::ONE), DQuat::IDENTITY)).is_empty());
+}
+
+/// The random numbers of the script that made the golden tags: the upper bits of a linear congruential generator.
+struct Lcg(u64);
+
+impl Lcg {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A random path of pieces with constant motion and a little noise, as in `tests/evaluation/golden/tags.py`.
+fn random_path(seed: u64) -> Trajectory {
+    let mut random = Lcg(seed);
+    for _ in 0..8 {
+        random.next();
+    }
+    let num_poses = 30 + (random.next() * 270.0) as usize;
+    let (mut rotation, mut position, mut left) = (DMat3::IDENTITY, DVec3::ZERO, 0);
+    let (mut moved, mut turned) = ([0.0; 3], [0.0; 3]);
+    let mut path = Trajectory::default();
+    for _ in 0..num_poses {
+        path.positions.push(position);
+        path.rotations.push(rotation);
+        path.fov_y_rad.push(None);
+        if left == 0 {
+            left = 3 + (random.next() * 57.0) as usize;
+            for (motion, share, scale) in [(&mut moved, 0.5, 0.4), (&mut turned, 0.4, 0.06)] {
+                for axis in motion {
+                    let is_on = random.next() < share;
+                    let value = random.next();
+                    *axis = if is_on { (value - 0.5) * scale } else { 0.0 };
+                }
+            }
+        }
+        left -= 1;
+        let mut noisy = |motion: [f64; 3], scale: f64| motion.map(|axis| axis + (random.next() - 0.5) * scale);
+        let step = DVec3::from_array(noisy(moved, 0.03)) / 25.0;
+        let turn = DVec3::from_array(noisy(turned, 0.004));
+        position += rotation * step;
+        rotation *= DMat3::from_quat(DQuat::from_scaled_axis(turn));
+    }
+    path
+}
+
+/// A segment as the published systems number it.
+fn numbered(tagger: Tagger, segment: &TagSegment) -> String {
+    let TagSegment { start, end, tag } = segment;
+    let digit = |sign: i8| match sign {
+        1 => 1,
+        -1 => 2,
+        _ => 0,
+    };
+    let turn = Turn::VARIANTS.iter().position(|turn| *turn == tag.turn).unwrap();
+    let class = match tagger {
+        Tagger::Et => 9 * digit(tag.right) + 3 * digit(-tag.up) + digit(tag.forward),
+        Tagger::Gendop => 7 * (9 * digit(tag.right) + 3 * digit(tag.up) + digit(-tag.forward)) + turn,
+    };
+    format!("{start}-{end}:{class}")
+}
+
+#[test]
+fn the_tags_of_200_random_paths_are_those_of_the_published_systems() {
+    let golden = include_str!("golden/tags.txt");
+    let mut compared = 0;
+    for line in golden.lines() {
+        let (seed, rest) = line.split_once(' ').unwrap();
+        let (name, wanted) = rest.split_once(' ').unwrap();
+        let tagger = if name == "et" { Tagger::Et } else { Tagger::Gendop };
+        let segments = tagger.segments(&random_path(seed.parse().unwrap()));
+        let got: Vec<String> = segments.iter().map(|segment| numbered(tagger, segment)).collect();
+        assert_eq!(got.join(" "), wanted, "{name} of path {seed}");
+        compared += 1;
+    }
+    assert_eq!(compared, 400);
 }

@@ -121,7 +121,7 @@ fn tum_with_commas_is_not_read_as_euroc() {
 #[test]
 fn euroc_with_spaces_is_not_read_as_tum() {
     let spaces = Layout { separator: " ", ..EUROC };
-    let doubt = "euroc (8 columns, nanoseconds, quaternion w x y z), or tum (seconds, quaternion x y z w)";
+    let doubt = "euroc (8 columns, nanoseconds, quaternion w x y z), or dpvo (nanoseconds, quaternion x y z w)";
     assert_eq!(read_as(&spaces), doubt);
     assert_eq!(read_as(&Layout { separator: "\t", tail: "\r\n", head: "\u{feff}", ..EUROC }), doubt);
     assert_eq!(read_as(&Layout { tail: &BIASES.replace(',', " "), ..spaces }), "euroc");

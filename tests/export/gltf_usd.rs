@@ -7,7 +7,10 @@ use super::sample_shot::{file, there_and_back, with_cut};
 
 fn gltf() -> Value {
     let (_, warnings, folder) = there_and_back(&with_cut(), Format::Gltf, "a.gltf", Content::Sampled);
-    assert!(warnings.iter().all(|line| !line.contains("cuts") && !line.contains("field of view")), "{warnings:?}");
+    assert!(
+        warnings.iter().all(|line| !line.contains("cuts") && !line.contains("holds no field of view")),
+        "{warnings:?}"
+    );
     serde_json::from_str(&std::fs::read_to_string(folder.path().join("a.gltf")).unwrap()).unwrap()
 }
 
@@ -19,6 +22,48 @@ fn a_zoom_is_animated_through_the_pointer_extension() {
     assert_eq!(target["path"], "pointer");
     assert_eq!(target["extensions"]["KHR_animation_pointer"]["pointer"], "/cameras/0/perspective/yfov");
     assert!(target.get("node").is_none());
+}
+
+#[test]
+fn a_lens_that_most_viewers_ignore_is_named() {
+    let (_, warnings, _folder) = there_and_back(&with_cut(), Format::Gltf, "a.gltf", Content::Sampled);
+    assert!(warnings.iter().any(|line| line.contains("which three.js and others ignore")), "{warnings:?}");
+    let mut constant = with_cut();
+    constant.keyframes.iter_mut().for_each(|key| key.fov_y_rad = 0.8);
+    let (_, warnings, _folder) = there_and_back(&constant, Format::Gltf, "a.gltf", Content::Sampled);
+    assert!(warnings.iter().all(|line| !line.contains("field of view")), "{warnings:?}");
+}
+
+#[test]
+fn animations_of_the_nodes_above_a_camera_move_it() {
+    // Blender hangs the camera under the node that it animates. Two keys at 0 and 1 s: x from 0 to 2, then half a turn
+    // about y; the camera is 1 unit along the parent's x, looking along -z.
+    let numbers: [f32; 16] = [0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0];
+    let bytes: Vec<u8> = numbers.iter().flat_map(|v| v.to_le_bytes()).collect();
+    let data = cinesplat::files::base64::encode(&bytes);
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "cameras": [{{"type": "perspective", "perspective": {{"yfov": 0.8, "znear": 0.1}}}}],
+        "nodes": [{{"children": [1]}}, {{"camera": 0, "translation": [1, 0, 0]}}],
+        "buffers": [{{"byteLength": 64, "uri": "data:application/octet-stream;base64,{data}"}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": 8}}, {{"buffer": 0, "byteOffset": 8, "byteLength": 24}},
+            {{"buffer": 0, "byteOffset": 32, "byteLength": 32}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR"}},
+            {{"bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC3"}},
+            {{"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC4"}}],
+        "animations": [{{"samplers": [{{"input": 0, "output": 1}}, {{"input": 0, "output": 2}}],
+            "channels": [{{"sampler": 0, "target": {{"node": 0, "path": "translation"}}}},
+                {{"sampler": 1, "target": {{"node": 0, "path": "rotation"}}}}]}}]}}"#
+    );
+    let (path, _folder) = file("a.gltf", text.as_bytes());
+    let frames = read(&path, None).unwrap().track.frames;
+    assert_eq!(frames.len(), 2);
+    assert!(
+        (frames[0].pose.position - DVec3::X).length() < 1e-6 && (frames[0].pose.forward() + DVec3::Z).length() < 1e-6
+    );
+    // The parent is at x = 2 with its x axis turned around.
+    assert!(
+        (frames[1].pose.position - DVec3::X).length() < 1e-6 && (frames[1].pose.forward() - DVec3::Z).length() < 1e-6
+    );
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod gltf_usd;
 mod hostile;
 mod imported_shots;
 mod nerfstudio;
+mod other_readers;
 mod round_trips;
 mod sample_shot;
 mod shot_json;

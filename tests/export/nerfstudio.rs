@@ -22,13 +22,21 @@ fn holds_every_key_that_ns_render_and_the_viewer_read() {
         assert!(!path[name].is_null(), "{name}");
     }
     assert_eq!(path["camera_type"], "perspective");
-    assert_eq!((path["camera_path"].as_array().unwrap().len(), path["keyframes"].as_array().unwrap().len()), (72, 4));
+    assert_eq!((path["camera_path"].as_array().unwrap().len(), path["keyframes"].as_array().unwrap().len()), (72, 72));
     // The frame rate of ns-render is the number of frames over the seconds.
     assert_eq!(path["seconds"].as_f64().unwrap(), 3.0);
-    let key = &path["keyframes"][1];
-    assert_eq!(key["override_transition_sec"], 1.0);
+    let key = &path["keyframes"][24];
+    assert!((key["override_transition_sec"].as_f64().unwrap() - 1.0 / 24.0).abs() < 1e-12);
     assert!((key["fov"].as_f64().unwrap() - 40.0).abs() < 1e-12);
     assert!((key["aspect"].as_f64().unwrap() - 16.0 / 9.0).abs() < 1e-12);
+}
+
+#[test]
+fn no_key_has_the_default_lens_which_would_switch_its_own_off() {
+    let path = exported(ExportSettings::default());
+    let default = path["default_fov"].as_f64().unwrap();
+    let keys = path["keyframes"].as_array().unwrap();
+    assert!(keys.iter().all(|key| (key["fov"].as_f64().unwrap() - default).abs() > 1e-3), "{default}");
 }
 
 #[test]

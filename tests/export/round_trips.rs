@@ -2,7 +2,7 @@
 
 use cinesplat::export::{Content, Format, ImportSettings, PoseTrack};
 use cinesplat::geometry::rotation;
-use cinesplat::trajectory::{Easing, ReportLine, SceneRef, Shot};
+use cinesplat::trajectory::{Easing, Keyframe, ReportLine, SceneRef, Shot};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -24,7 +24,7 @@ const fn row(format: Format, name: &'static str, tolerance: f64) -> Row {
     Row { format, name, tolerance, keeps_fov: true, keeps_times: true, keeps_size: true }
 }
 
-const ROWS: [Row; 15] = [
+const ROWS: [Row; 16] = [
     Row { keeps_fov: false, keeps_size: false, ..row(Format::Tum, "a.txt", 1e-14) },
     Row { keeps_fov: false, keeps_times: false, keeps_size: false, ..row(Format::Kitti, "b.txt", 1e-14) },
     Row { keeps_fov: false, keeps_size: false, ..row(Format::Euroc, "c.csv", 1e-14) },
@@ -39,6 +39,7 @@ const ROWS: [Row; 15] = [
     row(Format::Blender, "i.py", 1e-14),
     Row { keeps_size: false, ..row(Format::Csv, "j.csv", 1e-14) },
     Row { keeps_fov: false, keeps_times: false, keeps_size: false, ..row(Format::Log, "k.log", 1e-14) },
+    Row { keeps_times: false, ..row(Format::Cameras, "m.json", 1e-14) },
     row(Format::Shot, "l.json", 1e-14),
 ];
 
@@ -52,14 +53,20 @@ fn rotations() -> impl Strategy<Value = DQuat> {
 
 fn shots() -> impl Strategy<Value = Shot> {
     let position = || (-5.0..5.0_f64, -5.0..5.0_f64, -5.0..5.0_f64).prop_map(|(x, y, z)| DVec3::new(x, y, z));
-    let keys = prop::collection::vec((0.2..1.0_f64, position(), rotations(), 15.0..90.0_f64), 1..5);
-    (keys, rotations()).prop_map(|(keys, up)| {
+    let keys = prop::collection::vec((0.2..1.0_f64, position(), rotations(), 15.0..90.0_f64, prop::bool::ANY), 1..5);
+    let sizes = prop::sample::select(vec![(1280, 720), (720, 1280), (1080, 1080), (1998, 1080)]);
+    let rates = prop::sample::select(vec![24.0, 25.0, 30_000.0 / 1001.0, 120.0]);
+    (keys, rotations(), sizes, rates).prop_map(|(keys, up, (width, height), fps)| {
         let mut time_secs = -0.2;
-        let keyframes = keys.into_iter().map(|(step, position, turn, fov_deg)| {
-            time_secs = if time_secs < 0.0 { 0.0 } else { time_secs + step };
-            key(time_secs, position, turn, fov_deg)
-        });
-        shot(keyframes.collect(), up * DVec3::Y)
+        let keyframes: Vec<_> = keys
+            .into_iter()
+            .map(|(step, position, turn, fov_deg, is_cut)| {
+                let cut = is_cut && time_secs >= 0.0;
+                time_secs = if time_secs < 0.0 { 0.0 } else { time_secs + step };
+                Keyframe { cut, ..key(time_secs, position, turn, fov_deg) }
+            })
+            .collect();
+        Shot { width, height, fps, ..shot(keyframes, up * DVec3::Y) }
     })
 }
 
@@ -82,6 +89,9 @@ fn check(shot: &Shot, row: &Row, content: Content) {
         );
         let zoomed = b.fov_y_rad.map(|fov| (fov - a.fov_y_rad.unwrap()).abs());
         assert_eq!(zoomed.is_some_and(|zoomed| zoomed < 10.0 * row.tolerance), row.keeps_fov, "{name}: {zoomed:?}");
+        let holds_cuts =
+            matches!(row.format, Format::Gltf | Format::Usd | Format::Blender | Format::Csv | Format::Shot);
+        assert!(!holds_cuts || a.cut == b.cut, "{name}: a cut is {}", b.cut);
         let late = (a.time_secs - b.time_secs).abs();
         // Key times are sums of transitions in nerfstudio and whole nanoseconds in EuRoC.
         assert!(!row.keeps_times || late < 1e-9_f64.max(row.tolerance), "{name}: {late} s late");

@@ -253,3 +253,34 @@ fn a_misspelled_required_key_is_named_in_the_error() {
     let error = read(&EXAMPLE.replace("\"fov_y_deg\":40", "\"fov_y_degs\":40")).unwrap_err();
     insta::assert_snapshot!(error, @"keyframes[1].fov_y_deg: found nothing but the key fov_y_degs, expected degrees");
 }
+
+/// A key of [`turning`] with a point to look at and an edited position.
+fn looking(position: DVec3, look_at: [f64; 3]) -> (Shot, String) {
+    edited(|shot| {
+        let key = &mut shot["keyframes"][1];
+        key["position"] = position.to_array().to_vec().into();
+        key["look_at"] = look_at.to_vec().into();
+    })
+}
+
+#[test]
+fn a_key_with_a_point_to_look_at_is_aimed_again_when_it_is_moved() {
+    let target = DVec3::new(1.0, 0.5, 7.0);
+    let (shot, notes) = looking(DVec3::new(3.0, -2.0, 1.0), target.to_array());
+    let key = &shot.keyframes[1];
+    let toward = (target - key.pose.position).normalize();
+    assert!(key.pose.forward().cross(toward).length() < 1e-9 && key.pose.forward().dot(toward) > 0.0);
+    assert!(notes.contains("keyframes[1].look_at: the camera is turned by"), "{notes}");
+    // Its roll stays, and the point stays in the file: read back, nothing is left to turn.
+    let level = cinesplat::geometry::LevelFrame::new(shot.scene.up.unwrap()).unwrap();
+    assert!((level.roll_rad(&key.pose) - level.roll_rad(&turning().keyframes[1].pose)).abs() < 1e-9);
+    let again = shot_json::read(&shot_json::write(&shot)).unwrap();
+    assert_eq!((again.notes.len(), &again.shot.keyframes[1].intent), (0, &key.intent));
+    let error = {
+        let text = shot_json::write(&turning());
+        let mut value: Value = serde_json::from_str(&text).unwrap();
+        value["keyframes"][0]["look_at"] = 3.into();
+        shot_json::read(&value.to_string()).unwrap_err().to_string()
+    };
+    assert_eq!(error, "keyframes[0].look_at: found 3, expected a point: 3 finite numbers");
+}

@@ -37,6 +37,36 @@ fn the_world_is_turned_and_the_lens_measured_along_the_larger_side() {
 }
 
 #[test]
+fn the_animation_ends_at_its_last_key_and_jumps_at_a_cut() {
+    let mut cut = level_shot();
+    let aside = key(1.5, DVec3::new(-4.0, -2.0, 1.0), cut.keyframes[1].pose.rotation, 40.0);
+    cut.keyframes.push(cinesplat::trajectory::Keyframe { cut: true, ..aside });
+    cut.duration_secs = 2.0;
+    let (imported, warnings, folder) = there_and_back(&cut, Format::Supersplat, "settings.json", Content::Sampled);
+    assert!(warnings.iter().all(|line| !line.contains("cut")), "{warnings:?}");
+    let text = std::fs::read_to_string(folder.path().join("settings.json")).unwrap();
+    let track = &serde_json::from_str::<Value>(&text).unwrap()["animTracks"][0];
+    let times: Vec<f64> =
+        track["keyframes"]["times"].as_array().unwrap().iter().map(|time| time.as_f64().unwrap()).collect();
+    let end = track["duration"].as_f64().unwrap() * track["frameRate"].as_f64().unwrap();
+    assert!((end - times[times.len() - 1]).abs() < 1e-9, "{end}");
+    // Two keys on both sides of the cut at frame 36 within a hundredth of a frame.
+    assert_eq!(times.iter().filter(|time| (*time - 36.0).abs() < 0.01).count(), 4);
+    let cuts: Vec<usize> = (0..48).filter(|idx| imported.track.frames[*idx].cut).collect();
+    assert_eq!((cuts, imported.track.frames.len()), (vec![36], 48));
+}
+
+#[test]
+fn the_lens_of_a_portrait_film_comes_back_with_its_size() {
+    let portrait = cinesplat::trajectory::Shot { width: 720, height: 1280, ..level_shot() };
+    let (imported, _, _folder) = there_and_back(&portrait, Format::Supersplat, "settings.json", Content::Keyframes);
+    let settings = cinesplat::export::ImportSettings { size_px: Some((720, 1280)), ..Default::default() };
+    let (shot, lines) = imported.into_shot(&settings).unwrap();
+    assert!((shot.keyframes[0].fov_y_rad.to_degrees() - 40.0).abs() < 1e-9, "{:?}", shot.keyframes[0].fov_y_rad);
+    assert!(lines.iter().any(|line| line.contains("of an image of 720 x 1280")), "{lines:?}");
+}
+
+#[test]
 fn has_every_field_that_the_viewer_asserts() {
     let (_, _, folder) = there_and_back(&level_shot(), Format::Supersplat, "settings.json", Content::Sampled);
     let settings: Value =

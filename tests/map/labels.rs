@@ -11,7 +11,7 @@ fn names_and_prompts_are_escaped() {
     let (scene, mut objects) = room();
     objects.objects[0].label = "<obj>&\"\u{1}".to_owned();
     let shot = Shot { prompt: "</svg><script>&".to_owned(), ..travel() };
-    let svg = draw(&scene, &objects, &shot).unwrap().to_svg().unwrap();
+    let svg = draw(&scene, &objects, &shot).unwrap().to_svg();
     assert!(svg.contains(">&lt;obj&gt;&amp;&quot; &lt;obj-7&gt;</text>"));
     assert!(svg.contains("&lt;/svg&gt;&lt;script&gt;&amp;") && !svg.contains("<script") && !svg.contains('\u{1}'));
     assert_eq!(svg.matches("</svg>").count(), 1);
@@ -59,7 +59,7 @@ fn labels_do_not_cover_each_other() {
     let drawing = mapped(&shot);
     assert!(drawing.marks.iter().all(|mark| !matches!(mark, Mark::Text { style, halo_px, .. }
         if *halo_px > 0.0 && style.anchor != Anchor::Middle)));
-    let found = rectangles(&drawing.to_svg().unwrap());
+    let found = rectangles(&drawing.to_svg());
     assert!(found.len() > 8, "{found:?}");
     for (i, a) in found.iter().enumerate() {
         for b in &found[..i] {

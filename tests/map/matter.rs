@@ -51,14 +51,14 @@ fn two_drawings_have_the_same_bytes_for_any_number_of_threads() {
         pool.install(|| mapped(&travel()))
     };
     let (one, four) = (draw_with(1), draw_with(4));
-    assert_eq!(one.to_svg().unwrap(), four.to_svg().unwrap());
+    assert_eq!(one.to_svg(), four.to_svg());
     assert_eq!(one.to_png(1.0).unwrap(), four.to_png(1.0).unwrap());
 }
 
 #[test]
 fn svg_and_png_show_the_same_marks() {
     let drawing = mapped(&travel());
-    let svg = drawing.to_svg().unwrap();
+    let svg = drawing.to_svg();
     assert!(svg.starts_with("<svg") && svg.contains("data:image/png;base64,"));
     let png = image::load_from_memory(&drawing.to_png(2.0).unwrap()).unwrap().into_rgb8();
     assert_eq!([png.width(), png.height()].map(f64::from), (drawing.size_px * 2.0).to_array());

@@ -18,6 +18,7 @@ impl From<EvaluationError> for Failure {
             E::NoMatches { .. } => {
                 (Exit::BadData, "raise --max-diff, or check that both files use one clock".to_owned())
             }
+            E::NoTimes { wanted } => (Exit::BadData, format!("leave out {wanted}, or give files with times")),
             E::NoPairs { .. } => (Exit::BadData, "lower --delta or take --unit f".to_owned()),
             E::BadSetting { setting, expected, .. } => (Exit::Usage, setting_advice(setting, expected)),
         };

@@ -22,6 +22,7 @@ impl From<ExportError> for Failure {
             }
             E::BadShot(_) => (Exit::BadData, "correct the value named above in the file".to_owned()),
             E::NoPoses => (Exit::BadData, "export the camera path again from the program that wrote it".to_owned()),
+            E::NotWritable { .. } => (Exit::Usage, "name another format with --to".to_owned()),
             E::NotReadable { .. } => (Exit::BadData, "export the path as nerfstudio, gltf or tum instead".to_owned()),
         };
         Self::new(code, message, help, exit)

@@ -14,6 +14,7 @@ mod map;
 mod message;
 mod objects;
 mod pipeline;
+mod plot;
 mod reader;
 mod render;
 mod scene;

@@ -4,8 +4,12 @@ use glam::{DQuat, DVec3};
 use strum::VariantArray;
 
 use super::super::ExportError;
+use super::super::lens_losses::LensLosses;
 use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::Pose;
+
+/// Relative difference of focal lengths that are rounding of one lens.
+const SAME_FOCAL: f64 = 1e-9;
 
 /// Files of a model as names and bytes, to be written into one folder.
 pub(crate) type ModelFiles = Vec<(&'static str, Vec<u8>)>;
@@ -71,15 +75,34 @@ pub(super) struct ModelCamera {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) focal_y_px: f64,
+    /// Horizontal over vertical focal length.
+    pub(super) stretch: f64,
+    /// Offset of the principal point from the image's center, px.
+    pub(super) off_center_px: [f64; 2],
+    /// The parameter of the lens distortion with the largest magnitude.
+    pub(super) distortion: f64,
 }
 
 impl ModelCamera {
+    /// A pinhole camera with a centered principal point.
+    pub(super) fn pinhole(id: u32, width: u32, height: u32, focal_y_px: f64) -> Self {
+        Self { id, width, height, focal_y_px, stretch: 1.0, off_center_px: [0.0; 2], distortion: 0.0 }
+    }
+
     /// The camera with these parameters; `None` for a wrong number of parameters, an empty image or a focal length that
     /// is not above 0.
     pub(super) fn new(id: u32, model: CameraModel, size: (u32, u32), params: &[f64]) -> Option<Self> {
         let focal_y_px = *params.get(model.focal_y_idx())?;
         let usable = params.len() == model.num_params() && focal_y_px > 0.0 && size.0 > 0 && size.1 > 0;
-        usable.then_some(Self { id, width: size.0, height: size.1, focal_y_px })
+        let num_focal = model.focal_y_idx() + 1;
+        let [cx, cy] = [params.get(num_focal)?, params.get(num_focal + 1)?];
+        let distortion = params[num_focal + 2..].iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        usable.then_some(Self {
+            stretch: params[0] / focal_y_px,
+            off_center_px: [cx - f64::from(size.0) / 2.0, cy - f64::from(size.1) / 2.0],
+            distortion: distortion.unwrap_or(0.0),
+            ..Self::pinhole(id, size.0, size.1, focal_y_px)
+        })
     }
 
     /// The parameters of a [`CameraModel::Pinhole`]: focal lengths and principal point, px.
@@ -115,7 +138,13 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
         PoseFrame { fov_y_rad, ..PoseFrame::new(idx as f64 / DEFAULT_FPS, pose) }
     };
     let frames = images.iter().enumerate().map(frame).collect();
-    Ok(PoseTrack { size_px, ..PoseTrack::untimed(frames) })
+    let mut losses = LensLosses::default();
+    for camera in images.iter().filter_map(camera_of) {
+        losses.principal_point_px(camera.off_center_px);
+        losses.focal_px(camera.stretch, 1.0);
+        losses.distortion("a parameter", camera.distortion);
+    }
+    Ok(PoseTrack { size_px, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
 }
 
 /// Cameras and images of a track. A new camera starts wherever the field of view changes; ids count from 1.
@@ -125,8 +154,9 @@ pub(super) fn model(track: &PoseTrack) -> (Vec<ModelCamera>, Vec<ModelImage>) {
     let mut images = Vec::with_capacity(track.frames.len());
     for (idx, frame) in track.frames.iter().enumerate() {
         let focal_y_px = f64::from(height) / 2.0 / (fov_y_or_default(frame) / 2.0).tan();
-        if cameras.last().is_none_or(|last| last.focal_y_px.to_bits() != focal_y_px.to_bits()) {
-            cameras.push(ModelCamera { id: cameras.len() as u32 + 1, width, height, focal_y_px });
+        let is_same = |last: &ModelCamera| (last.focal_y_px / focal_y_px - 1.0).abs() < SAME_FOCAL;
+        if !cameras.last().is_some_and(is_same) {
+            cameras.push(ModelCamera::pinhole(cameras.len() as u32 + 1, width, height, focal_y_px));
         }
         let camera_from_world = frame.pose.inverse();
         images.push(ModelImage {

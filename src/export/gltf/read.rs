@@ -27,13 +27,16 @@ pub(crate) fn read(
     let camera_idx = size(&nodes[camera_node], "camera", None)?;
     let camera = item(&root, "cameras", camera_idx)?;
     let lens = camera.field("perspective", "a perspective camera")?;
-    let channels = channels(&root, &buffers, camera_node, camera_idx)?;
-    let (above, up) = world_above(&nodes, camera_node)?;
+    let chain = chain_to(&nodes, camera_node);
+    let channels = channels(&root, &buffers, &chain, camera_idx)?;
+    let scene_up = scene_up(&nodes, &chain)?;
     let still = StaticCamera {
-        node: NodeTransform::read(&nodes[camera_node])?,
+        nodes: chain.iter().map(|idx| NodeTransform::read(&nodes[*idx])).collect::<Result<_, _>>()?,
         fov_y_rad: lens.field("yfov", "rad")?.number()?,
+        world: y_up_from_world(scene_up).conjugate(),
     };
-    let frames = frames(&channels, &still, &above);
+    let up = scene_up.unwrap_or(DVec3::Y);
+    let frames = frames(&channels, &still);
     let aspect = lens.optional("aspectRatio").map(|aspect| aspect.number()).transpose()?.filter(|aspect| *aspect > 0.0);
     Ok(PoseTrack { stated_aspect: aspect, up: Some(up), timed: true, ..PoseTrack::untimed(frames) })
 }
@@ -102,6 +105,19 @@ impl NodeTransform {
         Ok(Self { position, rotation: rotation.normalize(), scale: scale.x })
     }
 
+    /// The transform at a time.
+    fn animated(&self, channels: &NodeChannels, time: f64) -> Self {
+        let vector = |values: Vec<f64>| values.try_into().ok().map(DVec3::from_array);
+        let position = channels.translation.as_ref().and_then(|c| c.at(time, blend)).and_then(vector);
+        let slerp = |a: &[f64], b: &[f64], t: f64| rotation::slerp(turn(a), turn(b), t).to_array().to_vec();
+        let rotation = channels.rotation.as_ref().and_then(|c| c.at(time, slerp)).map(|values| turn(&values));
+        Self {
+            position: position.unwrap_or(self.position),
+            rotation: rotation.unwrap_or(self.rotation),
+            scale: self.scale,
+        }
+    }
+
     fn then(&self, child: &Self) -> Self {
         Self {
             position: self.position + self.rotation * (child.position * self.scale),
@@ -111,28 +127,28 @@ impl NodeTransform {
     }
 }
 
-/// The transform of the nodes above the camera's, and the world's up. Animations of these nodes are ignored.
-fn world_above(nodes: &[Node], camera_node: usize) -> Result<(NodeTransform, DVec3), ExportError> {
-    let mut above = NodeTransform { position: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: 1.0 };
-    let mut child = camera_node;
-    let mut scene_up = None;
+/// The nodes from the root to the camera's.
+fn chain_to(nodes: &[Node], camera_node: usize) -> Vec<usize> {
+    let mut chain = vec![camera_node];
     for _ in 0..MAX_DEPTH {
+        let child = chain[chain.len() - 1];
         let is_parent = |node: &Node| {
             node.optional("children")
                 .and_then(|list| list.number_list().ok())
                 .is_some_and(|ids| ids.contains(&(child as f64)))
         };
         let Some(parent) = nodes.iter().position(is_parent) else { break };
-        above = NodeTransform::read(&nodes[parent])?.then(&above);
-        let extras = nodes[parent].optional("extras").and_then(|extras| extras.optional("cinesplat_world_up"));
-        scene_up = scene_up.or(extras.map(|up| up.vector()).transpose()?.and_then(DVec3::try_normalize));
-        child = parent;
+        chain.push(parent);
     }
-    if let Some(up) = scene_up {
-        let back = NodeTransform { rotation: y_up_from_world(Some(up)).conjugate(), position: DVec3::ZERO, scale: 1.0 };
-        above = back.then(&above);
-    }
-    Ok((above, scene_up.unwrap_or(DVec3::Y)))
+    chain.reverse();
+    chain
+}
+
+/// The up of the scene's own world that a node above the camera states; `None` in files of other programs.
+fn scene_up(nodes: &[Node], chain: &[usize]) -> Result<Option<DVec3>, ExportError> {
+    let stated = |idx: &usize| nodes[*idx].optional("extras").and_then(|extras| extras.optional("cinesplat_world_up"));
+    let up = chain.iter().rev().skip(1).find_map(stated).map(|up| up.vector()).transpose()?;
+    Ok(up.and_then(DVec3::try_normalize))
 }
 
 /// The keys of an animated property.
@@ -144,29 +160,35 @@ struct Channel {
 }
 
 #[derive(Default)]
-struct Channels {
+struct NodeChannels {
     translation: Option<Channel>,
     rotation: Option<Channel>,
+}
+
+struct Channels {
+    /// Those of each node from the root to the camera's.
+    nodes: Vec<NodeChannels>,
     fov: Option<Channel>,
 }
 
-/// The first channel of each property of the camera.
-fn channels(root: &Node, buffers: &[Vec<u8>], node: usize, camera: usize) -> Result<Channels, ExportError> {
-    let mut found = Channels::default();
+/// The first channel of each property of the camera and of the nodes above it.
+fn channels(root: &Node, buffers: &[Vec<u8>], chain: &[usize], camera: usize) -> Result<Channels, ExportError> {
+    let mut found = Channels { nodes: chain.iter().map(|_| NodeChannels::default()).collect(), fov: None };
     let Some(animations) = root.optional("animations") else { return Ok(found) };
     let pointer = format!("/cameras/{camera}/perspective/yfov");
     for animation in animations.items()? {
         let samplers = animation.field("samplers", "a list")?.items()?;
         for channel in animation.field("channels", "a list")?.items()? {
             let target = channel.field("target", "an animation target")?;
-            let is_node = target.optional("node").and_then(|idx| idx.whole(u64::MAX).ok()) == Some(node as u64);
+            let node = target.optional("node").and_then(|idx| idx.whole(u64::MAX).ok());
+            let place = node.and_then(|node| chain.iter().position(|idx| *idx as u64 == node));
             let extension = target.optional("extensions").and_then(|extensions| extensions.optional(POINTER));
             let pointed = extension.and_then(|extension| extension.optional("pointer"));
             let path = target.field("path", "an animated property")?.text()?;
-            let slot = match path {
-                "translation" if is_node => &mut found.translation,
-                "rotation" if is_node => &mut found.rotation,
-                "pointer" if pointed.is_some_and(|text| text.text().is_ok_and(|text| text == pointer)) => {
+            let slot = match (path, place.and_then(|place| found.nodes.get_mut(place))) {
+                ("translation", Some(node)) => &mut node.translation,
+                ("rotation", Some(node)) => &mut node.rotation,
+                ("pointer", _) if pointed.is_some_and(|text| text.text().is_ok_and(|text| text == pointer)) => {
                     &mut found.fov
                 }
                 _ => continue,
@@ -239,31 +261,31 @@ fn turn(values: &[f64]) -> DQuat {
 
 /// The camera without animation.
 struct StaticCamera {
-    node: NodeTransform,
+    /// The nodes from the root to the camera's.
+    nodes: Vec<NodeTransform>,
     fov_y_rad: f64,
+    /// The scene's own world from that of the file.
+    world: DQuat,
 }
 
 /// One frame per key time of any channel; one frame without animation.
-fn frames(channels: &Channels, still: &StaticCamera, above: &NodeTransform) -> Vec<PoseFrame> {
-    let all = [&channels.translation, &channels.rotation, &channels.fov];
-    let mut times: Vec<f64> = all.into_iter().flatten().flat_map(|channel| channel.times.iter().copied()).collect();
+fn frames(channels: &Channels, still: &StaticCamera) -> Vec<PoseFrame> {
+    let of_nodes = channels.nodes.iter().flat_map(|node| [&node.translation, &node.rotation]);
+    let all = of_nodes.chain([&channels.fov]);
+    let mut times: Vec<f64> = all.flatten().flat_map(|channel| channel.times.iter().copied()).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
     if times.is_empty() {
         times.push(0.0);
     }
     let frame = |time: f64| {
-        let vector = |values: Vec<f64>| values.try_into().ok().map(DVec3::from_array);
-        let position = channels.translation.as_ref().and_then(|c| c.at(time, blend)).and_then(vector);
-        let slerp = |a: &[f64], b: &[f64], t: f64| rotation::slerp(turn(a), turn(b), t).to_array().to_vec();
-        let rotation = channels.rotation.as_ref().and_then(|c| c.at(time, slerp)).map(|values| turn(&values));
+        let world = NodeTransform { position: DVec3::ZERO, rotation: still.world, scale: 1.0 };
+        let placed = still
+            .nodes
+            .iter()
+            .zip(&channels.nodes)
+            .fold(world, |placed, (node, channels)| placed.then(&node.animated(channels, time)));
         let fov = channels.fov.as_ref().and_then(|c| c.at(time, blend)).and_then(|values| values.first().copied());
-        let node = NodeTransform {
-            position: position.unwrap_or(still.node.position),
-            rotation: rotation.unwrap_or(still.node.rotation),
-            scale: still.node.scale,
-        };
-        let placed = above.then(&node);
         let pose: Pose = from_opengl_rotation(placed.position, placed.rotation);
         PoseFrame { fov_y_rad: Some(fov.unwrap_or(still.fov_y_rad)), ..PoseFrame::new(time, pose) }
     };

@@ -4,9 +4,11 @@
 //! the scene's up to the stage's +y. A sample just before a cut holds the pose up to the cut. Binary `.usdc` is not
 //! read.
 
+mod package;
 mod parse;
 mod read;
 mod write;
 
+pub(super) use package::is_package;
 pub(super) use read::read;
 pub(super) use write::write;

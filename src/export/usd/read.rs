@@ -3,6 +3,7 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use super::super::ExportError;
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
+use super::package;
 use super::parse::{Prim, Value, parse};
 use super::write::HOLD_CODES;
 use cinesplat_geometry::rotation;
@@ -14,6 +15,13 @@ const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
 
 pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let not_readable = |reason: &str| ExportError::NotReadable { format: "usd", reason: reason.to_owned() };
+    let unpacked;
+    let bytes = if bytes.starts_with(b"PK") {
+        unpacked = package::layer(bytes)?;
+        &unpacked
+    } else {
+        bytes
+    };
     if !bytes.starts_with(b"#usda") {
         return Err(not_readable("only the text form .usda is read: convert with usdcat"));
     }

@@ -1,16 +1,20 @@
 //! A drawing as a list of marks, written as SVG or as pixels.
 //!
-//! Enters: marks in px, y downward; later marks cover earlier ones. Leaves: SVG text or a PNG with the same marks at the same
-//! places. The one invariant: the same marks give the same bytes.
+//! Enters: marks in px, y downward; later marks cover earlier ones. Leaves: SVG text, a PNG or a PDF with the same marks at
+//! the same places. The one invariant: the same marks give the same bytes.
 
 mod glyphs;
 mod letters;
+mod pdf;
 mod pixels;
 mod svg;
 
 use glam::DVec2;
 
-pub(crate) use letters::text_width_px;
+pub use letters::text_width_px;
+
+use crate::error::PlotError;
+use crate::png;
 
 /// A color with its opacity, 0..=1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +29,13 @@ impl Ink {
     /// An opaque color.
     pub const fn new(rgb: [u8; 3]) -> Self {
         Self { rgb, opacity: 1.0 }
+    }
+
+    /// The color of a code such as `#d55e00`; black for anything else.
+    pub fn of_code(code: &str) -> Self {
+        let number = code.strip_prefix('#').and_then(|digits| u32::from_str_radix(digits, 16).ok()).unwrap_or(0);
+        let [_, red, green, blue] = number.to_be_bytes();
+        Self::new([red, green, blue])
     }
 
     /// The same color with this opacity.
@@ -88,6 +99,18 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Red, green and blue of each pixel, row by row.
     pub rgb8: Vec<u8>,
+    /// The same as a PNG file.
+    png: Vec<u8>,
+}
+
+impl Picture {
+    /// A picture of a width and height in pixels.
+    ///
+    /// # Errors
+    /// [`PlotError::Picture`] unless `rgb8` holds three bytes per pixel.
+    pub fn new(size: [u32; 2], rgb8: Vec<u8>) -> Result<Self, PlotError> {
+        Ok(Self { size, png: png::encode(size, &rgb8)?, rgb8 })
+    }
 }
 
 /// One mark of a drawing. Positions are in px from the upper left corner, y downward.

@@ -1,10 +1,11 @@
-//! A figure of paths as SVG: views from above and from the side, and x, y, z, roll, pitch and yaw over time.
+//! A figure of paths: views from above and from the side, and x, y, z, roll, pitch and yaw over time.
 
 use glam::DVec3;
 
 use super::table::table_relative_to;
 use super::{TableRow, Trajectory};
 use cinesplat_geometry::LevelFrame;
+use cinesplat_plot::drawing::Drawing;
 use cinesplat_plot::{Axis, COLORS, Chart, Figure, LegendEntry, LegendSymbol, Marker, Series};
 
 const WIDTH: f64 = 1240.0;
@@ -14,20 +15,49 @@ const HEADER: f64 = 64.0;
 const VIEW_HEIGHT: f64 = 410.0;
 const GAP: f64 = 10.0;
 
-/// The figure as SVG text.
+/// The figure of paths.
 ///
 /// `paths` are pairs of a label and a path, drawn in order. The first is the reference: its up and its first heading
 /// define the views and the angles. Markers on it show the poses at `key_times_secs`.
-pub fn plot_svg(title: &str, paths: &[(&str, &Trajectory)], key_times_secs: &[f64]) -> String {
+pub fn path_figure(title: &str, paths: &[(&str, &Trajectory)], key_times_secs: &[f64]) -> Drawing {
     let mut figure = Figure::new([WIDTH, HEIGHT], title);
     figure.legend(&legend(paths));
-    let Some((_, reference)) = paths.first() else { return figure.finish() };
-    let tables: Vec<Vec<TableRow>> = paths.iter().map(|(_, path)| table_relative_to(path, reference)).collect();
+    let Some((_, reference)) = paths.first() else { return figure.into_drawing() };
+    let mut tables: Vec<Vec<TableRow>> = paths.iter().map(|(_, path)| table_relative_to(path, reference)).collect();
+    unwrap_together(&mut tables);
     if let Ok(level) = LevelFrame::new(reference.up_or_mean()) {
         views(&mut figure, &level, paths, key_times_secs);
     }
     time_charts(&mut figure, &tables, reference.times_secs.is_some(), key_times_secs);
-    figure.finish()
+    figure.into_drawing()
+}
+
+/// Turns yaws and rolls by whole turns: the middle of the reference's range comes next to 0, and every other path next to
+/// the reference at the nearest time, so that a turn that one path misses in a gap does not part them for good.
+fn unwrap_together(tables: &mut [Vec<TableRow>]) {
+    let angles: [Angle; 2] = [|row| &mut row.yaw_deg, |row| &mut row.roll_deg];
+    angles.into_iter().for_each(|angle| unwrap_angle(tables, angle));
+}
+
+/// One angle of a table row.
+type Angle = fn(&mut TableRow) -> &mut f64;
+
+fn unwrap_angle(tables: &mut [Vec<TableRow>], angle: Angle) {
+    let Some((reference, others)) = tables.split_first_mut() else { return };
+    let angles = reference.iter_mut().map(|row| *angle(row));
+    let (low, high) = angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    let whole_turns = |degrees: f64| 360.0 * (degrees / 360.0).round();
+    if low <= high {
+        reference.iter_mut().for_each(|row| *angle(row) -= whole_turns(f64::midpoint(low, high)));
+    }
+    for row in others.iter_mut().flatten() {
+        let after = reference.partition_point(|other| other.time_secs < row.time_secs);
+        let around = [after.checked_sub(1), Some(after)].into_iter().flatten().filter_map(|idx| reference.get(idx));
+        let off = |other: &&TableRow| (other.time_secs - row.time_secs).abs();
+        let Some(nearest) = around.min_by(|a, b| off(a).total_cmp(&off(b))).copied() else { continue };
+        let beside = *angle(&mut nearest.clone());
+        *angle(row) -= whole_turns(*angle(row) - beside);
+    }
 }
 
 fn legend(paths: &[(&str, &Trajectory)]) -> Vec<LegendEntry> {

@@ -2,7 +2,7 @@ use glam::DVec2;
 
 use super::letters::text_strokes;
 use super::{Anchor, Drawing, Ink, Mark, Picture, Stroke, text_width_px};
-use crate::error::MapError;
+use crate::error::PlotError;
 use crate::png;
 
 /// Lines per pixel row at which polygons are filled.
@@ -17,19 +17,20 @@ impl Drawing {
     /// The drawing as the bytes of a PNG with `px_per_px` pixels along each px of the drawing.
     ///
     /// # Errors
-    /// [`MapError::Picture`] if it cannot be encoded.
-    pub fn to_png(&self, px_per_px: f64) -> Result<Vec<u8>, MapError> {
-        png::encode(&self.to_pixels(px_per_px))
+    /// [`PlotError::Picture`] if it cannot be encoded.
+    pub fn to_png(&self, px_per_px: f64) -> Result<Vec<u8>, PlotError> {
+        let (size, rgb8) = self.to_pixels(px_per_px);
+        png::encode(size, &rgb8)
     }
 
-    /// The drawing as pixels.
-    fn to_pixels(&self, scale: f64) -> Picture {
+    /// The drawing as pixels: width and height, and red, green and blue row by row.
+    fn to_pixels(&self, scale: f64) -> ([u32; 2], Vec<u8>) {
         let size = (self.size_px * scale).round().max(DVec2::ONE);
         let (width, height) = (size.x as usize, size.y as usize);
         let mut page = Page { width, height, scale, rgb: vec![1.0; width * height * 3] };
         self.marks.iter().for_each(|mark| page.draw(mark));
         let rgb8 = page.rgb.iter().map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
-        Picture { size: [width as u32, height as u32], rgb8 }
+        ([width as u32, height as u32], rgb8)
     }
 }
 

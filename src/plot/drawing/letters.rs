@@ -44,8 +44,8 @@ fn cut(points: &[DVec2]) -> Vec<DVec2> {
     std::iter::once(*first).chain(inner).chain([*last]).collect()
 }
 
-/// Width of a text, px.
-pub(crate) fn text_width_px(text: &str, size_px: f64) -> f64 {
+/// Width of a text at a font size, px. It holds in every output, whatever its font.
+pub fn text_width_px(text: &str, size_px: f64) -> f64 {
     let columns: f64 = text.chars().map(|letter| strokes(letter).1).sum();
     (columns - SPACING).max(0.0) * CAPITAL_FRAC * size_px / BASE_ROW
 }

@@ -4,15 +4,10 @@ use cinesplat_files::base64;
 use glam::DVec2;
 
 use super::{Anchor, Drawing, Ink, Mark, Stroke, TextStyle, text_width_px};
-use crate::error::MapError;
-use crate::png;
 
 impl Drawing {
     /// The drawing as SVG text. Pictures are embedded.
-    ///
-    /// # Errors
-    /// [`MapError::Picture`] for a picture whose pixels do not match its size.
-    pub fn to_svg(&self) -> Result<String, MapError> {
+    pub fn to_svg(&self) -> String {
         let DVec2 { x: width, y: height } = self.size_px;
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
@@ -22,16 +17,16 @@ impl Drawing {
             escaped(&self.title)
         );
         for mark in &self.marks {
-            svg.push_str(&element(mark)?);
+            svg.push_str(&element(mark));
             svg.push('\n');
         }
         svg.push_str("</svg>\n");
-        Ok(svg)
+        svg
     }
 }
 
-fn element(mark: &Mark) -> Result<String, MapError> {
-    Ok(match mark {
+fn element(mark: &Mark) -> String {
+    match mark {
         Mark::Area { outline_px, fill, border } => {
             format!("<polygon points=\"{}\" {}/>", points(outline_px), paint(*fill, *border))
         }
@@ -50,9 +45,9 @@ fn element(mark: &Mark) -> Result<String, MapError> {
             corner_px.y,
             size_px.x,
             size_px.y,
-            base64::encode(&png::encode(picture)?)
+            base64::encode(&picture.png)
         ),
-    })
+    }
 }
 
 /// The width is stated, so that labels keep clear of each other in any font.

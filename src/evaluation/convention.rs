@@ -1,0 +1,10 @@
+/// Whose choices decide where this program and evo differ: one pose matched twice, times without a pose nearby,
+/// rotations about nearly straight paths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Convention {
+    /// Those of this program.
+    #[default]
+    Cinesplat,
+    /// Those of evo 1.38.1.
+    Evo,
+}

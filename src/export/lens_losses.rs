@@ -1,0 +1,67 @@
+//! What a pinhole lens with a centered principal point cannot hold of the lenses in a file.
+
+/// The largest losses of the lenses of a file so far.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LensLosses {
+    /// Distance of the principal point from the image's center, px.
+    off_center_px: f64,
+    /// The same over the image's size.
+    off_center_frac: f64,
+    /// Name and value of the largest distortion coefficient.
+    distortion: Option<(String, f64)>,
+    /// Horizontal over vertical focal length, minus 1.
+    stretch: f64,
+}
+
+/// Offsets and ratios below this are rounding.
+const ROUNDING: f64 = 1e-6;
+
+impl LensLosses {
+    /// Notes a principal point at an offset from the image's center, px.
+    pub(super) fn principal_point_px(&mut self, offset: [f64; 2]) {
+        self.off_center_px = self.off_center_px.max(offset[0].hypot(offset[1]));
+    }
+
+    /// Notes a principal point at an offset from the image's center, over the image's size.
+    pub(super) fn principal_point_frac(&mut self, offset: [f64; 2]) {
+        self.off_center_frac = self.off_center_frac.max(offset[0].hypot(offset[1]));
+    }
+
+    /// Notes a distortion coefficient.
+    pub(super) fn distortion(&mut self, name: &str, value: f64) {
+        if value.abs() > self.distortion.as_ref().map_or(0.0, |(_, largest)| largest.abs()) {
+            self.distortion = Some((name.to_owned(), value));
+        }
+    }
+
+    /// Notes different focal lengths.
+    pub(super) fn focal_px(&mut self, horizontal: f64, vertical: f64) {
+        let stretch = horizontal / vertical - 1.0;
+        if stretch.abs() > self.stretch.abs() {
+            self.stretch = stretch;
+        }
+    }
+
+    /// One line per loss, with its amount.
+    pub(super) fn into_lines(self) -> Vec<String> {
+        let mut lines = Vec::new();
+        if self.off_center_px > ROUNDING {
+            lines.push(format!(
+                "the principal point, up to {:.2} px from the image's center, is not read",
+                self.off_center_px
+            ));
+        }
+        if self.off_center_frac > ROUNDING {
+            let percent = 100.0 * self.off_center_frac;
+            lines.push(format!("the principal point, up to {percent:.2} % of the image from its center, is not read"));
+        }
+        if let Some((name, value)) = self.distortion {
+            lines.push(format!("the lens distortion is not read (largest coefficient: {name} {value:.4})"));
+        }
+        if self.stretch.abs() > ROUNDING {
+            let percent = 100.0 * self.stretch;
+            lines.push(format!("the horizontal focal length, {percent:+.3} % off the vertical one, is not read"));
+        }
+        lines
+    }
+}

@@ -1,0 +1,111 @@
+//! How far other programs stray from a film between its keyframes.
+
+use glam::DVec3;
+
+use super::{ExportError, Format, PoseTrack};
+use cinesplat_geometry::rotation;
+use cinesplat_trajectory::Shot;
+
+/// How a program joins keys.
+enum Curve {
+    /// Straight lines, and rotations at constant speed.
+    Linear,
+    /// A cubic spline through the keys whose slope at a key is that between its neighbors; of rotations the same, by
+    /// components.
+    Spline,
+}
+
+fn curve_of(format: Format) -> Option<Curve> {
+    match format {
+        Format::Gltf | Format::Usd => Some(Curve::Linear),
+        Format::Nerfstudio | Format::Supersplat | Format::Lichtfeld => Some(Curve::Spline),
+        // The script for Blender sets the curves itself, the rest holds poses alone.
+        _ => None,
+    }
+}
+
+/// A line about the largest difference between the film and the curve of a format's program through the keys alone; `None`
+/// if the program draws no curve.
+///
+/// # Errors
+/// [`ExportError::BadShot`] if the shot is not usable.
+pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, ExportError> {
+    let Some(curve) = curve_of(format) else { return Ok(None) };
+    let film = PoseTrack::sampled(shot, None)?;
+    let keys = PoseTrack::keyframes(shot);
+    let (mut moved, mut turned, mut zoomed, mut worst_secs) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
+    for frame in &film.frames {
+        let after = keys.frames.partition_point(|key| key.time_secs <= frame.time_secs);
+        let (Some(from), true) = (after.checked_sub(1), after < keys.frames.len()) else { continue };
+        if keys.frames[after].cut {
+            continue;
+        }
+        let (position, turn, fov) = between(&curve, &keys, from, frame.time_secs);
+        let off = position.distance(frame.pose.position);
+        if off > moved {
+            (moved, worst_secs) = (off, frame.time_secs);
+        }
+        turned = turned.max(rotation::angle_between(turn, frame.pose.rotation));
+        zoomed = zoomed.max((fov - frame.fov_y_rad.unwrap_or(fov)).abs());
+    }
+    let what = match curve {
+        Curve::Linear => "lines",
+        Curve::Spline => "its own spline",
+    };
+    Ok(Some(format!(
+        "{format} joins keyframes with {what}: up to {moved:.4} scene units (at {worst_secs:.2} s), {:.2} degrees and a \
+         field of view {:.2} degrees off the film; export every frame for the path of the film",
+        turned.to_degrees(),
+        zoomed.to_degrees()
+    )))
+}
+
+/// Position, rotation and field of view at a time between key `from` and the next.
+fn between(curve: &Curve, keys: &PoseTrack, from: usize, time_secs: f64) -> (DVec3, glam::DQuat, f64) {
+    let frames = &keys.frames;
+    let (a, b) = (&frames[from], &frames[from + 1]);
+    let span = b.time_secs - a.time_secs;
+    let t = if span > 0.0 { (time_secs - a.time_secs) / span } else { 0.0 };
+    let fov = |idx: usize| frames[idx].fov_y_rad.unwrap_or(1.0);
+    match curve {
+        Curve::Linear => (
+            a.pose.position.lerp(b.pose.position, t),
+            rotation::slerp(a.pose.rotation, b.pose.rotation, t),
+            fov(from) + (fov(from + 1) - fov(from)) * t,
+        ),
+        Curve::Spline => {
+            let turns = rotation::aligned(&frames.iter().map(|frame| frame.pose.rotation).collect::<Vec<_>>());
+            let values = |idx: usize| -> [f64; 8] {
+                let (p, q) = (frames[idx].pose.position, turns[idx]);
+                [p.x, p.y, p.z, q.x, q.y, q.z, q.w, fov(idx)]
+            };
+            let v = hermite(&values, frames.len(), |idx| frames[idx].time_secs, from, t);
+            (DVec3::new(v[0], v[1], v[2]), glam::DQuat::from_xyzw(v[3], v[4], v[5], v[6]).normalize(), v[7])
+        }
+    }
+}
+
+/// The cubic Hermite curve from key `from` to the next, with slopes between neighbors, at a fraction `t`.
+fn hermite(
+    values: &impl Fn(usize) -> [f64; 8],
+    count: usize,
+    time_of: impl Fn(usize) -> f64,
+    from: usize,
+    t: f64,
+) -> [f64; 8] {
+    let span = time_of(from + 1) - time_of(from);
+    let slope = |idx: usize| -> [f64; 8] {
+        let (low, high) = (idx.saturating_sub(1), (idx + 1).min(count - 1));
+        let secs = time_of(high) - time_of(low);
+        let (a, b) = (values(low), values(high));
+        std::array::from_fn(|k| if secs > 0.0 { (b[k] - a[k]) / secs * span } else { 0.0 })
+    };
+    let (a, b, da, db) = (values(from), values(from + 1), slope(from), slope(from + 1));
+    let (t2, t3) = (t * t, t * t * t);
+    std::array::from_fn(|k| {
+        a[k] * (2.0 * t3 - 3.0 * t2 + 1.0)
+            + da[k] * (t3 - 2.0 * t2 + t)
+            + b[k] * (3.0 * t2 - 2.0 * t3)
+            + db[k] * (t3 - t2)
+    })
+}
