@@ -73,7 +73,7 @@ Examples:
   cinesplat render room.spz -p \"push in on the lamp, then orbit it\" --objects objects.json -o lamp.mp4
   cinesplat render synth:demo -p \"slowly push in on the sofa\" -o sofa.mp4
 
-SCENE is a file (.ply .spz .sog .splat), the folder of an unbundled SOG, or a generated scene:
+SCENE is a file (.ply .spz .sog .splat .ksplat .glb .pcd), the folder of an unbundled SOG, or a generated scene:
 synth:demo, synth:room:SEED or synth:tabletop:SEED.
 Data goes to stdout, notes and progress go to stderr. No file is overwritten without --overwrite.
 Exit codes: 0 done, 2 wrong arguments, 65 bad data, 66 no such input, 69 codec missing, 70 fault of

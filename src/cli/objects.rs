@@ -1,29 +1,31 @@
-use super::outputs::Overwrite;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::failure::Failure;
+use super::failure::{Exit, Failure};
+use super::outputs::Overwrite;
 use super::scene_args::{SceneArgs, print_up};
 use super::{console, heading, outputs, reproduce};
-use cinesplat::objects::{self, Object, ObjectSet, SheetSettings};
-use cinesplat::{pipeline, video};
+use cinesplat::objects::{self, FindSettings, Object, ObjectSet, Renaming, SheetSettings};
+use cinesplat::pipeline;
+use cinesplat::scene::Scene;
+use cinesplat::video;
 
 /// Find or read the objects of a scene
 ///
-/// Prints a table of the objects. Without --labels and --objects they are those of the scene itself, else those that a
-/// search finds.
+/// Prints a table of the objects, parts indented under their whole. Without --labels and --objects they are those of the
+/// scene itself, else those that a search finds.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  cinesplat objects room.spz -o objects.json --sheet objects.png
-  cinesplat objects room.spz --labels labels.npy -o objects.json
-Name objects in objects.json (\"label\": \"lamp\") so that a prompt can say \"the lamp\"; <obj-ID> always works.")]
+  cinesplat objects room.spz -o objects.json --sheet objects.html
+  cinesplat objects room.spz --objects objects.json --name 41=mug -o objects.json --overwrite
+A prompt can then say \"the mug\"; <obj-41> always works.")]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Objects file to write, with the labels in a file beside it
+    /// Objects file to write, with labels and clouds in files beside it
     #[arg(short, long, value_name = "OBJECTS.JSON", help_heading = heading::OUTPUT)]
     output: Option<PathBuf>,
     /// Read the objects from labels: one id per Gaussian
@@ -34,8 +36,19 @@ pub(super) struct Args {
     /// Read the objects from an objects file
     #[arg(long, value_name = "OBJECTS.JSON", help_heading = heading::SCENE)]
     objects: Option<PathBuf>,
-    /// Write a picture of every object with its id
-    #[arg(long, value_name = "SHEET.PNG", help_heading = heading::OUTPUT)]
+    /// How far to divide things that are found into parts: 0, 1 or 2 [default: 1]
+    ///
+    /// 0 finds wholes alone; 1 also the parts of captures that show single things; 2 also the parts of a room's things.
+    #[arg(long, value_name = "D", help_heading = heading::SCENE, value_parser = clap::value_parser!(u8).range(0..=2))]
+    detail: Option<u8>,
+    /// Name an object, such as 41=mug; may be repeated
+    #[arg(long, value_name = "ID=NAME", help_heading = heading::OUTPUT, value_parser = parse_renaming)]
+    name: Vec<Renaming>,
+    /// Name the objects in a file with one ID=NAME per line
+    #[arg(long, value_name = "NAMES.TXT", help_heading = heading::OUTPUT)]
+    rename: Option<PathBuf>,
+    /// Write a sheet of every object, cut out, with its id: PNG or HTML
+    #[arg(long, value_name = "SHEET", help_heading = heading::OUTPUT)]
     sheet: Option<PathBuf>,
     /// Print one JSON list instead of a table
     #[arg(long, help_heading = heading::OUTPUT)]
@@ -46,34 +59,17 @@ pub(super) struct Args {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        for path in self.output.iter().chain(&self.sheet) {
-            self.overwrite.check(path)?;
-        }
-        let labels = self.output.as_deref().filter(|path| !outputs::is_stdout(path)).map(objects::labels_path);
-        if let Some(labels) = &labels {
-            self.overwrite.check(labels)?;
-        }
-        let named = [("--output", self.output.as_deref()), ("--sheet", self.sheet.as_deref())];
-        let named = named.into_iter().chain([("the labels of --output", labels.as_deref())]);
-        outputs::check_distinct(named.filter_map(|(flag, path)| Some((flag, path?))))?;
-        let (scene, mut set) = match &self.labels {
-            Some(labels) => {
-                let scene = self.scene.open()?.scene;
-                print_up(&scene);
-                let set = objects::from_labels(&scene, objects::read_labels(labels, &scene)?);
-                (scene, set)
-            }
-            None => self.scene.open_with_objects(self.objects.as_deref())?,
-        };
+        self.check_outputs()?;
+        let names = self.names()?;
+        let (scene, mut set) = self.open()?;
+        objects::rename(&mut set, &names).map_err(|id| no_such_object(id, &set))?;
         if let Some(path) = &self.sheet {
-            let picture = objects::sheet(&scene, &set, &SheetSettings::default())?;
-            video::write_png(path, &picture, [picture.width(), picture.height()], self.overwrite.existing())?;
-            console::note(&format!("{}: picture of every object", path.display()));
+            self.write_sheet(path, &scene, &set)?;
         }
         if let Some(path) = &self.output {
             pipeline::prepare_objects(&scene, &mut set)?;
             if outputs::is_stdout(path) {
-                console::data(&objects::to_json(path, &set, &scene, None))?;
+                console::data(&objects::to_json(path, &set, &scene, objects::Sidecars::default()))?;
             } else {
                 objects::write(path, &set, &scene, self.overwrite.existing())?;
             }
@@ -90,6 +86,76 @@ impl Args {
         reproduce::print(&[]);
         Ok(())
     }
+
+    fn check_outputs(&self) -> Result<(), Failure> {
+        let files = self.output.as_deref().filter(|path| !outputs::is_stdout(path));
+        let (labels, clouds) = (files.map(objects::labels_path), files.map(objects::clouds_path));
+        let named = [
+            ("--output", self.output.as_deref()),
+            ("--sheet", self.sheet.as_deref()),
+            ("the labels of --output", labels.as_deref()),
+            ("the clouds of --output", clouds.as_deref()),
+        ];
+        let named = || named.into_iter().filter_map(|(flag, path)| Some((flag, path?)));
+        named().try_for_each(|(_, path)| self.overwrite.check(path))?;
+        outputs::check_distinct(named())
+    }
+
+    /// The names of --rename and --name; the latter win.
+    fn names(&self) -> Result<Vec<Renaming>, Failure> {
+        let mut names = Vec::new();
+        if let Some(path) = &self.rename {
+            let bad = |found| {
+                let found = format!("{}: {found}", path.display());
+                Failure::new("OBJ-NAMES", found, "one line per object, such as 41=mug", Exit::BadData)
+            };
+            names = Renaming::parse_lines(&outputs::read_text(path)?).map_err(bad)?;
+        }
+        names.extend(self.name.iter().cloned());
+        Ok(names)
+    }
+
+    fn open(&self) -> Result<(Scene, ObjectSet), Failure> {
+        if let Some(labels) = &self.labels {
+            let scene = self.scene.open()?.scene;
+            print_up(&scene);
+            let set = objects::from_labels(&scene, objects::read_labels(labels, &scene)?);
+            return Ok((scene, set));
+        }
+        match self.detail.filter(|_| self.objects.is_none()) {
+            Some(detail) => {
+                let scene = self.scene.open()?.scene;
+                print_up(&scene);
+                let set = objects::find(&scene, &FindSettings { detail, ..FindSettings::default() });
+                Ok((scene, set))
+            }
+            None => self.scene.open_with_objects(self.objects.as_deref()),
+        }
+    }
+
+    fn write_sheet(&self, path: &Path, scene: &Scene, set: &ObjectSet) -> Result<(), Failure> {
+        let settings = SheetSettings::default();
+        let sheet = objects::sheet(scene, set, &settings)?;
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("html")) {
+            let title = scene.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+            self.overwrite.write(path, sheet.html(&format!("Objects of {title}"))?.as_bytes())?;
+        } else {
+            let picture = sheet.page(&settings);
+            video::write_png(path, &picture, [picture.width(), picture.height()], self.overwrite.existing())?;
+        }
+        console::note(&format!("{}: picture of every object", path.display()));
+        Ok(())
+    }
+}
+
+fn parse_renaming(text: &str) -> Result<Renaming, String> {
+    text.parse()
+}
+
+fn no_such_object(id: u32, set: &ObjectSet) -> Failure {
+    let last = set.objects.last().map_or(0, |object| object.id);
+    let found = format!("no object has the id {id}, expected one of {} objects up to {last}", set.objects.len());
+    Failure::new("OBJ-UNKNOWN", found, "--sheet shows every object with its id", Exit::BadData)
 }
 
 fn as_json(set: &ObjectSet) -> Value {
@@ -97,6 +163,7 @@ fn as_json(set: &ObjectSet) -> Value {
         json!({
             "id": object.id,
             "label": object.label,
+            "parent": object.parent,
             "center": object.center.to_array(),
             "half_extents": object.half_extents.to_array(),
             "rotation_xyzw": object.rotation.to_array(),
@@ -107,12 +174,14 @@ fn as_json(set: &ObjectSet) -> Value {
 }
 
 fn table(set: &ObjectSet) -> String {
-    let widest = set.objects.iter().map(|object| object.label.chars().count()).max().unwrap_or(0).max(5);
+    let ordered = set.with_parts();
+    let name = |object: &Object, depth: usize| format!("{}{}", "  ".repeat(depth), console::one_line(&object.label));
+    let widest = ordered.iter().map(|(object, depth)| name(object, *depth).chars().count()).max().unwrap_or(0).max(5);
     let mut text = format!("{:>5}  {:<widest$}  {:>9}  {:<25}  size\n", "id", "label", "gaussians", "center");
-    for object in &set.objects {
+    for (object, depth) in ordered {
         let vector = |v: glam::DVec3| format!("{:.3} {:.3} {:.3}", v.x, v.y, v.z);
         let (center, size) = (vector(object.center), vector(object.half_extents * 2.0));
-        let (id, label, count) = (object.id, console::one_line(&object.label), object.num_gaussians);
+        let (id, label, count) = (object.id, name(object, depth), object.num_gaussians);
         let _ = writeln!(text, "{id:>5}  {label:<widest$}  {count:>9}  {center:<25}  {size}");
     }
     text

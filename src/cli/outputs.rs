@@ -59,6 +59,11 @@ impl BenchFolder {
         names.iter().try_for_each(|name| self.overwrite.check(&folder.join(name)))
     }
 
+    /// Whether there is a folder.
+    pub(super) fn is_given(&self) -> bool {
+        self.output.is_some()
+    }
+
     /// Writes a file of the folder, where there is one.
     pub(super) fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
         let Some(folder) = &self.output else { return Ok(()) };

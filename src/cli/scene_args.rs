@@ -10,7 +10,7 @@ use cinesplat::export::cameras_json::FilterChoice;
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
-use cinesplat::scene::{LoadOptions, Scene, SplatFilter};
+use cinesplat::scene::{LoadOptions, Scene, SplatFilter, UpSource};
 
 /// A scene and the options for reading it.
 #[derive(Debug, Clone, Args)]
@@ -79,7 +79,17 @@ impl SceneArgs {
 /// Prints the up axis and its source.
 pub(super) fn print_up(scene: &Scene) {
     print_up_of(scene.up, &scene.up_source.to_string());
+    if let UpSource::Estimated(percent) = scene.up_source
+        && percent < SURE_PERCENT
+    {
+        let [x, y, z] = scene.up.to_array().map(|v| (v * 1e3).round() / 1e3 + 0.0);
+        let others = ["0,1,0", "0,-1,0", "0,0,1"].map(|axis| format!("--up {axis}")).join(", ");
+        console::note(&format!("up is a guess: keep it with --up {x},{y},{z}, or turn the scene with one of {others}"));
+    }
 }
+
+/// Confidence below which the program says how to state the up axis.
+const SURE_PERCENT: u8 = 80;
 
 /// As [`print_up`], for a direction from elsewhere.
 pub(super) fn print_up_of(up: DVec3, source: &str) {

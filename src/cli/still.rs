@@ -24,7 +24,7 @@ use cinesplat::video;
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Cameras file: per camera name, image size, focal lengths, `world_from_camera`
+    /// Cameras file: per camera name, image size, focal lengths, `world_from_camera`; or the cameras.json of INRIA
     #[arg(long, value_name = "CAMERAS.JSON")]
     cameras: PathBuf,
     /// Folder for NAME.png, one per camera

@@ -68,7 +68,7 @@ impl Subjects {
             if subjects.len() >= usize::from(u16::MAX) || subjects.iter().any(|known| known.id == object.id) {
                 continue;
             }
-            let own = gaussians_of(gaussians, object, &objects.labels);
+            let own = gaussians_of(gaussians, object, &objects.labels_of(object.id));
             subjects.push(Subject::new(gaussians, object, &own));
             let label = subjects.len() as u16;
             own.into_iter().filter(|&i| labels[i] == 0).collect::<Vec<_>>().into_iter().for_each(|i| labels[i] = label);

@@ -138,15 +138,15 @@ fn moves_between_holds(path: &Trajectory, still_distance: f64, start_secs: f64) 
     let mut best: Vec<(f64, usize, Option<NamedMove>)> = vec![(0.0, 0, None)];
     for to in 1..num_places {
         let mut cheapest = (f64::INFINITY, 0, None);
-        for from in 0..to {
+        for (from, (before, ..)) in best.iter().enumerate() {
             let secs = time_of(to) - time_of(from);
-            if secs < shortest_secs && from > 0 || best[from].0 >= cheapest.0 {
+            if secs < shortest_secs && from > 0 || *before >= cheapest.0 {
                 continue;
             }
             let share = if length_secs > 0.0 { secs / length_secs } else { 1.0 };
             let (movement, cost) = priced(&span(from, to), still_distance, share);
-            if best[from].0 + cost < cheapest.0 - 1e-9 {
-                cheapest = (best[from].0 + cost, from, movement);
+            if before + cost < cheapest.0 - 1e-9 {
+                cheapest = (before + cost, from, movement);
             }
         }
         best.push(cheapest);

@@ -6,8 +6,8 @@ use super::ExportError;
 use super::inria;
 use super::json_read::{self, Node};
 use super::json_write::{Json, matrix_rows, object};
-use super::lens_losses::LensLosses;
-use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
+pub use super::named_camera::NamedCamera;
+use super::track::{DEFAULT_SIZE_PX, PoseTrack, fov_y_or_default};
 use cinesplat_files::UnknownKeys;
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 use cinesplat_trajectory::Shot;
@@ -58,15 +58,6 @@ const TOP_KEYS: [&str; 5] = ["version", "scene", "filter", "near", "cameras"];
 /// Keys of a camera.
 const CAMERA_KEYS: [&str; 8] = ["name", "width", "height", "fx", "fy", "cx", "cy", "world_from_camera"];
 
-/// A camera and the name of its image.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NamedCamera {
-    /// File name without extension and without path separators.
-    pub name: String,
-    /// Pose and image.
-    pub camera: Camera,
-}
-
 /// Reads a `cameras.json`. An unknown key becomes a note. The format has one version, which a file need not state.
 ///
 /// # Errors
@@ -97,28 +88,6 @@ pub fn read(text: &str) -> Result<StillCameras, ExportError> {
     }
     let (filter, near) = (read_filter(&root)?, read_near(&root)?);
     Ok(StillCameras { scene: string("scene")?, filter, near, cameras, notes: unknown.into_notes() })
-}
-
-/// The cameras in order, as a path without times.
-pub(super) fn track(cameras: &[NamedCamera]) -> Result<PoseTrack, ExportError> {
-    let mut losses = LensLosses::default();
-    let frame = |(idx, named): (usize, &NamedCamera)| {
-        let Camera { pose, intrinsics } = named.camera;
-        let middle = [f64::from(intrinsics.width) / 2.0, f64::from(intrinsics.height) / 2.0];
-        losses.principal_point_px([intrinsics.cx_px - middle[0], intrinsics.cy_px - middle[1]]);
-        losses.focal_px(intrinsics.fx_px, intrinsics.fy_px);
-        PoseFrame { fov_y_rad: Some(intrinsics.fov_y_rad()), ..PoseFrame::new(idx as f64 / DEFAULT_FPS, pose) }
-    };
-    let frames: Vec<PoseFrame> = cameras.iter().enumerate().map(frame).collect();
-    let sizes: Vec<(u32, u32)> =
-        cameras.iter().map(|named| (named.camera.intrinsics.width, named.camera.intrinsics.height)).collect();
-    let first = *sizes.first().ok_or(ExportError::NoPoses)?;
-    let num_other = sizes.iter().filter(|size| **size != first).count();
-    let mut unread = losses.into_lines();
-    if num_other > 0 {
-        unread.push(format!("{num_other} cameras have other image sizes than the first, {} x {}", first.0, first.1));
-    }
-    Ok(PoseTrack { size_px: Some(first), unread, ..PoseTrack::untimed(frames) })
 }
 
 /// The poses of a track as cameras named by their number.

@@ -10,8 +10,8 @@ use super::imported_shot::{ImportSettings, overrule, shot_of};
 use super::line_layout::LineLayout;
 use super::{
     ExportError, Format, PoseTrack, aria, blender, cameras_json, colmap, csv, euroc, gltf, inria, kitti, lichtfeld,
-    motionctrl, nerfstudio, pose_lines, re10k, recammaster, redwood_log, seven_scenes, shot_json, supersplat,
-    transforms, tum, usd,
+    motionctrl, named_camera, nerfstudio, pose_lines, re10k, recammaster, redwood_log, seven_scenes, shot_json,
+    supersplat, transforms, tum, usd,
 };
 use cinesplat_trajectory::Shot;
 
@@ -116,13 +116,13 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
                 },
                 Format::Kitti => kitti::read(text).map(|track| kitti::with_times_beside(track, path)),
                 Format::Dpvo => pose_lines::read(text, LineLayout::DPVO),
-                Format::Cameras => cameras_json::track(&cameras_json::read(text)?.cameras),
+                Format::Cameras => named_camera::track(&cameras_json::read(text)?.cameras),
                 Format::Inria => inria::read(text),
                 Format::Re10k => re10k::read(text),
                 Format::Aria => aria::read(text),
                 Format::MotionCtrl => motionctrl::read(text),
                 Format::ReCamMaster => recammaster::read(text, camera.as_deref()),
-                Format::SevenScenes => seven_scenes::read(&[path.clone()]),
+                Format::SevenScenes => seven_scenes::read(std::slice::from_ref(path)),
                 Format::Nerfstudio => nerfstudio::read(text),
                 Format::Transforms => transforms::read(text),
                 Format::Supersplat => supersplat::read(text),

@@ -5,14 +5,14 @@
 use glam::{DMat3, DMat4, DVec3};
 
 use super::ExportError;
-use super::cameras_json::NamedCamera;
 use super::json_read::{self, Node};
+use super::named_camera::{self, NamedCamera};
 use super::track::PoseTrack;
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let value = json_read::parse(text)?;
-    super::cameras_json::track(&read_cameras(&Node::root(&value))?)
+    named_camera::track(&read_cameras(&Node::root(&value))?)
 }
 
 /// The cameras of the list, each named after its image.

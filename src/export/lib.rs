@@ -31,6 +31,7 @@ mod line_layout;
 mod look_at;
 mod losses;
 mod motionctrl;
+mod named_camera;
 mod nerfstudio;
 mod opengl;
 mod pose_lines;

@@ -108,7 +108,7 @@ fn keys_with_holds(track: &PoseTrack, fps: f64) -> Vec<(f64, &PoseFrame)> {
 }
 
 /// The frames without the repeated poses around cuts, which are marked as cuts.
-fn without_holds(frames: Vec<PoseFrame>, fps: f64) -> Vec<PoseFrame> {
+fn without_holds(frames: &[PoseFrame], fps: f64) -> Vec<PoseFrame> {
     let mut kept: Vec<PoseFrame> = Vec::with_capacity(frames.len());
     let is_near = |a: &PoseFrame, b: &PoseFrame| (b.time_secs - a.time_secs) * fps < 1.5 * HOLD_FRAMES;
     let mut idx = 0;
@@ -186,7 +186,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         let place = || format!("animTracks[0].keyframes, key {idx}");
         frames.push(frame(time / fps, position, target, *fov_deg).ok_or_else(|| no_direction(place()))?);
     }
-    Ok(track_of(without_holds(frames, fps), fps))
+    Ok(track_of(without_holds(&frames, fps), fps))
 }
 
 /// Reads the poses of a project's document.

@@ -28,9 +28,8 @@ impl Small {
                 let columns = column * FACTOR..((column + 1) * FACTOR).min(across);
                 let num = (rows.len() * columns.len()) as f32;
                 for (y, x) in rows.clone().flat_map(|y| columns.clone().map(move |x| (y, x))) {
-                    for channel in 0..3 {
-                        to[channel] += part(frame.rgb[(y * across + x) * 3 + channel]) / num;
-                    }
+                    let rgb = &frame.rgb[(y * across + x) * 3..][..3];
+                    to.iter_mut().zip(rgb).for_each(|(sum, &value)| *sum += part(value) / num);
                 }
             }
         });

@@ -22,7 +22,7 @@ pub struct Fisheye {
 
 impl Fisheye {
     /// The direction of a position in a frame; `None` beyond straight behind.
-    fn direction(&self, intrinsics: &Intrinsics, [x, y]: [f64; 2]) -> Option<DVec3> {
+    fn direction(self, intrinsics: &Intrinsics, [x, y]: [f64; 2]) -> Option<DVec3> {
         let (x, y) = (x - f64::from(intrinsics.width) / 2.0, y - f64::from(intrinsics.height) / 2.0);
         let corner = 0.5 * f64::from(intrinsics.width).hypot(f64::from(intrinsics.height));
         let radius = x.hypot(y);

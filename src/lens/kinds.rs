@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::anamorphic::Anamorphic;
 use super::background::Background;
 use super::bloom::Bloom;
-use super::chromatic_aberration::ChromaticAberration;
 use super::calls::{Call, Calls};
+use super::chromatic_aberration::ChromaticAberration;
 use super::depth_of_field::DepthOfField;
 use super::effect::{Effect, EffectKind};
 use super::exposure::Exposure;
@@ -15,10 +15,10 @@ use super::fisheye::Fisheye;
 use super::fog::Fog;
 use super::handheld::Handheld;
 use super::lens_distortion::LensDistortion;
-use super::panorama::Panorama;
-use super::rolling_shutter::RollingShutter;
 use super::motion_blur::MotionBlur;
+use super::panorama::Panorama;
 use super::rack_focus::RackFocus;
+use super::rolling_shutter::RollingShutter;
 use super::vignette::Vignette;
 
 /// All effects that are built, the outermost layer first: a frame passes through them from the end of the list to its

@@ -75,7 +75,7 @@ impl LensDistortion {
             DVec2::new(f64::from(intrinsics.width) / intrinsics.fx_px, f64::from(intrinsics.height) / intrinsics.fy_px)
                 / 2.0;
         let bulged = seen * (1.0 + self.bulge * seen.length_squared() / corner.length_squared());
-        let point = if self.coefficients == [0.0; 5] { bulged } else { self.undistorted(bulged)? };
+        let point = if self.coefficients.iter().all(|k| k.abs() <= 0.0) { bulged } else { self.undistorted(bulged)? };
         Some(point.extend(1.0))
     }
 }

@@ -125,7 +125,7 @@ pub(super) fn from_linear(light: f32) -> f32 {
     if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// 64 well-mixed bits of a counter under a key (the finalizer of SplitMix64).
+/// 64 well-mixed bits of a counter under a key (the finalizer of `SplitMix64`).
 pub(super) fn mixed(key: u64, counter: u64) -> u64 {
     let mut z = key.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

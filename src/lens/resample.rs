@@ -107,9 +107,8 @@ fn cube(
     let Intrinsics { width, height, .. } = moment.camera.intrinsics;
     let places =
         || (0..height).step_by(2).flat_map(|y| (0..width).step_by(2).map(move |x| [f64::from(x), f64::from(y)]));
-    let is_used = |turn: &DQuat| {
-        places().filter_map(|place| directions(place)).any(|direction| weight(turn.conjugate() * direction) > 0.0)
-    };
+    let is_used =
+        |turn: &DQuat| places().filter_map(directions).any(|direction| weight(turn.conjugate() * direction) > 0.0);
     // The order of depths along the axis would change from face to face.
     let render = RenderSettings { sort: SortMode::Ray, ..moment.render };
     let used: Vec<DQuat> = turns.filter(is_used).collect();

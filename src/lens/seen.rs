@@ -59,6 +59,14 @@ impl<'a> FrameFacts<'a> {
         Ok(self.seen.get_or_init(|| found))
     }
 
+    /// How much blur of splats there is in the frame.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::blur_extent`].
+    pub fn blur_extent(&self, blur: &SplatBlur) -> Result<BlurExtent, RenderError> {
+        self.renderer.blur_extent(&self.moment.camera, blur, &self.moment.render)
+    }
+
     /// Whether the frame shows background.
     ///
     /// # Errors
@@ -85,14 +93,6 @@ impl<'a> FrameFacts<'a> {
         let mut travels: Vec<f64> = self.seen()?.iter().map(|point| travel(point).unwrap_or(f64::INFINITY)).collect();
         travels.sort_by(f64::total_cmp);
         Ok(travels.get(travels.len() * 99 / 100).copied().unwrap_or(0.0))
-    }
-
-    /// How much blur of splats there is in the frame.
-    ///
-    /// # Errors
-    /// Those of [`Renderer::blur_extent`].
-    pub fn blur_extent(&self, blur: &SplatBlur) -> Result<BlurExtent, RenderError> {
-        self.renderer.blur_extent(&self.moment.camera, blur, &self.moment.render)
     }
 
     fn find_seen(&self) -> Result<Vec<SeenPoint>, RenderError> {

@@ -23,7 +23,7 @@ impl Vignette {
     /// Share of the light that reaches a point, for its squared distance from the middle over that of the corners.
     ///
     /// With (1 + b r^2)^-2, which is cos^4 for an angle of tangent sqrt(b) r, the corners (r = 1) get 2^-stops.
-    fn share(&self, radius_squared: f64) -> f64 {
+    fn share(self, radius_squared: f64) -> f64 {
         let b = (0.5 * self.stops).exp2() - 1.0;
         (1.0 + b * radius_squared).powi(-2)
     }

@@ -2,11 +2,9 @@
 //!
 //! The y axis of a box is the world's up.
 
-use std::collections::BTreeMap;
-
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use super::object::{Object, ObjectSet};
+use super::object::Object;
 use cinesplat_geometry::LevelFrame;
 use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
@@ -26,11 +24,6 @@ pub(crate) struct UprightBox {
     pub(crate) center: DVec3,
     pub(crate) half_extents: DVec3,
     pub(crate) rotation: DQuat,
-}
-
-/// Indices in file order of the Gaussians with an id.
-pub(crate) fn members(labels: &[u16], id: u32) -> Vec<usize> {
-    (0..labels.len()).filter(|&i| u32::from(labels[i]) == id).collect()
 }
 
 /// The upright box of some Gaussians: the yaw of the smallest footprint, with 0.5 % trimmed at both ends of each axis.
@@ -112,24 +105,4 @@ pub(crate) fn labels_from_boxes(gaussians: &Gaussians, objects: &[Object]) -> Ve
         holder.filter(|_| gaussians.opacities[i] >= SOLID_OPACITY).map_or(0, |object| object.id as u16)
     };
     (0..gaussians.len()).map(label).collect()
-}
-
-/// Sets every object's `num_gaussians` from the labels.
-pub(crate) fn count_members(set: &mut ObjectSet) {
-    let mut counts = vec![0_usize; usize::from(u16::MAX) + 1];
-    for &label in &set.labels {
-        counts[usize::from(label)] += 1;
-    }
-    for object in &mut set.objects {
-        object.num_gaussians = counts.get(object.id as usize).copied().unwrap_or(0);
-    }
-}
-
-/// Indices in file order of the Gaussians of every id above 0.
-pub(crate) fn members_by_id(labels: &[u16]) -> BTreeMap<u32, Vec<usize>> {
-    let mut members: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (i, &label) in labels.iter().enumerate().filter(|(_, label)| **label > 0) {
-        members.entry(u32::from(label)).or_default().push(i);
-    }
-    members
 }

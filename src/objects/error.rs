@@ -65,6 +65,14 @@ pub enum ObjectsError {
         /// What was expected.
         expected: String,
     },
+    /// The clouds file is no `safetensors` file, or a cloud in it is no list of points.
+    #[error("{}: clouds: found {found}, expected tensors ID.points of N x 3 finite numbers (F32 or F64)", path.display())]
+    BadClouds {
+        /// The clouds file.
+        path: PathBuf,
+        /// What was found.
+        found: String,
+    },
     /// A picture cannot be rendered or encoded.
     #[error("picture of the objects failed: {reason}")]
     Picture {
@@ -83,6 +91,7 @@ impl ObjectsError {
             Self::BadField { .. } => "OBJ-FIELD",
             Self::DuplicateId { .. } => "OBJ-DUPLICATE",
             Self::BadLabels { .. } => "OBJ-LABELS",
+            Self::BadClouds { .. } => "OBJ-CLOUDS",
             Self::Picture { .. } => "OBJ-PICTURE",
         }
     }

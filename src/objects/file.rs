@@ -1,27 +1,26 @@
-//! Reading and writing `objects.json`, version 1, and its label array.
+//! Reading `objects.json`, version 1, its label array and its clouds.
 //!
 //! Enters: a file, possibly from another tool, in which an object needs only an `id` and a box or labels. Leaves: an
 //! [`ObjectSet`] in which every object has a box and, where the scene has them, Gaussians. An unknown key becomes a note.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use super::boxes;
+use super::clouds_file;
 use super::error::ObjectsError;
 use super::object::{Object, ObjectSet};
-use cinesplat_files::{
-    Existing, FileError, MAX_ARRAY_BYTES, MAX_TEXT_BYTES, UnknownKeys, beside, check_free, npy, relative_to,
-};
+use cinesplat_files::{MAX_ARRAY_BYTES, MAX_TEXT_BYTES, UnknownKeys, beside, npy};
 use cinesplat_scene::Scene;
 
 /// Value of the key `format`.
-const FORMAT: &str = "cinesplat.objects";
+pub(crate) const FORMAT: &str = "cinesplat.objects";
 
 /// The only supported version.
-const VERSION: u64 = 1;
+pub(crate) const VERSION: u64 = 1;
 
 /// The contents of an objects file.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,8 +66,10 @@ pub fn read(path: &Path, scene: &Scene) -> Result<ObjectsFile, ObjectsError> {
     let top = Entry { path, name: "file".to_owned(), fields: object_of(path, "file", &root)? };
     check_kind(&top)?;
     let up = top.vector("up")?.map(|up| top.unit("up", up)).transpose()?;
-    let entries = entries(&top)?;
+    let mut entries = entries(&top)?;
     check_ids(path, &entries)?;
+    check_parents(path, &entries)?;
+    add_clouds(&top, &mut entries)?;
     let labels = match top.text("labels")? {
         Some(name) => read_labels(&beside(path, name), scene)?,
         None => scene.gaussians.ids.clone(),
@@ -85,8 +86,10 @@ pub fn read_boxes(path: &Path) -> Result<Vec<Object>, ObjectsError> {
     let root = json_of(path)?;
     let top = Entry { path, name: "file".to_owned(), fields: object_of(path, "file", &root)? };
     check_kind(&top)?;
-    let entries = entries(&top)?;
+    let mut entries = entries(&top)?;
     check_ids(path, &entries)?;
+    check_parents(path, &entries)?;
+    add_clouds(&top, &mut entries)?;
     Ok(entries.into_iter().map(|entry| entry.object).collect())
 }
 
@@ -117,67 +120,6 @@ fn decode_ids(bytes: &[u8]) -> Result<Vec<u16>, String> {
     let values = array.to_u32().map_err(|error| error.to_string())?;
     let narrow = |(idx, value)| u16::try_from(value).map_err(|_| format!("id {value} at index {idx}"));
     values.into_iter().enumerate().map(narrow).collect()
-}
-
-/// The ids, with a 0 for every Gaussian of the file that the scene's reader dropped.
-fn in_file_order(labels: &[u16], scene: &Scene) -> Vec<u16> {
-    let mut kept = labels.iter().copied();
-    let id = |file_idx: usize| {
-        let is_dropped = scene.dropped.binary_search(&(file_idx as u32)).is_ok();
-        if is_dropped { 0 } else { kept.next().unwrap_or(0) }
-    };
-    (0..scene.num_in_file()).map(id).collect()
-}
-
-/// The text of an objects file at `path`, which decides the relative path of the scene. `labels` is the file name of
-/// the label array, where there is one.
-pub fn to_json(path: &Path, set: &ObjectSet, scene: &Scene, labels: Option<&str>) -> String {
-    let mut root = json!({
-        "format": FORMAT,
-        "version": VERSION,
-        "scene": { "path": relative_to(path, &scene.path), "sha256": scene.sha256 },
-        "up": scene.up.to_array(),
-        "objects": set.objects.iter().map(entry_json).collect::<Vec<_>>(),
-    });
-    if let Some(labels) = labels {
-        root["labels"] = json!(labels);
-    }
-    format!("{root:#}\n")
-}
-
-/// Path of the label array that [`write()`] writes beside an objects file: `NAME.labels.npy`.
-pub fn labels_path(path: &Path) -> PathBuf {
-    path.with_extension("labels.npy")
-}
-
-/// Writes an objects file, and its labels to [`labels_path`] where it has any. Writes neither where one of them exists
-/// and `existing` forbids replacing it.
-///
-/// # Errors
-/// [`FileError`] where a file exists already or cannot be written.
-pub fn write(path: &Path, set: &ObjectSet, scene: &Scene, existing: Existing) -> Result<(), FileError> {
-    let labels = (!set.labels.is_empty()).then(|| labels_path(path));
-    std::iter::once(path).chain(labels.as_deref()).try_for_each(|path| check_free(path, existing))?;
-    if let Some(labels) = &labels {
-        let ids = in_file_order(&set.labels, scene);
-        cinesplat_files::write(labels, &npy::encode_u16(&[ids.len()], &ids), existing)?;
-    }
-    let name = labels.as_ref().and_then(|labels| labels.file_name()).map(|name| name.to_string_lossy());
-    cinesplat_files::write(path, to_json(path, set, scene, name.as_deref()).as_bytes(), existing)
-}
-
-fn entry_json(object: &Object) -> Value {
-    json!({
-        "id": object.id,
-        "label": object.label,
-        "center": object.center.to_array(),
-        "half_extents": object.half_extents.to_array(),
-        "rotation_xyzw": object.rotation.to_array(),
-        "num_gaussians": object.num_gaussians,
-        "points": object.points.iter().map(DVec3::to_array).collect::<Vec<_>>(),
-        "shape_radius": object.shape_radius,
-        "mask_iou": object.mask_iou,
-    })
 }
 
 /// A JSON object of the file, and its place for error messages.
@@ -236,6 +178,13 @@ impl<'a> Entry<'a> {
         let found = self.get("id").map_or_else(|| "missing".to_owned(), Value::to_string);
         let id = self.get("id").and_then(Value::as_u64).and_then(|id| u16::try_from(id).ok()).filter(|id| *id > 0);
         id.map(u32::from).ok_or_else(|| self.bad("id", found, "a whole number 1..65535"))
+    }
+
+    fn parent(&self) -> Result<Option<u32>, ObjectsError> {
+        let Some(value) = self.get("parent") else { return Ok(None) };
+        let id = value.as_u64().and_then(|id| u16::try_from(id).ok()).filter(|id| *id > 0);
+        let id = id.ok_or_else(|| self.bad("parent", value.to_string(), "null, or the id of another object"))?;
+        Ok(Some(u32::from(id)))
     }
 
     fn rotation(&self) -> Result<DQuat, ObjectsError> {
@@ -346,6 +295,7 @@ fn file_object(path: &Path, position: usize, value: &Value) -> Result<FileObject
         half_extents,
         rotation: entry.rotation()?,
         num_gaussians: 0,
+        parent: entry.parent()?,
         points: entry.points()?,
         shape_radius: entry.amount("shape_radius")?,
         mask_iou: entry.amount("mask_iou")?,
@@ -364,6 +314,40 @@ fn check_ids(path: &Path, objects_in_file: &[FileObject]) -> Result<(), ObjectsE
     Ok(())
 }
 
+/// Every parent is another object of the file, and no object is a part of itself.
+fn check_parents(path: &Path, objects_in_file: &[FileObject]) -> Result<(), ObjectsError> {
+    let parents: BTreeMap<u32, Option<u32>> =
+        objects_in_file.iter().map(|entry| (entry.object.id, entry.object.parent)).collect();
+    for (i, entry) in objects_in_file.iter().enumerate() {
+        let mut above = entry.object.parent;
+        for _ in 0..=parents.len() {
+            let Some(id) = above else { break };
+            above = parents.get(&id).copied().flatten();
+            if parents.contains_key(&id) && id != entry.object.id {
+                continue;
+            }
+            return Err(ObjectsError::BadField {
+                path: path.to_owned(),
+                entry: format!("object {} (id {})", i + 1, entry.object.id),
+                field: "parent",
+                found: id.to_string(),
+                expected: "the id of another object, which is no part of this one",
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Adds the points of the clouds file to the objects that state none themselves.
+fn add_clouds(top: &Entry, objects_in_file: &mut [FileObject]) -> Result<(), ObjectsError> {
+    let Some(name) = top.text("clouds")? else { return Ok(()) };
+    let clouds = clouds_file::read(&beside(top.path, name))?;
+    for entry in objects_in_file.iter_mut().filter(|entry| entry.object.points.is_empty()) {
+        entry.object.points = clouds.get(&entry.object.id).cloned().unwrap_or_default();
+    }
+    Ok(())
+}
+
 /// The objects in order of id, each with its Gaussians and a box.
 fn complete(
     top: &Entry,
@@ -372,24 +356,29 @@ fn complete(
     world: (&Scene, DVec3),
 ) -> Result<ObjectSet, ObjectsError> {
     let (scene, up) = world;
-    let has_labels = !labels.is_empty();
-    let mut objects = Vec::with_capacity(objects_in_file.len());
-    for (i, FileObject { mut object, has_box }) in objects_in_file.into_iter().enumerate() {
-        if !has_box {
-            let members = boxes::members(&labels, object.id);
-            let Some(fitted) = boxes::fit(&scene.gaussians, &members, up) else {
-                let entry = Entry { name: format!("object {} (id {})", i + 1, object.id), ..*top };
-                let expected = "a center and half extents, or Gaussians with this id in the labels";
-                return Err(entry.bad("center", "missing", expected));
-            };
-            (object.center, object.half_extents, object.rotation) =
-                (fitted.center, fitted.half_extents, fitted.rotation);
-        }
-        objects.push(object);
+    let mut has_box: Vec<bool> = Vec::with_capacity(objects_in_file.len());
+    let mut set = ObjectSet { objects: Vec::with_capacity(objects_in_file.len()), labels };
+    for entry in objects_in_file {
+        has_box.push(entry.has_box);
+        set.objects.push(entry.object);
     }
-    objects.sort_by_key(|object| object.id);
-    let labels = if has_labels { labels } else { boxes::labels_from_boxes(&scene.gaussians, &objects) };
-    let mut set = ObjectSet { objects, labels };
-    boxes::count_members(&mut set);
+    let members = set.members();
+    for (i, object) in set.objects.iter_mut().enumerate().filter(|(i, _)| !has_box[*i]) {
+        let members = members.get(&object.id).map_or(&[][..], Vec::as_slice);
+        let Some(fitted) = boxes::fit(&scene.gaussians, members, up) else {
+            let entry = Entry { name: format!("object {} (id {})", i + 1, object.id), ..*top };
+            let expected = "a center and half extents, or Gaussians with this id in the labels";
+            return Err(entry.bad("center", "missing", expected));
+        };
+        (object.center, object.half_extents, object.rotation) = (fitted.center, fitted.half_extents, fitted.rotation);
+    }
+    set.objects.sort_by_key(|object| object.id);
+    if set.labels.is_empty() {
+        set.labels = boxes::labels_from_boxes(&scene.gaussians, &set.objects);
+    }
+    let members = set.members();
+    for object in &mut set.objects {
+        object.num_gaussians = members.get(&object.id).map_or(0, Vec::len);
+    }
     Ok(set)
 }

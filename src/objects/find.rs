@@ -3,17 +3,23 @@
 //! Enters: a scene. Leaves: objects with Gaussians, boxes and descriptive names. Floor, walls and ceiling are
 //! background (id 0). Tables, counters and shelves are objects of their own, separate from the objects on them.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::boxes;
-use super::grouping::{VoxelGroup, group};
+use super::grouping::group;
+use super::groups::VoxelGroup;
 use super::naming;
 use super::object::{Object, ObjectSet};
-use super::planes::find_planes;
+use super::planes::{ScenePlane, find_planes, room_box};
 use super::settings::FindSettings;
 use super::voxels::VoxelGrid;
 use cinesplat_scene::Scene;
+
+/// Size of a room over the scene size below which the room decides the size of the cells.
+const SMALL_ROOM_FRAC: f64 = 0.85;
 
 /// Finds the objects of a scene. Ids count from 1 in order of prominence: size, weighted by the difference between the
 /// object's color and the scene's mean color. The same scene and settings give the same objects.
@@ -28,40 +34,76 @@ pub fn find(scene: &Scene, settings: &FindSettings) -> ObjectSet {
     if !(cell > 0.0 && cell.is_finite()) {
         return ObjectSet::default();
     }
-    let grid = VoxelGrid::new(&scene.gaussians, cell, bounds.center(), boxes::upright_axes(scene.up));
-    let planes = find_planes(&grid, (grid.voxels.len() / 300).max(60), settings.seed);
-    let mut ranked = ranked(&grid, group(&grid, &planes, settings));
-    ranked.truncate(settings.max_objects.min(usize::from(u16::MAX)));
+    let (grid, planes) = voxels_and_planes(scene, cell, settings);
+    let limit = settings.max_objects.min(usize::from(u16::MAX));
+    let ranked = ranked(&grid, group(&grid, &planes, settings), limit);
     let labels = gaussian_labels(scene, &grid, &ranked);
-    let surfaces: Vec<bool> = ranked.iter().map(|group| group.is_surface).collect();
-    assemble(scene, scene.up, labels, &|id| surfaces.get(id as usize - 1).copied().unwrap_or(false))
+    let of_id = |id: u32| {
+        ranked.get(id as usize - 1).map_or(Traits::default(), |group| Traits {
+            is_surface: group.is_surface,
+            parent: group.parent.map(|i| i as u32 + 1),
+            name: group.name,
+        })
+    };
+    assemble(scene, labels, &of_id)
+}
+
+/// What is known of an object besides its Gaussians.
+#[derive(Debug, Clone, Copy, Default)]
+struct Traits {
+    is_surface: bool,
+    parent: Option<u32>,
+    name: Option<&'static str>,
+}
+
+/// The voxels of a scene and its planes. In a room that is much smaller than the scene, because windows show what lies far
+/// outside, the cells are smaller.
+fn voxels_and_planes(scene: &Scene, cell: f64, settings: &FindSettings) -> (VoxelGrid, Vec<ScenePlane>) {
+    let center = scene.bounds().center();
+    let of_cell = |cell: f64| {
+        let grid = VoxelGrid::new(&scene.gaussians, cell, center, boxes::upright_axes(scene.up));
+        let planes = find_planes(&grid, (grid.voxels.len() / 300).max(60), settings.seed);
+        (grid, planes)
+    };
+    let found = of_cell(cell);
+    let room = room_box(&found.1).map(|(low, high)| f64::from((high - low).length()) / settings.resolution.max(1.0));
+    match room {
+        Some(smaller) if smaller < SMALL_ROOM_FRAC * cell && smaller > 0.0 => of_cell(smaller),
+        _ => found,
+    }
 }
 
 /// The objects of given labels (one id per Gaussian): every id above 0 becomes an object with a box and a descriptive
 /// name.
 pub fn from_labels(scene: &Scene, labels: Vec<u16>) -> ObjectSet {
-    assemble(scene, scene.up, labels, &|_| false)
+    assemble(scene, labels, &|_| Traits::default())
 }
 
-fn assemble(scene: &Scene, up: DVec3, labels: Vec<u16>, is_surface: &dyn Fn(u32) -> bool) -> ObjectSet {
+fn assemble(scene: &Scene, labels: Vec<u16>, of_id: &dyn Fn(u32) -> Traits) -> ObjectSet {
     let size = scene.bounds().size();
-    let mut objects = Vec::new();
-    for (id, members) in boxes::members_by_id(&labels) {
-        let Some(fitted) = boxes::fit(&scene.gaussians, &members, up) else { continue };
-        let label = naming::describe(&scene.gaussians, &members, &fitted, (size, is_surface(id)));
-        objects.push(Object {
-            rotation: fitted.rotation,
-            num_gaussians: members.len(),
-            ..Object::from_box(id, &label, fitted.center, fitted.half_extents)
-        });
+    let present: BTreeSet<u32> = labels.iter().copied().filter(|label| *label > 0).map(u32::from).collect();
+    let ancestors = |id: u32| std::iter::successors(Some(id), |&id| of_id(id).parent);
+    let ids: BTreeSet<u32> = present.into_iter().flat_map(ancestors).collect();
+    let unfitted =
+        |&id: &u32| Object { parent: of_id(id).parent, ..Object::from_box(id, "", DVec3::ZERO, DVec3::ZERO) };
+    let mut set = ObjectSet { objects: ids.iter().map(unfitted).collect(), labels };
+    let members = set.members();
+    for object in &mut set.objects {
+        let members = members.get(&object.id).map_or(&[][..], Vec::as_slice);
+        let Some(fitted) = boxes::fit(&scene.gaussians, members, scene.up) else { continue };
+        let traits = of_id(object.id);
+        let describe = || naming::describe(&scene.gaussians, members, &fitted, (size, traits.is_surface));
+        object.label = traits.name.map_or_else(describe, str::to_owned);
+        (object.center, object.half_extents, object.rotation) = (fitted.center, fitted.half_extents, fitted.rotation);
+        object.num_gaussians = members.len();
     }
-    naming::make_unique(&mut objects);
-    ObjectSet { objects, labels }
+    naming::make_unique(&mut set.objects);
+    set
 }
 
 /// The groups, most prominent first: the root of the number of voxels, weighted by the distance of their color from the
 /// scene's mean.
-fn ranked(grid: &VoxelGrid, mut groups: Vec<VoxelGroup>) -> Vec<VoxelGroup> {
+fn ranked(grid: &VoxelGrid, groups: Vec<VoxelGroup>, limit: usize) -> Vec<VoxelGroup> {
     let color = |voxels: &mut dyn Iterator<Item = usize>| {
         let (sum, count) = voxels.fold((Vec3::ZERO, 0), |(sum, n), v| (sum + grid.voxels[v].color_lab, n + 1));
         sum / count.max(1) as f32
@@ -71,8 +113,24 @@ fn ranked(grid: &VoxelGrid, mut groups: Vec<VoxelGroup>) -> Vec<VoxelGroup> {
         let apart = (color(&mut group.voxels.iter().copied()) - overall).length();
         (group.voxels.len() as f32).sqrt() * (0.3 + (apart / 60.0).min(1.0))
     };
-    groups.sort_by(|a, b| prominence(b).total_cmp(&prominence(a)).then(a.voxels.first().cmp(&b.voxels.first())));
-    groups
+    let mut scores: Vec<f32> = groups.iter().map(prominence).collect();
+    // A whole comes before its parts.
+    for i in 0..groups.len() {
+        let mut above = groups[i].parent;
+        while let Some(whole) = above {
+            scores[whole] = scores[whole].max(scores[i] * 1.01);
+            above = groups[whole].parent;
+        }
+    }
+    let first = |i: usize| groups[i].voxels.first().copied();
+    let mut order: Vec<usize> = (0..groups.len()).collect();
+    order.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]).then(first(a).cmp(&first(b))));
+    order.truncate(limit);
+    let place = |group: usize| order.iter().position(|&i| i == group);
+    let parents: Vec<Option<usize>> = order.iter().map(|&i| groups[i].parent.and_then(place)).collect();
+    let mut groups: Vec<Option<VoxelGroup>> = groups.into_iter().map(Some).collect();
+    let kept = order.iter().zip(parents).filter_map(|(&i, parent)| Some(VoxelGroup { parent, ..groups[i].take()? }));
+    kept.collect()
 }
 
 /// One id per Gaussian: the id of the voxel that contains its mean. A Gaussian in an empty cell takes the id of the

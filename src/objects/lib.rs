@@ -4,33 +4,55 @@
 //! a file ([`read()`]) or assembled from labels ([`from_labels`]). [`fill_clouds`] computes the clouds that the
 //! director takes as input, and [`sheet()`] draws a contact sheet of all objects.
 
+mod agreement;
 pub mod alpha_shape;
 mod background;
 mod boxes;
+mod candidates;
+mod closed_room;
 mod cloud;
+mod clouds_file;
 mod color;
 pub mod delaunay;
 mod drawing;
 mod error;
 mod file;
+mod file_write;
 mod find;
+mod flats;
 mod grouping;
+mod groups;
+mod kept_points;
+mod mask;
 mod naming;
 mod object;
+mod open_background;
+mod open_room;
+mod parts;
+mod pieces;
 mod planes;
 pub mod radius_search;
+mod renaming;
 mod sampling;
 mod segmentation;
 mod settings;
 mod sheet;
+mod sheet_html;
+mod silhouettes;
+mod standing;
+mod tops;
 mod viewpoints;
 mod views;
 mod voxels;
 
-pub use cloud::{CloudSettings, fill_clouds};
+pub use agreement::{Agreement, agreements};
+pub use cloud::{CloudSettings, fill_clouds, fill_clouds_of};
 pub use error::ObjectsError;
-pub use file::{ObjectsFile, labels_path, read, read_boxes, read_labels, to_json, write};
+pub use file::{ObjectsFile, read, read_boxes, read_labels};
+pub use file_write::{Sidecars, clouds_path, labels_path, to_json, write};
 pub use find::{find, from_labels};
 pub use object::{Object, ObjectSet};
+pub use renaming::{Renaming, rename};
+pub use sampling::PointSampler;
 pub use settings::FindSettings;
-pub use sheet::{SheetSettings, sheet};
+pub use sheet::{Sheet, SheetSettings, Tile, sheet};

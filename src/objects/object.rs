@@ -1,5 +1,8 @@
 //! An object, and all objects of a scene.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
 use glam::{DQuat, DVec3};
 
 /// One object of a scene: a box, a name, and a sparse cloud of its shape.
@@ -17,6 +20,8 @@ pub struct Object {
     pub rotation: DQuat,
     /// Number of Gaussians that belong to it; 0 where only the box is known.
     pub num_gaussians: usize,
+    /// Id of the object that it is a part of.
+    pub parent: Option<u32>,
     /// Sparse cloud: points on its silhouettes, world.
     pub points: Vec<DVec3>,
     /// Radius of the alpha shapes of the cloud, scene units; 0 without a cloud.
@@ -35,6 +40,7 @@ impl Object {
             half_extents,
             rotation: DQuat::IDENTITY,
             num_gaussians: 0,
+            parent: None,
             points: Vec::new(),
             shape_radius: 0.0,
             mask_iou: 0.0,
@@ -74,5 +80,61 @@ impl ObjectSet {
     /// The object with an id; `None` where there is none.
     pub fn get(&self, id: u32) -> Option<&Object> {
         self.objects.iter().find(|object| object.id == id)
+    }
+
+    /// The labels with the id of an object in place of those of its parts: its Gaussians and theirs.
+    pub fn labels_of(&self, id: u32) -> Cow<'_, [u16]> {
+        let parts = self.parts_of(id);
+        if parts.is_empty() {
+            return Cow::Borrowed(&self.labels);
+        }
+        let merged = |label: &u16| if parts.contains(&u32::from(*label)) { id as u16 } else { *label };
+        Cow::Owned(self.labels.iter().map(merged).collect())
+    }
+
+    /// Indices of the Gaussians of every object, those of its parts included, ascending.
+    pub(crate) fn members(&self) -> BTreeMap<u32, Vec<usize>> {
+        let mut members: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        let parents: BTreeMap<u32, u32> =
+            self.objects.iter().filter_map(|object| Some((object.id, object.parent?))).collect();
+        for (i, &label) in self.labels.iter().enumerate().filter(|(_, label)| **label > 0) {
+            let mut id = Some(u32::from(label));
+            // No object is a part of itself, which bounds the number of steps.
+            for _ in 0..=parents.len() {
+                let Some(whole) = id else { break };
+                members.entry(whole).or_default().push(i);
+                id = parents.get(&whole).copied();
+            }
+        }
+        members
+    }
+
+    /// Every object with the number of wholes that it is a part of, one inside the other; each whole is followed by its
+    /// parts.
+    pub fn with_parts(&self) -> Vec<(&Object, usize)> {
+        let parts_of = |whole: Option<u32>, depth: usize| {
+            let parts = self.objects.iter().rev().filter(move |object| object.parent == whole);
+            parts.map(move |object| (object, depth))
+        };
+        let mut open: Vec<(&Object, usize)> = parts_of(None, 0).collect();
+        let mut ordered = Vec::with_capacity(self.objects.len());
+        while let Some((object, depth)) = open.pop() {
+            ordered.push((object, depth));
+            open.extend(parts_of(Some(object.id), depth + 1));
+        }
+        ordered
+    }
+
+    /// Ids of all parts of an object, and of their parts.
+    pub fn parts_of(&self, id: u32) -> Vec<u32> {
+        let mut parts = vec![id];
+        let mut at = 0;
+        while let Some(&whole) = parts.get(at) {
+            let is_new = |object: &&Object| object.parent == Some(whole) && !parts.contains(&object.id);
+            let found: Vec<u32> = self.objects.iter().filter(is_new).map(|object| object.id).collect();
+            parts.extend(found);
+            at += 1;
+        }
+        parts.split_off(1)
     }
 }

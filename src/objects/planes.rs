@@ -78,8 +78,14 @@ const NUM_CANDIDATES: usize = 160;
 /// Voxels on which candidates are scored.
 const NUM_SCORED: usize = 4000;
 
-/// Largest share of voxels behind a wall, under a floor or over a ceiling.
+/// Largest share of voxels under a floor, over a ceiling or behind a wall.
 const BEYOND_FRAC: f32 = 0.06;
+
+/// Largest distance of a wall from the side of the room, over the room's extent.
+const SIDE_FRAC: f32 = 0.05;
+
+/// Largest share of voxels behind a wall at the side of a room with floor and ceiling: the recesses of its windows.
+const BEYOND_SIDE_FRAC: f32 = 0.14;
 
 /// The planes with at least `min_voxels` voxels, largest first. Upright planes that are not walls are dropped.
 pub(crate) fn find_planes(grid: &VoxelGrid, min_voxels: usize, seed: u64) -> Vec<ScenePlane> {
@@ -173,21 +179,48 @@ fn classify(grid: &VoxelGrid, planes: Vec<ScenePlane>) -> Vec<ScenePlane> {
             (extent_along(grid, 0..grid.voxels.len(), Vec3::X), extent_along(grid, 0..grid.voxels.len(), Vec3::Z));
         length(x) * length(z) / (grid.cell * grid.cell)
     };
-    let mut classified = Vec::new();
-    for mut plane in planes {
-        if plane.is_level() {
-            let ends = |axis| extent_along(grid, plane.voxels.iter().copied(), axis);
-            plane.extent = [ends(Vec3::X), ends(Vec3::Z)];
-            plane.kind = level_kind(grid, &plane, footprint);
-            plane.normal = if plane.kind == PlaneKind::Ceiling { Vec3::NEG_Y } else { Vec3::Y };
-            plane.offset = plane.voxels.iter().map(|&v| plane.normal.dot(grid.voxels[v].position)).sum::<f32>()
-                / plane.voxels.len() as f32;
-            classified.push(plane);
-        } else if let Some(wall) = as_wall(grid, plane) {
-            classified.push(wall);
-        }
-    }
+    let (level, upright): (Vec<_>, Vec<_>) = planes.into_iter().partition(ScenePlane::is_level);
+    let mut classified: Vec<ScenePlane> = level.into_iter().map(|plane| as_level(grid, plane, footprint)).collect();
+    let closed = room_box(&classified);
+    let room = closed.unwrap_or_else(|| {
+        let ends = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| extent_along(grid, 0..grid.voxels.len(), axis));
+        (Vec3::from_array(ends.map(|end| end.0)), Vec3::from_array(ends.map(|end| end.1)))
+    });
+    let max_behind = if closed.is_some() { BEYOND_SIDE_FRAC } else { BEYOND_FRAC };
+    let walls = upright.into_iter().filter_map(|plane| as_wall(grid, plane, room, max_behind));
+    classified.extend(walls.filter(|wall| closed.is_none_or(|room| is_at_side(wall, room))));
     classified
+}
+
+/// A level plane with its extent and kind.
+fn as_level(grid: &VoxelGrid, mut plane: ScenePlane, footprint: f32) -> ScenePlane {
+    let ends = |axis| extent_along(grid, plane.voxels.iter().copied(), axis);
+    plane.extent = [ends(Vec3::X), ends(Vec3::Z)];
+    plane.kind = level_kind(grid, &plane, footprint);
+    plane.normal = if plane.kind == PlaneKind::Ceiling { Vec3::NEG_Y } else { Vec3::Y };
+    plane.offset = plane.voxels.iter().map(|&v| plane.normal.dot(grid.voxels[v].position)).sum::<f32>()
+        / plane.voxels.len() as f32;
+    plane
+}
+
+/// Whether a wall lies at a side of the room or outside: the fronts of wardrobes and shelves lie inside.
+fn is_at_side(wall: &ScenePlane, (low, high): (Vec3, Vec3)) -> bool {
+    let half = wall.normal.abs().dot(high - low) / 2.0;
+    wall.height((low + high) / 2.0) > (1.0 - 2.0 * SIDE_FRAC) * half
+}
+
+/// Corners of the box between the largest floor and the largest ceiling; `None` without both. What is seen through windows
+/// lies outside.
+pub(crate) fn room_box(planes: &[ScenePlane]) -> Option<(Vec3, Vec3)> {
+    let largest =
+        |kind: PlaneKind| planes.iter().filter(|plane| plane.kind == kind).max_by_key(|plane| plane.voxels.len());
+    let (floor, ceiling) = (largest(PlaneKind::Floor)?, largest(PlaneKind::Ceiling)?);
+    let span = |axis: usize| {
+        let (a, b) = (floor.extent[axis], ceiling.extent[axis]);
+        (a.0.min(b.0), a.1.max(b.1))
+    };
+    let (x, z) = (span(0), span(1));
+    Some((Vec3::new(x.0, floor.offset, z.0), Vec3::new(x.1, -ceiling.offset, z.1)))
 }
 
 /// Share of the voxels over the plane's extent that lie just behind the plane, on the side of `-normal`: from two cells
@@ -215,15 +248,14 @@ fn level_kind(grid: &VoxelGrid, plane: &ScenePlane, footprint: f32) -> PlaneKind
     }
 }
 
-/// An upright plane is a wall where few voxels lie behind it, it is at least half as high as the scene and a quarter as
-/// long, and the scene before it is at least a third as deep as the plane is long. Sides of objects do not meet this.
-fn as_wall(grid: &VoxelGrid, plane: ScenePlane) -> Option<ScenePlane> {
-    let all = || 0..grid.voxels.len();
+/// An upright plane is a wall where few voxels lie behind it, it is at least half as high as the room and a quarter as
+/// long, and the room before it is at least a third as deep as the plane is long. Sides of objects do not meet this.
+fn as_wall(grid: &VoxelGrid, plane: ScenePlane, room: (Vec3, Vec3), max_behind: f32) -> Option<ScenePlane> {
     let along = Vec3::Y.cross(plane.normal);
     let on = || plane.voxels.iter().copied();
     let ends = extent_along(grid, on(), along);
     let (height, run) = (length(extent_along(grid, on(), Vec3::Y)), length(ends));
-    let room = [Vec3::Y, along, plane.normal].map(|direction| length(extent_along(grid, all(), direction)));
+    let room = [Vec3::Y, along, plane.normal].map(|direction| (room.1 - room.0).dot(direction.abs()));
     let covered = plane.voxels.len() as f32 * grid.cell * grid.cell > 0.2 * height * run;
     let large = height >= 0.5 * room[0] && run >= 0.25 * room[1] && room[2] >= run / 3.0;
     if !(large && covered) {
@@ -234,5 +266,5 @@ fn as_wall(grid: &VoxelGrid, plane: ScenePlane) -> Option<ScenePlane> {
     let facing = ScenePlane { kind: PlaneKind::Wall, extent: [(ends.0 - margin, ends.1 + margin), UNBOUNDED], ..plane };
     let away = facing.flipped();
     let (behind, before) = (share_behind(grid, &facing), share_behind(grid, &away));
-    (behind.min(before) < BEYOND_FRAC).then_some(if behind <= before { facing } else { away })
+    (behind.min(before) < max_behind).then_some(if behind <= before { facing } else { away })
 }

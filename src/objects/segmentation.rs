@@ -5,14 +5,14 @@ use super::voxels::VoxelGrid;
 
 /// Disjoint sets with sizes (union-find, Tarjan 1975).
 #[derive(Debug, Clone)]
-struct DisjointSets {
+pub(crate) struct DisjointSets {
     parents: Vec<usize>,
     sizes: Vec<usize>,
 }
 
 impl DisjointSets {
     /// `len` sets of one item.
-    fn new(len: usize) -> Self {
+    pub(crate) fn new(len: usize) -> Self {
         Self { parents: (0..len).collect(), sizes: vec![1; len] }
     }
 
@@ -32,7 +32,7 @@ impl DisjointSets {
     }
 
     /// Joins two sets; returns the representative of the union.
-    fn join(&mut self, a: usize, b: usize) -> usize {
+    pub(crate) fn join(&mut self, a: usize, b: usize) -> usize {
         let (a, b) = (self.find(a), self.find(b));
         let (small, large) = if (self.sizes[a], b) < (self.sizes[b], a) { (a, b) } else { (b, a) };
         if small != large {
@@ -43,7 +43,7 @@ impl DisjointSets {
     }
 
     /// The sets of `items`, sorted by their first members; each keeps the order of `items`.
-    fn groups(&mut self, items: &[usize]) -> Vec<Vec<usize>> {
+    pub(crate) fn groups(&mut self, items: &[usize]) -> Vec<Vec<usize>> {
         let mut group_of_root = vec![usize::MAX; self.parents.len()];
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for &item in items {

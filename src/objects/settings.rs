@@ -13,12 +13,23 @@ pub struct FindSettings {
     pub split_frac: f64,
     /// Scale of that split, CIE Lab units times voxels: a larger scale gives larger pieces.
     pub split_scale: f32,
+    /// How far down the tree of wholes and parts to go: 0 = wholes alone, 1 = also the parts of captures that show single
+    /// things, and what lies inside other objects of a room; 2 = also the parts of the things of a room.
+    pub detail: u8,
     /// Seed of the plane search.
     pub seed: u64,
 }
 
 impl Default for FindSettings {
     fn default() -> Self {
-        Self { resolution: 220.0, min_voxels: 24, max_objects: 60, split_frac: 0.3, split_scale: 140.0, seed: 0 }
+        Self {
+            resolution: 220.0,
+            min_voxels: 24,
+            max_objects: 60,
+            split_frac: 0.3,
+            split_scale: 140.0,
+            detail: 1,
+            seed: 0,
+        }
     }
 }

@@ -1,6 +1,8 @@
-//! The contact sheet: one picture that shows every object with its id and label.
+//! The contact sheet: every object with its id and name.
 //!
-//! Enters: a scene and its objects. Leaves: an RGB picture with an overview above one tile per object.
+//! Enters: a scene and its objects. Leaves: an overview, and one picture per object with everything else cut away.
+
+use std::collections::BTreeMap;
 
 use glam::DVec2;
 use image::{Rgb, RgbImage, imageops};
@@ -31,6 +33,18 @@ impl Default for SheetSettings {
     }
 }
 
+impl SheetSettings {
+    fn tile_size_px(&self) -> (u32, u32) {
+        let width = self.tile_width_px.max(64);
+        (width, width * 3 / 4)
+    }
+
+    fn overview_size_px(&self) -> (u32, u32) {
+        let width = self.num_columns.max(1) * (self.tile_size_px().0 + GAP_PX) + GAP_PX;
+        (width, width * 9 / 16)
+    }
+}
+
 const BACKGROUND: Ink = Rgb([24, 24, 28]);
 const PAPER: Ink = Rgb([245, 245, 245]);
 const INK: Ink = Rgb([12, 12, 14]);
@@ -46,8 +60,11 @@ const CAPTION_PX: u32 = 44;
 /// Space between tiles.
 const GAP_PX: u32 = 6;
 
-/// Least visible share of an object. Where less is visible, its tile is clipped in front of the object.
-const MIN_VISIBLE_FRAC: f64 = 0.5;
+/// Color behind an object that is cut out.
+const TILE_BACKGROUND: [f32; 3] = [0.24, 0.24, 0.26];
+
+/// Step to the right of the caption of a part.
+const INDENT_PX: i64 = 16;
 
 /// Diagonal of a box, over the scene size, below which the overview draws it.
 const MAX_BOXED_FRAC: f64 = 0.3;
@@ -55,54 +72,94 @@ const MAX_BOXED_FRAC: f64 = 0.3;
 /// Least number of pixels in the coarse picture of an object whose id the overview shows.
 const MIN_ID_PIXELS: usize = 6;
 
-/// Draws the sheet. Each tile shows its object in the scene, with its box, from the direction in which it is least
-/// occluded. Where more than half stays occluded, the near plane clips the scene in front of it, and the tile has
-/// the mark "cut open".
+/// The pictures of a sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// The scene with the number of every object that is seen.
+    pub overview: RgbImage,
+    /// One picture per object, each whole followed by its parts.
+    pub tiles: Vec<Tile>,
+}
+
+/// The picture of one object, cut out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tile {
+    /// Id of the object.
+    pub id: u32,
+    /// Its name.
+    pub label: String,
+    /// How many wholes it is a part of, one inside the other.
+    pub depth: usize,
+    /// The object alone, from the direction in which it is least occluded in its scene.
+    pub picture: RgbImage,
+}
+
+/// Draws the pictures of all objects.
 ///
 /// # Errors
-/// [`ObjectsError::Picture`] where the scene cannot be rendered.
-pub fn sheet(scene: &Scene, set: &ObjectSet, settings: &SheetSettings) -> Result<RgbImage, ObjectsError> {
+/// [`ObjectsError::Picture`] for a scene without extent, or where a picture cannot be rendered.
+pub fn sheet(scene: &Scene, set: &ObjectSet, settings: &SheetSettings) -> Result<Sheet, ObjectsError> {
     let no_extent = || ObjectsError::Picture { reason: "the scene has no extent".to_owned() };
     let viewpoints = ViewpointSearch::new(scene, set).ok_or_else(no_extent)?;
-    let columns = settings.num_columns.max(1);
-    let tile_width = settings.tile_width_px.max(64);
-    let picture_height = tile_width * 3 / 4;
-    let width = columns * (tile_width + GAP_PX) + GAP_PX;
-    let overview_height = width * 9 / 16;
-    let row_height = picture_height + CAPTION_PX + GAP_PX;
-    let num_rows = (set.objects.len() as u32).div_ceil(columns);
-    let mut page = RgbImage::from_pixel(width, overview_height + GAP_PX + num_rows * row_height, BACKGROUND);
-    let painter =
-        SheetPainter { scene, viewpoints, renderer: Renderer::new(&scene.gaussians), quality: settings.quality };
-    imageops::replace(&mut page, &painter.overview(set, width, overview_height)?, 0, 0);
-    let tiles: Result<Vec<RgbImage>, ObjectsError> =
-        set.objects.par_iter().map(|object| painter.tile(object, tile_width, picture_height)).collect();
-    for (i, tile) in tiles?.iter().enumerate() {
-        let (column, row) = (i as u32 % columns, i as u32 / columns);
-        let left = GAP_PX + column * (tile_width + GAP_PX);
-        imageops::replace(&mut page, tile, i64::from(left), i64::from(overview_height + GAP_PX + row * row_height));
+    let painter = SheetPainter { scene, set, viewpoints, members: set.members(), settings };
+    let ordered = set.with_parts();
+    let overview = painter.overview()?;
+    let tiles: Result<Vec<Tile>, ObjectsError> =
+        ordered.into_par_iter().map(|(object, depth)| painter.tile(object, depth)).collect();
+    Ok(Sheet { overview, tiles: tiles? })
+}
+
+impl Sheet {
+    /// The sheet as one picture: the overview above the tiles with their captions.
+    pub fn page(&self, settings: &SheetSettings) -> RgbImage {
+        let columns = settings.num_columns.max(1);
+        let (tile_width, picture_height) = settings.tile_size_px();
+        let row_height = picture_height + CAPTION_PX + GAP_PX;
+        let num_rows = (self.tiles.len() as u32).div_ceil(columns);
+        let overview_height = self.overview.height();
+        let height = overview_height + GAP_PX + num_rows * row_height;
+        let mut page = RgbImage::from_pixel(self.overview.width(), height, BACKGROUND);
+        imageops::replace(&mut page, &self.overview, 0, 0);
+        for (i, tile) in self.tiles.iter().enumerate() {
+            let (column, row) = (i as u32 % columns, i as u32 / columns);
+            let left = i64::from(GAP_PX + column * (tile_width + GAP_PX));
+            let top = i64::from(overview_height + GAP_PX + row * row_height);
+            imageops::replace(&mut page, &tile.picture, left, top);
+            let indent = INDENT_PX * tile.depth.min(3) as i64;
+            if tile.depth > 0 {
+                drawing::fill(&mut page, (left, top), (4, i64::from(picture_height + CAPTION_PX)), ink_of(tile.id));
+            }
+            let per_line = ((i64::from(tile_width) - indent) / drawing::text_size_px("m", 2).0).max(1) as usize;
+            let lines = wrapped(&format!("{} {}", tile.id, tile.label), per_line);
+            for (line_idx, line) in lines.iter().take(2).enumerate() {
+                let y = top + i64::from(picture_height) + 5 + line_idx as i64 * 19;
+                drawing::text(&mut page, (left + 2 + indent, y), 2, PAPER, line);
+            }
+        }
+        page
     }
-    Ok(page)
 }
 
 /// The inputs of every picture of the sheet.
 struct SheetPainter<'a> {
     scene: &'a Scene,
+    set: &'a ObjectSet,
     viewpoints: ViewpointSearch<'a>,
-    renderer: Renderer<'a>,
-    quality: Quality,
+    /// Indices of the Gaussians of every object.
+    members: BTreeMap<u32, Vec<usize>>,
+    settings: &'a SheetSettings,
 }
 
 impl SheetPainter<'_> {
-    fn overview(&self, set: &ObjectSet, width: u32, height: u32) -> Result<RgbImage, ObjectsError> {
+    fn overview(&self) -> Result<RgbImage, ObjectsError> {
+        let (width, height) = self.settings.overview_size_px();
         let camera = self.viewpoints.overview(Intrinsics::from_fov_y(width, height, OVERVIEW_FOV_RAD));
-        let mut image = self.photo(&camera, self.scene.bounds().default_near())?;
+        let renderer = Renderer::new(&self.scene.gaussians);
+        let mut image = self.photo(&renderer, &camera, (self.scene.bounds().default_near(), [0.0; 3]))?;
         let ids = self.viewpoints.id_picture(&camera);
-        let seen: Vec<(&Object, DVec2)> = set
-            .objects
-            .iter()
-            .filter_map(|object| Some((object, visible_middle(&ids, object.id)? * f64::from(width) / ids.width as f64)))
-            .collect();
+        let scale = f64::from(width) / ids.width as f64;
+        let place = |object| Some((object, visible_middle(&ids, self.set, object)? * scale));
+        let seen: Vec<(&Object, DVec2)> = self.set.objects.iter().filter_map(place).collect();
         // The boxes of large objects would cover the picture.
         let size = self.scene.bounds().size();
         for (object, _) in seen.iter().filter(|(object, _)| 2.0 * object.radius() < MAX_BOXED_FRAC * size) {
@@ -113,47 +170,43 @@ impl SheetPainter<'_> {
             let place = free_place(&mut taken, *middle, &object.id.to_string());
             drawing::tag(&mut image, place, 2, (INK, ink_of(object.id)), &object.id.to_string());
         }
-        let title = format!("{} objects, {} seen from here", set.objects.len(), seen.len());
+        let title = format!("{} objects, {} seen from here", self.set.objects.len(), seen.len());
         drawing::tag(&mut image, (10, 10), 2, (INK, PAPER), &title);
         Ok(image)
     }
 
-    fn tile(&self, object: &Object, width: u32, height: u32) -> Result<RgbImage, ObjectsError> {
-        let (camera, seen) = self.viewpoints.closeup(object, Intrinsics::from_fov_y(width, height, TILE_FOV_RAD));
-        let near = self.scene.bounds().default_near();
-        let distance = (object.center - camera.pose.position).length();
-        let is_cut = seen < MIN_VISIBLE_FRAC;
-        let near = if is_cut { near.max(distance - 1.05 * object.radius()) } else { near };
-        let mut photo = self.photo(&camera, near)?;
-        draw_box(&mut photo, &camera, object, near);
-        drawing::tag(&mut photo, (8, 8), 3, (INK, ink_of(object.id)), &object.id.to_string());
-        let mut tile = RgbImage::from_pixel(width, height + CAPTION_PX, BACKGROUND);
-        imageops::replace(&mut tile, &photo, 0, 0);
-        let per_line = (i64::from(width) / drawing::text_size_px("m", 2).0).max(1) as usize;
-        let lines = wrapped(&format!("{} {}", object.id, object.label), per_line);
-        for (row, line) in lines.iter().take(2).enumerate() {
-            let top = i64::from(height) + 5 + row as i64 * 19;
-            drawing::text(&mut tile, (2, top), 2, PAPER, line);
+    fn tile(&self, object: &Object, depth: usize) -> Result<Tile, ObjectsError> {
+        let (width, height) = self.settings.tile_size_px();
+        let (camera, _) = self.viewpoints.closeup(object, Intrinsics::from_fov_y(width, height, TILE_FOV_RAD));
+        let members = self.members.get(&object.id).map_or(&[][..], Vec::as_slice);
+        let gaussians = self.scene.gaussians.subset(members);
+        let mut picture = self.photo(&Renderer::new(&gaussians), &camera, (0.0, TILE_BACKGROUND))?;
+        if gaussians.is_empty() {
+            draw_box(&mut picture, &camera, object, 0.0);
         }
-        if is_cut {
-            drawing::tag(&mut tile, (8, i64::from(height) - 12), 1, (PAPER, INK), "cut open");
-        }
-        Ok(tile)
+        drawing::tag(&mut picture, (8, 8), 3, (INK, ink_of(object.id)), &object.id.to_string());
+        Ok(Tile { id: object.id, label: object.label.clone(), depth, picture })
     }
 
-    fn photo(&self, camera: &Camera, near: f64) -> Result<RgbImage, ObjectsError> {
+    /// `look`: near plane and background.
+    fn photo(&self, renderer: &Renderer, camera: &Camera, look: (f64, [f32; 3])) -> Result<RgbImage, ObjectsError> {
         let filter = self.scene.filter.unwrap_or(SplatFilter::Classic);
-        let settings = RenderSettings { quality: self.quality, filter, near, ..RenderSettings::default() };
+        let (near, background) = look;
+        let quality = self.settings.quality;
+        let settings =
+            RenderSettings { quality, filter, near, background: background.into(), ..RenderSettings::default() };
         let failed = |reason: String| ObjectsError::Picture { reason };
-        let frame = self.renderer.render(camera, &settings).map_err(|error| failed(error.to_string()))?;
+        let frame = renderer.render(camera, &settings).map_err(|error| failed(error.to_string()))?;
         let image = RgbImage::from_raw(frame.width, frame.height, frame.to_rgb8());
         image.ok_or_else(|| failed("the frame has another size than its pixels".to_owned()))
     }
 }
 
-/// Mean position of an object's pixels in the coarse picture; `None` below [`MIN_ID_PIXELS`].
-fn visible_middle(survey: &IdPicture, id: u32) -> Option<DVec2> {
-    let pixels = || survey.ids.iter().enumerate().filter(|(_, other)| u32::from(**other) == id).map(|(i, _)| i);
+/// Mean position of the pixels of an object and its parts in the coarse picture; `None` below [`MIN_ID_PIXELS`].
+fn visible_middle(survey: &IdPicture, set: &ObjectSet, object: &Object) -> Option<DVec2> {
+    let ids: Vec<u32> = std::iter::once(object.id).chain(set.parts_of(object.id)).collect();
+    let is_own = |(_, id): &(usize, &u16)| ids.contains(&u32::from(**id));
+    let pixels = || survey.ids.iter().enumerate().filter(is_own).map(|(i, _)| i);
     let count = pixels().count();
     let sum: DVec2 =
         pixels().map(|i| DVec2::new((i % survey.width) as f64 + 0.5, (i / survey.width) as f64 + 0.5)).sum();

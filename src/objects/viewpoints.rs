@@ -21,6 +21,9 @@ const COARSE_HEIGHT_PX: u32 = 60;
 /// Largest half side of a splat in a coarse picture.
 const MAX_SPLAT_PX: i64 = 5;
 
+/// Diagonal of an object, over the scene size, from which the scene shows one thing and is seen from outside.
+const SINGLE_FRAC: f64 = 0.6;
+
 /// Distance to the nearest Gaussian, over the scene size, below which a viewpoint counts as blocked.
 const CLEARANCE_FRAC: f64 = 0.04;
 
@@ -86,6 +89,9 @@ impl<'a> ViewpointSearch<'a> {
 
     /// The camera that shows the most objects, with little void and nothing close before the lens.
     pub(crate) fn overview(&self, intrinsics: Intrinsics) -> Camera {
+        if self.shows_one_thing() {
+            return self.outside(intrinsics);
+        }
         let target = self.middle_of_objects();
         let mut best = (f64::NEG_INFINITY, self.camera_at(self.center, target, intrinsics));
         for height_frac in [0.05, 0.15, 0.3] {
@@ -98,6 +104,30 @@ impl<'a> ViewpointSearch<'a> {
                     if score > best.0 {
                         best = (score, camera);
                     }
+                }
+            }
+        }
+        best.1
+    }
+
+    /// Whether one object is most of the scene.
+    fn shows_one_thing(&self) -> bool {
+        self.set.objects.iter().any(|object| object.parent.is_none() && 2.0 * object.radius() > SINGLE_FRAC * self.size)
+    }
+
+    /// The camera outside the scene that shows most of the objects.
+    fn outside(&self, intrinsics: Intrinsics) -> Camera {
+        let distance = 0.55 * self.size / (intrinsics.fov_y_rad() / 2.0).sin();
+        let mut best = (-1.0, self.camera_at(self.center + self.frame.north * distance, self.center, intrinsics));
+        for elevation_rad in [0.3_f64, 0.1] {
+            for step in 0..16 {
+                let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 16.0);
+                let away = away * elevation_rad.cos() + self.frame.up * elevation_rad.sin();
+                let camera = self.camera_at(self.center + away * distance, self.center, intrinsics);
+                let picture = self.id_picture(&camera);
+                let seen = picture.ids.iter().filter(|id| **id > 0).count() as f64;
+                if seen > best.0 {
+                    best = (seen, camera);
                 }
             }
         }

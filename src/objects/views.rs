@@ -12,8 +12,8 @@ const FOV_Y_RAD: f64 = 0.5;
 const MARGIN: f64 = 1.1;
 
 /// Cameras with square frames on rings around an object: `num_azimuths` per elevation (rad, seen from its middle),
-/// aimed at its middle, at a common distance that shows the whole box. Azimuth 0 is the heading of the box, so that the
-/// views rotate with the object.
+/// aimed at its middle, with a common distance and lens that show the whole box in every view. Azimuth 0 is the heading of
+/// the box, so that the views rotate with the object.
 pub(crate) fn ring(
     object: &Object,
     up: DVec3,
@@ -34,7 +34,23 @@ pub(crate) fn ring(
             cameras.push(Camera { pose, intrinsics });
         }
     }
+    let zoom = largest_zoom(&cameras, object);
+    for camera in &mut cameras {
+        camera.intrinsics.fx_px *= zoom;
+        camera.intrinsics.fy_px *= zoom;
+    }
     cameras
+}
+
+/// The factor on the focal length at which the corners of the box still lie in the frames of all cameras.
+fn largest_zoom(cameras: &[Camera], object: &Object) -> f64 {
+    let off_axis = |camera: &Camera, corner: DVec3| {
+        let size = f64::from(camera.intrinsics.width);
+        camera.project(corner).map_or(0.5, |(px, _)| ((px - size / 2.0) / size).abs().max_element())
+    };
+    let corners = object.corners();
+    let most = cameras.iter().flat_map(|camera| corners.map(|corner| off_axis(camera, corner))).fold(0.0, f64::max);
+    if most > 0.0 { 0.5 / MARGIN / most } else { 1.0 }
 }
 
 /// Scene units per pixel at the middle of an object, for a camera of its ring.

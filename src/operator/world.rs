@@ -86,7 +86,7 @@ impl World {
             .objects
             .iter()
             .filter(|object| ids.contains(&object.id))
-            .map(|object| (object.id, Subject::of(gaussians, object, &objects.labels, &matter.grid)))
+            .map(|object| (object.id, Subject::of(gaussians, object, &objects.labels_of(object.id), &matter.grid)))
             .collect();
         let camera_radius = default_camera_radius(&bounds);
         let things =

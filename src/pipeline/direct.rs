@@ -196,12 +196,8 @@ fn names(objects: &ObjectSet) -> Vec<NamedObject> {
 /// The objects; those that the network reads have clouds.
 fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<ObjectSet, PipelineError> {
     let seen = Director::looks_at(linked, &objects.objects);
-    let (seen, mut rest): (Vec<_>, Vec<_>) =
-        objects.objects.iter().cloned().partition(|object| seen.contains(&object.id));
-    let mut set = ObjectSet { objects: seen, labels: objects.labels.clone() };
-    prepare_objects(scene, &mut set)?;
-    set.objects.append(&mut rest);
-    set.objects.sort_by_key(|object| object.id);
+    let mut set = objects.clone();
+    cinesplat_objects::fill_clouds_of(scene, &mut set, &seen, &CloudSettings::default())?;
     Ok(set)
 }
 

@@ -61,7 +61,7 @@ pub enum SceneError {
         found: u64,
     },
     /// Content of an unknown format.
-    #[error("{}: {found}, expected .ply, .splat, .spz or .sog", shown(path))]
+    #[error("{}: {found}, expected .ply, .splat, .spz, .sog, .ksplat, .glb or .pcd", shown(path))]
     UnknownFormat {
         /// The file.
         path: PathBuf,
@@ -69,7 +69,7 @@ pub enum SceneError {
         found: String,
     },
     /// A known format without a reader.
-    #[error("{}: {format} is not read yet, expected .ply, .splat, .spz or .sog", shown(path))]
+    #[error("{}: {format} is not read yet, expected .ply, .splat, .spz, .sog, .ksplat, .glb or .pcd", shown(path))]
     NotReadYet {
         /// The file.
         path: PathBuf,
@@ -186,6 +186,16 @@ pub enum SceneError {
         /// Found and expected.
         reason: String,
     },
+    /// A `.ksplat`, glTF or PCD that is damaged or lacks what a scene needs.
+    #[error("{}: byte {byte}: {reason}", shown(path))]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Offset of the fault in the file.
+        byte: u64,
+        /// Found and expected.
+        reason: String,
+    },
     /// A file without a usable Gaussian.
     #[error("{}: no usable Gaussian among {found} ({reason}), expected at least 1", shown(path))]
     Empty {
@@ -229,6 +239,7 @@ impl SceneError {
             Self::SpzBomb { .. } => "SPZ-BOMB",
             Self::SogMeta { .. } => "SOG-META",
             Self::SogPicture { .. } => "SOG-PICTURE",
+            Self::Damaged { .. } => "SCENE-DAMAGED",
             Self::Empty { .. } => "SCENE-EMPTY",
             Self::BadUp { .. } => "UP-DIRECTION",
         }

@@ -56,6 +56,21 @@ impl Gaussians {
         &self.sh_rest[gaussian_idx * n..(gaussian_idx + 1) * n]
     }
 
+    /// The Gaussians with the given indices, in their order.
+    pub fn subset(&self, indices: &[usize]) -> Self {
+        Self {
+            origin: self.origin,
+            means: indices.iter().map(|&i| self.means[i]).collect(),
+            scales: indices.iter().map(|&i| self.scales[i]).collect(),
+            rotations: indices.iter().map(|&i| self.rotations[i]).collect(),
+            opacities: indices.iter().map(|&i| self.opacities[i]).collect(),
+            sh_dc: indices.iter().map(|&i| self.sh_dc[i]).collect(),
+            sh_degree: self.sh_degree,
+            sh_rest: indices.iter().flat_map(|&i| self.sh_rest_of(i)).copied().collect(),
+            ids: if self.ids.is_empty() { Vec::new() } else { indices.iter().map(|&i| self.ids[i]).collect() },
+        }
+    }
+
     /// Color of degree 0 of a Gaussian, without view dependence: rgb, clamped to 0..=1.
     pub fn base_color(&self, gaussian_idx: usize) -> Vec3 {
         (self.sh_dc[gaussian_idx] * 0.282_094_8 + 0.5).clamp(Vec3::ZERO, Vec3::ONE)

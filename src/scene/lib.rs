@@ -1,4 +1,4 @@
-//! Scenes of 3D Gaussians: readers for PLY, SPZ, SOG and `.splat`, the up axis and bounds.
+//! Scenes of 3D Gaussians: readers for PLY, SPZ, SOG, `.splat`, `.ksplat`, glTF and PCD, the up axis and bounds.
 //!
 //! Enters: a file or folder of a supported format. Leaves: [`Scene`]. The world is the file's own: readers flip no axis and
 //! scale nothing. They drop Gaussians that cannot be rendered, and [`Scene::notes`] reports how many and why. Invariant:
@@ -9,10 +9,13 @@ mod decoded;
 mod error;
 mod filter;
 mod gaussians;
+mod gltf;
 mod info;
 mod intake;
+mod ksplat;
 mod load;
 mod options;
+mod pcd;
 mod ply;
 mod scene;
 mod sniff;

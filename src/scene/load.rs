@@ -9,7 +9,7 @@ use super::options::LoadOptions;
 use super::scene::{Scene, UpSource};
 use super::sniff::{self, SceneFormat};
 use super::source_file::{SourceFile, read_file};
-use super::{ply, sog, splat, spz, up};
+use super::{gltf, ksplat, pcd, ply, sog, splat, spz, up};
 
 /// Reads a scene of any supported format: a file, or the folder or `meta.json` of an unbundled SOG.
 ///
@@ -44,6 +44,9 @@ pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
         SceneFormat::Spz => spz::read(&source)?,
         SceneFormat::SogBundle => sog::read_bundle(&source)?,
         SceneFormat::SogMeta => sog::read_unbundled(&source)?,
+        SceneFormat::Ksplat => ksplat::read(&source)?,
+        SceneFormat::Gltf => gltf::read(&source)?,
+        SceneFormat::Pcd => pcd::read(&source)?,
     };
     let (up, up_source) = choose_up(path, &decoded, options)?;
     Ok(Scene {

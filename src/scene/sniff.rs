@@ -22,6 +22,12 @@ pub(super) enum SceneFormat {
     SogBundle,
     /// The `meta.json` of a SOG in a folder.
     SogMeta,
+    /// `.ksplat` of GaussianSplats3D.
+    Ksplat,
+    /// glTF with Gaussians, text or binary.
+    Gltf,
+    /// A PCD point cloud.
+    Pcd,
 }
 
 /// The format of a file.
@@ -31,15 +37,14 @@ pub(super) enum SceneFormat {
 /// [`SceneError::SplatSize`] for a `.splat` whose size is not a multiple of its record size.
 pub(super) fn format_of(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes;
-    let not_yet = |format| Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
     let is_named_splat = source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("splat"));
     match bytes {
         [b'p', b'l', b'y', b'\n' | b'\r' | b' ', ..] => Ok(SceneFormat::Ply),
         [b'N', b'G', b'S', b'P', ..] | [0x1f, 0x8b, ..] => Ok(SceneFormat::Spz),
         [b'P', b'K', 3 | 5, 4 | 6, ..] => Ok(SceneFormat::SogBundle),
-        [b'g', b'l', b'T', b'F', ..] => not_yet("glTF (.glb)"),
-        _ if is_pcd(bytes) => not_yet("a PCD point cloud"),
-        _ if is_ksplat(bytes) => not_yet(".ksplat"),
+        [b'g', b'l', b'T', b'F', ..] => Ok(SceneFormat::Gltf),
+        _ if is_pcd(bytes) => Ok(SceneFormat::Pcd),
+        _ if is_ksplat(bytes) => Ok(SceneFormat::Ksplat),
         _ if starts_json(bytes) => json_format(source),
         _ if !bytes.is_empty() && bytes.len().is_multiple_of(32) && (is_named_splat || plausible_splat(bytes)) => {
             Ok(SceneFormat::Splat)
@@ -90,13 +95,12 @@ fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
         return if splat { Ok(SceneFormat::Splat) } else { Err(unknown(source)) };
     };
     let has = |key: &str| value.get(key).is_some();
-    let not_yet = |format| Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
     if has("lodLevels") || has("tree") && has("filenames") {
-        not_yet(STREAMED_SOG)
+        Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format: STREAMED_SOG })
     } else if has("means") {
         Ok(SceneFormat::SogMeta)
     } else if has("asset") {
-        not_yet("glTF (.gltf)")
+        Ok(SceneFormat::Gltf)
     } else {
         Err(SceneError::UnknownFormat { path: source.path.to_path_buf(), found: "JSON without `means`".to_owned() })
     }

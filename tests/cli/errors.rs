@@ -18,7 +18,7 @@ fn a_file_that_is_not_a_scene() {
     fs::write(folder.path().join("room.ply"), "not a ply\n").unwrap();
     insta::assert_snapshot!(answer(folder.path(), &["info", "room.ply"]), @r"
     exit 65
-    error[SCENE-FORMAT]: room.ply: begins with 6e 6f 74 20 61 20 70 6c, expected .ply, .splat, .spz or .sog
+    error[SCENE-FORMAT]: room.ply: begins with 6e 6f 74 20 61 20 70 6c, expected .ply, .splat, .spz, .sog, .ksplat, .glb or .pcd
     help: export the scene again as one of these; the content decides, not the extension
     ");
     fs::write(folder.path().join("cut.ply"), "ply\nformat binary_little_endian 1.0\nelement vertex 9\n").unwrap();

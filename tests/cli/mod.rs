@@ -4,6 +4,7 @@ mod commands;
 mod errors;
 mod films;
 mod map;
+mod paths;
 mod read;
 mod resume;
 

@@ -134,8 +134,8 @@ fn a_static_frame_takes_one_plain_picture_and_blur_as_many_samples_as_it_needs()
         let open = plan(below, above);
         assert_eq!((open.subframes.len(), open.blurs), (1, [false, true]));
         assert!(open.subframes[0].blur.motion.is_none_or(|[start, end]| start == end));
-        assert_eq!(plan(budget.motion_step_px * 6.5, 0.0).subframes.len(), 7);
+        assert_eq!(plan(budget.motion_step_px * 6.5 * 6.5, 0.0).subframes.len(), 7);
         assert_eq!(plan(0.0, budget.circle_step_px * 4.5).subframes.len(), 5);
-        assert_eq!(plan(1e5, 0.0).subframes.len(), MAX_SAMPLES as usize);
+        assert_eq!(plan(1e6, 0.0).subframes.len(), MAX_SAMPLES as usize);
     }
 }

@@ -57,7 +57,7 @@ fn with_shot<T>(speed: f64, keys: &[Keyframe], work: impl FnOnce(Take<'_>) -> T)
         camera
     };
     let optics = OpticsTrack::new(keys);
-    work(Take { camera_at: &camera_at, optics: &optics, fps: 10.0, seed: 7 })
+    work(Take { camera_at: &camera_at, optics: &optics, up: None, fps: 10.0, seed: 7 })
 }
 
 fn plan_of(effects: &[CalledEffect], take: Take<'_>, renderer: &Renderer<'_>) -> EffectPlan {

@@ -1,9 +1,9 @@
 //! Effects of the camera: what calls for them, where they run, what they do.
 
 mod calls;
-mod optics;
 mod exposure;
 mod focus;
+mod optics;
 mod pictures;
 mod shake;
 mod stand;

@@ -163,7 +163,9 @@ fn fog_is_the_same_in_single_and_double_precision() {
 
 #[test]
 fn a_rolling_shutter_skews_a_pan_and_leaves_a_still_camera_alone() {
-    let scene = balls(&[(DVec3::Z * 3.0, Vec3::ONE)], 1.0);
+    // An upright line of small balls.
+    let line: Vec<(DVec3, Vec3)> = (-20..=20).map(|i| (DVec3::new(0.0, f64::from(i) * 0.05, 3.0), Vec3::ONE)).collect();
+    let scene = balls(&line, 0.04);
     let renderer = Renderer::new(&scene);
     let shutter = effect("rolling-shutter", &[("readout", 1.0)]);
     let intrinsics = Intrinsics::from_fov_y(160, 120, 0.9);

@@ -157,6 +157,70 @@ fn a_written_file_reads_back_equal() {
 }
 
 #[test]
+fn an_object_is_one_line_and_its_cloud_is_beside_the_file() {
+    let scene = four();
+    let mut set = objects::from_labels(&scene, vec![1, 1, 2, 2]);
+    set.objects[0].points = (0..40).map(|i| DVec3::new(f64::from(i) / 3.0, 0.1, -1.0)).collect();
+    set.objects[1].parent = Some(1);
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("o.json");
+    objects::write(&path, &set, &scene, Existing::Keep).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(text.lines().filter(|line| line.contains("\"id\"")).count(), 2);
+    assert!(text.lines().count() < 16, "{text}");
+    let again = objects::read(&path, &scene).unwrap().set;
+    assert_eq!(again.objects[0].points, set.objects[0].points);
+    assert_eq!((again.objects[1].parent, again.objects[0].num_gaussians), (Some(1), 4), "parts belong to the whole");
+    // The layout that the format's specification gives: 8 bytes of length, JSON, then little-endian numbers.
+    let bytes = std::fs::read(folder.path().join("o.clouds.safetensors")).unwrap();
+    let length = u64::from_le_bytes(bytes[..8].try_into().unwrap()) as usize;
+    let header: serde_json::Value = serde_json::from_slice(&bytes[8..8 + length]).unwrap();
+    assert_eq!(header["1.points"]["shape"], serde_json::json!([40, 3]));
+    assert_eq!(
+        f64::from_le_bytes(bytes[8 + length + 24..8 + length + 32].try_into().unwrap()).to_bits(),
+        (1.0_f64 / 3.0).to_bits()
+    );
+}
+
+#[test]
+fn the_gaussians_of_parts_belong_to_their_whole() {
+    let text = r#"{"objects":[{"id":1,"center":[0,0,0],"half_extents":[1.5,1,1]},{"id":2,"parent":1,"center":[1,0,0],"half_extents":[0.2,1,1]}]}"#;
+    let set = read_text(text, &four()).unwrap().set;
+    assert_eq!((set.labels.as_slice(), set.labels_of(1).as_ref()), ([1, 2, 0, 0].as_slice(), [1, 1, 0, 0].as_slice()));
+    assert_eq!((set.objects[0].num_gaussians, set.objects[1].num_gaussians), (2, 1));
+    assert_eq!(set.parts_of(1), [2]);
+}
+
+#[test]
+fn an_object_is_no_part_of_itself_or_of_nothing() {
+    let object =
+        |id: u32, parent: &str| format!(r#"{{"id":{id},"parent":{parent},"center":[0,0,0],"half_extents":[1,1,1]}}"#);
+    let said = |entries: &[String]| message(&format!(r#"{{"objects":[{}]}}"#, entries.join(",")), &four());
+    let said = [
+        said(&[object(1, "1")]),
+        said(&[object(1, "9")]),
+        said(&[object(1, "2"), object(2, "1")]),
+        said(&[object(1, "\"mug\"")]),
+    ];
+    insta::assert_snapshot!(said.join("\n"), @r#"
+    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 1, expected the id of another object, which is no part of this one
+    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 9, expected the id of another object, which is no part of this one
+    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 1, expected the id of another object, which is no part of this one
+    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is "mug", expected null, or the id of another object
+    "#);
+}
+
+#[test]
+fn a_clouds_file_of_another_kind_is_refused() {
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("c.safetensors"), b"not tensors at all").unwrap();
+    let path = folder.path().join("o.json");
+    std::fs::write(&path, r#"{"clouds":"c.safetensors","objects":[{"id":1,"center":[0,0,0],"half_extents":[1,1,1]}]}"#)
+        .unwrap();
+    assert_eq!(objects::read(&path, &four()).unwrap_err().code(), "OBJ-CLOUDS");
+}
+
+#[test]
 fn errors_name_file_entry_and_field() {
     let scene = four();
     let cases = [

@@ -94,6 +94,42 @@ fn the_search_is_deterministic_and_independent_of_the_up_axis() {
     }
 }
 
+/// A standing instrument: a wide body with a long thin neck on it.
+fn instrument() -> Gaussians {
+    let mut gaussians = Gaussians::default();
+    push_box(&mut gaussians, DVec3::new(0.0, 0.4, 0.0), DVec3::new(0.35, 0.4, 0.15), 0.03, Vec3::new(0.5, 0.3, 0.1));
+    push_box(&mut gaussians, DVec3::new(0.0, 1.5, 0.0), DVec3::new(0.05, 0.7, 0.05), 0.03, Vec3::new(0.3, 0.2, 0.1));
+    gaussians
+}
+
+#[test]
+fn a_single_thing_has_the_parts_that_a_person_would_name() {
+    let scene = scene_of(instrument());
+    let set = find(&scene, &FindSettings::default());
+    let said: Vec<(&str, Option<u32>)> = set.objects.iter().map(|o| (o.label.as_str(), o.parent)).collect();
+    let whole = set.objects.iter().find(|object| object.parent.is_none()).unwrap();
+    assert_eq!(set.objects.len(), 3, "{said:?}");
+    // What the body stands on counts as floor.
+    assert!(whole.num_gaussians * 10 >= scene.gaussians.len() * 8, "{} Gaussians", whole.num_gaussians);
+    for (name, height) in [("body", 0.4), ("neck", 1.5)] {
+        let part = set.objects.iter().find(|object| object.label == name).unwrap();
+        assert!((part.center.y - height).abs() < 0.1, "{name}: {}", part.center);
+        assert_eq!(part.parent, Some(whole.id));
+    }
+}
+
+#[test]
+fn detail_moves_along_the_tree() {
+    let scene = scene_of(instrument());
+    let count = |detail| find(&scene, &FindSettings { detail, ..FindSettings::default() }).objects.len();
+    assert_eq!((count(0), count(1)), (1, 3));
+    let (gaussians, _) = room();
+    let scene = scene_of(gaussians);
+    let count =
+        |detail| find(&scene, &FindSettings { resolution: 120.0, detail, ..FindSettings::default() }).objects.len();
+    assert!(count(0) <= count(1) && count(1) <= count(2));
+}
+
 #[test]
 fn ids_count_from_one_and_boxes_hold_their_gaussians() {
     let (gaussians, _) = room();
@@ -101,7 +137,8 @@ fn ids_count_from_one_and_boxes_hold_their_gaussians() {
     let set = find(&scene, &FindSettings { resolution: 120.0, ..FindSettings::default() });
     for (i, object) in set.objects.iter().enumerate() {
         assert_eq!(object.id as usize, i + 1);
-        let members: Vec<usize> = (0..set.labels.len()).filter(|&g| u32::from(set.labels[g]) == object.id).collect();
+        let labels = set.labels_of(object.id);
+        let members: Vec<usize> = (0..labels.len()).filter(|&g| u32::from(labels[g]) == object.id).collect();
         assert_eq!(members.len(), object.num_gaussians);
         let inside = members.iter().filter(|&&g| object.contains(scene.gaussians.mean_world(g), 1e-6)).count();
         assert!(inside * 10 >= members.len() * 9, "object {}: {inside} of {}", object.id, members.len());
@@ -123,7 +160,7 @@ fn guitar_palm_and_skull_are_found_in_the_kitchen() {
     let scene = load(&path, &LoadOptions { up: Some(DVec3::Y), ..LoadOptions::default() }).unwrap();
     let truth = objects::read_labels(&labels, &scene).unwrap();
     let set = find(&scene, &FindSettings::default());
-    for (id, name, least) in [(1, "guitar", 0.9), (2, "palm", 0.75), (3, "skull", 0.9)] {
+    for (id, name, least) in [(1, "guitar", 0.9), (2, "palm", 0.8), (3, "skull", 0.9)] {
         let (overlap, _) = best_match(&set, &truth, id);
         assert!(overlap >= least, "{name}: {overlap}");
     }

@@ -1,5 +1,6 @@
 //! Objects: files, boxes, alpha shapes, clouds, search, sheet.
 
+mod agreement;
 mod alpha_shape;
 mod boxes;
 mod cloud;
@@ -8,6 +9,7 @@ mod file;
 mod find;
 mod naming;
 mod radius_search;
+mod renaming;
 mod sheet;
 
 use std::path::PathBuf;

@@ -19,7 +19,7 @@ fn two_boxes() -> (Scene, ObjectSet) {
 fn every_object_has_a_tile_with_its_color() {
     let (scene, set) = two_boxes();
     let settings = SheetSettings { num_columns: 2, tile_width_px: 120, ..SheetSettings::default() };
-    let image = sheet(&scene, &set, &settings).unwrap();
+    let image = sheet(&scene, &set, &settings).unwrap().page(&settings);
     let (width, overview) = (2 * 126 + 6, (2 * 126 + 6) * 9 / 16);
     assert_eq!((image.width(), image.height()), (width, overview + 6 + 90 + 44 + 6));
     // The middle of a tile's picture shows its object: red in the left one, blue in the right one.
@@ -33,7 +33,7 @@ fn every_object_has_a_tile_with_its_color() {
 fn the_id_is_written_in_the_corner_of_its_tile() {
     let (scene, set) = two_boxes();
     let settings = SheetSettings { num_columns: 2, tile_width_px: 120, ..SheetSettings::default() };
-    let image = sheet(&scene, &set, &settings).unwrap();
+    let image = sheet(&scene, &set, &settings).unwrap().page(&settings);
     let top = 258 * 9 / 16 + 6 + 8;
     // The font's "4" (its 8 x 8 bits, drawn three times as large) in dark ink on a bright plate.
     let four = ["   ###  ", "  ####  ", " ## ##  ", "##  ##  ", "####### ", "    ##  ", "   #### "];
@@ -47,10 +47,36 @@ fn the_id_is_written_in_the_corner_of_its_tile() {
 }
 
 #[test]
+fn a_tile_shows_its_object_alone_and_parts_follow_their_whole() {
+    let (scene, mut set) = two_boxes();
+    set.objects.swap(0, 1);
+    set.objects[0].parent = Some(3);
+    let settings = SheetSettings { tile_width_px: 120, ..SheetSettings::default() };
+    let sheet = sheet(&scene, &set, &settings).unwrap();
+    let order: Vec<(u32, usize)> = sheet.tiles.iter().map(|tile| (tile.id, tile.depth)).collect();
+    assert_eq!(order, [(3, 0), (4, 1)]);
+    let is_red = |p: &image::Rgb<u8>| p.0[0] > 60 && p.0[0] > 2 * p.0[2];
+    let part = &sheet.tiles[1].picture;
+    assert!(!part.enumerate_pixels().any(|(x, y, p)| (x > 40 || y > 40) && is_red(p)), "the other box is cut away");
+}
+
+#[test]
+fn the_page_needs_no_network_and_escapes_names() {
+    let (scene, mut set) = two_boxes();
+    set.objects[0].label = "<b>\"mug\" & co".to_owned();
+    let settings = SheetSettings { tile_width_px: 64, ..SheetSettings::default() };
+    let page = sheet(&scene, &set, &settings).unwrap().html("a < b").unwrap();
+    assert!(page.contains("&lt;b&gt;&quot;mug&quot; &amp; co") && page.contains("<title>a &lt; b</title>"));
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 3);
+    assert!(!page.contains("http") && !page.contains("<b>\""));
+}
+
+#[test]
 fn a_scene_without_objects_has_an_overview() {
     let (scene, mut set) = two_boxes();
     set.objects.clear();
-    let image = sheet(&scene, &set, &SheetSettings { tile_width_px: 64, ..SheetSettings::default() }).unwrap();
+    let settings = SheetSettings { tile_width_px: 64, ..SheetSettings::default() };
+    let image = sheet(&scene, &set, &settings).unwrap().page(&settings);
     assert_eq!(image.width(), 5 * 70 + 6);
 }
 

@@ -21,6 +21,9 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
         ("gzip.spz".to_owned(), gzip(&spz_v2(1))),
         ("a.sog".to_owned(), super::sog::bundle(&super::sog::files())),
     ];
+    seeds.push(("a.ksplat".to_owned(), super::other_formats::ksplat(1, 2)));
+    seeds.push(("a.gltf".to_owned(), super::other_formats::gltf(r#"{"mesh":0}"#, "{}").into_bytes()));
+    seeds.push(("a.pcd".to_owned(), super::other_formats::compressed_pcd()));
     for name in ["minimal-v4.spz", "minimal.ksplat", "khr_conformance_matrix.glb"] {
         if let Some(path) = support::shared(&format!("data/format_fixtures/{name}")) {
             seeds.push((name.to_owned(), std::fs::read(path).unwrap()));

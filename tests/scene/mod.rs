@@ -5,6 +5,7 @@ mod compressed;
 mod faults;
 mod inria;
 mod intake;
+mod other_formats;
 mod shared_scenes;
 mod sog;
 mod splat;

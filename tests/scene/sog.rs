@@ -113,7 +113,7 @@ fn a_streamed_sog_is_not_read_yet() {
         let error = load(&path, &LoadOptions::default()).unwrap_err();
         assert_eq!(error.code(), "SCENE-UNSUPPORTED");
     }
-    assert_eq!(code("a.glb", b"glTF\x02\0\0\0"), "SCENE-UNSUPPORTED");
-    assert_eq!(code("a.gltf", br#"{"asset":{"version":"2.0"}}"#), "SCENE-UNSUPPORTED");
-    assert_eq!(code("a.pcd", b"# .PCD v0.7\nVERSION 0.7\n"), "SCENE-UNSUPPORTED");
+    assert_eq!(code("a.glb", b"glTF\x02\0\0\0"), "SCENE-DAMAGED");
+    assert_eq!(code("a.gltf", br#"{"asset":{"version":"2.0"}}"#), "SCENE-DAMAGED");
+    assert_eq!(code("a.pcd", b"# .PCD v0.7\nVERSION 0.7\n"), "SCENE-DAMAGED");
 }

@@ -4,6 +4,7 @@ mod critic;
 mod director;
 mod films;
 mod lens;
+mod objects;
 mod operator;
 mod render;
 mod scaling;
@@ -19,6 +20,7 @@ Examples:
   cinesplat bench scaling room.spz -o bench
   cinesplat bench films room.spz --cameras cameras.json -o bench
   cinesplat bench lens room.spz --cameras cameras.json -o bench
+  cinesplat bench objects synth:room:1:0.3 -o bench
   cinesplat bench operator moves
   cinesplat bench critic --cases public.jsonl -o critic
   cinesplat bench director -o bench")]
@@ -33,6 +35,7 @@ enum Benchmark {
     Scaling(scaling::Args),
     Films(films::Args),
     Lens(lens::Args),
+    Objects(objects::Args),
     Operator(operator::Args),
     Critic(critic::Args),
     #[cfg(feature = "training")]
@@ -46,6 +49,7 @@ impl Args {
             Benchmark::Scaling(args) => args.run(),
             Benchmark::Films(args) => args.run(),
             Benchmark::Lens(args) => args.run(),
+            Benchmark::Objects(args) => args.run(),
             Benchmark::Operator(args) => args.run(),
             Benchmark::Critic(args) => args.run(),
             #[cfg(feature = "training")]

@@ -22,6 +22,9 @@ impl From<ObjectsError> for Failure {
                     "labels are a little-endian .npy of u8, u16 or u32: one id per Gaussian, in the scene's order";
                 (Exit::BadData, help.to_owned())
             }
+            E::BadClouds { .. } => {
+                (Exit::BadData, "clear `clouds` in the objects file: they are computed anew".to_owned())
+            }
             E::Picture { .. } => (Exit::Fault, "leave out --sheet, or report the scene that it fails on".to_owned()),
         };
         Self::new(code, message, help, exit)

@@ -37,7 +37,7 @@ impl From<SceneError> for Failure {
                 "a scene needs x y z, scale_*, rot_*, opacity and f_dc_* (or red green blue); a plain point cloud has no Gaussians",
             ),
             E::PlyCount { .. } => (Exit::BadData, "the header is damaged or wrong: export the file again"),
-            E::PlyTruncated { .. } | E::SpzCorrupt { .. } => {
+            E::PlyTruncated { .. } | E::SpzCorrupt { .. } | E::Damaged { .. } => {
                 (Exit::BadData, "the file is cut or damaged: download or export it again")
             }
             E::PlyValue { .. } => (Exit::BadData, "correct that value, or export the file again"),

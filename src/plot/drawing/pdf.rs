@@ -26,14 +26,13 @@ impl Drawing {
     pub fn to_pdf(&self) -> Vec<u8> {
         let pictures: Vec<&Picture> = self.marks.iter().filter_map(picture_of).collect();
         let opacities: BTreeSet<u32> = self.marks.iter().flat_map(opacities_of).collect();
-        let states: String = opacities
-            .iter()
-            .map(|percent| {
-                let share = f64::from(*percent) / 100.0;
-                format!("/G{percent} <</ca {share} /CA {share}>> ")
-            })
-            .collect();
-        let images: String = (0..pictures.len()).map(|idx| format!("/I{idx} {} 0 R ", 7 + idx)).collect();
+        let state = |percent: &u32| {
+            let share = f64::from(*percent) / 100.0;
+            format!("/G{percent} <</ca {share} /CA {share}>>")
+        };
+        let states = opacities.iter().map(state).collect::<Vec<_>>().join(" ");
+        let image = |idx: usize| format!("/I{idx} {} 0 R", 7 + idx);
+        let images = (0..pictures.len()).map(image).collect::<Vec<_>>().join(" ");
         let DVec2 { x: width, y: height } = self.size_px;
         let mut file = File::default();
         file.object("<</Type /Catalog /Pages 2 0 R>>");
@@ -142,8 +141,7 @@ fn paint(out: &mut String, path: &str, fill: Option<Ink>, border: Option<Stroke>
 fn write_text(out: &mut String, at_px: DVec2, style: &TextStyle, halo_px: f64, text: &str) {
     let width_px = text_width_px(text, style.size_px);
     let code = |letter: char| match letter {
-        ' '..='~' => letter as u8,
-        '\u{a0}'..='\u{ff}' => letter as u8,
+        ' '..='~' | '\u{a0}'..='\u{ff}' => letter as u8,
         '\u{2013}' => 150,
         _ => b'?',
     };
@@ -159,7 +157,7 @@ fn write_text(out: &mut String, at_px: DVec2, style: &TextStyle, halo_px: f64, t
         Anchor::End => 1.0,
     };
     let (font, x, y) = (if style.is_bold { "F2" } else { "F1" }, at_px.x - back * width_px, at_px.y);
-    let hex: String = codes.iter().map(|code| format!("{code:02x}")).collect();
+    let hex = codes.iter().map(|code| format!("{code:02x}")).collect::<Vec<_>>().concat();
     let shown = format!("/{font} {} Tf {stretch:.2} Tz 1 0 0 -1 {x:.2} {y:.2} Tm", style.size_px);
     if halo_px > 0.0 {
         let _ = writeln!(out, "/G100 gs BT 1 Tr 1 1 1 RG {} w [] 0 d {shown} <{hex}> Tj ET", 2.0 * halo_px);

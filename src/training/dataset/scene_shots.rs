@@ -80,8 +80,7 @@ fn prepared(made: SynthScene) -> Result<(Scene, ObjectSet), DatasetError> {
         num_azimuths: 4,
         elevations_rad: vec![0.4],
         mask_size_px: 48,
-        search_budget: 6,
-        max_points: MAX_POINTS,
+        points: MAX_POINTS,
         ..CloudSettings::default()
     };
     fill_clouds(&scene, &mut objects, &settings).map_err(Box::new)?;

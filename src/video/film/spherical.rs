@@ -25,8 +25,8 @@ pub(super) fn mark(file: &File) -> io::Result<()> {
     let mut file = file;
     let bad = |what: &str| io::Error::new(io::ErrorKind::InvalidData, what.to_owned());
     let len = file.seek(SeekFrom::End(0))?;
-    let (moov, moov_len) = find(file, b"moov", 0..len)?.ok_or_else(|| bad("no index"))?;
-    let (trak, trak_len) = find(file, b"trak", moov + HEAD..moov + moov_len)?.ok_or_else(|| bad("no track"))?;
+    let (moov, moov_len) = find(file, *b"moov", 0..len)?.ok_or_else(|| bad("no index"))?;
+    let (trak, trak_len) = find(file, *b"trak", moov + HEAD..moov + moov_len)?.ok_or_else(|| bad("no track"))?;
     let mut mark = ((HEAD as usize + UUID.len() + XML.len()) as u32).to_be_bytes().to_vec();
     mark.extend(b"uuid");
     mark.extend(UUID);
@@ -76,11 +76,11 @@ fn head(mut file: &File, place: u64) -> io::Result<([u8; 4], u64)> {
 }
 
 /// The first box of a name in a range: its place and size.
-fn find(file: &File, wanted: &[u8; 4], range: std::ops::Range<u64>) -> io::Result<Option<(u64, u64)>> {
+fn find(file: &File, wanted: [u8; 4], range: std::ops::Range<u64>) -> io::Result<Option<(u64, u64)>> {
     let mut place = range.start;
     while place + HEAD <= range.end {
         let (name, size) = head(file, place)?;
-        if name == *wanted {
+        if name == wanted {
             return Ok(Some((place, size)));
         }
         // A size of 0 means up to the end, and any other below its head is damaged.

@@ -1,0 +1,64 @@
+//! The sheet as a web page that needs no network: pictures are part of the text.
+
+use std::fmt::Write as _;
+use std::io::Cursor;
+
+use cinesplat_files::base64;
+use image::{ImageFormat, RgbImage};
+
+use super::error::ObjectsError;
+use super::sheet::{Sheet, Tile};
+
+/// Style of the page: parts are indented under their whole.
+const STYLE: &str = "body{margin:24px;background:#18181c;color:#f2f2f2;font:16px/1.4 sans-serif}img{display:block;\
+border-radius:4px}#all{width:100%;max-width:1400px}main{display:grid;gap:16px;margin-top:24px;\
+grid-template-columns:repeat(auto-fill,minmax(240px,1fr))}section{background:#232329;border-radius:6px;padding:8px}\
+section img{width:100%}p{margin:6px 0}b{color:#ffd75e}.part{margin:8px 0 0 24px}code{color:#9fd3ff}";
+
+impl Sheet {
+    /// The sheet as HTML: the overview, then every whole with its parts.
+    ///
+    /// # Errors
+    /// [`ObjectsError::Picture`] where a picture cannot be encoded.
+    pub fn html(&self, title: &str) -> Result<String, ObjectsError> {
+        let title = escaped(title);
+        let mut page = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\
+             <style>{STYLE}</style></head>\n<body><h1>{title}</h1>\n\
+             <p>Name an object with <code>--name ID=NAME</code>; <code>&lt;obj-ID&gt;</code> in a prompt always works.</p>\n\
+             <img id=\"all\" alt=\"the scene\" src=\"{}\">\n<main>\n",
+            data_uri(&self.overview)?
+        );
+        let mut is_open = false;
+        for tile in &self.tiles {
+            if tile.depth == 0 {
+                page.push_str(if is_open { "</section>\n<section>" } else { "<section>" });
+                is_open = true;
+            }
+            page.push_str(&entry(tile)?);
+        }
+        page.push_str(if is_open { "</section>\n" } else { "" });
+        page.push_str("</main></body></html>\n");
+        Ok(page)
+    }
+}
+
+fn entry(tile: &Tile) -> Result<String, ObjectsError> {
+    let (id, label, picture) = (tile.id, escaped(&tile.label), data_uri(&tile.picture)?);
+    let class = if tile.depth > 0 { " class=\"part\"" } else { "" };
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "<div{class}><img alt=\"{label}\" src=\"{picture}\"><p><b>{id}</b> {label}</p></div>");
+    Ok(text)
+}
+
+fn data_uri(picture: &RgbImage) -> Result<String, ObjectsError> {
+    let mut bytes = Cursor::new(Vec::new());
+    let written = picture.write_to(&mut bytes, ImageFormat::Png);
+    written.map_err(|error| ObjectsError::Picture { reason: error.to_string() })?;
+    Ok(format!("data:image/png;base64,{}", base64::encode(bytes.get_ref())))
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,97 @@
+//! Tops: level surfaces on which things stand, such as those of tables, dressers and shelves.
+//!
+//! Enters: voxels that are no structure. Leaves: the tops with their voxels. A top separates what stands on it from what
+//! carries it.
+
+use glam::Vec3;
+
+use super::voxels::VoxelGrid;
+
+/// Least upward component of the normal of a level voxel.
+const LEVEL_COSINE: f32 = 0.92;
+
+/// Largest distance of a voxel from the mean height of its top, cells.
+const FLAT_CELLS: f32 = 0.9;
+
+/// Least number of voxels of a top: about the top of a bedside table in a room.
+const MIN_VOXELS: usize = 60;
+
+/// Growth of a top beyond the voxels with a level normal, cells.
+const GROWTH_CELLS: i32 = 3;
+
+/// Heights, relative to a top, between which all voxels over its footprint belong to it, cells.
+const SLAB_CELLS: (f32, f32) = (-1.6, 0.6);
+
+/// One top.
+pub(crate) struct Top {
+    /// Ascending.
+    pub(crate) voxels: Vec<usize>,
+    /// Mean height of its voxels, local frame.
+    pub(crate) height: f32,
+}
+
+/// The tops among free voxels, largest first.
+///
+/// Level voxels that touch each other at one height form a top. It takes all voxels at its height over its footprint and a
+/// little around it, regardless of their normals, because those at its edge or under a thing on it would connect the thing
+/// with what carries it.
+pub(crate) fn tops(grid: &VoxelGrid, is_free: &[bool]) -> Vec<Top> {
+    let mut taken: Vec<bool> = is_free.iter().map(|free| !free).collect();
+    let is_level = |v: usize| grid.voxels[v].normal.y.abs() > LEVEL_COSINE;
+    let mut tops = Vec::new();
+    for seed in 0..grid.voxels.len() {
+        if taken[seed] || !is_level(seed) {
+            continue;
+        }
+        taken[seed] = true;
+        let mut voxels = vec![seed];
+        let mut sum = grid.voxels[seed].position.y;
+        let mut at = 0;
+        while at < voxels.len() {
+            for other in grid.neighbors(voxels[at], 1) {
+                let y = grid.voxels[other].position.y;
+                let is_near = (y - sum / voxels.len() as f32).abs() <= FLAT_CELLS * grid.cell;
+                if !taken[other] && is_level(other) && is_near {
+                    taken[other] = true;
+                    voxels.push(other);
+                    sum += y;
+                }
+            }
+            at += 1;
+        }
+        if voxels.len() >= MIN_VOXELS {
+            let height = sum / voxels.len() as f32;
+            tops.push(Top { voxels, height });
+        } else {
+            voxels.into_iter().for_each(|voxel| taken[voxel] = false);
+        }
+    }
+    tops.sort_by_key(|top| std::cmp::Reverse(top.voxels.len()));
+    for top in &mut tops {
+        grow(grid, top, &mut taken);
+    }
+    tops
+}
+
+fn grow(grid: &VoxelGrid, top: &mut Top, taken: &mut [bool]) {
+    let mut columns: Vec<[i32; 2]> = Vec::new();
+    for &voxel in &top.voxels {
+        let [x, _, z] = grid.voxels[voxel].key;
+        let steps = || -GROWTH_CELLS..=GROWTH_CELLS;
+        columns.extend(steps().flat_map(|dx| steps().map(move |dz| [x + dx, z + dz])));
+    }
+    columns.sort_unstable();
+    columns.dedup();
+    let (low, high) = (top.height + SLAB_CELLS.0 * grid.cell, top.height + SLAB_CELLS.1 * grid.cell);
+    let level = grid.key_at(Vec3::new(0.0, top.height, 0.0))[1];
+    for [x, z] in columns {
+        for y in level - 2..=level + 1 {
+            let Some(voxel) = grid.find([x, y, z]).filter(|&v| !taken[v]) else { continue };
+            if (low..=high).contains(&grid.voxels[voxel].position.y) {
+                taken[voxel] = true;
+                top.voxels.push(voxel);
+            }
+        }
+    }
+    top.voxels.sort_unstable();
+}
