@@ -108,10 +108,17 @@ check-exchange: build
 	target/exchange/venv/bin/python tests/exchange/open_exports.py $(BIN) target/exchange/demo.shot.json
 	target/exchange/venv/bin/python tests/exchange/evo_figures.py $(BIN) $(EVO_DATA)
 
-# The animated picture of the README, from the demo film. Needs the program ffmpeg.
+# The pictures of the README: the demo film, and a sheet of each film of prompts/gallery.txt. Needs the program ffmpeg.
 gallery: demo
 	ffmpeg -v error -y -i renders/demo.mp4 -vf "fps=12,scale=640:-2:flags=lanczos" \
 		-c:v libwebp_anim -loop 0 -quality 60 -compression_level 6 renders/gallery/demo.webp
+	mkdir -p target/gallery
+	while IFS='|' read -r name scene prompt; do \
+		name=$${name% }; $(BIN) render $$scene -p "$${prompt# }" -o target/gallery/$$name.mp4 --size 640x360 --fps 24 \
+			--sheet target/gallery/$$name.png --overwrite && \
+		ffmpeg -v error -y -i target/gallery/$$name.png -vf scale=1040:-2:flags=lanczos -quality 72 renders/gallery/$$name.webp \
+			< /dev/null || exit; \
+	done < prompts/gallery.txt
 
 clean:
 	cargo clean

@@ -159,7 +159,7 @@ fn document(prompt: &str, reading: &Reading, names: &[NamedObject]) -> Value {
         "objects": names.iter().map(|name| json!({"id": name.id, "label": name.label})).collect::<Vec<_>>(),
         "missing": missing.map(|group| json!({"name": group.name, "nearest": group.nearest})).collect::<Vec<_>>(),
         "quantities": quantities,
-        "effects": reading.effects.iter().map(|e| effect_json(e)).collect::<Vec<_>>(),
+        "effects": reading.effects.iter().map(effect_json).collect::<Vec<_>>(),
         "problems": problems,
         "unused_words": reading.unused_words(prompt),
     })

@@ -58,7 +58,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().sentences_frac)]
     sentences_frac: f64,
     /// Number of these sentences to learn from, drawn at random [default: all]
-    #[arg(long, value_name = "N", requires = "sentences")]
+    #[arg(long, value_name = "N", requires = "sentences", hide_short_help = true)]
     max_sentences: Option<usize>,
     /// Model to start from [default: random weights]
     #[arg(long, value_name = "MODEL")]

@@ -21,7 +21,7 @@ pub struct MotionBlur {
 
 impl MotionBlur {
     /// When the shutter of a moment opens and closes, seconds.
-    fn shutter_secs(&self, moment: &Moment<'_>) -> [f64; 2] {
+    fn shutter_secs(self, moment: &Moment<'_>) -> [f64; 2] {
         let optics = moment.take.optics;
         let angle = optics.shutter_angle_rad(moment.time_secs).unwrap_or(self.shutter_angle_rad);
         let half = 0.5 * angle / std::f64::consts::TAU * moment.frame_secs();

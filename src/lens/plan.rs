@@ -150,14 +150,12 @@ impl EffectPlan {
 
 /// The picture of a moment through layers of effects, the outermost first.
 fn expose(layers: &[(&dyn Effect, u32)], moment: &Moment<'_>, renderer: &Renderer<'_>) -> Result<Picture, RenderError> {
-    match layers.split_first() {
-        Some(((effect, samples), inner)) => effect.apply(moment, *samples, &mut |asked| expose(inner, asked, renderer)),
-        None => {
-            let mut frame = Frame::default();
-            renderer.expose_into(&moment.subframes(), &moment.render, &mut frame)?;
-            Ok(Picture::of_display(frame))
-        }
+    if let Some(((effect, samples), inner)) = layers.split_first() {
+        return effect.apply(moment, *samples, &mut |asked| expose(inner, asked, renderer));
     }
+    let mut frame = Frame::default();
+    renderer.expose_into(&moment.subframes(), &moment.render, &mut frame)?;
+    Ok(Picture::of_display(frame))
 }
 
 impl PlannedEffect {

@@ -40,7 +40,7 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     let free: Vec<usize> = (0..is_free.len()).filter(|&voxel| is_free[voxel]).collect();
     let flats = flats(grid, planes, &is_structure);
     let (flats, bodies) = with_reliefs(grid, flats, bodies(grid, &free, &tops, settings));
-    let things = standing::join(grid, bodies, tops);
+    let things = standing::join(grid, &bodies, &tops);
     let things = things.voxels.into_iter().zip(things.is_surface);
     let mut groups: Vec<VoxelGroup> =
         things.map(|(voxels, is_surface)| VoxelGroup::whole(voxels, is_surface)).collect();
@@ -91,11 +91,9 @@ fn nest(grid: &VoxelGrid, groups: &mut Vec<VoxelGroup>, max_diagonal: f64) {
 /// Removes groups without voxels; parents that are removed are replaced by their own.
 fn remove_empty(groups: &mut Vec<VoxelGroup>) {
     let mut index = vec![None; groups.len()];
-    let mut count = 0;
-    for (i, group) in groups.iter().enumerate().filter(|(_, group)| !group.voxels.is_empty()) {
-        debug_assert!(!group.voxels.is_empty());
-        index[i] = Some(count);
-        count += 1;
+    let filled = (0..groups.len()).filter(|&i| !groups[i].voxels.is_empty());
+    for (number, i) in filled.enumerate() {
+        index[i] = Some(number);
     }
     let resolved = |mut parent: Option<usize>| {
         while let Some(i) = parent {

@@ -47,7 +47,7 @@ pub(crate) fn encode(objects: &[Object]) -> Result<Vec<u8>, ObjectsError> {
     let with_points: Vec<&Object> = objects.iter().filter(|object| !object.points.is_empty()).collect();
     let data: Vec<Vec<u8>> = with_points
         .iter()
-        .map(|object| object.points.iter().flat_map(|p| p.to_array()).flat_map(f64::to_le_bytes).collect())
+        .map(|object| object.points.iter().flat_map(DVec3::to_array).flat_map(f64::to_le_bytes).collect())
         .collect();
     let mut tensors = Vec::new();
     for (object, data) in with_points.iter().zip(&data) {

@@ -100,7 +100,7 @@ fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[V
     for keys in regions.into_iter().filter(|keys| keys.len() >= MIN_CELLS) {
         let (low, high) = rectangle(&keys);
         let area = ((high[0] - low[0] + 1) * (high[1] - low[1] + 1)) as f32;
-        let num_differing = differing.iter().filter(|key| is_in(key, (low, high))).count() as f32;
+        let num_differing = differing.iter().filter(|key| is_in(**key, (low, high))).count() as f32;
         if differing.contains(&keys[0]) && num_differing >= MIN_FILL * area && area <= MAX_SHARE * cells.len() as f32 {
             rectangles.push((low, high));
         }
@@ -109,7 +109,7 @@ fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[V
     rectangles.sort_by_key(|rectangle| (std::cmp::Reverse(area(rectangle)), *rectangle));
     let mut things = Vec::new();
     for rectangle in rectangles {
-        let filled: Vec<[i32; 2]> = cells.keys().copied().filter(|key| is_in(key, rectangle)).collect();
+        let filled: Vec<[i32; 2]> = cells.keys().copied().filter(|key| is_in(*key, rectangle)).collect();
         let voxels: Vec<usize> =
             filled.iter().filter_map(|key| cells.remove(key)).flat_map(|cell| cell.voxels).collect();
         if voxels.len() >= MIN_CELLS && voxels.len() as f32 >= MIN_FILL * area(&rectangle) as f32 {
@@ -119,7 +119,7 @@ fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[V
     if things.len() > MAX_THINGS { Vec::new() } else { things }
 }
 
-fn is_in(key: &[i32; 2], (low, high): ([i32; 2], [i32; 2])) -> bool {
+fn is_in(key: [i32; 2], (low, high): ([i32; 2], [i32; 2])) -> bool {
     (0..2).all(|axis| (low[axis]..=high[axis]).contains(&key[axis]))
 }
 

@@ -135,13 +135,11 @@ fn cuts(slices: &[Slice]) -> Vec<(usize, usize)> {
     let mut chosen = (best[count].0, vec![(0, count)]);
     for _ in 1..MAX_PARTS {
         let mut next: Vec<(f32, Vec<(usize, usize)>)> = vec![(f32::INFINITY, Vec::new()); count + 1];
-        for end in 2 * least..=count {
-            for start in least..=end - least {
-                let total = best[start].0 + deviation(start, end);
-                if total < next[end].0 {
-                    let mut ranges = best[start].1.clone();
-                    ranges.push((start, end));
-                    next[end] = (total, ranges);
+        for (end, split) in next.iter_mut().enumerate().skip(2 * least) {
+            for (start, (cost, ranges)) in best.iter().enumerate().take(end - least + 1).skip(least) {
+                let total = cost + deviation(start, end);
+                if total < split.0 {
+                    *split = (total, ranges.iter().copied().chain([(start, end)]).collect());
                 }
             }
         }

@@ -49,9 +49,9 @@ struct Contact {
 }
 
 /// Joins every top with the bodies that carry it.
-pub(crate) fn join(grid: &VoxelGrid, bodies: Vec<Vec<usize>>, tops: Vec<Top>) -> Things {
+pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top]) -> Things {
     let num_bodies = bodies.len();
-    let owner = owners(grid, &bodies);
+    let owner = owners(grid, bodies);
     let lowest: Vec<f32> = bodies.iter().map(|body| lowest(grid, body)).collect();
     let colors: Vec<Vec3> = bodies.iter().map(|body| mean_color(grid, body)).collect();
     let boxes: Vec<(Vec3, Vec3)> = bodies.iter().map(|body| extent(grid, body)).collect();
@@ -79,8 +79,7 @@ pub(crate) fn join(grid: &VoxelGrid, bodies: Vec<Vec<usize>>, tops: Vec<Top>) ->
                 at_rim && is_long && color::difference(colors[body], top_color) < SAME_COLOR
             } else {
                 let share = contact.below as f32 / total_below.max(1) as f32;
-                contact.below > 0 && share >= CARRIER_FRAC
-                    || (under_frac(grid, &bodies[body], top) >= UNDER_FRAC && contact.below > 0)
+                contact.below > 0 && (share >= CARRIER_FRAC || under_frac(grid, &bodies[body], top) >= UNDER_FRAC)
             };
             if carries {
                 sets.join(body, num_bodies + t);

@@ -2,18 +2,11 @@
 //! a guitar is plain wood.
 
 use cinesplat_geometry::rotation;
-use cinesplat_scene::Gaussians;
-use glam::DVec3;
 
 use super::constraint::{Constraint, ConstraintKind};
 use super::world::World;
 use cinesplat_trajectory::CameraState;
 
-/// A Gaussian is flat where its shortest axis is shorter than its middle one by this factor.
-const FLATNESS: f32 = 0.5;
-/// Facets that a subject keeps, and those from which its sides can be told.
-const MAX_FACETS: usize = 200;
-const MIN_FACETS: usize = 24;
 /// Share of a subject's surface that faces the camera below which its captured side faces away. A closed thing shows
 /// about half of its surface from anywhere.
 const LEAST_FRONT: f64 = 0.3;
@@ -24,38 +17,6 @@ const BACK_COST: f64 = 2.0;
 const FRONT_RAD: f64 = 0.9;
 /// Cost of the back of a lone thing.
 const OFF_FRONT_COST: f64 = 1.0;
-
-/// The flat Gaussians of a subject, with normals that point away from its middle.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Facets {
-    /// Where each is, and its outward normal times its area.
-    facets: Vec<(DVec3, DVec3)>,
-}
-
-impl Facets {
-    /// Facets of the Gaussians `own` of a subject.
-    pub(super) fn of(gaussians: &Gaussians, own: &[usize], center: DVec3) -> Self {
-        let stride = own.len().div_ceil(MAX_FACETS).max(1);
-        let facet = |&i: &usize| {
-            let scale = gaussians.scales[i];
-            let shortest = scale.min_position();
-            let [a, b] = [scale[(shortest + 1) % 3], scale[(shortest + 2) % 3]];
-            let normal = gaussians.rotations[i].as_dquat() * DVec3::AXES[shortest];
-            let mean = gaussians.mean_world(i);
-            let outward = if normal.dot(mean - center) < 0.0 { -normal } else { normal };
-            (scale[shortest] < FLATNESS * a.min(b)).then(|| (mean, outward * f64::from(a) * f64::from(b)))
-        };
-        Self { facets: own.iter().step_by(stride).filter_map(facet).collect() }
-    }
-
-    /// Share of the surface whose outer side faces a camera at `eye`, 0..=1; `None` where too few facets are known.
-    pub(super) fn front_frac(&self, eye: DVec3) -> Option<f64> {
-        let total: f64 = self.facets.iter().map(|(_, normal)| normal.length()).sum();
-        let front = self.facets.iter().filter(|(mean, normal)| normal.dot(eye - *mean) > 0.0);
-        let front: f64 = front.map(|(_, normal)| normal.length()).sum();
-        (self.facets.len() >= MIN_FACETS && total > 0.0).then(|| front / total)
-    }
-}
 
 /// Cost of cameras that see a subject, where it has to be visible, from the side that was not captured.
 pub(super) fn back_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {

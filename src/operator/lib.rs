@@ -20,6 +20,7 @@ mod cost;
 mod detours;
 mod distinct;
 mod dutch;
+mod facets;
 mod flow;
 mod forbidden;
 mod framing;

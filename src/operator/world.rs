@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 use glam::DVec3;
 
 use super::capture_region::CaptureRegion;
-use super::captured_side::Facets;
 use super::clearance::ClearanceIndex;
+use super::facets::Facets;
 use super::grid::Grid;
 use super::lookout::{Lookout, Thing};
 use super::opacity_grid::OpacityGrid;

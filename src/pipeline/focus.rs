@@ -33,12 +33,11 @@ pub(super) fn focus(scene: &Scene, objects: &ObjectSet, shot: &mut Shot) -> Resu
     let subjects: Vec<Option<&Object>> = shot.keyframes.iter().map(subject).collect();
     let Some(first) = subjects.iter().flatten().next() else { return Ok(()) };
     if subjects.iter().flatten().any(|other| other.id != first.id) {
-        for idx in 0..shot.keyframes.len() {
-            if let Some(subject) = subjects[idx] {
-                let view = shot_camera(shot, &shot.keyframes[idx]);
-                let distance = depth_of_center(&view, subject) - seer.nearer(&view, subject)?.unwrap_or(0.0);
-                shot.keyframes[idx].focus_distance = Some(distance).filter(|distance| *distance > 0.0);
-            }
+        for (idx, subject) in subjects.iter().enumerate() {
+            let Some(subject) = subject else { continue };
+            let view = shot_camera(shot, &shot.keyframes[idx]);
+            let distance = depth_of_center(&view, subject) - seer.nearer(&view, subject)?.unwrap_or(0.0);
+            shot.keyframes[idx].focus_distance = Some(distance).filter(|distance| *distance > 0.0);
         }
         return Ok(());
     }

@@ -29,16 +29,14 @@ impl Renderer<'_> {
         settings: &RenderSettings,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        match subframes {
-            [one] => self.render_subframe_into(one, settings, frame),
-            _ => {
-                self.sum_light(subframes, settings, frame)?;
-                frame.rgb.par_chunks_mut(VALUES_PER_JOB).for_each(|light| {
-                    settings.instructions.dispatch(InPlace { light });
-                });
-                Ok(())
-            }
+        if let [one] = subframes {
+            return self.render_subframe_into(one, settings, frame);
         }
+        self.sum_light(subframes, settings, frame)?;
+        frame.rgb.par_chunks_mut(VALUES_PER_JOB).for_each(|light| {
+            settings.instructions.dispatch(InPlace { light });
+        });
+        Ok(())
     }
 
     /// As [`Renderer::expose_into`], in 8 bits. The result equals [`Frame::to_rgb8`].

@@ -5,6 +5,7 @@
 
 /// Light of a color value, both 0..=1; clamps. Error below 6e-6.
 #[inline(always)]
+#[allow(clippy::manual_clamp, reason = "a value that is no number becomes 0")]
 pub(super) fn light(value: f32) -> f32 {
     const TERMS: [f32; 7] =
         [-5.556_313e-2, 0.229_708_03, -0.438_403_07, 0.719_386_5, 0.510_713_93, 3.324_237_5e-2, 9.097_09e-4];
@@ -15,6 +16,7 @@ pub(super) fn light(value: f32) -> f32 {
 
 /// Color value of light, both 0..=1; clamps. Error below 8e-6: a polynomial in the fourth root.
 #[inline(always)]
+#[allow(clippy::manual_clamp, reason = "a value that is no number becomes 0")]
 pub(super) fn color_value(light: f32) -> f32 {
     const TERMS: [f32; 6] = [-6.811_363e-2, 0.289_430_02, -0.577_362_9, 1.255_338_7, 0.162_043_2, -6.134_184e-2];
     let light = light.max(0.0).min(1.0);

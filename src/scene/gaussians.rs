@@ -57,6 +57,7 @@ impl Gaussians {
     }
 
     /// The Gaussians with the given indices, in their order.
+    #[must_use]
     pub fn subset(&self, indices: &[usize]) -> Self {
         Self {
             origin: self.origin,

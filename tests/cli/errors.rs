@@ -69,7 +69,7 @@ fn invalid_arguments() {
     ");
     insta::assert_snapshot!(answer(folder.path(), &["plan", "a.ply", "-p", "x", "-o", "s.json", "--effects", "blur"]), @r#"
     exit 2
-    error[USAGE]: invalid value 'blur' for '--effects <LIST>': no effect is named "blur", expected auto, off, or a list of: film-grain bloom exposure anamorphic vignette chromatic-aberration lens-distortion fisheye panorama rolling-shutter fog background handheld depth-of-field rack-focus motion-blur tilt-shift lens-flare stereo
+    error[USAGE]: invalid value 'blur' for '--effects <LIST>': no effect is named "blur", expected auto, off, or a list of: film-grain bloom exposure anamorphic vignette chromatic-aberration lens-distortion fisheye panorama rolling-shutter motion-blur rack-focus depth-of-field fog background handheld tilt-shift lens-flare stereo
     help: see --help
     "#);
 }

@@ -2,7 +2,7 @@
 
 use cinesplat::export::shot_json;
 use cinesplat::geometry::Pose;
-use cinesplat::trajectory::{Easing, Keyframe};
+use cinesplat::trajectory::{Easing, KeyOptics, Keyframe};
 use glam::{DQuat, DVec3};
 use serde_json::Value;
 
@@ -19,6 +19,7 @@ fn write_moves(folder: &std::path::Path) {
         ),
         fov_y_rad: 0.8,
         focus_distance: None,
+        optics: KeyOptics::default(),
         easing: Easing::Smooth,
         cut: false,
         intent: None,

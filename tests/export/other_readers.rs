@@ -125,7 +125,8 @@ fn arias_device_with_its_gravity() {
         .to_owned();
     for (idx, pose) in poses().iter().enumerate() {
         let values: Vec<f64> = pose.position.to_array().into_iter().chain(pose.rotation.to_array()).collect();
-        text += &format!("a-b,{},7,{},0.0,0.0,-9.81,1.0\n", 5_000_000 + 1000 * idx, joined(&values, ","));
+        let line = format!("a-b,{},7,{},0.0,0.0,-9.81,1.0\n", 5_000_000 + 1000 * idx, joined(&values, ","));
+        text.push_str(&line);
     }
     let (path, _folder) = file("closed_loop_trajectory.csv", text.as_bytes());
     let imported = read(&path, None).unwrap();

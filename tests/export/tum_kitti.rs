@@ -35,7 +35,8 @@ fn reads_the_benchmarks_own_files() {
     let tum = read(&folder.join("freiburg1_xyz-groundtruth.txt"), None).unwrap();
     let kitti = read(&folder.join("KITTI_00_gt.txt"), None).unwrap();
     assert_eq!((tum.format, tum.track.frames.len(), tum.track.timed), (Format::Tum, 3000, true));
-    assert_eq!((kitti.format, kitti.track.frames.len(), kitti.track.timed), (Format::Kitti, 4541, false));
+    assert_eq!((kitti.format, kitti.track.frames.len(), kitti.track.timed), (Format::Kitti, 4541, true));
+    // The times come from the file beside it, KITTI_00_gt_times.txt.
     // First data line of the file.
     let first = &tum.track.frames[0];
     assert_eq!(first.time_secs, 1_305_031_098.665_9);

@@ -142,7 +142,7 @@ fn an_opaque_wall_out_of_focus_does_not_let_the_background_through() {
 /// Total, mean and variances (x, y, covariance) of the optical depth of a picture.
 fn moments(frame: &Frame) -> (f64, DVec2, [f64; 3]) {
     let depth = |idx: usize| -f64::from(frame.transmittance[idx]).ln();
-    let place = |idx: usize| DVec2::new((idx as u32 % frame.width) as f64, (idx as u32 / frame.width) as f64) + 0.5;
+    let place = |idx: usize| DVec2::new(f64::from(idx as u32 % frame.width), f64::from(idx as u32 / frame.width)) + 0.5;
     let all = || (0..frame.transmittance.len()).map(|idx| (depth(idx), place(idx)));
     let total: f64 = all().map(|(depth, _)| depth).sum();
     let mean = all().map(|(depth, place)| place * depth).sum::<DVec2>() / total;
@@ -365,7 +365,7 @@ fn the_extent_of_blur_is_that_of_the_splats_in_the_picture() {
         SplatBlur { lens: Some(lens(0.02, 3.0)), motion: Some([at(&view, "truck", 0.0), at(&view, "truck", 1.0)]) };
     // By brute force over all means in the picture.
     let mut lengths: Vec<[f64; 2]> = Vec::new();
-    for mean in scene.means.iter().map(|mean| mean.as_dvec3()) {
+    for mean in scene.means.iter().map(glam::Vec3::as_dvec3) {
         let Some((px, depth)) = view.project(mean) else { continue };
         if px.x > 0.0 && px.x < 320.0 && px.y > 0.0 && px.y < 180.0 {
             let circle = view.intrinsics.fx_px * 0.02 * (1.0 / depth - 1.0 / 3.0).abs();

@@ -27,7 +27,7 @@ pub(super) fn ksplat(level: u16, degree: u16) -> Vec<u8> {
     put(&mut file, 4096 + 40, &degree.to_le_bytes());
     file.extend(1_u32.to_le_bytes());
     let centers = [Vec3::new(10.0, 0.0, 0.0), Vec3::new(0.0, -20.0, 0.0)];
-    file.extend(centers.iter().flat_map(|center| center.to_array()).flat_map(f32::to_le_bytes));
+    file.extend(centers.iter().flat_map(glam::Vec3::to_array).flat_map(f32::to_le_bytes));
     for idx in 0..3_u16 {
         let real = |file: &mut Vec<u8>, value: f32| match level {
             0 => file.extend(value.to_le_bytes()),
@@ -144,7 +144,8 @@ fn points_of_every_kind_of_pcd_become_small_gaussians() {
     let color = f32::from_bits(RED);
     let mut ascii = pcd_head(4, "ascii");
     for [x, y, z] in POINTS {
-        ascii += &format!("7 {x} {y} {z} {color:e}\n");
+        let line = format!("7 {x} {y} {z} {color:e}\n");
+        ascii.push_str(&line);
     }
     check_cloud(&read("a.pcd", ascii.as_bytes()).unwrap());
     let mut binary = pcd_head(4, "binary").into_bytes();
@@ -193,8 +194,12 @@ pub(super) fn gltf(node: &str, extension: &str) -> String {
         column("VEC3", 5126, false, floats(&[base, base + 0.25, base + 0.5, 0.0, 0.0, 0.0]));
     }
     let sh = ["0_COEF_0", "1_COEF_0", "1_COEF_1", "1_COEF_2"];
-    let attributes: String =
-        sh.iter().zip(4..).map(|(name, idx)| format!(r#","KHR_gaussian_splatting:SH_DEGREE_{name}":{idx}"#)).collect();
+    let attributes: String = sh
+        .iter()
+        .zip(4..)
+        .map(|(name, idx)| format!(r#","KHR_gaussian_splatting:SH_DEGREE_{name}":{idx}"#))
+        .collect::<Vec<_>>()
+        .concat();
     let data = cinesplat::files::base64::encode(&bytes);
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{node}],

@@ -65,8 +65,12 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let count = source.check_count(primitives.iter().map(|primitive| primitive.positions.count as u64).sum())?;
     let degree = primitives.iter().map(Primitive::kept_degree).max().unwrap_or(0);
     let mut intake = Intake::new(source.path, count, degree)?;
-    primitives.iter().for_each(|primitive| primitive.push_all(&mut intake, degree));
+    let is_log = primitives.iter().any(Primitive::has_negative_scales);
+    primitives.iter().for_each(|primitive| primitive.push_all(&mut intake, (degree, is_log)));
     let mut collected = intake.finish(source.path)?;
+    if is_log {
+        collected.notes.push("scales below 0: read as logarithms, as in drafts of the extension".to_owned());
+    }
     let num_flat = primitives.iter().filter(|primitive| primitive.kept_degree() < primitive.degree).count();
     if num_flat > 0 {
         let what = "rotated primitives are drawn without view-dependent color";
@@ -177,7 +181,12 @@ impl Primitive {
         if self.placed.rotation.abs_diff_eq(DQuat::IDENTITY, 1e-9) { self.degree } else { 0 }
     }
 
-    fn push_all(&self, intake: &mut Intake, degree: u8) {
+    fn has_negative_scales(&self) -> bool {
+        (0..self.scales.count).any(|idx| (0..3).any(|axis| self.scales.at(idx, axis) < 0.0))
+    }
+
+    /// Adds the Gaussians with harmonics up to a degree; scales may be logarithms.
+    fn push_all(&self, intake: &mut Intake, (degree, is_log): (u8, bool)) {
         let mut rest = vec![Vec3::ZERO; NUM_SH_REST[usize::from(degree)]];
         let own = NUM_SH_REST[usize::from(self.kept_degree())];
         let vector = |numbers: &Numbers, idx: usize| DVec3::from_array(std::array::from_fn(|k| numbers.at(idx, k)));
@@ -189,7 +198,8 @@ impl Primitive {
             let turned = self.placed.rotation * DQuat::from_xyzw(x, y, z, w);
             let raw = RawGaussian {
                 mean: self.placed.position + self.placed.rotation * (vector(&self.positions, idx) * self.placed.scale),
-                scale: vector(&self.scales, idx) * self.placed.scale,
+                scale: if is_log { vector(&self.scales, idx).exp() } else { vector(&self.scales, idx) }
+                    * self.placed.scale,
                 rotation_wxyz: [turned.w, turned.x, turned.y, turned.z],
                 opacity: self.opacities.at(idx, 0),
                 sh_dc: vector(&self.harmonics[0], idx),

@@ -15,7 +15,8 @@ use rand_pcg::Pcg64;
 
 use super::augmentation::{Augmentation, noisy_pose};
 use super::error::TrainError;
-use super::sentences::{Sentence, Sentences};
+use super::sentence::Sentence;
+use super::sentences::Sentences;
 use crate::dataset::RealizedShot;
 use crate::sampler::{LabeledPrompt, PromptSampler};
 

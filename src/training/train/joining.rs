@@ -2,7 +2,7 @@
 
 use cinesplat_language::{Linked, MAX_QUANTITIES, MAX_SLOTS};
 
-use super::sentences::Sentence;
+use super::sentence::Sentence;
 
 /// Distance between the ids of joined sentences.
 const ID_STEP: u32 = 100_000;

@@ -15,6 +15,7 @@ mod optimizer;
 mod phrases;
 mod progress;
 mod run;
+mod sentence;
 mod sentences;
 mod settings;
 mod slips;

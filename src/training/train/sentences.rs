@@ -14,6 +14,7 @@ use rand_pcg::Pcg64;
 
 use super::joining::join;
 use super::modifiers::{Modifier, Modifiers, Position, Wish};
+use super::sentence::Sentence;
 use super::slips::with_slip;
 use super::wishes::with_wish;
 use crate::corpus::{CorpusError, CorpusSentence, Split, Writer, read_folder};
@@ -35,15 +36,6 @@ const CONNECTIVES: [&str; 12] =
     [", then", ". then", "then", ", and then", ".", ". next,", ", after that", "and", ",", ";", "->", "/"];
 /// Most words of a joined sentence.
 const MAX_WORDS: usize = 90;
-
-/// A sentence with its meaning, in which groups stand for their members. A phrase is a sentence without steps.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Sentence {
-    pub(super) linked: Linked,
-    pub(super) program: Program,
-    /// Bytes that the notation cannot say.
-    pub(super) unmet: Vec<[usize; 2]>,
-}
 
 /// The sentences that training draws from.
 #[derive(Debug, Clone, Default)]
@@ -109,7 +101,7 @@ impl Sentences {
         if self.single.binary_search(&idx).is_err() {
             return self.all.get(idx).cloned();
         }
-        let mut drawn = self.with_wishes(self.all.get(idx)?.clone(), rng);
+        let mut drawn = with_wishes(self.all.get(idx)?.clone(), rng);
         if rng.random_bool(SLIP_FRAC) {
             drawn = with_slip(drawn, &Modifiers::embedded().corrections, rng);
         }
@@ -117,16 +109,6 @@ impl Sentences {
             drawn = self.corrected(drawn, rng);
         }
         Some(drawn)
-    }
-
-    fn with_wishes(&self, mut sentence: Sentence, rng: &mut Pcg64) -> Sentence {
-        if rng.random_bool(WISH_FRAC) {
-            sentence = wished(sentence, &Modifiers::embedded().steps, rng);
-            if rng.random_bool(0.33) {
-                sentence = wished(sentence, &Modifiers::embedded().steps, rng);
-            }
-        }
-        sentence
     }
 
     /// Another request, which the correction behind it takes back, and the sentence.
@@ -145,7 +127,7 @@ impl Sentences {
         let form = Form::draw(rng);
         let mut list: Option<Sentence> = None;
         for number in 0..count {
-            let mut next = self.with_wishes(self.all.get(*self.single.choose(rng)?)?.clone(), rng);
+            let mut next = with_wishes(self.all.get(*self.single.choose(rng)?)?.clone(), rng);
             own_duration(&mut next);
             let so_far = list.as_ref().map_or(0, |list| list.linked.spans.len());
             if so_far + next.linked.spans.len() > MAX_WORDS {
@@ -223,6 +205,17 @@ fn phrase(text: &str) -> Sentence {
     linked.tokens_text = words[..kept].join(" ");
     linked.spans.truncate(kept);
     Sentence { linked, ..Sentence::default() }
+}
+
+/// The sentence perhaps with one wish or two for its step.
+fn with_wishes(mut sentence: Sentence, rng: &mut Pcg64) -> Sentence {
+    if rng.random_bool(WISH_FRAC) {
+        sentence = wished(sentence, &Modifiers::embedded().steps, rng);
+        if rng.random_bool(0.33) {
+            sentence = wished(sentence, &Modifiers::embedded().steps, rng);
+        }
+    }
+    sentence
 }
 
 /// The sentence with one of the wishes, or as it is where the wish does not fit.

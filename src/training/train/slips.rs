@@ -4,7 +4,7 @@ use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 
-use super::sentences::Sentence;
+use super::sentence::Sentence;
 use cinesplat_language::tokenize;
 
 /// Words of which people say one for the other.

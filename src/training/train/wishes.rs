@@ -85,7 +85,7 @@ fn fits(step: &Step, wish: &str) -> bool {
         "look" => travels && step.look.is_none() && !has(&CIRCLES),
         "with" => fits_beside(step, value),
         "start" => {
-            is_framed && step.start == <_>::default() && !is_still && !has(&[Move::PushIn]) == value.contains("close")
+            is_framed && step.start == <_>::default() && !is_still && has(&[Move::PushIn]) != value.contains("close")
         }
         _ if !is_framed || has(&[Move::Reveal]) => false,
         _ if is_size(value) => is_unsized && size_fits(step, value),
