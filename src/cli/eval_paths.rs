@@ -11,6 +11,7 @@ pub(super) fn read(path: &Path, from: Option<Format>) -> Result<PoseTrack, Failu
     let imported = export::read(path, from).map_err(|error| Failure::from(error).in_file(path))?;
     formats::note_doubt(path, imported.doubt.as_ref());
     console::file_warnings(path, &imported.notes);
+    console::file_warnings(path, &imported.track.unread);
     match &imported.shot {
         Some(shot) => Ok(PoseTrack::sampled(shot, None)?),
         None => Ok(imported.track),

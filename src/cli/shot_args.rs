@@ -67,7 +67,7 @@ impl ShotArgs {
         (scene, objects): (&Scene, &ObjectSet),
         prompt: &str,
     ) -> Result<Directed, Failure> {
-        let (width, height) = self.size.unwrap_or((1280, 720));
+        let (width, height) = self.size.unwrap_or_else(|| stated_size(prompt, objects));
         let settings = DirectSettings {
             width,
             height,
@@ -196,6 +196,16 @@ fn effects_help() -> String {
     format!(
         "Lens effects: auto, off, or names separated by commas\n\n`auto` takes the effects that the words call for. Names: {built}. Known and not implemented: {missing}."
     )
+}
+
+/// The frame size that a prompt states by its shape, with a note; 1280x720 where it states none.
+fn stated_size(prompt: &str, objects: &ObjectSet) -> (u32, u32) {
+    let Some(shape) = pipeline::stated_shape(prompt, objects) else { return (1280, 720) };
+    let [width, height] = shape.size_px(720);
+    let [start, end] = shape.bytes;
+    let words = prompt.get(start..end).unwrap_or_default();
+    console::note(&format!("frame: {width}x{height}, because of \"{words}\" (--size overrules)"));
+    (width, height)
 }
 
 pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -75,6 +75,7 @@
 mod edit_distance;
 mod effects;
 mod error;
+mod frame_shape;
 mod inflection;
 mod known_words;
 mod lexicon;
@@ -93,6 +94,7 @@ mod unknown;
 pub use edit_distance::edit_distance;
 pub use effects::{EffectMention, effect_mentions};
 pub use error::LanguageError;
+pub use frame_shape::{FrameShape, frame_shape};
 pub use inflection::{VerbForm, inflect, stem};
 pub use known_words::GRAMMAR_TEXT;
 pub use lexicon::{Lexicon, WordList};

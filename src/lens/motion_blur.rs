@@ -10,6 +10,9 @@ use super::light::Picture;
 use super::moment::Moment;
 use super::seen::FrameFacts;
 
+/// Longest exposure, frames.
+const MAX_OPEN_FRAMES: f64 = 10.0;
+
 /// Blur of what moves in the frame while the shutter is open. The exposure is centered on the time of the frame, and ends
 /// at a cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,14 +20,19 @@ pub struct MotionBlur {
     /// Share of the time from frame to frame that the shutter is open, as an angle of a full turn, where no keyframe says
     /// otherwise.
     pub shutter_angle_rad: f64,
+    /// Time that the shutter is open, seconds, where the words state that instead of an angle.
+    pub open_secs: Option<f64>,
 }
 
 impl MotionBlur {
     /// When the shutter of a moment opens and closes, seconds.
     fn shutter_secs(self, moment: &Moment<'_>) -> [f64; 2] {
         let optics = moment.take.optics;
-        let angle = optics.shutter_angle_rad(moment.time_secs).unwrap_or(self.shutter_angle_rad);
-        let half = 0.5 * angle / std::f64::consts::TAU * moment.frame_secs();
+        let open_secs = match (optics.shutter_angle_rad(moment.time_secs), self.open_secs) {
+            (None, Some(open_secs)) => open_secs,
+            (angle, _) => angle.unwrap_or(self.shutter_angle_rad) / std::f64::consts::TAU * moment.frame_secs(),
+        };
+        let half = 0.5 * open_secs.min(MAX_OPEN_FRAMES * moment.frame_secs());
         optics.uncut(moment.time_secs, [moment.time_secs - half, moment.time_secs + half])
     }
 }
@@ -42,13 +50,18 @@ impl EffectKind for MotionBlur {
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let angle_deg = call.setting_or("shutter_angle_deg", [90.0, 180.0, 360.0]).min(3600.0);
-        (angle_deg > 0.0).then(|| Self { shutter_angle_rad: angle_deg.to_radians() })
+        // `1/50` states the 50.
+        let open_secs = call.setting("shutter_speed").filter(|speed| *speed > 0.0).map(f64::recip);
+        (angle_deg > 0.0).then(|| Self { shutter_angle_rad: angle_deg.to_radians(), open_secs })
     }
 }
 
 impl Effect for MotionBlur {
     fn settings(&self) -> Vec<(&'static str, f64)> {
-        vec![("shutter_angle_deg", self.shutter_angle_rad.to_degrees())]
+        match self.open_secs {
+            Some(open_secs) => vec![("shutter_speed", open_secs.recip())],
+            None => vec![("shutter_angle_deg", self.shutter_angle_rad.to_degrees())],
+        }
     }
 
     fn measure(&self) -> (&'static str, &'static str) {

@@ -20,6 +20,14 @@ pub struct RollingShutter {
     pub readout: f64,
 }
 
+impl RollingShutter {
+    /// When the first row and the last of a moment are exposed, seconds; both on the moment's side of a cut.
+    fn read_secs(self, moment: &Moment<'_>) -> [f64; 2] {
+        let half = 0.5 * self.readout * moment.frame_secs();
+        moment.take.optics.uncut(moment.time_secs, [moment.time_secs - half, moment.time_secs + half])
+    }
+}
+
 impl EffectKind for RollingShutter {
     const NAME: &'static str = "rolling-shutter";
 
@@ -39,9 +47,8 @@ impl Effect for RollingShutter {
     }
 
     fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
-        let half = 0.5 * self.readout * frame.moment.frame_secs();
-        let time = frame.moment.time_secs;
-        let skew_px = frame.travel_px(time - half, time + half)?;
+        let [from, to] = self.read_secs(&frame.moment);
+        let skew_px = frame.travel_px(from, to)?;
         let rows = frame.moment.camera.intrinsics.height;
         let strips = (skew_px / budget.shift_px).ceil().clamp(1.0, f64::from(rows)) as u32;
         Ok(Loss { error: skew_px, allowed: budget.shift_px, samples: strips })
@@ -56,11 +63,13 @@ impl Effect for RollingShutter {
         let whole = moment.camera.intrinsics;
         let mut frame = Frame { width: whole.width, height: whole.height, ..Frame::default() };
         let strips = samples.clamp(1, whole.height);
+        let [from, to] = self.read_secs(moment);
         for strip in 0..strips {
             let [first, end] =
                 [strip, strip + 1].map(|strip| (u64::from(whole.height) * u64::from(strip) / u64::from(strips)) as u32);
             let middle = 0.5 * (f64::from(first) + f64::from(end)) / f64::from(whole.height) - 0.5;
-            let then = moment.at(moment.time_secs + middle * self.readout * moment.frame_secs());
+            let read = moment.time_secs + middle * self.readout * moment.frame_secs();
+            let then = moment.at(read.clamp(from, to));
             let own = then.camera.intrinsics;
             let intrinsics = Intrinsics { height: end - first, cy_px: own.cy_px - f64::from(first), ..own };
             let mut picture = next(&then.with_camera(Camera { intrinsics, ..then.camera }))?;

@@ -314,16 +314,19 @@ fn check_ids(path: &Path, objects_in_file: &[FileObject]) -> Result<(), ObjectsE
     Ok(())
 }
 
+/// Most wholes that an object lies in, one inside the other.
+const MAX_LEVELS: usize = 16;
+
 /// Every parent is another object of the file, and no object is a part of itself.
 fn check_parents(path: &Path, objects_in_file: &[FileObject]) -> Result<(), ObjectsError> {
     let parents: BTreeMap<u32, Option<u32>> =
         objects_in_file.iter().map(|entry| (entry.object.id, entry.object.parent)).collect();
     for (i, entry) in objects_in_file.iter().enumerate() {
         let mut above = entry.object.parent;
-        for _ in 0..=parents.len() {
+        for level in 0.. {
             let Some(id) = above else { break };
             above = parents.get(&id).copied().flatten();
-            if parents.contains_key(&id) && id != entry.object.id {
+            if level < MAX_LEVELS && parents.contains_key(&id) && id != entry.object.id {
                 continue;
             }
             return Err(ObjectsError::BadField {
@@ -331,7 +334,7 @@ fn check_parents(path: &Path, objects_in_file: &[FileObject]) -> Result<(), Obje
                 entry: format!("object {} (id {})", i + 1, entry.object.id),
                 field: "parent",
                 found: id.to_string(),
-                expected: "the id of another object, which is no part of this one",
+                expected: "the id of another object, which is no part of this one, at most 16 levels deep",
             });
         }
     }

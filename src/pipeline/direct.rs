@@ -5,7 +5,7 @@ use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
-use cinesplat_language::{EffectMention, LanguageError, Linked, NamedObject};
+use cinesplat_language::{EffectMention, FrameShape, LanguageError, Linked, NamedObject};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
 use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, Step, World};
@@ -187,6 +187,11 @@ pub fn shot_of(scene: &Scene, prompt: &str, solution: Solution, settings: &Direc
         clearance: Some(super::clearance::in_file_order(scene, solution.clearance)),
         ..Shot::from_keyframes(size_px, settings.rate_fps, solution.duration_secs, solution.keyframes)
     }
+}
+
+/// The shape of the frame that a prompt states, such as `portrait`.
+pub fn stated_shape(prompt: &str, objects: &ObjectSet) -> Option<FrameShape> {
+    cinesplat_language::frame_shape(prompt, &names(objects))
 }
 
 fn names(objects: &ObjectSet) -> Vec<NamedObject> {

@@ -137,7 +137,7 @@ fn fields(names: &[String], sizes: &[usize], kinds: &[u8], counts: &[usize]) -> 
     for (idx, name) in names.iter().enumerate() {
         let (size, kind) = (*sizes.get(idx)?, *kinds.get(idx)?);
         let count = counts.get(idx).copied().unwrap_or(1);
-        if !matches!(size, 1 | 2 | 4 | 8) || count > 4096 {
+        if !matches!(size, 1 | 2 | 4 | 8) || !(1..=4096).contains(&count) {
             return None;
         }
         fields.push(Field { name: name.clone(), size, kind, count, offset });

@@ -9,6 +9,7 @@ use cinesplat::operator::{Amount, Program};
 
 mod effects;
 mod exam;
+mod frame_shape;
 mod grammar;
 mod link;
 mod mention;

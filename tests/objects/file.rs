@@ -203,9 +203,9 @@ fn an_object_is_no_part_of_itself_or_of_nothing() {
         said(&[object(1, "\"mug\"")]),
     ];
     insta::assert_snapshot!(said.join("\n"), @r#"
-    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 1, expected the id of another object, which is no part of this one
-    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 9, expected the id of another object, which is no part of this one
-    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 1, expected the id of another object, which is no part of this one
+    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 1, expected the id of another object, which is no part of this one, at most 16 levels deep
+    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 9, expected the id of another object, which is no part of this one, at most 16 levels deep
+    OBJ-FIELD objects.json: object 1 (id 1): field `parent` is 1, expected the id of another object, which is no part of this one, at most 16 levels deep
     OBJ-FIELD objects.json: object 1 (id 1): field `parent` is "mug", expected null, or the id of another object
     "#);
 }

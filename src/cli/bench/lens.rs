@@ -39,10 +39,8 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let scenes = self.scenes.read_cameras()?;
-        self.folder.prepare(&["lens.csv", "lens.svg"])?;
-        self.picture.bound_threads()?;
-        console::data(LENS_CSV_HEADER)?;
+        let files = (&self.folder, &["lens.csv", "lens.svg"][..]);
+        let scenes = self.scenes.begin(files, &self.picture, LENS_CSV_HEADER)?;
         let mut rows: Vec<LensRow> = Vec::new();
         for (path, file) in &scenes {
             let scene = self.scenes.options.open(path)?.scene;

@@ -43,13 +43,10 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let scenes = self.scenes.read_cameras()?;
         let plots: Vec<String> = AccuracyAxis::VARIANTS.iter().map(|axis| plot_name(*axis)).collect();
         let names: Vec<&str> =
             ["render.csv", "render.md"].into_iter().chain(plots.iter().map(String::as_str)).collect();
-        self.folder.prepare(&names)?;
-        self.picture.bound_threads()?;
-        console::data(&cinesplat_bench::to_csv(&[]))?;
+        let scenes = self.scenes.begin((&self.folder, &names), &self.picture, &cinesplat_bench::to_csv(&[]))?;
         let num_rows: usize = scenes.iter().map(|(_, file)| self.num_rows(file.as_ref())).sum();
         let mut log = RowLog { rows: Vec::new(), num_rows, progress: FrameProgress::of_rows() };
         for (path, file) in &scenes {

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::cli::console;
 use crate::cli::failure::Failure;
-use crate::cli::outputs;
+use crate::cli::outputs::{self, BenchFolder};
 use crate::cli::scene_args::{PictureArgs, SceneOptions};
 use cinesplat::export::cameras_json::{self, StillCameras};
 use cinesplat::geometry::{Camera, Intrinsics, LevelFrame, Pose};
@@ -29,6 +29,20 @@ pub(super) struct ScenesArgs {
 }
 
 impl ScenesArgs {
+    /// Begins a bench: reads the cameras, makes room for its files and prints the header of its table.
+    pub(super) fn begin(
+        &self,
+        (folder, names): (&BenchFolder, &[&str]),
+        picture: &PictureArgs,
+        header: &str,
+    ) -> Result<Vec<(&Path, Option<StillCameras>)>, Failure> {
+        let scenes = self.read_cameras()?;
+        folder.prepare(names)?;
+        picture.bound_threads()?;
+        console::data(header)?;
+        Ok(scenes)
+    }
+
     /// Every scene with its cameras, read before any work; `None` = the views of [`own_views`].
     pub(super) fn read_cameras(&self) -> Result<Vec<(&Path, Option<StillCameras>)>, Failure> {
         let files: Vec<_> = self.cameras.iter().map(|path| read_cameras(path)).collect::<Result<_, _>>()?;

@@ -40,12 +40,15 @@ pub(super) fn values(root: &Node, buffers: &[Vec<u8>], idx: usize) -> Result<Vec
     let buffer = buffers.get(size(&view, "buffer", None)?).ok_or_else(|| view.error("a buffer that exists"))?;
     let stride = size(&view, "byteStride", Some(4 * width))?;
     let start = size(&view, "byteOffset", Some(0))?.saturating_add(size(&accessor, "byteOffset", Some(0))?);
+    if stride < 4 * width {
+        return Err(view.error("a byteStride of at least one element"));
+    }
     let element = |element_idx: usize| -> Option<Vec<f64>> {
         let from = start.checked_add(element_idx.checked_mul(stride)?)?;
         let bytes = buffer.get(from..from.checked_add(4 * width)?)?;
         Some(bytes.chunks_exact(4).filter_map(|b| b.first_chunk()).map(|b| f64::from(f32::from_le_bytes(*b))).collect())
     };
-    // The last element is checked first, so that a hostile count allocates nothing.
+    // The last element is checked first: no count beyond the buffer's bytes allocates anything.
     let last = count.checked_sub(1).ok_or_else(|| accessor.error("a count above 0"))?;
     element(last).ok_or_else(|| accessor.error("values inside the buffer"))?;
     (0..count).map(|idx| element(idx).ok_or_else(|| accessor.error("values inside the buffer"))).collect()

@@ -28,8 +28,8 @@ pub(super) struct FrameMaker<'a> {
     keeper: Option<&'a mut Keeper>,
     /// Places in the output that the contact sheet shows.
     sheet: BTreeSet<usize>,
-    /// The last picture and its camera.
-    last: Option<(Arc<Picture>, Camera)>,
+    /// The last frame with its picture and its camera.
+    last: Option<(usize, Arc<Picture>, Camera)>,
     rendered: Rgb8Frame,
     num_kept: usize,
     num_damaged: usize,
@@ -90,9 +90,9 @@ impl<'a> FrameMaker<'a> {
         }
         // The same camera gives the same picture, unless an effect changes it with time or begins or ends here.
         let is_new = |idx: usize| self.effects.changes_with_time(idx);
-        let before = frame_idx.saturating_sub(1);
-        let may_repeat = !is_new(frame_idx) && self.effects.has_same_layers(before, frame_idx);
-        let repeated = self.last.take().filter(|(_, last)| may_repeat && *last == camera).map(|(picture, _)| picture);
+        let may_repeat = |last: usize| !is_new(frame_idx) && self.effects.has_same_layers(last, frame_idx);
+        let is_same = |(last, _, seen): &(usize, _, Camera)| *seen == camera && may_repeat(*last);
+        let repeated = self.last.take().filter(is_same).map(|(_, picture, _)| picture);
         let is_repeated = repeated.is_some();
         let picture = repeated.map_or_else(|| self.render(frame_idx), Ok)?;
         let start = Instant::now();
@@ -100,7 +100,7 @@ impl<'a> FrameMaker<'a> {
             if is_repeated { keeper.keep_again(frame_idx, &picture)? } else { keeper.keep(frame_idx, &picture)? }
         }
         self.keep_time += start.elapsed();
-        self.last = Some((Arc::clone(&picture), camera));
+        self.last = Some((frame_idx, Arc::clone(&picture), camera));
         Ok(Made { picture: Some(picture), is_kept: false })
     }
 
@@ -119,7 +119,7 @@ impl<'a> FrameMaker<'a> {
             self.num_damaged += 1;
             return None;
         }
-        self.last = picture.clone().map(|picture| (picture, camera));
+        self.last = picture.clone().map(|picture| (frame_idx, picture, camera));
         Some(Made { picture, is_kept: true })
     }
 

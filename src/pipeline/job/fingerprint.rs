@@ -126,7 +126,9 @@ impl Fingerprint {
 fn path_of(shot: &Shot) -> String {
     let path = Shot::from_keyframes([1, 1], 1.0, shot.duration_secs, shot.keyframes.clone());
     let scene = SceneRef { up: shot.scene.up, ..SceneRef::default() };
-    shot_json::write(&Shot { scene, effects: shot.effects.clone(), ..path })
+    // Grain and shake are drawn with the seed.
+    let seed = if shot.effects.is_empty() { path.seed } else { shot.seed };
+    shot_json::write(&Shot { scene, seed, effects: shot.effects.clone(), ..path })
 }
 
 /// A value as a message shows it: hashes are cut.

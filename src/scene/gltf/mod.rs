@@ -46,7 +46,7 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let (text, binary) = chunks(source)?;
     let json: Value = serde_json::from_slice(text).map_err(|error| damaged(source, format!("not JSON: {error}")))?;
     let buffers = buffers(source, &json, binary)?;
-    let mut primitives = Vec::new();
+    let (mut primitives, mut total) = (Vec::new(), 0);
     for placed in nodes::placed_meshes(&json) {
         let mesh = json.pointer(&format!("/meshes/{}/primitives", placed.mesh)).and_then(Value::as_array);
         for primitive in mesh.into_iter().flatten() {
@@ -55,7 +55,10 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
                     let format = "glTF with compressed Gaussians";
                     return Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
                 }
-                primitives.push(read_primitive(source, &json, &buffers, primitive, placed.clone())?);
+                let read = read_primitive(source, &json, &buffers, primitive, placed.clone())?;
+                total += read.positions.count as u64;
+                source.check_count(total)?;
+                primitives.push(read);
             }
         }
     }
@@ -65,7 +68,9 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let count = source.check_count(primitives.iter().map(|primitive| primitive.positions.count as u64).sum())?;
     let degree = primitives.iter().map(Primitive::kept_degree).max().unwrap_or(0);
     let mut intake = Intake::new(source.path, count, degree)?;
-    let is_log = primitives.iter().any(Primitive::has_negative_scales);
+    // A few values below 0 are damage, and dropped; logarithms are often below 0.
+    let num_negative: usize = primitives.iter().map(Primitive::num_negative_scales).sum();
+    let is_log = num_negative * 10 > count;
     primitives.iter().for_each(|primitive| primitive.push_all(&mut intake, (degree, is_log)));
     let mut collected = intake.finish(source.path)?;
     if is_log {
@@ -181,8 +186,11 @@ impl Primitive {
         if self.placed.rotation.abs_diff_eq(DQuat::IDENTITY, 1e-9) { self.degree } else { 0 }
     }
 
-    fn has_negative_scales(&self) -> bool {
-        (0..self.scales.count).any(|idx| (0..3).any(|axis| self.scales.at(idx, axis) < 0.0))
+    fn num_negative_scales(&self) -> usize {
+        (0..self.scales.count)
+            .flat_map(|idx| (0..3).map(move |axis| (idx, axis)))
+            .filter(|&(idx, axis)| self.scales.at(idx, axis) < 0.0)
+            .count()
     }
 
     /// Adds the Gaussians with harmonics up to a degree; scales may be logarithms.

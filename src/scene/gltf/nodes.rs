@@ -5,8 +5,6 @@ use serde_json::Value;
 
 /// Deepest chain of nodes.
 const MAX_DEPTH: usize = 64;
-/// Most nodes that are visited.
-const MAX_NODES: usize = 100_000;
 
 /// A mesh with its place in the world.
 #[derive(Debug, Clone)]
@@ -25,10 +23,11 @@ pub(super) fn placed_meshes(json: &Value) -> Vec<Placed> {
     let roots = json.pointer(&format!("/scenes/{scene}/nodes")).and_then(Value::as_array);
     let roots: Vec<u64> = roots.map_or_else(|| (0..nodes.len() as u64).collect(), |roots| ids(roots));
     let mut stack: Vec<(u64, DMat4, usize)> = roots.into_iter().rev().map(|root| (root, DMat4::IDENTITY, 0)).collect();
-    let (mut found, mut visited) = (Vec::new(), 0);
+    // The nodes of a glTF are a tree: each is visited once.
+    let (mut found, mut seen) = (Vec::new(), vec![false; nodes.len()]);
     while let Some((idx, above, depth)) = stack.pop() {
-        visited += 1;
-        let Some(node) = nodes.get(idx as usize).filter(|_| depth < MAX_DEPTH && visited < MAX_NODES) else { continue };
+        let Some(node) = nodes.get(idx as usize).filter(|_| depth < MAX_DEPTH && !seen[idx as usize]) else { continue };
+        seen[idx as usize] = true;
         let world = above * local(node);
         if let Some(mesh) = node.get("mesh").and_then(Value::as_u64) {
             let (scale, rotation, position) = world.to_scale_rotation_translation();
@@ -36,7 +35,8 @@ pub(super) fn placed_meshes(json: &Value) -> Vec<Placed> {
             found.push(Placed { mesh, position, rotation: upright(rotation), scale });
         }
         let children = node.get("children").and_then(Value::as_array).map(|children| ids(children)).unwrap_or_default();
-        stack.extend(children.into_iter().rev().map(|child| (child, world, depth + 1)));
+        let unseen = children.into_iter().rev().filter(|&child| seen.get(child as usize) == Some(&false));
+        stack.extend(unseen.take(nodes.len()).map(|child| (child, world, depth + 1)));
     }
     found
 }

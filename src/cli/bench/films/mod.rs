@@ -61,10 +61,8 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let scenes = self.scenes.read_cameras()?;
-        self.folder.prepare(&["films.csv", "films.md"])?;
-        self.picture.bound_threads()?;
-        console::data(report::CSV_HEADER)?;
+        let files = (&self.folder, &["films.csv", "films.md"][..]);
+        let scenes = self.scenes.begin(files, &self.picture, report::CSV_HEADER)?;
         let mut rows = Vec::new();
         for (path, file) in &scenes {
             rows.extend(self.bench_scene(path, file.as_ref())?);
