@@ -198,12 +198,12 @@ fn effects_help() -> String {
     )
 }
 
-/// The frame size that a prompt states by its shape, with a note; 1280x720 where it states none.
+/// The frame size that a prompt states, with a note; the default where it states none.
 fn stated_size(prompt: &str, objects: &ObjectSet) -> (u32, u32) {
-    let Some(shape) = pipeline::stated_shape(prompt, objects) else { return (1280, 720) };
-    let [width, height] = shape.size_px(720);
-    let [start, end] = shape.bytes;
-    let words = prompt.get(start..end).unwrap_or_default();
+    let Some(([width, height], words)) = pipeline::stated_size(prompt, objects) else {
+        let default = DirectSettings::default();
+        return (default.width, default.height);
+    };
     console::note(&format!("frame: {width}x{height}, because of \"{words}\" (--size overrules)"));
     (width, height)
 }

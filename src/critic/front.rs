@@ -4,6 +4,7 @@ use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer};
 use glam::DVec3;
 
+use super::picture;
 use super::subjects::{Subject, Subjects};
 
 /// Directions from which a thing is looked at.
@@ -66,8 +67,7 @@ fn worth(renderer: &Renderer<'_>, subject: &Subject, toward: DVec3, up: DVec3) -
 
 fn shown(frame: &Frame) -> f64 {
     let width = frame.width as usize;
-    let luminance =
-        |i: usize| f64::from(0.2126 * frame.rgb[3 * i] + 0.7152 * frame.rgb[3 * i + 1] + 0.0722 * frame.rgb[3 * i + 2]);
+    let luminance = |i: usize| picture::luminance([frame.rgb[3 * i], frame.rgb[3 * i + 1], frame.rgb[3 * i + 2]]);
     let is_solid = |i: usize| frame.transmittance[i] < SOLID;
     let (mut num, mut change, mut light) = (0.0, 0.0, 0.0);
     for i in 0..frame.transmittance.len().saturating_sub(width + 1) {

@@ -38,7 +38,7 @@ pub(super) struct Shown {
 }
 
 impl Painted {
-    /// Paints a scene. `sizes` are in scene units and above 0; `labels` are one more than the index of a subject, or 0.
+    /// Paints a scene without view-dependent color. `sizes` are in scene units and above 0; `labels` are one more than the index of a subject, or 0.
     pub(super) fn new(gaussians: &Gaussians, sizes: &[f32], labels: &[u16], num_subjects: usize) -> Self {
         let all = || (0..gaussians.len()).map(|i| gaussians.mean_world(i));
         let low = all().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
@@ -86,18 +86,8 @@ impl Painted {
     }
 }
 
-/// A copy without view-dependent color whose colors are three values per Gaussian, each 0 or more.
+/// A copy of Gaussians without view-dependent color, whose colors are three values per Gaussian, each 0 or more.
 fn painted(gaussians: &Gaussians, value: impl Fn(usize, usize) -> f32) -> Gaussians {
     let color = |i: usize| Vec3::from_array([0, 1, 2].map(|k| value(i, k)));
-    Gaussians {
-        origin: gaussians.origin,
-        means: gaussians.means.clone(),
-        scales: gaussians.scales.clone(),
-        rotations: gaussians.rotations.clone(),
-        opacities: gaussians.opacities.clone(),
-        sh_dc: (0..gaussians.len()).map(|i| (color(i) - 0.5) / SH_DC).collect(),
-        sh_degree: 0,
-        sh_rest: Vec::new(),
-        ids: Vec::new(),
-    }
+    Gaussians { sh_dc: (0..gaussians.len()).map(|i| (color(i) - 0.5) / SH_DC).collect(), ..gaussians.clone() }
 }

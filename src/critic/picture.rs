@@ -94,7 +94,8 @@ pub(super) fn measured(time_secs: f64, view: &View<'_>, sights: Vec<Sight>) -> P
     let (rgb, rest) = (&shown.frame.rgb, &shown.frame.transmittance);
     let num = rest.len();
     let share = |test: &dyn Fn(usize) -> bool| (0..num).filter(|&pixel| test(pixel)).count() as f64 / num.max(1) as f64;
-    let luminance: Vec<f64> = rgb.chunks_exact(3).map(luminance).collect();
+    let luminance: Vec<f64> =
+        rgb.as_chunks().0.iter().map(|rgb| luminance(rgb.map(|value| value.clamp(0.0, 1.0)))).collect();
     let is_solid = |pixel: &usize| rest[*pixel] <= VOID;
     let (mut depths, solid): (Vec<f64>, Vec<usize>) = (0..num)
         .filter(is_solid)
@@ -127,9 +128,9 @@ pub(super) fn measured(time_secs: f64, view: &View<'_>, sights: Vec<Sight>) -> P
     }
 }
 
-/// Luminance of an encoded color (BT.709), clamped to 0..=1.
-fn luminance(rgb: &[f32]) -> f64 {
-    let [r, g, b] = [0, 1, 2].map(|channel| f64::from(rgb[channel].clamp(0.0, 1.0)));
+/// Luminance of an encoded color (BT.709).
+pub(super) fn luminance(rgb: [f32; 3]) -> f64 {
+    let [r, g, b] = rgb.map(f64::from);
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 

@@ -11,8 +11,6 @@ use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 const MAX_FACETS: usize = 256;
 /// Opacity below which a Gaussian is not seen.
 const LEAST_OPACITY: f32 = 0.05;
-/// A Gaussian is flat where its shortest axis is shorter than its middle one by this factor.
-const FLATNESS: f32 = 0.5;
 
 /// A Gaussian that is not solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +74,7 @@ impl Subjects {
         let (kept, growth) = thinned(gaussians, &labels);
         let sizes: Vec<f32> = kept.iter().map(|&i| size(gaussians, i)).collect();
         let kept_labels: Vec<u16> = kept.iter().map(|&i| labels[i]).collect();
-        let mut scene = plain(gaussians, &kept);
+        let mut scene = gaussians.plain_subset(&kept);
         let background = scene.scales.iter_mut().zip(&kept_labels).filter(|(_, label)| **label == 0);
         background.for_each(|(scale, _)| *scale *= growth);
         let painted = Painted::new(&scene, &sizes, &kept_labels, subjects.len());
@@ -95,7 +93,7 @@ impl Subject {
             center: object.center,
             radius: object.radius(),
             corners: object.corners(),
-            cloud: plain(gaussians, own),
+            cloud: gaussians.plain_subset(own),
             facets,
         }
     }
@@ -121,21 +119,6 @@ fn gaussians_of(gaussians: &Gaussians, object: &Object, labels: &[u16]) -> Vec<u
     (0..gaussians.len()).filter(belongs).collect()
 }
 
-/// Some Gaussians of a scene, without view-dependent color.
-fn plain(gaussians: &Gaussians, own: &[usize]) -> Gaussians {
-    Gaussians {
-        origin: gaussians.origin,
-        means: own.iter().map(|&i| gaussians.means[i]).collect(),
-        scales: own.iter().map(|&i| gaussians.scales[i]).collect(),
-        rotations: own.iter().map(|&i| gaussians.rotations[i]).collect(),
-        opacities: own.iter().map(|&i| gaussians.opacities[i]).collect(),
-        sh_dc: own.iter().map(|&i| gaussians.sh_dc[i]).collect(),
-        sh_degree: 0,
-        sh_rest: Vec::new(),
-        ids: Vec::new(),
-    }
-}
-
 /// Gaussians between invisible and solid.
 fn thin_matter(gaussians: &Gaussians) -> Vec<ThinMatter> {
     let is_thin = |i: &usize| (LEAST_OPACITY..SOLID_OPACITY).contains(&gaussians.opacities[*i]);
@@ -151,16 +134,8 @@ fn thin_matter(gaussians: &Gaussians) -> Vec<ThinMatter> {
 }
 
 fn facet(gaussians: &Gaussians, i: usize) -> Option<Facet> {
-    let scale = gaussians.scales[i];
-    let shortest = scale.min_position();
-    let [a, b] = [scale[(shortest + 1) % 3], scale[(shortest + 2) % 3]];
-    let is_flat = scale[shortest] < FLATNESS * a.min(b) && gaussians.opacities[i] >= SOLID_OPACITY;
-    let axis = DVec3::AXES[shortest];
-    is_flat.then(|| Facet {
-        mean: gaussians.mean_world(i),
-        normal: gaussians.rotations[i].as_dquat() * axis,
-        area: f64::from(a) * f64::from(b),
-    })
+    let (normal, area) = gaussians.facet(i).filter(|_| gaussians.opacities[i] >= SOLID_OPACITY)?;
+    Some(Facet { mean: gaussians.mean_world(i), normal, area })
 }
 
 /// Size of the detail that a Gaussian can carry, scene units, above 0: twice its middle standard deviation. That is the

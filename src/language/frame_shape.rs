@@ -1,5 +1,7 @@
 //! The shape of the frame where a prompt states it: `portrait`, `vertical video`, `9:16`, `square`.
 
+use std::collections::BTreeSet;
+
 use super::names::NamedObject;
 use super::tokenizer::{Word, span_of, tokenize};
 
@@ -39,9 +41,10 @@ const ARTICLES: [&str; 10] = ["the", "this", "that", "his", "her", "their", "its
 /// The first shape that a prompt states. Words in the name of an object (`portrait of a lady`) state none.
 pub fn frame_shape(prompt: &str, objects: &[NamedObject]) -> Option<FrameShape> {
     let words = tokenize(prompt);
-    let is_named = |word: &str| objects.iter().any(|object| tokenize(&object.label).iter().any(|own| own.text == word));
+    let names: BTreeSet<String> =
+        objects.iter().flat_map(|object| tokenize(&object.label)).map(|word| word.text).collect();
     (0..words.len()).find_map(|at| {
-        let (len, ratio) = stated_at(&words, at, &is_named)?;
+        let (len, ratio) = stated_at(&words, at, &names)?;
         Some(FrameShape { ratio, bytes: span_of(&words[at..at + len]) })
     })
 }
@@ -55,7 +58,7 @@ impl FrameShape {
 }
 
 /// Number of words from word `at` on that state a shape, and the ratio.
-fn stated_at(words: &[Word], at: usize, is_named: &dyn Fn(&str) -> bool) -> Option<(usize, [u32; 2])> {
+fn stated_at(words: &[Word], at: usize, names: &BTreeSet<String>) -> Option<(usize, [u32; 2])> {
     let text = |i: usize| words.get(i).map_or("", |word| word.text.as_str());
     let before = if at == 0 { "" } else { text(at - 1) };
     let (word, next) = (text(at), text(at + 1));
@@ -67,7 +70,7 @@ fn stated_at(words: &[Word], at: usize, is_named: &dyn Fn(&str) -> bool) -> Opti
             || text(at + 2).len() != ratio[1].to_string().len();
         return (RATIOS.contains(&ratio) && !is_clock).then_some((3, ratio));
     }
-    if is_named(word) {
+    if names.contains(word) {
         return None;
     }
     let stands_alone = at == 0 && matches!(next, "," | ":" | "." | "-" | "");

@@ -1,6 +1,6 @@
 //! Pictures on their way through effects.
 
-use cinesplat_render::{Frame, Rgb8Frame};
+use cinesplat_render::{Frame, Rgb8Frame, srgb};
 use rayon::prelude::*;
 
 /// Values per job of the threads.
@@ -33,7 +33,7 @@ impl Picture {
     /// The picture as signals of a display, to be changed.
     pub fn display(&mut self) -> &mut Frame {
         if self.light == Light::Linear {
-            each_value(&mut self.frame.rgb, from_linear);
+            each_value(&mut self.frame.rgb, srgb::to_signal);
             self.light = Light::Display;
         }
         &mut self.frame
@@ -42,7 +42,7 @@ impl Picture {
     /// The picture as light, to be changed.
     pub fn linear(&mut self) -> &mut Frame {
         if self.light == Light::Display {
-            each_value(&mut self.frame.rgb, to_linear);
+            each_value(&mut self.frame.rgb, srgb::to_light);
             self.light = Light::Linear;
         }
         &mut self.frame
@@ -84,7 +84,7 @@ impl Picture {
             let frame = copy.display();
             for (rgb, alpha) in frame.rgb.chunks_exact_mut(3).zip(&alpha) {
                 let scale = if *alpha > 0.0 { 1.0 / alpha } else { 0.0 };
-                rgb.iter_mut().for_each(|value| *value = to_linear(*value * scale) * alpha);
+                rgb.iter_mut().for_each(|value| *value = srgb::to_light(*value * scale) * alpha);
             }
         }
         let rgb = if is_transparent { &copy.frame.rgb } else { &copy.linear().rgb };
@@ -113,16 +113,6 @@ pub(super) fn each_value(values: &mut [f32], change: impl Fn(f32) -> f32 + Sync)
     values
         .par_chunks_mut(VALUES_PER_JOB)
         .for_each(|values| values.iter_mut().for_each(|value| *value = change(*value)));
-}
-
-/// Light of a display's signal, by the curve of sRGB. Signals above 1 go on along the curve.
-pub(super) fn to_linear(signal: f32) -> f32 {
-    if signal <= 0.040_45 { signal / 12.92 } else { ((signal + 0.055) / 1.055).powf(2.4) }
-}
-
-/// The inverse of [`to_linear`].
-pub(super) fn from_linear(light: f32) -> f32 {
-    if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }
 
 /// 64 well-mixed bits of a counter under a key (the finalizer of `SplitMix64`).

@@ -67,17 +67,7 @@ fn behind_cut(gaussians: &Gaussians, space: &Space, panel: &Panel) -> Gaussians 
         }
     };
     let kept: Vec<usize> = (0..gaussians.len()).filter(|&i| is_kept(i)).collect();
-    Gaussians {
-        origin: gaussians.origin,
-        means: kept.iter().map(|&i| gaussians.means[i]).collect(),
-        scales: kept.iter().map(|&i| gaussians.scales[i]).collect(),
-        rotations: kept.iter().map(|&i| gaussians.rotations[i]).collect(),
-        opacities: kept.iter().map(|&i| gaussians.opacities[i]).collect(),
-        sh_dc: kept.iter().map(|&i| gaussians.sh_dc[i]).collect(),
-        sh_degree: 0,
-        sh_rest: Vec::new(),
-        ids: Vec::new(),
-    }
+    gaussians.plain_subset(&kept)
 }
 
 /// Depths of a picture.

@@ -1,5 +1,6 @@
 //! Perceived colors: CIE Lab and the basic color terms.
 
+use cinesplat_render::srgb;
 use glam::{Mat3, Vec3};
 
 /// Basic color terms as sRGB (Berlin and Kay 1969, with shades and with beige, gold, teal and turquoise, which are
@@ -45,7 +46,7 @@ const WHITE_XYZ: Vec3 = Vec3::new(0.950_47, 1.0, 1.088_83);
 
 /// CIE Lab (L 0..100) of an sRGB color, 0..=1.
 pub(crate) fn lab(rgb: Vec3) -> Vec3 {
-    let linear = rgb.to_array().map(|v| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) });
+    let linear = rgb.to_array().map(srgb::to_light);
     let xyz = XYZ_FROM_RGB * Vec3::from_array(linear) / WHITE_XYZ;
     let [x, y, z] = xyz.to_array().map(|t| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 });
     Vec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))

@@ -3,8 +3,6 @@
 use cinesplat_scene::Gaussians;
 use glam::DVec3;
 
-/// A Gaussian is flat where its shortest axis is shorter than its middle one by this factor.
-const FLATNESS: f32 = 0.5;
 /// Facets that a subject keeps, and those from which its sides can be told.
 const MAX_FACETS: usize = 200;
 const MIN_FACETS: usize = 24;
@@ -21,13 +19,10 @@ impl Facets {
     pub(super) fn of(gaussians: &Gaussians, own: &[usize], center: DVec3) -> Self {
         let stride = own.len().div_ceil(MAX_FACETS).max(1);
         let facet = |&i: &usize| {
-            let scale = gaussians.scales[i];
-            let shortest = scale.min_position();
-            let [a, b] = [scale[(shortest + 1) % 3], scale[(shortest + 2) % 3]];
-            let normal = gaussians.rotations[i].as_dquat() * DVec3::AXES[shortest];
+            let (normal, area) = gaussians.facet(i)?;
             let mean = gaussians.mean_world(i);
             let outward = if normal.dot(mean - center) < 0.0 { -normal } else { normal };
-            (scale[shortest] < FLATNESS * a.min(b)).then(|| (mean, outward * f64::from(a) * f64::from(b)))
+            Some((mean, outward * area))
         };
         Self { facets: own.iter().step_by(stride).filter_map(facet).collect() }
     }

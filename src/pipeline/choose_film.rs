@@ -1,5 +1,4 @@
 use cinesplat_critic::{Candidate, Critic, CriticSettings, Film, Subjects, Weights, ranked, report_lines};
-use cinesplat_objects::ObjectSet;
 use cinesplat_operator::{Program, Solution, SolveLevel, World};
 use cinesplat_scene::Scene;
 
@@ -55,14 +54,13 @@ pub struct Critique {
 /// # Errors
 /// [`PipelineError::Render`] when the pictures cannot be rendered.
 pub(super) fn choose_film(
-    (scene, objects, world): (&Scene, &ObjectSet, &World),
-    program: &Program,
+    (scene, world): (&Scene, &World),
+    (program, subjects): (&Program, &Subjects),
     solutions: &mut Vec<Solution>,
     size_px: [u32; 2],
     choice: &FilmChoice,
 ) -> Result<Critique, PipelineError> {
-    let subjects = Subjects::new(&scene.gaussians, objects, &program.object_ids());
-    let critic = Critic::new((scene, &world.bounds), &subjects, choice.critic);
+    let critic = Critic::new((scene, &world.bounds), subjects, choice.critic);
     let films: Vec<Film> = solutions.iter().map(|solution| Film::new(world, program, solution, size_px)).collect();
     let mut candidates = Vec::new();
     for (solution, film) in solutions.iter().zip(&films) {

@@ -5,7 +5,7 @@ use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
-use cinesplat_language::{EffectMention, FrameShape, LanguageError, Linked, NamedObject};
+use cinesplat_language::{EffectMention, LanguageError, Linked, NamedObject};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
 use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, Step, World};
@@ -132,9 +132,12 @@ pub fn direct(
     let ids = direction.program.object_ids();
     let mut world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
     world.aspect = settings.aspect();
-    if !world.is_indoor() && settings.solve != SolveLevel::Off {
-        let subjects = Subjects::new(&scene.gaussians, &objects, &ids);
-        subjects.fronts(&world.frame)?.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
+    // Without a search nobody looks at the film.
+    let looks = settings.solve != SolveLevel::Off;
+    let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, &objects, &ids)));
+    if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
+        let fronts = times.measure(Phase::Judge, || subjects.fronts(&world.frame))?;
+        fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
     }
     let is_dutch = |mention: &&EffectMention| mention.call.name == DUTCH && !mention.is_forbidden;
     let dutch_deg = effects.iter().find(is_dutch).map(|_| DUTCH_DEG);
@@ -146,9 +149,11 @@ pub fn direct(
         cinesplat_operator::finalists(&world, (program, prompt), &direction.step_cameras, &solve, num)
     });
     let size_px = [settings.width, settings.height];
-    let judge = || choose_film((scene, &objects, &world), program, &mut solutions, size_px, &settings.choice);
-    // Without a search nobody looks at the film.
-    let critique = if level == SolveLevel::Off { None } else { Some(times.measure(Phase::Judge, judge)?) };
+    let judge = |subjects: &Subjects| {
+        let choose = || choose_film((scene, &world), (program, subjects), &mut solutions, size_px, &settings.choice);
+        times.measure(Phase::Judge, choose)
+    };
+    let critique = subjects.as_ref().map(judge).transpose()?;
     solutions.truncate(settings.choice.num_takes.max(1));
     let called = called(&effects, program, settings, bounds.size());
     let finished = |solution| {
@@ -189,9 +194,12 @@ pub fn shot_of(scene: &Scene, prompt: &str, solution: Solution, settings: &Direc
     }
 }
 
-/// The shape of the frame that a prompt states, such as `portrait`.
-pub fn stated_shape(prompt: &str, objects: &ObjectSet) -> Option<FrameShape> {
-    cinesplat_language::frame_shape(prompt, &names(objects))
+/// The frame size of the shape that a prompt states, such as `portrait`, and the words that state it; its shorter side is
+/// that of the default size.
+pub fn stated_size<'a>(prompt: &'a str, objects: &ObjectSet) -> Option<([u32; 2], &'a str)> {
+    let shape = cinesplat_language::frame_shape(prompt, &names(objects))?;
+    let [start, end] = shape.bytes;
+    Some((shape.size_px(DirectSettings::default().height), prompt.get(start..end).unwrap_or_default()))
 }
 
 fn names(objects: &ObjectSet) -> Vec<NamedObject> {

@@ -104,6 +104,7 @@ mod spec;
 mod splat;
 mod splats;
 mod spread;
+pub mod srgb;
 mod stats;
 mod tiles;
 mod upsample;

@@ -8,6 +8,9 @@ pub const NUM_SH_REST: [usize; 4] = [0, 3, 8, 15];
 /// Bounds, the up axis, boxes of objects and the camera's clearance ignore Gaussians below it.
 pub const SOLID_OPACITY: f32 = 0.5;
 
+/// Shortest over middle axis below which a Gaussian is flat.
+const FLATNESS: f32 = 0.5;
+
 /// The decoded Gaussians of a scene: linear scales, opacities in 0..=1, unit rotations.
 ///
 /// Means are `f32` offsets from `origin` (`f64`, world), so that scenes far from the world's origin keep their precision.
@@ -60,16 +63,37 @@ impl Gaussians {
     #[must_use]
     pub fn subset(&self, indices: &[usize]) -> Self {
         Self {
+            sh_degree: self.sh_degree,
+            sh_rest: indices.iter().flat_map(|&i| self.sh_rest_of(i)).copied().collect(),
+            ids: if self.ids.is_empty() { Vec::new() } else { indices.iter().map(|&i| self.ids[i]).collect() },
+            ..self.plain_subset(indices)
+        }
+    }
+
+    /// As [`Gaussians::subset`], without view-dependent color and ids.
+    #[must_use]
+    pub fn plain_subset(&self, indices: &[usize]) -> Self {
+        Self {
             origin: self.origin,
             means: indices.iter().map(|&i| self.means[i]).collect(),
             scales: indices.iter().map(|&i| self.scales[i]).collect(),
             rotations: indices.iter().map(|&i| self.rotations[i]).collect(),
             opacities: indices.iter().map(|&i| self.opacities[i]).collect(),
             sh_dc: indices.iter().map(|&i| self.sh_dc[i]).collect(),
-            sh_degree: self.sh_degree,
-            sh_rest: indices.iter().flat_map(|&i| self.sh_rest_of(i)).copied().collect(),
-            ids: if self.ids.is_empty() { Vec::new() } else { indices.iter().map(|&i| self.ids[i]).collect() },
+            sh_degree: 0,
+            sh_rest: Vec::new(),
+            ids: Vec::new(),
         }
+    }
+
+    /// The unit normal of a flat Gaussian, of either sign, and the product of its two longer standard deviations. A Gaussian
+    /// is flat where its shortest axis is shorter than half its middle one; `None` for another.
+    pub fn facet(&self, gaussian_idx: usize) -> Option<(DVec3, f64)> {
+        let scale = self.scales[gaussian_idx];
+        let shortest = scale.min_position();
+        let [a, b] = [scale[(shortest + 1) % 3], scale[(shortest + 2) % 3]];
+        let normal = || self.rotations[gaussian_idx].as_dquat() * DVec3::AXES[shortest];
+        (scale[shortest] < FLATNESS * a.min(b)).then(|| (normal(), f64::from(a) * f64::from(b)))
     }
 
     /// Color of degree 0 of a Gaussian, without view dependence: rgb, clamped to 0..=1.

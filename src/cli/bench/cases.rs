@@ -139,9 +139,10 @@ impl CaseDirector {
     pub(super) fn direct(&mut self, case: &PromptCase, level: SolveLevel) -> Result<Shot, Failure> {
         self.scene_of(case)?;
         let opened = &self.scenes[&(case.scene.clone(), case.objects.clone())];
-        let [width, height] =
-            pipeline::stated_shape(&case.prompt, &opened.objects).map_or([1280, 720], |shape| shape.size_px(720));
-        let settings = DirectSettings { width, height, seed: self.seed, solve: level, ..DirectSettings::default() };
+        let mut settings = DirectSettings { seed: self.seed, solve: level, ..DirectSettings::default() };
+        if let Some((size_px, _)) = pipeline::stated_size(&case.prompt, &opened.objects) {
+            [settings.width, settings.height] = size_px;
+        }
         if let Some(program) = &case.program {
             let solve = SolveSettings { level, seed: self.seed, ..SolveSettings::default() };
             return Ok(opened.direct(program, &case.prompt, &solve, &settings)?.0);

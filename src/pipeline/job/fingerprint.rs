@@ -27,7 +27,20 @@ impl Fingerprint {
         inputs: &[(&'static str, String)],
     ) -> Self {
         // Every field is named: one that is added does not compile until it is decided whether it counts.
-        let RenderSettings { quality, filter, near, background, sort, color_clamp, accuracy, .. } = render;
+        // Effects set the fog, and stand with the keyframes; the last three change no picture.
+        let RenderSettings {
+            quality,
+            filter,
+            near,
+            background,
+            fog: _,
+            sort,
+            color_clamp,
+            accuracy,
+            limits: _,
+            instructions: _,
+            reuses_order: _,
+        } = render;
         let VideoSettings {
             width,
             height,

@@ -222,12 +222,7 @@ fn with_wishes(mut sentence: Sentence, rng: &mut Pcg64) -> Sentence {
 fn wished(sentence: Sentence, wishes: &[Modifier], rng: &mut Pcg64) -> Sentence {
     let position = if rng.random_bool(0.25) { Position::Before } else { Position::After };
     let Some(wish) = wishes.choose(rng).and_then(|modifier| modifier.draw(position, rng)) else { return sentence };
-    let words = Sentence { linked: wish.linked.clone(), ..Sentence::default() };
-    let joined = match position {
-        Position::Before => join(words, &sentence).map(|(joined, _)| (joined, 0)),
-        Position::After => join(sentence.clone(), &words),
-    };
-    let Some((mut joined, id_offset)) = joined else { return sentence };
+    let Some((mut joined, id_offset)) = glued(&sentence, &wish, position) else { return sentence };
     let Some(program) = with_wish(&joined.program, &wish, [1 + id_offset, 2 + id_offset]) else { return sentence };
     joined.program = program;
     if !wish.step.is_empty() {
@@ -243,12 +238,16 @@ fn wished(sentence: Sentence, wishes: &[Modifier], rng: &mut Pcg64) -> Sentence 
 /// The sentence with a phrase that means nothing to the camera.
 fn beside(sentence: Sentence, wish: Option<Wish>, position: Position) -> Sentence {
     let Some(wish) = wish else { return sentence };
-    let words = Sentence { linked: wish.linked, ..Sentence::default() };
-    let joined = match position {
-        Position::Before => join(words, &sentence),
+    glued(&sentence, &wish, position).map_or(sentence, |(joined, _)| joined)
+}
+
+/// The sentence with the words of a wish, and how much the ids of these words grew; `None` as [`join`].
+fn glued(sentence: &Sentence, wish: &Wish, position: Position) -> Option<(Sentence, u32)> {
+    let words = Sentence { linked: wish.linked.clone(), ..Sentence::default() };
+    match position {
+        Position::Before => join(words, sentence).map(|(joined, _)| (joined, 0)),
         Position::After => join(sentence.clone(), &words),
-    };
-    joined.map_or(sentence, |(joined, _)| joined)
+    }
 }
 
 fn sentence(sentence: &CorpusSentence) -> Sentence {
