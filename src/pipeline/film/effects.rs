@@ -6,7 +6,7 @@ use crate::pipeline::film::cameras::path_camera;
 use cinesplat_geometry::Camera;
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, EffectPlan, Moment, OpticsTrack, Picture, Take};
 use cinesplat_render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
-use cinesplat_trajectory::{CameraPath, EffectRequest, Shot};
+use cinesplat_trajectory::{CameraPath, EffectRequest, Shot, TrajectoryError};
 
 /// Size of a scene over its near plane, where the scene itself is not at hand.
 const SIZE_OF_NEAR: f64 = 100.0;
@@ -25,7 +25,7 @@ pub fn called_effects(shot: &Shot, choice: &EffectChoice, scene_size: f64) -> Ca
 
 /// The camera of a shot, frame by frame, with its effects.
 pub(in crate::pipeline) struct Filmed<'a> {
-    path: &'a CameraPath,
+    path: CameraPath,
     shot: &'a Shot,
     called: Vec<CalledEffect>,
     optics: OpticsTrack,
@@ -33,12 +33,13 @@ pub(in crate::pipeline) struct Filmed<'a> {
 
 impl<'a> Filmed<'a> {
     pub(in crate::pipeline) fn new(
-        (path, shot): (&'a CameraPath, &'a Shot),
+        shot: &'a Shot,
         choice: &EffectChoice,
         render: &RenderSettings,
-    ) -> Self {
+    ) -> Result<Self, TrajectoryError> {
+        let path = CameraPath::new(shot)?;
         let called = called_effects(shot, choice, SIZE_OF_NEAR * render.near).effects;
-        Self { path, shot, called, optics: OpticsTrack::new(&shot.keyframes) }
+        Ok(Self { path, shot, called, optics: OpticsTrack::new(&shot.keyframes) })
     }
 
     /// The camera of a frame, with the motion that effects add.
@@ -57,7 +58,7 @@ impl<'a> Filmed<'a> {
     }
 
     fn camera_at(&self, time_secs: f64) -> Camera {
-        EffectPlan::moved(&self.called, path_camera(self.path, self.shot, time_secs), time_secs)
+        EffectPlan::moved(&self.called, path_camera(&self.path, self.shot, time_secs), time_secs)
     }
 
     /// Calls `work` with the source of the shot's cameras.
@@ -170,8 +171,7 @@ pub fn plan_effects(
     shot: &Shot,
     choice: &EffectChoice,
 ) -> Result<EffectPlan, PipelineError> {
-    let path = CameraPath::new(shot)?;
-    let filmed = Filmed::new((&path, shot), choice, render);
+    let filmed = Filmed::new(shot, choice, render)?;
     Ok(filmed.plan(0..shot.num_frames(), (renderer, render))?)
 }
 

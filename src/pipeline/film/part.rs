@@ -12,7 +12,7 @@ use crate::pipeline::error::PipelineError;
 use crate::pipeline::frames::FrameRange;
 use crate::pipeline::job::Access;
 use cinesplat_render::Renderer;
-use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_trajectory::Shot;
 use cinesplat_video::VideoFormat;
 
 /// Renders frames of a film into its job folder, next to other programs that do the same; makes no film. [`super::film`]
@@ -31,9 +31,8 @@ pub fn film_part(
     watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
 ) -> Result<FilmReport, PipelineError> {
     let start = Instant::now();
-    let path = CameraPath::new(shot)?;
+    let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
     let frames = settings.frames.of_film(shot.num_frames())?;
-    let filmed = Filmed::new((&path, shot), &settings.effects, &settings.render);
     let effects = filmed.plan(frames.clone(), (renderer, &settings.render))?;
     let part = part.of_film(frames.end)?;
     let settings = FilmSettings { job: Some(settings.job.clone().unwrap_or_default()), ..settings.clone() };

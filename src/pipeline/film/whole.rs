@@ -14,7 +14,7 @@ use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Access, Job};
 use cinesplat_lens::EffectPlan;
 use cinesplat_render::Renderer;
-use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_trajectory::Shot;
 use cinesplat_video::{ContactSheet, VideoFormat, VideoSettings, VideoWriter};
 
 /// Capacity of the queue between renderer and encoder, in frames. It absorbs frames that are slow to encode and costs
@@ -37,9 +37,8 @@ pub fn film(
     watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
 ) -> Result<FilmReport, PipelineError> {
     let start = Instant::now();
-    let path = CameraPath::new(shot)?;
+    let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
     let frames = settings.frames.of_film(shot.num_frames())?;
-    let filmed = Filmed::new((&path, shot), &settings.effects, &settings.render);
     let effects = filmed.plan(frames.clone(), (renderer, &settings.render))?;
     let mut job = settings.open_job(output, shot, &frames, Access::Alone)?;
     let has_sheet = settings.sheet.as_ref().is_none_or(|sheet| sheet.exists());

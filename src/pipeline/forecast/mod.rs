@@ -85,8 +85,7 @@ pub fn forecast(
 ) -> Result<Vec<Forecast>, PipelineError> {
     let limit = TimeLimit::new(TIME_LIMIT_SECS);
     let frames = settings.frames.of_film(shot.num_frames())?;
-    let path = CameraPath::new(shot)?;
-    let with_effects = Filmed::new((&path, shot), &settings.effects, &settings.render);
+    let with_effects = Filmed::new(shot, &settings.effects, &settings.render)?;
     let cameras = with_effects.moving_cameras(frames.clone());
     let sampler = Sampler { renderer, cameras: &cameras, settings: &settings.render };
     let timed = timed_qualities(qualities);
