@@ -8,8 +8,10 @@ use cinesplat_operator::{Program, StepCameras};
 use cinesplat_trajectory::{CameraState, ModelRef};
 use glam::{DQuat, DVec3, Vec3};
 
+use crate::beats::direct_beats;
 use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
+use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
@@ -18,31 +20,6 @@ use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::network::PromptBatch;
-
-/// Certainty of a step of the program.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StepCertainty {
-    /// Probability that the step is what the prompt requests, 0..=1: the product of the probabilities of all its choices,
-    /// calibrated on sentences that training has not seen.
-    pub probability: f64,
-    /// The name of the choice of the lowest probability ([`Choice`]), and that probability.
-    pub weakest: (&'static str, f64),
-    /// Byte range of the prompt that the step comes from.
-    pub words: Option<[usize; 2]>,
-}
-
-/// The director's output for a prompt.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Direction {
-    /// The program that the prompt requests.
-    pub program: Program,
-    /// Cameras that the network proposes, one pair per step, in the world.
-    pub step_cameras: Vec<StepCameras>,
-    /// Certainty of each step.
-    pub certainty: Vec<StepCertainty>,
-    /// Bytes of the prompt that ask for something that no program can say.
-    pub unmet: Vec<[usize; 2]>,
-}
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -135,6 +112,14 @@ impl Director {
     /// [`DirectorError::NotFinite`] when the network outputs a position that is not finite ·
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
+        match &linked.timeline {
+            Some(timeline) => direct_beats(linked, timeline, &|part| self.direct_part(part, scene)),
+            None => self.direct_part(linked, scene),
+        }
+    }
+
+    /// The program and cameras of a prompt that is read as a whole.
+    fn direct_part(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
         let others = other_objects(scene.objects, &linked.expanded(&linked.slots));
         let (tokens, grounding) = encode_text(linked, &others, &self.model.vocabulary)?;
         // A group looks like its first member.

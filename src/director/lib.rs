@@ -15,9 +15,11 @@
 //!
 //! Only this crate and `training` use candle, and only this crate uses tokenizers.
 
+mod beats;
 mod calibration;
 pub mod codes;
 mod decoding;
+mod direction;
 mod director;
 mod error;
 mod frame;
@@ -31,7 +33,8 @@ pub mod network;
 
 pub use calibration::Calibration;
 pub use decoding::Choice;
-pub use director::{Direction, Director, SceneContext, StepCertainty};
+pub use direction::{Direction, StepCertainty};
+pub use director::{Director, SceneContext};
 pub use error::DirectorError;
 pub use frame::SceneFrame;
 pub use model_files::ModelFiles;

@@ -13,6 +13,8 @@ pub static GRAMMAR_TEXT: &str = include_str!("../../prompts/grammar.txt");
 #[derive(Debug)]
 pub(crate) struct KnownWords {
     words: BTreeSet<String>,
+    /// The words as the templates have them.
+    plain: BTreeSet<String>,
 }
 
 impl KnownWords {
@@ -26,20 +28,26 @@ impl KnownWords {
         let is_template =
             |line: &&str| !line.is_empty() && !["#", "= ", "@ ", "! "].iter().any(|opening| line.starts_with(opening));
         let templates = text.lines().map(str::trim).filter(is_template);
-        Self { words: templates.flat_map(words_of_template).collect() }
+        let plain: BTreeSet<String> = templates.flat_map(words_of_template).collect();
+        let forms =
+            |word: &String| [inflect(word, VerbForm::ThirdPerson), inflect(word, VerbForm::Gerund), word.clone()];
+        Self { words: plain.iter().flat_map(forms).collect(), plain }
     }
 
     /// Whether the grammar uses `word` in any form.
     pub(crate) fn contains(&self, word: &str) -> bool {
         self.words.contains(word)
     }
+
+    /// The words as the templates have them.
+    pub(crate) fn plain(&self) -> impl Iterator<Item = &str> {
+        self.plain.iter().map(String::as_str)
+    }
 }
 
-/// The words of a template without its meaning and its `{lists}`, each in every form of a verb.
+/// The words of a template without its meaning and its `{lists}`.
 fn words_of_template(line: &str) -> impl Iterator<Item = String> {
     let text = line.split("=>").next().unwrap_or_default();
     let without_lists = text.split('{').map(|part| part.split_once('}').map_or(part, |(_, after)| after));
-    without_lists
-        .flat_map(tokenize)
-        .flat_map(|word| [inflect(&word.text, VerbForm::ThirdPerson), inflect(&word.text, VerbForm::Gerund), word.text])
+    without_lists.flat_map(tokenize).map(|word| word.text)
 }

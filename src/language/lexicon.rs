@@ -80,6 +80,11 @@ impl Lexicon {
         &self.nouns
     }
 
+    /// Words of film and camera, and function words.
+    pub(crate) fn shot_words(&self) -> impl Iterator<Item = &str> {
+        self.camera.iter().chain(&self.function).map(String::as_str)
+    }
+
     fn parse(text: &str) -> Result<Self, LanguageError> {
         let mut lexicon = Self::default();
         let mut section = None;

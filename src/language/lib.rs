@@ -4,6 +4,10 @@
 //! stand for objects and quantities, each word with its bytes of the prompt. The one invariant: spans lie on character
 //! boundaries of the prompt. The crate never decides what a prompt means; the director's network does.
 //!
+//! Before anything else shorthand becomes plain words (`Z/I 24-70` = `zoom in 24 to 70`; `prompts/shorthand.txt`), and
+//! misspelled words of command are mended ([`plain_words`]). A prompt that says part by part what happens when is a
+//! [`Timeline`], and the director reads it part by part.
+//!
 //! # Notation of programs
 //!
 //! A [`Program`](cinesplat_operator::Program) has a short text form, used by training data, the exam and tests:
@@ -86,8 +90,11 @@ mod names;
 mod notation;
 mod numbered;
 mod numerals;
+mod part;
+mod plain;
 mod quantity;
 mod things;
+mod timeline;
 mod tokenizer;
 mod unknown;
 
@@ -108,7 +115,9 @@ pub use notation::{
 };
 pub use numbered::{NumberedMention, numbered_mention_at};
 pub use numerals::number_word;
+pub use plain::plain_words;
 pub use quantity::{Quantity, QuantityKind};
 pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
+pub use timeline::{Beat, BeatLength, Timeline};
 pub use tokenizer::{Word, tokenize};
 pub use unknown::UnknownName;

@@ -1,6 +1,7 @@
 //! A prompt whose objects and quantities are placeholders.
 
 use super::quantity::Quantity;
+use super::timeline::Timeline;
 use super::unknown::UnknownName;
 
 /// Limit on the bytes of a prompt.
@@ -25,6 +26,8 @@ pub struct Linked {
     pub quantities: Vec<Quantity>,
     /// Names that match no object.
     pub unknown: Vec<UnknownName>,
+    /// The parts of a prompt that says part by part what happens when.
+    pub timeline: Option<Timeline>,
     /// Messages for the user about mentions that fit several objects or are misspelled.
     pub warnings: Vec<String>,
 }

@@ -5,7 +5,9 @@
 
 use super::error::LanguageError;
 use super::linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, without_article};
+use super::plain::plain_words;
 use super::quantity::quantity_at;
+use super::timeline::timeline;
 use super::tokenizer::{Word, span_of, tokenize, word_at};
 
 /// Least id of a group. Objects have ids up to 65,535.
@@ -41,15 +43,16 @@ pub fn check_prompt(prompt: &str) -> Result<(), LanguageError> {
 /// - [`LanguageError::TooLong`]: more than [`MAX_PROMPT_BYTES`].
 /// - [`LanguageError::Empty`]: no word.
 /// - [`LanguageError::TooManyObjects`]: more than [`MAX_SLOTS`].
+/// - [`LanguageError::BadData`]: an embedded list is malformed.
 pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, LanguageError> {
     check_prompt(prompt)?;
-    let words = tokenize(prompt);
-    let mut linked = Linked::default();
+    let mention_at = |at: usize| mentions.iter().find(|mention| (mention.bytes[0]..mention.bytes[1]).contains(&at));
+    let words = plain_words(prompt, &tokenize(prompt), &|word| mention_at(word.span[0]).is_some())?;
+    let mut linked = Linked { timeline: timeline(prompt, &words), ..Linked::default() };
     let mut i = 0;
     while i < words.len() {
         let at = span_of(&words[i..=i])[0];
-        let mention = mentions.iter().find(|mention| (mention.bytes[0]..mention.bytes[1]).contains(&at));
-        if let Some(mention) = mention {
+        if let Some(mention) = mention_at(at) {
             let inside = |word: &&Word| span_of(std::slice::from_ref(*word))[0] < mention.bytes[1];
             let len = words[i..].iter().take_while(inside).count().max(1);
             let slot = linked.slot_of(mention, prompt)?;

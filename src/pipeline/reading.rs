@@ -2,7 +2,7 @@
 
 use cinesplat_director::{Direction, SceneContext};
 use cinesplat_language::{EffectMention, Linked, effect_mentions};
-use cinesplat_operator::{Look, Motion, Program, Step};
+use cinesplat_operator::{Framing, Look, Motion, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
 use super::error::PipelineError;
@@ -110,12 +110,53 @@ pub fn read(
 ) -> Result<Reading, PipelineError> {
     let effects = effect_mentions(prompt, &linked)?;
     let mut direction = interpreter.direct(prompt, &linked, scene)?;
+    merge_holds(&mut direction);
     let mut problems = Vec::new();
     problems.extend(unmet(prompt, &direction, &effects));
     problems.extend(missing_aside(&linked, &mut direction.program));
     problems.extend(contradictions(prompt, &mut direction.program));
     problems.extend(uncertain(prompt, &mut direction));
     Ok(Reading { linked, direction, effects, problems })
+}
+
+/// Makes one static step of two in a row that hold the same picture: `go low and look up at it, then stay there for 5 s`.
+fn merge_holds(direction: &mut Direction) {
+    let mut nth = 1;
+    while nth < direction.program.steps.len() {
+        let steps = &mut direction.program.steps;
+        let (before, after) = steps.split_at_mut(nth);
+        let (first, second) = (&mut before[nth - 1], &after[0]);
+        if !goes_on(first, second) {
+            nth += 1;
+            continue;
+        }
+        let lengths = first.duration_secs.into_iter().chain(second.duration_secs);
+        first.duration_secs = lengths.reduce(|sum, secs| sum + secs);
+        first.words = match (first.words, second.words) {
+            (Some([start, end]), Some([other_start, other_end])) => Some([start.min(other_start), end.max(other_end)]),
+            (words, other) => words.or(other),
+        };
+        steps.remove(nth);
+        if direction.step_cameras.len() > nth {
+            direction.step_cameras.remove(nth);
+        }
+        if direction.certainty.len() > nth {
+            direction.certainty.remove(nth);
+        }
+    }
+}
+
+/// Whether a static step only goes on with the picture of the static step before.
+fn goes_on(first: &Step, second: &Step) -> bool {
+    let plain = Step {
+        end: Framing { subjects: second.end.subjects.clone(), ..Framing::default() },
+        duration_secs: second.duration_secs,
+        words: second.words,
+        speed: second.speed,
+        ..Step::of(Move::Static)
+    };
+    let same = second.end.subjects.is_empty() || second.end.subjects == first.end.subjects;
+    first.movement == Move::Static && first.with.is_empty() && *second == plain && same
 }
 
 /// Words that the notation cannot say and that are no effect.

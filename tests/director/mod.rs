@@ -1,5 +1,6 @@
 //! Tests of `director`: keys and their codes, scene frame, vocabulary, model files, directions.
 
+mod beats;
 mod calibration;
 mod codes;
 mod direction;

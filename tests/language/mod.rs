@@ -14,8 +14,10 @@ mod grammar;
 mod link;
 mod mention;
 mod notation;
+mod plain;
 mod prompt_sampler;
 mod quantity;
+mod timeline;
 
 /// Asserts that linking found exactly the objects and quantities that a program names, in any order.
 fn assert_links_to(linked: &Linked, program: &Program, prompt: &str) {

@@ -27,9 +27,10 @@ pub use scene::{Label, SceneNames, SceneObject};
 pub use sentence::Sentence;
 pub use words::{NameWord, name_words};
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
-use cinesplat_language::{Mention, NamedObject, nearest_names};
+use cinesplat_language::{Mention, NamedObject, nearest_names, plain_words, tokenize};
 
 use crate::error::DirectorError;
 
@@ -82,7 +83,10 @@ impl Names {
     /// [`DirectorError::Language`] when the embedded lexicon is malformed · [`DirectorError::Compute`] when a tensor
     /// operation fails.
     pub fn mentions(&self, prompt: &str, objects: &[NamedObject]) -> Result<Vec<FoundMention>, DirectorError> {
-        let sentence = Sentence::about(name_words(prompt), objects)?;
+        let labels: BTreeSet<String> =
+            objects.iter().flat_map(|object| tokenize(&object.label)).map(|word| word.stem).collect();
+        let words = plain_words(prompt, &tokenize(prompt), &|word| labels.contains(&word.stem))?;
+        let sentence = Sentence::about(name_words(&words), objects)?;
         let mut found = Vec::new();
         for decoded in decode(&self.network, &sentence)? {
             let first = sentence.words[decoded.words.start].bytes[0];

@@ -1,6 +1,6 @@
 //! The words of a prompt as the tagger reads them.
 
-use cinesplat_language::{numbered_mention_at, stem, tokenize};
+use cinesplat_language::{Word, numbered_mention_at, stem};
 
 /// Most words of a prompt that the tagger reads; words behind them name nothing.
 pub(super) const MAX_WORDS: usize = 400;
@@ -30,13 +30,12 @@ impl NameWord {
     }
 }
 
-/// The words of a prompt, at most 400.
-pub fn name_words(prompt: &str) -> Vec<NameWord> {
-    let words = tokenize(prompt);
+/// The words of a prompt as the tagger reads them, at most 400.
+pub fn name_words(words: &[Word]) -> Vec<NameWord> {
     let mut out = Vec::new();
     let mut i = 0;
     while i < words.len() && out.len() < MAX_WORDS {
-        if let Some(numbered) = numbered_mention_at(&words, i) {
+        if let Some(numbered) = numbered_mention_at(words, i) {
             let last = &words[(i + numbered.len).min(words.len()) - 1];
             out.push(NameWord {
                 text: "<obj>".to_owned(),

@@ -16,15 +16,18 @@ const MAX_BARE_SECS: f64 = 120.0;
 
 /// One end of a span.
 #[derive(Clone, Copy)]
-struct Instant {
+pub(crate) struct Instant {
     /// Index of the word after it.
-    end: usize,
-    secs: f64,
-    form: InstantForm,
+    pub(crate) end: usize,
+    /// Seconds.
+    pub(crate) secs: f64,
+    /// How it is written.
+    pub(crate) form: InstantForm,
 }
 
+/// How an instant is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum InstantForm {
+pub(crate) enum InstantForm {
     /// `0:05`
     Clock,
     /// `5 s`
@@ -35,7 +38,15 @@ enum InstantForm {
 
 /// A span or a time code.
 pub(super) fn clock_at(words: &[Word], i: usize) -> Option<Found> {
-    span_at(words, i).or_else(|| code_at(words, i))
+    span_at(words, i).or_else(|| code_at(words, i)).or_else(|| secs_alone_at(words, i))
+}
+
+/// `:07` as seven seconds.
+fn secs_alone_at(words: &[Word], i: usize) -> Option<Found> {
+    let is_alone = word_at(words, i) == ":" && !is_joined(words, i) && is_joined(words, i + 1);
+    let goes_on = word_at(words, i + 2) == ":" && is_joined(words, i + 2);
+    let secs = sixtieths(word_at(words, i + 1)).filter(|_| is_alone && !goes_on)?;
+    (secs > 0.0).then(|| found(2, QuantityKind::Seconds, secs))
 }
 
 /// A span of time, its value end minus start.
@@ -94,7 +105,7 @@ fn has_zero(words: &[Word], i: usize) -> bool {
 }
 
 /// Number of words between the ends of a span, from the word after its start.
-fn link_at(words: &[Word], i: usize, start: Instant) -> Option<usize> {
+pub(crate) fn link_at(words: &[Word], i: usize, start: Instant) -> Option<usize> {
     let at = start.end;
     match word_at(words, at) {
         "to" | "till" | "until" | "til" | "thru" | "through" | ">" => Some(1),
@@ -109,7 +120,7 @@ fn link_at(words: &[Word], i: usize, start: Instant) -> Option<usize> {
 }
 
 /// The time code or number at word `i`.
-fn instant_at(words: &[Word], i: usize) -> Option<Instant> {
+pub(crate) fn instant_at(words: &[Word], i: usize) -> Option<Instant> {
     if let Some((len, secs)) = digits_of_clock_at(words, i) {
         let unit = usize::from(time_scale(words, i + len).is_some());
         return Some(Instant { end: i + len + unit, secs, form: InstantForm::Clock });

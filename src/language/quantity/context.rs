@@ -43,7 +43,7 @@ pub(super) fn clause_back(words: &[Word], i: usize, num_words: usize) -> impl It
 }
 
 /// Whether no space separates word `i` from the word before.
-pub(super) fn is_joined(words: &[Word], i: usize) -> bool {
+pub(crate) fn is_joined(words: &[Word], i: usize) -> bool {
     let before = i.checked_sub(1).and_then(|at| words.get(at));
     before.zip(words.get(i)).is_some_and(|(before, word)| before.span[1] == word.span[0])
 }

@@ -21,6 +21,9 @@ pub(super) fn lens_at(words: &[Word], i: usize) -> Option<Found> {
     if word_at(words, i + article) == "nifty" && matches!(word_at(words, i + article + 1), "fifty" | "50") {
         return Some(found(article + 2, QuantityKind::Millimeters, 50.0));
     }
+    if let Some((len, value)) = hyphened_zoom_end_at(words, i) {
+        return Some(found(len, QuantityKind::Millimeters, value));
+    }
     let (end, value) = bare_number(words, i)?;
     if is_field_of_view(words, i, end) && (5.0..=180.0).contains(&value) {
         return Some(found(end - i, QuantityKind::Degrees, value));
@@ -30,6 +33,16 @@ pub(super) fn lens_at(words: &[Word], i: usize) -> Option<Found> {
             || is_zoom_end(words, i, end)
             || FOCAL_MM.contains(&value) && is_alone(words, i, end, value));
     is_focal_length.then(|| found(end - i, QuantityKind::Millimeters, value))
+}
+
+/// One end of `24-70` in a sentence about a zoom: number of words, millimeters.
+fn hyphened_zoom_end_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
+    let is_hyphened = |at: usize| words.get(at).is_some_and(|word| word.after_hyphen);
+    let (len, value) = cardinal_at(words, i)?;
+    let other = if is_hyphened(i + len) { i + len } else { i.checked_sub(1).filter(|_| is_hyphened(i))? };
+    let (_, other) = cardinal_at(words, other)?;
+    let are_lenses = [value, other].iter().all(|mm| FOCAL_MM.contains(mm));
+    (are_lenses && is_about_lenses(words, i)).then_some((len, value))
 }
 
 /// `fov 60`, `60 fov`, `field of view of 60`.

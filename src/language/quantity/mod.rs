@@ -30,6 +30,8 @@ use super::tokenizer::{Word, word_at};
 use context::HEDGES;
 use kind::Found;
 
+pub(crate) use clock::{Instant, InstantForm, instant_at, link_at};
+pub(crate) use context::is_joined;
 pub use kind::{Quantity, QuantityKind};
 pub(super) use unit::is_unread_number;
 

@@ -168,6 +168,8 @@ fn is_time_after_another(words: &[Word], i: usize, end: usize, secs: f64) -> boo
     let is_second_thought = match word_before(words, i, 1) {
         "maybe" | "or" => time_before(words, i, 8) && ends_phrase(words, end),
         "full" => ends_phrase(words, end),
+        // `3 seconds, no, make it five`
+        "it" => matches!(word_before(words, i, 2), "make" | "call" | "say") && ends_phrase(words, end),
         _ => false,
     };
     let is_summand = next == "+" || word_before(words, i, 1) == "+";

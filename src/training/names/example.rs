@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use cinesplat_director::DirectorError;
 use cinesplat_director::names::{Label, MentionInput, NameWord, SceneNames, Sentence, name_words};
-use cinesplat_language::{Mention, NamedObject};
+use cinesplat_language::{Mention, NamedObject, tokenize};
 
 use crate::corpus::Writer;
 
@@ -28,7 +28,7 @@ impl RawExample {
     pub(super) fn new(prompt: &str, mentions: &[Mention], objects: &[NamedObject]) -> Self {
         let mut pieces = Vec::new();
         let mut open: Option<usize> = None;
-        for word in name_words(prompt) {
+        for word in name_words(&tokenize(prompt)) {
             let at = mentions.iter().position(|m| (m.bytes[0]..m.bytes[1]).contains(&word.bytes[0]));
             match (at, pieces.last_mut()) {
                 (Some(at), Some(Piece::Mention { words, .. })) if open == Some(at) => words.push(word),

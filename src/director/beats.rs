@@ -1,0 +1,159 @@
+//! Reads a timeline part by part.
+//!
+//! Enters: a linked prompt with its timeline. Leaves: one direction of all parts in order. A part without a subject is
+//! about the subject of the part before, and its steps last as long as the timeline says.
+
+use cinesplat_language::{Beat, BeatLength, Linked, Timeline};
+use cinesplat_operator::{Framing, Program, Step};
+use cinesplat_trajectory::{Move, ShotSize};
+
+use crate::direction::{Direction, StepCertainty};
+use crate::error::DirectorError;
+
+/// Reads the parts of `linked`, which is a timeline, each with `read`.
+///
+/// # Errors
+/// Those of `read`.
+pub(crate) fn direct_beats(
+    linked: &Linked,
+    timeline: &Timeline,
+    read: &dyn Fn(&Linked) -> Result<Direction, DirectorError>,
+) -> Result<Direction, DirectorError> {
+    let mut whole =
+        Direction { program: Program::default(), step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
+    let mut subjects = Vec::new();
+    if has_words(linked, timeline.introduction) {
+        let introduction = read(&linked.part(timeline.introduction, None))?;
+        let steps = &introduction.program.steps;
+        subjects = steps.last().map(|step| step.end.subjects.clone()).unwrap_or_default();
+        whole.program = Program { steps: Vec::new(), ..introduction.program };
+        whole.unmet = introduction.unmet;
+    }
+    let mut lengths = Vec::with_capacity(timeline.beats.len());
+    for beat in &timeline.beats {
+        let part = linked.part(beat.bytes, linked.id_of(&subjects));
+        let mut direction = read(&part)?;
+        land(&mut whole.program.steps, &direction.program.steps);
+        carry_on(&mut direction, &mut subjects);
+        let stated = direction.program.duration_secs;
+        if matches!(beat.length, Some(BeatLength::Share(_))) {
+            whole.program.duration_secs = whole.program.duration_secs.or(stated);
+        }
+        let first = whole.program.steps.len();
+        for step in &mut direction.program.steps {
+            step.words = Some([beat.start, beat.bytes[1]]);
+        }
+        whole.program.steps.append(&mut direction.program.steps);
+        for motion in direction.program.forbidden {
+            if !whole.program.forbidden.contains(&motion) {
+                whole.program.forbidden.push(motion);
+            }
+        }
+        whole.step_cameras.append(&mut direction.step_cameras);
+        whole.certainty.append(&mut direction.certainty);
+        whole.unmet.append(&mut direction.unmet);
+        lengths.push((first, stated));
+    }
+    let total_secs = whole.program.duration_secs;
+    let mut all_timed = true;
+    for (nth, (beat, (first, stated))) in timeline.beats.iter().zip(&lengths).enumerate() {
+        let end = lengths.get(nth + 1).map_or(whole.program.steps.len(), |next| next.0);
+        let secs = secs_of(beat, *stated, total_secs);
+        all_timed &= secs.is_some();
+        if let Some(secs) = secs {
+            spread(&mut whole.program.steps[*first..end], secs);
+        }
+    }
+    // The parts decide how long the film is.
+    if all_timed {
+        whole.program.duration_secs = None;
+    }
+    Ok(whole)
+}
+
+fn has_words(linked: &Linked, bytes: [usize; 2]) -> bool {
+    let words = linked.tokens_text.split(' ').zip(&linked.spans);
+    words
+        .filter(|(_, span)| (bytes[0]..bytes[1]).contains(&span[0]))
+        .any(|(word, _)| word.starts_with(char::is_alphabetic))
+}
+
+/// The length of a part. `stated_secs` is what its own words say, `total_secs` the length of the film.
+fn secs_of(beat: &Beat, stated_secs: Option<f64>, total_secs: Option<f64>) -> Option<f64> {
+    match beat.length {
+        Some(BeatLength::Secs(secs)) => Some(secs),
+        Some(BeatLength::Share(share)) => total_secs.map(|total| total * share),
+        None => stated_secs,
+    }
+}
+
+/// Spreads the length of a part over its steps: those with a length of their own keep it where that leaves room for the
+/// others, and the rest is shared evenly. Lengths that leave no room are scaled.
+fn spread(steps: &mut [Step], secs: f64) {
+    let stated: f64 = steps.iter().filter_map(|step| step.duration_secs).sum();
+    let num_open = steps.iter().filter(|step| step.duration_secs.is_none()).count();
+    let (scale, rest) = match num_open {
+        0 => (secs / stated.max(1e-9), 0.0),
+        _ if stated < 0.9 * secs => (1.0, (secs - stated) / num_open as f64),
+        _ => {
+            let even = secs / steps.len().max(1) as f64;
+            (even * (steps.len() - num_open) as f64 / stated, even)
+        }
+    };
+    for step in steps {
+        step.duration_secs = Some(step.duration_secs.map_or(rest, |own| own * scale));
+    }
+}
+
+/// A turn or a travel without an end goes to what the next part holds on: `0:03 pan right | 0:06 land on the vase`.
+fn land(before: &mut [Step], part: &[Step]) {
+    let (Some(last), Some(first)) = (before.last_mut(), part.first()) else { return };
+    if first.movement == Move::Static && last.movement != Move::Static && last.end == Framing::default() {
+        last.end.subjects.clone_from(&first.end.subjects);
+    }
+}
+
+/// Gives steps without a subject that of the step before, where the move has one; `subjects` are those of the part before,
+/// and become those of this part. A part that asks for no move holds.
+fn carry_on(direction: &mut Direction, subjects: &mut Vec<u32>) {
+    let steps = &mut direction.program.steps;
+    if steps.is_empty() {
+        steps.push(Step::of(Move::Static));
+        direction.certainty.push(StepCertainty { probability: 1.0, weakest: ("", 1.0), words: None });
+    }
+    for step in steps {
+        let is_open = step.end.subjects.is_empty() && step.start.subjects.is_empty() && step.via.is_none();
+        if is_open && takes_subject(step.movement) && !frames_room(&step.end) {
+            step.end.subjects.clone_from(subjects);
+        }
+        if !step.end.subjects.is_empty() {
+            subjects.clone_from(&step.end.subjects);
+        }
+    }
+}
+
+/// Whether a move is about a subject even where its words name none.
+fn takes_subject(movement: Move) -> bool {
+    !matches!(
+        movement,
+        Move::PanLeft
+            | Move::PanRight
+            | Move::TiltUp
+            | Move::TiltDown
+            | Move::RollCw
+            | Move::RollCcw
+            | Move::TruckLeft
+            | Move::TruckRight
+            | Move::PedestalUp
+            | Move::PedestalDown
+            | Move::FlyThrough
+            | Move::Follow
+            | Move::WhipPan
+            | Move::Reveal
+    )
+}
+
+/// Whether a framing without subjects is one of the room.
+fn frames_room(framing: &Framing) -> bool {
+    matches!(framing.size, Some(ShotSize::Long | ShotSize::ExtremeLong | ShotSize::MediumLong))
+}

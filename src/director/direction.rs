@@ -1,0 +1,28 @@
+//! What the director makes of a prompt.
+
+use cinesplat_operator::{Program, StepCameras};
+
+/// Certainty of a step of the program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepCertainty {
+    /// Probability that the step is what the prompt requests, 0..=1: the product of the probabilities of all its choices,
+    /// calibrated on sentences that training has not seen.
+    pub probability: f64,
+    /// The name of the choice of the lowest probability ([`Choice`]), and that probability.
+    pub weakest: (&'static str, f64),
+    /// Byte range of the prompt that the step comes from.
+    pub words: Option<[usize; 2]>,
+}
+
+/// The director's output for a prompt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// The program that the prompt requests.
+    pub program: Program,
+    /// Cameras that the network proposes, one pair per step, in the world.
+    pub step_cameras: Vec<StepCameras>,
+    /// Certainty of each step.
+    pub certainty: Vec<StepCertainty>,
+    /// Bytes of the prompt that ask for something that no program can say.
+    pub unmet: Vec<[usize; 2]>,
+}

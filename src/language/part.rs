@@ -1,0 +1,68 @@
+//! A part of a linked prompt as a prompt of its own.
+
+use super::linked::Linked;
+
+/// Pronouns that stand for the subject of the part before.
+const PRONOUNS: [&str; 5] = ["it", "them", "that", "this", "those"];
+
+impl Linked {
+    /// The words that begin in `bytes`, with their objects and quantities numbered anew. In a part that names no object,
+    /// pronouns stand for `antecedent`, the id of an object or group.
+    #[must_use]
+    pub fn part(&self, bytes: [usize; 2], antecedent: Option<u32>) -> Self {
+        let inside = || {
+            let words = self.tokens_text.split(' ').zip(&self.spans);
+            words.filter(|(_, span)| (bytes[0]..bytes[1]).contains(&span[0]))
+        };
+        let names_object = inside().any(|(word, _)| word.starts_with("<obj-"));
+        let antecedent = antecedent.filter(|_| !names_object);
+        let mut part = Self { groups: self.groups.clone(), unknown: self.unknown.clone(), ..Self::default() };
+        for (word, span) in inside() {
+            let id = match slot_of(word, "<obj-") {
+                Some(slot) => self.slots.get(slot).copied(),
+                None => antecedent.filter(|_| PRONOUNS.contains(&word)),
+            };
+            let quantity = slot_of(word, "<qty-").and_then(|slot| self.quantities.get(slot));
+            let text = match (id, quantity) {
+                (Some(id), _) => {
+                    let known = part.slots.iter().position(|known| *known == id);
+                    let slot = known.unwrap_or(part.slots.len());
+                    if known.is_none() {
+                        part.slots.push(id);
+                    }
+                    format!("<obj-{slot}>")
+                }
+                (None, Some(quantity)) => {
+                    part.quantities.push(*quantity);
+                    format!("<qty-{}>", part.quantities.len() - 1)
+                }
+                (None, None) => word.to_owned(),
+            };
+            if !part.tokens_text.is_empty() {
+                part.tokens_text.push(' ');
+            }
+            part.tokens_text.push_str(&text);
+            part.spans.push(*span);
+        }
+        part
+    }
+
+    /// The id that stands for some objects: that of an object, or of a group that the prompt names.
+    pub fn id_of(&self, objects: &[u32]) -> Option<u32> {
+        match objects {
+            [] => None,
+            [id] => Some(*id),
+            _ => self
+                .groups
+                .iter()
+                .find(|group| group.members == objects)
+                .map(|group| group.id)
+                .or(objects.first().copied()),
+        }
+    }
+}
+
+/// The number of a placeholder.
+fn slot_of(word: &str, opening: &str) -> Option<usize> {
+    word.strip_prefix(opening)?.strip_suffix('>')?.parse().ok()
+}

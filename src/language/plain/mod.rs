@@ -1,0 +1,55 @@
+//! Plain words for what people type: shorthand of the trade written out, slips of dictation and typing mended.
+//!
+//! Enters: the words of a prompt. Leaves: words that stand for the same bytes. Names of objects stay as they are.
+
+mod shorthand;
+mod spelling;
+
+use super::error::LanguageError;
+use super::inflection::stem;
+use super::numbered::numbered_mention_at;
+use super::tokenizer::Word;
+use shorthand::Shorthand;
+use spelling::Spelling;
+
+/// `words` of `prompt` in plain words; those that `is_name` marks stay. A word that stands for several gives all of them its
+/// bytes.
+///
+/// # Errors
+/// [`LanguageError::BadData`] when an embedded list is malformed.
+pub fn plain_words(prompt: &str, words: &[Word], is_name: &dyn Fn(&Word) -> bool) -> Result<Vec<Word>, LanguageError> {
+    let (shorthand, spelling) = (Shorthand::embedded()?, Spelling::embedded()?);
+    let mut is_name: Vec<bool> = words.iter().map(is_name).collect();
+    for i in 0..words.len() {
+        if let Some(numbered) = numbered_mention_at(words, i) {
+            is_name.iter_mut().skip(i).take(numbered.len).for_each(|is_name| *is_name = true);
+        }
+    }
+    let mut out = Vec::with_capacity(words.len());
+    let mut i = 0;
+    while i < words.len() {
+        if let Some((len, meaning)) =
+            shorthand.match_at(prompt, words, i).filter(|(len, _)| !is_name[i..i + len].contains(&true))
+        {
+            let span = [words[i].span[0], words[i + len - 1].span[1]];
+            out.extend(meaning.iter().map(|text| Word {
+                text: text.clone(),
+                stem: stem(text),
+                span,
+                after_hyphen: false,
+            }));
+            i += len;
+            continue;
+        }
+        let mut word = words[i].clone();
+        if !is_name[i]
+            && let Some(text) = spelling.mended(&word.text)
+        {
+            word.stem = stem(text);
+            text.clone_into(&mut word.text);
+        }
+        out.push(word);
+        i += 1;
+    }
+    Ok(out)
+}

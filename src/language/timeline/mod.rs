@@ -1,0 +1,130 @@
+//! Timelines: prompts that say part by part what happens when.
+//!
+//! Enters: the words of a prompt. Leaves: its beats, each with its bytes and its length where that is stated: `0-3s wide,
+//! 3-6s the lamp`, `0:00 hold | 0:04 push in`, `T+0 .. T+3 ..`, `3s orbit, 2s hold`, `first third: ..`, `1) .. 2) ..`. A
+//! prompt with fewer than two beats is no timeline. The text before the first beat is the introduction.
+
+mod stamp;
+
+use super::tokenizer::{Word, span_of, word_at};
+use stamp::{Stamp, StampKind, begins_item, stamp_at};
+
+/// What a prompt says part by part.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Timeline {
+    /// Bytes of the prompt before the first beat; empty without any.
+    pub introduction: [usize; 2],
+    /// The beats in order, at least two.
+    pub beats: Vec<Beat>,
+}
+
+/// One part of a timeline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beat {
+    /// Bytes of what happens in it, without its time.
+    pub bytes: [usize; 2],
+    /// Byte at which its time begins.
+    pub start: usize,
+    /// How long it lasts, where that is stated.
+    pub length: Option<BeatLength>,
+}
+
+/// Length of a beat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BeatLength {
+    /// In seconds.
+    Secs(f64),
+    /// As a fraction of the film: the `first third`.
+    Share(f64),
+}
+
+/// Words after the last time that only say that the film ends there.
+const ENDINGS: [&str; 12] =
+    ["end", "ends", "out", "cut", "done", "fin", "finish", "stop", "over", "black", "fade", "finished"];
+
+/// The timeline of a prompt, if it is one.
+pub(crate) fn timeline(prompt: &str, words: &[Word]) -> Option<Timeline> {
+    let items = (0..words.len()).filter(|i| begins_item(prompt, words, *i));
+    let all: Vec<Stamp> = items.filter_map(|i| stamp_at(prompt, words, i)).collect();
+    let families: [fn(&StampKind) -> bool; 4] = [
+        |kind| matches!(kind, StampKind::Span(..) | StampKind::Point(_)),
+        |kind| matches!(kind, StampKind::Share(_)),
+        |kind| matches!(kind, StampKind::Length(_)),
+        |kind| matches!(kind, StampKind::Number(_)),
+    ];
+    families.iter().find_map(|is_member| {
+        let mut stamps: Vec<Stamp> = Vec::new();
+        for stamp in all.iter().filter(|stamp| is_member(&stamp.kind)) {
+            if stamps.last().is_none_or(|last| last.end <= stamp.at) {
+                stamps.push(*stamp);
+            }
+        }
+        is_sequence(words, &stamps).then(|| beats_of(words, &stamps)).flatten()
+    })
+}
+
+/// Whether stamps of one kind are a timeline: in order, and so that the first begins the list.
+fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
+    let [first, .., _] = stamps else { return false };
+    let in_order = stamps.windows(2).all(|pair| match (pair[0].kind, pair[1].kind) {
+        (StampKind::Number(a), StampKind::Number(b)) => b == a + 1,
+        (StampKind::Length(_), _) | (StampKind::Share(_), _) => true,
+        (before, after) => before.start_secs() + 1e-3 < after.start_secs(),
+    });
+    match first.kind {
+        StampKind::Number(number) => in_order && number == 1,
+        StampKind::Span(start, _) | StampKind::Point(start) => {
+            in_order && (start == 0.0 || stamps.len() > 2 || first.at == 0)
+        }
+        // `10 s: 3s orbit, ..`: lengths are a list only from its start on.
+        StampKind::Length(_) => first.at == 0 || matches!(word_at(words, first.at - 1), ":" | "."),
+        StampKind::Share(_) => in_order,
+    }
+}
+
+fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
+    let texts = stamps.iter().enumerate().map(|(nth, stamp)| {
+        let end = stamps.get(nth + 1).map_or(words.len(), |next| next.at);
+        trimmed(words, stamp.end, end)
+    });
+    let texts: Vec<[usize; 2]> = texts.collect();
+    let mut beats: Vec<Beat> = Vec::with_capacity(stamps.len());
+    for (nth, (stamp, text)) in stamps.iter().zip(&texts).enumerate() {
+        let next = stamps.get(nth + 1).map(|next| next.kind.start_secs());
+        let length = match stamp.kind {
+            StampKind::Span(start, end) => Some(BeatLength::Secs(end - start)),
+            StampKind::Point(start) => next.map(|next| BeatLength::Secs(next - start)),
+            StampKind::Length(secs) => Some(BeatLength::Secs(secs)),
+            StampKind::Share(share) => Some(BeatLength::Share(share)),
+            StampKind::Number(_) => None,
+        };
+        let is_last = nth + 1 == stamps.len();
+        let is_end = is_last
+            && matches!(stamp.kind, StampKind::Point(_))
+            && words[text[0]..text[1]]
+                .iter()
+                .all(|word| ENDINGS.contains(&word.text.as_str()) || !word.is_alphabetic());
+        if is_end {
+            break;
+        }
+        if text[0] == text[1] {
+            return None;
+        }
+        let start = words.get(stamp.at).map_or(0, |word| word.span[0]);
+        beats.push(Beat { bytes: span_of(&words[text[0]..text[1]]), start, length });
+    }
+    let [first, ..] = stamps else { return None };
+    let before = trimmed(words, 0, first.at);
+    let introduction = span_of(&words[before[0]..before[1]]);
+    (beats.len() > 1).then_some(Timeline { introduction, beats })
+}
+
+/// The words `start..end` without marks at either end.
+fn trimmed(words: &[Word], start: usize, end: usize) -> [usize; 2] {
+    let is_mark = |word: &Word| matches!(word.text.as_str(), "," | "." | ";" | ":" | "/" | ")" | "(" | ">" | "=");
+    let skipped = words[start..end].iter().take_while(|word| is_mark(word)).count();
+    let first = start + skipped;
+    let kept =
+        words[first..end].iter().rposition(|word| !matches!(word.text.as_str(), "," | "." | ";" | ":" | "/" | "("));
+    [first, kept.map_or(first, |last| first + last + 1)]
+}

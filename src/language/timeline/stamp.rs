@@ -1,0 +1,174 @@
+//! What a part of a timeline begins with.
+
+use crate::numerals::{cardinal_at, number_word};
+use crate::quantity::{Instant, InstantForm, instant_at, is_joined, link_at};
+use crate::tokenizer::{Word, word_at};
+
+/// The beginning of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stamp {
+    /// Index of its first word.
+    pub(super) at: usize,
+    /// Index after its last word.
+    pub(super) end: usize,
+    pub(super) kind: StampKind,
+}
+
+/// What it says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum StampKind {
+    /// From and to, seconds.
+    Span(f64, f64),
+    /// From, seconds.
+    Point(f64),
+    /// Seconds.
+    Length(f64),
+    /// Fraction of the film.
+    Share(f64),
+    /// Number in a list.
+    Number(u32),
+}
+
+impl StampKind {
+    /// When the part starts, seconds; 0 where the stamp does not say it.
+    pub(super) fn start_secs(self) -> f64 {
+        match self {
+            Self::Span(start, _) | Self::Point(start) => start,
+            _ => 0.0,
+        }
+    }
+}
+
+/// Whether word `i` is the first of a line, a cell or a clause.
+pub(super) fn begins_item(prompt: &str, words: &[Word], i: usize) -> bool {
+    let Some(before) = i.checked_sub(1).and_then(|at| words.get(at)) else { return true };
+    let gap = words.get(i).and_then(|word| prompt.get(before.span[1]..word.span[0])).unwrap_or_default();
+    gap.contains(['\n', '|', '\u{2022}', '*'])
+        || before.text == "("
+        || before.text == "#" && begins_item(prompt, words, i - 1)
+        || matches!(before.text.as_str(), "," | "." | ";" | ":" | "/" | "!" | "?" | ")" | "then" | "and")
+            && !is_joined(words, i)
+}
+
+/// The stamp that begins at word `i`.
+pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> {
+    let stamp = |end, kind| Some(Stamp { at: i, end, kind });
+    if let Some((end, share)) = share_at(words, i) {
+        return stamp(end, StampKind::Share(share));
+    }
+    if let Some((end, number)) = list_number_at(prompt, words, i) {
+        return stamp(end, StampKind::Number(number));
+    }
+    let start = match (word_at(words, i), word_at(words, i + 1)) {
+        ("t", "+") => i + 2,
+        ("from" | "at" | "by", _) => i + 1,
+        ("second" | "sec" | "secs" | "seconds", _) => i + 1,
+        _ => i,
+    };
+    let is_named = start > i;
+    let first = instant_at(words, start)?;
+    if let Some((end, kind)) = span_from(words, start, first) {
+        return stamp(end, kind);
+    }
+    let is_code = first.form == InstantForm::Clock || is_named && word_at(words, i) != "by";
+    match first.form {
+        _ if is_code && word_at(words, i) != "from" => stamp(first.end, StampKind::Point(first.secs)),
+        InstantForm::Measure if !is_named && first.secs > 0.0 && begins_work(words, first.end) => {
+            stamp(first.end, StampKind::Length(first.secs))
+        }
+        _ => None,
+    }
+}
+
+/// A span of time that begins with `first`.
+fn span_from(words: &[Word], start: usize, first: Instant) -> Option<(usize, StampKind)> {
+    let link = link_at(words, start, first)?;
+    let last = instant_at(words, first.end + link)?;
+    let is_time = [first.form, last.form].iter().any(|form| *form != InstantForm::Bare)
+        || first.secs == 0.0
+        || matches!(word_at(words, last.end), ":" | ")");
+    let other_unit =
+        matches!(word_at(words, last.end), "%" | "x" | "mm" | "m" | "cm" | "deg" | "degrees" | "\u{B0}" | "fps");
+    (is_time && !other_unit && last.secs > first.secs).then_some((last.end, StampKind::Span(first.secs, last.secs)))
+}
+
+/// Whether what follows a length is what happens in it, not what the length is of.
+fn begins_work(words: &[Word], end: usize) -> bool {
+    let next = word_at(words, end);
+    !matches!(
+        next,
+        "" | ")"
+            | ","
+            | "total"
+            | "long"
+            | "overall"
+            | "later"
+            | "of"
+            | "in"
+            | "max"
+            | "tops"
+            | "each"
+            | "per"
+            | "is"
+            | "or"
+            | "film"
+            | "video"
+            | "clip"
+            | "shot"
+            | "."
+            | ";"
+            | "before"
+            | "after"
+            | "then"
+            | "and"
+            | "altogether"
+            | "all"
+            | "please"
+            | "thanks"
+            | "sharp"
+            | "flat"
+    )
+}
+
+/// `first third`, `middle half`: the word after it, and the fraction.
+fn share_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
+    let i = i + usize::from(word_at(words, i) == "the");
+    let is_ordinal = matches!(
+        word_at(words, i),
+        "first" | "second" | "third" | "fourth" | "middle" | "next" | "last" | "final" | "opening" | "closing"
+    );
+    let share = match word_at(words, i + 1) {
+        "half" => 1.0 / 2.0,
+        "third" => 1.0 / 3.0,
+        "quarter" => 1.0 / 4.0,
+        _ => return None,
+    };
+    (is_ordinal && matches!(word_at(words, i + 2), ":" | "," | "is")).then_some((i + 3, share))
+}
+
+/// `1)`, `2.`, `#3`, `shot 4:`, `beat two:`: the word after it, and the number.
+fn list_number_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, u32)> {
+    let is_named =
+        matches!(word_at(words, i), "shot" | "beat" | "step" | "part" | "move" | "frame" | "pos" | "position");
+    let after_mark = i > 0 && matches!(word_at(words, i - 1), "#" | "(");
+    let at = i + usize::from(is_named);
+    let word = words.get(at)?;
+    let number = match word.text.parse::<u32>() {
+        Ok(number) if word.text.len() <= 2 => number,
+        _ if is_named => (1..=20).find(|number| number_word(*number) == Some(word.text.as_str()))?,
+        _ => return None,
+    };
+    let mark = word_at(words, at + 1);
+    let is_closed = match mark {
+        ")" => true,
+        ":" | "." | "," | "/" => is_named || after_mark || mark == "." && is_followed_by_space(prompt, words, at + 1),
+        _ => false,
+    };
+    let is_measure = cardinal_at(words, at).is_some_and(|(len, _)| len > 1);
+    (is_closed && !is_measure && number > 0).then_some((at + 2, number))
+}
+
+/// Whether a space follows word `i`.
+fn is_followed_by_space(prompt: &str, words: &[Word], i: usize) -> bool {
+    words.get(i).and_then(|word| prompt.get(word.span[1]..)).is_some_and(|rest| rest.starts_with(char::is_whitespace))
+}
