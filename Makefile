@@ -23,7 +23,7 @@ FILM_SCENES := $(if $(wildcard $(DATA)/kitchen/scene.spz),$(DATA)/kitchen/scene.
 	--cameras $(DATA)/golden/kitchen.cameras.json --cameras auto,synth:demo)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps build demo test train bench faults check-shots check-exchange gallery clean
+.PHONY: help deps build demo test train bench bench-lens faults fuzz reliability check-shots check-exchange check-slurm gallery gallery-effects clean
 
 help:
 	@sed -n 's/^# //p' $(firstword $(MAKEFILE_LIST)) | sed -n '1,/^make   /p'
@@ -76,12 +76,47 @@ bench: build
 		--sizes 1280x720,1920x1080 --overwrite -o renders/bench > /dev/null
 	$(BIN) bench scaling synth:tabletop:1 --overwrite -o renders/bench > /dev/null
 	$(BIN) bench films $(FILM_SCENES) --overwrite -o renders/bench > /dev/null
+	$(BIN) bench encoder $(FILM_SCENES) --overwrite -o renders/video > /dev/null
 	$(BIN) bench director --overwrite -o renders/bench > /dev/null
 
-# Kills, stops and starves renders and compares their films with undisturbed ones; prints the table of tests/reliability.md.
+# Effects: blur over samples and methods, films with effects where they show against films with effects on every frame, and the
+# cost of each. Ten minutes on two quiet cores.
+LENS_REAL := composites/kitchen_plus_dev.spz@golden/kitchen.cameras.json playbot/2_0@auto skull/skull.sog@auto
+LENS_FOUND := $(foreach scene,$(LENS_REAL),$(if $(wildcard $(DATA)/$(firstword $(subst @, ,$(scene)))),$(scene)))
+LENS_SCENES := $(if $(LENS_FOUND),$(foreach scene,$(LENS_FOUND),$(DATA)/$(firstword $(subst @, ,$(scene)))@$(patsubst \
+	golden%,$(DATA)/golden%,$(word 2,$(subst @, ,$(scene))))),synth:demo@auto)
+bench-lens: build
+	nice $(BIN) bench lens $(foreach scene,$(LENS_SCENES),$(word 1,$(subst @, ,$(scene)))) \
+		$(foreach scene,$(LENS_SCENES),--cameras $(word 2,$(subst @, ,$(scene)))) \
+		--size 480x270 --overwrite -o renders/lens > /dev/null
+
+# Kills, stops and starves renders and other commands, and compares their films with undisturbed ones; prints a table.
 # Takes about half an hour. Needs Python, and a C compiler for the rows of failing writes.
 faults: build
-	python3 tests/faults/run.py $(BIN)
+	cargo build --release --locked --features panic-points && cp $(BIN) target/cinesplat-panics
+	cargo build --release --locked
+	python3 tests/faults/run.py $(BIN) --panics target/cinesplat-panics
+
+# Films on a Slurm cluster of two virtual nodes on this machine that lose tasks and nodes; prints a table. Needs root and
+# Debian's packages slurmctld, slurmd, slurm-client and munge; takes ten minutes.
+check-slurm: build
+	python3 tests/slurm/check.py $(BIN)
+
+# Fuzzes every reader for FUZZ_SECS seconds each, guided by coverage; a crash stops its target and is written to tests/fuzz/artifacts.
+# Needs a nightly compiler and cargo-fuzz (`cargo install cargo-fuzz`).
+FUZZ_SECS := 1800
+FUZZ_TARGETS := scene path shot cameras objects array
+fuzz:
+	mkdir -p target/fuzz
+	cd tests/fuzz && for target in $(FUZZ_TARGETS); do \
+		mkdir -p corpus/$$target; \
+		cargo +nightly fuzz run --fuzz-dir . --target-dir ../../target/fuzz -s none $$target corpus/$$target seeds/$$target -- \
+			-max_total_time=$(FUZZ_SECS) -rss_limit_mb=2048 -timeout=20 -max_len=16384 2>&1 | tee ../../target/fuzz/$$target.log | tail -n 1; \
+	done
+
+# Measures all rows, and writes the page of their figures.
+reliability: build
+	python3 tests/faults/page.py $(BIN) --rows all --kills 200 --fuzz-logs target/fuzz
 
 # Checks that the camera does what the prompts say. Plans the cases of ../shared (not part of this repository) with the
 # solver off and full, from the network's programs and from hand-written ones, and runs the checker of ../shared.
@@ -119,6 +154,22 @@ gallery: demo
 		ffmpeg -v error -y -i target/gallery/$$name.png -vf scale=1040:-2:flags=lanczos -quality 72 renders/gallery/$$name.webp \
 			< /dev/null || exit; \
 	done < prompts/gallery.txt
+
+# Each effect of the README off (left) and on (right), from prompts/gallery-effects.txt. Needs the program ffmpeg.
+gallery-effects: build
+	mkdir -p target/gallery-effects renders/lens
+	while IFS='|' read -r name scene frame prompt; do \
+		name=$${name// } scene=$${scene// } frame=$${frame// } prompt=$${prompt# }; \
+		base=target/gallery-effects/$$(echo "$$scene $$prompt" | cksum | cut -d' ' -f1); \
+		[ -f $$base.json ] || $(BIN) plan $$scene -p "$$prompt" --size 480x270 --solve fast -o $$base.json < /dev/null || exit; \
+		for effects in off $$name; do \
+			$(BIN) render $$scene --shot $$base.json --effects $$effects --frames $$frame..$$((frame + 1)) --quality final \
+				--no-job --overwrite -o $$base-$$effects-%03d.png < /dev/null || exit; \
+		done; \
+		number=$$(printf %03d $$frame); \
+		ffmpeg -v error -y -i $$base-off-$$number.png -i $$base-$$name-$$number.png -filter_complex hstack=inputs=2 \
+			-quality 80 renders/lens/$$name.webp < /dev/null || exit; \
+	done < prompts/gallery-effects.txt
 
 clean:
 	cargo clean

@@ -1,12 +1,13 @@
 //! The `cinesplat` program.
 
+mod allocator;
 mod cli;
 
 use std::process::ExitCode;
 
 /// Training and rendering make and drop many large buffers; the system's allocator gives each back to the system.
 #[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+static ALLOCATOR: allocator::BoundedAllocator = allocator::BoundedAllocator;
 
 fn main() -> ExitCode {
     cli::run(std::env::args_os())

@@ -17,6 +17,7 @@ mod evaluation;
 mod export;
 mod files;
 mod geometry;
+mod hostile;
 mod language;
 mod lens;
 mod map;

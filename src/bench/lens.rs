@@ -104,7 +104,7 @@ pub struct LensBench<'a> {
     pub renderer: &'a Renderer<'a>,
     /// Settings; the quality is that of the row.
     pub settings: RenderSettings,
-    /// Timed runs per row, after one warm-up run.
+    /// Timed runs per row, after one run that is compared with the reference.
     pub num_repeats: usize,
 }
 
@@ -127,7 +127,11 @@ impl LensCase {
     }
 
     fn lens(&self, strength: f64, focus_distance: f64) -> Option<ThinLens> {
-        (self.source == BlurSource::Focus).then_some(ThinLens { aperture_diameter: strength, focus_distance })
+        (self.source == BlurSource::Focus).then_some(ThinLens {
+            aperture_diameter: strength,
+            focus_distance,
+            squeeze: 1.0,
+        })
     }
 }
 
@@ -165,7 +169,10 @@ impl LensBench<'_> {
     }
 
     /// A quarter of the picture is nearer than this; `None` without splats.
-    fn focus_distance(&self, camera: &Camera) -> Result<Option<f64>, RenderError> {
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn focus_distance(&self, camera: &Camera) -> Result<Option<f64>, RenderError> {
         let mut depths = self.renderer.depth(camera, &self.with(Quality::Standard))?.median;
         depths.retain(|depth| depth.is_finite());
         depths.sort_unstable_by(f32::total_cmp);
@@ -196,14 +203,12 @@ impl LensBench<'_> {
         self.renderer.expose_into(subframes, &settings, &mut frame)?;
         let mut timed = Vec::new();
         let mut blends = [0; 2];
-        for _ in 0..=self.num_repeats.max(1) {
+        for _ in 0..self.num_repeats.max(1) {
             let (plain_secs, plain) = self.time(&[SubFrame::from(*camera)], &settings)?;
             let (secs, stats) = self.time(subframes, &settings)?;
             timed.push((secs / plain_secs, plain_secs));
             blends = [plain, stats].map(|stats| stats.counts.num_block_blends);
         }
-        // The first pair is the warm-up.
-        timed.remove(0);
         timed.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (times_plain, plain_secs) = timed[timed.len() / 2];
         Ok(LensRow {

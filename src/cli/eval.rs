@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 
 use super::choice::choice;
-use super::failure::Failure;
-use super::{console, eval_folders, eval_paths, figures, heading};
+use super::failure::{Exit, Failure};
+use super::{console, eval_folders, eval_paths, figures, heading, outputs};
 use cinesplat::evaluation::{
     Align, BatchRow, Convention, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, MotionFilter,
     PairSettings, Reduction, Relation, SubjectSphere, Trajectory, error_figure, evaluate, motion_text, path_figure,
@@ -131,8 +131,10 @@ enum TableLanguage {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        let figures = || self.plot.iter().chain(&self.plot_errors);
-        figures().try_for_each(|figure| figures::check(figure, self.overwrite))?;
+        let figures = [("--plot", self.plot.as_deref()), ("--plot-errors", self.plot_errors.as_deref())];
+        let figures = || figures.into_iter().filter_map(|(flag, figure)| Some((flag, figure?)));
+        figures().try_for_each(|(_, figure)| figures::check(figure, self.overwrite))?;
+        outputs::check_distinct(figures())?;
         let settings = self.settings()?;
         if let [estimate] = &self.estimates[..]
             && self.reference.is_dir()
@@ -144,9 +146,10 @@ impl Args {
         let rows = self.compare(&reference, &settings)?;
         self.draw(&rows)?;
         let is_table = self.csv || self.table.is_some();
-        match (&rows[..], is_table) {
-            ([BatchRow { outcome: Ok(_), .. }], false) => {}
-            _ => return self.print_rows(&rows),
+        if let ([BatchRow { outcome: Ok(_), .. }], false) = (&rows[..], is_table) {
+        } else {
+            self.print_rows(&rows)?;
+            return check_any(&rows);
         }
         for evaluation in rows.iter().filter_map(|row| row.outcome.as_ref().ok()) {
             self.print(evaluation)?;
@@ -192,10 +195,11 @@ impl Args {
             return Ok(());
         };
         if let Some(figure) = &self.plot {
+            let title = if compared.len() == 1 { first.title() } else { first.method() };
             let estimates = compared.iter().map(|(name, found)| (*name, &found.matches.estimate));
             let paths: Vec<(&str, &Trajectory)> =
                 std::iter::once((reference_name.as_str(), &first.matches.reference)).chain(estimates).collect();
-            figures::write(figure, &path_figure(&first.title(), &paths, &[]), "the paths", self.overwrite)?;
+            figures::write(figure, &path_figure(&title, &paths, &[]), "the paths", self.overwrite)?;
         }
         if let Some(figure) = &self.plot_errors {
             figures::write(figure, &error_figure(&reference_name, &compared), "the errors", self.overwrite)?;
@@ -248,7 +252,9 @@ impl Args {
                 "give files, or leave these flags out",
             ));
         }
-        self.print_rows(&eval_folders::compare([&self.reference, estimate], settings, |path| self.read(path))?)
+        let rows = eval_folders::compare([&self.reference, estimate], settings, |path| self.read(path))?;
+        self.print_rows(&rows)?;
+        check_any(&rows)
     }
 
     fn settings(&self) -> Result<EvalSettings, Failure> {
@@ -325,6 +331,17 @@ pub(super) fn parse_subject(text: &str) -> Result<SubjectSphere, String> {
         .map(|[x, y, z, radius]| SubjectSphere { center: DVec3::new(x, y, z), radius });
     let usable = sphere.filter(|sphere| sphere.center.is_finite() && sphere.radius > 0.0 && sphere.radius.is_finite());
     usable.ok_or_else(|| "expected x, y, z and a radius above 0 separated by commas, such as 0,1,-2,0.4".to_owned())
+}
+
+/// Warns of comparisons that failed; an error if all did.
+fn check_any(rows: &[BatchRow]) -> Result<(), Failure> {
+    let failed = || rows.iter().filter_map(|row| Some(format!("{}: {}", row.name, row.outcome.as_ref().err()?)));
+    if rows.iter().any(|row| row.outcome.is_ok()) {
+        console::warnings(failed());
+        return Ok(());
+    }
+    let found = format!("no comparison succeeded: {}", failed().collect::<Vec<_>>().join("; "));
+    Err(Failure::new("EVAL-NONE", found, "compare one estimate alone for the advice on its error", Exit::BadData))
 }
 
 fn parse_motion_filter(text: &str) -> Result<MotionFilter, String> {

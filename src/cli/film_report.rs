@@ -1,13 +1,15 @@
 //! What `render` says about a film that is finished or stopped.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
+use strum::VariantArray;
 
 use serde_json::{Value, json};
 
 use super::failure::{Exit, Failure};
 use super::{console, reproduce};
-use cinesplat::pipeline::{self, FilmReport, Forecast, PhaseTimes};
+use cinesplat::pipeline::{self, FilmReport, FilmSettings, Forecast, PhaseTimes};
+use cinesplat::render::Quality;
 
 /// Prints the wall time per phase. Encoding runs beside rendering, so the phases sum to more than the total.
 pub(super) fn print_times(times: &PhaseTimes, report: &FilmReport, total: Duration) {
@@ -21,6 +23,21 @@ pub(super) fn print_times(times: &PhaseTimes, report: &FilmReport, total: Durati
         phases.join(", "),
         total.as_secs_f64()
     ));
+}
+
+/// Prints what became of the requirements: frames at other qualities than the first one, and a deadline that was missed.
+pub(super) fn print_promise(settings: &FilmSettings, report: &FilmReport) {
+    let Some(promise) = &settings.promise else { return };
+    let of = |quality: Quality| report.qualities.iter().filter(|(_, other)| *other == quality).count();
+    let counts = Quality::VARIANTS.iter().map(|quality| (quality, of(*quality))).filter(|(_, num)| *num > 0);
+    let counts: Vec<String> = counts.map(|(quality, num)| format!("{num} frames at {}", quality.as_ref())).collect();
+    if counts.len() > 1 {
+        console::note(&format!("to keep the requirements: {}", counts.join(", ")));
+    }
+    let late = promise.deadline.map(|deadline| Instant::now().saturating_duration_since(deadline).as_secs_f64());
+    if let Some(late) = late.filter(|late| *late > 0.0) {
+        console::warnings([format!("the film ended {late:.2} s after its budget: the machine became slower")]);
+    }
 }
 
 /// Prints where each effect of the film ran, and why; nothing for a film without effects.

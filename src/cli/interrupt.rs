@@ -34,7 +34,8 @@ impl Interrupt {
                 std::process::exit(130);
             }
         });
-        listening.map_err(|error| Failure::fault(&error.to_string()))?;
+        // It listens on a thread of its own.
+        listening.map_err(|_| Failure::no_threads())?;
         Ok(interrupt)
     }
 

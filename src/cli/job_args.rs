@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::heading;
-use cinesplat::pipeline::{self, JobSettings, JobStart};
+use cinesplat::pipeline::{self, JobSettings, JobStart, Piece};
 
 /// How finished frames are kept until a film is whole.
 #[derive(Debug, Clone, Args)]
@@ -23,9 +23,10 @@ pub(super) struct JobArgs {
     pub(super) no_job: bool,
     /// Only render the frames of --frames into OUT.job, beside other programs that do the same
     ///
-    /// The same line without --part and --frames makes the film when all frames are there. `cinesplat farm` does both.
-    #[arg(long, help_heading = heading::OUTPUT, hide_short_help = true, conflicts_with_all = ["fresh", "budget", "min_psnr", "sheet", "prompts"])]
-    pub(super) part: bool,
+    /// With I/N, the I-th of N programs: each begins at a place of its own and then helps the others. The same line without
+    /// --part and --frames makes the film when all frames are there. `cinesplat farm` does both.
+    #[arg(long, value_name = "I/N", num_args = 0..=1, require_equals = true, default_missing_value = "1/1", help_heading = heading::OUTPUT, hide_short_help = true, conflicts_with_all = ["fresh", "budget", "min_psnr", "sheet", "prompts"])]
+    pub(super) part: Option<Piece>,
 }
 
 impl JobArgs {
@@ -47,6 +48,6 @@ impl JobArgs {
 
     /// Checks before any work that frames can be kept.
     pub(super) fn check(&self, output: &Path) -> Result<(), Failure> {
-        if self.no_job || self.part { Ok(()) } else { Ok(pipeline::check_job(output)?) }
+        if self.no_job || self.part.is_some() { Ok(()) } else { Ok(pipeline::check_job(output)?) }
     }
 }

@@ -17,6 +17,7 @@ mod explain;
 mod export;
 mod failure;
 mod farm;
+mod faults;
 mod figures;
 mod film_report;
 mod formats;
@@ -26,6 +27,7 @@ mod info;
 mod interrupt;
 mod job_args;
 mod map;
+mod memory;
 mod model_args;
 mod objects;
 mod outputs;
@@ -47,9 +49,8 @@ mod train_names;
 mod usage;
 
 use std::ffi::OsString;
-use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
 use std::process::ExitCode;
-use std::sync::{Arc, Mutex};
 
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -64,6 +65,9 @@ struct Cli {
     /// Print only data and errors: no notes, warnings or progress
     #[arg(short, long, global = true, display_order = 900)]
     quiet: bool,
+    /// Memory that the program may take, such as 2G [default: what container and shell allow]
+    #[arg(long, global = true, display_order = 901, hide_short_help = true, value_name = "SIZE", value_parser = memory::parse_size)]
+    max_memory: Option<u64>,
 }
 
 const EXAMPLES: &str = "\
@@ -105,6 +109,15 @@ enum Command {
 }
 
 impl Command {
+    /// The film that the command makes, if it makes one.
+    fn film(&self) -> Option<&Path> {
+        match self {
+            Self::Render(args) => Some(args.output()),
+            Self::Farm(args) => Some(args.output()),
+            _ => None,
+        }
+    }
+
     fn run(self) -> Result<(), Failure> {
         match self {
             Self::Info(args) => args.run(),
@@ -136,7 +149,9 @@ pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let ended = match Cli::try_parse_from(arguments) {
         Ok(cli) => {
             console::set_quiet(cli.quiet);
-            catch_faults(|| cli.command.run())
+            cli.max_memory.into_iter().for_each(memory::set_max);
+            let output = cli.command.film().map(Path::to_owned);
+            faults::catch(|| check_threads().and_then(|()| cli.command.run()), output.as_deref())
         }
         Err(refused) => usage::answer(&refused),
     };
@@ -149,21 +164,17 @@ pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// Runs `work`; a panic in it is a fault of this program and becomes a [`Failure`] that names the place in the code.
-fn catch_faults(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
-    let place = Arc::new(Mutex::new(String::new()));
-    let seen = Arc::clone(&place);
-    panic::set_hook(Box::new(move |panic| {
-        if let Ok(mut first) = seen.lock()
-            && first.is_empty()
-        {
-            *first = panic.to_string().replace('\n', " ");
+/// Refuses a number of threads from the environment that no flag takes: starting them would take minutes and gigabytes.
+fn check_threads() -> Result<(), Failure> {
+    let wanted = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse::<usize>().ok());
+    match wanted.filter(|found| *found > MAX_THREADS) {
+        Some(found) => {
+            let message = format!("RAYON_NUM_THREADS is {found}, expected at most {MAX_THREADS}");
+            Err(Failure::usage(message, "unset it for one thread per core"))
         }
-    }));
-    let ended = panic::catch_unwind(AssertUnwindSafe(work));
-    drop(panic::take_hook());
-    ended.unwrap_or_else(|_| {
-        let place = place.lock().map(|place| place.clone()).unwrap_or_default();
-        Err(Failure::fault(&place))
-    })
+        None => Ok(()),
+    }
 }
+
+/// Most threads of the program.
+const MAX_THREADS: usize = 1024;

@@ -97,6 +97,7 @@ impl Args {
             ("the clouds of --output", clouds.as_deref()),
         ];
         let named = || named.into_iter().filter_map(|(flag, path)| Some((flag, path?)));
+        self.sheet.as_deref().map_or(Ok(()), check_sheet_name)?;
         named().try_for_each(|(_, path)| self.overwrite.check(path))?;
         outputs::check_distinct(named())
     }
@@ -145,6 +146,17 @@ impl Args {
         }
         console::note(&format!("{}: picture of every object", path.display()));
         Ok(())
+    }
+}
+
+/// A sheet is a picture or a page; another name would hold bytes that its programs do not read.
+fn check_sheet_name(path: &Path) -> Result<(), Failure> {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    if let Some("png" | "html") = extension.as_deref() {
+        Ok(())
+    } else {
+        let found = format!("{}: a sheet is a picture or a page, expected .png or .html", path.display());
+        Err(Failure::usage(found, "name the sheet something such as sheet.png or sheet.html"))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use cinesplat::files::{self, Existing, MAX_TEXT_BYTES};
+use cinesplat::files::{self, Existing, Limits};
 
 use super::failure::{Exit, Failure};
 use super::{console, heading};
@@ -98,7 +98,7 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 
 /// The text of a UTF-8 file.
 pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
-    String::from_utf8(files::read(path, MAX_TEXT_BYTES)?).map_err(|error| {
+    String::from_utf8(files::read(path, Limits::DEFAULT.text_bytes)?).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let found = format!("{}: byte {at} is not UTF-8, expected text", path.display());
         Failure::new("NOT-TEXT", found, "is this the right file?", Exit::BadData)

@@ -169,10 +169,14 @@ impl Args {
         }
         let renderer = Renderer::new(&scene.gaussians);
         let render = self.picture.settings(scene, Quality::Standard, None, None);
-        for shot in std::iter::once(&mut directed.shot).chain(&mut directed.takes) {
-            pipeline::plan_effects((&renderer, &render), shot, &EffectChoice::Auto)?.write_to(shot);
+        let plan_of = |shot: &Shot| pipeline::plan_effects((&renderer, &render), shot, &EffectChoice::Auto);
+        let first = plan_of(&directed.shot)?;
+        for take in &mut directed.takes {
+            // One of the takes is the shot itself.
+            if *take == directed.shot { first.write_to(take) } else { plan_of(take)?.write_to(take) }
         }
-        Ok(pipeline::plan_effects((&renderer, &render), &directed.shot, &EffectChoice::Auto)?)
+        first.write_to(&mut directed.shot);
+        Ok(first)
     }
 
     /// Prints forecasts of the film as H.264 with the defaults of `render`. They go to stderr because they differ from run

@@ -13,26 +13,52 @@ pub(super) fn line_to_go_on() -> String {
     words.filter(|word| word != "--fresh").map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
 }
 
-/// The words with which one of `num_programs` programs renders a part of the film that this line asks for. `command` is the
-/// subcommand of this line.
-pub(super) fn words_of_part(command: &str, num_programs: usize) -> Vec<String> {
-    let given: Vec<String> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+/// The line that makes the film whose parts this line renders.
+pub(super) fn line_of_film() -> String {
+    let words: Vec<String> = std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
+    without(&words, &["--part"], &["--frames"]).iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+}
+
+/// The words that render a part of the film that this line asks for; `command` is its subcommand. On this machine
+/// `num_programs` programs share the cores.
+pub(super) fn words_of_part(command: &str, num_programs: Option<usize>) -> Vec<String> {
     let own = ["--fresh", "--json", "--keep-frames", "--quiet", "-q"];
-    let own_with_value = ["--local", "--save-shot", "--sheet"];
-    let mut words = vec!["render".to_owned(), "--part".to_owned(), "--quiet".to_owned()];
-    let mut skips = false;
-    for word in given {
-        let name = word.split('=').next().unwrap_or_default();
-        let is_value = std::mem::replace(&mut skips, own_with_value.contains(&word.as_str()));
-        if !(is_value || own.contains(&word.as_str()) || own_with_value.contains(&name) || word == command) {
-            words.push(word);
-        }
-    }
-    if !words.iter().any(|word| word.starts_with("--threads")) {
+    let mut words = vec!["render".to_owned(), "--quiet".to_owned()];
+    words.extend(without(&words_of_render(command), &own, &["--save-shot", "--sheet", "--map"]));
+    if let Some(num_programs) = num_programs
+        && !words.iter().any(|word| word.starts_with("--threads"))
+    {
         let num_threads = (cinesplat::pipeline::num_cores() / num_programs).max(1);
         words.extend(["--threads".to_owned(), num_threads.to_string()]);
     }
     words
+}
+
+/// The words that make the film that this line asks for; `command` is its subcommand.
+pub(super) fn words_of_film(command: &str) -> Vec<String> {
+    [vec!["render".to_owned()], without(&words_of_render(command), &["--fresh"], &[])].concat()
+}
+
+/// The words after the subcommand of a farm that `render` knows.
+fn words_of_render(command: &str) -> Vec<String> {
+    let given: Vec<String> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    let at = given.iter().position(|word| word == command);
+    let rest: Vec<String> =
+        given.into_iter().enumerate().filter(|(idx, _)| Some(*idx) != at).map(|(_, word)| word).collect();
+    without(&rest, &["--slurm", "--no-wait"], &["--local", "--parts", "--sbatch"])
+}
+
+/// The words without some flags, and without some that have a value behind them or behind an equals sign.
+fn without(words: &[String], flags: &[&str], flags_with_value: &[&str]) -> Vec<String> {
+    let (mut left, mut skips) = (Vec::new(), false);
+    for word in words {
+        let name = word.split('=').next().unwrap_or_default();
+        let is_value = std::mem::replace(&mut skips, flags_with_value.contains(&word.as_str()));
+        if !(is_value || flags.contains(&name) || flags_with_value.contains(&name)) {
+            left.push(word.clone());
+        }
+    }
+    left
 }
 
 fn command(arguments: impl Iterator<Item = OsString>, deciding: &[(&str, String)]) -> String {
@@ -57,7 +83,7 @@ fn without_requirements(words: &[String]) -> Vec<String> {
 }
 
 /// A word quoted for a POSIX shell.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,%+@".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         word.to_owned()

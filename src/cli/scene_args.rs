@@ -5,12 +5,12 @@ use glam::DVec3;
 
 use super::choice::choice;
 use super::failure::Failure;
-use super::{console, heading};
+use super::{console, heading, memory};
 use cinesplat::export::cameras_json::FilterChoice;
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
-use cinesplat::scene::{LoadOptions, Scene, SplatFilter, UpSource};
+use cinesplat::scene::{Limits, LoadOptions, Scene, SplatFilter, UpSource};
 
 /// A scene and the options for reading it.
 #[derive(Debug, Clone, Args)]
@@ -34,18 +34,18 @@ pub(super) struct SceneOptions {
     #[arg(long, value_name = "X,Y,Z", help_heading = heading::SCENE, value_parser = parse_vector, allow_hyphen_values = true)]
     up: Option<DVec3>,
     /// Largest number of Gaussians to read
-    #[arg(long, value_name = "N", help_heading = heading::SCENE, hide_short_help = true, default_value_t = LoadOptions::default().max_gaussians)]
+    #[arg(long, value_name = "N", help_heading = heading::SCENE, hide_short_help = true, default_value_t = Limits::DEFAULT.gaussians)]
     max_gaussians: usize,
     /// Largest file to read in bytes, packed or unpacked
-    #[arg(long, value_name = "N", help_heading = heading::SCENE, hide_short_help = true, default_value_t = LoadOptions::default().max_file_bytes)]
+    #[arg(long, value_name = "N", help_heading = heading::SCENE, hide_short_help = true, default_value_t = Limits::DEFAULT.scene_bytes)]
     max_file_bytes: u64,
 }
 
 impl SceneOptions {
     /// Opens a scene and prints its notes, such as the number of dropped Gaussians.
     pub(super) fn open(&self, scene: &Path) -> Result<OpenedScene, Failure> {
-        let (max_file_bytes, max_gaussians) = (self.max_file_bytes, self.max_gaussians);
-        let options = LoadOptions { up: self.up, max_file_bytes, max_gaussians };
+        let limits = Limits { scene_bytes: self.max_file_bytes, gaussians: self.max_gaussians, ..Limits::DEFAULT };
+        let options = LoadOptions { up: self.up, limits: memory::reading(limits) };
         let source = pipeline::open_scene(scene, &options)?;
         for note in &source.scene.notes {
             console::note(&format!("scene: {note}"));
@@ -136,7 +136,7 @@ impl PictureArgs {
     pub(super) fn bound_threads(&self) -> Result<(), Failure> {
         let Some(threads) = self.threads else { return Ok(()) };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-        pool.map_err(|error| Failure::fault(&error.to_string()))
+        pool.map_err(|_| Failure::no_threads())
     }
 
     /// Settings for a scene. `filter` and `near` come from a cameras file; a flag takes precedence over them.
@@ -157,7 +157,8 @@ impl PictureArgs {
         let near = self.near.or(near).unwrap_or(defaults.near);
         let (quality, sort) = (self.quality.unwrap_or(default), self.sort.unwrap_or(defaults.sort));
         let color_clamp = self.color_clamp.unwrap_or(defaults.color_clamp);
-        RenderSettings { quality, filter, near, sort, color_clamp, ..defaults }
+        let limits = memory::rendering(defaults.limits);
+        RenderSettings { quality, filter, near, sort, color_clamp, limits, ..defaults }
     }
 }
 

@@ -78,6 +78,10 @@ impl ShotArgs {
             effects: self.effects.clone(),
             choice: FilmChoice { num_takes: usize::from(self.takes.count), ..FilmChoice::default() },
         };
+        if let Some(duration_secs) = settings.duration_secs {
+            // Before the search, which takes seconds.
+            Shot::from_keyframes([width, height], settings.rate_fps, duration_secs, Vec::new()).check_frames()?;
+        }
         let mut directed = pipeline::direct(scene, objects, prompt, interpreter, &settings)?;
         if self.retime {
             for shot in iter::once(&mut directed.shot).chain(&mut directed.takes) {
@@ -191,10 +195,9 @@ pub(super) struct SolveArgs {
 }
 
 fn effects_help() -> String {
-    let built = lens::names().filter(|name| !lens::NOT_BUILT.contains(name)).collect::<Vec<&str>>().join(" ");
-    let missing = lens::NOT_BUILT.join(" ");
+    let names = lens::names().collect::<Vec<&str>>().join(" ");
     format!(
-        "Lens effects: auto, off, or names separated by commas\n\n`auto` takes the effects that the words call for. Names: {built}. Known and not implemented: {missing}."
+        "Lens effects: auto, off, or names separated by commas\n\n`auto` takes the effects that the words call for. Names: {names}."
     )
 }
 

@@ -6,7 +6,7 @@ use super::failure::{Exit, Failure};
 use super::scene_args::{PictureArgs, SceneArgs, print_up};
 use super::{console, heading, outputs};
 use cinesplat::export::cameras_json::{self, StillCameras};
-use cinesplat::files::{self, MAX_ARRAY_BYTES, npy};
+use cinesplat::files::{self, Limits, npy};
 use cinesplat::objects;
 use cinesplat::pipeline::{self, Still, StillOutputs};
 use cinesplat::render::{PixelWeight, Quality};
@@ -95,7 +95,7 @@ impl Args {
         };
         let rows = |path: &PathBuf| {
             let not_rows = |found: String| bad(path, found, "float32 with two axes");
-            let bytes = files::read(path, MAX_ARRAY_BYTES)?;
+            let bytes = files::read(path, Limits::DEFAULT.array_bytes)?;
             let array = npy::Array::parse(&bytes).map_err(|error| not_rows(error.to_string()))?;
             let &[num_rows, num_channels] = array.shape.as_slice() else {
                 return Err(not_rows(format!("an array of shape {:?}", array.shape)));

@@ -115,6 +115,11 @@ pub(super) struct Args {
     /// Also gives the model the name of --name.
     #[arg(long, value_name = "MODEL", requires = "sentences", conflicts_with_all = ["output", "shots", "from", "resume", "examine"])]
     calibrate: Option<PathBuf>,
+    /// Write the mean of several models of one network instead
+    ///
+    /// The models must share their vocabulary, as a model and one trained --from it do. The mean is not calibrated.
+    #[arg(long, value_name = "MODEL", hide_short_help = true, num_args = 2.., requires = "output", conflicts_with_all = ["shots", "from", "resume", "examine", "calibrate", "names"])]
+    average: Vec<PathBuf>,
     /// Print that many sentences as training draws them from --sentences, with their programs, instead
     #[arg(long, value_name = "N", requires = "sentences", conflicts_with_all = ["output", "shots", "from", "resume", "examine"])]
     draw: Option<usize>,
@@ -131,6 +136,14 @@ impl Args {
         }
         if let (Some(model), Some(sentences)) = (&self.calibrate, &self.sentences) {
             return calibrate_model(model, &self.name, sentences);
+        }
+        if !self.average.is_empty() {
+            return average_models(
+                &self.average,
+                &self.name,
+                &self.output.unwrap_or_default(),
+                self.overwrite.existing(),
+            );
         }
         if let Some(count) = self.draw {
             for (linked, program) in drawn_sentences(&sentences, count, self.seed)? {
@@ -297,6 +310,19 @@ fn print_metrics(title: &str, metrics: &ProgramMetrics) -> Result<(), Failure> {
             mistakes.join(", ")
         ))?;
     }
+    Ok(())
+}
+
+/// Writes the mean of some models into a folder.
+fn average_models(models: &[PathBuf], name: &str, out: &Path, existing: Existing) -> Result<(), Failure> {
+    let models = models.iter().map(|model| ModelFiles::read(model)).collect::<Result<Vec<_>, _>>()?;
+    let mean = ModelFiles::mean(&models, name)?;
+    cinesplat::files::create_folder(out)?;
+    ModelFiles::NAMES.iter().try_for_each(|name| cinesplat::files::check_free(&out.join(name), existing))?;
+    for (name, bytes) in mean.named() {
+        cinesplat::files::write(&out.join(name), bytes, existing)?;
+    }
+    console::note(&format!("mean of {} models, weights {}", models.len(), mean.weights_sha256()));
     Ok(())
 }
 

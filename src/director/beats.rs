@@ -7,7 +7,7 @@ use cinesplat_language::{Beat, BeatLength, Linked, Timeline};
 use cinesplat_operator::{Framing, Program, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
-use crate::direction::{Direction, StepCertainty};
+use crate::direction::Direction;
 use crate::error::DirectorError;
 
 /// Reads the parts of `linked`, which is a timeline, each with `read`.
@@ -21,10 +21,15 @@ pub(crate) fn direct_beats(
 ) -> Result<Direction, DirectorError> {
     let mut whole =
         Direction { program: Program::default(), step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
-    let mut subjects = Vec::new();
+    let (mut subjects, mut opening) = (Vec::new(), Framing::default());
     if has_words(linked, timeline.introduction) {
         let introduction = read(&linked.part(timeline.introduction, None))?;
         let steps = &introduction.program.steps;
+        // A move before the first part is not of the list: the times are about something else.
+        if steps.iter().any(|step| step.movement != Move::Static) {
+            return read(linked);
+        }
+        opening = steps.last().map(|step| step.end.clone()).filter(|end| end.size.is_some()).unwrap_or_default();
         subjects = steps.last().map(|step| step.end.subjects.clone()).unwrap_or_default();
         whole.program = Program { steps: Vec::new(), ..introduction.program };
         whole.unmet = introduction.unmet;
@@ -36,10 +41,20 @@ pub(crate) fn direct_beats(
         land(&mut whole.program.steps, &direction.program.steps);
         carry_on(&mut direction, &mut subjects);
         let stated = direction.program.duration_secs;
-        if matches!(beat.length, Some(BeatLength::Share(_))) {
-            whole.program.duration_secs = whole.program.duration_secs.or(stated);
+        if let Some(BeatLength::Share(share)) = beat.length {
+            // The last part may state the length of the film, any other one its own.
+            let is_last = lengths.len() + 1 == timeline.beats.len();
+            let total = stated.map(|secs| if is_last { secs } else { secs / share });
+            whole.program.duration_secs = whole.program.duration_secs.or(total);
         }
         let first = whole.program.steps.len();
+        if let Some(step) = direction.program.steps.first_mut() {
+            step.cut |= beat.cut;
+            if step.start == Framing::default() && step.movement != Move::Static {
+                step.start = std::mem::take(&mut opening);
+            }
+            opening = Framing::default();
+        }
         for step in &mut direction.program.steps {
             step.words = Some([beat.start, beat.bytes[1]]);
         }
@@ -114,22 +129,30 @@ fn land(before: &mut [Step], part: &[Step]) {
 }
 
 /// Gives steps without a subject that of the step before, where the move has one; `subjects` are those of the part before,
-/// and become those of this part. A part that asks for no move holds.
+/// and become those of this part.
 fn carry_on(direction: &mut Direction, subjects: &mut Vec<u32>) {
     let steps = &mut direction.program.steps;
-    if steps.is_empty() {
-        steps.push(Step::of(Move::Static));
-        direction.certainty.push(StepCertainty { probability: 1.0, weakest: ("", 1.0), words: None });
-    }
     for step in steps {
         let is_open = step.end.subjects.is_empty() && step.start.subjects.is_empty() && step.via.is_none();
         if is_open && takes_subject(step.movement) && !frames_room(&step.end) {
             step.end.subjects.clone_from(subjects);
         }
+        // A turn begins at the picture that is there.
+        if turns(step.movement)
+            && !step.end.subjects.is_empty()
+            && !subjects.is_empty()
+            && step.start.subjects != *subjects
+        {
+            step.start = Framing::default();
+        }
         if !step.end.subjects.is_empty() {
             subjects.clone_from(&step.end.subjects);
         }
     }
+}
+
+fn turns(movement: Move) -> bool {
+    matches!(movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan)
 }
 
 /// Whether a move is about a subject even where its words name none.

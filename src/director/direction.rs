@@ -8,7 +8,7 @@ pub struct StepCertainty {
     /// Probability that the step is what the prompt requests, 0..=1: the product of the probabilities of all its choices,
     /// calibrated on sentences that training has not seen.
     pub probability: f64,
-    /// The name of the choice of the lowest probability ([`Choice`]), and that probability.
+    /// The name of the choice of the lowest probability ([`Choice`](crate::Choice)), and that probability.
     pub weakest: (&'static str, f64),
     /// Byte range of the prompt that the step comes from.
     pub words: Option<[usize; 2]>,

@@ -30,6 +30,7 @@ mod model;
 mod model_files;
 pub mod names;
 pub mod network;
+mod said;
 
 pub use calibration::Calibration;
 pub use decoding::Choice;

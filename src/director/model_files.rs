@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use candle_core::{Device, Tensor};
-use cinesplat_files::{FileError, sha256_hex};
+use cinesplat_files::{FileError, Limits, sha256_hex};
 use half::f16;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
@@ -22,8 +22,6 @@ use crate::network::ModelConfig;
 const WEIGHTS_FILE: &str = "director.safetensors";
 /// Name of the file with the vocabulary.
 const TOKENIZER_FILE: &str = "director.tokenizer.json";
-/// Largest file of a model.
-const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// The bytes of the three files of a model. Nothing is checked before the parts are read.
 #[derive(Debug, Clone)]
@@ -88,6 +86,36 @@ impl ModelFiles {
         Ok(Self { manifest: manifest.into(), ..self })
     }
 
+    /// The model whose weights are the means of those of `models`, which share a vocabulary: several trainings of one network
+    /// that started from the same weights (Wortsman et al. 2022, "Model soups"). Not calibrated.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] without models, and for models of different vocabularies, sizes or tensors.
+    pub fn mean(models: &[Self], name: &str) -> Result<Self, DirectorError> {
+        let expected = &"models of one network and vocabulary";
+        let first = models.first().ok_or_else(|| bad_weights(&"no model", expected))?;
+        let config = first.manifest()?.config;
+        let mut sums: BTreeMap<String, (Vec<usize>, Vec<f32>)> = BTreeMap::new();
+        for model in models {
+            if model.tokenizer != first.tokenizer || model.manifest()?.config != config {
+                return Err(bad_weights(&"another vocabulary or size", expected));
+            }
+            for (name, tensor) in model.tensors()? {
+                let values = tensor.flatten_all()?.to_vec1::<f32>()?;
+                let (shape, sum) =
+                    sums.entry(name.clone()).or_insert_with(|| (tensor.dims().to_vec(), vec![0.0; values.len()]));
+                if shape != tensor.dims() {
+                    return Err(bad_weights(&format!("{name} of another shape"), expected));
+                }
+                sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+            }
+        }
+        for (_, sum) in sums.values_mut() {
+            sum.iter_mut().for_each(|sum| *sum /= models.len() as f32);
+        }
+        Self::pack(name, &config, &first.vocabulary()?, &sums)
+    }
+
     /// Name and bytes of each file, in the order in which they should be written: the description last, so that it never
     /// describes a file that is not there yet.
     pub fn named(&self) -> [(&'static str, &[u8]); 3] {
@@ -135,7 +163,7 @@ impl ModelFiles {
 
 pub(crate) fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {
     let failed = |source| DirectorError::Read { path: path.to_owned(), source };
-    cinesplat_files::read(path, MAX_FILE_BYTES).map_err(|error| match error {
+    cinesplat_files::read(path, Limits::DEFAULT.model_bytes).map_err(|error| match error {
         FileError::Read { path, source } => DirectorError::Read { path, source },
         FileError::NotAFile { found, .. } => bad(&path.display(), &found, &"a regular file"),
         FileError::TooLarge { found, expected, .. } => {

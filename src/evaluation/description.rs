@@ -179,8 +179,10 @@ fn words(found: &DescribedMove) -> String {
         Move::Static => "hold still".to_owned(),
         Move::RollCw => format!("roll clockwise {}", degrees()),
         Move::RollCcw => format!("roll counter-clockwise {}", degrees()),
-        Move::OrbitLeft | Move::ArcLeft => format!("orbit to the left by {}", degrees()),
-        Move::OrbitRight | Move::ArcRight => format!("orbit to the right by {}", degrees()),
+        Move::OrbitLeft => format!("orbit to the left by {}", degrees()),
+        Move::OrbitRight => format!("orbit to the right by {}", degrees()),
+        Move::ArcLeft => format!("arc to the left by {}", degrees()),
+        Move::ArcRight => format!("arc to the right by {}", degrees()),
         name if is_turn(name) => format!("{} {}", name.as_ref().replace('-', " "), degrees()),
         name => name.as_ref().replace('-', " "),
     }

@@ -38,8 +38,10 @@ type Named<'a> = (&'a str, &'a Evaluation);
 
 /// The figure of the errors of estimates that were compared with one reference, with the same settings.
 pub fn error_figure(reference_name: &str, estimates: &[Named]) -> Drawing {
-    let title =
-        estimates.first().map_or_else(String::new, |(_, first)| format!("{}, against {reference_name}", first.title()));
+    // The number of errors of each estimate is in the legend.
+    let title = estimates
+        .first()
+        .map_or_else(String::new, |(_, first)| format!("{}, against {reference_name}", first.method()));
     let num_map_rows = estimates.len().div_ceil(MAX_COLUMNS);
     let is_absolute = estimates.iter().all(|(_, found)| found.settings.metric == Metric::Ape);
     let axis_height = if is_absolute { AXIS_HEIGHT } else { 0.0 };

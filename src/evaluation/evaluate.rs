@@ -146,13 +146,18 @@ pub fn evaluate(
 impl Evaluation {
     /// What was compared and how: metric, relation, alignment, number of errors.
     pub fn title(&self) -> String {
-        let Self { settings, errors, .. } = self;
+        format!("{}, {} errors", self.method(), self.errors.len())
+    }
+
+    /// How it was compared: metric, relation, alignment. Comparisons with the same settings have the same text.
+    pub fn method(&self) -> String {
+        let settings = &self.settings;
         let metric = match settings.metric {
             Metric::Ape => "absolute pose error",
             Metric::Rpe { .. } => "relative pose error",
         };
         let (relation, align) = (settings.relation.as_ref(), settings.align.as_ref());
-        format!("{metric}, {relation}, align {align}, {} errors", errors.len())
+        format!("{metric}, {relation}, align {align}")
     }
 }
 

@@ -29,6 +29,7 @@ mod smoothness;
 mod statistics;
 mod svd;
 mod table;
+mod tag_runs;
 mod tagger;
 mod trajectory;
 

@@ -15,6 +15,7 @@ use glam::{DMat3, DQuat, DVec3};
 use strum::VariantArray;
 
 use super::Trajectory;
+use super::tag_runs::{Run, smoothed, without_short_runs};
 use cinesplat_geometry::rotation;
 
 /// Speed above which an axis is active, scene units per second.
@@ -212,90 +213,4 @@ fn rotation_class(turn: DVec3) -> usize {
         Some(axis) if t[axis].abs() > ACTIVE_TURN => 1 + 2 * axis + usize::from(t[axis] < 0.0),
         _ => 0,
     }
-}
-
-/// The classes after a mode filter; unchanged if there are fewer than the window is long.
-fn smoothed(classes: &[usize], window: usize) -> Vec<usize> {
-    let (len, half) = (classes.len(), window / 2);
-    if len < window {
-        return classes.to_vec();
-    }
-    let around = |idx: usize| match idx {
-        _ if idx < half => &classes[..(idx + half + 1).min(len)],
-        _ if idx + half < len => &classes[idx - half..=idx + half],
-        _ => &classes[idx - half..],
-    };
-    (0..len).map(|idx| mode(around(idx))).collect()
-}
-
-/// The most frequent class; of equally frequent ones the smallest.
-fn mode(classes: &[usize]) -> usize {
-    let mut counts = std::collections::BTreeMap::new();
-    for class in classes {
-        *counts.entry(*class).or_insert(0_usize) += 1;
-    }
-    counts.into_iter().fold((0, 0), |best, (class, count)| if count > best.1 { (class, count) } else { best }).0
-}
-
-/// Consecutive motions of one class.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Run {
-    start: usize,
-    end: usize,
-    class: usize,
-}
-
-fn runs_of(classes: &[usize]) -> Vec<Run> {
-    let mut found: Vec<Run> = Vec::new();
-    for (idx, class) in classes.iter().enumerate() {
-        match found.last_mut() {
-            Some(last) if last.class == *class => last.end = idx + 1,
-            _ => found.push(Run { start: idx, end: idx + 1, class: *class }),
-        }
-    }
-    found
-}
-
-/// The runs after those shorter than `shortest` are given to their neighbors, the shortest first and of equal ones the
-/// first.
-///
-/// A run at an end goes to its only neighbor. A run between two is split in half, with the odd motion in the first
-/// half. As in both published systems, two neighbors of one class stay two runs until the end: each may still be too
-/// short by itself.
-fn without_short_runs(classes: &[usize], shortest: usize) -> Vec<Run> {
-    let mut runs = runs_of(classes);
-    while runs.len() > 1 {
-        let Some(idx) = (0..runs.len()).min_by_key(|idx| runs[*idx].end - runs[*idx].start) else { break };
-        let Run { start, end, .. } = runs[idx];
-        if end - start >= shortest {
-            break;
-        }
-        let has_before = idx > 0;
-        let has_after = idx + 1 < runs.len();
-        let split = match (has_before, has_after) {
-            (true, true) => start + (end - start).div_ceil(2),
-            (true, false) => end,
-            _ => start,
-        };
-        if has_before {
-            runs[idx - 1].end = split;
-        }
-        if has_after {
-            runs[idx + 1].start = split;
-        }
-        runs.remove(idx);
-    }
-    joined(&runs)
-}
-
-/// The runs with neighbors of one class joined.
-fn joined(runs: &[Run]) -> Vec<Run> {
-    let mut found: Vec<Run> = Vec::with_capacity(runs.len());
-    for run in runs {
-        match found.last_mut() {
-            Some(last) if last.class == run.class => last.end = run.end,
-            _ => found.push(*run),
-        }
-    }
-    found
 }

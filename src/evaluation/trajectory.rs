@@ -25,12 +25,14 @@ pub struct Trajectory {
     pub up: Option<DVec3>,
 }
 
+/// Numbers of frames count as times, so that paths with other gaps are matched by number.
 impl From<&PoseTrack> for Trajectory {
     fn from(track: &PoseTrack) -> Self {
         let rotation =
             |frame: &cinesplat_export::PoseFrame| frame.matrix.unwrap_or(DMat3::from_quat(frame.pose.rotation));
         Self {
-            times_secs: track.timed.then(|| track.frames.iter().map(|frame| frame.time_secs).collect()),
+            times_secs: (track.timed || track.is_numbered)
+                .then(|| track.frames.iter().map(|frame| frame.time_secs).collect()),
             positions: track.frames.iter().map(|frame| frame.pose.position).collect(),
             rotations: track.frames.iter().map(rotation).collect(),
             fov_y_rad: track.frames.iter().map(|frame| frame.fov_y_rad).collect(),

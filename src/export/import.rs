@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use strum::VariantNames;
 
-use cinesplat_files::FileError;
+use cinesplat_files::{FileError, Limits};
 
 use super::format::{self, Doubt};
 use super::imported_shot::{ImportSettings, overrule, shot_of};
@@ -14,9 +14,6 @@ use super::{
     supersplat, transforms, tum, usd,
 };
 use cinesplat_trajectory::Shot;
-
-/// Largest file that is read, bytes. A larger one is likely a scene, given by mistake.
-const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// Files in a folder that may hold its camera path, in the order of the search.
 const IN_FOLDER: [&str; 11] = [
@@ -95,6 +92,7 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
     }
     let path = &file_of(path)?;
     let bytes = read_bytes(path)?;
+    refuse_recordings(&bytes)?;
     let by_name = || Format::from_path(path).filter(|format| *format == Format::Colmap);
     let (format, lines) = match (*format).or_else(by_name) {
         Some(format) => (format, None),
@@ -152,11 +150,27 @@ fn imported(format: Format, track: PoseTrack) -> Result<Imported, ExportError> {
     Ok(Imported { format, track, shot: None, doubt: None, notes: Vec::new() })
 }
 
+/// Recordings of ROS hold any kind of message; the error names the command that takes a path out of one.
+fn refuse_recordings(bytes: &[u8]) -> Result<(), ExportError> {
+    let kinds: [(&[u8], &str); 3] = [(b"#ROSBAG", "bag"), (b"SQLite format 3\0", "bag2"), (b"\x89MCAP0\r\n", "bag2")];
+    let Some((_, kind)) = kinds.iter().find(|(magic, _)| bytes.starts_with(magic)) else { return Ok(()) };
+    let reason = format!(
+        "recordings of ROS are not read: `evo_traj {kind} RECORDING TOPIC --save_as_tum` (of evo) writes a TUM file, which is"
+    );
+    Err(ExportError::NotReadable { format: "ros", reason })
+}
+
 fn unknown_content() -> ExportError {
     ExportError::WrongFormat { found: "content of no known format".into(), expected: Format::VARIANTS.join(", ") }
 }
 
 fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
+    // A line of a few bytes becomes a pose of hundreds.
+    let limit = Limits::DEFAULT.poses;
+    if bytes.iter().filter(|byte| **byte == b'\n').take(limit + 1).count() > limit {
+        let expected = format!("at most {limit} lines");
+        return Err(ExportError::BadLine { line: limit + 1, found: "a further line".into(), expected });
+    }
     std::str::from_utf8(bytes).map_err(|error| ExportError::BadBytes {
         offset: error.valid_up_to(),
         found: "bytes that are not UTF-8".into(),
@@ -177,7 +191,8 @@ fn file_of(path: &Path) -> Result<PathBuf, ExportError> {
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, ExportError> {
-    cinesplat_files::read(path, MAX_FILE_BYTES).map_err(|error| match error {
+    // A larger file is likely a scene, given by mistake.
+    cinesplat_files::read(path, Limits::DEFAULT.array_bytes).map_err(|error| match error {
         FileError::TooLarge { path, found, expected } => ExportError::TooLarge { found, expected, path },
         error => error.into(),
     })

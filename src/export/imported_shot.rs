@@ -56,6 +56,7 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
         lines.push("the file has no world up: the shot states none".to_owned());
     }
     let times = |idx: usize, frame: &PoseFrame| match rate.own.filter(|_| !track.timed) {
+        Some(own) if track.is_numbered => ((frame.time_secs - first.time_secs) * DEFAULT_FPS).round() / own,
         Some(own) => idx as f64 / own,
         None => frame.time_secs - first.time_secs,
     };

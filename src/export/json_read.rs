@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use cinesplat_files::{UnknownKeys, misspelling};
+use cinesplat_files::{Limits, UnknownKeys, json_excess, misspelling};
 use glam::{DMat4, DVec3};
 use serde_json::Value;
 use strum::VariantNames;
@@ -19,8 +19,11 @@ pub(super) struct Node<'a> {
     place: String,
 }
 
-/// Parses JSON text. The parser limits the depth to 128 levels and numbers to `f64`.
+/// Parses JSON text. Depth and memory are limited ([`Limits`]), and numbers to `f64`.
 pub(super) fn parse(text: &str) -> Result<Value, ExportError> {
+    if let Some(reason) = json_excess(text.as_bytes(), &Limits::DEFAULT) {
+        return Err(ExportError::NotJson { reason });
+    }
     serde_json::from_str(text.trim_start_matches('\u{feff}'))
         .map_err(|error| ExportError::NotJson { reason: error.to_string() })
 }

@@ -4,6 +4,8 @@
 
 use std::path::Path;
 
+use cinesplat_files::Limits;
+
 use super::ExportError;
 use super::columns::{bad_line, cells, data_lines, joined, numbers};
 use super::json_read::matrix_from_rows;
@@ -12,8 +14,6 @@ use cinesplat_geometry::Pose;
 
 /// Columns of a line with a time.
 const TIMED_COLUMNS: usize = 13;
-/// Most bytes of a file of times.
-const MAX_TIMES_BYTES: u64 = 1 << 28;
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let mut out = String::new();
@@ -46,7 +46,7 @@ pub(super) fn with_times_beside(mut track: PoseTrack, path: &Path) -> PoseTrack 
     let own = path.file_stem().map(|stem| format!("{}_times.txt", stem.to_string_lossy()));
     let names = own.into_iter().chain(["times.txt".to_owned()]).map(|name| path.with_file_name(name));
     let times_in = |file: &Path| {
-        let text = String::from_utf8(cinesplat_files::read(file, MAX_TIMES_BYTES).ok()?).ok()?;
+        let text = String::from_utf8(cinesplat_files::read(file, Limits::DEFAULT.array_bytes).ok()?).ok()?;
         let times: Option<Vec<f64>> = data_lines(&text).map(|(_, line)| line.parse().ok()).collect();
         times.filter(|times| times.len() == track.frames.len() && times.iter().all(|time| time.is_finite()))
     };

@@ -5,6 +5,7 @@
 
 use std::io::Read as _;
 
+use cinesplat_files::Limits;
 use glam::DVec3;
 
 use super::ExportError;
@@ -16,9 +17,6 @@ use cinesplat_trajectory::Easing;
 
 /// Time between the repeated keys around a cut, frames.
 const HOLD_FRAMES: f64 = 1e-3;
-
-/// Largest document inside a project that is read, bytes.
-const MAX_DOCUMENT_BYTES: u64 = 64 << 20;
 
 /// A point in SuperSplat's world from one in the scene file's world, or back: half a turn about z.
 fn turned(point: DVec3) -> DVec3 {
@@ -241,11 +239,11 @@ pub(super) fn document_in_project(bytes: &[u8]) -> Result<String, ExportError> {
         zip::ZipArchive::new(std::io::Cursor::new(bytes)).map_err(|error| unreadable(error.to_string()))?;
     let document = archive.by_name("document.json");
     let document = document.map_err(|_| unreadable("the project holds no document.json".into()))?;
-    let mut text = String::new();
-    let read = document.take(MAX_DOCUMENT_BYTES + 1).read_to_string(&mut text);
+    let (mut text, most) = (String::new(), Limits::DEFAULT.unpacked(bytes.len()));
+    let read = document.take(most + 1).read_to_string(&mut text);
     read.map_err(|error| unreadable(error.to_string()))?;
-    if text.len() as u64 > MAX_DOCUMENT_BYTES {
-        return Err(unreadable(format!("document.json has over {MAX_DOCUMENT_BYTES} bytes")));
+    if text.len() as u64 > most {
+        return Err(unreadable(format!("document.json has over {most} bytes")));
     }
     Ok(text)
 }

@@ -25,6 +25,8 @@ pub struct PoseTrack {
     pub lens_side: LensSide,
     /// Whether the file holds times. If not, `time_secs` counts frames at 30 per second.
     pub timed: bool,
+    /// Whether the frames of a track without times are numbered: frames that are missing leave gaps in `time_secs`.
+    pub is_numbered: bool,
     /// The poses in order of time (in file order without times), at least one.
     pub frames: Vec<PoseFrame>,
     /// The keyframes of sampled `frames`, for formats that hold both; empty if `frames` are the keyframes or they are
@@ -97,6 +99,7 @@ impl PoseTrack {
             up: None,
             lens_side: LensSide::Vertical,
             timed: false,
+            is_numbered: false,
             frames,
             keys: Vec::new(),
             unread: Vec::new(),

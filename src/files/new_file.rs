@@ -148,8 +148,14 @@ pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
     if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return refuse(ErrorKind::IsADirectory, "it is a folder, expected a file name");
     }
-    if existing == Existing::Keep && fs::symlink_metadata(path).is_ok() && !is_special(path) {
-        return Err(FileError::Exists { path: path.to_owned() });
+    match fs::symlink_metadata(path) {
+        Ok(_) if existing == Existing::Keep && !is_special(path) => {
+            return Err(FileError::Exists { path: path.to_owned() });
+        }
+        Err(error) if error.kind() == ErrorKind::InvalidFilename => {
+            return refuse(ErrorKind::InvalidFilename, "its name is longer than the file system allows");
+        }
+        _ => {}
     }
     match fs::metadata(folder_of(path)) {
         Ok(folder) if !folder.is_dir() => refuse(ErrorKind::NotADirectory, "its folder is a file"),
@@ -164,10 +170,14 @@ pub(crate) fn is_special(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
 }
 
+/// Longest name that a temporary name repeats, bytes. Most file systems allow 255, and a temporary name has 13 more.
+const MAX_REPEATED_BYTES: usize = 200;
+
 /// A new file whose name no other process has, with the permissions that any new file gets.
 fn temporary(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     let mut prefix = std::ffi::OsString::from(".");
-    prefix.push(target.file_name().unwrap_or_default());
+    let name = target.file_name().unwrap_or_default();
+    prefix.push(if name.len() > MAX_REPEATED_BYTES { "output".as_ref() } else { name });
     prefix.push(".");
     let mut builder = Builder::new();
     builder.prefix(&prefix).suffix(".part");

@@ -4,11 +4,6 @@ use std::path::Path;
 
 use crate::FileError;
 
-/// Largest text file (JSON, prompts) that a command reads, bytes: 64 MiB.
-pub const MAX_TEXT_BYTES: u64 = 1 << 26;
-/// Largest file of arrays (labels, features, checkpoints) that a command reads, bytes: 1 GiB.
-pub const MAX_ARRAY_BYTES: u64 = 1 << 30;
-
 /// All bytes of a regular file of at most `max_bytes` bytes.
 ///
 /// # Errors

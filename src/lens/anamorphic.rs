@@ -7,7 +7,7 @@ use super::budget::{Budget, Loss};
 use super::calls::{Call, Calls};
 use super::effect::{Effect, EffectKind, Next};
 use super::light::{Picture, mixed};
-use super::moment::Moment;
+use super::moment::{Exposing, Moment};
 use super::seen::FrameFacts;
 
 /// Light above which a pixel makes a streak, of 0..=1.
@@ -15,13 +15,11 @@ const THRESHOLD: f32 = 0.75;
 /// Standard deviation of a streak over the width of the frame, across and down.
 const STREAK: [f64; 2] = [0.09, 0.0012];
 
-/// What an anamorphic lens adds to a picture after it is stretched back: horizontal streaks from bright areas.
-///
-/// `squeeze` is the ratio of its two focal lengths. Oval bokeh belongs to the depth of field, which reads it; the frame's
-/// proportions are those of `--size`.
+/// What an anamorphic lens adds to a picture after it is stretched back: horizontal streaks from bright areas, and oval
+/// circles of confusion where the shot has a depth of field. The frame's proportions are those of `--size`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Anamorphic {
-    /// Height over width of the bokeh.
+    /// Height over width of the circles of confusion: the ratio of its two focal lengths.
     pub squeeze: f64,
     /// Share of the bright light that goes into streaks.
     pub streaks: f64,
@@ -43,11 +41,11 @@ impl Effect for Anamorphic {
     }
 
     fn measure(&self) -> (&'static str, &'static str) {
-        ("share of the bright light", "of 1")
+        ("share of the bright light, or of the width that circles lose", "of 1")
     }
 
     fn error_if_skipped(&self, _: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
-        Ok(Loss::of_one_sample(self.streaks, budget.color))
+        Ok(Loss::of_one_sample(self.streaks.max(1.0 - 1.0 / self.squeeze), budget.color))
     }
 
     fn changes_with_time(&self) -> bool {
@@ -55,7 +53,11 @@ impl Effect for Anamorphic {
     }
 
     fn apply(&self, moment: &Moment<'_>, _: u32, next: Next<'_>) -> Result<Picture, RenderError> {
-        let mut picture = next(moment)?;
+        let exposing = Exposing { squeeze: self.squeeze, ..moment.exposing };
+        let mut picture = next(&Moment { exposing, ..moment.clone() })?;
+        if self.streaks <= 0.0 {
+            return Ok(picture);
+        }
         picture.ask_for_dither(mixed(moment.take.seed, 0x616e));
         let frame = picture.linear();
         let width = f64::from(frame.width);

@@ -21,6 +21,8 @@ pub struct Background {
 
 impl EffectKind for Background {
     const NAME: &'static str = "background";
+    const YIELDS_TO: &'static [(&'static str, &'static str)] =
+        &[("fog", "fog hides what is behind the scene, and its film is opaque")];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let part = |name: &str| call.setting(name).unwrap_or(0.0).clamp(0.0, 1.0);

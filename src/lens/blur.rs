@@ -58,6 +58,26 @@ impl Small {
         out
     }
 
+    /// The copy scaled about its middle; a scale below 0 turns it upside down. The light per pixel stays that of the
+    /// source, and fades toward the border, where a reflection leaves the lens. Beyond the borders it is dark.
+    pub(super) fn about_the_middle(&self, scale: f64) -> Self {
+        let (width, height) = (self.width, self.height);
+        let middle = [width, height].map(|len| len as f64 / 2.0);
+        let mut out = self.clone();
+        out.rgb.par_chunks_mut(width).enumerate().for_each(|(row, to)| {
+            for (column, to) in to.iter_mut().enumerate() {
+                let off = [column as f64 + 0.5 - middle[0], row as f64 + 0.5 - middle[1]];
+                let from = [middle[0] + off[0] / scale, middle[1] + off[1] / scale];
+                let is_inside = from[0] >= 0.0 && from[0] < width as f64 && from[1] >= 0.0 && from[1] < height as f64;
+                let out_frac = (off[0] / middle[0]).powi(2).max((off[1] / middle[1]).powi(2));
+                let fade = (1.0 - out_frac).max(0.0) as f32;
+                let source = if is_inside { self.rgb[from[1] as usize * width + from[0] as usize] } else { [0.0; 3] };
+                *to = source.map(|light| light * fade);
+            }
+        });
+        out
+    }
+
     /// The copy with its channels multiplied.
     pub(super) fn tinted(mut self, tint: [f32; 3]) -> Self {
         self.rgb.iter_mut().for_each(|rgb| (0..3).for_each(|channel| rgb[channel] *= tint[channel]));

@@ -1,5 +1,6 @@
 //! Which effects a shot calls for.
 
+use std::mem;
 use std::sync::Arc;
 
 use super::calls::{Call, Calls, Source};
@@ -25,6 +26,8 @@ pub struct CalledEffect {
     pub effect: Arc<dyn Effect>,
     /// The words, the flag, the move or the keyframe that calls for it.
     pub because: String,
+    /// Where the call comes from.
+    pub source: Source,
 }
 
 impl PartialEq for CalledEffect {
@@ -53,8 +56,8 @@ pub enum UnmetReason {
     Forbidden(String),
     /// Its settings make it do nothing.
     DoesNothing,
-    /// It is not built: the film is rendered without it.
-    NotBuilt,
+    /// Another effect, named here, takes its place, for this reason.
+    Replaced(&'static str, &'static str),
     /// The request is not an effect of the camera.
     NotAnEffect,
 }
@@ -66,22 +69,27 @@ impl Called {
         for kind in KINDS {
             called.add(kind, choice, calls);
         }
-        let is_built = |name: &str| KINDS.iter().any(|kind| kind.is_named(name));
-        for call in calls.calls.iter().filter(|call| !is_built(&call.name)) {
-            let is_listed = choice.listed().contains(&call.name);
-            let reason = match choice {
-                _ if !is_known(&call.name) => UnmetReason::NotAnEffect,
-                EffectChoice::Off => UnmetReason::Disabled,
-                EffectChoice::These(_) if !is_listed => UnmetReason::Disabled,
-                _ => UnmetReason::NotBuilt,
-            };
-            called.unmet.push(Unmet { call: call.clone(), reason });
-        }
-        for name in choice.listed().iter().filter(|name| !is_built(name) && calls.named(name).is_none()) {
-            let call = Call::new(name, "--effects", Source::Choice);
-            called.unmet.push(Unmet { call, reason: UnmetReason::NotBuilt });
-        }
+        called.settle();
+        let others = calls.calls.iter().filter(|call| !is_known(&call.name));
+        called.unmet.extend(others.map(|call| Unmet { call: call.clone(), reason: UnmetReason::NotAnEffect }));
         called
+    }
+
+    /// Leaves out the effects whose place another one takes.
+    fn settle(&mut self) {
+        let names: Vec<&str> = self.effects.iter().map(|called| called.name).collect();
+        let replaced = |called: &CalledEffect| {
+            let kind = KINDS.iter().find(|kind| kind.name == called.name)?;
+            kind.yields_to.iter().find(|(by, _)| names.contains(by)).copied()
+        };
+        let (kept, left): (Vec<_>, Vec<_>) =
+            mem::take(&mut self.effects).into_iter().partition(|called| replaced(called).is_none());
+        self.effects = kept;
+        self.unmet.extend(left.iter().filter_map(|called| {
+            let (by, why) = replaced(called)?;
+            let call = Call::new(called.name, &called.because, called.source);
+            Some(Unmet { call, reason: UnmetReason::Replaced(by, why) })
+        }));
     }
 
     fn add(&mut self, kind: &'static Kind, choice: &EffectChoice, calls: &Calls<'_>) {
@@ -100,7 +108,8 @@ impl Called {
         };
         match (reason, (kind.make)(&call, calls)) {
             (None, Some(effect)) => {
-                self.effects.push(CalledEffect { name: kind.name, effect, because: call.because });
+                let (name, source) = (kind.name, call.source);
+                self.effects.push(CalledEffect { name, effect, because: call.because, source });
             }
             (reason, _) => self.unmet.push(Unmet { call, reason: reason.unwrap_or(UnmetReason::DoesNothing) }),
         }
@@ -114,8 +123,8 @@ impl Unmet {
         let reason = match &self.reason {
             UnmetReason::Disabled => "disabled by --effects".to_owned(),
             UnmetReason::Forbidden(words) => format!("left out, the words '{words}' forbid it"),
+            UnmetReason::Replaced(by, why) => format!("left out, {by} takes its place: {why}"),
             UnmetReason::DoesNothing => "left out, its settings do nothing".to_owned(),
-            UnmetReason::NotBuilt => "not implemented, rendered without it".to_owned(),
             UnmetReason::NotAnEffect => "not an effect of the camera, rendered without it".to_owned(),
         };
         format!("{name} requested by '{because}': {reason}")
@@ -123,6 +132,6 @@ impl Unmet {
 
     /// Whether the film lacks something that somebody asked for.
     pub fn is_missing(&self) -> bool {
-        matches!(self.reason, UnmetReason::NotBuilt | UnmetReason::NotAnEffect)
+        matches!(self.reason, UnmetReason::NotAnEffect | UnmetReason::Replaced(..))
     }
 }

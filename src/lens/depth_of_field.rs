@@ -19,8 +19,6 @@ use super::seen::FrameFacts;
 const POINT_SETTINGS: [&str; 4] = ["focus_x", "focus_y", "focus_z", "focus_nearer"];
 /// Share of the frame, about its middle, that the camera focuses on where nothing else is said.
 const MIDDLE: f64 = 0.2;
-/// Range of f-stops that is used where the words state none.
-const F_STOPS: [f64; 2] = [0.1, 64.0];
 
 /// What the lens is focused on, where no keyframe has a focus distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +40,13 @@ pub enum Focus {
 pub(super) enum Opening {
     /// Focal length over diameter, on a sensor of [`super::SENSOR_M`].
     FStop(f64),
+    /// The f-stop that gives circles of this diameter, pixels, infinitely far away in the first frame.
+    Chosen {
+        /// Focal length over diameter.
+        f_stop: f64,
+        /// The diameter.
+        circle_px: f64,
+    },
     /// Diameter of the circle of confusion at twice the focus distance of the first frame, as a fraction of the frame's
     /// height: what words such as `shallow` promise, on a lens of any angle and in a scene of any size.
     BackgroundBlur(f64),
@@ -91,7 +96,7 @@ impl DepthOfField {
     /// The lens of a moment; `None` if its focus or its aperture is not known.
     fn lens(&self, moment: &Moment<'_>) -> Option<ThinLens> {
         let f_stop = moment.take.optics.f_stop(moment.time_secs).or(match self.opening {
-            Opening::FStop(f_stop) => Some(f_stop),
+            Opening::FStop(f_stop) | Opening::Chosen { f_stop, .. } => Some(f_stop),
             Opening::BackgroundBlur(_) => None,
         })?;
         let aperture = Aperture { f_stop, meters_per_unit: self.meters_per_unit };
@@ -104,7 +109,7 @@ impl DepthOfField {
         let mut settled = *self;
         if self.focus_distance(&first.moment).is_none() {
             let Camera { pose, .. } = first.moment.camera;
-            let distance = middle_depth(first)?;
+            let distance = middle_depth(first)?.unwrap_or(f64::MAX.sqrt());
             settled.focus = Focus::Point { point: pose.position + pose.forward() * distance, nearer: 0.0 };
         }
         if let (Opening::BackgroundBlur(frac), Some(focus)) = (self.opening, settled.focus_distance(&first.moment)) {
@@ -113,14 +118,17 @@ impl DepthOfField {
             let circle_px = 2.0 * frac * f64::from(intrinsics.height);
             let unit = Aperture { f_stop: 1.0, meters_per_unit: self.meters_per_unit }.lens(&intrinsics, focus);
             let f_stop = unit.circle_px(intrinsics.fx_px, f64::INFINITY) / circle_px;
-            settled.opening = Opening::FStop(f_stop.clamp(F_STOPS[0], F_STOPS[1]));
+            // In a scene of any size, whose lens may be one that nobody could build. What is infinitely far away has no
+            // circle if the lens is focused there.
+            settled.opening =
+                if f_stop > 0.0 { Opening::Chosen { f_stop, circle_px } } else { Opening::FStop(f64::INFINITY) };
         }
         Ok(settled)
     }
 }
 
-/// Median depth of the middle of a frame; of the whole frame, if there is nothing in the middle.
-fn middle_depth(frame: &FrameFacts<'_>) -> Result<f64, RenderError> {
+/// Median depth of the middle of a frame; of the whole frame, if there is nothing in the middle. `None` for an empty one.
+pub(super) fn middle_depth(frame: &FrameFacts<'_>) -> Result<Option<f64>, RenderError> {
     let size = frame.moment.camera.intrinsics;
     let half = DVec2::new(f64::from(size.width), f64::from(size.height)) / 2.0;
     let seen = frame.seen()?;
@@ -131,7 +139,7 @@ fn middle_depth(frame: &FrameFacts<'_>) -> Result<f64, RenderError> {
         depths = seen.iter().map(|point| point.depth).collect();
     }
     depths.sort_by(f64::total_cmp);
-    Ok(depths.get(depths.len() / 2).copied().unwrap_or(f64::MAX.sqrt()))
+    Ok(depths.get(depths.len() / 2).copied())
 }
 
 /// Name of the effect that pulls the focus.
@@ -163,7 +171,7 @@ impl EffectKind for DepthOfField {
 impl Effect for DepthOfField {
     fn settings(&self) -> Vec<(&'static str, f64)> {
         let mut settings = match self.opening {
-            Opening::FStop(f_stop) => vec![("f_stop", f_stop)],
+            Opening::FStop(f_stop) | Opening::Chosen { f_stop, .. } => vec![("f_stop", f_stop)],
             Opening::BackgroundBlur(frac) => vec![("background_blur", frac)],
         };
         settings.push(("meters_per_unit", self.meters_per_unit));
@@ -175,6 +183,15 @@ impl Effect for DepthOfField {
 
     fn measure(&self) -> (&'static str, &'static str) {
         ("circle of confusion", "px")
+    }
+
+    fn chose(&self) -> Option<String> {
+        let Opening::Chosen { f_stop, circle_px } = self.opening else { return None };
+        Some(format!("f/{f_stop:.2} for a circle of confusion of {circle_px:.1} px infinitely far away"))
+    }
+
+    fn shares_samples(&self) -> bool {
+        true
     }
 
     fn measured(&self, first: &FrameFacts<'_>) -> Result<Option<Arc<dyn Effect>>, RenderError> {
@@ -193,6 +210,7 @@ impl Effect for DepthOfField {
 
     fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         let lens = self.lens(moment);
-        next(&moment.exposed(|exposing| exposing.lens = lens, samples))
+        let between = Budget::of(moment.render.quality).between_lens(samples);
+        next(&moment.exposed(|exposing| exposing.lens = lens, (samples, between)))
     }
 }

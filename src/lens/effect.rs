@@ -5,9 +5,11 @@ use std::sync::Arc;
 
 use cinesplat_geometry::Camera;
 use cinesplat_render::RenderError;
+use glam::DVec3;
 
 use super::budget::{Budget, Loss};
 use super::calls::{Call, Calls};
+use super::eyes::EyeLayout;
 use super::light::Picture;
 use super::moment::Moment;
 use super::seen::FrameFacts;
@@ -22,6 +24,9 @@ pub trait EffectKind: Effect + Sized {
 
     /// Other names that ask for the effect.
     const ALSO: &'static [&'static str] = &[];
+
+    /// Effects that take the place of this one where both are asked for, each with the reason.
+    const YIELDS_TO: &'static [(&'static str, &'static str)] = &[];
 
     /// The call that asks for the effect. Without an own version: the first call by one of its names.
     fn call(calls: &Calls<'_>) -> Option<Call> {
@@ -65,6 +70,18 @@ pub trait Effect: Debug + Send + Sync {
         camera
     }
 
+    /// The camera that the effects inside this one see, where that is another one than the shot's: what it does not show
+    /// of the camera's motion, they do not blur. `up` is the world's.
+    fn seen_through(&self, camera: Camera, up: Option<DVec3>) -> Option<Camera> {
+        let _ = (camera, up);
+        None
+    }
+
+    /// What the effect chose by itself from the first frame, as a part of the reason for it.
+    fn chose(&self) -> Option<String> {
+        None
+    }
+
     /// Largest distance between the camera and its path, scene units.
     fn reach(&self) -> f64 {
         0.0
@@ -82,6 +99,16 @@ pub trait Effect: Debug + Send + Sync {
 
     /// Whether its pictures show all directions, by longitude and latitude.
     fn is_panorama(&self) -> bool {
+        false
+    }
+
+    /// How its pictures hold one view per eye; `None` for a single view.
+    fn eyes(&self) -> Option<EyeLayout> {
+        None
+    }
+
+    /// Whether its samples are those of [`Moment::exposing`], which all effects that say so share.
+    fn shares_samples(&self) -> bool {
         false
     }
 

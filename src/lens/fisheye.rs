@@ -1,6 +1,6 @@
 //! A very wide lens.
 
-use cinesplat_geometry::Intrinsics;
+use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::RenderError;
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::budget::{Budget, Loss};
 use super::calls::{Call, Calls};
 use super::effect::{Effect, EffectKind, Next};
 use super::light::Picture;
-use super::moment::Moment;
+use super::moment::{Moment, Take};
 use super::resample::through;
 use super::seen::FrameFacts;
 
@@ -37,6 +37,7 @@ impl Fisheye {
 
 impl EffectKind for Fisheye {
     const NAME: &'static str = "fisheye";
+    const YIELDS_TO: &'static [(&'static str, &'static str)] = &[("panorama", "a picture has one projection")];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let fov_deg = call.setting_or("fov_deg", [140.0, 175.0, 220.0]).clamp(1.0, 360.0);
@@ -65,12 +66,28 @@ impl Effect for Fisheye {
         Ok(Loss::of_one_sample((plain - corner).abs(), budget.shift_px))
     }
 
+    /// The pixels of its middle, whatever the shot's lens.
+    fn seen_through(&self, camera: Camera, _: Option<DVec3>) -> Option<Camera> {
+        let own = camera.intrinsics;
+        let corner = 0.5 * f64::from(own.width).hypot(f64::from(own.height));
+        let focal_px = 2.0 * corner / self.fov_rad;
+        Some(Camera { intrinsics: Intrinsics { fx_px: focal_px, fy_px: focal_px, ..own }, ..camera })
+    }
+
     fn changes_with_time(&self) -> bool {
         false
     }
 
     fn apply(&self, moment: &Moment<'_>, _: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         let intrinsics = moment.camera.intrinsics;
-        through(moment, &|place| self.direction(&intrinsics, place), next)
+        // What blurs inside sees this lens over the whole exposure: of a zoom nothing shows.
+        let shown = |camera: Camera| self.seen_through(camera, moment.take.up).unwrap_or(camera);
+        let camera_at = |time_secs: f64| shown((moment.take.camera_at)(time_secs));
+        let take = Take { camera_at: &camera_at, ..moment.take };
+        through(
+            &Moment { take, camera: shown(moment.camera), ..moment.clone() },
+            &|place| self.direction(&intrinsics, place),
+            next,
+        )
     }
 }

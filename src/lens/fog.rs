@@ -61,6 +61,9 @@ impl Effect for Fog {
         let color = Vec3::from(self.color.map(|part| part as f32));
         let fog = Some(render::Fog { color, density: self.density });
         let render = RenderSettings { fog, ..moment.render };
-        next(&Moment { render, ..moment.clone() })
+        let mut picture = next(&Moment { render, ..moment.clone() })?;
+        // Nothing shines through infinitely much fog.
+        picture.cover();
+        Ok(picture)
     }
 }

@@ -15,21 +15,28 @@ use super::fisheye::Fisheye;
 use super::fog::Fog;
 use super::handheld::Handheld;
 use super::lens_distortion::LensDistortion;
+use super::lens_flare::LensFlare;
 use super::motion_blur::MotionBlur;
 use super::panorama::Panorama;
 use super::rack_focus::RackFocus;
 use super::rolling_shutter::RollingShutter;
+use super::stereo::Stereo;
+use super::tilt_shift::TiltShift;
 use super::vignette::Vignette;
 
-/// All effects that are built, the outermost layer first: a frame passes through them from the end of the list to its
+/// All effects, the outermost layer first: a frame passes through them from the end of the list to its
 /// front.
 pub const KINDS: &[Kind] = &[
     // The film.
     Kind::of::<FilmGrain>(),
     Kind::of::<Bloom>(),
     Kind::of::<Exposure>(),
+    // The pair of cameras.
+    Kind::of::<Stereo>(),
     // The lens.
+    Kind::of::<LensFlare>(),
     Kind::of::<Anamorphic>(),
+    Kind::of::<TiltShift>(),
     Kind::of::<Vignette>(),
     Kind::of::<ChromaticAberration>(),
     Kind::of::<LensDistortion>(),
@@ -47,9 +54,6 @@ pub const KINDS: &[Kind] = &[
     Kind::of::<Handheld>(),
 ];
 
-/// Names of effects that are known and not built.
-pub const NOT_BUILT: &[&str] = &["tilt-shift", "lens-flare", "stereo"];
-
 /// A kind of effect.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
@@ -61,11 +65,13 @@ pub struct Kind {
     pub(super) call: fn(&Calls<'_>) -> Option<Call>,
     /// The effect as a call asks for it.
     pub(super) make: fn(&Call, &Calls<'_>) -> Option<Arc<dyn Effect>>,
+    /// Effects that take its place, each with the reason.
+    pub(super) yields_to: &'static [(&'static str, &'static str)],
 }
 
 impl Kind {
     const fn of<E: EffectKind + 'static>() -> Self {
-        Self { name: E::NAME, also: E::ALSO, call: E::call, make: make::<E> }
+        Self { name: E::NAME, also: E::ALSO, call: E::call, make: make::<E>, yields_to: E::YIELDS_TO }
     }
 
     pub(super) fn is_named(&self, name: &str) -> bool {
@@ -77,10 +83,9 @@ fn make<E: EffectKind + 'static>(call: &Call, calls: &Calls<'_>) -> Option<Arc<d
     Some(Arc::new(E::called_for(call, calls)?))
 }
 
-/// Names of all effects, built or not.
+/// Names of all effects.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    let built = KINDS.iter().flat_map(|kind| std::iter::once(kind.name).chain(kind.also.iter().copied()));
-    built.chain(NOT_BUILT.iter().copied())
+    KINDS.iter().flat_map(|kind| std::iter::once(kind.name).chain(kind.also.iter().copied()))
 }
 
 /// Whether an effect has this name.

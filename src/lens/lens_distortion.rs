@@ -82,6 +82,8 @@ impl LensDistortion {
 
 impl EffectKind for LensDistortion {
     const NAME: &'static str = "lens-distortion";
+    const YIELDS_TO: &'static [(&'static str, &'static str)] =
+        &[("panorama", "a picture has one projection"), ("fisheye", "a picture has one projection")];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let coefficients = ["k1", "k2", "p1", "p2", "k3"].map(|name| call.setting(name).unwrap_or(0.0));

@@ -7,12 +7,20 @@
 //! # How it works
 //!
 //! 1. Every [`Call`] names an effect and says why. [`Called::of`] makes the effects: each one reads its settings from its
-//!    call ([`EffectKind::called_for`]). Whatever is called for and not built is reported by name.
+//!    call ([`EffectKind::called_for`]). Of effects that exclude each other one is kept ([`EffectKind::YIELDS_TO`]).
+//!    Whatever is called for and left out is reported by name with the reason ([`Unmet`]).
 //! 2. [`EffectPlan::of`] asks every effect per frame what leaving it out would cost ([`Effect::error_if_skipped`]). The
 //!    effect runs on the frames where that is above the budget of the quality ([`Budget`]).
 //! 3. [`EffectPlan::expose`] makes a frame. The effects that run on it stand around the renderer like layers: the
 //!    outermost one asks the next one for a picture ([`Effect::apply`]), as often and of whatever [`Moment`] it needs,
 //!    and the innermost one asks the renderer.
+//!
+//! # Samples
+//!
+//! Lens and shutter take the mean light of several pictures. [`Budget::of`] says how many and why, from the figures of `make
+//! bench-lens` (`renders/lens/lens.csv`): samples are sharp where they stand close, and only where there are gaps between
+//! them the splats of each one are blurred. `bench lens --parts auto` compares films with films whose effects run on
+//! every frame.
 //!
 //! # Adding an effect
 //!
@@ -31,12 +39,14 @@ mod chromatic_aberration;
 mod depth_of_field;
 mod effect;
 mod exposure;
+mod eyes;
 mod film_grain;
 mod fisheye;
 mod fog;
 mod handheld;
 mod kinds;
 mod lens_distortion;
+mod lens_flare;
 mod light;
 mod moment;
 mod motion_blur;
@@ -49,6 +59,8 @@ mod rolling_shutter;
 mod samples;
 mod sampling;
 mod seen;
+mod stereo;
+mod tilt_shift;
 mod vignette;
 
 pub use anamorphic::Anamorphic;
@@ -62,12 +74,14 @@ pub use chromatic_aberration::ChromaticAberration;
 pub use depth_of_field::{DepthOfField, Focus};
 pub use effect::{Effect, EffectKind, Next};
 pub use exposure::Exposure;
+pub use eyes::EyeLayout;
 pub use film_grain::FilmGrain;
 pub use fisheye::Fisheye;
 pub use fog::Fog;
 pub use handheld::Handheld;
-pub use kinds::{KINDS, Kind, NOT_BUILT, is_known, names};
+pub use kinds::{KINDS, Kind, is_known, names};
 pub use lens_distortion::LensDistortion;
+pub use lens_flare::LensFlare;
 pub use light::{Light, Picture};
 pub use moment::{Exposing, Moment, OpticsTrack, Take};
 pub use motion_blur::MotionBlur;
@@ -78,4 +92,6 @@ pub use rack_focus::RackFocus;
 pub use rolling_shutter::RollingShutter;
 pub use samples::Between;
 pub use seen::{FrameFacts, SeenPoint};
+pub use stereo::Stereo;
+pub use tilt_shift::TiltShift;
 pub use vignette::Vignette;

@@ -53,26 +53,35 @@ impl Picture {
         &self.frame
     }
 
+    /// Makes the picture opaque: what is behind the scene is part of it.
+    pub(super) fn cover(&mut self) {
+        self.frame.transmittance.fill(0.0);
+    }
+
     /// Asks for dither on conversion to 8 bits: an effect with smooth gradients would show bands without it. `key` keeps
     /// the dither of two frames apart.
     pub fn ask_for_dither(&mut self, key: u64) {
         self.dither = Some(key);
     }
 
-    /// The picture in 8 bits with opacity, `[pixel * 4 + channel]`: colors as if each pixel were covered wholly. Where nothing
-    /// is, black.
+    /// The picture in 8 bits with opacity, `[pixel * 4 + channel]`, otherwise as [`Picture::to_rgba`].
     pub fn to_rgba8(&self) -> Vec<u8> {
+        let level = |value: f32| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        self.to_rgba().into_iter().flat_map(|rgba| rgba.map(level)).collect()
+    }
+
+    /// Colors and opacity per pixel: colors as if each pixel were covered wholly. Where nothing is, black.
+    pub fn to_rgba(&self) -> Vec<[f32; 4]> {
         let mut copy = self.clone();
         let frame = copy.display();
         let pixels = frame.rgb.chunks_exact(3).zip(&frame.transmittance);
-        let level = |value: f32| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
         let of = |(rgb, rest): (&[f32], &f32)| {
             let alpha = 1.0 - rest;
             // Below half a level of opacity the color is noise.
             let scale = if alpha > 0.5 / 255.0 { 1.0 / alpha } else { 0.0 };
-            [level(rgb[0] * scale), level(rgb[1] * scale), level(rgb[2] * scale), level(alpha)]
+            [rgb[0] * scale, rgb[1] * scale, rgb[2] * scale, alpha]
         };
-        pixels.flat_map(of).collect()
+        pixels.map(of).collect()
     }
 
     /// The picture as light: red, green, blue and opacity per pixel. If it is transparent, the colors are those of wholly
@@ -101,8 +110,11 @@ impl Picture {
         let jobs = into.rgb8.par_chunks_mut(VALUES_PER_JOB).zip(frame.rgb.par_chunks(VALUES_PER_JOB)).enumerate();
         jobs.for_each(|(job, (levels, values))| {
             for (idx, (to, &value)) in levels.iter_mut().zip(values).enumerate() {
-                let noise = dither.map_or(0.0, |key| triangle(key, (job * VALUES_PER_JOB + idx) as u64));
-                *to = (value.clamp(0.0, 1.0) * 255.0 + noise + 0.5).clamp(0.0, 255.0) as u8;
+                let exact = value.clamp(0.0, 1.0) * 255.0;
+                // Toward black and white the noise ends, without a bias: both stay as they are.
+                let room = exact.min(255.0 - exact).min(1.0);
+                let noise = dither.map_or(0.0, |key| room * triangle(key, (job * VALUES_PER_JOB + idx) as u64));
+                *to = (exact + noise + 0.5) as u8;
             }
         });
     }

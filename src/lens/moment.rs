@@ -39,11 +39,15 @@ pub struct Exposing {
     pub lens: Option<ThinLens>,
     /// Samples of both, at least 1.
     pub samples: u32,
+    /// What becomes of the blur between the samples.
+    pub between: Between,
+    /// Height over width of the aperture, 1 or more.
+    pub squeeze: f64,
 }
 
 impl Exposing {
     /// A sharp picture of an instant.
-    pub const SHARP: Self = Self { shutter_secs: None, lens: None, samples: 1 };
+    pub const SHARP: Self = Self { shutter_secs: None, lens: None, samples: 1, between: Between::Sharp, squeeze: 1.0 };
 }
 
 /// What a picture is taken of, and how: an effect changes it for the pictures that it asks for.
@@ -98,18 +102,21 @@ impl<'a> Moment<'a> {
         Self { camera, ..self.clone() }
     }
 
-    /// The same moment, exposed through a lens or over a time as well.
+    /// The same moment, exposed through a lens or over a time as well, with at least these samples.
     #[must_use]
-    pub fn exposed(&self, change: impl FnOnce(&mut Exposing), samples: u32) -> Self {
+    pub fn exposed(&self, change: impl FnOnce(&mut Exposing), (samples, between): (u32, Between)) -> Self {
         let mut moment = self.clone();
         change(&mut moment.exposing);
         moment.exposing.samples = moment.exposing.samples.max(samples);
+        if between == Between::Blurred {
+            moment.exposing.between = between;
+        }
         moment
     }
 
     /// The sub-frames whose mean light the picture is.
     pub(super) fn subframes(&self) -> Vec<SubFrame> {
-        let Exposing { shutter_secs, lens, samples } = self.exposing;
+        let Exposing { shutter_secs, lens, samples, between, squeeze } = self.exposing;
         if shutter_secs.is_none() && lens.is_none() {
             return vec![SubFrame::from(self.camera)];
         }
@@ -117,7 +124,8 @@ impl<'a> Moment<'a> {
             Some([opens, closes]) => self.at(opens + (closes - opens) * fraction).camera,
             None => self.camera,
         };
-        LensAndShutter { camera_at: &camera_at, lens }.subframes(samples as usize, Between::Blurred)
+        let lens = lens.map(|lens| ThinLens { squeeze, ..lens });
+        LensAndShutter { camera_at: &camera_at, lens }.subframes(samples as usize, between)
     }
 
     /// Time from one frame to the next.

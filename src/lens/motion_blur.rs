@@ -68,6 +68,10 @@ impl Effect for MotionBlur {
         ("motion during the exposure", "px")
     }
 
+    fn shares_samples(&self) -> bool {
+        true
+    }
+
     fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
         let ends = self.shutter_secs(&frame.moment).map(|time_secs| frame.moment.at(time_secs).camera);
         let motion_px = frame.blur_extent(&SplatBlur { lens: None, motion: Some(ends) })?.motion_px;
@@ -76,6 +80,7 @@ impl Effect for MotionBlur {
 
     fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         let shutter_secs = Some(self.shutter_secs(moment));
-        next(&moment.exposed(|exposing| exposing.shutter_secs = shutter_secs, samples))
+        let between = Budget::of(moment.render.quality).between_motion(samples);
+        next(&moment.exposed(|exposing| exposing.shutter_secs = shutter_secs, (samples, between)))
     }
 }

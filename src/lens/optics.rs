@@ -1,7 +1,8 @@
 //! One frame through a lens, while the shutter is open.
 //!
 //! Enters: the cameras over the exposure, the lens and the samples. Leaves: the sub-frames to average. Each sub-frame
-//! takes one moment and one point of the aperture; its splats are blurred by what lies between it and its neighbors.
+//! takes one moment and one point of the aperture. Where these are few, its splats are blurred by what lies between it and
+//! its neighbors.
 
 use super::budget::Budget;
 use super::samples::{Between, lens_points, moments};
@@ -29,7 +30,7 @@ impl Aperture {
     /// The lens with this aperture and field of view that is focused at a distance along the view axis, scene units.
     pub fn lens(&self, intrinsics: &Intrinsics, focus_distance: f64) -> ThinLens {
         let aperture_diameter = focal_length_m(intrinsics) / self.f_stop / self.meters_per_unit;
-        ThinLens { aperture_diameter, focus_distance }
+        ThinLens { aperture_diameter, focus_distance, squeeze: 1.0 }
     }
 }
 
@@ -106,9 +107,12 @@ impl LensAndShutter<'_> {
         let lens = self.lens.filter(|_| is_out_of_focus);
         let for_motion = if moves { budget.motion_samples(extent.motion_px) } else { 1 };
         let for_lens = if is_out_of_focus { budget.lens_samples(extent.circle_px) } else { 1 };
+        let has_gaps = moves && budget.between_motion(for_motion) == Between::Blurred
+            || is_out_of_focus && budget.between_lens(for_lens) == Between::Blurred;
+        let between = if has_gaps { Between::Blurred } else { Between::Sharp };
         let subframes = match blurs {
             [false, false] => vec![SubFrame::from(camera)],
-            _ => LensAndShutter { camera_at, lens }.subframes(for_motion.max(for_lens) as usize, Between::Blurred),
+            _ => LensAndShutter { camera_at, lens }.subframes(for_motion.max(for_lens) as usize, between),
         };
         Ok(PlannedExposure { subframes, extent, blurs })
     }

@@ -1,6 +1,6 @@
 //! All directions in one picture.
 
-use cinesplat_geometry::{Camera, Pose};
+use cinesplat_geometry::{Camera, Intrinsics, Pose};
 use cinesplat_render::RenderError;
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::budget::{Budget, Loss};
 use super::calls::{Call, Calls};
 use super::effect::{Effect, EffectKind, Next};
 use super::light::Picture;
-use super::moment::Moment;
+use super::moment::{Moment, Take};
 use super::resample::through;
 use super::seen::FrameFacts;
 
@@ -47,6 +47,14 @@ impl Effect for Panorama {
         Ok(Loss::of_one_sample(1.0 - seen, budget.color))
     }
 
+    /// A level camera with the pixels of the horizon.
+    fn seen_through(&self, camera: Camera, up: Option<DVec3>) -> Option<Camera> {
+        let own = camera.intrinsics;
+        let focal_px = f64::from(own.width) / std::f64::consts::TAU;
+        let pose = up.map_or(camera.pose, |up| leveled(&camera.pose, up));
+        Some(Camera { pose, intrinsics: Intrinsics { fx_px: focal_px, fy_px: focal_px, ..own } })
+    }
+
     fn changes_with_time(&self) -> bool {
         false
     }
@@ -56,15 +64,18 @@ impl Effect for Panorama {
     }
 
     fn apply(&self, moment: &Moment<'_>, _: u32, next: Next<'_>) -> Result<Picture, RenderError> {
-        let Camera { pose, intrinsics } = moment.camera;
+        let intrinsics = moment.camera.intrinsics;
         let [width, height] = [intrinsics.width, intrinsics.height].map(f64::from);
         let directions = |[x, y]: [f64; 2]| {
             let longitude = (x / width - 0.5) * std::f64::consts::TAU;
             let latitude = (0.5 - y / height) * std::f64::consts::PI;
             Some(DVec3::new(latitude.cos() * longitude.sin(), -latitude.sin(), latitude.cos() * longitude.cos()))
         };
-        let level = moment.take.up.map_or(pose, |up| leveled(&pose, up));
-        through(&moment.with_camera(Camera { pose: level, intrinsics }), &directions, next)
+        // What blurs inside sees the level camera over the whole exposure: of pitch, roll and zoom nothing shows.
+        let shown = |camera: Camera| self.seen_through(camera, moment.take.up).unwrap_or(camera);
+        let camera_at = |time_secs: f64| shown((moment.take.camera_at)(time_secs));
+        let take = Take { camera_at: &camera_at, ..moment.take };
+        through(&Moment { take, camera: shown(moment.camera), ..moment.clone() }, &directions, next)
     }
 }
 

@@ -10,6 +10,7 @@ use cinesplat_trajectory::{EffectRequest, EffectRuns, Shot};
 use super::budget::{Budget, Loss};
 use super::called::CalledEffect;
 use super::effect::Effect;
+use super::eyes::EyeLayout;
 use super::kinds::KINDS;
 use super::light::Picture;
 use super::moment::{Moment, Take};
@@ -32,6 +33,8 @@ pub struct PlannedEffect {
     /// What calls for it.
     pub because: String,
     effect: Arc<dyn Effect>,
+    /// Whether it sees the camera as an effect outside it shows it ([`Effect::seen_through`]).
+    is_inside: bool,
     /// What leaving it out would cost, per frame.
     losses: Vec<Loss>,
 }
@@ -48,26 +51,54 @@ impl EffectPlan {
         (renderer, render): (&Renderer<'_>, &RenderSettings),
     ) -> Result<Self, RenderError> {
         let budget = Budget::of(render.quality);
+        let mut is_inside = false;
+        let camera = (take.camera_at)(0.0);
         let planned = |called: &CalledEffect| {
-            let CalledEffect { name, effect, because } = called.clone();
-            PlannedEffect { name, because, effect, losses: Vec::with_capacity(frames.len()) }
+            let CalledEffect { name, effect, because, .. } = called.clone();
+            let losses = Vec::with_capacity(frames.len());
+            let planned = PlannedEffect { name, because, effect, is_inside, losses };
+            is_inside |= planned.effect.seen_through(camera, take.up).is_some();
+            planned
         };
         let mut effects: Vec<PlannedEffect> = called.iter().map(planned).collect();
-        if !effects.is_empty() {
-            let first = FrameFacts::new(Moment::of_frame(take, 0, render), renderer);
-            for planned in &mut effects {
-                if let Some(measured) = planned.effect.measured(&first)? {
-                    planned.effect = measured;
-                }
+        if effects.is_empty() {
+            return Ok(Self { effects, first_frame: frames.start });
+        }
+        let inside_at = |time_secs: f64| {
+            let camera = (take.camera_at)(time_secs);
+            let shown = called.iter().find_map(|called| called.effect.seen_through(camera, take.up));
+            shown.unwrap_or(camera)
+        };
+        let inside = Take { camera_at: &inside_at, ..take };
+        let facts_of = |frame_idx: usize| {
+            [take, inside].map(|take| FrameFacts::new(Moment::of_frame(take, frame_idx, render), renderer))
+        };
+        let first = facts_of(0);
+        for planned in &mut effects {
+            if let Some(measured) = planned.effect.measured(&first[usize::from(planned.is_inside)])? {
+                planned.effect = measured;
+                planned.because = because_of(&planned.because, planned.effect());
             }
-            for frame_idx in frames.clone() {
-                let facts = FrameFacts::new(Moment::of_frame(take, frame_idx, render), renderer);
-                for planned in &mut effects {
-                    planned.losses.push(planned.effect.error_if_skipped(&facts, &budget)?);
-                }
+        }
+        for frame_idx in frames.clone() {
+            let facts = facts_of(frame_idx);
+            for planned in &mut effects {
+                let facts = &facts[usize::from(planned.is_inside)];
+                planned.losses.push(planned.effect.error_if_skipped(facts, &budget)?);
             }
         }
         Ok(Self { effects, first_frame: frames.start })
+    }
+
+    /// The plan in which every effect runs on every frame, with the samples of the frame that needs most: what a film costs
+    /// whose frames are not looked at before.
+    #[must_use]
+    pub fn forced(mut self) -> Self {
+        for planned in &mut self.effects {
+            let samples = planned.losses.iter().map(|loss| loss.samples).max().unwrap_or(1);
+            planned.losses.iter_mut().for_each(|loss| *loss = Loss { error: f64::INFINITY, samples, ..*loss });
+        }
+        self
     }
 
     /// A camera of the path, as the effects move it.
@@ -108,6 +139,11 @@ impl EffectPlan {
         self.effects.iter().any(|planned| planned.effect.is_panorama())
     }
 
+    /// How the film holds one view per eye; `None` for a single view.
+    pub fn eyes(&self) -> Option<EyeLayout> {
+        self.effects.iter().find_map(|planned| planned.effect.eyes())
+    }
+
     /// Whether two frames have the same effects with the same samples.
     pub fn has_same_layers(&self, frame_idx: usize, other_idx: usize) -> bool {
         let sketch =
@@ -115,9 +151,14 @@ impl EffectPlan {
         sketch(frame_idx) == sketch(other_idx)
     }
 
-    /// Pictures' worth of work that a frame takes: the product over its effects.
+    /// Pictures' worth of work that a frame takes: the product over its effects, of which lens and shutter share their
+    /// samples.
     pub fn num_samples(&self, frame_idx: usize) -> u32 {
-        self.layers(frame_idx).iter().map(|(effect, samples)| effect.num_pictures(*samples)).product()
+        let layers = self.layers(frame_idx);
+        let (exposing, others): (Vec<_>, Vec<_>) = layers.into_iter().partition(|(effect, _)| effect.shares_samples());
+        let pictures = |(effect, samples): &(&dyn Effect, u32)| effect.num_pictures(*samples);
+        let shared = exposing.iter().map(pictures).max().unwrap_or(1);
+        others.iter().map(pictures).fold(shared, u32::saturating_mul)
     }
 
     /// The picture of a moment with the effects that run on its frame.
@@ -158,7 +199,17 @@ fn expose(layers: &[(&dyn Effect, u32)], moment: &Moment<'_>, renderer: &Rendere
     Ok(Picture::of_display(frame))
 }
 
+/// The reason for an effect, with what it chose by itself.
+fn because_of(because: &str, effect: &dyn Effect) -> String {
+    effect.chose().map_or_else(|| because.to_owned(), |chose| format!("{because}: {chose}"))
+}
+
 impl PlannedEffect {
+    /// Whether it has a part in a frame. What moves the camera moves it on every frame.
+    fn runs_on(&self, loss: &Loss) -> bool {
+        loss.shows() || !self.effect.develops()
+    }
+
     /// The effect.
     pub fn effect(&self) -> &dyn Effect {
         self.effect.as_ref()
@@ -177,7 +228,7 @@ impl PlannedEffect {
     /// The frames that the effect runs on, as ranges of indices of `losses`.
     fn runs(&self) -> Vec<Range<usize>> {
         let mut runs: Vec<Range<usize>> = Vec::new();
-        for (at, _) in self.losses.iter().enumerate().filter(|(_, loss)| loss.shows()) {
+        for (at, _) in self.losses.iter().enumerate().filter(|(_, loss)| self.runs_on(loss)) {
             match runs.last_mut() {
                 Some(run) if run.end == at => run.end = at + 1,
                 _ => runs.push(at..at + 1),
@@ -188,13 +239,13 @@ impl PlannedEffect {
 
     /// Fewest and most samples of the frames that the effect runs on.
     fn samples(&self) -> [u32; 2] {
-        let samples = || self.losses.iter().filter(|loss| loss.shows()).map(|loss| loss.samples);
+        let samples = || self.losses.iter().filter(|loss| self.runs_on(loss)).map(|loss| loss.samples);
         [samples().min().unwrap_or(0), samples().max().unwrap_or(0)]
     }
 
     /// The loss with the largest error, of the frames that show it or of those that do not.
     fn worst(&self, shows: bool) -> Option<Loss> {
-        let losses = self.losses.iter().filter(|loss| loss.shows() == shows);
+        let losses = self.losses.iter().filter(|loss| self.runs_on(loss) == shows);
         losses.max_by(|a, b| a.error.total_cmp(&b.error)).copied()
     }
 
@@ -215,7 +266,7 @@ impl PlannedEffect {
     /// confusion 0.31 px < 0.50`.
     pub fn sentence(&self) -> String {
         let total = self.losses.len();
-        let num_on = self.losses.iter().filter(|loss| loss.shows()).count();
+        let num_on = self.losses.iter().filter(|loss| self.runs_on(loss)).count();
         let (measure, unit) = self.effect.measure();
         let number =
             |loss: Loss, sign: &str| format!("{measure} {} {unit} {sign} {}", shown(loss.error), shown(loss.allowed));
@@ -226,7 +277,10 @@ impl PlannedEffect {
                 [a, b] if a == b => format!(", {a} samples per frame"),
                 [a, b] => format!(", {a} to {b} samples per frame"),
             };
-            parts.push(format!("on {num_on} of {total} frames, {}{samples}", number(worst, ">")));
+            parts.push(format!(
+                "on {num_on} of {total} frames, {}{samples}",
+                number(worst, if worst.shows() { ">" } else { "<" })
+            ));
         }
         if let Some(worst) = self.worst(false) {
             parts.push(format!("skipped on {} of {total} frames, {}", total - num_on, number(worst, "<")));

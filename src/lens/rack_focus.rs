@@ -42,6 +42,14 @@ impl Effect for RackFocus {
         self.0.measure()
     }
 
+    fn chose(&self) -> Option<String> {
+        self.0.chose()
+    }
+
+    fn shares_samples(&self) -> bool {
+        true
+    }
+
     fn measured(&self, first: &FrameFacts<'_>) -> Result<Option<Arc<dyn Effect>>, RenderError> {
         Ok(Some(Arc::new(Self(self.0.settled(first)?))))
     }

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::fmt;
 
 use cinesplat_geometry::Camera;
-use cinesplat_render::{BlurExtent, Quality, RenderError, RenderSettings, Renderer, SplatBlur};
+use cinesplat_render::{BlurExtent, Frame, Quality, RenderError, RenderSettings, Renderer, SplatBlur};
 use glam::DVec2;
 
 use super::moment::Moment;
@@ -57,6 +57,16 @@ impl<'a> FrameFacts<'a> {
         }
         let found = self.find_seen()?;
         Ok(self.seen.get_or_init(|| found))
+    }
+
+    /// The plain picture of the frame at a fraction of its size.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn small_picture(&self, frac: f64) -> Result<Frame, RenderError> {
+        let Camera { pose, intrinsics } = self.moment.camera;
+        let render = RenderSettings { quality: Quality::Standard, accuracy: None, ..self.moment.render };
+        self.renderer.render(&Camera { pose, intrinsics: intrinsics.scaled(frac) }, &render)
     }
 
     /// How much blur of splats there is in the frame.

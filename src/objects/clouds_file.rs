@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use cinesplat_files::MAX_ARRAY_BYTES;
+use cinesplat_files::Limits;
 use glam::DVec3;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
@@ -16,7 +16,7 @@ const SUFFIX: &str = ".points";
 /// The points of every object, by id. Tensors with other names are ignored.
 pub(crate) fn read(path: &Path) -> Result<BTreeMap<u32, Vec<DVec3>>, ObjectsError> {
     let bad = |found: String| ObjectsError::BadClouds { path: path.to_owned(), found };
-    let bytes = cinesplat_files::read(path, MAX_ARRAY_BYTES)?;
+    let bytes = cinesplat_files::read(path, Limits::DEFAULT.array_bytes)?;
     let tensors = SafeTensors::deserialize(&bytes).map_err(|error| bad(error.to_string()))?;
     let mut clouds = BTreeMap::new();
     for (name, tensor) in tensors.tensors() {

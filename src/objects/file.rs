@@ -13,7 +13,7 @@ use super::boxes;
 use super::clouds_file;
 use super::error::ObjectsError;
 use super::object::{Object, ObjectSet};
-use cinesplat_files::{MAX_ARRAY_BYTES, MAX_TEXT_BYTES, UnknownKeys, beside, npy};
+use cinesplat_files::{Limits, UnknownKeys, beside, json_excess, npy};
 use cinesplat_scene::Scene;
 
 /// Value of the key `format`.
@@ -94,9 +94,10 @@ pub fn read_boxes(path: &Path) -> Result<Vec<Object>, ObjectsError> {
 }
 
 fn json_of(path: &Path) -> Result<Value, ObjectsError> {
-    let bytes = cinesplat_files::read(path, MAX_TEXT_BYTES)?;
-    serde_json::from_slice(&bytes)
-        .map_err(|error| ObjectsError::NotJson { path: path.to_owned(), reason: error.to_string() })
+    let bytes = cinesplat_files::read(path, Limits::DEFAULT.text_bytes)?;
+    let bad = |reason: String| ObjectsError::NotJson { path: path.to_owned(), reason };
+    json_excess(&bytes, &Limits::DEFAULT).map_or(Ok(()), |excess| Err(bad(excess)))?;
+    serde_json::from_slice(&bytes).map_err(|error| bad(error.to_string()))
 }
 
 /// Reads a label array of a scene: one id per Gaussian in file order, 0 for no object. The ids of Gaussians that the
@@ -107,7 +108,7 @@ fn json_of(path: &Path) -> Result<Value, ObjectsError> {
 pub fn read_labels(path: &Path, scene: &Scene) -> Result<Vec<u16>, ObjectsError> {
     let expected = format!("one u8, u16 or u32 id (at most 65535) for each of {} Gaussians", scene.num_in_file());
     let bad = |found: String| ObjectsError::BadLabels { path: path.to_owned(), found, expected: expected.clone() };
-    let ids = decode_ids(&cinesplat_files::read(path, MAX_ARRAY_BYTES)?).map_err(bad)?;
+    let ids = decode_ids(&cinesplat_files::read(path, Limits::DEFAULT.array_bytes)?).map_err(bad)?;
     scene.kept(&ids).ok_or_else(|| bad(format!("{} ids", ids.len())))
 }
 

@@ -24,6 +24,10 @@ const REACH_SIGMA: f32 = 1.0;
 /// Limit on the samples of a Gaussian along each half axis.
 const MAX_STEPS: i32 = 4;
 
+/// Cells from the center beyond which matter is left out, along every axis: dozens of scene sizes, where no object of the
+/// scene is. One Gaussian astray in a damaged file would otherwise make a thing of any extent.
+const MAX_CELLS: f32 = 16_384.0;
+
 /// Positions of cells by key.
 type CellIndex = HashMap<[i32; 3], u32, BuildHasherDefault<CellHasher>>;
 
@@ -124,7 +128,9 @@ impl VoxelGrid {
 
     /// The cell that contains a local position.
     pub(crate) fn key_at(&self, local: Vec3) -> [i32; 3] {
-        (local / self.cell).floor().as_ivec3().to_array()
+        // One cell more than matter may lie at: what is astray is in an empty cell.
+        let most = Vec3::splat(MAX_CELLS + 1.0);
+        (local / self.cell).floor().max(-most).min(most).as_ivec3().to_array()
     }
 
     fn middle(&self, key: [i32; 3]) -> Vec3 {
@@ -184,8 +190,9 @@ impl VoxelGrid {
             for y in -steps.y..=steps.y {
                 for z in -steps.z..=steps.z {
                     let part = Vec3::new(x as f32, y as f32, z as f32) / steps.as_vec3().max(Vec3::ONE);
-                    if part.length_squared() <= 1.0 {
-                        let position = mean + axes * part;
+                    let position = mean + axes * part;
+                    let is_near = (position / self.cell).abs().max_element() < MAX_CELLS;
+                    if part.length_squared() <= 1.0 && is_near {
                         filled.push((self.key_at(position), position));
                     }
                 }

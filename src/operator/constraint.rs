@@ -131,7 +131,7 @@ impl TravelDirection {
 /// Range of the camera's pitch for an angle of the shot, degrees, positive up.
 pub(super) fn pitch_band_deg(angle: ShotAngle) -> (f64, f64) {
     match angle {
-        ShotAngle::Overhead => (-90.0, -40.0),
+        ShotAngle::Overhead => (-90.0, -50.0),
         ShotAngle::High => (-40.0, -12.0),
         ShotAngle::EyeLevel => (-12.0, 10.0),
         ShotAngle::Low => (8.0, 42.0),

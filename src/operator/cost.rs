@@ -21,25 +21,38 @@ const REJECT_COST: f64 = 9.0;
 pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&CameraState>) -> f64 {
     let path = path_of(world, segment);
     let states = sampled(&path, segment, if segment.states.len() > 2 { 11 } else { 9 });
-    let charge = |constraint: &Constraint| match measure(world, constraint, &states, SEARCH_POINTS).violation {
-        violation if violation > 0.0 => 3.0 + 4.0 * violation.min(2.0),
-        _ => 0.0,
-    };
+    let charge = |constraint: &Constraint| charge_of(measure(world, constraint, &states, SEARCH_POINTS).violation);
     let is_expensive = |constraint: &&Constraint| {
         matches!(constraint.kind, ConstraintKind::Unoccluded(..) | ConstraintKind::Unseen(..))
     };
     let (expensive, cheap): (Vec<&Constraint>, Vec<&Constraint>) = segment.constraints.iter().partition(is_expensive);
     let mut total: f64 = cheap.into_iter().map(charge).sum::<f64>() + clearance_cost(world, &path);
     if total > REJECT_COST {
-        return total + REJECT_COST;
+        return total + REJECT_COST + outside_cost(world, &states);
     }
     total += region_cost(world, &states) + under_furniture_cost(world, &segment.constraints, &states);
     if total > REJECT_COST {
         return total + REJECT_COST / 2.0;
     }
-    total += expensive.into_iter().map(charge).sum::<f64>();
+    let charge_hidden = |constraint: &Constraint| {
+        let measured = measure(world, constraint, &states, SEARCH_POINTS);
+        if measured.violation > 0.0 || !matches!(constraint.kind, ConstraintKind::Unoccluded(..)) {
+            return charge_of(measured.violation);
+        }
+        HIDDEN_COST * (1.0 - measured.value).clamp(0.0, 1.0)
+    };
+    total += expensive.into_iter().map(charge_hidden).sum::<f64>();
     total += back_cost(world, &segment.constraints, &states) + off_front_cost(world, &segment.constraints, &states);
     total + pictures_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
+}
+
+/// Cost of a subject that is hidden, over its hidden share, where enough of it is seen: something in front spoils a
+/// picture before it hides half of it.
+const HIDDEN_COST: f64 = 1.2;
+
+/// Cost of a violation.
+fn charge_of(violation: f64) -> f64 {
+    if violation > 0.0 { 3.0 + 4.0 * violation.min(2.0) } else { 0.0 }
 }
 
 /// The path of a segment by itself.
@@ -83,12 +96,26 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     let uncaptured =
         states.iter().filter(|s| !world.in_capture_region(position(s))).count() as f64 / states.len() as f64;
     if uncaptured > 0.0 {
-        return 5.0 + 8.0 * uncaptured;
+        return 5.0 + 8.0 * uncaptured + outside_cost(world, states);
     }
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
     let wrong = ends.iter().filter(|s| !world.sees_front_faces(position(s))).count();
     let outside = states.iter().map(|s| world.outside_frac(position(s))).fold(0.0, f64::max);
     3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
+}
+
+/// Cost per end of a segment that lies outside the captured region of a room.
+const OUTSIDE_COST: f64 = 6.0;
+
+/// Cost of the ends of a segment outside the captured region of a room, from where its walls are seen from behind: where
+/// no camera meets all the words, the film still stays in the room.
+fn outside_cost(world: &World, states: &[CameraState]) -> f64 {
+    let ends = [&states[0], &states[states.len() - 1]];
+    let is_outside = |state: &&&CameraState| {
+        let position = state.pose.position;
+        world.beyond_corner_frac(position) > 0.0 || !world.in_capture_region(position)
+    };
+    if world.is_indoor() { OUTSIDE_COST * ends.iter().filter(is_outside).count() as f64 } else { 0.0 }
 }
 
 /// Share of the states inside the captured region, seeing front faces.

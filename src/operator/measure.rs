@@ -20,6 +20,8 @@ use cinesplat_trajectory::CameraState;
 pub(super) const SEARCH_POINTS: usize = 14;
 /// Margin on the visible share during the search, because few points measure it coarsely.
 const SEARCH_MARGIN: f64 = 0.12;
+/// Factor on the largest visible share of what must not be seen, during the search.
+const SEARCH_UNSEEN: f64 = 0.4;
 /// Range of the distance from the frame's middle that counts as on a third.
 const THIRD_BAND: (f64, f64) = (0.13, 0.2);
 /// Least share of an object's points in the frame where it is the foreground.
@@ -112,7 +114,9 @@ fn composed(world: &World, kind: &ConstraintKind, state: &CameraState, num_point
         }
         ConstraintKind::Unseen(id, most) => {
             let share = world.subject(*id).map_or(0.0, |subject| seen_frac(world, state, subject, num_points));
-            range_violation(share, (0.0, *most), 0.3)
+            // As few points as the search tests miss what shows beside them: it accepts none.
+            let most = if num_points <= SEARCH_POINTS { SEARCH_UNSEEN * most } else { *most };
+            range_violation(share, (0.0, most), 0.3)
         }
         ConstraintKind::Foreground(id, target) => {
             let off = foreground_off(world, *id, target, state).unwrap_or(f64::NAN);

@@ -156,7 +156,11 @@ fn only_candidate(problem: &SearchProblem) -> Candidate {
     let given = problem.suggestions.iter().take(num_steps).copied();
     let suggestions: Vec<StepCameras> =
         given.chain(iter::repeat_with(|| at_viewpoint(problem.world)).map_while(|c| c)).take(num_steps).collect();
-    let parameters = |index| parameters_without_search(suggestions.get(index));
+    let names_objects = |index: usize| {
+        let mut named = problem.program.steps[..=index].iter().flat_map(|step| [&step.start, &step.end]);
+        named.any(|framing| framing.subjects.iter().any(|&id| problem.world.subject(id).is_some()))
+    };
+    let parameters = |index| parameters_without_search(suggestions.get(index), names_objects(index));
     let parameters: Vec<StepParameters> = (0..num_steps).map(parameters).collect();
     SearchProblem { suggestions: &suggestions, ..*problem }.rebuilt(&Candidate::default(), 0, &parameters)
 }

@@ -26,12 +26,26 @@ pub(super) struct ViewRange {
     pub(super) fov_deg: (f64, f64),
     /// Preferred azimuths of the camera, seen from the subject.
     pub(super) azimuths_rad: Vec<f64>,
+    /// Elevation of an overhead view, degrees.
+    pub(super) overhead_deg: (f64, f64),
 }
 
+/// Elevation of an overhead view: straight down to the eye, but with a horizon that the camera's yaw can be told from.
+pub(super) const OVERHEAD_DEG: (f64, f64) = (78.0, 87.0);
+/// The same for a camera that circles its subject or sinks beside it: from nearer to the zenith it would spin in place, or
+/// come down on it.
+pub(super) const CIRCLING_OVERHEAD_DEG: (f64, f64) = (52.0, 74.0);
+/// Widest vertical field of view where the room before a subject is short, degrees; and above it, from this elevation on.
+const WIDEST_DEG: f64 = 64.0;
+const WIDEST_STEEP_DEG: f64 = 84.0;
+const STEEP_DEG: f64 = 60.0;
+/// Least free distance from a subject's aim to a camera, over that to the subject's near side.
+const LEAST_SPACE: f64 = 1.4;
+
 /// Range of the camera's elevation, seen from the subject, for an angle of the shot; degrees.
-fn elevation_band_deg(angle: ShotAngle) -> (f64, f64) {
+fn elevation_band_deg(angle: ShotAngle, range: &ViewRange) -> (f64, f64) {
     match angle {
-        ShotAngle::Overhead => (48.0, 74.0),
+        ShotAngle::Overhead => range.overhead_deg,
         ShotAngle::High => (18.0, 38.0),
         ShotAngle::EyeLevel => (-4.0, 8.0),
         ShotAngle::Low => (-34.0, -11.0),
@@ -82,7 +96,7 @@ pub(super) fn opening_view(
         None => azimuth(range, proposed, parameters),
     };
     let elevation_deg = match framing.angle {
-        Some(angle) => lerp(elevation_band_deg(angle), parameters[1]),
+        Some(angle) => lerp(elevation_band_deg(angle, range), parameters[1]),
         None => free_elevation_deg(world, target, parameters[1], proposed),
     };
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
@@ -93,6 +107,9 @@ pub(super) fn opening_view(
     let fov_deg = framing.lens.map_or(range.fov_deg, lens_fov_deg);
     let fov_y_rad = lerp(fov_deg, parameters[3]).to_radians();
     let view = view_from(world, (target, framing), bearing, fill, fov_y_rad);
+    // A subject that must not be seen is hidden by what is in the way.
+    let free = framing.distance.is_none() && framing.lens.is_none() && !framing.hidden;
+    let view = if free { in_front_of_matter(world, target, bearing, view) } else { view };
     aimed_at_side(world, target, framing.part, view)
 }
 
@@ -114,6 +131,27 @@ pub(super) fn view_from(
         None => bearing,
     };
     view_at(world, target.aim, bearing, distance(bearing), fov_y_rad)
+}
+
+/// The view in a room, brought nearer where a wall, a ceiling or furniture is between the camera and its target, with a
+/// wider lens for the same picture. A view that would need too wide a lens stays as it is.
+fn in_front_of_matter(world: &World, target: &Target, bearing: Bearing, view: CameraState) -> CameraState {
+    if !world.is_indoor() {
+        return view;
+    }
+    let away = -view.pose.forward();
+    let start = target.corners.iter().map(|c| (*c - target.aim).dot(away)).fold(0.0, f64::max) + world.camera_radius;
+    let distance = view.pose.position.distance(target.aim);
+    let free = world.hit_distance(target.aim + away * start, away).map_or(distance, |free| start + free);
+    let free = free - 2.0 * world.camera_radius;
+    let steep = bearing.elevation_rad > STEEP_DEG.to_radians();
+    let widest_deg: f64 = if steep { WIDEST_STEEP_DEG } else { WIDEST_DEG };
+    let widest = (widest_deg / 2.0).to_radians().tan();
+    let tan = (view.fov_y_rad / 2.0).tan() * distance / free;
+    // From above, part of a subject below a lamp shows more than the lamp does.
+    let tan = if steep { tan.min(widest) } else { tan };
+    let fits = free > LEAST_SPACE * start && free < distance && tan <= widest;
+    if fits { with_fov(&moved(&view, away * (free - distance)), 2.0 * tan.atan()) } else { view }
 }
 
 /// Distance from a target's aim, in the direction of a bearing, to the point that is `wanted` away from the center of

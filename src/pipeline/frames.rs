@@ -26,6 +26,42 @@ impl FrameRange {
     }
 }
 
+/// One of several equal pieces of a range of frames, written `I/N` with I from 1 to N: where one of N programs begins that
+/// render one film together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Piece {
+    number: usize,
+    of: usize,
+}
+
+impl Default for Piece {
+    fn default() -> Self {
+        Self { number: 1, of: 1 }
+    }
+}
+
+impl Piece {
+    /// All frames of the range: those of this piece and of the pieces after it, then those of the pieces before it.
+    ///
+    /// A program that takes the frames in this order is beside the others as long as there is work for all, and then helps
+    /// those that are late.
+    pub fn order(self, frames: Range<usize>) -> impl Iterator<Item = usize> {
+        let begin = frames.start + frames.len() * (self.number - 1) / self.of;
+        (begin..frames.end).chain(frames.start..begin)
+    }
+}
+
+impl FromStr for Piece {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+        let piece =
+            numbers.map(|(number, of)| Self { number, of }).filter(|piece| (1..=piece.of).contains(&piece.number));
+        piece.ok_or_else(|| format!("{text:?} is no piece, expected I/N such as 3/40"))
+    }
+}
+
 impl FromStr for FrameRange {
     type Err = String;
 

@@ -4,6 +4,7 @@
 //! nothing is printed. The one invariant: a file under its final name is complete. A film's finished frames outlive the
 //! program that rendered them.
 
+mod accuracy;
 mod choose_film;
 mod clearance;
 mod direct;
@@ -15,8 +16,11 @@ mod frames;
 mod interpreter;
 mod job;
 mod opened_scene;
+mod panic_point;
 mod phases;
+mod promise;
 mod reading;
+mod stated;
 mod stills;
 mod takes_sheet;
 
@@ -25,15 +29,21 @@ pub use clearance::prove_clearance;
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of, stated_size};
 pub use error::PipelineError;
 pub use film::{
-    FilmProgress, FilmReport, FilmSettings, called_effects, camera_at, complete_effects, film, film_part, plan_effects,
-    video_of,
+    FilmProgress, FilmReport, FilmSettings, called_effects, camera_at, complete_effects, film, film_part, film_planned,
+    plan_effects, suited_preset, video_of,
 };
-pub use forecast::{FilmCost, Forecast, Requirements, TimeCost, checked_psnr_db, choose, forecast, num_cores};
-pub use frames::FrameRange;
+pub use forecast::{
+    FilmCost, Forecast, Promised, Requirements, TimeCost, checked_psnr_db, choose, forecast, num_cores, promised,
+};
+pub use frames::{FrameRange, Piece};
 pub use interpreter::Interpreter;
-pub use job::{JobError, JobSettings, JobStart, check_job, clear_job, has_job, job_field, job_folder, job_progress};
+pub use job::{
+    JobError, JobSettings, JobStart, check_job, check_shared_job, clear_job, has_job, job_field, job_folder,
+    job_progress, tasks_folder,
+};
 pub use opened_scene::{OpenedScene, open_scene};
 pub use phases::{Phase, PhaseTimes};
+pub use promise::{Pace, PathProfile, Promise};
 pub use reading::{Problem, ProblemKind, Reading, read};
 pub use stills::{Still, StillOutputs, still};
 pub use takes_sheet::takes_sheet;

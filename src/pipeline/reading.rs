@@ -7,6 +7,7 @@ use cinesplat_trajectory::{Move, ReportLine};
 
 use super::error::PipelineError;
 use super::interpreter::Interpreter;
+use super::stated;
 
 /// Below this probability a step is not carried out, unless all others are less likely.
 const LEAST_PROBABILITY: f64 = 0.03;
@@ -110,7 +111,10 @@ pub fn read(
 ) -> Result<Reading, PipelineError> {
     let effects = effect_mentions(prompt, &linked)?;
     let mut direction = interpreter.direct(prompt, &linked, scene)?;
+    let stays = stated::apply(prompt, linked.timeline.as_ref(), &mut direction.program);
+    retain_steps(&mut direction, &stays);
     merge_holds(&mut direction);
+    keep_held_pictures(&mut direction.program.steps);
     let mut problems = Vec::new();
     problems.extend(unmet(prompt, &direction, &effects));
     problems.extend(missing_aside(&linked, &mut direction.program));
@@ -142,6 +146,19 @@ fn merge_holds(direction: &mut Direction) {
         }
         if direction.certainty.len() > nth {
             direction.certainty.remove(nth);
+        }
+    }
+}
+
+/// A hold on the subjects of the step before keeps its picture: `pull out until both are in, hold`.
+fn keep_held_pictures(steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let (before, after) = steps.split_at_mut(nth);
+        let (first, second) = (&before[nth - 1], &mut after[0]);
+        let plain = Framing { subjects: first.end.subjects.clone(), ..Framing::default() };
+        let holds = second.movement == Move::Static && !second.cut && second.start == Framing::default();
+        if holds && !plain.subjects.is_empty() && second.end == plain && first.end != plain {
+            second.end = Framing::default();
         }
     }
 }
@@ -257,10 +274,15 @@ fn uncertain(prompt: &str, direction: &mut Direction) -> Vec<Problem> {
         let span = certainty.words.unwrap_or([0, prompt.len()]);
         problems.push(problem(prompt, ProblemKind::NotUnderstood, span, note));
     }
-    retain_marked(&mut direction.program.steps, &is_kept);
-    retain_marked(&mut direction.certainty, &is_kept);
-    retain_marked(&mut direction.step_cameras, &is_kept);
+    retain_steps(direction, &is_kept);
     problems
+}
+
+/// Removes the steps that are not marked, with their cameras.
+fn retain_steps(direction: &mut Direction, marks: &[bool]) {
+    retain_marked(&mut direction.program.steps, marks);
+    retain_marked(&mut direction.certainty, marks);
+    retain_marked(&mut direction.step_cameras, marks);
 }
 
 /// Removes the items that are not marked; items beyond the marks stay.

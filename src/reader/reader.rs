@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use candle_core::quantized::gguf_file::{Content, Value};
 use candle_core::quantized::tokenizer::TokenizerFromGguf;
-use cinesplat_files::{FileError, MAX_TEXT_BYTES};
+use cinesplat_files::{FileError, Limits};
 use cinesplat_language::Automaton;
 use cinesplat_trajectory::ModelRef;
 use sha2::{Digest, Sha256};
@@ -122,7 +122,7 @@ fn tokenizer(path: &Path, content: &Content) -> Result<Tokenizer, ReaderError> {
         let expected = "gpt2, or a file tokenizer.json beside the model";
         return Err(ReaderError::bad_model(path, "tokenizer.ggml.model", &kind, &expected));
     }
-    let bytes = cinesplat_files::read(&beside, MAX_TEXT_BYTES)?;
+    let bytes = cinesplat_files::read(&beside, Limits::DEFAULT.text_bytes)?;
     Tokenizer::from_bytes(bytes).map_err(|error| {
         ReaderError::bad_model(
             &beside,
@@ -160,7 +160,10 @@ fn sha256_hex(file: &mut File) -> io::Result<String> {
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 20];
     loop {
-        let num_bytes = file.read(&mut buffer)?;
+        let num_bytes = match file.read(&mut buffer) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            read => read?,
+        };
         if num_bytes == 0 {
             break;
         }

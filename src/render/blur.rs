@@ -17,6 +17,8 @@ pub struct ThinLens {
     pub aperture_diameter: f64,
     /// Distance of sharpest focus along the view axis, scene units, above 0; may be infinite.
     pub focus_distance: f64,
+    /// Height of the aperture, which is its diameter, over its width, 1 or more: anamorphic lenses have oval ones.
+    pub squeeze: f64,
 }
 
 impl ThinLens {
@@ -28,7 +30,7 @@ impl ThinLens {
     /// The pinhole camera at a point of the aperture, given in radii of the aperture (right, down). Points in the plane
     /// of focus keep their pixels.
     pub fn pinhole(&self, camera: &Camera, point: DVec2) -> Camera {
-        let offset = point * (0.5 * self.aperture_diameter);
+        let offset = point * self.oval() * (0.5 * self.aperture_diameter);
         let (mut pose, mut intrinsics) = (camera.pose, camera.intrinsics);
         pose.position += pose.rotation * offset.extend(0.0);
         intrinsics.cx_px += intrinsics.fx_px * offset.x / self.focus_distance;
@@ -36,8 +38,17 @@ impl ThinLens {
         Camera { pose, intrinsics }
     }
 
+    /// Width and height of the aperture over its diameter.
+    fn oval(&self) -> DVec2 {
+        DVec2::new(1.0 / self.squeeze, 1.0)
+    }
+
     fn check(&self) -> Result<(), RenderError> {
-        let Self { aperture_diameter: aperture, focus_distance: focus } = *self;
+        let Self { aperture_diameter: aperture, focus_distance: focus, squeeze } = *self;
+        if !(squeeze >= 1.0 && squeeze.is_finite()) {
+            let expected = "a finite number, 1 or more";
+            return Err(RenderError::Setting { name: "squeeze of the aperture", found: squeeze, expected });
+        }
         if !(aperture >= 0.0 && aperture.is_finite()) {
             let expected = "a finite length, 0 or more";
             return Err(RenderError::Setting { name: "aperture diameter", found: aperture, expected });
@@ -136,8 +147,9 @@ impl ViewBlur {
             Some([start, end]) if start != end => Some([Pinhole::new(start, origin)?, Pinhole::new(end, origin)?]),
             _ => None,
         };
-        let (aperture, inverse_focus) =
-            blur.lens.map_or((0.0, 0.0), |lens| (lens.aperture_diameter, 1.0 / lens.focus_distance));
+        let (aperture, inverse_focus) = blur
+            .lens
+            .map_or((DVec2::ZERO, 0.0), |lens| (lens.oval() * lens.aperture_diameter, 1.0 / lens.focus_distance));
         Ok(Some(Self { aperture_px: DVec2::from(focal_px) * aperture, inverse_focus, motion, near }))
     }
 

@@ -9,7 +9,7 @@ use super::fast::{self, Buffers, Pool};
 use super::groups::{Groups, Pack};
 use super::ids::{IdMap, IdPayload};
 use super::lift::{LiftPayload, LiftedValues};
-use super::memory::{SharedBudget, bytes_of};
+use super::memory::{Budget, SharedBudget, bytes_of};
 use super::payload::{ColorOnly, Payload};
 use super::upsample::upsample;
 use super::weights::{PixelWeight, WeightPayload};
@@ -132,10 +132,13 @@ impl<'scene> Renderer<'scene> {
         Ok(())
     }
 
-    /// The view of a sub-frame.
+    /// The view of a sub-frame, whose picture the limits allow.
     pub(super) fn view_of(&self, subframe: &SubFrame, settings: &RenderSettings) -> Result<View, RenderError> {
         let origin = self.gaussians.origin;
-        View::new(&subframe.camera, origin, settings)?.blurred(&subframe.blur, origin)
+        let view = View::new(&subframe.camera, origin, settings)?.blurred(&subframe.blur, origin)?;
+        // Before a picture of this size is allocated.
+        Budget::of_picture(&view, &settings.limits)?;
+        Ok(view)
     }
 
     /// Calls `work` with a frame whose memory is reused.

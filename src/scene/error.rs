@@ -53,12 +53,19 @@ pub enum SceneError {
         cap: u64,
     },
     /// The scene does not fit into memory.
-    #[error("{}: {found} Gaussians, expected as many as fit into memory", shown(path))]
+    #[error(
+        "{}: {found} Gaussians take {} MB of memory, expected at most {} MB",
+        shown(path), needed_bytes.div_ceil(1 << 20), limit_bytes >> 20
+    )]
     OutOfMemory {
         /// The file.
         path: PathBuf,
         /// Number found.
         found: u64,
+        /// Bytes that reading them takes.
+        needed_bytes: u64,
+        /// Bytes that it may take.
+        limit_bytes: u64,
     },
     /// Content of an unknown format.
     #[error("{}: {found}, expected .ply, .splat, .spz, .sog, .ksplat, .glb or .pcd", shown(path))]

@@ -10,6 +10,7 @@ use strum::{Display, EnumCount, VariantArray};
 
 use super::error::SceneError;
 use super::gaussians::{Gaussians, NUM_SH_REST};
+use super::source_file::{SourceFile, collected_bytes};
 
 /// Spherical harmonic of degree 0, 1 / (2 sqrt(pi)): color = 0.5 + `SH_C0` * `f_dc`.
 pub(super) const SH_C0: f64 = 0.282_094_791_773_878_14;
@@ -74,8 +75,9 @@ impl Intake {
     /// An intake with memory for `count` Gaussians of a degree, 0..=3.
     ///
     /// # Errors
-    /// [`SceneError::OutOfMemory`] when the memory is not available.
-    pub(super) fn new(path: &Path, count: usize, sh_degree: u8) -> Result<Self, SceneError> {
+    /// [`SceneError::OutOfMemory`] when the limits forbid that much memory, or the system has not that much.
+    pub(super) fn new(source: &SourceFile, count: usize, sh_degree: u8) -> Result<Self, SceneError> {
+        source.check_memory(count, sh_degree, 0)?;
         let mut out = Gaussians { sh_degree, ..Gaussians::default() };
         let mut means: Vec<DVec3> = Vec::new();
         let num_rest = count * NUM_SH_REST[usize::from(sh_degree.min(3))];
@@ -86,7 +88,7 @@ impl Intake {
             .and_then(|()| out.sh_dc.try_reserve_exact(count))
             .and_then(|()| out.sh_rest.try_reserve_exact(num_rest));
         if reserved.is_err() {
-            return Err(SceneError::OutOfMemory { path: path.to_path_buf(), found: count as u64 });
+            return Err(source.out_of_memory(count, collected_bytes(count, sh_degree)));
         }
         Ok(Self { means, out, num_seen: 0, dropped: Vec::new(), num_by_reason: [0; DropReason::COUNT], num_clamped: 0 })
     }

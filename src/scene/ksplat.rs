@@ -66,7 +66,7 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         (Some(low), Some(high)) if low < high => (low, high),
         _ => DEFAULT_SH_RANGE,
     };
-    let mut intake = Intake::new(source.path, count, degree)?;
+    let mut intake = Intake::new(source, count, degree)?;
     let mut rest = vec![Vec3::ZERO; NUM_SH_REST[usize::from(degree)]];
     for section in &sections {
         let mut buckets = Buckets::new(bytes, section);

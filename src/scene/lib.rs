@@ -26,6 +26,7 @@ mod spz;
 mod up;
 
 pub use bounds::Bounds;
+pub use cinesplat_files::Limits;
 pub use error::SceneError;
 pub use filter::SplatFilter;
 pub use gaussians::{Gaussians, NUM_SH_REST, SOLID_OPACITY};

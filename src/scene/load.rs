@@ -11,7 +11,8 @@ use super::sniff::{self, SceneFormat};
 use super::source_file::{SourceFile, read_file};
 use super::{gltf, ksplat, pcd, ply, sog, splat, spz, up};
 
-/// Reads a scene of any supported format: a file, or the folder or `meta.json` of an unbundled SOG.
+/// Reads a scene of any supported format: a file, or the folder, `meta.json` or `lod-meta.json` of an
+/// unbundled or streamed SOG.
 ///
 /// The content decides the format; only a `.splat`, which has no magic number, may be known by its extension. The file
 /// is read into memory once. The readers check its sizes against `options` and the bytes present before they allocate.
@@ -21,14 +22,13 @@ use super::{gltf, ksplat, pcd, ply, sog, splat, spz, up};
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let metadata = fs::metadata(path).map_err(|source| SceneError::from_io(path, source))?;
     if metadata.is_dir() {
-        let meta = path.join("meta.json");
-        if !meta.exists() && path.join("lod-meta.json").exists() {
-            return Err(SceneError::NotReadYet { path: path.to_path_buf(), format: sniff::STREAMED_SOG });
-        }
-        let bytes = read_file(&meta, options.max_file_bytes)?;
+        let named = ["meta.json", "lod-meta.json"].map(|name| path.join(name));
+        let [first, _] = &named;
+        let meta = named.iter().find(|meta| meta.exists()).unwrap_or(first).clone();
+        let bytes = read_file(&meta, options.limits.scene_bytes)?;
         return load_bytes(&meta, &bytes, options).map(|scene| Scene { path: path.to_path_buf(), ..scene });
     }
-    load_bytes(path, &read_file(path, options.max_file_bytes)?, options)
+    load_bytes(path, &read_file(path, options.limits.scene_bytes)?, options)
 }
 
 /// As [`load`], for a file that is in memory already. `path` names the file in errors; the pictures of a SOG `meta.json`
@@ -44,6 +44,7 @@ pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
         SceneFormat::Spz => spz::read(&source)?,
         SceneFormat::SogBundle => sog::read_bundle(&source)?,
         SceneFormat::SogMeta => sog::read_unbundled(&source)?,
+        SceneFormat::SogStreamed => sog::read_streamed(&source)?,
         SceneFormat::Ksplat => ksplat::read(&source)?,
         SceneFormat::Gltf => gltf::read(&source)?,
         SceneFormat::Pcd => pcd::read(&source)?,

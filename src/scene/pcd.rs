@@ -10,8 +10,6 @@ use super::intake::{Intake, RawGaussian, SH_C0};
 use super::source_file::SourceFile;
 use super::up::UpPrior;
 
-/// Longest header that is searched, bytes.
-const MAX_HEADER: usize = 1 << 16;
 /// Opacity of a point.
 const OPACITY: f64 = 0.95;
 /// Standard deviation over the distance to the nearest point.
@@ -20,8 +18,6 @@ const SIZE_FRAC: f64 = 0.5;
 const NUM_SAMPLES: usize = 400;
 /// Color of points without one.
 const GRAY: [u8; 3] = [160; 3];
-/// Most bytes that one compressed byte may stand for.
-const MAX_RATIO: usize = 300;
 
 /// A field of a point: where its first number lies, how long it is, and its type.
 #[derive(Debug, Clone)]
@@ -62,9 +58,12 @@ impl Header {
 pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let header = header(source)?;
     let count = source.check_count(header.num_points as u64)?;
+    // The data unpacked, and its points before they become Gaussians.
+    let point_bytes = header.stride().saturating_add(size_of::<(DVec3, [u8; 3])>());
+    source.check_memory(count, 0, header.num_points.saturating_mul(point_bytes) as u64)?;
     let points = points(source, &header)?;
     let size = SIZE_FRAC * spacing(&points);
-    let mut intake = Intake::new(source.path, count, 0)?;
+    let mut intake = Intake::new(source, count, 0)?;
     for (mean, rgb) in &points {
         let color = DVec3::from_array(rgb.map(f64::from)) / 255.0;
         let raw = RawGaussian {
@@ -96,9 +95,10 @@ fn damaged(source: &SourceFile, byte: usize, reason: impl Into<String>) -> Scene
 fn header(source: &SourceFile) -> Result<Header, SceneError> {
     let (mut names, mut sizes, mut kinds, mut counts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut num_points, mut area, mut start) = (None, [None, None], 0);
+    let most = source.options.limits.header_bytes;
     loop {
-        let rest = source.bytes.get(start..(start + MAX_HEADER).min(source.bytes.len())).unwrap_or_default();
-        let Some(len) = rest.iter().position(|byte| *byte == b'\n').filter(|_| start < MAX_HEADER) else {
+        let rest = source.bytes.get(start..(start + most).min(source.bytes.len())).unwrap_or_default();
+        let Some(len) = rest.iter().position(|byte| *byte == b'\n').filter(|_| start < most) else {
             return Err(damaged(source, start, "the header ends without a line DATA"));
         };
         let line = String::from_utf8_lossy(&rest[..len]).into_owned();
@@ -209,8 +209,11 @@ fn ascii_points(
         };
         let packed = color.and_then(|field| {
             let cell = cells.get(column(field))?;
-            let bits = |value: f32| if field.kind == b'F' { value.to_bits() } else { value as u32 };
-            cell.parse::<u32>().ok().filter(|_| field.kind != b'F').or_else(|| cell.parse().ok().map(bits))
+            match field.kind {
+                b'F' => cell.parse().ok().map(f32::to_bits),
+                // The same four bytes are below 0 as a signed number where the highest bit is set.
+                _ => cell.parse::<i64>().ok().map(|value| value as u32),
+            }
         });
         let rgb = packed.map_or(GRAY, |packed| {
             let [_, red, green, blue] = packed.to_be_bytes();
@@ -231,6 +234,8 @@ fn number(bytes: &[u8], field: &Field) -> f64 {
     match (field.kind, field.size) {
         (b'F', 4) => chunk(4).first_chunk().map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(*b))),
         (b'F', 8) => chunk(8).first_chunk().map_or(f64::NAN, |b| f64::from_le_bytes(*b)),
+        (b'I', 1) => chunk(1).first().map_or(f64::NAN, |b| f64::from(b.cast_signed())),
+        (b'U', 1) => chunk(1).first().map_or(f64::NAN, |b| f64::from(*b)),
         (b'I', 4) => chunk(4).first_chunk().map_or(f64::NAN, |b| f64::from(i32::from_le_bytes(*b))),
         (b'I', 2) => chunk(2).first_chunk().map_or(f64::NAN, |b| f64::from(i16::from_le_bytes(*b))),
         (b'U', 4) => chunk(4).first_chunk().map_or(f64::NAN, |b| f64::from(u32::from_le_bytes(*b))),
@@ -248,7 +253,7 @@ fn unpack(source: &SourceFile, start: usize, bytes: &[u8], needed: usize) -> Res
     let Some(packed) = bytes.get(8..).and_then(|rest| rest.get(..packed_len)) else {
         return Err(damaged(source, start, format!("{packed_len} compressed bytes, more than the file has")));
     };
-    if len != needed || len > packed_len.saturating_mul(MAX_RATIO) {
+    if len != needed || len as u64 > source.options.limits.unpacked(packed_len) {
         return Err(damaged(source, start, format!("unpacks to {len} bytes, expected {needed}")));
     }
     lzf(packed, len).ok_or_else(|| damaged(source, start + 8, "compressed data that does not unpack"))

@@ -3,11 +3,10 @@
 //! Enters: a file. Leaves: its format, or an error that names the known format without a reader. Only a `.splat`, which
 //! has no magic number, may be decided by its extension.
 
+use cinesplat_files::json_excess;
+
 use super::error::SceneError;
 use super::source_file::SourceFile;
-
-/// Name of the streamed SOG in errors.
-pub(super) const STREAMED_SOG: &str = "a streamed SOG (lod-meta.json with levels of detail)";
 
 /// Formats that have a reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +21,8 @@ pub(super) enum SceneFormat {
     SogBundle,
     /// The `meta.json` of a SOG in a folder.
     SogMeta,
+    /// The `lod-meta.json` of a streamed SOG.
+    SogStreamed,
     /// `.ksplat` of GaussianSplats3D.
     Ksplat,
     /// glTF with Gaussians, text or binary.
@@ -89,6 +90,12 @@ fn starts_json(bytes: &[u8]) -> bool {
 
 fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(source.bytes);
+    if json_excess(bytes, &source.options.limits).is_some_and(|_| !plausible_splat(bytes)) {
+        return Err(SceneError::UnknownFormat {
+            path: source.path.to_path_buf(),
+            found: "JSON with too many values".to_owned(),
+        });
+    }
     // Binary data may begin like JSON; one in 256 .splat files does.
     let Ok(value) = serde_json::from_slice::<serde_json::Value>(bytes) else {
         let splat = bytes.len().is_multiple_of(32) && plausible_splat(bytes);
@@ -96,7 +103,7 @@ fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     };
     let has = |key: &str| value.get(key).is_some();
     if has("lodLevels") || has("tree") && has("filenames") {
-        Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format: STREAMED_SOG })
+        Ok(SceneFormat::SogStreamed)
     } else if has("means") {
         Ok(SceneFormat::SogMeta)
     } else if has("asset") {

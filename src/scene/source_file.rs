@@ -1,7 +1,10 @@
 use std::io;
 use std::path::Path;
 
+use glam::{DVec3, Vec3};
+
 use super::error::SceneError;
+use super::gaussians::NUM_SH_REST;
 use super::options::LoadOptions;
 use cinesplat_files::FileError;
 
@@ -22,12 +25,40 @@ impl SourceFile<'_> {
     /// # Errors
     /// [`SceneError::TooManyGaussians`] when they do not.
     pub(super) fn check_count(&self, found: u64) -> Result<usize, SceneError> {
-        let cap = self.options.max_gaussians.min(u32::MAX as usize) as u64;
+        let cap = self.options.limits.gaussians.min(u32::MAX as usize) as u64;
         if found > cap {
             return Err(SceneError::TooManyGaussians { path: self.path.to_path_buf(), found, cap });
         }
         Ok(found as usize)
     }
+
+    /// Checks, before anything is allocated, the memory for `count` Gaussians of a degree, the file, and `unpacked_bytes`.
+    ///
+    /// # Errors
+    /// [`SceneError::OutOfMemory`] when the limits forbid that much.
+    pub(super) fn check_memory(&self, count: usize, sh_degree: u8, unpacked_bytes: u64) -> Result<(), SceneError> {
+        let held = (self.bytes.len() as u64).saturating_add(unpacked_bytes);
+        let needed_bytes = collected_bytes(count, sh_degree).saturating_add(held);
+        if needed_bytes > self.options.limits.memory_bytes {
+            Err(self.out_of_memory(count, needed_bytes))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The error for Gaussians that take too much memory.
+    pub(super) fn out_of_memory(&self, count: usize, needed_bytes: u64) -> SceneError {
+        let (path, limit_bytes) = (self.path.to_path_buf(), self.options.limits.memory_bytes);
+        SceneError::OutOfMemory { path, found: count as u64, needed_bytes, limit_bytes }
+    }
+}
+
+/// Bytes that `count` Gaussians of a degree take while they are collected: their columns, the means in both precisions, and
+/// one column to find medians in.
+pub(super) fn collected_bytes(count: usize, sh_degree: u8) -> u64 {
+    let num_rest = NUM_SH_REST[usize::from(sh_degree.min(3))];
+    let columns = size_of::<DVec3>() + (4 + num_rest) * size_of::<Vec3>() + size_of::<[f32; 5]>();
+    (count as u64).saturating_mul((columns + size_of::<f64>()) as u64)
 }
 
 /// Content of a regular file of at most `cap` bytes.

@@ -23,7 +23,7 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         return Err(SceneError::SplatSize { path: source.path.to_path_buf(), found: source.bytes.len() as u64 });
     }
     let count = source.check_count(records.len() as u64)?;
-    let mut intake = Intake::new(source.path, count, 0)?;
+    let mut intake = Intake::new(source, count, 0)?;
     for record in records {
         intake.push(&gaussian(record), &[]);
     }

@@ -14,6 +14,14 @@ pub enum TrajectoryError {
         /// The limit.
         expected: usize,
     },
+    /// More frames than a film may have.
+    #[error("a film of {found} frames (duration_secs times fps), expected at most {expected}")]
+    TooManyFrames {
+        /// Number of frames.
+        found: usize,
+        /// The limit.
+        expected: usize,
+    },
     /// Times that do not increase.
     #[error("keyframe {index} is at {found} s, expected later than {previous} s")]
     TimesNotIncreasing {

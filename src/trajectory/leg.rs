@@ -28,9 +28,9 @@ pub(super) enum LegKind {
 }
 
 impl LegKind {
-    /// The kind of change from key `a` to key `b`; `extent` is that of the whole path, scene units.
-    pub(super) fn between(a: &Keyframe, b: &Keyframe, has_up: bool, extent: f64) -> Self {
-        if a.pose.position.distance(b.pose.position) > 1e-7 * extent {
+    /// The kind of change from key `a` to key `b`; `least` is the distance up to which two positions are one.
+    pub(super) fn between(a: &Keyframe, b: &Keyframe, has_up: bool, least: f64) -> Self {
+        if a.pose.position.distance(b.pose.position) > least {
             return match a.intent.as_ref().and_then(|intent| Some((intent.movement?, intent.pivot?))) {
                 Some((movement, pivot)) if has_up && is_circular(movement) => Self::Arc(pivot),
                 _ => Self::Travel,

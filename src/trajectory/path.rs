@@ -2,9 +2,8 @@
 
 use super::blend::{Blend, EndMotion};
 use super::leg::{COARSE_CHORDS, FINE_CHORDS, Leg};
-use super::profile::SpeedProfile;
-use super::segments::{MeasuredSegment, is_blend, split_into_legs};
-use super::track::harmonic_mean;
+use super::pace::{Pace, paces};
+use super::segments::{is_blend, split_into_legs};
 use super::{CameraState, Keyframe, Shot, TrajectoryError};
 use cinesplat_geometry::LevelFrame;
 use glam::DVec3;
@@ -29,7 +28,7 @@ struct TimedSegment {
     /// Whether the camera is at rest at the start and at the end.
     rests: [bool; 2],
     duration_secs: f64,
-    profile: SpeedProfile,
+    pace: Pace,
 }
 
 /// What the camera follows between two neighboring keys.
@@ -91,24 +90,14 @@ impl CameraPath {
     fn through(keys: Vec<Keyframe>, frame: Option<LevelFrame>, num_chords: usize) -> Self {
         let (legs, measured) = split_into_legs(&keys, frame, num_chords);
         let mut segments = Vec::with_capacity(measured.len());
-        for (i, segment) in measured.iter().enumerate() {
-            let before = i.checked_sub(1).and_then(|j| measured.get(j)).filter(|s| s.leg.is_some());
-            let after = measured.get(i + 1).filter(|s| s.leg.is_some());
-            // The natural speeds of two neighbors decide the speed at the key between them.
-            let between =
-                |a: &MeasuredSegment, b: &MeasuredSegment| harmonic_mean(a.natural_speeds().1, b.natural_speeds().0);
-            let start_speed =
-                if segment.rests_at_start { Some(0.0) } else { before.map(|before| between(before, segment)) };
-            let end_speed = if segment.rests_at_end { Some(0.0) } else { after.map(|after| between(segment, after)) };
-            let ends = [start_speed, end_speed];
-            let profile = SpeedProfile::new(segment.easing, segment.duration_secs, segment.length, ends);
+        for (i, (segment, pace)) in measured.iter().zip(paces(&measured)).enumerate() {
             let stays = CameraState::from(&keys[i]) == CameraState::from(&keys[i + 1]);
             let curve = match segment.leg.filter(|_| !stays) {
                 Some((leg, segment)) => SegmentCurve::Leg(leg, segment),
                 None => SegmentCurve::Stay,
             };
             let rests = [segment.rests_at_start, segment.rests_at_end];
-            segments.push(TimedSegment { curve, rests, duration_secs: segment.duration_secs, profile });
+            segments.push(TimedSegment { curve, rests, duration_secs: segment.duration_secs, pace });
         }
         let mut path = Self { keys, legs, segments };
         for index in (0..path.segments.len()).filter(|&index| is_blend(&path.keys, index)).collect::<Vec<_>>() {
@@ -147,8 +136,8 @@ impl CameraPath {
     /// The camera some time after a key and before the next.
     fn in_segment(&self, index: usize, secs: f64) -> CameraState {
         match self.segments.get(index) {
-            Some(TimedSegment { curve: SegmentCurve::Leg(leg, segment), profile, .. }) => {
-                self.legs[*leg].at_length(*segment, profile.length_at(secs))
+            Some(TimedSegment { curve: SegmentCurve::Leg(leg, segment), pace, .. }) => {
+                self.legs[*leg].at_length(*segment, pace.length_at(secs))
             }
             Some(TimedSegment { curve: SegmentCurve::Blend(blend), duration_secs, .. }) => {
                 blend.at((secs / duration_secs).clamp(0.0, 1.0))
@@ -171,7 +160,7 @@ impl CameraPath {
         let (Some(curve), Some(timed)) = (self.curve_after(key_idx), self.segments.get(key_idx)) else { return 0.0 };
         let secs = time_secs - self.keys[key_idx].time_secs;
         match curve {
-            LeavingCurve::Leg(leg, segment) => leg.fraction_at_length(segment, timed.profile.length_at(secs)),
+            LeavingCurve::Leg(leg, segment) => leg.fraction_at_length(segment, timed.pace.length_at(secs)),
             LeavingCurve::Blend(_) => (secs / timed.duration_secs).clamp(0.0, 1.0),
         }
     }

@@ -62,6 +62,20 @@ impl SpeedProfile {
         Self { duration_secs, length, shape }
     }
 
+    /// Time at which the camera has covered a length: 48 bisections of the duration.
+    pub(super) fn secs_at(&self, length: f64) -> f64 {
+        let (mut low, mut high) = (0.0_f64, self.duration_secs);
+        for _ in 0..48 {
+            let middle = low.midpoint(high);
+            if self.length_at(middle) < length {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low.midpoint(high)
+    }
+
     /// Length covered after `secs`, 0..=length, monotone.
     pub(super) fn length_at(&self, secs: f64) -> f64 {
         let left = self.duration_secs - secs;

@@ -37,8 +37,8 @@ pub(super) fn split_into_legs(
     frame: Option<LevelFrame>,
     num_chords: usize,
 ) -> (Vec<Leg>, Vec<MeasuredSegment>) {
-    let extent = keys.iter().map(|key| key.pose.position.distance(keys[0].pose.position)).fold(0.0, f64::max);
-    let kind = |i: usize| (!keys[i + 1].cut).then(|| LegKind::between(&keys[i], &keys[i + 1], frame.is_some(), extent));
+    let least = rounding_distance(keys);
+    let kind = |i: usize| (!keys[i + 1].cut).then(|| LegKind::between(&keys[i], &keys[i + 1], frame.is_some(), least));
     let num_segments = keys.len() - 1;
     let kinds: Vec<Option<LegKind>> = (0..num_segments).map(kind).collect();
     let blends = |i: usize| is_blend(keys, i);
@@ -74,6 +74,16 @@ pub(super) fn split_into_legs(
         first = end;
     }
     (legs, segments)
+}
+
+/// Distance up to which two positions of a path are one, scene units: small against the extent of the path, and against
+/// what numbers as large as its coordinates resolve. Without the second bound, rounding errors would be the travel of a
+/// camera that only turns, and its turn would follow them.
+fn rounding_distance(keys: &[Keyframe]) -> f64 {
+    let largest = |of: &dyn Fn(&Keyframe) -> f64| keys.iter().map(of).fold(0.0, f64::max);
+    let extent = largest(&|key| key.pose.position.distance(keys[0].pose.position));
+    let magnitude = largest(&|key| key.pose.position.length());
+    (1e-7 * extent).max(1e-12 * magnitude)
 }
 
 /// Whether the segment that starts at a key blends its neighbors.

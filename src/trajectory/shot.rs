@@ -6,6 +6,9 @@ use cinesplat_geometry::Pose;
 /// Most keyframes of a shot: 55 minutes with a key per frame at 30 frames per second.
 pub const MAX_KEYFRAMES: usize = 100_000;
 
+/// Most frames of a film: 37 hours at 30 frames per second. What is known of every frame must fit into memory.
+pub const MAX_FRAMES: usize = 4_000_000;
+
 /// Time by which a key may lie after the end of its film without a warning: rounding of times in files, seconds.
 const TIME_ROUNDING_SECS: f64 = 1e-6;
 
@@ -177,6 +180,15 @@ impl Shot {
         ((self.duration_secs * self.fps).round() as usize).max(1)
     }
 
+    /// Checks that the film is no longer than [`MAX_FRAMES`].
+    ///
+    /// # Errors
+    /// [`TrajectoryError::TooManyFrames`].
+    pub fn check_frames(&self) -> Result<(), TrajectoryError> {
+        let (found, expected) = (self.num_frames(), MAX_FRAMES);
+        if found > expected { Err(TrajectoryError::TooManyFrames { found, expected }) } else { Ok(()) }
+    }
+
     /// Time of a frame: `frame_idx / fps`.
     pub fn frame_time_secs(&self, frame_idx: usize) -> f64 {
         frame_idx as f64 / self.fps
@@ -242,7 +254,7 @@ fn check_shot_values(shot: &Shot) -> Result<(), TrajectoryError> {
     if !(shot.duration_secs >= 0.0 && shot.duration_secs <= 86_400.0) {
         return bad("duration_secs", shot.duration_secs.to_string(), "0..86400");
     }
-    Ok(())
+    shot.check_frames()
 }
 
 fn check_keyframe(index: usize, key: &Keyframe) -> Result<(), TrajectoryError> {

@@ -118,34 +118,40 @@ fn convert(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
     let mut cb = vec![0; even_width * even_height / 4];
     let mut cr = vec![0; even_width * even_height / 4];
     let mut channels: [Channels; 2] = Default::default();
+    let mut sums: Sums = Default::default();
     let chroma_rows = cb.chunks_exact_mut(even_width / 2).zip(cr.chunks_exact_mut(even_width / 2));
     for (pair, (luma_rows, (cb, cr))) in y.chunks_exact_mut(2 * even_width).zip(chroma_rows).enumerate() {
         for (idx, codes) in luma_rows.chunks_exact_mut(even_width).enumerate() {
             split(row(2 * pair + idx), even_width, &mut channels[idx]);
             write_luma(codes, &channels[idx], &luma);
         }
-        let [upper, lower] = &mut channels;
-        for (upper, lower) in upper.iter_mut().zip(lower) {
-            upper.iter_mut().zip(&*lower).for_each(|(sum, &value)| *sum += value);
+        for ((sums, upper), lower) in sums.iter_mut().zip(&channels[0]).zip(&channels[1]) {
+            sum_pixels(sums, upper, lower, even_width / 2);
         }
-        write_chroma(cb, upper, &blue);
-        write_chroma(cr, upper, &red);
+        write_chroma(cb, &sums, &blue);
+        write_chroma(cr, &sums, &red);
     }
     Planes420 { width: even_width, height: even_height, y, cb, cr }
 }
 
-/// Red, green and blue of one row, each with its first value repeated before it and its last value after it.
-type Channels = [Vec<i32>; 3];
+/// Red, green and blue of one row, each with its first value repeated before it and its last value after it. Bytes, in
+/// loops without steps: then the compiler uses vectors, which makes the conversion ten times faster.
+type Channels = [Vec<u8>; 3];
+
+/// Red, green and blue of the pixels of each chroma sample of one row, each a sum with weights that sum to 8.
+type Sums = [Vec<i32>; 3];
 
 #[inline(always)]
 fn split(row: &[u8], even_width: usize, channels: &mut Channels) {
-    for (channel, values) in channels.iter_mut().enumerate() {
-        values.resize(even_width + 2, 0);
-        values[0] = i32::from(row[channel]);
-        for (value, pixel) in values[1..].iter_mut().zip(row.chunks_exact(3)) {
-            *value = i32::from(pixel[channel]);
-        }
-        let width = row.len() / 3;
+    let width = row.len() / 3;
+    channels.iter_mut().for_each(|values| values.resize(even_width + 2, 0));
+    let [red, green, blue] = channels;
+    let values = red[1..].iter_mut().zip(&mut green[1..]).zip(&mut blue[1..]);
+    for (pixel, ((red, green), blue)) in row.chunks_exact(3).zip(values) {
+        (*red, *green, *blue) = (pixel[0], pixel[1], pixel[2]);
+    }
+    for values in channels {
+        values[0] = values[1];
         let last = values[width];
         values[width + 1..].fill(last);
     }
@@ -154,17 +160,25 @@ fn split(row: &[u8], even_width: usize, channels: &mut Channels) {
 #[inline(always)]
 fn write_luma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
     for (((code, &r), &g), &b) in codes.iter_mut().zip(&r[1..]).zip(&g[1..]).zip(&b[1..]) {
-        *code = weights.code([r, g, b]);
+        *code = weights.code([r.into(), g.into(), b.into()]);
     }
 }
 
-/// One row of chroma from the sums of two rows of pixels, with weights 1 2 1 horizontally; the weights of the six
-/// pixels sum to 8.
+/// Sums of one channel over two rows of pixels, with weights 1 2 1 horizontally.
 #[inline(always)]
-fn write_chroma(codes: &mut [u8], [r, g, b]: &Channels, weights: &Weights) {
-    let across = |sums: &[i32]| sums[0] + 2 * sums[1] + sums[2];
-    let triples = r.windows(3).zip(g.windows(3)).zip(b.windows(3)).step_by(2);
-    for (code, ((r, g), b)) in codes.iter_mut().zip(triples) {
-        *code = weights.code([across(r), across(g), across(b)]);
+fn sum_pixels(sums: &mut Vec<i32>, upper: &[u8], lower: &[u8], num_sums: usize) {
+    sums.resize(num_sums, 0);
+    // Of this length, so that no index below is checked.
+    let (upper, lower) = (&upper[..2 * num_sums + 2], &lower[..2 * num_sums + 2]);
+    for (idx, sum) in sums.iter_mut().enumerate() {
+        let column = |at: usize| i32::from(upper[at]) + i32::from(lower[at]);
+        *sum = column(2 * idx) + 2 * column(2 * idx + 1) + column(2 * idx + 2);
+    }
+}
+
+#[inline(always)]
+fn write_chroma(codes: &mut [u8], [r, g, b]: &Sums, weights: &Weights) {
+    for (((code, &r), &g), &b) in codes.iter_mut().zip(r).zip(g).zip(b) {
+        *code = weights.code([r, g, b]);
     }
 }

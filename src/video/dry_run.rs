@@ -35,9 +35,10 @@ pub fn encode_and_discard(path: &Path, settings: &VideoSettings, frames: &[&[u8]
 /// For x264 it is the sum of `rc-lookahead`, the number of threads minus one and, with a lookahead, the number of
 /// B-frames plus one. `x264 --fullhelp` lists the values of the presets.
 pub fn encoder_delay_frames(format: &VideoFormat, settings: &VideoSettings) -> usize {
-    let (lookahead, num_b_frames) = match settings.preset {
+    let (lookahead, num_b_frames) = match settings.preset.unwrap_or_default() {
         X264Preset::Ultrafast => (0, 0),
         X264Preset::Veryfast => (10, 3),
+        X264Preset::Faster => (20, 3),
         X264Preset::Fast => (30, 3),
         X264Preset::Medium => (40, 3),
         X264Preset::Slow => (50, 3),
@@ -45,6 +46,8 @@ pub fn encoder_delay_frames(format: &VideoFormat, settings: &VideoSettings) -> u
     };
     match format {
         VideoFormat::Sequence(_) => 0,
+        // Every picture of ProRes stands alone.
+        VideoFormat::Mov if settings.has_alpha => 0,
         VideoFormat::WebM => VP9_LOOKAHEAD,
         VideoFormat::Mp4 | VideoFormat::Mkv | VideoFormat::Mov => {
             let num_synced = if lookahead > 0 { num_b_frames + 1 } else { 0 };

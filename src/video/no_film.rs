@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Planes420, VideoError, VideoFormat, VideoSettings};
+use super::{AlphaPlanes, Planes420, VideoError, VideoFormat, VideoSettings};
 
 /// Cannot be constructed: there is no encoder.
 pub(crate) enum FilmEncoder {}
@@ -13,6 +13,10 @@ impl FilmEncoder {
     }
 
     pub(crate) fn write_planes(&mut self, _planes: &Planes420) -> Result<(), VideoError> {
+        match *self {}
+    }
+
+    pub(crate) fn write_alpha_planes(&mut self, _planes: &AlphaPlanes) -> Result<(), VideoError> {
         match *self {}
     }
 
@@ -27,6 +31,10 @@ pub(crate) fn encode_and_discard(
     _settings: &VideoSettings,
     _frames: &[&[u8]],
 ) -> Result<(), VideoError> {
+    Err(no_ffmpeg(path))
+}
+
+pub(crate) fn read_film(path: &Path, _visit: &mut dyn FnMut(Planes420)) -> Result<(), VideoError> {
     Err(no_ffmpeg(path))
 }
 

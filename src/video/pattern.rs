@@ -56,6 +56,13 @@ impl FramePattern {
         self.folder.join(OsString::from(format!("{}{frame_idx:0digits$}{}", self.before, self.after)))
     }
 
+    /// The frame number in a file name of this pattern; `None` for other names.
+    pub fn number_of(&self, name: &str) -> Option<usize> {
+        let digits = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?;
+        let number = digits.parse().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit()))?;
+        (self.path(number).file_name()?.to_str()? == name).then_some(number)
+    }
+
     /// Whether the pictures are `OpenEXR` files.
     pub fn is_exr(&self) -> bool {
         self.after.to_ascii_lowercase().ends_with(".exr")

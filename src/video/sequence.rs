@@ -1,7 +1,8 @@
+use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use cinesplat_files::{Existing, create_folder};
+use cinesplat_files::{Existing, FileError, create_folder, folder_of};
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 
 use super::{FramePattern, VideoError, VideoSettings};
@@ -41,6 +42,23 @@ impl SequenceWriter {
     pub(super) fn finish(self) -> PathBuf {
         self.pattern.folder().to_owned()
     }
+}
+
+/// Removes the pictures of a sequence from number `first` on, which a longer film left. Returns how many there were.
+///
+/// # Errors
+/// [`VideoError::File`] with the system's reason.
+pub fn remove_frames_from(pattern: &FramePattern, first: usize) -> Result<usize, VideoError> {
+    let folder = folder_of(&pattern.path(first)).to_owned();
+    let entries = fs::read_dir(&folder).map_err(|source| FileError::Read { path: folder, source })?;
+    let is_older = |name: &str| pattern.number_of(name).is_some_and(|number| number >= first);
+    let older = entries.flatten().filter(|entry| entry.file_name().to_str().is_some_and(is_older));
+    let mut num_removed = 0;
+    for path in older.map(|entry| entry.path()) {
+        fs::remove_file(&path).map_err(|source| FileError::Write { path, source })?;
+        num_removed += 1;
+    }
+    Ok(num_removed)
 }
 
 /// Writes one 8-bit RGB picture of `[width, height]` pixels as PNG. The file is complete or absent.

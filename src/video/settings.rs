@@ -20,8 +20,8 @@ pub struct VideoSettings {
     /// Constant rate factor: 0 (best) to 51 for H.264, 0 to 63 for VP9. At about 18 the loss is hard to see. Lowering
     /// it by 4 makes an H.264 file at 720p about 1.5 times as large.
     pub crf: u8,
-    /// Effort of the H.264 encoder: a slower preset gives a smaller file at the same quality.
-    pub preset: X264Preset,
+    /// Effort of the H.264 encoder: a slower preset gives a smaller file at the same quality. `None` = `medium`.
+    pub preset: Option<X264Preset>,
     /// Number of the first picture of a sequence. Films always start at time zero.
     pub first_frame: usize,
     /// Expected number of frames, 0 = unknown. If it is known, an MP4 or MOV reserves room for its index at the front,
@@ -29,6 +29,11 @@ pub struct VideoSettings {
     pub num_frames: usize,
     /// Whether the frames show all directions, by longitude and latitude: MP4 and MOV then say so to players.
     pub is_panorama: bool,
+    /// How the frames hold one view per eye, which all four containers then say to players; `None` for a single view.
+    pub eyes: Option<EyePacking>,
+    /// Whether the frames have opacity: a MOV is `ProRes` 4444 then, and takes [`crate::AlphaPlanes`]. The other films are over
+    /// black.
+    pub has_alpha: bool,
     /// Whether files that already have the output's name are kept or replaced.
     pub existing: Existing,
 }
@@ -40,10 +45,12 @@ impl Default for VideoSettings {
             height: 720,
             rate_fps: 30.0,
             crf: 18,
-            preset: X264Preset::Medium,
+            preset: None,
             first_frame: 0,
             num_frames: 0,
             is_panorama: false,
+            eyes: None,
+            has_alpha: false,
             existing: Existing::Keep,
         }
     }
@@ -87,6 +94,15 @@ impl VideoSettings {
     }
 }
 
+/// How a frame holds one view per eye.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EyePacking {
+    /// The left eye's view on the left.
+    SideBySide,
+    /// The left eye's view above.
+    OverUnder,
+}
+
 /// Effort of the H.264 encoder, by the names of x264's presets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
@@ -97,6 +113,8 @@ pub enum X264Preset {
     Ultrafast,
     /// Little effort.
     Veryfast,
+    /// Between veryfast and fast.
+    Faster,
     /// Some effort.
     Fast,
     /// x264's own default.
@@ -115,7 +133,7 @@ pub enum VideoFormat {
     Mp4,
     /// H.264 in Matroska.
     Mkv,
-    /// H.264 in QuickTime.
+    /// H.264 in QuickTime; `ProRes` 4444 for frames with opacity.
     Mov,
     /// VP9 in WebM.
     WebM,
@@ -154,9 +172,15 @@ impl VideoFormat {
         }
     }
 
+    /// Whether its files hold opacity.
+    pub fn holds_alpha(&self) -> bool {
+        matches!(self, Self::Mov | Self::Sequence(_))
+    }
+
     /// FFmpeg's names of the container and the encoder; `None` for a sequence.
-    pub(super) fn ffmpeg_names(&self) -> Option<(&'static str, &'static str)> {
+    pub(super) fn ffmpeg_names(&self, has_alpha: bool) -> Option<(&'static str, &'static str)> {
         match self {
+            Self::Mov if has_alpha => Some(("mov", "prores_ks")),
             Self::Mp4 => Some(("mp4", "libx264")),
             Self::Mkv => Some(("matroska", "libx264")),
             Self::Mov => Some(("mov", "libx264")),

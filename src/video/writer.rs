@@ -4,7 +4,7 @@ use cinesplat_files::check_free;
 
 use super::film::{self, FilmEncoder};
 use super::sequence::SequenceWriter;
-use super::{Planes420, VideoError, VideoFormat, VideoSettings};
+use super::{AlphaPlanes, Planes420, VideoError, VideoFormat, VideoSettings};
 
 /// Writes frames to one film file or to a numbered sequence of pictures.
 ///
@@ -14,6 +14,8 @@ use super::{Planes420, VideoError, VideoFormat, VideoSettings};
 pub struct VideoWriter {
     sink: Sink,
     settings: VideoSettings,
+    /// Whether the film's frames have opacity.
+    has_alpha: bool,
     num_written: usize,
 }
 
@@ -34,7 +36,8 @@ impl VideoWriter {
             VideoFormat::Sequence(pattern) => Sink::Sequence(SequenceWriter::create(pattern, settings)?),
             _ => Sink::Film(Box::new(FilmEncoder::create(path, &format, settings)?)),
         };
-        Ok(Self { sink, settings: settings.clone(), num_written: 0 })
+        let has_alpha = settings.has_alpha && format.holds_alpha();
+        Ok(Self { sink, settings: settings.clone(), has_alpha, num_written: 0 })
     }
 
     /// Adds one frame: `width * height * 3` bytes, row-major, r g b.
@@ -48,6 +51,10 @@ impl VideoWriter {
             return Err(VideoError::FrameSize { found: rgb8.len(), expected });
         }
         match &mut self.sink {
+            Sink::Film(film) if self.has_alpha => {
+                let (width, height) = (self.settings.width as usize, self.settings.height as usize);
+                film.write_alpha_planes(&AlphaPlanes::opaque(rgb8, width, height))?;
+            }
             Sink::Film(film) => film.write_planes(&self.settings.planes_of(rgb8))?,
             Sink::Sequence(sequence) => sequence.write_frame(rgb8)?,
         }
@@ -62,7 +69,21 @@ impl VideoWriter {
     pub fn write_planes(&mut self, planes: &Planes420) -> Result<(), VideoError> {
         let (found, expected) = (planes.num_bytes(), self.settings.planes_bytes());
         match &mut self.sink {
-            Sink::Film(film) if found == expected => film.write_planes(planes)?,
+            Sink::Film(film) if found == expected && !self.has_alpha => film.write_planes(planes)?,
+            _ => return Err(VideoError::FrameSize { found, expected }),
+        }
+        self.num_written += 1;
+        Ok(())
+    }
+
+    /// Adds one frame of a film with opacity ([`VideoSettings::has_alpha`]).
+    ///
+    /// # Errors
+    /// As [`VideoWriter::write_frame`]; [`VideoError::FrameSize`] also for a format without opacity.
+    pub fn write_alpha_planes(&mut self, planes: &AlphaPlanes) -> Result<(), VideoError> {
+        let (found, expected) = (planes.width * planes.height * 3, self.settings.frame_bytes());
+        match &mut self.sink {
+            Sink::Film(film) if found == expected && self.has_alpha => film.write_alpha_planes(planes)?,
             _ => return Err(VideoError::FrameSize { found, expected }),
         }
         self.num_written += 1;
@@ -130,7 +151,7 @@ pub fn check_output(path: &Path, settings: &VideoSettings) -> Result<VideoFormat
 pub fn check_format(path: &Path, settings: &VideoSettings) -> Result<VideoFormat, VideoError> {
     let format = VideoFormat::from_path(path)?;
     settings.clone().validated(&format)?;
-    if let Some((_, codec_name)) = format.ffmpeg_names()
+    if let Some((_, codec_name)) = format.ffmpeg_names(settings.has_alpha)
         && !film::has_encoder(codec_name)
     {
         return Err(VideoError::Missing { missing: codec_name.to_owned(), path: path.to_owned() });
@@ -138,8 +159,20 @@ pub fn check_format(path: &Path, settings: &VideoSettings) -> Result<VideoFormat
     Ok(format)
 }
 
+/// Calls `visit` with every picture of a film file in order, as it is after the loss of its encoder.
+///
+/// # Errors
+/// [`VideoError::File`], [`VideoError::Ffmpeg`]; [`VideoError::Missing`] without FFmpeg.
+pub fn read_film(path: &Path, visit: &mut dyn FnMut(Planes420)) -> Result<(), VideoError> {
+    film::read_film(path, visit)
+}
+
 /// A note for the user if the format cannot hold this odd size: the film is one pixel wider or higher.
-pub fn odd_size_note(format: &VideoFormat, width: u32, height: u32) -> Option<String> {
+pub fn odd_size_note(format: &VideoFormat, settings: &VideoSettings) -> Option<String> {
+    let VideoSettings { width, height, has_alpha, .. } = *settings;
+    if has_alpha && format.holds_alpha() {
+        return None;
+    }
     let even = (width.next_multiple_of(2), height.next_multiple_of(2));
     let padded = even != (width, height) && !matches!(format, VideoFormat::Sequence(_));
     padded.then(|| format!("{width}x{height} is odd: the film is {}x{}, last column or row repeated", even.0, even.1))

@@ -32,9 +32,17 @@ fn help_shows_every_command_and_examples() {
       help         Print this message or the help of the given subcommand(s)
 
     Options:
-      -q, --quiet    Print only data and errors: no notes, warnings or progress
-      -h, --help     Print help
-      -V, --version  Print version
+      -q, --quiet
+              Print only data and errors: no notes, warnings or progress
+
+          --max-memory <SIZE>
+              Memory that the program may take, such as 2G [default: what container and shell allow]
+
+      -h, --help
+              Print help (see a summary with '-h')
+
+      -V, --version
+              Print version
 
     Examples:
       cinesplat info room.spz
@@ -291,7 +299,8 @@ fn bench_render_prints_rows_and_writes_table_and_plots() {
 #[test]
 fn bench_lens_prints_rows_and_writes_a_plot() {
     let folder = tempfile::tempdir().unwrap();
-    let csv = data(folder.path(), &["bench", "lens", SMALL_SCENE, "--size", "64x36", "--runs", "1", "-o", "out"]);
+    let sampling = ["bench", "lens", SMALL_SCENE, "--parts", "sampling", "--size", "64x36", "--runs", "1", "-o", "out"];
+    let csv = data(folder.path(), &sampling);
     assert_eq!(fs::read_to_string(folder.path().join("out/lens.csv")).unwrap(), csv);
     assert!(folder.path().join("out/lens.svg").exists());
     let rows: Vec<Vec<String>> = csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect();
@@ -303,6 +312,23 @@ fn bench_lens_prints_rows_and_writes_a_plot() {
     };
     let (blurred, plain) = (of("blurred", "16"), of("plain", "1"));
     assert!(blurred.len() == 8 && blurred.iter().zip(&plain).all(|(blurred, plain)| blurred > plain), "{csv}");
+}
+
+#[test]
+fn bench_lens_compares_planned_films_with_forced_ones_and_prices_every_effect() {
+    let folder = tempfile::tempdir().unwrap();
+    let both = ["bench", "lens", SMALL_SCENE, "--parts", "auto,costs", "--size", "64x36", "--runs", "1", "-o", "out"];
+    data(folder.path(), &both);
+    let rows = |name: &str| -> Vec<Vec<String>> {
+        let csv = fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+        csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    // Four shots at two qualities; no film takes more pictures than the one whose effects run on every frame.
+    let films = rows("lens-auto.csv");
+    let number = |row: &Vec<String>, at: usize| row[at].parse::<f64>().unwrap();
+    assert_eq!(films.len(), 8);
+    assert!(films.iter().all(|row| number(row, 5) <= number(row, 6) && number(row, 4) <= 24.0), "{films:?}");
+    assert_eq!(rows("lens-costs.csv").len(), cinesplat::lens::KINDS.len());
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn invalid_arguments() {
     ");
     insta::assert_snapshot!(answer(folder.path(), &["plan", "a.ply", "-p", "x", "-o", "s.json", "--effects", "blur"]), @r#"
     exit 2
-    error[USAGE]: invalid value 'blur' for '--effects <LIST>': no effect is named "blur", expected auto, off, or a list of: film-grain bloom exposure anamorphic vignette chromatic-aberration lens-distortion fisheye panorama rolling-shutter motion-blur rack-focus depth-of-field fog background handheld tilt-shift lens-flare stereo
+    error[USAGE]: invalid value 'blur' for '--effects <LIST>': no effect is named "blur", expected auto, off, or a list of: film-grain bloom exposure stereo lens-flare anamorphic tilt-shift vignette chromatic-aberration lens-distortion fisheye panorama rolling-shutter motion-blur rack-focus depth-of-field fog background handheld
     help: see --help
     "#);
 }
@@ -294,8 +294,6 @@ fn two_outputs_of_one_name_are_refused_before_any_work() {
     ");
     let render = ["render", "no.ply", "-p", "x", "-o", "f.mp4", "--save-shot", "a.png", "--sheet", "a.png"];
     assert!(answer(folder.path(), &render).contains("a.png: --save-shot and --sheet both write this file"));
-    let objects = ["objects", "no.ply", "-o", "o.json", "--sheet", "o.labels.npy"];
-    assert!(answer(folder.path(), &objects).contains("o.labels.npy: --sheet and the labels of --output both write"));
 }
 
 /// Escape sequences of labels and prompts used to reach the terminal.

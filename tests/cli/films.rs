@@ -54,15 +54,17 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     let folder = tempfile::tempdir().unwrap();
     let objects = data(folder.path(), &["objects", SMALL_SCENE, "--json"]);
     let objects: serde_json::Value = serde_json::from_str(&objects).unwrap();
-    let prompt = format!("push in on <obj-{}> with film grain and a lens flare", objects[0]["id"]);
+    let prompt = format!("push in on <obj-{}> with film grain and background music", objects[0]["id"]);
     let plan =
         ["plan", SMALL_SCENE, "-p", &prompt, "-o", "shot.json", "--solve", "fast", "--size", "64x36", "--explain"];
     let output = run(folder.path(), &plan);
     let (explained, said) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert!(output.status.success(), "{said}");
-    assert!(explained.contains("push-in") && explained.contains("lens-flare requested by"), "{explained}");
+    assert!(explained.contains("push-in") && explained.contains("music requested by"), "{explained}");
     assert!(
-        said.contains("effect: lens-flare requested by 'lens flare': not implemented, rendered without it"),
+        said.contains(
+            "effect: music requested by 'background music': not an effect of the camera, rendered without it"
+        ),
         "{said}"
     );
     let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
@@ -70,7 +72,7 @@ fn a_sentence_becomes_a_shot_that_renders_again() {
     assert_eq!(shot["scene"]["path"], SMALL_SCENE);
     assert!(
         shot["report"].as_array().unwrap().iter().any(|line| line["met"] == false),
-        "the report says that the flare is missing"
+        "the report says that the music is missing"
     );
     let again = ["plan", SMALL_SCENE, "-p", &prompt, "--json", "--solve", "fast", "--size", "64x36"];
     assert_eq!(data(folder.path(), &again), text, "the same sentence gives the same shot");
@@ -114,12 +116,12 @@ fn the_reproducing_command_names_the_quality_that_was_chosen() {
     write_shot(folder.path());
     let shot = folder.path().join("the cat's shot.json");
     fs::rename(folder.path().join("shot.json"), shot).unwrap();
-    let render = ["render", SMALL_SCENE, "--shot", "the cat's shot.json", "--min-psnr=10", "-o", "f.mp4"];
+    let render = ["render", SMALL_SCENE, "--shot", "the cat's shot.json", "--budget=100s", "-o", "f.mp4"];
     let said = answer(folder.path(), &render);
     let command = said.lines().find_map(|line| line.strip_prefix("reproduce with: ")).unwrap();
     let start = format!(r"cinesplat render {SMALL_SCENE} --shot 'the cat'\''s shot.json' -o f.mp4 ");
     assert!(command.starts_with(&start), "{command}");
-    assert!(command.contains("--quality ") && !command.contains("--min-psnr"), "{command}");
+    assert!(command.contains("--quality ") && !command.contains("--budget"), "{command}");
     assert!(command.contains("--size 64x36") && command.contains("--seed 0"), "{command}");
 }
 
@@ -174,5 +176,69 @@ fn the_projects_film_prompts_have_unique_ids_and_say_what_to_expect() {
     for case in &cases {
         assert!(["scene", "prompt", "expect"].iter().all(|key| !case[key].as_str().unwrap().is_empty()), "{case}");
         assert!(case["scene"].as_str().unwrap().starts_with("synth:") != case["objects"].is_string(), "{case}");
+    }
+}
+
+/// The shot that `--save-shot` writes had the effects of `standard`, whatever quality the requirements chose.
+#[test]
+fn a_saved_shot_has_the_effects_of_another_quality_than_its_film() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let render = [
+        "render",
+        SMALL_SCENE,
+        "--shot",
+        "shot.json",
+        "--budget=100s",
+        "--effects",
+        "motion-blur",
+        "--save-shot",
+        "saved.json",
+        "-o",
+        "f.mp4",
+    ];
+    let said = answer(folder.path(), &render);
+    let quality = said.split("--quality ").nth(1).and_then(|rest| rest.split_whitespace().next()).unwrap();
+    let allowed = match quality {
+        "draft" => 1.0,
+        "standard" => 0.5,
+        "final" => 0.25,
+        "reference" => 0.125,
+        other => panic!("{other}: {said}"),
+    };
+    let saved: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.path().join("saved.json")).unwrap()).unwrap();
+    assert_eq!(saved["effects"][0]["allowed"], allowed, "{quality}");
+}
+
+/// A 360 film, and one per eye, say so to players; a transparent film is `ProRes` 4444 with its alpha.
+#[test]
+fn players_know_what_kind_of_film_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
+    let background = r#""effects":[{"kind":"background","alpha":1,"because":"the test"}],"keyframes""#;
+    fs::write(folder.path().join("alpha.json"), text.replace("\"keyframes\"", background)).unwrap();
+    let probed = |shot: &str, effects: &str, name: &str| {
+        let film = ["render", SMALL_SCENE, "--shot", shot, "--effects", effects, "-o", name, "--frames", "0..3"];
+        let said = answer(folder.path(), &film);
+        assert!(said.starts_with("exit 0"), "{said}");
+        let entries = "stream=codec_name,profile,pix_fmt:stream_side_data:stream_tags=stereo_mode";
+        let mut ffprobe = std::process::Command::new("ffprobe");
+        ffprobe.args(["-v", "error", "-of", "default=nw=1", "-show_entries", entries]);
+        let output = ffprobe.arg(folder.path().join(name)).output().ok()?;
+        Some(String::from_utf8(output.stdout).unwrap())
+    };
+    let Some(alpha) = probed("alpha.json", "auto", "alpha.mov") else {
+        crate::support::report_skip("ffprobe");
+        return;
+    };
+    // FFmpeg decodes ProRes 4444 to 12 bits.
+    assert!(alpha.contains("codec_name=prores\nprofile=4444\n") && alpha.contains("pix_fmt=yuva444p1"), "{alpha}");
+    let round = probed("shot.json", "panorama", "round.mp4").unwrap();
+    assert!(round.contains("projection=equirectangular"), "{round}");
+    for name in ["eyes.mp4", "eyes.mov", "eyes.mkv", "eyes.webm"] {
+        let eyes = probed("shot.json", "stereo", name).unwrap();
+        assert!(eyes.contains("type=side by side") || eyes.contains("stereo_mode=left_right"), "{name}: {eyes}");
     }
 }

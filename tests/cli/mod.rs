@@ -4,9 +4,11 @@ mod commands;
 mod errors;
 mod films;
 mod map;
+mod memory;
 mod paths;
 mod read;
 mod resume;
+mod surroundings;
 
 use std::ffi::OsStr;
 use std::path::Path;

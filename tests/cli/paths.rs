@@ -6,7 +6,7 @@ use cinesplat::trajectory::{Easing, KeyOptics, Keyframe};
 use glam::{DQuat, DVec3};
 use serde_json::Value;
 
-use super::{answer, data, run};
+use super::{SMALL_SCENE, answer, data, run};
 use crate::support::shot_over;
 
 /// Writes moves.shot.json: a push toward -z, a pause, and a pan to the right by 40 degrees.
@@ -99,4 +99,54 @@ fn a_format_that_is_only_read_is_not_written() {
     );
     data(folder.path(), &["export", "moves.shot.json", "-o", "cameras.json", "--fps", "2"]);
     assert!(run(folder.path(), &["import", "cameras.json", "-o", "back.shot.json"]).status.success());
+}
+
+#[test]
+fn an_eval_of_which_every_estimate_failed_is_a_failure_with_each_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = |time: f64, x: f64| format!("{time} {x} 0 0 0 0 0 1\n");
+    let path = |start: f64| (0..5).map(|k| line(start + f64::from(k), f64::from(k * k))).collect::<String>();
+    for (name, start) in [("ref.tum", 0.0), ("a.tum", 100.0), ("b.tum", 200.0), ("good.tum", 0.0)] {
+        std::fs::write(folder.path().join(name), path(start)).unwrap();
+    }
+    let failed = answer(folder.path(), &["eval", "ref.tum", "a.tum", "b.tum", "--plot", "p.svg"]);
+    assert!(failed.starts_with("exit 65\n"), "{failed}");
+    let last = failed.lines().find(|line| line.starts_with("error[EVAL-NONE]")).unwrap();
+    assert!(last.contains("a.tum: ") && last.contains("b.tum: "), "{last}");
+    assert!(!folder.path().join("p.svg").exists());
+    // One that succeeded is a success, and the other one is named.
+    let mixed = answer(folder.path(), &["eval", "ref.tum", "good.tum", "b.tum", "--plot", "p.svg"]);
+    assert!(mixed.starts_with("exit 0\n") && mixed.contains("warning: b.tum: "), "{mixed}");
+    assert!(folder.path().join("p.svg").exists());
+}
+
+#[test]
+fn two_figures_of_one_name_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let golden = golden("repeated_reference");
+    let refused = answer(folder.path(), &["eval", &golden, &golden, "--plot", "a.svg", "--plot-errors", "./a.svg"]);
+    assert!(refused.starts_with("exit 2\n") && refused.contains("--plot and --plot-errors both write"), "{refused}");
+}
+
+#[test]
+fn a_figure_of_several_estimates_does_not_tell_the_number_of_errors_of_the_first_as_that_of_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let [reference, near, far] = ["repeated_reference", "repeated_reference", "repeated_estimate"].map(golden);
+    let figures = ["--plot", "p.svg", "--plot-errors", "e.svg", "--max-diff", "0.03"];
+    data(folder.path(), &[&["eval", &reference, &near, &far][..], &figures].concat());
+    for name in ["p.svg", "e.svg"] {
+        let svg = std::fs::read_to_string(folder.path().join(name)).unwrap();
+        let title = svg.split("<title>").nth(1).and_then(|rest| rest.split("</title>").next()).unwrap_or_default();
+        assert!(!title.contains(" errors"), "{name}: {title}");
+    }
+}
+
+#[test]
+fn a_sheet_of_objects_under_a_name_of_another_format_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    insta::assert_snapshot!(answer(folder.path(), &["objects", SMALL_SCENE, "--sheet", "sheet.svg"]), @r"
+    exit 2
+    error[USAGE]: sheet.svg: a sheet is a picture or a page, expected .png or .html
+    help: name the sheet something such as sheet.png or sheet.html
+    ");
 }

@@ -46,3 +46,34 @@ fn a_prompt_without_words_is_an_error() {
     help: say what the camera does, for example -p "orbit <obj-3> to the left"
     "#);
 }
+
+#[test]
+fn a_timeline_without_verbs_lists_pictures() {
+    let read = read("0-3s wide on the sofa, 3-6s the floor lamp close");
+    let steps = read["steps"].as_array().unwrap();
+    assert_eq!(steps.iter().map(|step| step["move"].as_str().unwrap()).collect::<Vec<_>>(), ["static", "follow"]);
+    assert_eq!(read["program"], "static end=1:long dur=3s / follow end=2:close-up dur=3s | total=6s");
+}
+
+#[test]
+fn an_effect_named_after_a_film_is_one_dolly_zoom() {
+    for prompt in ["Jaws shot of the sofa", "Vertigo effect on the sofa", "do the Vertigo effect on the floor lamp"] {
+        let read = read(prompt);
+        let steps = read["steps"].as_array().unwrap();
+        assert_eq!(steps.len(), 1, "{prompt}");
+        assert!(steps[0]["move"].as_str().unwrap().starts_with("dolly-zoom"), "{prompt}: {}", steps[0]["move"]);
+    }
+}
+
+#[test]
+fn a_stated_direction_is_not_open() {
+    let read = read("dutch angle on the floor lamp, slow zoom in");
+    let zoom = read["steps"].as_array().unwrap().iter().find(|step| step["move"] == "zoom-in").unwrap().clone();
+    assert_eq!(zoom["either"], false);
+}
+
+#[test]
+fn an_entry_of_a_timeline_that_names_a_move_keeps_it() {
+    let read = read("0-3 s: the sofa. 3-6 s: push in on the floor lamp");
+    assert_eq!(read["program"], "static end=1 dur=3s / push-in end=2 dur=3s | total=6s");
+}

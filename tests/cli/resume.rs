@@ -115,7 +115,7 @@ fn frames_of_another_film_are_refused_field_by_field() {
     let other = [&small[..], &["--quality", "draft", "--fps", "4", "--crf", "30"]].concat();
     insta::assert_snapshot!(answer(folder.path(), &[&other[..], &["-q"]].concat()), @r"
     exit 65
-    error[JOB-MISMATCH]: film.mp4.job: its frames are of another film: fps was 8, now 4; frames was 0..8, now 0..4; quality was standard, now draft; crf was 18, now 30
+    error[JOB-MISMATCH]: film.mp4.job: its frames are of another film: fps was 8, now 4; frames was 0..8, now 0..4; quality was standard, now draft; crf was 18, now 30; preset was veryfast, now ultrafast
     help: type the line of that film to go on with it, or pass --fresh to throw its frames away
     ");
     assert_eq!(names(&folder.path().join("film.mp4.job/frames")).len(), 8, "the frames stay");
@@ -243,4 +243,119 @@ fn several_programs_render_one_film() {
     data(folder.path(), &[&["farm", "--local", "2"], &render("farmed.mp4", &[])[1..]].concat());
     assert!(fs::read(folder.path().join("farmed.mp4")).unwrap() == whole);
     assert_eq!(names(folder.path()), ["farmed.mp4", "film.mp4", "shot.json"]);
+}
+
+/// The frames of the longer film used to stay behind the shorter one, as if they belonged to it.
+#[test]
+fn a_shorter_sequence_leaves_no_pictures_of_the_longer_one() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let sequence = |flags: &[&str]| {
+        let line = ["render", SMALL_SCENE, "--shot", "shot.json", "-o", "p/%03d.png", "--effects", "off"];
+        answer(folder.path(), &[&line[..], flags].concat())
+    };
+    assert!(sequence(&[]).starts_with("exit 0\n"));
+    for name in ["p/7.png", "p/0007.png", "p/007.png.txt", "p/x007.png"] {
+        fs::write(folder.path().join(name), "another's").unwrap();
+    }
+    let part = sequence(&["--frames", "2..4", "--overwrite"]);
+    assert!(part.starts_with("exit 0\n") && !part.contains("were removed"), "{part}");
+    assert_eq!(names(&folder.path().join("p")).len(), 12, "the pictures around a part stay");
+    let shorter = sequence(&["--duration", "0.5", "--overwrite"]);
+    assert!(shorter.contains("4 pictures of a longer film were removed"), "{shorter}");
+    let left = ["000.png", "0007.png", "001.png", "002.png", "003.png", "007.png.txt", "7.png", "x007.png"];
+    assert_eq!(names(&folder.path().join("p")), left);
+}
+
+/// A temporary name that was longer than its target's used to fail after rendering.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_longest_names_are_written_and_longer_ones_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let name = |num_bytes: usize| format!("{}.mp4", "a".repeat(num_bytes - 4));
+    let line = |name: &str, flag: &str| {
+        answer(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", name, flag])
+    };
+    assert!(line(&name(251), "--overwrite").starts_with("exit 0\n"), "with a job folder of four more letters");
+    assert!(line(&name(255), "--no-job").starts_with("exit 0\n"));
+    let refused = answer(folder.path(), &["render", "no.ply", "-p", "x", "-o", &name(256), "--no-job"]);
+    assert!(refused.starts_with("exit 73\n") && refused.contains("longer than the file system allows"), "{refused}");
+}
+
+#[test]
+fn a_part_says_the_line_that_makes_the_film() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    for flags in [["--part", "--frames", "20..24"], ["--frames=0..8", "--part=2/3", "--overwrite"]] {
+        let said = answer(folder.path(), &render("film.mp4", &flags));
+        let line = said.split("this makes the film: ").nth(1).unwrap_or_default().trim();
+        assert!(line.contains("film.mp4") && !line.contains("--part") && !line.contains(".."), "{said}");
+    }
+    let listed = fs::read_to_string(folder.path().join("film.mp4.job/done.log")).unwrap();
+    let frames: Vec<&str> = listed.lines().map(|line| line.split_once(' ').unwrap().0).collect();
+    assert_eq!(
+        frames,
+        ["20", "21", "22", "23", "2", "3", "4", "5", "6", "7", "0", "1"],
+        "2/3 begins at the second third"
+    );
+    data(folder.path(), &render("film.mp4", &[]));
+    assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
+    let wrong = run(folder.path(), &render("film.mp4", &["--part=4/3"]));
+    assert_eq!(wrong.status.code(), Some(2));
+}
+
+/// Stands for Slurm: a job runs when it is submitted, task by task. The tasks of the first job do the frames 0..9 only, as
+/// if they were killed then.
+#[cfg(unix)]
+const SBATCH: &str = r#"#!/bin/sh
+for word; do
+    case "$word" in
+        --array=1-*) SLURM_ARRAY_TASK_COUNT=${word#--array=1-} ;;
+        --output=*) log=$(echo "${word#--output=}" | sed 's/%A-%a/7-1/') ;;
+    esac
+    script=$word
+done
+echo "$@" >> sbatch.words
+export SLURM_ARRAY_TASK_COUNT
+for SLURM_ARRAY_TASK_ID in $(seq 1 ${SLURM_ARRAY_TASK_COUNT:-0}); do
+    export SLURM_ARRAY_TASK_ID
+    if [ -e killed ]; then sh "$script"; else sh -c "$(tail -n 1 "$script") --frames 0..9"; fi >> "$log" 2>&1
+done
+touch killed
+echo 7
+"#;
+
+#[cfg(unix)]
+#[test]
+fn a_cluster_renders_one_film_and_is_given_again_what_it_lost() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    let programs = folder.path().join("bin");
+    fs::create_dir(&programs).unwrap();
+    for (name, text) in [("sbatch", SBATCH), ("squeue", "#!/bin/sh\n"), ("scancel", "#!/bin/sh\n")] {
+        fs::write(programs.join(name), text).unwrap();
+        fs::set_permissions(programs.join(name), fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+    let farm = |arguments: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
+        let output = program.args(arguments).current_dir(folder.path()).env("PATH", &path).output().unwrap();
+        (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let flags = ["farm", "--slurm", "--parts", "3", "--sbatch", "--partition=long -t 5"];
+    let (code, said) = farm(&[&flags[..], &render("film.mp4", &[])[1..]].concat());
+    assert!(code == 0 && said.contains("15 frames are missing: they are submitted again"), "{code}: {said}");
+    assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
+    let words = fs::read_to_string(folder.path().join("sbatch.words")).unwrap();
+    assert_eq!(words.lines().count(), 2, "{words}");
+    assert!(
+        words.contains("--array=1-3") && words.contains("--partition=long -t 5 film.mp4.job/tasks/part.sh"),
+        "{words}"
+    );
+    assert_eq!(names(folder.path()), ["bin", "film.mp4", "killed", "sbatch.words", "shot.json"], "no job folder");
+    let (code, said) = farm(&["farm", "--slurm", "none.ply", "--shot", "shot.json", "-o", "other.mp4"]);
+    assert!(code == 69 && said.contains("finished no frame: error[SCENE-NOT-FOUND]: none.ply"), "{code}: {said}");
 }

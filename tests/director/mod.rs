@@ -9,4 +9,5 @@ mod hostile;
 mod keys;
 mod model_files;
 mod names;
+mod said;
 mod vocabulary;

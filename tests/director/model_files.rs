@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use cinesplat::director::Director;
+use cinesplat::director::{Director, ModelFiles};
 use cinesplat::training::{TrainSettings, train};
 
 /// The folder of a model that was trained for one step.
@@ -64,6 +64,19 @@ fn a_written_model_loads_and_damage_is_named() {
 }
 
 #[test]
+fn weights_that_change_after_they_were_read_change_nothing() {
+    let model = model();
+    let (again, director) = (Director::load(model.path()).unwrap(), Director::load(model.path()).unwrap());
+    for file in std::fs::read_dir(model.path()).unwrap() {
+        std::fs::write(file.unwrap().path(), b"").unwrap();
+    }
+    assert!(Director::load(model.path()).is_err());
+    let linked = |director: &Director| director.link("push in slowly, then pan left", &[]).unwrap();
+    assert_eq!(director.model_ref(), again.model_ref());
+    assert_eq!(format!("{:?}", linked(&director)), format!("{:?}", linked(&again)));
+}
+
+#[test]
 fn infinite_weights_are_rejected_even_if_the_hash_fits() {
     use sha2::{Digest, Sha256};
     let model = model();
@@ -87,4 +100,40 @@ fn infinite_weights_are_rejected_even_if_the_hash_fits() {
 fn a_missing_model_is_a_read_error() {
     let error = Director::load(Path::new("/nowhere/director.json")).unwrap_err();
     assert_eq!(error.code(), "MODEL-READ");
+}
+
+#[test]
+fn the_mean_of_models_has_the_mean_weights() {
+    let [one, other] = [3, 4].map(|seed| {
+        let out = tempfile::tempdir().unwrap();
+        let settings = TrainSettings {
+            seed,
+            steps: 1,
+            batch: 2,
+            corpus: 60,
+            vocabulary: 260,
+            evaluation_prompts: 0,
+            from: Some("models".into()),
+            ..TrainSettings::default()
+        };
+        train(&settings, out.path(), &mut |_| ControlFlow::Continue(())).unwrap();
+        ModelFiles::read(out.path()).unwrap()
+    });
+    let mean = ModelFiles::mean(&[one.clone(), other.clone()], "mean").unwrap();
+    let values = |files: &ModelFiles| {
+        let tensors = files.tensors().unwrap();
+        let values = tensors.values().map(|tensor| tensor.flatten_all().unwrap().to_vec1::<f32>().unwrap());
+        values.collect::<Vec<_>>().concat()
+    };
+    let (a, b, mean_values) = (values(&one), values(&other), values(&mean));
+    assert!(a != b);
+    for ((a, b), mean) in a.iter().zip(&b).zip(&mean_values) {
+        // The weights are stored as f16.
+        assert!((0.5 * (a + b) - mean).abs() <= 1e-7 + 1e-3 * mean.abs(), "{a}, {b}: {mean}");
+    }
+    Director::from_files(&mean).unwrap();
+    let small = model();
+    let small = ModelFiles::read(small.path()).unwrap();
+    assert!(ModelFiles::mean(&[one, small], "mean").is_err());
+    assert!(ModelFiles::mean(&[], "mean").is_err());
 }

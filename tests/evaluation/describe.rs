@@ -101,6 +101,15 @@ fn a_pause_and_a_cut_are_told() {
     assert!(Description::new(&jumped, &[105], None).sentence().contains(", cut, then pan right 50 degrees"));
 }
 
+/// The sentence of an arc used to read back as an orbit.
+#[test]
+fn an_arc_is_told_as_an_arc() {
+    let path = Walk::new().orbit(4.0, 2.5, 80.0).path();
+    assert_eq!(names(&path), [Some(Move::ArcRight)]);
+    let sentence = Description::new(&path, &[], None).sentence();
+    assert!(sentence.starts_with("arc to the right by "), "{sentence}");
+}
+
 #[test]
 fn several_moves_at_once_are_told_by_their_directions() {
     // Forward and to the right while the view turns right, which aims at nothing.

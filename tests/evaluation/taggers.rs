@@ -102,6 +102,22 @@ fn at_most_four_segments_are_left() {
     assert!(Tagger::Gendop.segments(&through(points.into_iter(), DQuat::IDENTITY)).len() <= 4);
 }
 
+/// The filter used to grow with the path, and every growth to cost the square of it: hours for a path of this length.
+#[test]
+fn a_path_of_30_000_poses_is_tagged() {
+    let mut random = Lcg(5);
+    let mut at = DVec3::ZERO;
+    let points: Vec<DVec3> = (0..30_000)
+        .map(|_| {
+            at += DVec3::new(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5) * 0.1;
+            at
+        })
+        .collect();
+    let segments = Tagger::Gendop.segments(&through(points.into_iter(), DQuat::IDENTITY));
+    assert!((1..=4).contains(&segments.len()));
+    assert_eq!((segments[0].start, segments[segments.len() - 1].end), (0, 29_999));
+}
+
 #[test]
 fn nothing_to_tag_gives_no_segments() {
     assert!(Tagger::Gendop.segments(&Trajectory::default()).is_empty());

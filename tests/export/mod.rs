@@ -10,6 +10,8 @@ mod hostile;
 mod imported_shots;
 mod nerfstudio;
 mod other_readers;
+mod parents;
+mod read_only_formats;
 mod round_trips;
 mod sample_shot;
 mod shot_json;

@@ -1,6 +1,7 @@
 //! Formats that are only read: files written here from known poses by the definition of each format.
 
-use cinesplat::export::{Format, Imported, ReadSettings, cameras_json, read, read_with};
+use cinesplat::evaluation::{EvalSettings, Trajectory, evaluate};
+use cinesplat::export::{Format, ImportSettings, Imported, ReadSettings, cameras_json, read, read_with};
 use cinesplat::geometry::{Pose, rotation};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
@@ -148,7 +149,35 @@ fn a_folder_of_7scenes_without_the_poses_that_tracking_lost() {
     std::fs::write(folder.path().join("frame-000000.color.png"), b"x").unwrap();
     let imported = read(folder.path(), None).unwrap();
     check(&imported, Format::SevenScenes, 1e-12);
-    assert_eq!(imported.track.unread, ["1 of 5 poses are not finite and are left out"]);
+    assert_eq!(imported.track.unread, ["1 of 5 poses are not finite and are left out: the others keep their times"]);
+    // Frames 0, 2, 4 and 6 stay where they are in time, at any rate.
+    let settings = ImportSettings { fps: Some(10.0), ..ImportSettings::default() };
+    let (shot, _) = imported.into_shot(&settings).unwrap();
+    let times: Vec<f64> = shot.keyframes.iter().map(|key| key.time_secs).collect();
+    assert_eq!(times, [0.0, 0.2, 0.4, 0.6]);
+}
+
+#[test]
+fn a_lost_pose_does_not_shift_the_later_frames_of_7scenes() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |sequence: &str, idx: usize, lost: bool| {
+        let pose = Pose::new(DVec3::new(idx as f64, (idx * idx) as f64, 0.0), DQuat::IDENTITY);
+        let lines = rows(pose.world_from_camera()).chunks(4).map(|row| joined(row, " ") + "\n").collect();
+        let text = if lost { "nan nan nan nan\n".repeat(4) } else { lines };
+        let folder = folder.path().join(sequence);
+        std::fs::create_dir_all(&folder).unwrap();
+        // Without leading zeros the order of the names is not that of the numbers.
+        std::fs::write(folder.join(format!("frame-{idx}.pose.txt")), text).unwrap();
+    };
+    for idx in 0..12 {
+        write("whole", idx, false);
+        write("gap", idx, idx == 4);
+    }
+    let [whole, gap] = ["whole", "gap"].map(|name| read(&folder.path().join(name), None).unwrap().track);
+    let positions: Vec<f64> = whole.frames.iter().map(|frame| frame.pose.position.x).collect();
+    assert_eq!(positions, (0..12).map(f64::from).collect::<Vec<_>>());
+    let found = evaluate(&Trajectory::from(&whole), &Trajectory::from(&gap), &EvalSettings::default()).unwrap();
+    assert_eq!((found.errors.len(), found.statistics.max), (11, 0.0));
 }
 
 #[test]

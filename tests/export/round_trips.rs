@@ -1,7 +1,7 @@
 //! Random shots read back from every format, to the precision of the format.
 
 use cinesplat::export::{Content, Format, ImportSettings, PoseTrack};
-use cinesplat::geometry::rotation;
+use cinesplat::geometry::{Pose, rotation};
 use cinesplat::trajectory::{Easing, Keyframe, ReportLine, SceneRef, Shot};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
@@ -51,7 +51,7 @@ fn rotations() -> impl Strategy<Value = DQuat> {
         .prop_map(DQuat::normalize)
 }
 
-fn shots() -> impl Strategy<Value = Shot> {
+pub(super) fn shots() -> impl Strategy<Value = Shot> {
     let position = || (-5.0..5.0_f64, -5.0..5.0_f64, -5.0..5.0_f64).prop_map(|(x, y, z)| DVec3::new(x, y, z));
     let keys = prop::collection::vec((0.2..1.0_f64, position(), rotations(), 15.0..90.0_f64, prop::bool::ANY), 1..5);
     let sizes = prop::sample::select(vec![(1280, 720), (720, 1280), (1080, 1080), (1998, 1080)]);
@@ -112,6 +112,36 @@ proptest! {
     fn keyframes_of_random_shots(shot in shots()) {
         for row in &ROWS {
             check(&shot, row, Content::Keyframes);
+        }
+    }
+}
+
+/// SuperSplat's viewer holds no roll: level cameras keep everything else, in portrait sizes as well.
+#[test]
+fn level_shots_through_supersplats_settings_in_every_size_and_rate() {
+    for (width, height) in [(1280, 720), (720, 1280), (1080, 1080), (1998, 1080)] {
+        for fps in [24.0, 25.0, 30_000.0 / 1001.0, 120.0] {
+            let at = |secs: f64, x: f64| {
+                let pose = Pose::look_at(DVec3::new(x, -2.0, 0.5 * x), DVec3::new(1.0, -1.0, 5.0), DVec3::NEG_Y, None)
+                    .unwrap();
+                key(secs, pose.position, pose.rotation, 30.0 + 10.0 * secs)
+            };
+            let mut level =
+                Shot { width, height, fps, ..shot(vec![at(0.0, 0.0), at(0.5, 1.0), at(1.0, -3.0)], DVec3::NEG_Y) };
+            level.keyframes[2].cut = true;
+            let wanted = PoseTrack::keyframes(&level);
+            let (imported, ..) = there_and_back(&level, Format::Supersplat, "settings.json", Content::Keyframes);
+            let settings = ImportSettings { size_px: Some((width, height)), ..ImportSettings::default() };
+            let (back, _) = imported.into_shot(&settings).unwrap();
+            assert_eq!(back.keyframes.iter().filter(|key| key.cut).count(), 1, "{width} x {height} at {fps}");
+            for a in &wanted.frames {
+                let late = |key: &&Keyframe| (key.time_secs - a.time_secs).abs();
+                let b = back.keyframes.iter().min_by(|x, y| late(x).total_cmp(&late(y))).unwrap();
+                assert!(late(&b) < 1e-9, "{width} x {height} at {fps}: {} s", late(&b));
+                assert!(b.pose.position.distance(a.pose.position) < 1e-9);
+                assert!(rotation::angle_between(a.pose.rotation, b.pose.rotation) < 1e-6);
+                assert!((b.fov_y_rad - a.fov_y_rad.unwrap()).abs() < 1e-9, "{width} x {height}: {}", b.fov_y_rad);
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 """Disturbs renders in every way that `tests/reliability.md` lists, and prints that page's table.
 
 Usage: python3 tests/faults/run.py target/release/cinesplat [--kills 200] [--only ROW ..]
+           [--panics PROGRAM]
 
 Every row compares the film of a disturbed run, and of the runs that go on from it, with the film of an undisturbed run,
 byte by byte. Needs Linux and, for the rows of failing writes, a C compiler. Exits with 1 if a row finds a fault.
@@ -19,6 +20,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import commands
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENE = "synth:tabletop:1:0.02"
@@ -270,23 +273,6 @@ def file_limits(program):
     return row
 
 
-def memory_limits(program):
-    """`ulimit -v` from 64 MB to 4 GB."""
-    bench, row, codes = Bench(program, 3), Row("`ulimit -v` from 64 MB to 4 GB", ""), collections.Counter()
-    sizes = [64, 96, 128, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 3072, 4096]
-    for size in sizes:
-        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (size << 20, size << 20))
-        first = bench.run(preexec_fn=limit)
-        codes[first.returncode] += 1
-        row.check(first.returncode >= 0 and first.returncode != 134, f"{size} MB: exit {first.returncode}: {first.stderr[-200:]}")
-        row.check(not bench.film.exists() or bench.is_whole(), f"{size} MB: a film that is not whole")
-        bench.clear()
-    row.tried = f"{len(sizes)} limits"
-    row.result = ", ".join(f"exit {code}: {count}" for code, count in sorted(codes.items()))
-    bench.close()
-    return row
-
-
 def small_disk(program):
     """A disk of a few hundred kilobytes fills up at every stage."""
     bench, row, codes = Bench(program, 20), Row("Disk of 100 KB to 3 MB fills up", ""), collections.Counter()
@@ -316,14 +302,33 @@ def small_disk(program):
     return row
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("--kills", type=int, default=200)
-    parser.add_argument("--only", nargs="*")
-    arguments = parser.parse_args()
-    program, num = os.path.abspath(arguments.program), arguments.kills
-    rows = {
+def panics(program):
+    """A panic in every thread of a film that has work: `program` is built with the feature `panic-points`."""
+    bench, row = Bench(program, 20), Row("Panic in each thread of a film", "")
+    places = ["render:7", "worker:7", "encode:7", "flush:0"]
+    for place in places:
+        first = bench.run(env={**os.environ, "CINESPLAT_PANIC_AT": place, "TMPDIR": str(bench.folder)})
+        reports = list(bench.folder.glob("cinesplat-fault-*.txt"))
+        lines = [line for line in first.stderr.splitlines() if line.startswith(("error", "help"))]
+        row.check(first.returncode == 70 and len(lines) == 2, f"{place}: exit {first.returncode}: {first.stderr[-300:]}")
+        row.check(len(reports) == 1 and "asked for" in reports[0].read_text(), f"{place}: reports {reports}")
+        row.check(not bench.film.exists() or bench.is_whole(), f"{place}: a film that is not whole")
+        [report.unlink() for report in reports]
+        num_kept = len(set(bench.frames()))
+        if not bench.film.exists():
+            again = bench.run()
+            row.check(again.returncode == 0 and f"{num_kept} of 20 frames were kept" in again.stderr, f"{place}: {again.stderr[-300:]}")
+        row.check(bench.is_whole() and bench.leftovers() == [], f"{place}: left {bench.leftovers()}")
+        bench.clear()
+    row.tried = f"{len(places)} places"
+    row.result = "exit 70 with two lines and a report file; the next run goes on and makes the film"
+    bench.close()
+    return row
+
+
+def rows(program, num, panics_program=None):
+    """The rows by name. `num`: kills of films; `panics_program`: the program built with the feature panic-points."""
+    return {
         "kills": lambda: kills(program, num),
         "stops": lambda: stops(program, max(1, num // 4)),
         "farm": lambda: farm(program, max(1, num // 20)),
@@ -331,11 +336,22 @@ def main():
         **{kind: lambda kind=kind: calls(program, kind) for kind in ("enospc", "eio", "eintr", "short")},
         "disk": lambda: small_disk(program),
         "file-limits": lambda: file_limits(program),
-        "memory-limits": lambda: memory_limits(program),
+        **({"panics": lambda: panics(os.path.abspath(panics_program))} if panics_program else {}),
+        **commands.rows(program),
     }
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--kills", type=int, default=200)
+    parser.add_argument("--only", nargs="*")
+    parser.add_argument("--panics", help="the program built with the feature panic-points")
+    arguments = parser.parse_args()
+    program, num = os.path.abspath(arguments.program), arguments.kills
     print("| fault | tried | result |\n|---|---|---|", flush=True)
     num_faults = 0
-    for name, make in rows.items():
+    for name, make in rows(program, num, arguments.panics).items():
         if arguments.only and name not in arguments.only:
             continue
         row = make()

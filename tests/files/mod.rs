@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::Path;
 
 use cinesplat::files::{
-    Existing, FileError, NewFile, beside, check_free, checksum, holds, move_file, npy, read, relative_to, sha256_hex,
-    write,
+    Existing, FileError, Limits, NewFile, beside, check_free, checksum, holds, json_excess, move_file, npy, read,
+    relative_to, sha256_hex, write,
 };
 
 fn names(folder: &Path) -> Vec<String> {
@@ -188,4 +188,24 @@ fn a_name_that_ends_in_a_slash_is_a_folder() {
     let folder = tempfile::tempdir().unwrap();
     let path = format!("{}/new.mp4/", folder.path().display());
     assert!(matches!(check_free(Path::new(&path), Existing::Keep), Err(FileError::Create { .. })));
+}
+
+#[test]
+fn json_beyond_the_limits_is_found_before_it_is_parsed() {
+    let limits = Limits { json_depth: 4, json_bytes: 10_000, ..Limits::DEFAULT };
+    let excess = |text: &str| json_excess(text.as_bytes(), &limits);
+    assert_eq!(excess(r#"{"a": [1, 2, {"b": "]]]]]][[[[[[{{{{{{"}]}"#), None);
+    assert_eq!(excess("[[[[1]]]]"), None);
+    assert_eq!(excess("[[[[[1]]]]]").unwrap(), "lists nested over 4 deep, expected at most 4");
+    // Escaped quotes do not end a text.
+    assert_eq!(excess(r#"["\"[[[[[[", "\\", 1]"#), None);
+    assert!(excess(r#"["\\", [[[[[1]]]]]]"#).is_some());
+    let many = format!("[{}1]", "1,".repeat(400));
+    assert!(excess(&many).unwrap().contains("over 10000 bytes of memory"));
+    assert!(excess(&format!("[{}]", vec!["{}"; 20].join(","))).is_some());
+    assert!(excess(&format!("\"{}\"", "x".repeat(11_000))).is_some());
+    // Text that is no JSON is no reason to panic.
+    for text in ["", "]]]]", "\"", "\"\\", "{\"a", "\u{feff}["] {
+        assert_eq!(excess(text), None, "{text:?}");
+    }
 }

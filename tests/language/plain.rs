@@ -23,7 +23,7 @@ fn shorthand_is_written_out() {
 #[test]
 fn slips_of_dictation_and_typing_are_mended() {
     for (prompt, plain) in [
-        ("pan write from it period", "pan right from it ."),
+        ("pan write from it period hold", "pan right from it . hold"),
         ("peddle stool up until you can sea it", "pedestal up until you can see it"),
         ("then hold for to seconds", "then hold for <qty-0>"),
         ("zom out utnil it is centerd", "zoom out until it is centred"),

@@ -17,7 +17,7 @@ fn choices_parse_and_unknown_names_fail() {
 #[test]
 fn every_call_leads_to_an_effect_or_to_a_reason() {
     let calls =
-        [call("vignette", &[]), call("lens-flare", &[]), call("music", &[]), call("film-grain", &[("strength", 0.0)])];
+        [call("vignette", &[]), call("stereo", &[]), call("music", &[]), call("film-grain", &[("strength", 0.0)])];
     let sentences = |choice: &EffectChoice| {
         let called = called(&calls, choice);
         let effects: Vec<_> = called.effects.iter().map(|effect| effect.name).collect();
@@ -25,32 +25,66 @@ fn every_call_leads_to_an_effect_or_to_a_reason() {
         format!("{}\n{}", effects.join(" "), unmet.join("\n"))
     };
     insta::assert_snapshot!(sentences(&EffectChoice::Auto), @r"
-    vignette
+    stereo vignette
     film-grain requested by 'the test': left out, its settings do nothing
-    lens-flare requested by 'the test': not implemented, rendered without it
     music requested by 'the test': not an effect of the camera, rendered without it
     ");
     insta::assert_snapshot!(sentences(&EffectChoice::Off), @r"
 
     film-grain requested by 'the test': disabled by --effects
+    stereo requested by 'the test': disabled by --effects
     vignette requested by 'the test': disabled by --effects
-    lens-flare requested by 'the test': disabled by --effects
     music requested by 'the test': not an effect of the camera, rendered without it
     ");
     insta::assert_snapshot!(sentences(&"handheld".parse().unwrap()), @r"
     handheld
     film-grain requested by 'the test': disabled by --effects
+    stereo requested by 'the test': disabled by --effects
     vignette requested by 'the test': disabled by --effects
-    lens-flare requested by 'the test': disabled by --effects
     music requested by 'the test': not an effect of the camera, rendered without it
     ");
 }
 
 #[test]
 fn settings_make_the_same_effect_again() {
-    for name in names().filter(|name| !cinesplat::lens::NOT_BUILT.contains(name)) {
+    for name in names() {
         let Some(first) = called(&[call(name, &[])], &EffectChoice::Auto).effects.pop() else { continue };
         let again = called(&[call(name, &first.effect.settings())], &EffectChoice::Auto).effects.pop().unwrap();
         assert_eq!(first, again);
     }
+}
+
+/// Together they gave garbage: each one took the pinhole picture that the others need.
+#[test]
+fn panorama_fisheye_and_distortion_called_together_give_garbage() {
+    let names = ["lens-distortion", "panorama", "fisheye", "stereo", "tilt-shift"];
+    let of = |names: &[&str]| {
+        let calls: Vec<_> = names.iter().map(|name| call(name, &[])).collect();
+        let called = called(&calls, &EffectChoice::Auto);
+        let kept: Vec<_> = called.effects.iter().map(|effect| effect.name).collect();
+        assert!(called.unmet.iter().all(Unmet::is_missing), "somebody asked for it");
+        format!("{}\n{}", kept.join(" "), called.unmet.iter().map(Unmet::sentence).collect::<Vec<_>>().join("\n"))
+    };
+    insta::assert_snapshot!(of(&names), @r"
+    panorama
+    stereo requested by 'the test': left out, panorama takes its place: an eye that looks everywhere has no right side
+    tilt-shift requested by 'the test': left out, panorama takes its place: a picture of all directions has no upper border
+    lens-distortion requested by 'the test': left out, panorama takes its place: a picture has one projection
+    fisheye requested by 'the test': left out, panorama takes its place: a picture has one projection
+    ");
+    insta::assert_snapshot!(of(&["lens-distortion", "fisheye"]), @r"
+    fisheye
+    lens-distortion requested by 'the test': left out, fisheye takes its place: a picture has one projection
+    ");
+    // A list of the user's is no different.
+    let listed = called(&[], &"lens-distortion,panorama".parse().unwrap());
+    assert_eq!(listed.effects.iter().map(|effect| effect.name).collect::<Vec<_>>(), ["panorama"]);
+}
+
+#[test]
+fn fog_takes_the_place_of_a_background_and_says_so() {
+    let calls = [call("fog", &[]), call("background", &[("alpha", 1.0)])];
+    let called = called(&calls, &EffectChoice::Auto);
+    assert!(called.effects.iter().all(|effect| !effect.effect.is_transparent()), "fog is opaque");
+    insta::assert_snapshot!(called.unmet[0].sentence(), @"background requested by 'the test': left out, fog takes its place: fog hides what is behind the scene, and its film is opaque");
 }

@@ -1,8 +1,10 @@
 //! The samples of shutter and lens.
 
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
-use cinesplat::lens::{Aperture, Between, Budget, LensAndShutter, MAX_SAMPLES, SENSOR_M, focal_length_m};
-use cinesplat::render::{Quality, RenderSettings, Renderer, SubFrame, ThinLens};
+use cinesplat::lens::{
+    Aperture, Between, Budget, LensAndShutter, MAX_SAMPLES, PlannedExposure, SENSOR_M, focal_length_m,
+};
+use cinesplat::render::{Quality, RenderSettings, Renderer, SplatBlur, SubFrame, ThinLens};
 use cinesplat::scene::Gaussians;
 use glam::{DVec2, DVec3, Quat, Vec3};
 
@@ -51,7 +53,7 @@ fn a_pinhole_of_the_lens_keeps_the_plane_of_focus_in_place() {
         pose: Pose::look_at(DVec3::new(1.0, 2.0, -3.0), DVec3::ZERO, DVec3::Y, None).unwrap(),
         ..normal_lens()
     };
-    let lens = ThinLens { aperture_diameter: 0.3, focus_distance: 3.0 };
+    let lens = ThinLens { aperture_diameter: 0.3, focus_distance: 3.0, squeeze: 1.0 };
     let point_at = |depth: f64| camera.pose.position + camera.pose.rotation * DVec3::new(0.2, -0.1, depth);
     for point in [DVec2::X, DVec2::new(-0.3, 0.6)] {
         let seen = lens.pinhole(&camera, point);
@@ -85,7 +87,7 @@ fn moments_are_midpoints_and_blurred_parts_meet() {
 #[test]
 fn lens_points_have_the_mean_and_variance_of_the_aperture() {
     let still = |_: f64| normal_lens();
-    let lens = ThinLens { aperture_diameter: 2.0, focus_distance: f64::INFINITY };
+    let lens = ThinLens { aperture_diameter: 2.0, focus_distance: f64::INFINITY, squeeze: 1.0 };
     let exposure = LensAndShutter { camera_at: &still, lens: Some(lens) };
     for num in [1, 3, 4, 5, 8, 16, 37, 256] {
         for between in [Between::Sharp, Between::Blurred] {
@@ -120,7 +122,7 @@ fn a_static_frame_takes_one_plain_picture_and_blur_as_many_samples_as_it_needs()
                 Camera { pose: Pose { position: shift, ..camera.pose }, ..camera }
             };
             let aperture_diameter = circle_px * 2.0 / camera.intrinsics.fx_px;
-            let lens = Some(ThinLens { aperture_diameter, focus_distance: f64::INFINITY });
+            let lens = Some(ThinLens { aperture_diameter, focus_distance: f64::INFINITY, squeeze: 1.0 });
             LensAndShutter { camera_at: &camera_at, lens }.plan(&renderer, &settings).unwrap()
         };
         let plain = vec![SubFrame::from(camera)];
@@ -129,13 +131,25 @@ fn a_static_frame_takes_one_plain_picture_and_blur_as_many_samples_as_it_needs()
         assert_eq!(plan(below, below).subframes, plain);
         let above = budget.blur_px * 1.02;
         let moving = plan(above, below);
-        assert_eq!((moving.subframes.len(), moving.blurs), (1, [true, false]));
-        assert!((moving.extent.motion_px / above - 1.0).abs() < 0.01 && moving.subframes[0].blur.lens.is_none());
+        // One step takes two samples, which are sharp.
+        assert_eq!((moving.subframes.len(), moving.blurs), (2, [true, false]));
+        assert!((moving.extent.motion_px / above - 1.0).abs() < 0.01);
+        assert!(moving.subframes.iter().all(|subframe| subframe.blur == SplatBlur::default()));
         let open = plan(below, above);
-        assert_eq!((open.subframes.len(), open.blurs), (1, [false, true]));
-        assert!(open.subframes[0].blur.motion.is_none_or(|[start, end]| start == end));
-        assert_eq!(plan(budget.motion_step_px * 6.5 * 6.5, 0.0).subframes.len(), 7);
-        assert_eq!(plan(0.0, budget.circle_step_px * 4.5).subframes.len(), 5);
-        assert_eq!(plan(1e6, 0.0).subframes.len(), MAX_SAMPLES as usize);
+        assert_eq!((open.subframes.len(), open.blurs), (3, [false, true]));
+        // The largest numbers of samples leave gaps, over which the splats are blurred.
+        let [most_motion, most_lens] = budget.max_samples;
+        let has_blur = |plan: &PlannedExposure| plan.subframes.iter().all(|subframe| !subframe.blur.is_none());
+        let wide = plan(1e6, 0.0);
+        assert_eq!((wide.subframes.len(), has_blur(&wide)), (most_motion as usize, true));
+        let open = plan(0.0, 300.0);
+        assert_eq!((open.subframes.len(), has_blur(&open)), (most_lens as usize, true));
+        assert!(most_motion.max(most_lens) <= MAX_SAMPLES);
+        if quality != Quality::Draft {
+            let few = plan(budget.motion_step_px * 3.5, 0.0);
+            assert_eq!((few.subframes.len(), has_blur(&few)), (5, false));
+            let few = plan(0.0, budget.circle_step_px * 2.9);
+            assert_eq!((few.subframes.len(), has_blur(&few)), (9, false));
+        }
     }
 }

@@ -107,6 +107,28 @@ fn focus_lies_on_the_middle_of_the_first_frame_where_nothing_is_said() {
     });
 }
 
+/// In a scene a hundred times as large, where a lens of f/0.1 on a sensor of 36 mm blurs nothing.
+#[test]
+fn a_very_shallow_focus_blurs_nothing_in_a_large_scene() {
+    let mut scene = board();
+    scene.means.iter_mut().for_each(|mean| *mean = (*mean + Vec3::Z * 2.0) * 300.0);
+    scene.scales.iter_mut().for_each(|scale| *scale *= 300.0);
+    let renderer = Renderer::new(&scene);
+    let camera_at = |_: f64| cinesplat::geometry::Camera {
+        pose: cinesplat::geometry::Pose::IDENTITY,
+        intrinsics: camera(SIZE).intrinsics,
+    };
+    let optics = OpticsTrack::default();
+    let take = Take { camera_at: &camera_at, optics: &optics, up: None, fps: 10.0, seed: 7 };
+    let effects = effect("depth-of-field", &[]);
+    let plan = plan_of(&effects, take, &renderer);
+    // As in the small scene: 1.8 % of the height at twice the distance in focus, 2.4 % at three times.
+    let circle_px = plan.effects[0].losses()[0].error;
+    assert!((circle_px / (0.024 * 90.0) - 1.0).abs() < 0.05, "{circle_px}");
+    let said = &plan.effects[0].because;
+    assert!(said.starts_with("the test: f/0.0") && said.ends_with("of 3.2 px infinitely far away"), "{said}");
+}
+
 #[test]
 fn keyframes_pull_the_focus_with_easing_and_not_across_a_cut() {
     let track = OpticsTrack::new(&[key(0.0, false, Some(2.0)), key(1.0, false, Some(6.0)), key(2.0, true, Some(4.0))]);
@@ -223,6 +245,8 @@ fn a_frame_with_lens_and_shutter_takes_the_samples_of_the_one_that_needs_more() 
         let frame = frame_of(&plan, take, 1, &renderer);
         assert_eq!(frame.stats.counts.num_subframes, u64::from(*samples.iter().max().unwrap()), "{samples:?}");
         assert!(samples.iter().all(|samples| *samples > 1));
+        // A forecast counts the same pictures.
+        assert_eq!(u64::from(plan.num_samples(1)), frame.stats.counts.num_subframes);
     });
 }
 

@@ -3,6 +3,7 @@
 mod calls;
 mod exposure;
 mod focus;
+mod hard_cases;
 mod optics;
 mod pictures;
 mod shake;

@@ -214,3 +214,117 @@ fn bloom_adds_light_around_bright_areas_and_none_to_dark_pictures() {
     assert!((glow(&lamp(0.4)) - 1.0).abs() < 1e-4);
     assert!(glow(&lamp(1.0)) > 1.05);
 }
+
+/// A film of all directions shows no pitch, roll or zoom: they used to blur it, and to be judged.
+#[test]
+fn a_360_film_is_blurred_by_a_pitch_that_it_does_not_show() {
+    let scene = balls(&[(DVec3::Z * 3.0, RED), (DVec3::X * 3.0, GREEN), (DVec3::NEG_Z * 3.0, BLUE)], 0.05);
+    let renderer = Renderer::new(&scene);
+    let optics = OpticsTrack::default();
+    let calls = ["panorama", "motion-blur"].map(|name| super::stand::call(name, &[]));
+    let effects = super::stand::called(&calls, &cinesplat::lens::EffectChoice::Auto).effects;
+    let still = effect("panorama", &[]);
+    let frame = |effects: &[CalledEffect], turn: &(dyn Fn(f64) -> Camera + Sync)| {
+        let take = Take { camera_at: turn, optics: &optics, up: Some(DVec3::NEG_Y), fps: 10.0, seed: 0 };
+        let plan = EffectPlan::of(effects, take, 1..2, (&renderer, &settings())).unwrap();
+        let picture = plan.expose(&Moment::of_frame(take, 1, &settings()), &renderer).unwrap();
+        (plan, picture.frame().clone())
+    };
+    let camera = |rotation: DQuat, fov: f64| Camera {
+        pose: Pose::new(DVec3::ZERO, rotation),
+        intrinsics: Intrinsics::from_fov_y(256, 128, fov),
+    };
+    let pitching = |secs: f64| camera(DQuat::from_rotation_x(secs) * DQuat::from_rotation_z(2.0 * secs), 0.9);
+    let zooming = |secs: f64| camera(DQuat::IDENTITY, 0.9 + secs);
+    let panning = |secs: f64| camera(DQuat::from_rotation_y(secs), 0.9);
+    for (motion, shows) in [
+        (&pitching as &(dyn Fn(f64) -> Camera + Sync), false),
+        (&zooming as &(dyn Fn(f64) -> Camera + Sync), false),
+        (&panning as &(dyn Fn(f64) -> Camera + Sync), true),
+    ] {
+        let (plan, blurred) = frame(&effects, motion);
+        let (_, sharp) = frame(&still, motion);
+        assert_eq!(plan.effects[1].losses()[0].shows(), shows, "{:?}", plan.sentences());
+        assert_eq!(blurred == sharp, !shows);
+    }
+    // Half a turn of 0.1 rad while the shutter is open, in pixels of the panorama.
+    let (plan, _) = frame(&effects, &panning);
+    let found = plan.effects[1].losses()[0].error;
+    assert!((found / (0.05 * 256.0 / std::f64::consts::TAU) - 1.0).abs() < 0.05, "{found}");
+}
+
+/// A fisheye has a lens of its own: a zoom of the shot blurs nothing.
+#[test]
+fn a_fisheye_is_not_blurred_by_a_zoom() {
+    let scene = balls(&[(DVec3::new(1.0, 0.5, 3.0), RED)], 0.05);
+    let renderer = Renderer::new(&scene);
+    let calls = ["fisheye", "motion-blur"].map(|name| super::stand::call(name, &[]));
+    let effects = super::stand::called(&calls, &cinesplat::lens::EffectChoice::Auto).effects;
+    let zooming =
+        |secs: f64| Camera { pose: Pose::IDENTITY, intrinsics: Intrinsics::from_fov_y(160, 90, 0.5 + 0.5 * secs) };
+    let optics = OpticsTrack::default();
+    let take = Take { camera_at: &zooming, optics: &optics, up: None, fps: 10.0, seed: 0 };
+    let plan = EffectPlan::of(&effects, take, 0..1, (&renderer, &settings())).unwrap();
+    assert!(!plan.effects[1].losses()[0].shows(), "{:?}", plan.sentences());
+}
+
+#[test]
+fn the_eyes_of_a_stereo_film_agree_at_the_distance_of_the_screen() {
+    for (over_under, size) in [(0.0, [320, 90]), (1.0, [160, 180])] {
+        let settings = [("over_under", over_under), ("screen_distance", 3.0), ("eye_distance", 0.1)];
+        let stereo = effect("stereo", &settings);
+        // One ball at the screen, one nearer, one farther; each has a channel of its own.
+        let scene = balls(
+            &[(DVec3::Z * 3.0, RED), (DVec3::new(0.0, 0.3, 1.5), GREEN), (DVec3::new(0.0, -1.2, 6.0), BLUE)],
+            0.01,
+        );
+        let picture = seen(&scene, &stereo, size, DQuat::IDENTITY);
+        let [width, height] = size.map(|len| len as usize);
+        assert_eq!((picture.frame().width, picture.frame().height), (size[0], size[1]));
+        let eyes = if over_under > 0.0 { [(0, 0), (0, height / 2)] } else { [(0, 0), (width / 2, 0)] };
+        let part = if over_under > 0.0 { [width, height / 2] } else { [width / 2, height] };
+        let places = eyes.map(|(left, top)| {
+            [0, 1, 2].map(|channel| {
+                let (mut sum, mut at) = (0.0, 0.0);
+                for (y, x) in (0..part[1]).flat_map(|y| (0..part[0]).map(move |x| (y, x))) {
+                    let value = f64::from(picture.frame().rgb[((top + y) * width + left + x) * 3 + channel]);
+                    (sum, at) = (sum + value, at + value * (x as f64 + 0.5));
+                }
+                at / sum
+            })
+        });
+        // What is nearer than the screen is farther right for the left eye: it stands out of the screen.
+        let disparity = [0, 1, 2].map(|channel| places[0][channel] - places[1][channel]);
+        let focal = Intrinsics::from_fov_y(size[0], size[1], 0.9).fx_px * part[0] as f64 / width as f64;
+        for (found, distance) in disparity.into_iter().zip([3.0, 1.5, 6.0]) {
+            let wanted = focal * 0.1 * (1.0 / distance - 1.0 / 3.0);
+            assert!((found - wanted).abs() < 0.1, "{found} instead of {wanted} at {distance}");
+        }
+    }
+}
+
+/// The film of an anamorphic lens had round circles of confusion, whatever its documentation said.
+#[test]
+fn circles_of_confusion_of_an_anamorphic_lens_are_oval() {
+    let scene = balls(&[(DVec3::Z * 4.0, Vec3::splat(0.3))], 0.01);
+    let spread = |names: &[(&str, &[(&str, f64)])]| {
+        let calls: Vec<_> = names.iter().map(|(name, values)| super::stand::call(name, values)).collect();
+        let effects = super::stand::called(&calls, &cinesplat::lens::EffectChoice::Auto).effects;
+        let picture = seen(&scene, &effects, [161, 161], DQuat::IDENTITY);
+        let frame = picture.frame();
+        let (mut sum, mut squares) = (0.0, [0.0; 2]);
+        for (idx, rgb) in frame.rgb.chunks(3).enumerate() {
+            let light = f64::from(rgb[0]).powf(2.2);
+            sum += light;
+            squares[0] += light * ((idx % 161) as f64 - 80.0).powi(2);
+            squares[1] += light * ((idx / 161) as f64 - 80.0).powi(2);
+        }
+        squares.map(|square| (square / sum).sqrt())
+    };
+    let lens: (&str, &[(&str, f64)]) =
+        ("depth-of-field", &[("f_stop", 0.3), ("focus_x", 0.0), ("focus_y", 0.0), ("focus_z", 1.0)]);
+    let [width, height] = spread(&[lens]);
+    assert!((width / height - 1.0).abs() < 0.05 && height > 3.0, "round: {width} {height}");
+    let [width, height] = spread(&[lens, ("anamorphic", &[("squeeze", 2.0), ("streaks", 0.0)])]);
+    assert!((height / width / 2.0 - 1.0).abs() < 0.15, "oval: {width} {height}");
+}

@@ -81,3 +81,107 @@ fn settings_beyond_reason_are_bounded() {
     assert_eq!(settings, [("strength", 0.5), ("size_px", 8.0)]);
     assert_eq!(camera(SIZE).intrinsics.width, 96);
 }
+
+/// Dither turned black pixels into gray ones.
+#[test]
+fn black_and_white_pixels_get_no_dither() {
+    let nothing = Gaussians::default();
+    let renderer = Renderer::new(&nothing);
+    for level in [0_u8, 255] {
+        let render = RenderSettings { background: glam::Vec3::splat(f32::from(level) / 255.0), ..settings() };
+        let picture = exposed(&effect("bloom", &[]), SIZE, 0, (&renderer, &render));
+        assert!(rgb8(picture).iter().all(|found| *found == level), "{level}");
+    }
+    // In between it keeps the mean.
+    let render = RenderSettings { background: glam::Vec3::splat(0.45 / 255.0), ..settings() };
+    let levels = rgb8(exposed(&effect("bloom", &[]), SIZE, 0, (&renderer, &render)));
+    let mean = levels.iter().map(|level| f64::from(*level)).sum::<f64>() / levels.len() as f64;
+    assert!((mean - 0.45).abs() < 0.25 && levels.contains(&0) && levels.contains(&1), "{mean}");
+}
+
+#[test]
+fn the_film_of_fog_is_opaque() {
+    let picture = of_nothing("fog", &[], 0);
+    assert!(picture.frame().transmittance.iter().all(|rest| *rest == 0.0));
+    assert!(picture.to_rgba8().chunks(4).all(|rgba| rgba[3] == 255 && rgba[0] > 150));
+}
+
+/// It was reported as skipped, although it moves the camera.
+#[test]
+fn a_hand_below_the_budget_still_moves_the_camera_and_says_so() {
+    let nothing = Gaussians::default();
+    let renderer = Renderer::new(&nothing);
+    let gentle = effect("handheld", &[("turn_deg", 0.001), ("shift", 0.0)]);
+    let plan = with_take(&gentle, SIZE, |take| EffectPlan::of(&gentle, take, 0..3, (&renderer, &settings())).unwrap());
+    assert!(plan.is_plain(1));
+    insta::assert_snapshot!(plan.sentences()[0], @"handheld: on 3 of 3 frames, displacement of the middle of the picture 0.0010 px < 0.50 ('the test')");
+    assert_ne!(EffectPlan::moved(&gentle, camera(SIZE), 0.7), camera(SIZE));
+}
+
+/// A film of four frames of which one moves: forced-on, every frame takes what that one needs.
+#[test]
+fn effects_forced_on_run_on_every_frame_with_the_samples_of_the_worst() {
+    let gray = Gaussians::default();
+    let renderer = Renderer::new(&gray);
+    let faint = effect("vignette", &[("stops", 0.001)]);
+    let plan = with_take(&faint, SIZE, |take| EffectPlan::of(&faint, take, 0..3, (&renderer, &settings())).unwrap());
+    assert!(plan.is_plain(2) && !plan.clone().forced().is_plain(2));
+}
+
+/// Each row of a tilted lens is blurred as far as it says; what is even stays even, up to the borders.
+#[test]
+fn a_tilted_lens_blurs_the_borders_and_leaves_the_band_and_even_pictures_alone() {
+    let mut even = of_nothing("tilt-shift", &[("blur", 0.05)], 0);
+    assert!(even.display().rgb.iter().all(|value| (value - 0.5).abs() < 1e-4));
+    // A board of one-pixel columns: the band keeps its contrast, the borders lose it.
+    let scene = Gaussians {
+        means: (0..24).map(|i| glam::Vec3::new((i as f32 - 11.5) * 0.09, 0.0, 0.0)).collect(),
+        scales: vec![glam::Vec3::new(0.012, 3.0, 0.01); 24],
+        rotations: vec![glam::Quat::IDENTITY; 24],
+        opacities: vec![0.99; 24],
+        sh_dc: vec![glam::Vec3::splat(1.5); 24],
+        ..Gaussians::default()
+    };
+    let renderer = Renderer::new(&scene);
+    let contrast = |picture: &mut cinesplat::lens::Picture, row: usize| {
+        let row = &picture.display().rgb[row * 288..(row + 1) * 288];
+        let (low, high) = row[90..200].iter().fold((1.0_f32, 0.0_f32), |(low, high), v| (low.min(*v), high.max(*v)));
+        high - low
+    };
+    let render = RenderSettings::default();
+    let mut plain = exposed(&[], SIZE, 0, (&renderer, &render));
+    let mut tilted = exposed(&effect("tilt-shift", &[("blur", 0.08), ("middle", 0.5)]), SIZE, 0, (&renderer, &render));
+    let ratio = |row: usize| contrast(&mut tilted.clone(), row) / contrast(&mut plain.clone(), row);
+    assert!((ratio(27) - 1.0).abs() < 0.01 && ratio(1) < 0.4, "{} {}", ratio(27), ratio(1));
+    // No light is lost in the middle columns.
+    let sum = |picture: &mut cinesplat::lens::Picture| picture.linear().rgb[27 * 288..28 * 288].iter().sum::<f32>();
+    assert!((sum(&mut tilted) / sum(&mut plain) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_lens_flares_only_where_something_is_really_bright() {
+    let lamp = |brightness: f32| Gaussians {
+        means: vec![glam::Vec3::new(0.35, 0.2, 0.0)],
+        scales: vec![glam::Vec3::splat(0.12)],
+        rotations: vec![glam::Quat::IDENTITY],
+        opacities: vec![0.99],
+        sh_dc: vec![glam::Vec3::splat((brightness - 0.5) / 0.282_094_8)],
+        ..Gaussians::default()
+    };
+    let flare = effect("lens-flare", &[]);
+    let render = RenderSettings::default();
+    let dim = lamp(0.7);
+    let renderer = Renderer::new(&dim);
+    let plan = with_take(&flare, SIZE, |take| EffectPlan::of(&flare, take, 0..1, (&renderer, &render)).unwrap());
+    assert!(plan.is_plain(0), "nothing is bright: {:?}", plan.sentences());
+    let bright = lamp(1.0);
+    let renderer = Renderer::new(&bright);
+    let mut with = exposed(&flare, SIZE, 0, (&renderer, &render));
+    let mut without = exposed(&[], SIZE, 0, (&renderer, &render));
+    // The lamp is right of the middle and below it: a ghost is left of it and above, where nothing else is.
+    let left_above = |picture: &mut cinesplat::lens::Picture| -> f32 {
+        let frame = picture.linear();
+        (0..24).flat_map(|row| (0..40).map(move |column| (row * 96 + column) * 3)).map(|at| frame.rgb[at]).sum()
+    };
+    assert!(left_above(&mut with) > left_above(&mut without) + 0.01);
+}

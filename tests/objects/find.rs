@@ -55,6 +55,19 @@ fn best_match(set: &ObjectSet, truth: &[u16], id: u16) -> (f64, u16) {
     shared.iter().map(score).fold((0.0, 0), |best, next| if next.0 > best.0 { next } else { best })
 }
 
+/// One Gaussian far outside, or one of any size, used to make a thing of any extent: the search aborted or panicked.
+#[test]
+fn gaussians_astray_do_not_change_the_objects() {
+    let (gaussians, _) = room();
+    let count = |gaussians: &Gaussians| find(&scene_of(gaussians.clone()), &FindSettings::default()).objects.len();
+    let expected = count(&gaussians);
+    for (x, size) in [(1e14, 0.02), (-1e30, 0.02), (1e3, 1e15), (1e20, 1e12)] {
+        let mut astray = gaussians.clone();
+        push(&mut astray, DVec3::new(x, 0.0, -x), size, Vec3::splat(0.5));
+        assert_eq!(count(&astray), expected, "{x} {size}");
+    }
+}
+
 #[test]
 fn the_objects_of_a_small_room_are_found() {
     let (gaussians, truth) = room();

@@ -8,6 +8,7 @@ mod forbidden;
 mod intents;
 mod looks;
 mod moves;
+mod overhead;
 mod passes;
 mod places;
 mod proof;

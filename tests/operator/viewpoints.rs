@@ -201,3 +201,27 @@ fn a_pull_out_does_not_end_in_black() {
         assert_met(&solution, "at least 1.32");
     }
 }
+
+#[test]
+fn a_whip_to_a_thing_behind_another_starts_where_both_are_seen() {
+    // A screen hides box 2 from most of the places from where box 1 fills the picture.
+    let (mut gaussians, objects) = room();
+    wall(&mut gaussians, DVec3::new(-2.2, 0.0, 0.2), DVec3::X * 2.4, DVec3::Y * 1.1);
+    let world = World::new(&gaussians, DVec3::Y, &objects, &[1, 2]).unwrap();
+    let whip = Step { start: about(1), end: about(2), either_way: true, ..Step::of(Move::WhipPan) };
+    let solution = solved_with_seed(&world, whip, 0);
+    let hidden = solution.report.iter().find(|line| line.wanted.starts_with("visible share") && !line.met);
+    assert!(hidden.is_none(), "{hidden:?}");
+}
+
+#[test]
+fn a_film_that_no_camera_can_make_still_stays_in_the_room() {
+    // A tilt from one box to another beside it: whatever the place, the turn is no tilt.
+    let tilt = Step { start: about(1), end: about(2), ..Step::of(Move::TiltUp) };
+    for seed in 0..3 {
+        for state in film(&solved_with_seed(&world(), tilt.clone(), seed)) {
+            let eye = state.pose.position;
+            assert!(eye.x.abs() < ROOM.x && eye.z.abs() < ROOM.z && eye.y > 0.0, "seed {seed}: stands at {eye}");
+        }
+    }
+}

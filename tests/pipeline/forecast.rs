@@ -5,7 +5,8 @@ use std::time::Duration;
 use strum::VariantArray;
 
 use cinesplat::pipeline::{
-    FilmCost, FilmSettings, Forecast, PipelineError, Requirements, TimeCost, checked_psnr_db, choose, forecast,
+    FilmCost, FilmSettings, Forecast, Pace, PathProfile, PipelineError, Requirements, TimeCost, checked_psnr_db,
+    choose, forecast,
 };
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat::scene::Scene;
@@ -22,6 +23,14 @@ fn forecasts() -> Vec<Forecast> {
         worst_psnr_db: psnr_db - 1.0,
         memory_bytes: 1 << 28,
         is_empty: false,
+        pace: Pace {
+            quality,
+            render_secs: 1.0,
+            film_secs: 1.0,
+            encode_secs: 1.0,
+            num_ahead: 0,
+            profile: PathProfile::new(&[]),
+        },
     };
     vec![
         of(Quality::Draft, 10, 30.0),

@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use cinesplat::pipeline::{
-    FilmProgress, FilmReport, FilmSettings, JobError, JobSettings, PipelineError, film, film_part,
+    FilmProgress, FilmReport, FilmSettings, JobError, JobSettings, Piece, PipelineError, film, film_part,
 };
 use cinesplat::render::Renderer;
+use cinesplat::trajectory::{EffectRequest, Shot};
 use cinesplat::video::VideoSettings;
 
 use super::{scene, settings, shot};
@@ -120,6 +121,64 @@ fn a_finished_film_survives_a_failed_rename() {
     assert_eq!(num_files(folder.path()), 1);
 }
 
+/// Its frames used to be examined for effects first, which takes minutes for a long film.
+#[test]
+fn a_film_that_is_whole_already_is_planned_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mkv");
+    let settings = FilmSettings { effects: "vignette".parse().unwrap(), ..with_job() };
+    let mut taken = |progress: FilmProgress| {
+        if progress.done == 10 {
+            fs::create_dir(&path).unwrap();
+        }
+        ControlFlow::Continue(())
+    };
+    assert!(film(&Renderer::new(&scene().gaussians), &shot(), &path, &settings, &mut taken).is_err());
+    fs::remove_dir(&path).unwrap();
+    let report = film_all(&path, &settings).unwrap();
+    assert_eq!((report.num_kept, report.effects.effects.len()), (10, 0), "nothing was examined");
+}
+
+#[test]
+fn a_stopped_film_with_opacity_goes_on_with_its_opacity() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, stopped) = (folder.path().join("whole.mov"), folder.path().join("stopped.mov"));
+    let transparent = EffectRequest {
+        kind: "background".to_owned(),
+        because: "the test".to_owned(),
+        settings: vec![("alpha".to_owned(), 1.0)],
+        runs: None,
+    };
+    let shot = Shot { effects: vec![transparent], ..shot() };
+    let film_until = |path: &Path, num_frames: usize| {
+        let mut watch = |progress: FilmProgress| {
+            if progress.done == num_frames { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        film(&Renderer::new(&scene().gaussians), &shot, path, &with_job(), &mut watch).unwrap()
+    };
+    film_until(&whole, usize::MAX);
+    film_until(&stopped, 4);
+    assert_eq!(film_until(&stopped, usize::MAX).num_kept, 4);
+    assert!(fs::read(&whole).unwrap() == fs::read(&stopped).unwrap());
+}
+
+#[test]
+fn a_panic_leaves_the_finished_frames_and_no_film() {
+    let (folder, path, whole) = undisturbed();
+    let disturbed = std::panic::catch_unwind(|| {
+        let mut panics = |progress: FilmProgress| {
+            assert!(progress.done != 6, "the sixth frame");
+            ControlFlow::Continue(())
+        };
+        film(&Renderer::new(&scene().gaussians), &shot(), &path, &with_job(), &mut panics)
+    });
+    assert!(disturbed.is_err() && !path.exists());
+    let report = film_all(&path, &with_job()).unwrap();
+    assert_eq!((report.num_kept, report.num_damaged), (6, 0));
+    assert!(fs::read(&path).unwrap() == whole);
+    assert_eq!(num_files(folder.path()), 1, "nothing else is left");
+}
+
 #[test]
 fn files_of_others_in_a_job_folder_stay() {
     let (folder, path, _) = undisturbed();
@@ -186,7 +245,8 @@ fn parts_share_a_folder_and_a_film_waits_for_them() {
             ControlFlow::Continue(())
         };
         let frames = frames.parse().unwrap();
-        film_part(&Renderer::new(&scene.gaussians), &shot(), &path, (&with_job(), frames), &mut watch).unwrap()
+        film_part(&Renderer::new(&scene.gaussians), &shot(), &path, (&with_job(), frames, Piece::default()), &mut watch)
+            .unwrap()
     };
     std::thread::scope(|scope| {
         let other = scope.spawn(|| part("2..8", usize::MAX));

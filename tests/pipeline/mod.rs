@@ -2,11 +2,12 @@
 
 mod forecast;
 mod job;
+mod promises;
 
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use cinesplat::pipeline::{FilmProgress, FilmSettings, FrameRange, PipelineError, film, open_scene};
+use cinesplat::pipeline::{FilmProgress, FilmSettings, FrameRange, Piece, PipelineError, film, open_scene};
 use cinesplat::render::{Quality, RenderSettings, Renderer};
 use cinesplat::scene::{LoadOptions, Scene};
 use cinesplat::trajectory::Shot;
@@ -32,6 +33,7 @@ fn settings() -> FilmSettings {
         frames: FrameRange::default(),
         sheet: None,
         job: None,
+        promise: None,
     }
 }
 
@@ -45,6 +47,17 @@ fn ranges_of_frames_are_parsed() {
     assert_eq!([of_ten("5..5"), of_ten("7..3"), of_ten("0..11"), of_ten("10..")], [None, None, None, None]);
     for wrong in ["", "5", "a..b", "-1..3", "1...3", "1..=3"] {
         assert!(wrong.parse::<FrameRange>().is_err(), "{wrong:?}");
+    }
+}
+
+#[test]
+fn every_piece_begins_at_a_place_of_its_own_and_goes_around() {
+    let order = |piece: &str| piece.parse::<Piece>().unwrap().order(10..15).collect::<Vec<_>>();
+    assert_eq!(order("1/2"), [10, 11, 12, 13, 14]);
+    assert_eq!(order("2/2"), [12, 13, 14, 10, 11]);
+    assert_eq!(order("7/7"), [14, 10, 11, 12, 13], "more pieces than frames");
+    for wrong in ["", "1", "0/3", "4/3", "1/0", "-1/2", "1/2/3"] {
+        assert!(wrong.parse::<Piece>().is_err(), "{wrong:?}");
     }
 }
 

@@ -24,7 +24,7 @@ fn exposed(scene: &Gaussians, subframes: &[SubFrame], settings: &RenderSettings)
 }
 
 fn lens(aperture_diameter: f64, focus_distance: f64) -> ThinLens {
-    ThinLens { aperture_diameter, focus_distance }
+    ThinLens { aperture_diameter, focus_distance, squeeze: 1.0 }
 }
 
 fn through(lens: ThinLens) -> SplatBlur {

@@ -1,4 +1,4 @@
-use cinesplat::scene::{LoadOptions, UpSource};
+use cinesplat::scene::{Limits, LoadOptions, UpSource};
 use glam::DVec3;
 
 use super::bytes::{PROPERTIES, header, one, ply, row_of};
@@ -130,13 +130,13 @@ fn kept_selects_the_entries_of_the_kept_gaussians() {
 #[test]
 fn limits_are_enforced() {
     let bytes = row_of(10);
-    let options = LoadOptions { max_gaussians: 9, ..LoadOptions::default() };
+    let options = LoadOptions { limits: Limits { gaussians: 9, ..Limits::DEFAULT }, up: None };
     let error = cinesplat::scene::load_bytes("big.ply".as_ref(), &bytes, &options).unwrap_err();
     assert_eq!(error.code(), "SCENE-COUNT-CAP");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("big.ply");
     std::fs::write(&path, &bytes).unwrap();
-    let options = LoadOptions { max_file_bytes: 100, ..LoadOptions::default() };
+    let options = LoadOptions { limits: Limits { scene_bytes: 100, ..Limits::DEFAULT }, up: None };
     assert_eq!(cinesplat::scene::load(&path, &options).unwrap_err().code(), "SCENE-BYTES-CAP");
 }
 

@@ -1,5 +1,6 @@
 //! Readers of scenes, the up axis, and damaged files.
 
+mod bombs;
 mod bytes;
 mod compressed;
 mod faults;

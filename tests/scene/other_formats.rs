@@ -4,6 +4,7 @@ use cinesplat::scene::{LoadOptions, Scene, UpSource, load};
 use glam::{DVec3, Quat, Vec3};
 use half::f16;
 
+use super::bytes::spz_header;
 use super::{code, read};
 use crate::support::shared;
 
@@ -162,6 +163,18 @@ fn points_of_every_kind_of_pcd_become_small_gaussians() {
 }
 
 #[test]
+fn signed_colors_of_a_pcd_keep_their_colors() {
+    // With the highest byte set, as some writers do for alpha, the same bytes are below 0 as a signed number.
+    let packed = (RED | 0xff00_0000).cast_signed();
+    let head = pcd_head(2, "ascii").replace("TYPE U F F F F", "TYPE U F F F I");
+    let text = format!("{head}7 0 0 1 {packed}\n7 0.5 0 1 {RED}\n");
+    let scene = read("a.pcd", text.as_bytes()).unwrap();
+    for idx in 0..2 {
+        assert!(scene.gaussians.base_color(idx).abs_diff_eq(Vec3::new(1.0, 0.0, 0.2), 1e-6), "{idx}");
+    }
+}
+
+#[test]
 fn a_recorded_table_top_is_a_scene() {
     let Some(path) = shared("data/tabletop_mosd/test45.pcd") else { return };
     let scene = load(&path, &LoadOptions::default()).unwrap();
@@ -232,7 +245,7 @@ fn gaussians_of_a_gltf_are_where_its_nodes_put_them() {
     assert!(scene.gaussians.mean_world(0).distance(DVec3::new(-2.0, 1.0, 3.0)) < 1e-6);
     assert_eq!(scene.gaussians.sh_degree, 0);
     assert!(scene.notes.iter().any(|note| note.contains("without view-dependent color")), "{:?}", scene.notes);
-    let packed = r#"{"extensions":{"KHR_gaussian_splatting_compression_spz_2":{"bufferView":0}}}"#;
+    let packed = r#"{"extensions":{"EXT_other_compression":{"bufferView":0}}}"#;
     assert_eq!(code("a.gltf", gltf(moved, packed).as_bytes()), "SCENE-UNSUPPORTED");
 }
 
@@ -243,4 +256,73 @@ fn the_attribute_types_of_the_conformance_matrix() {
         .map(|name| load(&folder.join(name), &LoadOptions::default()).unwrap());
     assert_eq!(text.gaussians, binary.gaussians);
     assert_eq!((text.gaussians.sh_degree, text.format.as_str()), (3, "gltf (15 primitives)"));
+}
+
+/// A glTF with one primitive that is an SPZ.
+fn spz_gltf(node: &str, spz: &[u8]) -> String {
+    let data = cinesplat::files::base64::encode(spz);
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{node}],
+        "meshes":[{{"primitives":[{{"mode":0,"attributes":{{}},"extensions":{{"KHR_gaussian_splatting":{{"extensions":
+        {{"KHR_gaussian_splatting_compression_spz_2":{{"bufferView":0}}}}}}}}}}]}}],
+        "bufferViews":[{{"buffer":0,"byteLength":{len}}}],
+        "buffers":[{{"byteLength":{len},"uri":"data:application/octet-stream;base64,{data}"}}]}}"#,
+        len = spz.len()
+    )
+}
+
+/// The spherical harmonics of degrees 1 to 3, up to positive factors.
+fn harmonics(v: DVec3) -> [f64; 15] {
+    let DVec3 { x, y, z } = v;
+    let (xx, yy, zz) = (x * x, y * y, z * z);
+    [
+        y,
+        z,
+        x,
+        x * y,
+        y * z,
+        2.0 * zz - xx - yy,
+        x * z,
+        xx - yy,
+        y * (3.0 * xx - yy),
+        x * y * z,
+        y * (4.0 * zz - xx - yy),
+        z * (2.0 * zz - 3.0 * xx - 3.0 * yy),
+        x * (4.0 * zz - xx - yy),
+        z * (xx - yy),
+        x * (xx - 3.0 * yy),
+    ]
+}
+
+#[test]
+fn gaussians_compressed_as_spz_in_a_gltf_are_those_of_the_spz_turned_about_up() {
+    // Left, up, front are right, up, back after half a turn about +y.
+    let mut spz = spz_header(2, 1, 3, 12, 0);
+    for step in [4096_i32, -8192, 1024] {
+        spz.extend(&step.to_le_bytes()[..3]);
+    }
+    spz.extend([255, 128, 40, 200, 160, 144, 176, 200, 100, 90]);
+    spz.extend((0..45_u8).map(|k| 20 + 5 * k));
+    let own = read("a.spz", &spz).unwrap().gaussians;
+    let scene =
+        read("a.gltf", spz_gltf(r#"{"mesh":0,"translation":[10,0,0],"scale":[2,2,2]}"#, &spz).as_bytes()).unwrap();
+    let found = &scene.gaussians;
+    assert_eq!((scene.format.as_str(), scene.up, found.sh_degree), ("gltf (1 primitives, 1 as SPZ)", DVec3::Y, 3));
+    let mean = own.mean_world(0);
+    assert!(found.mean_world(0).distance(DVec3::new(10.0 - 2.0 * mean.x, 2.0 * mean.y, -2.0 * mean.z)) < 1e-6);
+    let axis = own.rotations[0] * Vec3::X;
+    assert!((found.rotations[0] * Vec3::X).abs_diff_eq(Vec3::new(-axis.x, axis.y, -axis.z), 1e-5));
+    assert!(found.scales[0].abs_diff_eq(2.0 * own.scales[0], 1e-6));
+    assert_eq!((found.opacities[0], found.sh_dc[0]), (own.opacities[0], own.sh_dc[0]));
+    let direction = DVec3::new(0.3, 0.5, -0.8);
+    let turned = DVec3::new(-0.3, 0.5, 0.8);
+    for ((a, b), (in_file, in_scene)) in
+        own.sh_rest_of(0).iter().zip(found.sh_rest_of(0)).zip(harmonics(direction).into_iter().zip(harmonics(turned)))
+    {
+        assert!((a.as_dvec3() * in_file).distance(b.as_dvec3() * in_scene) < 1e-6, "{a} {b}");
+    }
+    let cut = spz_gltf(r#"{"mesh":0}"#, &spz[..spz.len() - 9]);
+    assert_eq!(code("a.gltf", cut.as_bytes()), "SPZ-CORRUPT");
+    let outside = spz_gltf(r#"{"mesh":0}"#, &spz).replace(r#""bufferViews":[{"#, r#""bufferViews":[{"byteOffset":99,"#);
+    assert_eq!(code("a.gltf", outside.as_bytes()), "SCENE-DAMAGED");
 }

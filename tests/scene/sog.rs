@@ -104,16 +104,68 @@ fn invalid_metas_are_rejected() {
     assert_eq!(code("a.sog", &bundle(&files()[1..])), "SOG-PICTURE");
 }
 
+/// A tree of two boxes, each with one Gaussian of every level; the boxes are in the other order in level 0.
+const TREE: &str = r#"{"lodLevels":2,"environment":null,"filenames":["0_0/meta.json","1_0/meta.json"],"tree":{"children":[
+    {"lods":{"0":{"file":0,"offset":1,"count":1},"1":{"file":1,"offset":0,"count":1}}},
+    {"lods":{"0":{"file":0,"offset":0,"count":1},"1":{"file":1,"offset":1,"count":1}}}]}}"#;
+
 #[test]
-fn a_streamed_sog_is_not_read_yet() {
+fn a_streamed_sog_is_read_at_its_finest_level_that_is_whole() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("lod-meta.json"), r#"{"lodLevels":1,"filenames":["0_0/meta.json"],"tree":{}}"#)
-        .unwrap();
-    for path in [folder.path().to_path_buf(), folder.path().join("lod-meta.json")] {
-        let error = load(&path, &LoadOptions::default()).unwrap_err();
-        assert_eq!(error.code(), "SCENE-UNSUPPORTED");
+    let meta = folder.path().join("lod-meta.json");
+    std::fs::write(&meta, TREE).unwrap();
+    let code = || load(&meta, &LoadOptions::default()).unwrap_err().code();
+    assert_eq!(code(), "SCENE-NOT-FOUND");
+    let write = |level: &str| {
+        let folder = folder.path().join(level);
+        std::fs::create_dir(&folder).unwrap();
+        write_folder(&folder, &files());
+    };
+    let own = read("a.sog", &bundle(&files())).unwrap().gaussians;
+    write("1_0");
+    let coarse = load(folder.path(), &LoadOptions::default()).unwrap();
+    assert_eq!((coarse.gaussians.clone(), coarse.format.as_str()), (own.clone(), "sog (streamed, level 1 of 2)"));
+    let note = "the files of finer levels of detail are missing: level 1 of 0 to 1 is read";
+    assert!(coarse.notes.iter().any(|line| line == note), "{:?}", coarse.notes);
+    write("0_0");
+    let fine = load(&meta, &LoadOptions::default()).unwrap();
+    assert_eq!((fine.gaussians, fine.format.as_str()), (own.subset(&[1, 0]), "sog (streamed, level 0 of 2)"));
+    // The environment is around every level.
+    std::fs::write(&meta, TREE.replace("null", r#""1_0/meta.json""#)).unwrap();
+    assert_eq!(load(&meta, &LoadOptions::default()).unwrap().gaussians, own.subset(&[1, 0, 0, 1]));
+}
+
+#[test]
+fn a_streamed_sog_with_a_bad_tree_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    write_folder(folder.path(), &files());
+    let code = |tree: &str| {
+        let path = folder.path().join("lod-meta.json");
+        std::fs::write(&path, tree).unwrap();
+        load(&path, &LoadOptions::default()).unwrap_err().code()
+    };
+    let here = TREE.replace("0_0/", "").replace("1_0/", "");
+    assert_eq!(code(&here.replace(r#""offset":1"#, r#""offset":2"#)), "SCENE-DAMAGED");
+    assert_eq!(code(&here.replace(r#""offset":1,"#, "")), "SCENE-DAMAGED");
+    assert_eq!(code(&here.replace("\"meta.json\"", "\"../meta.json\"")), "SCENE-DAMAGED");
+    assert_eq!(code(&here.replace("\"count\":1", "\"count\":99999999999")), "SCENE-COUNT-CAP");
+    assert_eq!(code(r#"{"lodLevels":1,"filenames":["meta.json"],"tree":{}}"#), "SCENE-DAMAGED");
+    let deep = (0..99).fold("{}".to_owned(), |inner, _| format!(r#"{{"children":[{inner}]}}"#));
+    assert_eq!(code(&format!(r#"{{"lodLevels":1,"filenames":[],"tree":{deep}}}"#)), "SCENE-FORMAT");
+    for (name, bytes) in [
+        ("a.glb", &b"glTF\x02\0\0\0"[..]),
+        ("a.gltf", br#"{"asset":{"version":"2.0"}}"#),
+        ("a.pcd", b"# .PCD v0.7\nVERSION 0.7\n"),
+    ] {
+        assert_eq!(super::code(name, bytes), "SCENE-DAMAGED");
     }
-    assert_eq!(code("a.glb", b"glTF\x02\0\0\0"), "SCENE-DAMAGED");
-    assert_eq!(code("a.gltf", br#"{"asset":{"version":"2.0"}}"#), "SCENE-DAMAGED");
-    assert_eq!(code("a.pcd", b"# .PCD v0.7\nVERSION 0.7\n"), "SCENE-DAMAGED");
+}
+
+#[test]
+fn the_playbots_streamed_sog_is_its_finest_level() {
+    let Some(folder) = crate::support::shared("data/playbot") else { return };
+    let streamed = load(&folder, &LoadOptions::default()).unwrap();
+    let level = load(&folder.join("2_0"), &LoadOptions::default()).unwrap();
+    assert_eq!(streamed.gaussians.len(), level.gaussians.len());
+    assert_eq!(streamed.format, "sog (streamed, level 2 of 7)");
 }

@@ -6,6 +6,7 @@ mod easing;
 mod hard_keys;
 mod moves;
 mod shots;
+mod stops;
 
 use cinesplat::geometry::{LevelAngles, LevelFrame, Pose};
 use cinesplat::trajectory::{Easing, Keyframe, Shot};

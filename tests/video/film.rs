@@ -3,7 +3,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use cinesplat::video::{Planes420, VideoError, VideoSettings, VideoWriter};
+use cinesplat::video::{AlphaPlanes, EyePacking, Planes420, VideoError, VideoSettings, VideoWriter};
 use ffmpeg_next::{codec, color, format, frame, media};
 
 use super::test_frame;
@@ -110,6 +110,20 @@ fn every_container_holds_all_frames_at_their_times_with_their_colors() {
             assert!(db > 28.0, "{name}: frame {frame_idx} is {db:.1} dB from the frame that was written");
         }
     }
+}
+
+#[test]
+fn a_film_is_read_back_as_another_decoder_reads_it() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["film.mp4", "film.webm"] {
+        let path = folder.path().join(name);
+        write_film(&path, &settings(24), 24).unwrap();
+        let mut pictures = Vec::new();
+        cinesplat::video::read_film(&path, &mut |planes| pictures.push([planes.y, planes.cb, planes.cr])).unwrap();
+        assert!(pictures == decode(&path).pictures, "{name}");
+    }
+    let missing = cinesplat::video::read_film(&folder.path().join("none.mp4"), &mut |_| ());
+    assert_eq!(missing.unwrap_err().code(), "FILE-READ");
 }
 
 #[test]
@@ -319,4 +333,64 @@ fn ffprobe_agrees() {
     duration=2.000000
     nb_read_frames=60
     ");
+}
+
+/// Alpha out of a film with opacity: decoded, every pixel has the opacity and the color that it was given.
+#[test]
+fn prores_4444_keeps_colors_and_opacity() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("alpha.mov");
+    // An odd size, which 4:4:4 holds as it is. Opacity grows to the right, red downward.
+    let (width, height) = (65, 35);
+    let settings = VideoSettings { has_alpha: true, width: 65, height: 35, ..settings(3) };
+    let rgba: Vec<[f32; 4]> =
+        (0..width * height).map(|at| [(at / width) as f32 / 34.0, 0.5, 0.25, (at % width) as f32 / 64.0]).collect();
+    let planes = AlphaPlanes::new(&rgba, width, height);
+    assert_eq!(AlphaPlanes::from_bytes(&planes.to_bytes(), width, height), Some(planes.clone()));
+    let mut writer = VideoWriter::create(&path, &settings).unwrap();
+    (0..3).for_each(|_| writer.write_alpha_planes(&planes).unwrap());
+    assert!(matches!(writer.write_planes(&settings.planes_of(&[0; 65 * 35 * 3])), Err(VideoError::FrameSize { .. })));
+    writer.finish().unwrap();
+    let mut input = format::input(&path).unwrap();
+    let stream = input.streams().best(media::Type::Video).unwrap();
+    let mut decoder = codec::Context::from_parameters(stream.parameters()).unwrap().decoder().video().unwrap();
+    let packets: Vec<_> = input.packets().map(|(_, packet)| packet).collect();
+    assert_eq!(packets.len(), 3);
+    decoder.send_packet(&packets[0]).unwrap();
+    decoder.send_eof().unwrap();
+    let mut picture = frame::Video::empty();
+    decoder.receive_frame(&mut picture).unwrap();
+    assert_eq!((picture.width(), picture.height(), picture.planes()), (65, 35, 4));
+    // FFmpeg decodes to 10 or 12 bits.
+    let most = if picture.format() == format::Pixel::YUVA444P10LE { 1023.0 } else { 4095.0 };
+    let code = |plane: usize, at: usize| {
+        let row = &picture.data(plane)[at / width * picture.stride(plane)..];
+        f64::from(u16::from_le_bytes([row[at % width * 2], row[at % width * 2 + 1]])) / most
+    };
+    for (at, pixel) in rgba.iter().enumerate() {
+        let alpha = code(3, at);
+        assert!((alpha - f64::from(pixel[3])).abs() < 2.0 / 255.0, "pixel {at}: opacity {alpha}");
+        let luma = (code(0, at) * 1023.0 - 64.0) / 876.0;
+        let red = luma + 1.5748 * (code(2, at) * 1023.0 - 512.0) / 896.0;
+        assert!((red - f64::from(pixel[0])).abs() < 0.03, "pixel {at}: red {red}");
+    }
+}
+
+#[test]
+fn a_film_of_two_eyes_says_how_its_frames_hold_them() {
+    let folder = tempfile::tempdir().unwrap();
+    for packing in [EyePacking::SideBySide, EyePacking::OverUnder] {
+        let path = folder.path().join("eyes.mp4");
+        // With an index in front, and with one at the end.
+        for num_frames in [4, 0] {
+            let existing = Existing::Replace;
+            let settings = VideoSettings { eyes: Some(packing), existing, ..settings(num_frames) };
+            write_film(&path, &settings, 4).unwrap();
+            assert_eq!(decode(&path).pictures.len(), 4);
+            let bytes = fs::read(&path).unwrap();
+            let at = bytes.windows(4).position(|window| window == b"st3d").unwrap();
+            let mode = if packing == EyePacking::SideBySide { 2 } else { 1 };
+            assert_eq!(bytes[at - 4..at + 9], [0, 0, 0, 13, b's', b't', b'3', b'd', 0, 0, 0, 0, mode]);
+        }
+    }
 }

@@ -12,6 +12,19 @@ fn patterns_name_frames_as_printf_does() {
 }
 
 #[test]
+fn only_names_of_the_pattern_have_a_number() {
+    let number = |pattern: &str, name: &str| FramePattern::parse(Path::new(pattern)).unwrap().number_of(name);
+    assert_eq!(number("out/%03d.png", "042.png"), Some(42));
+    assert_eq!(number("out/%03d.png", "1042.png"), Some(1042));
+    assert_eq!(number("a%%b%d.png", "a%b7.png"), Some(7));
+    for other in
+        ["42.png", "0042.png", "+42.png", "042.PNG", ".png", "x042.png", "042.png.part", "99999999999999999999999.png"]
+    {
+        assert_eq!(number("out/%03d.png", other), None, "{other}");
+    }
+}
+
+#[test]
 fn patterns_without_one_number_per_frame_are_rejected() {
     for bad in ["out/frame.png", "%d_%d.png", "%x.png", "%5d.png", "%.png", "%", "%099d.png"] {
         let error = FramePattern::parse(Path::new(bad)).unwrap_err();

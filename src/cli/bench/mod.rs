@@ -2,10 +2,12 @@ mod cases;
 mod critic;
 #[cfg(feature = "training")]
 mod director;
+mod encoder;
 mod films;
 mod lens;
 mod objects;
 mod operator;
+mod promises;
 mod render;
 mod scaling;
 mod scenes;
@@ -19,6 +21,8 @@ Examples:
   cinesplat bench render room.spz --cameras cameras.json -o bench
   cinesplat bench scaling room.spz -o bench
   cinesplat bench films room.spz --cameras cameras.json -o bench
+  cinesplat bench encoder room.spz --cameras cameras.json -o bench
+  cinesplat bench promises room.spz synth:demo -o bench
   cinesplat bench lens room.spz --cameras cameras.json -o bench
   cinesplat bench objects synth:room:1:0.3 -o bench
   cinesplat bench operator moves
@@ -34,6 +38,8 @@ enum Benchmark {
     Render(render::Args),
     Scaling(scaling::Args),
     Films(films::Args),
+    Encoder(encoder::Args),
+    Promises(promises::Args),
     Lens(lens::Args),
     Objects(objects::Args),
     Operator(operator::Args),
@@ -48,6 +54,8 @@ impl Args {
             Benchmark::Render(args) => args.run(),
             Benchmark::Scaling(args) => args.run(),
             Benchmark::Films(args) => args.run(),
+            Benchmark::Encoder(args) => args.run(),
+            Benchmark::Promises(args) => args.run(),
             Benchmark::Lens(args) => args.run(),
             Benchmark::Objects(args) => args.run(),
             Benchmark::Operator(args) => args.run(),

@@ -20,6 +20,9 @@ impl From<ExportError> for Failure {
             E::BadShot(TrajectoryError::TooManyKeyframes { .. }) => {
                 (Exit::BadData, "leave out keys: the path between them is smooth".to_owned())
             }
+            E::BadShot(TrajectoryError::TooManyFrames { .. }) => {
+                (Exit::OverCap, "make it shorter, or lower --fps".to_owned())
+            }
             E::BadShot(_) => (Exit::BadData, "correct the value named above in the file".to_owned()),
             E::NoPoses => (Exit::BadData, "export the camera path again from the program that wrote it".to_owned()),
             E::NotWritable { .. } => (Exit::Usage, "name another format with --to".to_owned()),

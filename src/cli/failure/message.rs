@@ -15,6 +15,10 @@ pub(crate) struct Failure {
     exit: Exit,
 }
 
+/// What to do where memory is short.
+pub(super) const MORE_MEMORY: &str =
+    "raise --max-memory, the limit of the shell (ulimit -v) or of the container, or reduce --size and --threads";
+
 impl Failure {
     /// A failure with a stable `code`. `message` is `FILE: found, expected`, without `FILE` where no file is at fault;
     /// `help` says what to do about it.
@@ -31,6 +35,30 @@ impl Failure {
     pub(crate) fn fault(place: &str) -> Self {
         let help = "this is a fault of cinesplat, not yours: please report it with the command and the file";
         Self::new("FAULT", format!("cinesplat itself failed: {place}"), help, Exit::Fault)
+    }
+
+    /// More memory than there is: `needed` bytes where `left` are left.
+    pub(crate) fn over_memory(what: &str, needed: u64, left: u64) -> Self {
+        let found = format!("{what} takes about {} MB of memory, expected at most {} MB", needed >> 20, left >> 20);
+        Self::new("MEM-CAP", found, MORE_MEMORY, Exit::OverCap)
+    }
+
+    /// Threads that the system refuses: their stacks take memory.
+    pub(crate) fn no_threads() -> Self {
+        let found = "the system refuses more threads, expected one per core";
+        Self::new(
+            "THREADS",
+            found,
+            format!("take fewer with --threads or RAYON_NUM_THREADS, or {MORE_MEMORY}"),
+            Exit::OverCap,
+        )
+    }
+
+    /// A fault with the file that tells its developers more.
+    pub(crate) fn with_report(self, report: &Path) -> Self {
+        let help =
+            format!("this is a fault of cinesplat, not yours: please report it with the file {}", report.display());
+        Self { help, ..self }
     }
 
     /// A line of a shot's report that is not met, where the user wants all of them met.

@@ -34,8 +34,11 @@ impl From<PipelineError> for Failure {
 
 impl From<TrajectoryError> for Failure {
     fn from(error: TrajectoryError) -> Self {
-        let help = "correct that value in the shot's keyframes";
-        Self::new(error.code(), error.to_string(), help, Exit::BadData)
+        let (exit, help) = match error {
+            TrajectoryError::TooManyFrames { .. } => (Exit::OverCap, "make it shorter, or lower --fps"),
+            _ => (Exit::BadData, "correct that value in the shot's keyframes"),
+        };
+        Self::new(error.code(), error.to_string(), help, exit)
     }
 }
 

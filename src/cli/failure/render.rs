@@ -1,7 +1,7 @@
 use cinesplat::render::RenderError;
 
 use super::exit::Exit;
-use super::message::Failure;
+use super::message::{Failure, MORE_MEMORY};
 
 impl From<RenderError> for Failure {
     fn from(error: RenderError) -> Self {
@@ -13,7 +13,8 @@ impl From<RenderError> for Failure {
             }
             E::Setting { name, expected, .. } => (Exit::Usage, format!("set {name} to {expected}")),
             E::Length { what, expected, .. } => (Exit::BadData, format!("give {what} {expected} values, in order")),
-            E::Memory { .. } | E::Cost { .. } => {
+            E::Memory { .. } => (Exit::OverCap, MORE_MEMORY.to_owned()),
+            E::Cost { .. } => {
                 (Exit::OverCap, "reduce the picture size, or move the camera out of the Gaussians".to_owned())
             }
         };

@@ -1,7 +1,7 @@
 use cinesplat::scene::SceneError;
 
 use super::exit::Exit;
-use super::message::Failure;
+use super::message::{Failure, MORE_MEMORY};
 
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
@@ -22,7 +22,7 @@ impl From<SceneError> for Failure {
             E::TooManyGaussians { .. } => {
                 (Exit::OverCap, "raise the cap with --max-gaussians, or thin the scene out in an editor")
             }
-            E::OutOfMemory { .. } => (Exit::OverCap, "free memory, or thin the scene out in an editor"),
+            E::OutOfMemory { .. } => (Exit::OverCap, MORE_MEMORY),
             E::UnknownFormat { .. } => {
                 (Exit::BadData, "export the scene again as one of these; the content decides, not the extension")
             }

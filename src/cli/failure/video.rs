@@ -1,7 +1,8 @@
 use cinesplat::video::VideoError;
 
 use super::exit::Exit;
-use super::message::Failure;
+use super::message::{Failure, MORE_MEMORY};
+use crate::cli::memory;
 
 impl From<VideoError> for Failure {
     fn from(error: VideoError) -> Self {
@@ -19,6 +20,8 @@ impl From<VideoError> for Failure {
             E::Missing { .. } => {
                 (Exit::Unavailable, "install FFmpeg with x264 and VP9 (Debian's has both), or write frames/%05d.png")
             }
+            // FFmpeg's libraries fail in many ways where memory runs out, and name few of them.
+            E::Ffmpeg { .. } if memory::is_short() => (Exit::OverCap, MORE_MEMORY),
             E::Ffmpeg { .. } => (Exit::Fault, "try another size or container, or write frames/%05d.png"),
             E::Png { .. } | E::Exr { .. } | E::FrameSize { .. } => {
                 (Exit::Fault, "this is a fault of cinesplat: please report the command")

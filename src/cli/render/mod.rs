@@ -1,7 +1,7 @@
 mod filming;
 mod outputs;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::choice::choice;
@@ -13,9 +13,9 @@ use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::ShotArgs;
 use super::{console, heading, map, takes};
-use cinesplat::files::{self, Existing, MAX_TEXT_BYTES};
+use cinesplat::files::{self, Existing, Limits};
 use cinesplat::objects::ObjectSet;
-use cinesplat::pipeline::{FrameRange, Phase, PhaseTimes};
+use cinesplat::pipeline::{self, FrameRange, Phase, PhaseTimes};
 use cinesplat::render::Renderer;
 use cinesplat::scene::Scene;
 use cinesplat::trajectory::Shot;
@@ -48,12 +48,14 @@ pub(super) struct Args {
     picture: PictureArgs,
     /// Longest time to render and encode; chooses the quality [default: none]
     ///
-    /// A number with a unit, such as 90s, 5m or 1h.
+    /// A number with a unit, such as 90s, 5m or 1h, counted from the forecast on. The film steps down to a faster quality
+    /// when the machine becomes slower.
     #[arg(long, value_name = "TIME", help_heading = heading::PICTURE, value_parser = parse_time, conflicts_with = "quality")]
     budget: Option<Duration>,
     /// Least PSNR of the worst frame in dB; chooses the quality [default: none]
     ///
-    /// The fastest quality whose worst frame is predicted to be this close to `reference`.
+    /// The fastest quality whose worst frame is this close to `reference`. Frames are checked while the film is made, and
+    /// rendered better where they fall short.
     #[arg(long, value_name = "DB", help_heading = heading::PICTURE, value_parser = parse_decibels, conflicts_with = "quality")]
     min_psnr: Option<f64>,
     /// Print predicted and measured figures as JSON
@@ -67,9 +69,11 @@ pub(super) struct Args {
     /// At 18 the loss is hard to see.
     #[arg(long, value_name = "N", help_heading = heading::OUTPUT, hide_short_help = true, default_value_t = 18)]
     crf: u8,
-    /// Effort of the H.264 encoder
-    #[arg(long, value_name = "PRESET", help_heading = heading::OUTPUT, hide_short_help = true, default_value = "medium", value_parser = choice::<X264Preset>())]
-    preset: X264Preset,
+    /// Effort of the H.264 encoder [default: ultrafast for draft, veryfast for standard, medium for final, slow for reference]
+    ///
+    /// More effort makes the file smaller at the same loss, and the film slower.
+    #[arg(long, value_name = "PRESET", help_heading = heading::OUTPUT, hide_short_help = true, value_parser = choice::<X264Preset>())]
+    preset: Option<X264Preset>,
     /// Write the shot too
     #[arg(long, value_name = "SHOT.JSON", help_heading = heading::OUTPUT, hide_short_help = true)]
     save_shot: Option<PathBuf>,
@@ -136,15 +140,21 @@ impl Args {
             ("--takes", self.shot.takes.is_several()),
             ("--budget", self.budget.is_some()),
             ("--min-psnr", self.min_psnr.is_some()),
-            ("--part", self.job.part),
+            ("--part", self.job.part.is_some()),
             ("--no-job", self.job.no_job),
             ("--frames", self.frames != FrameRange::default()),
         ];
         if let Some((flag, _)) = refused.iter().find(|(_, is_given)| *is_given) {
             return Err(Failure::usage(format!("{flag} with several programs"), "leave it out, or use `render`"));
         }
-        self.check_outputs()?;
+        self.check_names()?;
+        pipeline::check_shared_job(&self.output)?;
         Ok(self.output.clone())
+    }
+
+    /// The film, or the pattern of its pictures.
+    pub(super) fn output(&self) -> &Path {
+        &self.output
     }
 
     /// Whether frames of an earlier run are thrown away.
@@ -205,7 +215,8 @@ impl Args {
         let content = if is_file { scene.sha256.clone() } else { scene.path.to_string_lossy().into_owned() };
         let mut inputs = vec![("scene", content)];
         if self.source.file.is_none() {
-            let objects = self.shot.objects.as_deref().map(|path| files::read(path, MAX_TEXT_BYTES)).transpose()?;
+            let objects =
+                self.shot.objects.as_deref().map(|path| files::read(path, Limits::DEFAULT.text_bytes)).transpose()?;
             inputs.push(("objects", objects.map(|bytes| files::sha256_hex(&bytes)).unwrap_or_default()));
             inputs.push(("weights", shot.model.as_ref().map(|model| model.sha256.clone()).unwrap_or_default()));
             inputs.push(("prompt", shot.prompt.clone()));

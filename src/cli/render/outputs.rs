@@ -77,12 +77,17 @@ impl Args {
 
     /// Refuses wrong outputs of one film.
     fn check_own_outputs(&self) -> Result<(), Failure> {
+        self.check_names()?;
+        self.job.check(&self.output)
+    }
+
+    /// Refuses wrong names of the outputs of one film.
+    pub(super) fn check_names(&self) -> Result<(), Failure> {
         let format = video::check_format(&self.output, &self.encoder())?;
         let goes_on = self.job.goes_on(&self.output);
-        if !matches!(format, VideoFormat::Sequence(_)) || !(goes_on || self.job.part) {
+        if !matches!(format, VideoFormat::Sequence(_)) || !(goes_on || self.job.part.is_some()) {
             video::check_output(&self.output, &self.encoder())?;
         }
-        self.job.check(&self.output)?;
         // A stopped film may have written them already; they are written again only if they differ.
         for path in self.save_shot.iter().chain(&self.sheet).filter(|_| !goes_on) {
             self.overwrite.check(path)?;

@@ -6,7 +6,9 @@
 
 mod accessor;
 mod constants;
+mod nodes;
 mod read;
+mod rigid;
 mod write;
 
 pub(super) use read::read;

@@ -1,4 +1,4 @@
-use glam::{DMat4, DQuat, DVec3, DVec4};
+use glam::{DAffine3, DQuat, DVec3, DVec4};
 
 use super::super::ExportError;
 use super::super::json_read::{self, Node};
@@ -6,11 +6,10 @@ use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
 use super::accessor::{item, size, values};
 use super::constants::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER};
-use cinesplat_files::base64;
-use cinesplat_geometry::{Pose, rotation};
-
-/// Deepest chain of nodes above a camera.
-const MAX_DEPTH: usize = 64;
+use super::nodes::{Moved, NodeTransform, chain_to, scene_up};
+use super::rigid::{Bend, Rigid};
+use cinesplat_files::{Limits, base64};
+use cinesplat_geometry::rotation;
 
 /// The track of the first camera in a `.gltf` or `.glb`. `resolve` reads a file in the same folder.
 pub(crate) fn read(
@@ -36,9 +35,13 @@ pub(crate) fn read(
         world: y_up_from_world(scene_up).conjugate(),
     };
     let up = scene_up.unwrap_or(DVec3::Y);
-    let frames = frames(&channels, &still);
+    let (frames, bend) = frames(&channels, &still).ok_or_else(|| nodes[camera_node].error("a scale that is not 0"))?;
+    let mut unread = bend.lines();
+    if channels.is_cubic() {
+        unread.push("the tangents of cubic splines are not read: the keys are".to_owned());
+    }
     let aspect = lens.optional("aspectRatio").map(|aspect| aspect.number()).transpose()?.filter(|aspect| *aspect > 0.0);
-    Ok(PoseTrack { stated_aspect: aspect, up: Some(up), timed: true, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { stated_aspect: aspect, up: Some(up), timed: true, unread, ..PoseTrack::untimed(frames) })
 }
 
 /// The JSON and the binary chunk of a `.glb`.
@@ -62,93 +65,35 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ExportError> {
     Ok((json.ok_or_else(missing)?, binary))
 }
 
+/// The buffers in order. The binary chunk is the first one without an address; no other may lack one.
 fn buffers(
     root: &Node,
     binary: Option<&[u8]>,
     resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>,
 ) -> Result<Vec<Vec<u8>>, ExportError> {
     let Some(list) = root.optional("buffers") else { return Ok(Vec::new()) };
-    let load = |node: &Node| match node.optional("uri") {
-        None => Ok(binary.unwrap_or_default().to_vec()),
-        Some(uri) => {
-            let text = uri.text()?;
-            match text.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) {
-                Some((_, data)) => base64::decode(data).ok_or_else(|| uri.error("base64 data")),
-                None => resolve(text),
-            }
-        }
-    };
-    list.items()?.iter().map(load).collect()
-}
-
-/// Transform of a node into its parent.
-#[derive(Debug, Clone, Copy)]
-struct NodeTransform {
-    position: DVec3,
-    rotation: DQuat,
-    scale: f64,
-}
-
-impl NodeTransform {
-    fn read(node: &Node) -> Result<Self, ExportError> {
-        if let Some(matrix) = node.optional("matrix") {
-            let (scale, rotation, position) =
-                DMat4::from_cols_array(&matrix.numbers()?).to_scale_rotation_translation();
-            return Ok(Self { position, rotation, scale: scale.x });
-        }
-        let position = node.optional("translation").map_or(Ok(DVec3::ZERO), |v| v.vector())?;
-        let rotation = node.optional("rotation").map_or(Ok(DQuat::IDENTITY), |v| v.numbers().map(DQuat::from_array))?;
-        let scale = node.optional("scale").map_or(Ok(DVec3::ONE), |v| v.vector())?;
-        if !(rotation.length() > 1e-6) {
-            return Err(node.error("a rotation that is not 0"));
-        }
-        Ok(Self { position, rotation: rotation.normalize(), scale: scale.x })
-    }
-
-    /// The transform at a time.
-    fn animated(&self, channels: &NodeChannels, time: f64) -> Self {
-        let vector = |values: Vec<f64>| values.try_into().ok().map(DVec3::from_array);
-        let position = channels.translation.as_ref().and_then(|c| c.at(time, blend)).and_then(vector);
-        let slerp = |a: &[f64], b: &[f64], t: f64| rotation::slerp(turn(a), turn(b), t).to_array().to_vec();
-        let rotation = channels.rotation.as_ref().and_then(|c| c.at(time, slerp)).map(|values| turn(&values));
-        Self {
-            position: position.unwrap_or(self.position),
-            rotation: rotation.unwrap_or(self.rotation),
-            scale: self.scale,
-        }
-    }
-
-    fn then(&self, child: &Self) -> Self {
-        Self {
-            position: self.position + self.rotation * (child.position * self.scale),
-            rotation: self.rotation * child.rotation,
-            scale: self.scale * child.scale,
-        }
-    }
-}
-
-/// The nodes from the root to the camera's.
-fn chain_to(nodes: &[Node], camera_node: usize) -> Vec<usize> {
-    let mut chain = vec![camera_node];
-    for _ in 0..MAX_DEPTH {
-        let child = chain[chain.len() - 1];
-        let is_parent = |node: &Node| {
-            node.optional("children")
-                .and_then(|list| list.number_list().ok())
-                .is_some_and(|ids| ids.contains(&(child as f64)))
+    // The binary chunk is the first buffer; another one without a uri holds nothing. Many buffers may name one file.
+    let (mut found, mut num_bytes) = (Vec::new(), 0);
+    for (idx, node) in list.items()?.iter().enumerate() {
+        let content = match node.optional("uri") {
+            Some(uri) => buffer_at(&uri, resolve)?,
+            None => binary.filter(|_| idx == 0).unwrap_or_default().to_vec(),
         };
-        let Some(parent) = nodes.iter().position(is_parent) else { break };
-        chain.push(parent);
+        num_bytes += content.len() as u64;
+        if num_bytes > Limits::DEFAULT.array_bytes {
+            return Err(node.error(format!("buffers of at most {} bytes together", Limits::DEFAULT.array_bytes)));
+        }
+        found.push(content);
     }
-    chain.reverse();
-    chain
+    Ok(found)
 }
 
-/// The up of the scene's own world that a node above the camera states; `None` in files of other programs.
-fn scene_up(nodes: &[Node], chain: &[usize]) -> Result<Option<DVec3>, ExportError> {
-    let stated = |idx: &usize| nodes[*idx].optional("extras").and_then(|extras| extras.optional("cinesplat_world_up"));
-    let up = chain.iter().rev().skip(1).find_map(stated).map(|up| up.vector()).transpose()?;
-    Ok(up.and_then(DVec3::try_normalize))
+fn buffer_at(uri: &Node, resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>) -> Result<Vec<u8>, ExportError> {
+    let text = uri.text()?;
+    match text.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) {
+        Some((_, data)) => base64::decode(data).ok_or_else(|| uri.error("base64 data")),
+        None => resolve(text),
+    }
 }
 
 /// The keys of an animated property.
@@ -157,18 +102,50 @@ struct Channel {
     values: Vec<Vec<f64>>,
     /// Whether each value holds until the next key.
     step: bool,
+    /// Whether the file has tangents.
+    is_cubic: bool,
 }
 
 #[derive(Default)]
 struct NodeChannels {
     translation: Option<Channel>,
     rotation: Option<Channel>,
+    scale: Option<Channel>,
+}
+
+impl NodeChannels {
+    fn all(&self) -> impl Iterator<Item = &Channel> {
+        [&self.translation, &self.rotation, &self.scale].into_iter().flatten()
+    }
+
+    /// The animated values at a time.
+    fn at(&self, time: f64) -> Moved {
+        let vector = |channel: &Option<Channel>| {
+            channel.as_ref().and_then(|c| c.at(time, blend)).and_then(|v| v.try_into().ok().map(DVec3::from_array))
+        };
+        let slerp = |a: &[f64], b: &[f64], t: f64| rotation::slerp(turn(a), turn(b), t).to_array().to_vec();
+        Moved {
+            position: vector(&self.translation),
+            rotation: self.rotation.as_ref().and_then(|c| c.at(time, slerp)).map(|values| turn(&values)),
+            scale: vector(&self.scale),
+        }
+    }
 }
 
 struct Channels {
     /// Those of each node from the root to the camera's.
     nodes: Vec<NodeChannels>,
     fov: Option<Channel>,
+}
+
+impl Channels {
+    fn all(&self) -> impl Iterator<Item = &Channel> {
+        self.nodes.iter().flat_map(NodeChannels::all).chain(&self.fov)
+    }
+
+    fn is_cubic(&self) -> bool {
+        self.all().any(|channel| channel.is_cubic)
+    }
 }
 
 /// The first channel of each property of the camera and of the nodes above it.
@@ -188,6 +165,7 @@ fn channels(root: &Node, buffers: &[Vec<u8>], chain: &[usize], camera: usize) ->
             let slot = match (path, place.and_then(|place| found.nodes.get_mut(place))) {
                 ("translation", Some(node)) => &mut node.translation,
                 ("rotation", Some(node)) => &mut node.rotation,
+                ("scale", Some(node)) => &mut node.scale,
                 ("pointer", _) if pointed.is_some_and(|text| text.text().is_ok_and(|text| text == pointer)) => {
                     &mut found.fov
                 }
@@ -216,7 +194,7 @@ fn read_sampler(root: &Node, buffers: &[Vec<u8>], sampler: &Node) -> Result<Chan
     if values.len() != times.len() {
         return Err(sampler.error("as many values as times"));
     }
-    Ok(Channel { times, values, step: interpolation == "STEP" })
+    Ok(Channel { times, values, step: interpolation == "STEP", is_cubic: interpolation == "CUBICSPLINE" })
 }
 
 impl Channel {
@@ -225,7 +203,7 @@ impl Channel {
     fn check(&self, path: &str, sampler: &Node) -> Result<(), ExportError> {
         let (width, expected) = match path {
             "rotation" => (4, "4 finite numbers, not all 0"),
-            "translation" => (3, "3 finite numbers"),
+            "translation" | "scale" => (3, "3 finite numbers"),
             _ => (1, "a finite number"),
         };
         let is_null = |value: &[f64]| path == "rotation" && !(DVec4::from_slice(value).length() > 1e-6);
@@ -268,32 +246,31 @@ struct StaticCamera {
     world: DQuat,
 }
 
-/// One frame per key time of any channel; one frame without animation.
-fn frames(channels: &Channels, still: &StaticCamera) -> Vec<PoseFrame> {
-    let of_nodes = channels.nodes.iter().flat_map(|node| [&node.translation, &node.rotation]);
-    let all = of_nodes.chain([&channels.fov]);
-    let mut times: Vec<f64> = all.flatten().flat_map(|channel| channel.times.iter().copied()).collect();
+/// One frame per key time of any channel, one frame without animation, and what no camera can show of its nodes;
+/// `None` where the nodes shrink the camera to nothing.
+fn frames(channels: &Channels, still: &StaticCamera) -> Option<(Vec<PoseFrame>, Bend)> {
+    let mut times: Vec<f64> = channels.all().flat_map(|channel| channel.times.iter().copied()).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
     if times.is_empty() {
         times.push(0.0);
     }
-    let frame = |time: f64| {
-        let world = NodeTransform { position: DVec3::ZERO, rotation: still.world, scale: 1.0 };
-        let placed = still
-            .nodes
-            .iter()
-            .zip(&channels.nodes)
-            .fold(world, |placed, (node, channels)| placed.then(&node.animated(channels, time)));
+    let mut bend = Bend::default();
+    let mut frame = |time: f64| {
+        let world = DAffine3::from_quat(still.world);
+        let nodes = still.nodes.iter().zip(&channels.nodes);
+        let placed = nodes.fold(world, |placed, (node, channels)| placed * node.affine(&channels.at(time)));
         let fov = channels.fov.as_ref().and_then(|c| c.at(time, blend)).and_then(|values| values.first().copied());
-        let pose: Pose = from_opengl_rotation(placed.position, placed.rotation);
-        PoseFrame { fov_y_rad: Some(fov.unwrap_or(still.fov_y_rad)), ..PoseFrame::new(time, pose) }
+        let rigid = Rigid::of(placed)?;
+        bend = bend.worse(rigid.bend);
+        let pose = from_opengl_rotation(placed.translation, rigid.rotation);
+        Some(PoseFrame { fov_y_rad: Some(fov.unwrap_or(still.fov_y_rad)), ..PoseFrame::new(time, pose) })
     };
     let mut frames: Vec<PoseFrame> = Vec::with_capacity(times.len());
     for time in times {
         // A key just before this one only holds the pose up to a cut.
         let cut = frames.pop_if(|held| time - held.time_secs < CUT_SECS).is_some();
-        frames.push(PoseFrame { cut, ..frame(time) });
+        frames.push(PoseFrame { cut, ..frame(time)? });
     }
-    frames
+    Some((frames, bend))
 }

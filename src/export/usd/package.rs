@@ -2,10 +2,10 @@
 
 use std::io::Read as _;
 
+use cinesplat_files::Limits;
+
 use super::super::ExportError;
 
-/// Largest layer in a package, bytes.
-const MAX_LAYER_BYTES: u64 = 256 << 20;
 /// Where the first file's name starts in an archive, and its length is stated.
 const NAME_START: usize = 30;
 const NAME_LEN: usize = 26;
@@ -23,11 +23,11 @@ pub(super) fn layer(bytes: &[u8]) -> Result<Vec<u8>, ExportError> {
     let mut archive =
         zip::ZipArchive::new(std::io::Cursor::new(bytes)).map_err(|error| unreadable(error.to_string()))?;
     let file = archive.by_index(0).map_err(|error| unreadable(error.to_string()))?;
-    let mut out = Vec::new();
-    let read = file.take(MAX_LAYER_BYTES + 1).read_to_end(&mut out);
+    let (mut out, most) = (Vec::new(), Limits::DEFAULT.unpacked(bytes.len()));
+    let read = file.take(most + 1).read_to_end(&mut out);
     read.map_err(|error| unreadable(error.to_string()))?;
-    if out.len() as u64 > MAX_LAYER_BYTES {
-        return Err(unreadable(format!("the layer has over {MAX_LAYER_BYTES} bytes")));
+    if out.len() as u64 > most {
+        return Err(unreadable(format!("the layer has over {most} bytes")));
     }
     Ok(out)
 }

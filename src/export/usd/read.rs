@@ -12,6 +12,9 @@ use cinesplat_geometry::rotation;
 const DEFAULT_FOCAL: f64 = 50.0;
 const DEFAULT_FILM_HEIGHT: f64 = 15.2908;
 const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
+/// Entries of an order of operations: the start of the name of one that is undone, and that the prims above do not count.
+const INVERSE: &str = "!invert!";
+const RESET: &str = "!resetXformStack!";
 
 pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let not_readable = |reason: &str| ExportError::NotReadable { format: "usd", reason: reason.to_owned() };
@@ -23,7 +26,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
         bytes
     };
     if !bytes.starts_with(b"#usda") {
-        return Err(not_readable("only the text form .usda is read: convert with usdcat"));
+        return Err(not_readable(
+            "the binary form is not read: `usdcat in.usdc -o out.usda` (of usd-core) makes the text form, which is",
+        ));
     }
     let text = std::str::from_utf8(bytes).map_err(|_| not_readable("the text is not UTF-8"))?;
     let layer = parse(text)?;
@@ -35,9 +40,11 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let up = up.map(DVec3::from_array).and_then(DVec3::try_normalize);
     let stage_up = if layer.meta("upAxis") == Some(&Value::Text("Z".into())) { DVec3::Z } else { DVec3::Y };
     let world_from_stage = y_up_from_world(up).conjugate();
-    let frames = code_list(camera).into_iter().map(|code| {
-        let placed =
-            above.iter().chain([&camera]).try_fold(DAffine3::IDENTITY, |world, prim| Some(world * local(prim, code)?));
+    let frames = code_list(camera, &above).into_iter().map(|code| {
+        let placed = above.iter().chain([&camera]).try_fold(DAffine3::IDENTITY, |world, prim| {
+            let world = if resets_stack(prim) { DAffine3::IDENTITY } else { world };
+            Some(world * local(prim, code)?)
+        });
         let placed = placed.ok_or_else(|| not_readable("an unknown transform operation"))?;
         frame(camera, code, fps, DAffine3::from_quat(world_from_stage) * placed)
     });
@@ -66,9 +73,12 @@ fn find_camera<'a>(prim: &'a Prim, above: &mut Vec<&'a Prim>) -> Option<&'a Prim
     None
 }
 
-/// All time codes with a sample of the camera; 0 alone without samples.
-fn code_list(camera: &Prim) -> Vec<f64> {
-    let samples = camera.attributes.iter().filter(|(name, _)| name.ends_with(".timeSamples"));
+/// All time codes with a sample of the camera, or of a transform of the prims above it; 0 alone without samples.
+fn code_list(camera: &Prim, above: &[&Prim]) -> Vec<f64> {
+    let is_transform = |name: &str| name.starts_with("xformOp:");
+    let own = camera.attributes.iter();
+    let of_above = above.iter().flat_map(|prim| prim.attributes.iter().filter(|(name, _)| is_transform(name)));
+    let samples = own.chain(of_above).filter(|(name, _)| name.ends_with(".timeSamples"));
     let keys = samples.flat_map(|(_, value)| if let Value::Map(entries) = value { entries.as_slice() } else { &[] });
     let mut codes: Vec<f64> =
         keys.filter_map(|(key, _)| key.parse().ok()).filter(|code: &f64| code.is_finite()).collect();
@@ -108,10 +118,21 @@ fn wxyz(rotation: DQuat) -> Vec<f64> {
 /// A prim's transform into its parent at a time code; `None` for an unknown operation.
 fn local(prim: &Prim, code: f64) -> Option<DAffine3> {
     let Some(Value::List(order)) = prim.attribute("xformOpOrder") else { return Some(DAffine3::IDENTITY) };
-    order.iter().try_fold(DAffine3::IDENTITY, |placed, op| {
+    order.iter().filter(|op| !is_reset(op)).try_fold(DAffine3::IDENTITY, |placed, op| {
         let Value::Text(name) = op else { return None };
-        Some(placed * operation(name, &numbers_at(prim, name, code)?)?)
+        let (name, is_inverse) = name.strip_prefix(INVERSE).map_or((name.as_str(), false), |name| (name, true));
+        let done = operation(name, &numbers_at(prim, name, code)?)?;
+        Some(placed * if is_inverse { done.inverse() } else { done })
     })
+}
+
+fn is_reset(op: &Value) -> bool {
+    matches!(op, Value::Text(name) if name == RESET)
+}
+
+/// Whether the prims above do not move this one.
+fn resets_stack(prim: &Prim) -> bool {
+    matches!(prim.attribute("xformOpOrder"), Some(Value::List(order)) if order.iter().any(is_reset))
 }
 
 fn operation(name: &str, v: &[f64]) -> Option<DAffine3> {

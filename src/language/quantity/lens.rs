@@ -39,6 +39,13 @@ pub(super) fn lens_at(words: &[Word], i: usize) -> Option<Found> {
 fn hyphened_zoom_end_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
     let is_hyphened = |at: usize| words.get(at).is_some_and(|word| word.after_hyphen);
     let (len, value) = cardinal_at(words, i)?;
+    let counts = matches!(
+        word_before(words, if is_hyphened(i) { i - 1 } else { i }, 1),
+        "frames" | "frame" | "seconds" | "secs" | "shots" | "steps" | "at"
+    );
+    if counts {
+        return None;
+    }
     let other = if is_hyphened(i + len) { i + len } else { i.checked_sub(1).filter(|_| is_hyphened(i))? };
     let (_, other) = cardinal_at(words, other)?;
     let are_lenses = [value, other].iter().all(|mm| FOCAL_MM.contains(mm));

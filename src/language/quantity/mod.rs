@@ -34,6 +34,7 @@ pub(crate) use clock::{Instant, InstantForm, instant_at, link_at};
 pub(crate) use context::is_joined;
 pub use kind::{Quantity, QuantityKind};
 pub(super) use unit::is_unread_number;
+pub(crate) use unit::unit;
 
 /// Reads the quantity that begins at a word.
 type Reader = fn(&[Word], usize) -> Option<Found>;

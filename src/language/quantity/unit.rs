@@ -6,7 +6,7 @@ use crate::numerals::{Numeral, NumeralForm, numeral_at};
 use crate::tokenizer::{Word, word_at};
 
 /// Kind and scale of a unit.
-pub(super) fn unit(word: &str) -> Option<(QuantityKind, f64)> {
+pub(crate) fn unit(word: &str) -> Option<(QuantityKind, f64)> {
     Some(match word {
         "s" | "sec" | "secs" | "second" | "seconds" | "beat" | "beats" | "count" | "counts" | "secconds"
         | "secound" | "secounds" | "seconde" | "seconden" | "sek" => (QuantityKind::Seconds, 1.0),

@@ -27,6 +27,8 @@ pub struct Beat {
     pub start: usize,
     /// How long it lasts, where that is stated.
     pub length: Option<BeatLength>,
+    /// Whether it begins with a cut.
+    pub cut: bool,
 }
 
 /// Length of a beat.
@@ -38,6 +40,8 @@ pub enum BeatLength {
     Share(f64),
 }
 
+/// Most parts: each takes a run of the network.
+const MAX_BEATS: usize = 32;
 /// Words after the last time that only say that the film ends there.
 const ENDINGS: [&str; 12] =
     ["end", "ends", "out", "cut", "done", "fin", "finish", "stop", "over", "black", "fade", "finished"];
@@ -66,9 +70,12 @@ pub(crate) fn timeline(prompt: &str, words: &[Word]) -> Option<Timeline> {
 /// Whether stamps of one kind are a timeline: in order, and so that the first begins the list.
 fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
     let [first, .., _] = stamps else { return false };
+    if stamps.len() > MAX_BEATS {
+        return false;
+    }
     let in_order = stamps.windows(2).all(|pair| match (pair[0].kind, pair[1].kind) {
         (StampKind::Number(a), StampKind::Number(b)) => b == a + 1,
-        (StampKind::Length(_), _) | (StampKind::Share(_), _) => true,
+        (StampKind::Length(_) | StampKind::Share(_), _) => true,
         (before, after) => before.start_secs() + 1e-3 < after.start_secs(),
     });
     match first.kind {
@@ -89,6 +96,7 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
     });
     let texts: Vec<[usize; 2]> = texts.collect();
     let mut beats: Vec<Beat> = Vec::with_capacity(stamps.len());
+    let mut cut = false;
     for (nth, (stamp, text)) in stamps.iter().zip(&texts).enumerate() {
         let next = stamps.get(nth + 1).map(|next| next.kind.start_secs());
         let length = match stamp.kind {
@@ -111,12 +119,26 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
             return None;
         }
         let start = words.get(stamp.at).map_or(0, |word| word.span[0]);
-        beats.push(Beat { bytes: span_of(&words[text[0]..text[1]]), start, length });
+        let (text, cuts) = without_joint(words, *text);
+        if text[0] == text[1] {
+            return None;
+        }
+        beats.push(Beat { bytes: span_of(&words[text[0]..text[1]]), start, length, cut });
+        cut = cuts;
     }
     let [first, ..] = stamps else { return None };
     let before = trimmed(words, 0, first.at);
     let introduction = span_of(&words[before[0]..before[1]]);
     (beats.len() > 1).then_some(Timeline { introduction, beats })
+}
+
+/// A part without the words that lead to the next one, and whether they are a cut: `push in, then`, `push in, cut to`.
+fn without_joint(words: &[Word], [start, end]: [usize; 2]) -> ([usize; 2], bool) {
+    let is_joint = |word: &Word| matches!(word.text.as_str(), "then" | "and" | "next" | "cut" | "to" | "," | "." | ";");
+    let kept = words[start..end].iter().rposition(|word| !is_joint(word)).map_or(start, |last| start + last + 1);
+    let cuts = words[kept..end].iter().any(|word| word.text == "cut");
+    let is_joined = cuts || words[kept..end].iter().any(|word| matches!(word.text.as_str(), "then" | "and" | "next"));
+    if is_joined { ([start, kept], cuts) } else { ([start, end], false) }
 }
 
 /// The words `start..end` without marks at either end.

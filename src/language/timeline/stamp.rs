@@ -1,7 +1,7 @@
 //! What a part of a timeline begins with.
 
 use crate::numerals::{cardinal_at, number_word};
-use crate::quantity::{Instant, InstantForm, instant_at, is_joined, link_at};
+use crate::quantity::{Instant, InstantForm, QuantityKind, instant_at, is_joined, link_at, unit};
 use crate::tokenizer::{Word, word_at};
 
 /// The beginning of a part.
@@ -43,7 +43,14 @@ impl StampKind {
 pub(super) fn begins_item(prompt: &str, words: &[Word], i: usize) -> bool {
     let Some(before) = i.checked_sub(1).and_then(|at| words.get(at)) else { return true };
     let gap = words.get(i).and_then(|word| prompt.get(before.span[1]..word.span[0])).unwrap_or_default();
-    gap.contains(['\n', '|', '\u{2022}', '*'])
+    // `T+3` and `2)` begin a part wherever they stand.
+    let stands_out = match (word_at(words, i), word_at(words, i + 1)) {
+        ("t", "+") => true,
+        (number, ")") => before.text != "(" && number.bytes().all(|byte| byte.is_ascii_digit()),
+        _ => false,
+    };
+    stands_out
+        || gap.contains(['\n', '|', '\u{2022}', '*'])
         || before.text == "("
         || before.text == "#" && begins_item(prompt, words, i - 1)
         || matches!(before.text.as_str(), "," | "." | ";" | ":" | "/" | "!" | "?" | ")" | "then" | "and")
@@ -61,8 +68,7 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
     }
     let start = match (word_at(words, i), word_at(words, i + 1)) {
         ("t", "+") => i + 2,
-        ("from" | "at" | "by", _) => i + 1,
-        ("second" | "sec" | "secs" | "seconds", _) => i + 1,
+        ("from" | "at" | "by" | "second" | "sec" | "secs" | "seconds", _) => i + 1,
         _ => i,
     };
     let is_named = start > i;
@@ -70,7 +76,8 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
     if let Some((end, kind)) = span_from(words, start, first) {
         return stamp(end, kind);
     }
-    let is_code = first.form == InstantForm::Clock || is_named && word_at(words, i) != "by";
+    let is_named_time = is_named && word_at(words, i) != "by" && !other_unit(words, first.end);
+    let is_code = first.form == InstantForm::Clock || is_named_time;
     match first.form {
         _ if is_code && word_at(words, i) != "from" => stamp(first.end, StampKind::Point(first.secs)),
         InstantForm::Measure if !is_named && first.secs > 0.0 && begins_work(words, first.end) => {
@@ -84,12 +91,19 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
 fn span_from(words: &[Word], start: usize, first: Instant) -> Option<(usize, StampKind)> {
     let link = link_at(words, start, first)?;
     let last = instant_at(words, first.end + link)?;
+    if other_unit(words, first.end) || other_unit(words, last.end) {
+        return None;
+    }
     let is_time = [first.form, last.form].iter().any(|form| *form != InstantForm::Bare)
         || first.secs == 0.0
         || matches!(word_at(words, last.end), ":" | ")");
-    let other_unit =
-        matches!(word_at(words, last.end), "%" | "x" | "mm" | "m" | "cm" | "deg" | "degrees" | "\u{B0}" | "fps");
-    (is_time && !other_unit && last.secs > first.secs).then_some((last.end, StampKind::Span(first.secs, last.secs)))
+    (is_time && last.secs > first.secs).then_some((last.end, StampKind::Span(first.secs, last.secs)))
+}
+
+/// Whether word `i` is a unit of something else than time.
+fn other_unit(words: &[Word], i: usize) -> bool {
+    let other = matches!(word_at(words, i), "x" | "fps" | "k" | "/" | "per" | "times" | "frames");
+    other || unit(word_at(words, i)).is_some_and(|(kind, _)| kind != QuantityKind::Seconds)
 }
 
 /// Whether what follows a length is what happens in it, not what the length is of.

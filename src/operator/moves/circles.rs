@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::paths::end_view;
 use crate::composition::side_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
-use crate::framing::{Target, bearing_of};
+use crate::framing::{Bearing, Target, bearing_of, view_at};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
 use crate::view::{aimed, lerp, moved};
@@ -18,7 +19,7 @@ const DEG_PER_KEY: f64 = 30.0;
 /// Circles the upright axis through the subject's center, at constant radius and height.
 pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
-    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.4, 0.72));
+    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.48, 0.78));
     let sign = context.sign(match context.step.movement {
         Move::OrbitLeft | Move::ArcLeft => 1.0,
         _ => -1.0,
@@ -70,8 +71,8 @@ fn orbit_deg(context: &StepContext) -> f64 {
         Some(Amount::Slight) => 25.0,
         Some(Amount::Large) if arc => 180.0,
         Some(Amount::Large) => 360.0,
-        _ if arc => lerp((40.0, 60.0), context.parameters[6]),
-        _ => lerp((58.0, 88.0), context.parameters[6]),
+        _ if arc => lerp((45.0, 70.0), context.parameters[6]),
+        _ => lerp((64.0, 90.0), context.parameters[6]),
     }
 }
 
@@ -79,11 +80,14 @@ fn orbit_deg(context: &StepContext) -> f64 {
 pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
     let upward = (context.step.movement == Move::CraneUp) != (context.step.either_way && context.parameters[5] < 0.5);
+    if let Some(start) = context.start.as_ref().filter(|start| start.ids.first() != target.ids.first()) {
+        return crane_between(context, start, &target, upward);
+    }
     let (mut segments, first) = if context.before.is_none() && context.step.start.angle.is_none() {
-        let view = context.view(&target, &opening_for_crane(context, upward), (0.35, 0.62), NORMAL_LENS_DEG);
+        let view = context.view(&target, &opening_for_crane(context, upward), (0.42, 0.68), NORMAL_LENS_DEG);
         (Vec::new(), view)
     } else {
-        context.opened_on(&target, (0.35, 0.62))
+        context.opened_on(&target, (0.42, 0.68))
     };
     let last = raised(context, &first, &target, upward);
     let middle = CameraState {
@@ -109,6 +113,45 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
+/// Rises or sinks from a view of one subject to a view of another.
+fn crane_between(context: &StepContext, start: &Target, end: &Target, upward: bool) -> Vec<MotionSegment> {
+    let (mut segments, first) = context.opened_on(start, (0.42, 0.68));
+    let view = end_view(context, end, &first);
+    let seen = bearing_of(context.world, end.aim, view.pose.position);
+    let distance = view.pose.position.distance(end.aim);
+    let frame = &context.world.frame;
+    // The least rise or fall that shows, over the distance to the end's subject.
+    let least = LEAST_RISE_FRAC * distance;
+    let rise = frame.height(view.pose.position - first.pose.position);
+    let lift = if upward { (least - rise).max(0.0) } else { (-least - rise).min(0.0) };
+    let sine = (frame.height(view.pose.position - end.aim) + lift) / distance.max(1e-9);
+    let bearing = Bearing { elevation_rad: sine.clamp(-0.999, 0.999).asin(), ..seen };
+    let last = view_at(context.world, end.aim, bearing, distance, view.fov_y_rad);
+    let movement = if upward { Move::CraneUp } else { Move::CraneDown };
+    // The aim goes from one subject to the other with the camera, so that neither is lost on the way.
+    let at = |i: u32| {
+        let share = f64::from(i) / f64::from(CRANE_KEYS);
+        let position = first.pose.position.lerp(last.pose.position, share);
+        let fov_y_rad = lerp((first.fov_y_rad, last.fov_y_rad), share);
+        let state = CameraState { pose: Pose { position, ..first.pose }, fov_y_rad, ..first };
+        aimed(context.world, &state, start.aim.lerp(end.aim, share))
+    };
+    let between = (1..CRANE_KEYS).map(at);
+    let states = std::iter::once(first).chain(between).chain([last]).collect();
+    let segment = context
+        .constrained_at_end(context.constrained_at_start(context.segment(states)))
+        .requiring(Scope::All, ConstraintKind::Also(movement, end.aim))
+        .requiring(Scope::Start, ConstraintKind::Centered(start.clone(), 0.17))
+        .requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.17));
+    segments.push(require_visible(require_visible(segment, start, Scope::Start), end, Scope::End));
+    segments
+}
+
+/// Intervals between the keyframes of a crane between two subjects.
+const CRANE_KEYS: u32 = 4;
+/// Least rise of a crane between two subjects, over the distance to the second one.
+const LEAST_RISE_FRAC: f64 = 0.3;
+
 /// Framing of a crane's free start: low enough to rise, or high enough to sink.
 fn opening_for_crane(context: &StepContext, upward: bool) -> Framing {
     let mut framing = context.opening_framing();
@@ -117,7 +160,7 @@ fn opening_for_crane(context: &StepContext, upward: bool) -> Framing {
 }
 
 /// Least change of a crane's elevation, seen from its subject.
-const MIN_CRANE_DEG: f64 = 14.0;
+const MIN_CRANE_DEG: f64 = 18.0;
 
 /// The camera after it has risen or sunk, aimed at the target.
 fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: bool) -> CameraState {
@@ -128,12 +171,12 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
     let start = bearing_of(context.world, target.aim, first.pose.position).elevation_rad.to_degrees();
     let sign = if upward { 1.0 } else { -1.0 };
     let asked = match context.step.end.angle {
-        Some(ShotAngle::Overhead) => lerp((46.0, 66.0), context.parameters[6]),
+        Some(ShotAngle::Overhead) => lerp((53.0, 70.0), context.parameters[6]),
         Some(ShotAngle::High) => lerp((16.0, 36.0), context.parameters[6]),
         Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), context.parameters[6]),
         Some(ShotAngle::Low) => lerp((-30.0, -10.0), context.parameters[6]),
         Some(ShotAngle::Worm) => -45.0,
-        None => start + sign * lerp((18.0, 38.0), context.parameters[6]),
+        None => start + sign * lerp((22.0, 42.0), context.parameters[6]),
     };
     let asked = context.step.end.elevation_deg.unwrap_or(asked);
     // For every end angle a crane must rise or sink visibly.

@@ -11,9 +11,11 @@ use crate::motion::{MotionSegment, StepParameters};
 use crate::pacing::factor;
 use crate::program::{Framing, Motion, Pass, Program, Step, SubjectSide};
 use crate::suggestion::StepCameras;
-use crate::view::{ViewRange, aimed, azimuth_across, broadside_azimuths, opening_view};
+use crate::view::{
+    CIRCLING_OVERHEAD_DEG, OVERHEAD_DEG, ViewRange, aimed, azimuth_across, broadside_azimuths, opening_view,
+};
 use crate::world::World;
-use cinesplat_trajectory::{CameraState, Easing, Move};
+use cinesplat_trajectory::{CameraState, Easing, Move, ShotSize};
 
 /// Required visible share of a subject's points in the frame.
 const VISIBLE_FRAC: f64 = 0.6;
@@ -121,6 +123,10 @@ impl<'a> StepContext<'a> {
             Framing { angle: end.angle, ..Framing::default() }
         };
         framing.side = framing.side.or(self.passed_side());
+        if self.opens_on_room() && !self.main_target().ids.is_empty() {
+            // The room is wide where its subject is small in it.
+            framing.size = Some(ShotSize::ExtremeLong);
+        }
         self.inherit(&mut framing);
         framing
     }
@@ -192,9 +198,27 @@ impl<'a> StepContext<'a> {
         let close = height.is_some_and(|height| height >= 0.8);
         // Close views use a long lens, so that the camera does not have to stand inside its subject.
         let fov_deg = if close { (fov_deg.0.min(18.0), fov_deg.1.min(44.0)) } else { fov_deg };
+        // Around a lone thing there is nothing to see: it fills more of the picture.
+        let fill = if self.world.is_indoor() { fill } else { (1.35 * fill.0, fill.1.max((1.2 * fill.1).min(0.9))) };
         let (fill, fov_deg) = self.widened(fill, fov_deg);
-        let range = ViewRange { fill, fov_deg, azimuths_rad };
+        let overhead_deg = if self.leaves_zenith() { CIRCLING_OVERHEAD_DEG } else { OVERHEAD_DEG };
+        let range = ViewRange { fill, fov_deg, azimuths_rad, overhead_deg };
         opening_view(self.world, target, framing, &range, self.suggestion, self.parameters)
+    }
+
+    /// Whether the step takes the camera around its subject or down to it, alone or with another move.
+    fn leaves_zenith(&self) -> bool {
+        use Move::{ArcLeft, ArcRight, CraneDown, CraneUp, OrbitLeft, OrbitRight};
+        let leaves =
+            |movement: &Move| matches!(movement, OrbitLeft | OrbitRight | ArcLeft | ArcRight | CraneDown | CraneUp);
+        leaves(&self.step.movement) || self.step.with.iter().any(leaves)
+    }
+
+    /// Whether the prompt opens on the room as a whole: a wide size without subjects.
+    pub(super) fn opens_on_room(&self) -> bool {
+        let start = &self.step.start;
+        let wide = matches!(start.size, Some(ShotSize::Long | ShotSize::ExtremeLong));
+        self.before.is_none() && wide && start.subjects.is_empty()
     }
 
     /// The ranges of size and field of view, widened where the step keeps objects in view or avoids them: farther and

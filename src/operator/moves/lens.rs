@@ -7,7 +7,7 @@ use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
 use crate::view::{lerp, moved, stated_fill, with_fov};
-use cinesplat_trajectory::{CameraState, Move};
+use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Narrowest and widest vertical field of view that a move chooses, degrees.
 const LENS_LIMITS_DEG: (f64, f64) = (9.0, 84.0);
@@ -16,7 +16,12 @@ const LENS_LIMITS_DEG: (f64, f64) = (9.0, 84.0);
 pub(super) fn zoom(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
     let inward = (context.step.movement == Move::ZoomIn) != (context.step.either_way && context.parameters[5] < 0.5);
-    let (fill, lens) = if inward { ((0.2, 0.5), (38.0, 58.0)) } else { ((0.55, 1.0), (16.0, 30.0)) };
+    let (fill, lens) = match (inward, ends_on_room(context)) {
+        (true, _) => ((0.24, 0.5), (38.0, 58.0)),
+        (false, false) => ((0.55, 1.0), (16.0, 30.0)),
+        // A long lens puts the camera far away, from where a wide one shows the room.
+        (false, true) => ((0.55, 1.0), (9.0, 16.0)),
+    };
     let (mut segments, first) = match &context.before {
         Some(before) => context.turned_to(before, target.aim),
         None => (Vec::new(), context.view(&target, &context.opening_framing_for_zoom(inward), fill, lens)),
@@ -48,9 +53,18 @@ impl StepContext<'_> {
     }
 }
 
+/// Vertical field of view that shows a room, degrees.
+const ROOM_LENS_DEG: (f64, f64) = (54.0, 70.0);
+
+/// Whether the prompt ends on the room as a whole: a wide size without subjects.
+fn ends_on_room(context: &StepContext) -> bool {
+    let end = &context.step.end;
+    end.subjects.is_empty() && matches!(end.size, Some(ShotSize::Long | ShotSize::ExtremeLong))
+}
+
 /// Tangent of half the field of view at the end, over that at the start.
 fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
-    let open = if inward { lerp((0.42, 0.64), context.parameters[6]) } else { lerp((1.5, 2.2), context.parameters[6]) };
+    let open = if inward { lerp((0.38, 0.56), context.parameters[6]) } else { lerp((1.7, 2.4), context.parameters[6]) };
     let height = extent_frac(context.world, first, &target.corners).y;
     let by_size = stated_fill(&context.step.end, context.parameters[7]).map(|fill| match fill {
         Fill::Height(wanted) | Fill::Fit(wanted) => height / wanted,
@@ -61,6 +75,9 @@ fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inwar
     });
     let zooms = |ratio: &f64| if inward { *ratio < 0.9 } else { *ratio > 1.1 };
     let by_size = by_lens.filter(zooms).or(by_size.filter(zooms));
+    let to_room = (!inward && ends_on_room(context))
+        .then(|| (lerp(ROOM_LENS_DEG, context.parameters[6]).to_radians() / 2.0).tan() / (first.fov_y_rad / 2.0).tan());
+    let by_size = to_room.filter(zooms).or(by_size);
     let whole = || {
         let end = context.end.as_ref().filter(|_| context.step.end.whole && !inward)?;
         let ratios = (0..30).map(|i| 1.3 * 1.06_f64.powi(i));
@@ -122,7 +139,7 @@ pub(super) fn rack_focus(context: &StepContext) -> Vec<MotionSegment> {
     let (from, to) = (context.opening_target(), context.main_target());
     let (mut segments, view) = match &context.before {
         Some(before) => (Vec::new(), *before),
-        None => context.opened_on(&from, (0.25, 0.5)),
+        None => context.opened_on(&from, (0.36, 0.62)),
     };
     let depth = |target: &Target| view.pose.to_camera(target.aim).z.max(1e-3 * context.world.bounds.size());
     let focused = |target: &Target| CameraState { focus_distance: Some(depth(target)), ..view };

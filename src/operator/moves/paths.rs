@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::room_view::room_target;
 use super::standing::turned_away;
 use crate::composition::{natural_elevation_deg, side_azimuths};
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
@@ -12,11 +13,16 @@ use crate::motion::MotionSegment;
 use crate::program::Motion;
 use crate::view::{lerp, moved, stated_fill, view_from};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
-use cinesplat_trajectory::{CameraState, Move};
+use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
 /// Moves from the view before, or from a view of the start target, to a view of the end target.
 pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
-    let (start, end) = (context.opening_target(), context.main_target());
+    let end = context.main_target();
+    if end.ids.is_empty() && context.before.is_none() && context.world.is_indoor() {
+        return walk(context, &end);
+    }
+    let room = room_target(context.world, context.parameters).filter(|_| context.opens_on_room());
+    let start = room.unwrap_or_else(|| context.opening_target());
     let first = match &context.before {
         Some(before) => *before,
         None => context.view(&start, &context.opening_framing(), (0.4, 0.7), NORMAL_LENS_DEG),
@@ -32,6 +38,18 @@ pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
     vec![require_visible(segment, &end, Scope::End)]
 }
 
+/// Share of the way to what it looks at that a camera walks into a room where the prompt names no goal.
+const WALK_FRAC: (f64, f64) = (0.45, 0.75);
+
+/// Walks into a room at one height, along the view from where somebody stands.
+fn walk(context: &StepContext, ahead: &Target) -> Vec<MotionSegment> {
+    let first = context.view(ahead, &context.opening_framing(), (0.4, 0.7), NORMAL_LENS_DEG);
+    let way = context.world.frame.horizontal(ahead.aim - first.pose.position);
+    let last = moved(&first, way * lerp(WALK_FRAC, context.parameters[6]));
+    let segment = context.constrained_at_end(context.constrained_at_start(glide(context, &first, &last)));
+    vec![segment]
+}
+
 /// A view of the step's end target with the field of view of its start, so that only the camera's travel changes the
 /// picture.
 pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState) -> CameraState {
@@ -43,7 +61,7 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     let spread = |parameter: f64| (parameter * 2.0 - 1.0) * (parameter * 2.0 - 1.0).abs();
     let band = context.step.end.angle.map(|angle| {
         let (low, high) = pitch_band_deg(angle);
-        (-high.min(34.0), -low.max(-70.0))
+        if angle == ShotAngle::Overhead { (64.0, 84.0) } else { (-high.min(34.0), -low.max(-70.0)) }
     });
     let elevation_deg = if let Some(band) = band {
         lerp(band, parameters[7])
@@ -58,7 +76,7 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     };
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = unturned(context, first, Bearing { azimuth_rad, elevation_rad });
-    let fill = stated_fill(framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.35, 0.7), parameters[6])));
+    let fill = stated_fill(framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.45, 0.78), parameters[6])));
     let loose = framing.whole && framing.height_frac.is_none();
     let fill = if loose { Fill::Fit(lerp((0.5, 0.85), parameters[6])) } else { fill };
     view_from(world, (end, framing), bearing, fill, context.end_fov_rad(first))

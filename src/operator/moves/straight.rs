@@ -17,7 +17,7 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let inward = (context.step.movement == Move::PushIn) != (context.step.either_way && context.parameters[5] < 0.5);
     let target =
         if inward { context.main_target() } else { context.start.clone().unwrap_or_else(|| pulled_from(context)) };
-    let fill = if inward { (0.2, 0.45) } else { (0.55, 0.95) };
+    let fill = if inward { (0.24, 0.45) } else { (0.6, 0.95) };
     let (mut segments, first) = if context.before.is_none()
         && context.step.start.size.is_none()
         && !context.step.start.whole
@@ -107,7 +107,7 @@ fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, 
 /// Distance at the end over that at the start.
 fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let distance = first.pose.position.distance(target.aim);
-    let open = if inward { lerp((0.42, 0.66), context.parameters[6]) } else { lerp((1.7, 3.2), context.parameters[6]) };
+    let open = if inward { lerp((0.36, 0.56), context.parameters[6]) } else { lerp((1.9, 3.3), context.parameters[6]) };
     let by_size = size_ratio(context, target, first);
     let by_whole = || whole_ratio(context, first, distance);
     let stated = match context.step.amount {
@@ -231,7 +231,7 @@ fn slide(
         if travels { context.opening_target() } else { passed.clone().unwrap_or_else(|| context.main_target()) };
     let (mut segments, mut first) = match (&context.before, &context.start) {
         (Some(before), None) => (Vec::new(), *before),
-        _ => context.opened_on(&target, (0.28, 0.6)),
+        _ => context.opened_on(&target, (0.36, 0.66)),
     };
     let placed = context.before.is_some() || stands(&context.standing());
     if !placed && direction.is_vertical() && context.step.start.angle.is_none() && !target.ids.is_empty() {
@@ -313,6 +313,6 @@ fn free_slide_length(
         Some(Amount::Units(units)) => units,
         Some(Amount::Slight) => 0.12 * distance,
         Some(Amount::Large) => 0.9 * distance,
-        _ => lerp((0.45, 0.95), context.parameters[6]) * distance.max(0.8 * reach),
+        _ => lerp((0.55, 1.0), context.parameters[6]) * distance.max(0.8 * reach),
     }
 }

@@ -14,7 +14,7 @@ use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Easing, Move};
 
 /// Range of the turn of a pan with a free end, and of a tilt, degrees.
-const OPEN_PAN_DEG: (f64, f64) = (30.0, 55.0);
+const OPEN_PAN_DEG: (f64, f64) = (38.0, 66.0);
 const OPEN_TILT_DEG: (f64, f64) = (24.0, 42.0);
 
 /// Change of pitch that a pan may have before its ends are brought nearer to one pitch.
@@ -33,7 +33,10 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
         Some(before) => (Vec::new(), *before),
         None => {
             let mut framing = context.step.start.clone();
-            framing.size = framing.size.or(context.step.end.size);
+            // A size without a subject is that of the room, which gives way to a subject with a size.
+            let of_room = framing.subjects.is_empty() && !context.step.end.subjects.is_empty();
+            framing.size =
+                if of_room { context.step.end.size.or(framing.size) } else { framing.size.or(context.step.end.size) };
             framing.angle = framing.angle.or(context.step.end.angle);
             framing.whole |= context.step.end.whole;
             context.inherit(&mut framing);
@@ -247,7 +250,8 @@ fn onto(
 ) -> (Vec<MotionSegment>, CameraState, CameraState) {
     let (segments, first) = match (&context.start, &context.before) {
         (None, Some(before)) => (Vec::new(), *before),
-        (Some(start), _) => context.opened_on(start, (0.25, 0.6)),
+        (Some(start), None) => (Vec::new(), opened_on_either(context, start, end)),
+        (Some(start), Some(_)) => context.opened_on(start, OPEN_FILL),
         (None, None) => {
             let view = context.view(end, &context.step.end, (0.3, 0.6), NORMAL_LENS_DEG);
             (Vec::new(), away(&view))
@@ -259,6 +263,39 @@ fn onto(
         _ => whole,
     };
     (segments, first, last)
+}
+
+/// Size of the subject from which a pan or tilt starts.
+const OPEN_FILL: (f64, f64) = (0.32, 0.66);
+
+/// The first camera of a turn between two subjects: at a place with a view of the first one, or of a whip, whose goal is
+/// what counts, at one with a view of the second one. What stands behind other things is seen from few places. Parameter 7
+/// chooses.
+fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> CameraState {
+    if start.ids == end.ids && is_along(context) {
+        return context.view(start, &context.opening_framing(), ALONG_FILL, NORMAL_LENS_DEG);
+    }
+    let whip = context.step.movement == Move::WhipPan;
+    if !whip || is_stated(&context.step.start) || context.parameters[7] <= 0.5 {
+        return context.view(start, &context.opening_framing(), OPEN_FILL, NORMAL_LENS_DEG);
+    }
+    let place = context.view(end, &context.step.end, OPEN_FILL, NORMAL_LENS_DEG);
+    aimed(context.world, &place, start.aim)
+}
+
+/// Size of a subject along which the view turns, from one end to the other: more than the picture holds.
+const ALONG_FILL: (f64, f64) = (1.15, 1.7);
+
+/// Whether the view turns from one end of a subject to the other.
+fn is_along(context: &StepContext) -> bool {
+    let (start, end) = (&context.step.start, &context.step.end);
+    let free = start.size.is_none() && end.size.is_none() && !start.whole && !end.whole;
+    free && start.part != end.part && start.part != SubjectPart::Middle && end.part != SubjectPart::Middle
+}
+
+/// Whether a framing states more than its subjects.
+fn is_stated(framing: &Framing) -> bool {
+    *framing != Framing { subjects: framing.subjects.clone(), ..Framing::default() }
 }
 
 /// Turns about the view axis.

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::settings::FilmSettings;
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Keeper, Picture};
+use crate::pipeline::panic_point::panic_point;
 use cinesplat_video::{ContactSheet, VideoWriter};
 
 /// A frame on its way to the encoder.
@@ -51,8 +52,10 @@ impl Encoder<'_> {
     }
 
     fn write(&mut self, shown: &Shown) -> Result<(), PipelineError> {
+        panic_point("encode", shown.frame_idx);
         match (&mut self.sink, shown.picture.as_ref()) {
             (Sink::Writer(writer), Picture::Planes(planes)) => writer.write_planes(planes)?,
+            (Sink::Writer(writer), Picture::AlphaPlanes(planes)) => writer.write_alpha_planes(planes)?,
             (Sink::Writer(writer), Picture::Rgb8(frame)) => writer.write_frame(&frame.rgb8)?,
             (Sink::Writer(writer), Picture::File(bytes, _)) => writer.write_file(bytes)?,
             (Sink::Keeper(Some(keeper)), picture) if !shown.is_kept => keeper.keep(shown.frame_idx, picture)?,

@@ -1,11 +1,13 @@
-use cinesplat_lens::{EffectPlan, Picture};
-use cinesplat_video::{VideoError, VideoFormat, encode_exr, encode_png_with_alpha};
+use cinesplat_lens::Picture;
+use cinesplat_video::{VideoError, VideoFormat, VideoSettings, encode_exr, encode_png_with_alpha};
 
 /// The form in which a film's pictures are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
     /// Planes of 4:2:0, for films.
     Planes,
+    /// Planes of 4:4:4 with opacity, for films.
+    AlphaPlanes,
     /// Colors in 8 bits, for pictures.
     Rgb8,
     /// Colors and opacity in 8 bits, for pictures.
@@ -15,12 +17,13 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// The form for an output with effects.
-    pub(super) fn of(format: &VideoFormat, effects: &EffectPlan) -> Self {
+    /// The form for an output.
+    pub(super) fn of(format: &VideoFormat, video: &VideoSettings) -> Self {
         match format {
             VideoFormat::Sequence(pattern) if pattern.is_exr() => Self::Exr,
-            VideoFormat::Sequence(_) if effects.is_transparent() => Self::Alpha,
+            VideoFormat::Sequence(_) if video.has_alpha => Self::Alpha,
             VideoFormat::Sequence(_) => Self::Rgb8,
+            VideoFormat::Mov if video.has_alpha => Self::AlphaPlanes,
             _ => Self::Planes,
         }
     }

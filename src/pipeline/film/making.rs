@@ -8,12 +8,14 @@ use std::time::{Duration, Instant};
 use super::effects::Filmed;
 use super::form::Form;
 use super::report::FilmReport;
+use super::watch::QualityWatch;
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Keeper, Kept, Picture};
+use crate::pipeline::panic_point::panic_point;
 use cinesplat_geometry::Camera;
 use cinesplat_lens::EffectPlan;
-use cinesplat_render::{RenderSettings, Renderer, Rgb8Frame};
-use cinesplat_video::{ContactSheet, planes_from_rgb8};
+use cinesplat_render::{Quality, RenderSettings, Renderer, Rgb8Frame};
+use cinesplat_video::{AlphaPlanes, ContactSheet, planes_from_rgb8};
 
 /// Makes the frames of a film in order: takes those that a job folder holds and renders the others.
 pub(super) struct FrameMaker<'a> {
@@ -35,6 +37,9 @@ pub(super) struct FrameMaker<'a> {
     num_damaged: usize,
     render_time: Duration,
     keep_time: Duration,
+    /// Decides the quality of every frame; `None` = that of the settings.
+    watch: Option<QualityWatch<'a>>,
+    qualities: Vec<(usize, Quality)>,
 }
 
 /// A finished frame.
@@ -68,7 +73,15 @@ impl<'a> FrameMaker<'a> {
             num_damaged: 0,
             render_time: Duration::ZERO,
             keep_time: Duration::ZERO,
+            watch: None,
+            qualities: Vec::new(),
         }
+    }
+
+    /// Lets a watch decide the quality of every frame.
+    pub(super) fn watched_by(mut self, watch: Option<QualityWatch<'a>>) -> Self {
+        self.watch = watch;
+        self
     }
 
     /// Makes pictures for a contact sheet available, even those that nothing else needs.
@@ -108,12 +121,13 @@ impl<'a> FrameMaker<'a> {
     pub(super) fn report_to(&self, report: &mut FilmReport) {
         (report.num_kept, report.num_damaged) = (self.num_kept, self.num_damaged);
         (report.render_time, report.keep_time) = (self.render_time, self.keep_time);
+        report.qualities.clone_from(&self.qualities);
     }
 
     /// The frame, if the job folder holds it undamaged.
     fn take_kept(&mut self, frame_idx: usize, idx: usize, camera: Camera) -> Option<Made> {
         let kept = self.kept.as_ref().filter(|kept| kept.is_listed(frame_idx))?;
-        let needs_picture = self.form == Form::Planes || self.sheet.contains(&idx);
+        let needs_picture = matches!(self.form, Form::Planes | Form::AlphaPlanes) || self.sheet.contains(&idx);
         let picture = if needs_picture { kept.picture(frame_idx).map(Arc::new) } else { None };
         if (needs_picture && picture.is_none()) || (!needs_picture && !kept.is_whole(frame_idx)) {
             self.num_damaged += 1;
@@ -124,9 +138,13 @@ impl<'a> FrameMaker<'a> {
     }
 
     fn render(&mut self, frame_idx: usize) -> Result<Arc<Picture>, PipelineError> {
-        let start = Instant::now();
+        panic_point("render", frame_idx);
+        rayon::join(|| (), || panic_point("worker", frame_idx));
         let mut frame = self.free_frame();
-        let (renderer, settings) = (self.renderer, self.settings);
+        let quality = self.watch.as_mut().map_or(Ok(self.settings.quality), |watch| watch.quality_of(frame_idx))?;
+        self.qualities.push((frame_idx, quality));
+        let start = Instant::now();
+        let (renderer, settings) = (self.renderer, &RenderSettings { quality, ..*self.settings });
         let picture = match self.form {
             Form::Planes => {
                 self.filmed.render_rgb8(self.effects, frame_idx, (renderer, settings), &mut frame)?;
@@ -138,6 +156,11 @@ impl<'a> FrameMaker<'a> {
                 self.filmed.render_rgb8(self.effects, frame_idx, (renderer, settings), &mut frame)?;
                 Picture::Rgb8(frame)
             }
+            Form::AlphaPlanes => {
+                let developed = self.filmed.expose(self.effects, frame_idx, (renderer, settings))?;
+                let size = [developed.frame().width, developed.frame().height].map(|len| len as usize);
+                Picture::AlphaPlanes(AlphaPlanes::new(&developed.to_rgba(), size[0], size[1]))
+            }
             Form::Alpha | Form::Exr => {
                 let developed = self.filmed.expose(self.effects, frame_idx, (renderer, settings))?;
                 let bytes = self.form.file_of(&developed, self.effects.is_transparent())?;
@@ -146,6 +169,9 @@ impl<'a> FrameMaker<'a> {
             }
         };
         self.render_time += start.elapsed();
+        if let Some(watch) = &mut self.watch {
+            watch.rendered(frame_idx, quality, start.elapsed());
+        }
         Ok(Arc::new(picture))
     }
 

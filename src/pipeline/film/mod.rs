@@ -12,6 +12,7 @@ mod making;
 mod part;
 mod report;
 mod settings;
+mod watch;
 mod whole;
 
 pub use cameras::camera_at;
@@ -19,6 +20,6 @@ pub(super) use effects::Filmed;
 pub use effects::{called_effects, complete_effects, plan_effects};
 pub use part::film_part;
 pub use report::{FilmProgress, FilmReport};
-pub use settings::{FilmSettings, video_of};
+pub use settings::{FilmSettings, suited_preset, video_of};
 pub(super) use whole::QUEUE_FRAMES;
-pub use whole::film;
+pub use whole::{film, film_planned};

@@ -9,7 +9,7 @@ use super::making::FrameMaker;
 use super::report::{FilmProgress, FilmReport};
 use super::settings::FilmSettings;
 use crate::pipeline::error::PipelineError;
-use crate::pipeline::frames::FrameRange;
+use crate::pipeline::frames::{FrameRange, Piece};
 use crate::pipeline::job::Access;
 use cinesplat_render::Renderer;
 use cinesplat_trajectory::Shot;
@@ -18,8 +18,8 @@ use cinesplat_video::VideoFormat;
 /// Renders frames of a film into its job folder, next to other programs that do the same; makes no film. [`super::film`]
 /// makes it from the folder.
 ///
-/// `settings.frames` are the frames of the film, `part` those that this program looks after. A frame that is finished, or
-/// that another program is rendering, is left out.
+/// `settings.frames` are the frames of the film, `part` those that this program looks after, in the order of `piece`. A frame
+/// that is finished, or that another program is rendering, is left out.
 ///
 /// # Errors
 /// As [`super::film`].
@@ -27,7 +27,7 @@ pub fn film_part(
     renderer: &Renderer<'_>,
     shot: &Shot,
     output: &Path,
-    (settings, part): (&FilmSettings, FrameRange),
+    (settings, part, piece): (&FilmSettings, FrameRange, Piece),
     watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
 ) -> Result<FilmReport, PipelineError> {
     let start = Instant::now();
@@ -43,12 +43,12 @@ pub fn film_part(
     let mut maker = FrameMaker::new(
         (renderer, &filmed, &effects),
         &settings.render,
-        (Form::of(&VideoFormat::from_path(output)?, &effects), used),
+        (Form::of(&VideoFormat::from_path(output)?, &settings.video_for(shot, &frames)), used),
         (None, None),
     );
     let mut report = FilmReport::new(output, part.len());
     let num_kept = job.parts().0.num_listed(&part);
-    for (idx, frame_idx) in part.clone().enumerate() {
+    for (idx, frame_idx) in piece.order(part.clone()).enumerate() {
         if let Some(_claim) = job.claim(frame_idx)? {
             let made = maker.make(frame_idx, idx)?;
             if let Some(picture) = made.picture {

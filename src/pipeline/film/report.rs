@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use cinesplat_lens::EffectPlan;
+use cinesplat_render::Quality;
 use cinesplat_video::VideoFormat;
 
 /// Progress of a film.
@@ -28,6 +29,8 @@ pub struct FilmReport {
     pub num_kept: usize,
     /// Frames of the job folder that were damaged and are rendered again.
     pub num_damaged: usize,
+    /// Pictures of a longer film that this sequence replaced: they were removed from behind its end.
+    pub num_removed: usize,
     /// Time spent rendering.
     pub render_time: Duration,
     /// Time spent keeping frames in the job folder.
@@ -36,6 +39,8 @@ pub struct FilmReport {
     pub encode_time: Duration,
     /// Wall time of the whole film.
     pub total_time: Duration,
+    /// Each frame that was rendered, with its quality. A frame with the camera of the one before is not rendered again.
+    pub qualities: Vec<(usize, Quality)>,
     /// The effects, and the frames that they ran on.
     pub effects: EffectPlan,
 }
@@ -58,10 +63,12 @@ impl FilmReport {
             num_wanted,
             num_kept: 0,
             num_damaged: 0,
+            num_removed: 0,
             render_time: Duration::ZERO,
             keep_time: Duration::ZERO,
             encode_time: Duration::ZERO,
             total_time: Duration::ZERO,
+            qualities: Vec::new(),
             effects: EffectPlan::default(),
         }
     }

@@ -9,13 +9,15 @@ use super::encoding::{Encoder, Shown, Sink};
 use super::form::Form;
 use super::making::{FrameMaker, Made};
 use super::report::{FilmProgress, FilmReport};
-use super::settings::{FilmSettings, video_of};
+use super::settings::FilmSettings;
+use super::watch::QualityWatch;
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Access, Job};
+use cinesplat_files::Existing;
 use cinesplat_lens::EffectPlan;
 use cinesplat_render::Renderer;
 use cinesplat_trajectory::Shot;
-use cinesplat_video::{ContactSheet, VideoFormat, VideoSettings, VideoWriter};
+use cinesplat_video::{ContactSheet, VideoFormat, VideoWriter, remove_frames_from};
 
 /// Capacity of the queue between renderer and encoder, in frames. It absorbs frames that are slow to encode and costs
 /// little memory.
@@ -36,20 +38,43 @@ pub fn film(
     settings: &FilmSettings,
     watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
 ) -> Result<FilmReport, PipelineError> {
+    film_planned(renderer, shot, output, (settings, None), watch)
+}
+
+/// As [`film`], with the effects of the frames where they are planned already ([`super::plan_effects`]). The effects of a film
+/// that an earlier run finished are not planned.
+///
+/// # Errors
+/// As [`film`].
+pub fn film_planned(
+    renderer: &Renderer<'_>,
+    shot: &Shot,
+    output: &Path,
+    (settings, planned): (&FilmSettings, Option<EffectPlan>),
+    watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
+) -> Result<FilmReport, PipelineError> {
     let start = Instant::now();
     let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
     let frames = settings.frames.of_film(shot.num_frames())?;
-    let effects = filmed.plan(frames.clone(), (renderer, &settings.render))?;
     let mut job = settings.open_job(output, shot, &frames, Access::Alone)?;
     let has_sheet = settings.sheet.as_ref().is_none_or(|sheet| sheet.exists());
-    let mut report = match job.as_ref().and_then(Job::finished_film).filter(|_| has_sheet) {
-        Some(_) => {
-            FilmReport { num_frames: frames.len(), num_kept: frames.len(), ..FilmReport::new(output, frames.len()) }
+    let mut effects = planned.clone().unwrap_or_default();
+    let is_whole = has_sheet && job.as_ref().is_some_and(|job| job.finished_film().is_some());
+    let mut report = if is_whole {
+        FilmReport { num_frames: frames.len(), num_kept: frames.len(), ..FilmReport::new(output, frames.len()) }
+    } else {
+        if planned.is_none() {
+            effects = filmed.plan(frames.clone(), (renderer, &settings.render))?;
         }
-        None => {
-            render_and_encode((renderer, &filmed, &effects), (shot, output), (settings, &frames), job.as_mut(), watch)?
-        }
+        render_and_encode((renderer, &filmed, &effects), (shot, output), (settings, &frames), job.as_mut(), watch)?
     };
+    if let VideoFormat::Sequence(pattern) = VideoFormat::from_path(output)?
+        && settings.video.existing == Existing::Replace
+        && frames == (0..shot.num_frames())
+        && !report.is_partial()
+    {
+        report.num_removed = remove_frames_from(&pattern, frames.end)?;
+    }
     match job {
         Some(mut job) if report.is_partial() => job.flush()?,
         Some(job) => {
@@ -75,8 +100,7 @@ fn render_and_encode(
     mut job: Option<&mut Job>,
     watch: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
 ) -> Result<FilmReport, PipelineError> {
-    let is_panorama = effects.is_panorama();
-    let video = VideoSettings { is_panorama, ..video_of(shot, frames, &settings.video) };
+    let video = settings.video_for(shot, frames);
     let is_film = !matches!(VideoFormat::from_path(output)?, VideoFormat::Sequence(_));
     let sheet = settings.sheet.as_ref().map(|_| ContactSheet::new(shot.width, shot.height, frames.len()));
     let target = job.as_ref().map_or_else(|| output.to_owned(), |job| job.film_path());
@@ -94,8 +118,14 @@ fn render_and_encode(
     let mut maker = FrameMaker::new(
         (renderer, filmed, effects),
         &settings.render,
-        (Form::of(&VideoFormat::from_path(output)?, effects), used),
+        (Form::of(&VideoFormat::from_path(output)?, &video), used),
         (kept, own_keeper),
+    )
+    .watched_by(
+        settings
+            .promise
+            .as_ref()
+            .map(|promise| QualityWatch::new((renderer, filmed), &settings.render, (shot, frames.clone()), promise)),
     );
     if let Some(sheet) = &encoder.sheet {
         maker.show_on(sheet);

@@ -7,17 +7,22 @@
 
 mod accuracy;
 mod cost;
+mod promised;
 mod sample;
+mod worst;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 use strum::VariantArray;
 
 pub use cost::{FilmCost, TimeCost, num_cores};
+pub use promised::{Promised, promised};
 
+use super::accuracy::{at, mean_square, psnr_db};
 use super::error::PipelineError;
 use super::film::{self, FilmSettings, Filmed, camera_at};
-use accuracy::{ReferenceSample, mean_square, psnr_db};
+use super::promise::{Pace, PathProfile, margin_db};
+use accuracy::ReferenceSample;
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
 use cinesplat_trajectory::{CameraPath, Shot};
@@ -34,6 +39,9 @@ const TIMED_RUN: usize = 3;
 const CHECKED_FRACS: [f64; 2] = [0.35, 0.65];
 /// Share of frames of a resting camera above which their encoding is measured too.
 const STILL_FRAC: f64 = 0.05;
+/// Time that a forecast must leave free: a factor, and what opening and closing a film may take.
+const TIME_MARGIN: f64 = 1.2;
+const TIME_RESERVE: Duration = Duration::from_millis(100);
 /// Least ratio of the times of `reference` and `final`.
 const REFERENCE_FACTOR: f64 = 10.0;
 /// Bytes per pixel of a frame inside an encoder: 4:2:0, a half-size copy, vectors and costs of its blocks.
@@ -60,6 +68,8 @@ pub struct Forecast {
     pub memory_bytes: u64,
     /// Whether all sampled frames show the background alone.
     pub is_empty: bool,
+    /// Time per frame, for a film that is watched.
+    pub pace: Pace,
 }
 
 /// Requirements of a film.
@@ -94,51 +104,66 @@ pub fn forecast(
     let run = sampler.run(0.5, sampler.num_encoded());
     let filmed = timed.iter().position(|quality| *quality == Quality::Standard).unwrap_or(0);
     let pictures = sampler.render_run(run, timed[filmed], &mut samples[filmed])?;
-    let video = film::video_of(shot, &frames, &settings.video);
     let num_still = frames.len() - cameras.len();
     let counts_still = num_still as f64 > STILL_FRAC * frames.len() as f64;
-    let [first_encode, encode, still_encode] = sample::encode_cost(output, &video, &pictures, counts_still)?;
+    let mut encodings: Vec<Encoding> = Vec::new();
+    for &quality in qualities {
+        let render = RenderSettings { quality, ..settings.render };
+        let video = FilmSettings { render, ..settings.clone() }.video_for(shot, &frames);
+        let known = encodings.iter().find(|known| known.video == video);
+        let costs = match known {
+            Some(known) => known.costs,
+            None => sample::encode_cost(output, &video, &pictures, counts_still)?,
+        };
+        let num_ahead = encoder_delay_frames(&VideoFormat::from_path(output)?, &video);
+        encodings.push(Encoding { quality, video, num_ahead, costs });
+    }
     drop(pictures);
     for (_, (samples, &quality)) in samples.iter_mut().zip(&timed).enumerate().filter(|(idx, _)| *idx != filmed) {
         sampler.render_run(sampler.run(0.5, TIMED_RUN), quality, samples)?;
     }
     let middle = &run[run.len() / 2];
     let exact = ReferenceSample::of(renderer, middle, &settings.render)?;
-    let mean_work = sampler.mean_work()?;
+    let path_work = sampler.path_work()?;
+    let mean_work = sample::mean_work(&path_work);
     // Nothing was blended into any picture along the path.
     let is_empty = mean_work[3] <= 0.0;
     sample_further(&sampler, &timed, &mut samples, &limit)?;
 
-    let factor = with_effects.cost_factor(&frames, (renderer, &settings.render))?;
-    let num_ahead = encoder_delay_frames(&VideoFormat::from_path(output)?, &video);
-    let cost = FilmCost {
-        num_frames: frames.len(),
-        num_rendered: cameras.len(),
-        render: TimeCost::default(),
-        first_encode,
-        encode,
-        still_encode,
-        num_ahead,
-        num_cores: num_cores(),
+    // Each quality takes samples of its own; those of `reference` are as many as those of `final`.
+    let factor_at = |quality: Quality| with_effects.cost_factor(&frames, (renderer, &at(&settings.render, quality)));
+    let factors: Vec<f64> = timed.iter().map(|&quality| factor_at(quality)).collect::<Result<_, _>>()?;
+    let with_encoder = |quality: Quality, render: TimeCost| {
+        let encoding = encodings.iter().find(|encoding| encoding.quality == quality);
+        let (num_ahead, [first_encode, encode, still_encode]) =
+            encoding.map_or_else(Default::default, |encoding| (encoding.num_ahead, encoding.costs));
+        let held_bytes = encoding.map_or(0, Encoding::held_bytes);
+        let (num_frames, num_rendered, num_cores) = (frames.len(), cameras.len(), num_cores());
+        let cost =
+            FilmCost { num_frames, num_rendered, render, first_encode, encode, still_encode, num_ahead, num_cores };
+        (cost, renderer.memory_bytes() + held_bytes)
     };
-    let memory_bytes = renderer.memory_bytes() + held_bytes(&video, num_ahead);
-    let of_fast = |(&quality, samples): (&Quality, &Samples)| {
-        let cost = FilmCost { render: samples.frame(mean_work).times(factor), ..cost };
+    let of_fast = |((&quality, samples), &factor): ((&Quality, &Samples), &f64)| {
+        let (cost, memory_bytes) = with_encoder(quality, samples.frame(mean_work).times(factor));
+        let profile = samples.profile(&path_work);
         let worst = samples.mean_squares.iter().copied().fold(0.0, f64::max);
         let psnr_db = [
             psnr_db(samples.mean_squares.iter().copied(), exact.final_db),
             psnr_db(std::iter::once(worst), exact.final_db),
         ];
-        Forecast { is_empty, ..Forecast::new(quality, &cost, psnr_db, memory_bytes) }
+        Forecast { is_empty, ..Forecast::new(quality, (&cost, profile), psnr_db, memory_bytes) }
     };
-    let is_wanted = |(quality, _): &(&Quality, &Samples)| qualities.contains(quality);
-    let mut forecasts: Vec<Forecast> = timed.iter().zip(&samples).filter(is_wanted).map(of_fast).collect();
+    let is_wanted = |((quality, _), _): &((&Quality, &Samples), &f64)| qualities.contains(quality);
+    let mut forecasts: Vec<Forecast> =
+        timed.iter().zip(&samples).zip(&factors).filter(is_wanted).map(of_fast).collect();
     if qualities.contains(&Quality::Reference) {
+        let factor = factor_at(Quality::Final)?;
         let more = mean_work[3] / sampler.work_at(middle)?[3].max(1.0);
         let wall_secs = exact.reference_secs(renderer, middle, &settings.render)? * more;
         let cpu_secs = wall_secs * rayon::current_num_threads().min(num_cores()) as f64;
-        let cost = FilmCost { render: TimeCost { wall_secs, cpu_secs }.times(factor), ..cost };
-        let exact = Forecast::new(Quality::Reference, &cost, [f64::INFINITY; 2], memory_bytes);
+        let (cost, memory_bytes) = with_encoder(Quality::Reference, TimeCost { wall_secs, cpu_secs }.times(factor));
+        let profile = samples[0].profile(&path_work);
+        let exact = Forecast::new(Quality::Reference, (&cost, profile), [f64::INFINITY; 2], memory_bytes);
         forecasts.push(Forecast { is_empty, ..exact });
     }
     Ok(forecasts)
@@ -167,20 +192,23 @@ pub fn checked_psnr_db(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSett
     Ok(psnr_db(mean_squares.into_iter(), final_db))
 }
 
-/// The quality that meets the requirements: with a least PSNR the fastest one, otherwise the most accurate one in time.
+/// The quality that meets the requirements: with a least PSNR the least accurate one that has it, otherwise the most
+/// accurate one in time.
+///
+/// Forecasts must meet them with a margin, because a film is noisier than its samples.
 ///
 /// # Errors
 /// [`PipelineError::Unreachable`] with all forecasts if no quality meets them.
 pub fn choose(forecasts: &[Forecast], requirements: Requirements) -> Result<Quality, PipelineError> {
-    let is_in_time = |forecast: &&Forecast| requirements.budget.is_none_or(|budget| forecast.film_time <= budget);
-    let is_good = |forecast: &&Forecast| requirements.min_psnr_db.is_none_or(|least| forecast.worst_psnr_db >= least);
-    let mut fitting = forecasts.iter().filter(is_in_time).filter(is_good);
-    let chosen = if requirements.min_psnr_db.is_some() {
-        fitting.min_by_key(|forecast| forecast.film_time)
-    } else {
-        // In order of accuracy, as `Quality::VARIANTS`.
-        fitting.next_back()
+    let needs = |forecast: &Forecast| forecast.film_time.mul_f64(TIME_MARGIN) + TIME_RESERVE;
+    let is_in_time = |forecast: &&Forecast| requirements.budget.is_none_or(|budget| needs(forecast) <= budget);
+    let is_good = |forecast: &&Forecast| {
+        let margin_db = margin_db(forecast.quality);
+        requirements.min_psnr_db.is_none_or(|least| forecast.worst_psnr_db >= least + margin_db)
     };
+    // In order of accuracy, as `Quality::VARIANTS`: the choice does not depend on the noise of measured times.
+    let mut fitting = forecasts.iter().filter(is_in_time).filter(is_good);
+    let chosen = if requirements.min_psnr_db.is_some() { fitting.next() } else { fitting.next_back() };
     chosen.map(|forecast| forecast.quality).ok_or_else(|| PipelineError::Unreachable {
         wanted: requirements.sentence(),
         reachable: forecasts.iter().map(Forecast::sentence).collect::<Vec<_>>().join("; "),
@@ -188,7 +216,13 @@ pub fn choose(forecasts: &[Forecast], requirements: Requirements) -> Result<Qual
 }
 
 impl Forecast {
-    fn new(quality: Quality, cost: &FilmCost, [psnr_db, worst_psnr_db]: [f64; 2], memory_bytes: u64) -> Self {
+    fn new(
+        quality: Quality,
+        (cost, profile): (&FilmCost, PathProfile),
+        [psnr_db, worst_psnr_db]: [f64; 2],
+        memory_bytes: u64,
+    ) -> Self {
+        let num_frames = cost.num_frames.max(1) as f64;
         Self {
             quality,
             render_time: Duration::from_secs_f64(cost.render_all().wall_secs),
@@ -198,6 +232,14 @@ impl Forecast {
             worst_psnr_db,
             memory_bytes,
             is_empty: false,
+            pace: Pace {
+                quality,
+                render_secs: cost.render.wall_secs,
+                film_secs: cost.film_secs() / num_frames,
+                encode_secs: cost.encode_all().wall_secs / num_frames,
+                num_ahead: cost.num_ahead,
+                profile,
+            },
         }
     }
 
@@ -219,7 +261,11 @@ impl Requirements {
         let best = others.last().map_or(Duration::ZERO, |forecast| forecast.film_time);
         let is_affordable = |budget: Duration| budget >= best.mul_f64(REFERENCE_FACTOR);
         match self.min_psnr_db {
-            Some(least) if others.iter().any(|forecast| forecast.worst_psnr_db >= least) => false,
+            Some(least)
+                if others.iter().any(|forecast| forecast.worst_psnr_db >= least + margin_db(forecast.quality)) =>
+            {
+                false
+            }
             Some(_) => self.budget.is_none_or(is_affordable),
             None => self.budget.is_some_and(is_affordable),
         }
@@ -263,10 +309,23 @@ fn sample_further(
     Ok(())
 }
 
-/// Bytes of the frames between renderer and encoder, and inside the encoder.
-fn held_bytes(video: &VideoSettings, num_ahead: usize) -> u64 {
-    // One frame is being rendered, one encoded; the others wait.
-    let between = video.frame_bytes() * (film::QUEUE_FRAMES + 2);
-    let inside = video.frame_bytes() / 3 * HELD_BYTES * (num_ahead + HELD_FRAMES);
-    (between + inside) as u64
+/// The encoder at one quality.
+struct Encoding {
+    quality: Quality,
+    video: VideoSettings,
+    /// Frames that it reads before it writes the first one.
+    num_ahead: usize,
+    /// Of the first frame, of each further frame, and of a frame that equals the one before.
+    costs: [TimeCost; 3],
+}
+
+impl Encoding {
+    /// Bytes of the frames between renderer and encoder, and inside the encoder.
+    fn held_bytes(&self) -> u64 {
+        let frame_bytes = self.video.frame_bytes();
+        // One frame is being rendered, one encoded; the others wait.
+        let between = frame_bytes * (film::QUEUE_FRAMES + 2);
+        let inside = frame_bytes / 3 * HELD_BYTES * (self.num_ahead + HELD_FRAMES);
+        (between + inside) as u64
+    }
 }

@@ -3,14 +3,13 @@
 use std::path::Path;
 use std::time::Instant;
 
-use super::accuracy::{at, mean_square};
 use super::cost::TimeCost;
+use crate::pipeline::accuracy::{at, mean_square};
+use crate::pipeline::promise::{NUM_PLACES, PathProfile};
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
 use cinesplat_video::{VideoError, VideoSettings, encode_and_discard};
 
-/// Number of positions of the film at which work is counted on small pictures.
-const NUM_PLACES: usize = 9;
 /// Side of the small pictures over that of the film.
 const SMALL_FRAC: f64 = 0.25;
 /// Warm-up frames of a run, which are not timed: they allocate memory, and the depth order is reused from the third frame
@@ -63,15 +62,11 @@ impl Sampler<'_> {
         &self.cameras[start..start + num]
     }
 
-    /// Mean work per frame over the whole film.
-    pub(super) fn mean_work(&self) -> Result<StageWork, RenderError> {
+    /// Work per frame at even positions of the film, in order.
+    pub(super) fn path_work(&self) -> Result<Vec<StageWork>, RenderError> {
         let num = NUM_PLACES.min(self.cameras.len());
         let place = |idx: usize| (self.cameras.len() - 1) * idx / (num - 1).max(1);
-        let mut sum = StageWork::default();
-        for idx in 0..num {
-            add(&mut sum, self.work_at(&self.cameras[place(idx)])?);
-        }
-        Ok(sum.map(|work| work / num as f64))
+        (0..num).map(|idx| self.work_at(&self.cameras[place(idx)])).collect()
     }
 
     /// Work of one frame.
@@ -149,6 +144,13 @@ impl Samples {
         self.spent.wall_secs / self.num_timed.max(1) as f64
     }
 
+    /// Time of frames along the path over that of the mean frame.
+    pub(super) fn profile(&self, path: &[StageWork]) -> PathProfile {
+        let mean = self.frame(mean_work(path)).wall_secs;
+        let share = |work: &StageWork| if mean > 0.0 { self.frame(*work).wall_secs / mean } else { 1.0 };
+        PathProfile::new(&path.iter().map(share).collect::<Vec<_>>())
+    }
+
     /// Time of a frame with this work: seconds per unit of work times the work, summed over the stages.
     pub(super) fn frame(&self, work: StageWork) -> TimeCost {
         let share = |stage: usize| if self.work[stage] > 0.0 { work[stage] / self.work[stage] } else { 0.0 };
@@ -157,6 +159,13 @@ impl Samples {
         let num_busy = if self.spent.wall_secs > 0.0 { self.spent.cpu_secs / self.spent.wall_secs } else { 1.0 };
         TimeCost { wall_secs, cpu_secs: wall_secs * num_busy }
     }
+}
+
+/// Mean work per frame over the whole film.
+pub(super) fn mean_work(path: &[StageWork]) -> StageWork {
+    let mut sum = StageWork::default();
+    path.iter().for_each(|work| add(&mut sum, *work));
+    sum.map(|work| work / path.len().max(1) as f64)
 }
 
 /// Encoding time of the first frame, of each further frame, and of a frame that equals the one before.

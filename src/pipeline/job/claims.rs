@@ -1,4 +1,5 @@
 use std::fs::{File, TryLockError};
+use std::io::ErrorKind;
 use std::path::Path;
 
 use cinesplat_files::{FileError, create_folder};
@@ -22,6 +23,7 @@ pub(super) fn claim(folder: &Path, frame_idx: usize) -> Result<Option<Claim>, Jo
     match file.try_lock() {
         Ok(()) => Ok(Some(Claim { _lock: file })),
         Err(TryLockError::WouldBlock) => Ok(None),
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(Some(Claim { _lock: file })),
         Err(TryLockError::Error(source)) => Err(FileError::Write { path, source }.into()),
     }
 }

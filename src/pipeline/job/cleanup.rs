@@ -6,6 +6,9 @@ use cinesplat_video::VideoFormat;
 /// Folder of the frames in a job folder.
 pub(super) const FRAMES: &str = "frames";
 
+/// Folder of the scripts and logs of the tasks of a farm.
+pub(super) const TASKS: &str = "tasks";
+
 /// Where the film of a job folder lies until it gets its name.
 pub(super) fn film_path(folder: &Path, format: &VideoFormat) -> PathBuf {
     folder.join("film").with_extension(format.extension())
@@ -21,6 +24,10 @@ pub(super) fn remove_contents(folder: &Path, format: &VideoFormat) {
     let _ = fs::remove_file(film_path(folder, format));
     remove_temporary(folder);
     remove_temporary(&folder.join(FRAMES));
+    let tasks = folder.join(TASKS);
+    let is_of_tasks = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "log" || ending == "sh");
+    remove_files(&tasks, is_of_tasks);
+    let _ = fs::remove_dir(tasks);
     for inner in [FRAMES, "claims"] {
         let inner = folder.join(inner);
         remove_files(&inner, |name| name.trim_end_matches(".yuv").bytes().all(|byte| byte.is_ascii_digit()));

@@ -1,4 +1,4 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -29,6 +29,12 @@ impl DoneLog {
             log.write("\n")?;
         }
         Ok(log)
+    }
+
+    /// The frames that the log of a folder lists; none without a log.
+    pub(super) fn listed(folder: &Path) -> BTreeSet<usize> {
+        let text = std::fs::read(folder.join("done.log")).unwrap_or_default();
+        text.split(|byte| *byte == b'\n').filter_map(parse).map(|(frame_idx, _)| frame_idx).collect()
     }
 
     /// Adds the lines of other programs. Returns whether the file ends within a line.
@@ -75,9 +81,14 @@ impl DoneLog {
 
     /// The lock keeps the lines of several machines apart where appending is not one step, as on NFS.
     fn write(&mut self, text: &str) -> Result<(), FileError> {
-        let written = self.file.lock().and_then(|()| {
+        let allowed = |locked: io::Result<()>| match locked {
+            // On a shared disk without locks a line may be torn: that frame is rendered again.
+            Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(()),
+            other => other,
+        };
+        let written = allowed(self.file.lock()).and_then(|()| {
             let written = self.file.write_all(text.as_bytes());
-            self.file.unlock().and(written)
+            allowed(self.file.unlock()).and(written)
         });
         written.map_err(|source: io::Error| FileError::Write { path: self.path.clone(), source })
     }

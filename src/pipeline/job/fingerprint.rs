@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use cinesplat_export::shot_json;
-use cinesplat_files::{Existing, FileError, MAX_TEXT_BYTES, sha256_hex};
+use cinesplat_files::{Existing, FileError, Limits, sha256_hex};
 use cinesplat_render::RenderSettings;
 use cinesplat_trajectory::{SceneRef, Shot};
 use cinesplat_video::VideoSettings;
@@ -51,6 +51,8 @@ impl Fingerprint {
             num_frames,
             existing: _,
             is_panorama: _,
+            eyes: _,
+            has_alpha: _,
         } = video;
         let own = [
             ("engine", env!("CARGO_PKG_VERSION").to_owned()),
@@ -67,7 +69,7 @@ impl Fingerprint {
             ("color-clamp", color_clamp.as_ref().to_owned()),
             ("accuracy", accuracy.map_or_else(String::new, |knobs| format!("{knobs:?}"))),
             ("crf", crf.to_string()),
-            ("preset", preset.as_ref().to_owned()),
+            ("preset", preset.unwrap_or_default().as_ref().to_owned()),
         ];
         let given = inputs.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
         Self(given.chain(own.into_iter().map(|(name, value)| (name.to_owned(), value))).collect())
@@ -82,7 +84,7 @@ impl Fingerprint {
         if !path.exists() {
             return Ok(None);
         }
-        let bytes = cinesplat_files::read(&path, MAX_TEXT_BYTES)?;
+        let bytes = cinesplat_files::read(&path, Limits::DEFAULT.text_bytes)?;
         let unreadable = |reason: &str| JobError::Unreadable { path: path.clone(), reason: reason.to_owned() };
         let json: Value = serde_json::from_slice(&bytes).map_err(|error| unreadable(&error.to_string()))?;
         if json["format"] != FORMAT || json["version"] != VERSION {

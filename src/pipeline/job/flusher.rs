@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use cinesplat_files::{FileError, folder_of, sync_file, sync_folder};
 
 use super::error::JobError;
+use crate::pipeline::panic_point::panic_point;
 
 /// Time between two flushes: the most work that a loss of power takes.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -76,6 +77,7 @@ fn run(receiver: &Receiver<PathBuf>, log: &Path, is_abandoned: &AtomicBool) -> R
         while let Ok(path) = receiver.recv_timeout(INTERVAL.saturating_sub(start.elapsed())) {
             paths.push(path);
         }
+        panic_point("flush", 0);
         if is_abandoned.load(Ordering::Relaxed) {
             return Ok(());
         }

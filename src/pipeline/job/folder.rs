@@ -95,13 +95,13 @@ impl Job {
     /// # Errors
     /// [`JobError::File`]
     pub(crate) fn claim(&mut self, frame_idx: usize) -> Result<Option<Claim>, JobError> {
-        if self.keeper.is_whole(frame_idx) {
+        if self.keeper.has(frame_idx) {
             return Ok(None);
         }
         let Some(claim) = claim(&self.folder, frame_idx)? else { return Ok(None) };
         // The frame may have been finished while this program rendered another one.
         self.keeper.refresh()?;
-        Ok((!self.keeper.is_whole(frame_idx)).then_some(claim))
+        Ok((!self.keeper.has(frame_idx)).then_some(claim))
     }
 
     /// Writes what is not on the disk yet.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use cinesplat_files::{Existing, checksum};
 use cinesplat_render::Rgb8Frame;
-use cinesplat_video::{FramePattern, Planes420, VideoFormat, VideoSettings, decode_png};
+use cinesplat_video::{AlphaPlanes, FramePattern, Planes420, VideoFormat, VideoSettings, decode_png};
 
 use super::picture::Picture;
 
@@ -17,6 +17,13 @@ pub(crate) enum FrameFiles {
         /// The folder.
         folder: PathBuf,
         /// Columns and rows of luma.
+        size: [usize; 2],
+    },
+    /// Planes with opacity, in the folder `frames`.
+    AlphaPlanes {
+        /// The folder.
+        folder: PathBuf,
+        /// Columns and rows.
         size: [usize; 2],
     },
     /// The pictures of a sequence, under their own names.
@@ -38,6 +45,9 @@ impl FrameFiles {
                 size_px: [video.width, video.height],
                 existing: video.existing,
             },
+            VideoFormat::Mov if video.has_alpha => {
+                Self::AlphaPlanes { folder: folder.join("frames"), size: [video.width as usize, video.height as usize] }
+            }
             _ => Self::Planes {
                 folder: folder.join("frames"),
                 size: [video.width, video.height].map(|length| length.next_multiple_of(2) as usize),
@@ -48,9 +58,20 @@ impl FrameFiles {
     /// The file of a frame.
     pub(super) fn path(&self, frame_idx: usize) -> PathBuf {
         match self {
-            Self::Planes { folder, .. } => folder.join(format!("{frame_idx:06}.yuv")),
+            Self::Planes { folder, .. } | Self::AlphaPlanes { folder, .. } => {
+                folder.join(format!("{frame_idx:06}.yuv"))
+            }
             Self::Pictures { pattern, .. } => pattern.path(frame_idx),
         }
+    }
+
+    /// Whether a file of the right length is there. It may be damaged.
+    pub(super) fn is_there(&self, frame_idx: usize) -> bool {
+        let is_right = |num_bytes: u64| match self {
+            Self::Planes { .. } | Self::AlphaPlanes { .. } => num_bytes == self.frame_bytes(),
+            Self::Pictures { .. } => num_bytes > 0,
+        };
+        fs::metadata(self.path(frame_idx)).is_ok_and(|found| found.is_file() && is_right(found.len()))
     }
 
     /// The bytes of a frame's file, if they have this checksum.
@@ -63,6 +84,7 @@ impl FrameFiles {
     pub(super) fn frame_bytes(&self) -> u64 {
         match self {
             Self::Planes { size: [width, height], .. } => (width * height * 3 / 2) as u64,
+            Self::AlphaPlanes { size: [width, height], .. } => (width * height * 8) as u64,
             Self::Pictures { .. } => 0,
         }
     }
@@ -101,6 +123,9 @@ impl Kept {
         match &self.files {
             FrameFiles::Planes { size: [width, height], .. } => {
                 Planes420::from_bytes(&bytes, *width, *height).map(Picture::Planes)
+            }
+            FrameFiles::AlphaPlanes { size: [width, height], .. } => {
+                AlphaPlanes::from_bytes(&bytes, *width, *height).map(Picture::AlphaPlanes)
             }
             FrameFiles::Pictures { size_px: [width, height], .. } => {
                 let rgb8 = decode_png(&bytes)?;

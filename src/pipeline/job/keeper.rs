@@ -46,6 +46,7 @@ impl Keeper {
     pub(crate) fn keep(&mut self, frame_idx: usize, picture: &Picture) -> Result<(), JobError> {
         match picture {
             Picture::Planes(planes) => self.write(frame_idx, &planes.parts()),
+            Picture::AlphaPlanes(planes) => self.write(frame_idx, &[&planes.to_bytes()]),
             Picture::Rgb8(frame) => {
                 let bytes = encode_png(&frame.rgb8, [frame.width, frame.height]).map_err(JobError::video)?;
                 self.write(frame_idx, &[&bytes])
@@ -61,7 +62,7 @@ impl Keeper {
     /// [`JobError::File`]
     pub(crate) fn keep_again(&mut self, frame_idx: usize, picture: &Picture) -> Result<(), JobError> {
         let (path, earlier) = (self.files.path(frame_idx), self.files.path(frame_idx - 1));
-        let is_own = matches!(self.files, FrameFiles::Planes { .. });
+        let is_own = !matches!(self.files, FrameFiles::Pictures { .. });
         if let Some(listed) = self.log.checksum(frame_idx - 1).filter(|_| is_own)
             && fs::hard_link(earlier, path).is_ok()
         {
@@ -75,9 +76,9 @@ impl Keeper {
         self.log.kept(&self.files)
     }
 
-    /// Whether a frame is finished and undamaged.
-    pub(super) fn is_whole(&self, frame_idx: usize) -> bool {
-        self.log.checksum(frame_idx).is_some_and(|listed| self.files.bytes(frame_idx, listed).is_some())
+    /// Whether a frame is finished. It may have been damaged since: the film is made of frames that are checked again.
+    pub(super) fn has(&self, frame_idx: usize) -> bool {
+        self.log.lists(frame_idx) && self.files.is_there(frame_idx)
     }
 
     pub(super) fn num_kept(&self) -> usize {

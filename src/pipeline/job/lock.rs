@@ -1,4 +1,5 @@
 use std::fs::{self, File, TryLockError};
+use std::io::ErrorKind;
 use std::path::Path;
 
 use cinesplat_files::{FileError, folder_of, sync_folder};
@@ -35,6 +36,8 @@ pub(super) fn locked(folder: &Path, access: Access) -> Result<File, JobError> {
     match taken {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => Err(JobError::Locked { path: folder.to_owned() }),
+        // Some shared disks have no locks. Two programs then do work twice, and write the same bytes.
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(file),
         Err(TryLockError::Error(source)) => Err(FileError::Write { path, source }.into()),
     }
 }

@@ -8,6 +8,7 @@
 //! done.log          one line per frame: number, checksum of its file
 //! lock              locked while a program works on the folder; the system unlocks it when that program ends
 //! claims/000012     locked while one of several programs renders that frame
+//! tasks/            scripts and logs of the tasks that a cluster runs
 //! film.mp4          the film, between the moment it is whole and the moment it gets its own name
 //! ```
 //!
@@ -17,6 +18,12 @@
 //! is written after the bytes of its file and before the file gets its name. So neither a line without a file nor a torn
 //! line nor a damaged file does harm: that frame is rendered again. Data goes to the disk every second on a thread of its
 //! own: what a loss of power takes is about a second of work.
+//!
+//! A film that goes on is encoded from its first frame: an encoder's state (rate control, references, lookahead) cannot be
+//! saved, and a film of pieces that are encoded apart would have other bytes, a keyframe per piece and worse rate control.
+//! Encoding frames that are there costs no rendering and runs at the speed of the encoder alone.
+//!
+//! Locks save work and nothing depends on them: programs that render one frame twice write the same bytes.
 
 mod claims;
 mod cleanup;
@@ -38,6 +45,6 @@ pub(crate) use folder::Job;
 pub(crate) use frame_files::Kept;
 pub(crate) use keeper::Keeper;
 pub(crate) use lock::Access;
-pub use outside::{check_job, clear_job, has_job, job_field, job_folder, job_progress};
+pub use outside::{check_job, check_shared_job, clear_job, has_job, job_field, job_folder, job_progress, tasks_folder};
 pub(crate) use picture::Picture;
 pub use settings::{JobSettings, JobStart};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use cinesplat_files::{Existing, NewFile, create_folder};
 use cinesplat_video::{VideoFormat, VideoSettings};
 
-use super::cleanup::{remove_contents, remove_empty};
+use super::cleanup::{TASKS, remove_contents, remove_empty};
 use super::done_log::DoneLog;
 use super::error::JobError;
 use super::fingerprint::Fingerprint;
@@ -20,6 +20,17 @@ pub fn job_folder(output: &Path) -> PathBuf {
     let mut path = OsString::from(output);
     path.push(".job");
     PathBuf::from(path)
+}
+
+/// The folder in the job folder of an output for scripts and logs of the tasks that a cluster runs. It is made where it is
+/// missing, and goes with the job folder.
+///
+/// # Errors
+/// [`JobError::File`]
+pub fn tasks_folder(output: &Path) -> Result<PathBuf, JobError> {
+    let folder = job_folder(output).join(TASKS);
+    create_folder(&folder)?;
+    Ok(folder)
 }
 
 /// Whether an earlier run left a job folder for this output.
@@ -35,8 +46,9 @@ pub fn job_field(output: &Path, name: &str) -> Option<String> {
 /// Number of frames that the job folder of an output lists, and number of frames of that film; `None` without one.
 pub fn job_progress(output: &Path) -> Option<(usize, usize)> {
     let frames: FrameRange = job_field(output, "frames")?.parse().ok()?;
-    let log = fs::read_to_string(job_folder(output).join("done.log")).unwrap_or_default();
-    Some((log.lines().count(), frames.end? - frames.start))
+    let frames = frames.start..frames.end?;
+    let listed = DoneLog::listed(&job_folder(output));
+    Some((listed.range(frames.clone()).count(), frames.len()))
 }
 
 /// Throws away the frames that an earlier run left for this output.
@@ -63,9 +75,21 @@ pub fn clear_job(output: &Path) -> Result<(), JobError> {
 /// # Errors
 /// [`JobError::Locked`], [`JobError::File`].
 pub fn check_job(output: &Path) -> Result<(), JobError> {
+    check(output, Access::Alone)
+}
+
+/// As [`check_job`], for a program that shares the work: others that do so too may be at it.
+///
+/// # Errors
+/// As [`check_job`].
+pub fn check_shared_job(output: &Path) -> Result<(), JobError> {
+    check(output, Access::Shared)
+}
+
+fn check(output: &Path, access: Access) -> Result<(), JobError> {
     let folder = job_folder(output);
     if folder.join("lock").exists() {
-        locked(&folder, Access::Alone)?;
+        locked(&folder, access)?;
     }
     let pictures = picture_folder(output)?.filter(|pictures| !pictures.exists());
     pictures.as_deref().map(create_folder).transpose()?;

@@ -1,5 +1,7 @@
 //! Columns of numbers in the buffers of a file.
 
+use std::borrow::Cow;
+
 use serde_json::Value;
 
 /// The numbers of an accessor: elements of a fixed width, decoded on access.
@@ -33,7 +35,7 @@ fn component(code: u64) -> Option<Component> {
 
 impl Numbers {
     /// The numbers of accessor `idx`, whose elements have `width` components. The error says what is wrong with it.
-    pub(super) fn new(json: &Value, buffers: &[Vec<u8>], idx: u64, width: usize) -> Result<Self, String> {
+    pub(super) fn new(json: &Value, buffers: &[Cow<[u8]>], idx: u64, width: usize) -> Result<Self, String> {
         let accessor = json.pointer(&format!("/accessors/{idx}")).ok_or("an accessor that does not exist")?;
         let number = |value: &Value, name: &str| value.get(name).and_then(Value::as_u64).map(|found| found as usize);
         let kind = accessor.get("type").and_then(Value::as_str).unwrap_or_default();

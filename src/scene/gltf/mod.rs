@@ -1,10 +1,12 @@
 //! glTF 2.0 with `KHR_gaussian_splatting`: the primitives of all meshes in the scene as one set of Gaussians. Enters: a `.glb`, or a
-//! `.gltf` with embedded buffers or buffers in its folder. Leaves: Gaussians in the file's world, which has +y up. Compressed
-//! primitives are refused. Reference: the extension's README, release candidate.
+//! `.gltf` with embedded buffers or buffers in its folder. Leaves: Gaussians in the file's world, which has +y up. Primitives
+//! may be compressed as SPZ; other compressions are refused. Reference: the READMEs of the extensions.
 
 mod accessor;
 mod nodes;
+mod packed;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use glam::{DQuat, DVec3, Vec3};
@@ -17,8 +19,9 @@ use crate::intake::{Intake, RawGaussian};
 use crate::source_file::{SourceFile, read_file};
 use crate::up::UpPrior;
 use accessor::Numbers;
-use cinesplat_files::base64;
+use cinesplat_files::{base64, json_excess};
 use nodes::Placed;
+use packed::Packed;
 
 const EXTENSION: &str = "KHR_gaussian_splatting";
 const HEADER: usize = 12;
@@ -44,46 +47,67 @@ struct Primitive {
 /// [`SceneError::TooManyGaussians`], [`SceneError::OutOfMemory`], [`SceneError::Empty`].
 pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let (text, binary) = chunks(source)?;
+    json_excess(text, &source.options.limits).map_or(Ok(()), |excess| Err(damaged(source, excess)))?;
     let json: Value = serde_json::from_slice(text).map_err(|error| damaged(source, format!("not JSON: {error}")))?;
     let buffers = buffers(source, &json, binary)?;
-    let (mut primitives, mut total) = (Vec::new(), 0);
+    let (mut primitives, mut packed, mut total) = (Vec::new(), Vec::new(), 0);
     for placed in nodes::placed_meshes(&json) {
         let mesh = json.pointer(&format!("/meshes/{}/primitives", placed.mesh)).and_then(Value::as_array);
         for primitive in mesh.into_iter().flatten() {
             if let Some(extension) = primitive.pointer(&format!("/extensions/{EXTENSION}")) {
-                if extension.get("extensions").is_some_and(|inner| inner.as_object().is_some_and(|o| !o.is_empty())) {
-                    let format = "glTF with compressed Gaussians";
+                let inner = extension.get("extensions");
+                if let Some(view) = inner.and_then(packed::view_of) {
+                    let read = Packed::read(source, (&json, &buffers), view, placed.clone())?;
+                    total += read.len() as u64;
+                    source.check_count(total)?;
+                    packed.push(read);
+                    continue;
+                }
+                if inner.is_some_and(|inner| inner.as_object().is_some_and(|o| !o.is_empty())) {
+                    let format = "glTF with Gaussians in another compression than SPZ";
                     return Err(SceneError::NotReadYet { path: source.path.to_path_buf(), format });
                 }
                 let read = read_primitive(source, &json, &buffers, primitive, placed.clone())?;
                 total += read.positions.count as u64;
-                source.check_count(total)?;
+                // A mesh may be placed many times.
+                let columns = 3 + 4 + 3 + 1 + 3 * NUM_SH_REST[3] as u64;
+                source.check_memory(source.check_count(total)?, 3, total.saturating_mul(4 * columns))?;
                 primitives.push(read);
             }
         }
     }
-    if primitives.is_empty() {
+    if primitives.is_empty() && packed.is_empty() {
         return Err(damaged(source, format!("no primitive with {EXTENSION}")));
     }
-    let count = source.check_count(primitives.iter().map(|primitive| primitive.positions.count as u64).sum())?;
-    let degree = primitives.iter().map(Primitive::kept_degree).max().unwrap_or(0);
-    let mut intake = Intake::new(source.path, count, degree)?;
+    let count = source.check_count(total)?;
+    let packed_degrees = || packed.iter().map(Packed::degrees);
+    let degree =
+        primitives.iter().map(Primitive::kept_degree).chain(packed_degrees().map(|[_, kept]| kept)).max().unwrap_or(0);
+    let mut intake = Intake::new(source, count, degree)?;
     // A few values below 0 are damage, and dropped; logarithms are often below 0.
     let num_negative: usize = primitives.iter().map(Primitive::num_negative_scales).sum();
     let is_log = num_negative * 10 > count;
     primitives.iter().for_each(|primitive| primitive.push_all(&mut intake, (degree, is_log)));
+    packed.iter().for_each(|primitive| primitive.push_all(&mut intake, degree));
     let mut collected = intake.finish(source.path)?;
+    for primitive in &packed {
+        collected.notes.extend(primitive.decoded.collected.notes.iter().map(|note| format!("SPZ: {note}")));
+    }
     if is_log {
         collected.notes.push("scales below 0: read as logarithms, as in drafts of the extension".to_owned());
     }
-    let num_flat = primitives.iter().filter(|primitive| primitive.kept_degree() < primitive.degree).count();
+    let num_flat = primitives.iter().filter(|primitive| primitive.kept_degree() < primitive.degree).count()
+        + packed_degrees().filter(|[own, kept]| kept < own).count();
+    let num_primitives = primitives.len() + packed.len();
     if num_flat > 0 {
         let what = "rotated primitives are drawn without view-dependent color";
-        collected.notes.push(format!("{num_flat} of {} {what}", primitives.len()));
+        collected.notes.push(format!("{num_flat} of {num_primitives} {what}"));
     }
-    let format = format!("gltf ({} primitives)", primitives.len());
+    let spz = if packed.is_empty() { String::new() } else { format!(", {} as SPZ", packed.len()) };
+    let format = format!("gltf ({num_primitives} primitives{spz})");
+    let filter = packed.first().and_then(|primitive| primitive.decoded.filter);
     let up = Some((DVec3::Y, "glTF has +y up".to_owned()));
-    Ok(DecodedScene { format, collected, filter: None, up, up_prior: UpPrior::PlyFrame })
+    Ok(DecodedScene { format, collected, filter, up, up_prior: UpPrior::PlyFrame })
 }
 
 fn damaged(source: &SourceFile, reason: impl Into<String>) -> SceneError {
@@ -112,29 +136,41 @@ fn chunks<'a>(source: &SourceFile<'a>) -> Result<(&'a [u8], Option<&'a [u8]>), S
     Ok((json.ok_or_else(|| damaged(source, "no JSON chunk"))?, binary))
 }
 
-fn buffers(source: &SourceFile, json: &Value, binary: Option<&[u8]>) -> Result<Vec<Vec<u8>>, SceneError> {
-    let list = json.get("buffers").and_then(Value::as_array);
-    let load = |buffer: &Value| {
-        let Some(uri) = buffer.get("uri").and_then(Value::as_str) else {
-            return Ok(binary.unwrap_or_default().to_vec());
+/// The buffers in order. The binary chunk is the first one, if that has no address; another one without an address holds
+/// nothing.
+fn buffers<'a>(source: &SourceFile, json: &Value, binary: Option<&'a [u8]>) -> Result<Vec<Cow<'a, [u8]>>, SceneError> {
+    let list = json.get("buffers").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    let (mut found, mut num_bytes) = (Vec::new(), 0);
+    for (idx, buffer) in list.iter().enumerate() {
+        let content = match buffer.get("uri").and_then(Value::as_str) {
+            Some(uri) => Cow::Owned(buffer_at(source, uri)?),
+            None => Cow::Borrowed(binary.filter(|_| idx == 0).unwrap_or_default()),
         };
-        if let Some((_, data)) = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) {
-            return base64::decode(data).ok_or_else(|| damaged(source, "a buffer that is not base64"));
-        }
-        // A file beside this one only, so that a scene cannot read from elsewhere.
-        if uri.is_empty() || uri.contains(['/', '\\', ':']) || uri.starts_with('.') {
-            return Err(damaged(source, "a buffer outside of the file's folder"));
-        }
-        let folder = source.path.parent().unwrap_or(Path::new(""));
-        read_file(&folder.join(uri), source.options.max_file_bytes)
-    };
-    list.into_iter().flatten().map(load).collect()
+        num_bytes += content.len() as u64;
+        // Many buffers may name one file.
+        source.check_memory(0, 0, num_bytes)?;
+        found.push(content);
+    }
+    Ok(found)
+}
+
+/// The buffer at an address: data in the address itself, or a file beside this one.
+fn buffer_at(source: &SourceFile, uri: &str) -> Result<Vec<u8>, SceneError> {
+    if let Some((_, data)) = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) {
+        return base64::decode(data).ok_or_else(|| damaged(source, "a buffer that is not base64"));
+    }
+    // A scene must not read from elsewhere.
+    if uri.is_empty() || uri.contains(['/', '\\', ':']) || uri.starts_with('.') {
+        return Err(damaged(source, "a buffer outside of the file's folder"));
+    }
+    let folder = source.path.parent().unwrap_or(Path::new(""));
+    read_file(&folder.join(uri), source.options.limits.scene_bytes)
 }
 
 fn read_primitive(
     source: &SourceFile,
     json: &Value,
-    buffers: &[Vec<u8>],
+    buffers: &[Cow<[u8]>],
     primitive: &Value,
     placed: Placed,
 ) -> Result<Primitive, SceneError> {
@@ -183,7 +219,7 @@ fn read_primitive(
 impl Primitive {
     /// The degree that is drawn: 0 under a rotated node, because the coefficients are those of unrotated axes.
     fn kept_degree(&self) -> u8 {
-        if self.placed.rotation.abs_diff_eq(DQuat::IDENTITY, 1e-9) { self.degree } else { 0 }
+        if self.placed.is_upright() { self.degree } else { 0 }
     }
 
     fn num_negative_scales(&self) -> usize {

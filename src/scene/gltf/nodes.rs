@@ -16,6 +16,13 @@ pub(super) struct Placed {
     pub(super) scale: f64,
 }
 
+impl Placed {
+    /// Whether the axes are those of the world, so that harmonics keep their meaning.
+    pub(super) fn is_upright(&self) -> bool {
+        self.rotation.abs_diff_eq(DQuat::IDENTITY, 1e-9)
+    }
+}
+
 /// The meshes that the file's scene shows, in order of its nodes.
 pub(super) fn placed_meshes(json: &Value) -> Vec<Placed> {
     let nodes = json.get("nodes").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);

@@ -94,7 +94,7 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
         return Err(fault(format!("element sh does not have one row per vertex, expected {}", packed.len())));
     }
     let degree = NUM_SH_REST.iter().position(|n| *n == num_rest).unwrap_or(0) as u8;
-    let mut intake = Intake::new(source.path, packed.len(), degree)?;
+    let mut intake = Intake::new(source, packed.len(), degree)?;
     let mut coefficients = vec![Vec3::ZERO; num_rest];
     for (idx, words) in packed.iter().enumerate() {
         let bytes = &rest[idx * num_rest * 3..(idx + 1) * num_rest * 3];

@@ -1,9 +1,6 @@
 use crate::error::SceneError;
 use crate::source_file::SourceFile;
 
-/// Maximum size of a header.
-const MAX_HEADER_BYTES: usize = 64 << 10;
-
 /// Number type of a PLY.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scalar {
@@ -170,11 +167,11 @@ impl<'a> Parser<'a> {
 
     /// The line that starts at `at`, without its line ending, and the start of the next line.
     fn next_line(&self, at: usize) -> Result<(&'a str, usize), SceneError> {
-        let bytes = self.source.bytes;
-        let window = &bytes[at.min(bytes.len())..bytes.len().min(MAX_HEADER_BYTES)];
+        let (bytes, most) = (self.source.bytes, self.source.options.limits.header_bytes);
+        let window = &bytes[at.min(bytes.len().min(most))..bytes.len().min(most)];
         let Some(length) = window.iter().position(|byte| matches!(byte, b'\n' | b'\r')) else {
-            let reason = if bytes.len() > MAX_HEADER_BYTES {
-                format!("no end_header in the first {MAX_HEADER_BYTES} bytes")
+            let reason = if bytes.len() > most {
+                format!("no end_header in the first {most} bytes")
             } else {
                 format!("the file ends at byte {} without end_header", bytes.len())
             };

@@ -56,7 +56,7 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
     rows.check_room(vertex)?;
     let count = source.check_count(vertex.count)?;
     let degree = NUM_SH_REST.iter().position(|n| *n == layout.kept_rest).unwrap_or(0) as u8;
-    let mut intake = Intake::new(source.path, count, degree)?;
+    let mut intake = Intake::new(source, count, degree)?;
     let mut ids: Vec<f64> = Vec::new();
     let mut rest = vec![Vec3::ZERO; layout.kept_rest];
     rows.read(vertex, &layout.wanted, |row| {

@@ -29,7 +29,7 @@ pub(super) fn decode(
     let higher_degrees =
         meta.palette.as_ref().map(|palette| HigherDegrees::read(source, palette, files, count)).transpose()?;
     let degree = higher_degrees.as_ref().map_or(0, |higher_degrees| higher_degrees.degree);
-    let mut intake = Intake::new(source.path, count, degree)?;
+    let mut intake = Intake::new(source, count, degree)?;
     let scale_tables: [[f64; 256]; 3] =
         std::array::from_fn(|channel| meta.scale_dequantizer.table(channel).map(f64::exp));
     let color_tables: [[f64; 256]; 3] = std::array::from_fn(|channel| meta.color_dequantizer.table(channel));

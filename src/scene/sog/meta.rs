@@ -1,3 +1,4 @@
+use cinesplat_files::json_excess;
 use glam::DVec3;
 use serde::Deserialize;
 use serde_json::Value;
@@ -106,6 +107,7 @@ impl Meta {
     pub(super) fn parse(source: &SourceFile, json: &[u8]) -> Result<Self, SceneError> {
         let fault = |reason: String| SceneError::SogMeta { path: source.path.to_path_buf(), reason };
         let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
+        json_excess(json, &source.options.limits).map_or(Ok(()), |excess| Err(fault(excess)))?;
         let raw: RawMeta = serde_json::from_slice(json).map_err(|error| fault(error.to_string()))?;
         Self::checked(raw).map_err(fault)
     }

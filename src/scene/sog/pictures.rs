@@ -58,7 +58,7 @@ impl<'a> PictureFiles<'a> {
     /// [`SceneError::SogPicture`] when it is missing, damaged, too small or implausibly large.
     pub(super) fn picture(&mut self, source: &SourceFile, name: &str, least: usize) -> Result<Picture, SceneError> {
         let fault = |reason: String| picture_fault(source, name, reason);
-        let bytes = self.bytes(source, name, source.options.max_file_bytes)?;
+        let bytes = self.bytes(source, name, source.options.limits.scene_bytes)?;
         let open =
             || ImageReader::new(Cursor::new(&bytes)).with_guessed_format().map_err(|error| fault(error.to_string()));
         let (width, height) = open()?.into_dimensions().map_err(|error| fault(error.to_string()))?;
@@ -67,6 +67,16 @@ impl<'a> PictureFiles<'a> {
         if area < least as u64 || area > most {
             return Err(fault(format!("{width} x {height} texels, expected {least} to {most}")));
         }
+        let (unpacked, cap) = (4 * area, source.options.limits.unpacked(bytes.len()));
+        if unpacked > cap {
+            return Err(fault(format!(
+                "{width} x {height} texels in {} bytes, expected at most {}",
+                bytes.len(),
+                cap / 4
+            )));
+        }
+        // The decoder holds the picture about four times.
+        source.check_memory(least, 0, unpacked.saturating_mul(4))?;
         let mut reader = open()?;
         let mut limits = Limits::default();
         limits.max_alloc = Some(64 * most);
@@ -101,7 +111,7 @@ fn zip_bytes(
     };
     let entry = archive.by_name(&found).map_err(|error| fault(error.to_string()))?;
     // Pictures are compressed already, so an entry that unpacks to many times the bundle's size is not a picture.
-    let cap = cap.min(32 * source.bytes.len() as u64 + (1 << 20));
+    let cap = cap.min(source.options.limits.unpacked(source.bytes.len()));
     let mut bytes = Vec::new();
     entry.take(cap + 1).read_to_end(&mut bytes).map_err(|error| fault(error.to_string()))?;
     if bytes.len() as u64 > cap {

@@ -19,7 +19,7 @@ pub(super) fn decode(source: &SourceFile, container: &Container) -> Result<Colle
     let [positions, alphas, colors, scales, rotations, sh] = &container.attributes;
     let degree = header.sh_degree.min(3);
     let (num_stored, num_rest) = (header.stored_sh(), NUM_SH_REST[usize::from(degree)]);
-    let mut intake = Intake::new(source.path, header.count, degree)?;
+    let mut intake = Intake::new(source, header.count, degree)?;
     let scale_of: [f64; 256] = std::array::from_fn(|byte| (byte as f64 / 16.0 - 10.0).exp());
     let mut rest = vec![Vec3::ZERO; num_rest];
     let num_rotation_bytes = if header.version < 3 { 3 } else { 4 };

@@ -17,11 +17,6 @@ use crate::source_file::SourceFile;
 const SHORT_HEADER: usize = 16;
 const LONG_HEADER: usize = 32;
 
-/// Decompressed size up to which any compression ratio is accepted, and the maximum ratio above it. Real scenes reach a
-/// ratio of 3.
-const FREE_BYTES: u64 = 256 << 20;
-const MAX_RATIO: u64 = 100;
-
 /// Maximum number of bytes after the attributes of a gzip file.
 const MAX_TRAILER: u64 = 1 << 20;
 
@@ -132,15 +127,15 @@ fn parse_header(source: &SourceFile, bytes: &[u8]) -> Result<SpzHeader, SceneErr
     Ok(SpzHeader { version, count, sh_degree, fractional_bits, flags })
 }
 
-/// Rejects a decompressed size that is implausible for the compressed size.
-fn check_ratio(source: &SourceFile, unpacked: u64) -> Result<(), SceneError> {
-    let plausible = (source.bytes.len() as u64).saturating_mul(MAX_RATIO).max(FREE_BYTES);
-    // Deflate compresses at most 1032 : 1. Run-length blocks of Zstandard exceed that; FREE_BYTES bounds them.
-    let cap = plausible.min(source.options.max_file_bytes);
+/// Rejects a decompressed size that is implausible for the compressed size, or takes too much memory.
+fn check_unpacked(source: &SourceFile, header: SpzHeader, unpacked: u64) -> Result<(), SceneError> {
+    // Deflate compresses at most 1032 : 1. Run-length blocks of Zstandard have no bound of their own.
+    let cap = source.options.limits.unpacked(source.bytes.len());
     if unpacked > cap {
         return Err(SceneError::SpzBomb { path: source.path.to_path_buf(), found: unpacked, cap });
     }
-    Ok(())
+    // The attributes of a gzip file are held twice while they are split.
+    source.check_memory(header.count, header.sh_degree, unpacked.saturating_mul(2))
 }
 
 /// Opens versions 1-3 without gzip.
@@ -170,7 +165,7 @@ fn open_gzip<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
     }
     let sizes = header.sizes();
     let needed = sizes.iter().sum::<usize>();
-    check_ratio(source, needed as u64)?;
+    check_unpacked(source, header, needed as u64)?;
     // A gzip byte expands to at most 1032 bytes, which bounds the allocation.
     let possible = source.bytes.len().saturating_mul(1032);
     let mut body = Vec::new();
@@ -225,7 +220,7 @@ fn open_v4<'a>(source: &SourceFile) -> Result<Container<'a>, SceneError> {
         let reason = format!("table of streams at byte {table_at}, expected {LONG_HEADER} to {}", bytes.len());
         return Err(header_fault(source, reason));
     }
-    check_ratio(source, sizes.iter().map(|size| *size as u64).sum())?;
+    check_unpacked(source, header, sizes.iter().map(|size| *size as u64).sum())?;
     let mut attributes: [Cow<'a, [u8]>; 6] = Default::default();
     let mut at = table_end;
     for (entry, idx) in bytes[table_at..table_end].as_chunks::<16>().0.iter().zip(stored) {
@@ -261,7 +256,7 @@ fn unpack_frame(source: &SourceFile, packed: &[u8], size: usize) -> Result<Vec<u
     let mut decoder = StreamingDecoder::new_with_max_window_size(packed, window).map_err(|fault| damaged(&fault))?;
     let mut out = Vec::new();
     if out.try_reserve_exact(size).is_err() {
-        return Err(SceneError::OutOfMemory { path: source.path.to_path_buf(), found: size as u64 });
+        return Err(source.out_of_memory(0, size as u64));
     }
     decoder.by_ref().take(size as u64 + 1).read_to_end(&mut out).map_err(|fault| damaged(&fault))?;
     if out.len() != size {

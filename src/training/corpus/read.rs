@@ -8,9 +8,6 @@ use cinesplat_operator::{Pass, Program};
 
 use super::marks::parse_marked;
 
-/// Limit on the bytes of a corpus file.
-const MAX_FILE_BYTES: u64 = 16 << 20;
-
 /// One writer of the corpus.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Writer {
@@ -135,7 +132,7 @@ pub fn read_folder(folder: &Path) -> Result<Vec<Writer>, CorpusError> {
 /// # Errors
 /// [`CorpusError::Read`] · [`CorpusError::BadLine`] for the first malformed line.
 pub fn read_writer(path: &Path) -> Result<Writer, CorpusError> {
-    let bytes = cinesplat_files::read(path, MAX_FILE_BYTES)?;
+    let bytes = cinesplat_files::read(path, cinesplat_files::Limits::DEFAULT.text_bytes)?;
     let text = String::from_utf8_lossy(&bytes);
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let mut writer = Writer { name, split: Split::default(), scenes: BTreeMap::new(), sentences: Vec::new() };

@@ -1,6 +1,7 @@
 //! Shots read from shards, as inputs of the network.
 
-use std::io::{BufRead, BufReader};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Take};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ use super::record::{CameraRecord, FORMAT, Header, ObjectRecord, SceneRecord, Sho
 use cinesplat_director::SceneFrame;
 use cinesplat_director::codes::{PoseCode, log_fov};
 use cinesplat_director::inputs::{MAX_OTHER_OBJECTS, ObjectInput, object_input};
-use cinesplat_files::FileError;
+use cinesplat_files::{FileError, Limits};
 use cinesplat_geometry::Pose;
 use cinesplat_language::{Linked, NamedObject, NotationError, link, program_from_notation};
 use cinesplat_objects::Object;
@@ -124,8 +125,17 @@ pub(crate) fn read_shards(folder: &Path) -> Result<Vec<RealizedShot>, DatasetErr
 pub(super) fn read_header(path: &Path) -> Result<Header, DatasetError> {
     let failed = |source| FileError::Read { path: path.to_owned(), source };
     let mut line = String::new();
-    BufReader::new(std::fs::File::open(path).map_err(failed)?).read_line(&mut line).map_err(failed)?;
+    BufReader::new(open(path)?).read_line(&mut line).map_err(failed)?;
     header_of(path, &line)
+}
+
+/// A shard, of the bytes that a scene may have. Opening a pipe would wait for a writer.
+fn open(path: &Path) -> Result<Take<File>, FileError> {
+    let failed = |source| FileError::Read { path: path.to_owned(), source };
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(FileError::NotAFile { path: path.to_owned(), found: "a folder, pipe or device" });
+    }
+    Ok(File::open(path).map_err(failed)?.take(Limits::DEFAULT.scene_bytes))
 }
 
 fn header_of(path: &Path, line: &str) -> Result<Header, DatasetError> {
@@ -139,8 +149,7 @@ fn header_of(path: &Path, line: &str) -> Result<Header, DatasetError> {
 
 fn read_shard(path: &Path, shots: &mut Vec<RealizedShot>) -> Result<(), DatasetError> {
     let failed = |source| FileError::Read { path: path.to_owned(), source };
-    let file = std::fs::File::open(path).map_err(failed)?;
-    for (line_idx, line) in BufReader::new(file).lines().enumerate() {
+    for (line_idx, line) in BufReader::new(open(path)?).lines().enumerate() {
         let line = line.map_err(failed)?;
         if line_idx == 0 {
             header_of(path, &line)?;

@@ -8,7 +8,7 @@ use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
 use super::error::TrainError;
 use super::optimizer::{AdamW, Moments};
-use cinesplat_files::{Existing, MAX_ARRAY_BYTES};
+use cinesplat_files::{Existing, Limits};
 
 /// Metadata key of the step count.
 const STEPS: &str = "steps";
@@ -54,7 +54,7 @@ pub(super) fn write(
 /// those of this training.
 pub(super) fn read(path: &Path, vars: &BTreeMap<String, Var>, settings: &str) -> Result<AdamW, TrainError> {
     let bad = |found: String| TrainError::BadCheckpoint { path: path.to_owned(), found };
-    let bytes = cinesplat_files::read(path, MAX_ARRAY_BYTES)?;
+    let bytes = cinesplat_files::read(path, Limits::DEFAULT.array_bytes)?;
     let (_, header) = SafeTensors::read_metadata(&bytes).map_err(|error| bad(error.to_string()))?;
     let metadata = header.metadata().clone().unwrap_or_default();
     match metadata.get(SETTINGS) {

@@ -6,14 +6,16 @@ use ffmpeg_next::format::context::{Output, StreamIo};
 use ffmpeg_next::{Dictionary, Packet, Rational, codec, color, encoder, format, frame};
 
 use super::watched_file::{FirstError, WatchedFile};
-use super::{rate, read_back, spherical};
+use super::{marks, rate, read_back};
 use crate::bt709::{self, Planes420};
 use crate::settings::NUM_THREADS;
-use crate::{VideoError, VideoFormat, VideoSettings};
+use crate::{AlphaPlanes, EyePacking, VideoError, VideoFormat, VideoSettings};
 
 /// Bytes reserved at the front of an MP4 for its index: a fixed part, and a part per frame (8 bytes of sizes and times
 /// plus 16 of chunk tables, with a margin).
 const INDEX_BYTES: (usize, usize) = (8192, 48);
+/// FFmpeg's name of the encoder of `ProRes`, which is used for films with opacity.
+const PRORES: &str = "prores_ks";
 
 /// An encoder whose packets go into a container file with one video stream.
 pub(crate) struct FilmEncoder {
@@ -24,7 +26,9 @@ pub(crate) struct FilmEncoder {
     tick: Rational,
     stream_tick: Rational,
     num_sent: usize,
+    /// What MP4 and MOV say about their pictures.
     is_panorama: bool,
+    eyes: Option<EyePacking>,
     path: PathBuf,
 }
 
@@ -32,7 +36,8 @@ impl FilmEncoder {
     /// Opens the encoder first, then the file, then the container, so that a missing encoder leaves no file behind.
     pub(crate) fn create(path: &Path, format: &VideoFormat, settings: &VideoSettings) -> Result<Self, VideoError> {
         let missing = |name: &str| VideoError::Missing { missing: name.to_owned(), path: path.to_owned() };
-        let (container, codec_name) = format.ffmpeg_names().ok_or(missing("container of that name"))?;
+        let (container, codec_name) =
+            format.ffmpeg_names(settings.has_alpha).ok_or(missing("container of that name"))?;
         // FFmpeg returns its errors; its log lines on stderr would break a progress bar.
         ffmpeg_next::log::set_level(ffmpeg_next::log::Level::Quiet);
         let codec = encoder::find_by_name(codec_name).ok_or_else(|| missing(codec_name))?;
@@ -45,15 +50,23 @@ impl FilmEncoder {
         let watched = WatchedFile { file: handle, first_error: first_error.clone() };
         let io = StreamIo::from_write_seek(watched).map_err(|e| failed("opening the file", e, path))?;
         let mut muxer = format::output_to_stream(io, None, Some(container)).map_err(|_| missing(container))?;
-        let stream_tick = write_header(&mut muxer, &encoder, rate, header_options(format, settings))
+        let stream_tick = write_header(&mut muxer, &encoder, (rate, settings.eyes), header_options(format, settings))
             .map_err(|e| fault_of(&first_error, "starting the file", e, path))?;
-        let is_panorama = settings.is_panorama && matches!(format, VideoFormat::Mp4 | VideoFormat::Mov);
+        let is_marked = matches!(format, VideoFormat::Mp4 | VideoFormat::Mov);
+        let (is_panorama, eyes) = (settings.is_panorama && is_marked, settings.eyes.filter(|_| is_marked));
         let (tick, path) = (rate.invert(), path.to_owned());
-        Ok(Self { encoder, muxer, first_error, file, tick, stream_tick, num_sent: 0, is_panorama, path })
+        Ok(Self { encoder, muxer, first_error, file, tick, stream_tick, num_sent: 0, is_panorama, eyes, path })
     }
 
     pub(crate) fn write_planes(&mut self, planes: &Planes420) -> Result<(), VideoError> {
-        let mut picture = picture_of(planes);
+        self.write(picture_of(planes))
+    }
+
+    pub(crate) fn write_alpha_planes(&mut self, planes: &AlphaPlanes) -> Result<(), VideoError> {
+        self.write(picture_with_alpha(planes))
+    }
+
+    fn write(&mut self, mut picture: frame::Video) -> Result<(), VideoError> {
         picture.set_pts(Some(self.num_sent as i64));
         self.encoder.send_frame(&picture).map_err(|e| self.fault("encoding", e))?;
         self.num_sent += 1;
@@ -71,7 +84,12 @@ impl FilmEncoder {
             return Err(FileError::Write { path: self.path, source }.into());
         }
         if self.is_panorama {
-            spherical::mark(self.file.file()).map_err(|source| FileError::Write { path: self.path.clone(), source })?;
+            marks::mark_panorama(self.file.file())
+                .map_err(|source| FileError::Write { path: self.path.clone(), source })?;
+        }
+        if let Some(packing) = self.eyes {
+            marks::mark_eyes(self.file.file(), packing)
+                .map_err(|source| FileError::Write { path: self.path.clone(), source })?;
         }
         read_back::check(self.file.path(), &self.path, self.num_sent, self.tick)?;
         self.file.commit()?;
@@ -113,13 +131,20 @@ pub(crate) fn encode_and_discard(
 ) -> Result<(), VideoError> {
     let missing = || VideoError::Missing { missing: "encoder".to_owned(), path: path.to_owned() };
     ffmpeg_next::log::set_level(ffmpeg_next::log::Level::Quiet);
-    let codec = format.ffmpeg_names().and_then(|(_, name)| encoder::find_by_name(name)).ok_or_else(missing)?;
+    let codec = format
+        .ffmpeg_names(settings.has_alpha)
+        .and_then(|(_, name)| encoder::find_by_name(name))
+        .ok_or_else(missing)?;
     let opened = open_encoder(codec, settings, rate::as_fraction(settings.rate_fps));
     let mut encoder = opened.map_err(|e| failed("opening the encoder", e, path))?;
     let mut packet = Packet::empty();
     for (frame_idx, rgb8) in frames.iter().enumerate() {
-        let planes = bt709::planes_from_rgb8(rgb8, settings.width as usize, settings.height as usize);
-        let mut picture = picture_of(&planes);
+        let (width, height) = (settings.width as usize, settings.height as usize);
+        let mut picture = if codec.name() == PRORES {
+            picture_with_alpha(&AlphaPlanes::opaque(rgb8, width, height))
+        } else {
+            picture_of(&bt709::planes_from_rgb8(rgb8, width, height))
+        };
         picture.set_pts(Some(frame_idx as i64));
         encoder.send_frame(&picture).map_err(|e| failed("encoding", e, path))?;
         while receive(&mut encoder, &mut packet).map_err(|e| failed("encoding", e, path))? {}
@@ -151,9 +176,11 @@ fn open_encoder(
     rate: Rational,
 ) -> Result<encoder::Video, ffmpeg_next::Error> {
     let mut video = codec::Context::new_with_codec(codec).encoder().video()?;
-    video.set_width(settings.width.next_multiple_of(2));
-    video.set_height(settings.height.next_multiple_of(2));
-    video.set_format(format::Pixel::YUV420P);
+    let has_alpha = codec.name() == PRORES;
+    let side = |len: u32| if has_alpha { len } else { len.next_multiple_of(2) };
+    video.set_width(side(settings.width));
+    video.set_height(side(settings.height));
+    video.set_format(if has_alpha { format::Pixel::YUVA444P10LE } else { format::Pixel::YUV420P });
     video.set_aspect_ratio(Rational::new(1, 1));
     video.set_time_base(rate.invert());
     video.set_frame_rate(Some(rate));
@@ -169,12 +196,23 @@ fn open_encoder(
 fn encoder_options(codec_name: &str, settings: &VideoSettings) -> Dictionary<'static> {
     let mut options = Dictionary::new();
     options.set("threads", &NUM_THREADS.to_string());
+    if codec_name == PRORES {
+        options.set("profile", "4444");
+        options.set("vendor", "apl0");
+        return options;
+    }
     options.set("chroma_sample_location", "left");
     options.set("crf", &settings.crf.to_string());
     if codec_name == "libx264" {
-        options.set("preset", settings.preset.as_ref());
-        // Without this, the lookahead of x264 (r3095 with AVX-512) makes the bytes differ from run to run.
-        options.set("x264-params", "cpu-independent=1");
+        options.set("preset", settings.preset.unwrap_or_default().as_ref());
+        // The number is that of the frame packing SEI message of H.264.
+        let packing = match settings.eyes {
+            Some(EyePacking::SideBySide) => ":frame-packing=3",
+            Some(EyePacking::OverUnder) => ":frame-packing=4",
+            None => "",
+        };
+        // Without the first, the lookahead of x264 (r3095 with AVX-512) makes the bytes differ from run to run.
+        options.set("x264-params", &format!("cpu-independent=1{packing}"));
     } else {
         // VP9 uses crf as its target quality only if the bit rate is 0.
         for (key, value) in [("b", "0"), ("row-mt", "1"), ("deadline", "good"), ("cpu-used", "3"), ("g", "240")] {
@@ -188,10 +226,16 @@ fn encoder_options(codec_name: &str, settings: &VideoSettings) -> Dictionary<'st
 fn write_header(
     muxer: &mut Output,
     encoder: &encoder::Video,
-    rate: Rational,
+    (rate, eyes): (Rational, Option<EyePacking>),
     options: Dictionary,
 ) -> Result<Rational, ffmpeg_next::Error> {
     let mut stream = muxer.add_stream_with(encoder)?;
+    if let Some(packing) = eyes {
+        // Matroska and WebM write it into their header.
+        let mut tags = Dictionary::new();
+        tags.set("stereo_mode", if packing == EyePacking::SideBySide { "left_right" } else { "top_bottom" });
+        stream.set_metadata(tags);
+    }
     stream.set_time_base(rate.invert());
     stream.set_rate(rate);
     stream.set_avg_frame_rate(rate);
@@ -218,6 +262,18 @@ fn picture_of(planes: &Planes420) -> frame::Video {
         let stride = picture.stride(plane);
         for (to, from) in picture.data_mut(plane).chunks_mut(stride).zip(codes.chunks_exact(width)) {
             to[..width].copy_from_slice(from);
+        }
+    }
+    picture
+}
+
+/// The planes with opacity copied into an FFmpeg picture.
+fn picture_with_alpha(planes: &AlphaPlanes) -> frame::Video {
+    let mut picture = frame::Video::new(format::Pixel::YUVA444P10LE, planes.width as u32, planes.height as u32);
+    for (plane, codes) in planes.codes.iter().enumerate() {
+        let stride = picture.stride(plane);
+        for (to, from) in picture.data_mut(plane).chunks_mut(stride).zip(codes.chunks_exact(planes.width)) {
+            to.chunks_exact_mut(2).zip(from).for_each(|(to, code)| to.copy_from_slice(&code.to_le_bytes()));
         }
     }
     picture

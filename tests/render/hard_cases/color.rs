@@ -95,6 +95,7 @@ fn a_film_without_blur_has_the_levels_of_the_still() {
             frames: FrameRange::default(),
             sheet: None,
             job: None,
+            promise: None,
         };
         let output = folder.path().join("%05d.png");
         film(&renderer, &shot, &output, &film_settings, &mut |_| ControlFlow::Continue(())).unwrap();

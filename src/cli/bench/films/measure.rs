@@ -78,7 +78,8 @@ impl FilmCase<'_> {
         });
         filmed?;
         let (pictures, rendered) = render(&renderer, &self.cameras()?, &settings.render, true)?;
-        let encoded = self.encode(&output.0, &settings.video, &pictures)?;
+        let preset = settings.video.preset.or(Some(pipeline::suited_preset(quality)));
+        let encoded = self.encode(&output.0, &VideoSettings { preset, ..settings.video.clone() }, &pictures)?;
         let slower = rendered.wall_secs.max(encoded.wall_secs);
         let busy = rendered.plus(encoded).cpu_secs;
         let all_busy = TimeCost { wall_secs: busy / pipeline::num_cores() as f64, cpu_secs: busy };

@@ -21,7 +21,7 @@ use measure::{FilmCase, FilmRow};
 /// Frames per second of the films.
 const RATE_FPS: f64 = 30.0;
 /// Default length of the dolly, as a fraction of the scene size.
-const TRAVEL_FRAC: f64 = 0.05;
+pub(super) const TRAVEL_FRAC: f64 = 0.05;
 
 /// Width and height; `None` = as given. The alias keeps clap from reading `Option` as "may be absent".
 type Size = Option<[u32; 2]>;
@@ -103,7 +103,7 @@ impl Args {
 }
 
 /// A straight move along the view axis at constant speed.
-fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot {
+pub(super) fn dolly(scene: &Scene, camera: &Camera, travel: f64, num_frames: usize) -> Shot {
     let duration_secs = num_frames as f64 / RATE_FPS;
     let key = |time_secs: f64, distance: f64| {
         let mut pose = camera.pose;

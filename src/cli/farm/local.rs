@@ -1,13 +1,13 @@
-use std::num::NonZeroU16;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use super::failure::{Exit, Failure};
-use super::interrupt::Interrupt;
-use super::progress::FrameProgress;
-use super::{console, heading, render, reproduce};
+use super::waiting::Ended;
+use crate::cli::failure::{Exit, Failure};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::progress::FrameProgress;
+use crate::cli::{console, reproduce};
 use cinesplat::pipeline;
 
 /// Time between two looks at the programs.
@@ -15,52 +15,16 @@ const POLL: Duration = Duration::from_millis(50);
 /// Times that a program that was killed is started again.
 const MAX_RESTARTS: usize = 10;
 
-/// Render a film with several programs over one job folder
-///
-/// Each program renders the next frame that no other one has. A program that is killed loses the frame that it was at, and is
-/// started again. When all frames are there, the film is made. The film has the same bytes as that of `render`.
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
-Example:
-  cinesplat farm --local 4 room.spz --shot shot.json -o lamp.mp4
-On other machines that share the folder, `cinesplat render .. --part` renders frames of the same film.")]
-pub(super) struct Args {
-    /// Number of programs on this machine
-    #[arg(long, value_name = "N", help_heading = heading::OUTPUT)]
-    local: NonZeroU16,
-    #[command(flatten)]
-    render: render::Args,
-}
-
-impl Args {
-    pub(super) fn run(self) -> Result<(), Failure> {
-        let output = self.render.check_shared()?;
-        if self.render.starts_fresh() {
-            pipeline::clear_job(&output)?;
-        }
-        let interrupt = Interrupt::listen()?;
-        let words = reproduce::words_of_part("farm", usize::from(self.local.get()));
-        let mut programs: Vec<Program> =
-            (0..self.local.get()).map(|_| Program::start(&words)).collect::<Result<_, _>>()?;
-        let mut bar = FrameProgress::new();
-        let ended = watch(&mut programs, &output, &interrupt, &mut bar);
-        bar.finish();
-        if ended? == Ended::Stopped {
-            let (done, total) = pipeline::job_progress(&output).unwrap_or_default();
-            let found = format!("{}: stopped after {done} of {total} frames", output.display());
-            let help = format!("to go on, type: {}", reproduce::line_to_go_on());
-            return Err(Failure::new("STOPPED", found, help, Exit::Stopped));
-        }
-        // Frames that are missing after all are rendered here.
-        self.render.run_after(interrupt)
-    }
-}
-
-/// How the programs ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ended {
-    Done,
-    Stopped,
+/// Renders the frames of this line's film with `num_programs` programs on this machine.
+pub(super) fn run(num_programs: usize, output: &Path, interrupt: &Interrupt) -> Result<Ended, Failure> {
+    let words = reproduce::words_of_part("farm", Some(num_programs));
+    let words_of = |number: usize| [words.as_slice(), &[format!("--part={number}/{num_programs}")]].concat();
+    let mut programs: Vec<Program> =
+        (1..=num_programs).map(|number| Program::start(words_of(number))).collect::<Result<_, _>>()?;
+    let mut bar = FrameProgress::new();
+    let ended = watch(&mut programs, output, interrupt, &mut bar);
+    bar.finish();
+    ended
 }
 
 /// Waits for the programs; starts those again that were killed.
@@ -80,7 +44,7 @@ fn watch(
             is_stopped |= program.poll(is_asked)?;
         }
         if let Some((done, total)) = pipeline::job_progress(output) {
-            bar.show(done.min(total), total);
+            bar.show(done, total);
         }
         thread::sleep(POLL);
     }
@@ -95,8 +59,8 @@ struct Program {
 }
 
 impl Program {
-    fn start(words: &[String]) -> Result<Self, Failure> {
-        Ok(Self { words: words.to_owned(), child: Some(spawn(words)?), num_restarts: 0 })
+    fn start(words: Vec<String>) -> Result<Self, Failure> {
+        Ok(Self { child: Some(spawn(&words)?), words, num_restarts: 0 })
     }
 
     /// Looks whether the program has ended. Returns whether it was stopped.

@@ -1,0 +1,119 @@
+//! Directions that the words say beside the verb: `truck left`, `tilt slowly up`, `orbit to the right`.
+//!
+//! The network sometimes turns a direction around that is said plainly. Where the verb of a step's move is followed by a
+//! direction, the step takes it.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::Step;
+use cinesplat_trajectory::Move;
+
+/// Words that may stand between a verb and its direction.
+const BETWEEN: [&str; 24] = [
+    "slowly",
+    "gently",
+    "smoothly",
+    "softly",
+    "steadily",
+    "gradually",
+    "slightly",
+    "quickly",
+    "fast",
+    "hard",
+    "straight",
+    "just",
+    "a",
+    "bit",
+    "little",
+    "touch",
+    "to",
+    "toward",
+    "towards",
+    "the",
+    "camera",
+    "it",
+    "cam",
+    "shot",
+];
+/// Words after `left` and `right` that make them a place: `left of the door`.
+const PLACES: [&str; 16] = [
+    "of", "side", "half", "third", "edge", "hand", "corner", "end", "wall", "one", "part", "here", "there", "behind",
+    "above", "after",
+];
+/// Words of somebody who corrects himself or rules something out.
+const CORRECTIONS: [&str; 15] = [
+    "no", "not", "don", "dont", "never", "wait", "sorry", "actually", "mean", "instead", "rather", "scratch",
+    "without", "oops", "or",
+];
+
+/// Words behind a step that may correct it.
+const NUM_BEHIND: usize = 3;
+
+/// Gives the moves of steps the directions that their words say. Words that several steps share, and words that name both
+/// directions of an axis, say nothing about one step.
+pub(crate) fn take_said_directions(linked: &Linked, steps: &mut [Step]) {
+    for nth in 0..steps.len() {
+        let span = steps[nth].words;
+        let is_shared = steps.iter().enumerate().any(|(other, step)| other != nth && step.words == span);
+        if let Some(span) = span.filter(|_| !is_shared) {
+            take_said_direction(linked, &mut steps[nth], span);
+        }
+    }
+}
+
+fn take_said_direction(linked: &Linked, step: &mut Step, [start, end]: [usize; 2]) {
+    let words = || linked.tokens_text.split(' ').zip(&linked.spans);
+    let behind = words().filter(|(_, span)| span[0] >= end).take(NUM_BEHIND);
+    let inside = || words().filter(|(_, span)| (start..end).contains(&span[0]));
+    if inside().chain(behind).any(|(word, _)| CORRECTIONS.contains(&word)) {
+        return;
+    }
+    let words: Vec<&str> = inside().map(|(word, _)| word).collect();
+    for (movement, opposite) in (0..words.len()).filter_map(|at| said_at(&words, at)) {
+        if words.contains(&opposite) {
+            continue;
+        }
+        let is_opposite = |other: &Move| other.opposite() == Some(movement);
+        if step.movement == movement || is_opposite(&step.movement) {
+            step.movement = movement;
+            step.either_way = false;
+        }
+        step.with.iter_mut().filter(|other| is_opposite(other)).for_each(|other| *other = movement);
+    }
+}
+
+/// The move that a verb at word `at` and the direction after it say, and the word for the other direction.
+fn said_at(words: &[&str], at: usize) -> Option<(Move, &'static str)> {
+    let between = words[at + 1..].iter().take_while(|word| BETWEEN.contains(word)).count();
+    let direction = at + 1 + between;
+    let after = words.get(direction + 1).copied().unwrap_or_default();
+    let said = *words.get(direction)?;
+    if between > 4 || PLACES.contains(&after) && matches!(said, "left" | "right") {
+        return None;
+    }
+    let family = FAMILIES.iter().find(|(verbs, _)| verbs.iter().any(|verb| is_form(words[at], verb)))?.1;
+    let nth = family.iter().position(|(name, _)| *name == said)?;
+    Some((family[nth].1, family[1 - nth].0))
+}
+
+/// Whether a word is a form of a verb: `pan`, `pans`, `panning`.
+fn is_form(word: &str, verb: &str) -> bool {
+    let stem = verb.strip_suffix('e').unwrap_or(verb);
+    let ending = word.strip_prefix(stem);
+    let doubled = ending.and_then(|ending| ending.strip_prefix(&stem[stem.len() - 1..]));
+    [ending, doubled].into_iter().flatten().any(|ending| matches!(ending, "" | "e" | "s" | "es" | "ing"))
+        && !word.ends_with("ss")
+}
+
+/// Verbs of a family of moves, and its moves by direction.
+type Family = (&'static [&'static str], [(&'static str, Move); 2]);
+
+const FAMILIES: [Family; 8] = [
+    (&["pan"], [("left", Move::PanLeft), ("right", Move::PanRight)]),
+    (&["tilt"], [("up", Move::TiltUp), ("down", Move::TiltDown)]),
+    (&["truck", "crab"], [("left", Move::TruckLeft), ("right", Move::TruckRight)]),
+    (&["pedestal"], [("up", Move::PedestalUp), ("down", Move::PedestalDown)]),
+    (&["crane", "jib"], [("up", Move::CraneUp), ("down", Move::CraneDown)]),
+    (&["orbit"], [("left", Move::OrbitLeft), ("right", Move::OrbitRight)]),
+    (&["arc"], [("left", Move::ArcLeft), ("right", Move::ArcRight)]),
+    (&["zoom"], [("in", Move::ZoomIn), ("out", Move::ZoomOut)]),
+];

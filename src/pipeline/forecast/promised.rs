@@ -1,0 +1,80 @@
+//! A film with requirements: the quality to begin with, and what to watch while it is made.
+
+use std::path::Path;
+use std::time::Instant;
+
+use super::worst::sample_worst;
+use super::{Forecast, Requirements, choose, forecast};
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::film::{FilmSettings, Filmed};
+use crate::pipeline::promise::Promise;
+use cinesplat_render::{Quality, Renderer};
+use cinesplat_trajectory::Shot;
+
+/// Cores of a machine that another program may take while a film is made.
+const CORES_AT_RISK: usize = 1;
+
+/// A film whose requirements can be met.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Promised {
+    /// Forecast of the quality to begin with.
+    pub forecast: Forecast,
+    /// What to watch while the film is made: a field of [`FilmSettings`].
+    pub promise: Promise,
+    /// Why the film may still be late; `None` where it steps down in time whatever one other program does.
+    pub doubt: Option<String>,
+}
+
+/// Forecasts a film at every quality, and chooses the one to begin with. The budget counts from the call.
+///
+/// # Errors
+/// Those of [`forecast`], and [`PipelineError::Unreachable`] for requirements that cannot be met.
+pub fn promised(
+    renderer: &Renderer<'_>,
+    shot: &Shot,
+    output: &Path,
+    settings: &FilmSettings,
+    requirements: Requirements,
+) -> Result<Promised, PipelineError> {
+    let start = Instant::now();
+    let at = |qualities: &[Quality]| forecast(renderer, shot, output, settings, qualities);
+    let mut forecasts = at(&[Quality::Draft, Quality::Standard, Quality::Final])?;
+    if requirements.min_psnr_db.is_some() {
+        let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
+        let cameras = filmed.moving_cameras(settings.frames.of_film(shot.num_frames())?);
+        sample_worst(renderer, &cameras, &settings.render, &mut forecasts)?;
+    }
+    if requirements.may_need_reference(&forecasts) {
+        forecasts.extend(at(&[Quality::Reference])?);
+    }
+    let left = requirements.budget.map(|budget| budget.saturating_sub(start.elapsed()));
+    let quality = choose(&forecasts, Requirements { budget: left, ..requirements })?;
+    let is_chosen = |forecast: &&Forecast| forecast.quality == quality;
+    let chosen = forecasts.iter().find(is_chosen).copied().ok_or(PipelineError::Unreachable {
+        wanted: quality.as_ref().to_owned(),
+        reachable: "a quality without a forecast".to_owned(),
+    })?;
+    let of_final = forecasts.iter().find(|forecast| forecast.quality == Quality::Final);
+    let promise = Promise {
+        min_psnr_db: requirements.min_psnr_db,
+        deadline: requirements.budget.map(|budget| start + budget),
+        final_db: of_final.map_or(f64::INFINITY, |forecast| forecast.worst_psnr_db),
+        paces: forecasts.iter().map(|forecast| forecast.pace).collect(),
+    };
+    let doubt = left.and_then(|left| {
+        // With a least PSNR the film cannot step down.
+        let fastest = if requirements.min_psnr_db.is_some() { Some(&chosen) } else { forecasts.first() };
+        let cores = super::num_cores();
+        let slower = cores as f64 / cores.saturating_sub(CORES_AT_RISK).max(1) as f64;
+        let needed = fastest?.film_time.mul_f64(slower) + super::TIME_RESERVE;
+        (needed > left).then(|| {
+            format!(
+                "no reserve: if another program takes a core, even {} needs {:.1} s of the {:.1} s that are left",
+                fastest.map_or("", |forecast| forecast.quality.as_ref()),
+                needed.as_secs_f64(),
+                left.as_secs_f64()
+            )
+        })
+    });
+    Ok(Promised { forecast: chosen, promise, doubt })
+}

@@ -1,0 +1,30 @@
+//! Directions that stand beside the verb.
+
+use cinesplat::director::{Director, SceneContext};
+use cinesplat::language::NamedObject;
+use cinesplat::objects::Object;
+use cinesplat::trajectory::Move;
+use glam::DVec3;
+
+fn moves(prompt: &str) -> Vec<(Move, bool)> {
+    let object = Object::from_box(1, "microwave", DVec3::new(0.0, 0.5, -1.0), DVec3::new(0.3, 0.5, 0.2));
+    let director = Director::embedded().unwrap();
+    let linked = director.link(prompt, &[NamedObject { id: 1, label: object.label.clone() }]).unwrap();
+    let objects = [object];
+    let context = SceneContext { objects: &objects, up: DVec3::Y, center: DVec3::new(0.0, 1.0, -1.5), size: 7.0 };
+    let steps = director.direct(&linked, &context).unwrap().program.steps;
+    steps.iter().map(|step| (step.movement, step.either_way)).collect()
+}
+
+#[test]
+fn a_direction_beside_the_verb_is_the_direction_of_the_move() {
+    for (prompt, movement) in [
+        ("truck left along the counter, keep looking at the microwave the whole time", Move::TruckLeft),
+        ("truck right along the counter, keep looking at the microwave the whole time", Move::TruckRight),
+        ("tilt slowly up the microwave", Move::TiltUp),
+        ("orbit to the left around the microwave", Move::OrbitLeft),
+        ("crabbing right past the microwave", Move::TruckRight),
+    ] {
+        assert_eq!(moves(prompt).first(), Some(&(movement, false)), "{prompt}");
+    }
+}
