@@ -22,7 +22,7 @@ pub(crate) fn direct_beats(
     let mut whole =
         Direction { program: Program::default(), step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
     let (mut subjects, mut opening) = (Vec::new(), Framing::default());
-    if has_words(linked, timeline.introduction) {
+    if linked.words_in(timeline.introduction).any(|(word, _)| word.starts_with(char::is_alphabetic)) {
         let introduction = read(&linked.part(timeline.introduction, None))?;
         let steps = &introduction.program.steps;
         // A move before the first part is not of the list: the times are about something else.
@@ -84,13 +84,6 @@ pub(crate) fn direct_beats(
         whole.program.duration_secs = None;
     }
     Ok(whole)
-}
-
-fn has_words(linked: &Linked, bytes: [usize; 2]) -> bool {
-    let words = linked.tokens_text.split(' ').zip(&linked.spans);
-    words
-        .filter(|(_, span)| (bytes[0]..bytes[1]).contains(&span[0]))
-        .any(|(word, _)| word.starts_with(char::is_alphabetic))
 }
 
 /// The length of a part. `stated_secs` is what its own words say, `total_secs` the length of the film.

@@ -60,14 +60,12 @@ pub(crate) fn take_said_directions(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
-fn take_said_direction(linked: &Linked, step: &mut Step, [start, end]: [usize; 2]) {
-    let words = || linked.tokens_text.split(' ').zip(&linked.spans);
-    let behind = words().filter(|(_, span)| span[0] >= end).take(NUM_BEHIND);
-    let inside = || words().filter(|(_, span)| (start..end).contains(&span[0]));
-    if inside().chain(behind).any(|(word, _)| CORRECTIONS.contains(&word)) {
+fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {
+    let behind = linked.words_in([words[1], usize::MAX]).take(NUM_BEHIND);
+    if linked.words_in(words).chain(behind).any(|(word, _)| CORRECTIONS.contains(&word)) {
         return;
     }
-    let words: Vec<&str> = inside().map(|(word, _)| word).collect();
+    let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
     for (movement, opposite) in (0..words.len()).filter_map(|at| said_at(&words, at)) {
         if words.contains(&opposite) {
             continue;

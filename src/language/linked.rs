@@ -62,6 +62,12 @@ pub(crate) fn without_article(name: &str) -> &str {
 }
 
 impl Linked {
+    /// The words that begin in these bytes of the prompt, each with its own.
+    pub fn words_in(&self, bytes: [usize; 2]) -> impl Iterator<Item = (&str, [usize; 2])> {
+        let words = self.tokens_text.split(' ').zip(self.spans.iter().copied());
+        words.filter(move |(_, span)| (bytes[0]..bytes[1]).contains(&span[0]))
+    }
+
     /// `ids` with each group replaced by its members, each once. A group without members stays.
     pub fn expanded(&self, ids: &[u32]) -> Vec<u32> {
         let mut out: Vec<u32> = Vec::new();

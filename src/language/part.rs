@@ -10,14 +10,10 @@ impl Linked {
     /// pronouns stand for `antecedent`, the id of an object or group.
     #[must_use]
     pub fn part(&self, bytes: [usize; 2], antecedent: Option<u32>) -> Self {
-        let inside = || {
-            let words = self.tokens_text.split(' ').zip(&self.spans);
-            words.filter(|(_, span)| (bytes[0]..bytes[1]).contains(&span[0]))
-        };
-        let names_object = inside().any(|(word, _)| word.starts_with("<obj-"));
+        let names_object = self.words_in(bytes).any(|(word, _)| word.starts_with("<obj-"));
         let antecedent = antecedent.filter(|_| !names_object);
         let mut part = Self { groups: self.groups.clone(), unknown: self.unknown.clone(), ..Self::default() };
-        for (word, span) in inside() {
+        for (word, span) in self.words_in(bytes) {
             let id = match slot_of(word, "<obj-") {
                 Some(slot) => self.slots.get(slot).copied(),
                 None => antecedent.filter(|_| PRONOUNS.contains(&word)),
@@ -42,7 +38,7 @@ impl Linked {
                 part.tokens_text.push(' ');
             }
             part.tokens_text.push_str(&text);
-            part.spans.push(*span);
+            part.spans.push(span);
         }
         part
     }

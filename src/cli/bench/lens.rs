@@ -2,7 +2,7 @@ use crate::cli::outputs::BenchFolder;
 
 use strum::VariantArray;
 
-use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
+use super::scenes::{ScenesArgs, Size, parse_size, resized, scene_name, settings, views};
 use crate::cli::choice::choice;
 use crate::cli::console;
 use crate::cli::failure::Failure;
@@ -13,10 +13,6 @@ use cinesplat_bench::{
     AUTO_CSV_HEADER, AUTO_FLOORS, AutoShot, COST_CSV_HEADER, LENS_CASES, LENS_CSV_HEADER, LensBench, LensRow,
     lens_csv_line, lens_svg, measure_auto, measure_costs,
 };
-
-/// Width and height in pixels; `None` = those of the cameras file. A name of its own, because an `Option` would make the
-/// flag optional.
-type SizeOrGiven = Option<[u32; 2]>;
 
 /// A part of the bench.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,7 +44,7 @@ pub(crate) struct Args {
     scenes: ScenesArgs,
     /// Size of the pictures; `given` takes that of the cameras file
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
-    size: SizeOrGiven,
+    size: Size,
     /// Largest number of cameras per scene
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
     max_cameras: u16,
@@ -75,10 +71,7 @@ impl Args {
         let mut rows: Vec<LensRow> = Vec::new();
         for (path, file) in &scenes {
             let scene = self.scenes.options.open(path)?.scene;
-            let cameras = match file {
-                Some(file) => file.cameras.iter().map(|named| (named.name.clone(), named.camera)).collect(),
-                None => own_views(&scene)?,
-            };
+            let cameras = views(&scene, file.as_ref())?;
             let renderer = Renderer::new(&scene.gaussians);
             let settings = settings(&self.picture, &scene, Quality::Standard, file.as_ref());
             let bench = LensBench { renderer: &renderer, settings, num_repeats: usize::from(self.runs) };

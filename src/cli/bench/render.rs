@@ -2,7 +2,7 @@ use crate::cli::outputs::BenchFolder;
 use std::path::Path;
 use strum::VariantArray;
 
-use super::scenes::{NUM_OWN_VIEWS, ScenesArgs, own_views, parse_size, resized, scene_name, settings};
+use super::scenes::{NUM_OWN_VIEWS, ScenesArgs, parse_size, resized, scene_name, settings, views};
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::progress::FrameProgress;
@@ -60,10 +60,7 @@ impl Args {
     fn bench_scene(&self, path: &Path, file: Option<&StillCameras>, log: &mut RowLog) -> Result<(), Failure> {
         let scene = self.scenes.options.open(path)?.scene;
         let base = settings(&self.picture, &scene, Quality::Final, file);
-        let mut cameras = match file {
-            Some(file) => file.cameras.iter().map(|named| (named.name.clone(), named.camera)).collect(),
-            None => own_views(&scene)?,
-        };
+        let mut cameras = views(&scene, file)?;
         cameras.truncate(usize::from(self.max_cameras));
         let renderer = Renderer::new(&scene.gaussians);
         for (size_idx, size) in self.sizes.iter().enumerate() {

@@ -105,8 +105,23 @@ pub(super) fn resized(camera: &Camera, size: Option<[u32; 2]>) -> Camera {
 /// Number of cameras of [`own_views`].
 pub(super) const NUM_OWN_VIEWS: usize = 3;
 
+/// The views of a scene by name: those of its cameras file, or the program's own.
+pub(super) fn views(scene: &Scene, file: Option<&StillCameras>) -> Result<Vec<(String, Camera)>, Failure> {
+    match file {
+        Some(file) => Ok(file.cameras.iter().map(|named| (named.name.clone(), named.camera)).collect()),
+        None => own_views(scene),
+    }
+}
+
+/// Where a film of a scene begins: at the first camera of its cameras file, or in the middle of the scene.
+pub(super) fn film_view(scene: &Scene, file: Option<&StillCameras>) -> Result<Camera, Failure> {
+    let views = views(scene, file)?;
+    let view = if file.is_some() { views.first() } else { views.last() };
+    view.map(|(_, camera)| *camera).ok_or_else(|| Failure::fault("no camera in the cameras file"))
+}
+
 /// One level view from the middle of the scene and two from outside, a quarter turn apart, 16:9 with 60 degrees.
-pub(super) fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure> {
+fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure> {
     let level = LevelFrame::new(scene.up)?;
     let intrinsics = Intrinsics::from_fov_y(1280, 720, 60_f64.to_radians());
     let bounds = scene.bounds();
@@ -119,6 +134,9 @@ pub(super) fn own_views(scene: &Scene) -> Result<Vec<(String, Camera)>, Failure>
     };
     Ok(vec![view("front", DVec2::X, 0.7, 0.2), view("side", DVec2::Y, 0.9, 0.4), view("middle", DVec2::X, 0.0, 0.0)])
 }
+
+/// Width and height; `None` = as given. The alias keeps clap from reading `Option` as "may be absent".
+pub(super) type Size = Option<[u32; 2]>;
 
 pub(super) fn parse_size(text: &str) -> Result<Option<[u32; 2]>, String> {
     if text == "given" {

@@ -40,7 +40,7 @@ fn hyphened_zoom_end_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
     let is_hyphened = |at: usize| words.get(at).is_some_and(|word| word.after_hyphen);
     let (len, value) = cardinal_at(words, i)?;
     let counts = matches!(
-        word_before(words, if is_hyphened(i) { i - 1 } else { i }, 1),
+        word_before(words, i - usize::from(is_hyphened(i) && i > 0), 1),
         "frames" | "frame" | "seconds" | "secs" | "shots" | "steps" | "at"
     );
     if counts {

@@ -115,9 +115,6 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
         if is_end {
             break;
         }
-        if text[0] == text[1] {
-            return None;
-        }
         let start = words.get(stamp.at).map_or(0, |word| word.span[0]);
         let (text, cuts) = without_joint(words, *text);
         if text[0] == text[1] {

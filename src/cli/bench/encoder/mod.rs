@@ -4,7 +4,7 @@ mod report;
 use std::path::Path;
 
 use super::films::{TRAVEL_FRAC, dolly};
-use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
+use super::scenes::{ScenesArgs, Size, film_view, parse_size, resized, scene_name, settings};
 use crate::cli::choice::choice;
 use crate::cli::console;
 use crate::cli::failure::Failure;
@@ -14,9 +14,6 @@ use cinesplat::export::cameras_json::StillCameras;
 use cinesplat::render::Quality;
 use cinesplat::video::X264Preset;
 use measure::{EncoderCase, EncoderRow};
-
-/// Width and height; `None` = as given. The alias keeps clap from reading `Option` as "may be absent".
-type Size = Option<[u32; 2]>;
 
 /// Measure the presets of the H.264 encoder: time, bit rate and SSIM
 #[derive(Debug, clap::Args)]
@@ -66,11 +63,7 @@ impl Args {
 
     fn bench_scene(&self, path: &Path, file: Option<&StillCameras>, rows: &mut Vec<EncoderRow>) -> Result<(), Failure> {
         let scene = self.scenes.options.open(path)?.scene;
-        let camera = match file {
-            Some(file) => file.cameras.first().map(|named| named.camera),
-            None => own_views(&scene)?.last().map(|(_, camera)| *camera),
-        };
-        let camera = camera.ok_or_else(|| Failure::fault("no camera in the cameras file"))?;
+        let camera = film_view(&scene, file)?;
         let render = settings(&self.picture, &scene, Quality::Standard, file);
         let travel = TRAVEL_FRAC * scene.bounds().size();
         let shot = dolly(&scene, &resized(&camera, self.size), travel, usize::from(self.frames));

@@ -4,7 +4,7 @@ mod report;
 
 use std::path::Path;
 
-use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
+use super::scenes::{ScenesArgs, Size, film_view, parse_size, resized, scene_name, settings};
 use crate::cli::choice::choice;
 use crate::cli::console;
 use crate::cli::failure::Failure;
@@ -22,9 +22,6 @@ use measure::{FilmCase, FilmRow};
 const RATE_FPS: f64 = 30.0;
 /// Default length of the dolly, as a fraction of the scene size.
 pub(super) const TRAVEL_FRAC: f64 = 0.05;
-
-/// Width and height; `None` = as given. The alias keeps clap from reading `Option` as "may be absent".
-type Size = Option<[u32; 2]>;
 
 /// Measure films against stills, against encoding alone and against their forecasts
 #[derive(Debug, clap::Args)]
@@ -73,11 +70,7 @@ impl Args {
 
     fn bench_scene(&self, path: &Path, file: Option<&StillCameras>) -> Result<Vec<FilmRow>, Failure> {
         let scene = self.scenes.options.open(path)?.scene;
-        let camera = match file {
-            Some(file) => file.cameras.first().map(|named| named.camera),
-            None => own_views(&scene)?.last().map(|(_, camera)| *camera),
-        };
-        let camera = camera.ok_or_else(|| Failure::fault("no camera in the cameras file"))?;
+        let camera = film_view(&scene, file)?;
         let render = settings(&self.picture, &scene, Quality::Standard, file);
         let travel = self.travel.unwrap_or(TRAVEL_FRAC * scene.bounds().size());
         let shot = dolly(&scene, &resized(&camera, self.size), travel, usize::from(self.frames));

@@ -5,21 +5,17 @@ mod report;
 use std::path::Path;
 use std::time::Duration;
 
-use super::scenes::{ScenesArgs, own_views, parse_size, resized, scene_name, settings};
+use super::scenes::{ScenesArgs, Size, parse_size, resized, scene_name, settings, views};
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::outputs::BenchFolder;
 use crate::cli::scene_args::PictureArgs;
 use cinesplat::export::cameras_json::StillCameras;
-use cinesplat::geometry::Camera;
 use cinesplat::pipeline::{FilmSettings, Requirements};
 use cinesplat::render::{Quality, Renderer};
 use film::{PromisedFilm, standard_secs, travel};
 use load::LoadTime;
 use report::PromiseRow;
-
-/// Width and height; `None` = as given. The alias keeps clap from reading `Option` as "may be absent".
-type Size = Option<[u32; 2]>;
 
 /// Film with --min-psnr and --budget, and count the promises that are broken
 #[derive(Debug, clap::Args)]
@@ -68,10 +64,7 @@ impl Args {
 
     fn bench_scene(&self, path: &Path, file: Option<&StillCameras>, rows: &mut Vec<PromiseRow>) -> Result<(), Failure> {
         let scene = self.scenes.options.open(path)?.scene;
-        let cameras: Vec<Camera> = match file {
-            Some(file) => file.cameras.iter().map(|named| named.camera).collect(),
-            None => own_views(&scene)?.into_iter().map(|(_, camera)| camera).collect(),
-        };
+        let views = views(&scene, file)?;
         let renderer = Renderer::new(&scene.gaussians);
         let render = settings(&self.picture, &scene, Quality::Standard, file);
         let film = FilmSettings { render, ..FilmSettings::default() };
@@ -82,7 +75,7 @@ impl Args {
             rows.push(row);
         };
         let shot_of = |idx: usize| {
-            let camera = cameras.get(idx % cameras.len().max(1)).ok_or_else(|| Failure::fault("no camera"))?;
+            let (_, camera) = views.get(idx % views.len().max(1)).ok_or_else(|| Failure::fault("no camera"))?;
             Ok::<_, Failure>(travel(&scene, &resized(camera, self.size), usize::from(self.frames), idx))
         };
         for (idx, least) in self.psnrs.iter().enumerate() {
