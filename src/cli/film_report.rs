@@ -1,5 +1,6 @@
 //! What `render` says about a film that is finished or stopped.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use strum::VariantArray;
@@ -28,16 +29,21 @@ pub(super) fn print_times(times: &PhaseTimes, report: &FilmReport, total: Durati
 /// Prints what became of the requirements: frames at other qualities than the first one, and a deadline that was missed.
 pub(super) fn print_promise(settings: &FilmSettings, report: &FilmReport) {
     let Some(promise) = &settings.promise else { return };
-    let of = |quality: Quality| report.qualities.iter().filter(|(_, other)| *other == quality).count();
-    let counts = Quality::VARIANTS.iter().map(|quality| (quality, of(*quality))).filter(|(_, num)| *num > 0);
-    let counts: Vec<String> = counts.map(|(quality, num)| format!("{num} frames at {}", quality.as_ref())).collect();
+    let counts: Vec<String> =
+        counts_of(report).into_iter().map(|(quality, num)| format!("{num} frames at {}", quality.as_ref())).collect();
     if counts.len() > 1 {
         console::note(&format!("to keep the requirements: {}", counts.join(", ")));
     }
     let late = promise.deadline.map(|deadline| Instant::now().saturating_duration_since(deadline).as_secs_f64());
     if let Some(late) = late.filter(|late| *late > 0.0) {
-        console::warnings([format!("the film ended {late:.2} s after its budget: the machine became slower")]);
+        console::warnings([format!("the film ended {late:.2} s after its budget")]);
     }
+}
+
+/// Frames that were rendered, per quality that was used.
+fn counts_of(report: &FilmReport) -> Vec<(Quality, usize)> {
+    let of = |quality: Quality| report.qualities.iter().filter(|(_, other)| *other == quality).count();
+    Quality::VARIANTS.iter().map(|quality| (*quality, of(*quality))).filter(|(_, num)| *num > 0).collect()
 }
 
 /// Prints where each effect of the film ran, and why; nothing for a film without effects.
@@ -59,13 +65,20 @@ pub(super) fn compare(predicted: &Forecast, report: &FilmReport, psnr_db: f64) -
         // Frames that were kept cost no time now.
         format!("{} of {} frames were kept", report.num_kept, report.num_wanted)
     };
+    let counts = counts_of(report);
+    let of_first = if counts.len() > 1 { format!(" of frames at {quality}") } else { String::new() };
+    let named: Vec<String> = counts.iter().map(|(quality, num)| format!("{num} {}", quality.as_ref())).collect();
+    let mix = if counts.len() > 1 { named.join(" + ") } else { quality.to_owned() };
     console::note(&format!(
-        "{quality}: filmed in {measured:.2} s ({against}), {psnr_db:.1} dB (predicted {:.1} dB)",
+        "{mix}: filmed in {measured:.2} s ({against}), {psnr_db:.1} dB{of_first} (predicted {:.1} dB)",
         predicted.psnr_db
     ));
     // JSON has no infinity: null stands for an exact picture. Predicted render and encode times are those of each alone,
     // measured ones are parallel.
+    let frames_per_quality: BTreeMap<&str, usize> =
+        counts.iter().map(|(quality, num)| (quality.as_ref(), *num)).collect();
     json!({
+        "frames_per_quality": frames_per_quality,
         "path": report.path.to_string_lossy(), "frames": report.num_frames, "kept_frames": report.num_kept, "quality": quality,
         "predicted": {"film_secs": film_secs, "render_secs": predicted.render_time.as_secs_f64(),
             "encode_secs": predicted.encode_time.as_secs_f64(), "psnr_db": predicted.psnr_db,

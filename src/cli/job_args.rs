@@ -18,7 +18,7 @@ pub(super) struct JobArgs {
     keep_frames: bool,
     /// Keep no finished frames: a stopped film starts over
     ///
-    /// Finished frames take 1.5 bytes per pixel until the film is whole.
+    /// Finished frames take 1.5 bytes per pixel, with opacity 8, until the film is whole.
     #[arg(long, help_heading = heading::OUTPUT, hide_short_help = true, conflicts_with_all = ["fresh", "part"])]
     pub(super) no_job: bool,
     /// Only render the frames of --frames into OUT.job, beside other programs that do the same

@@ -14,6 +14,8 @@ pub(super) use cinesplat::files::{create_folder, relative_to};
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(super) struct Overwrite {
     /// Overwrite files that exist already [default: refuse]
+    ///
+    /// A sequence of pictures also replaces those of a longer one: the numbers behind its end are removed up to the first gap.
     #[arg(long, help_heading = heading::OUTPUT)]
     overwrite: bool,
 }

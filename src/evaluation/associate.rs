@@ -1,6 +1,6 @@
 //! Matching of the poses of two paths by time.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Convention, EvaluationError, Trajectory};
 
@@ -52,7 +52,7 @@ impl Default for MatchSettings {
     }
 }
 
-/// Matches poses by time; by index if a path has no times.
+/// Matches poses by time. If a path has no times: by the numbers of the frames if both paths have those, else by index.
 ///
 /// Nearest, by the convention of this program: one to one and in order of the reference's times. Of all pairs of time
 /// stamps at most `max_diff_secs` apart the closest is taken, then the closest of the rest that crosses no match, and so
@@ -78,7 +78,7 @@ pub fn associate(
         }
     }
     let (Some(reference_secs), Some(estimate_secs)) = (&reference.times_secs, &estimate.times_secs) else {
-        return Ok(by_index(reference, estimate));
+        return Ok(by_number(reference, estimate).unwrap_or_else(|| by_index(reference, estimate)));
     };
     let stamps = Stamps::new(reference_secs, estimate_secs);
     let found = match settings.matching {
@@ -192,6 +192,25 @@ impl<'a> Stamps<'a> {
     }
 }
 
+/// The poses of equal numbers; `None` for a path without numbers, and for paths that share none.
+fn by_number(reference: &Trajectory, estimate: &Trajectory) -> Option<Matches> {
+    let (of_reference, of_estimate) = (reference.frame_numbers.as_ref()?, estimate.frame_numbers.as_ref()?);
+    let found: BTreeMap<u64, usize> =
+        of_estimate.iter().enumerate().map(|(idx, number)| (*number as u64, idx)).collect();
+    let numbers = of_reference.iter().enumerate();
+    let pairs: Vec<(usize, usize)> =
+        numbers.filter_map(|(idx, number)| Some((idx, *found.get(&(*number as u64))?))).collect();
+    let (in_reference, in_estimate): (Vec<usize>, Vec<usize>) = pairs.iter().copied().unzip();
+    (!pairs.is_empty()).then(|| Matches {
+        reference: reference.select(&in_reference),
+        estimate: estimate.select(&in_estimate),
+        dropped_reference: reference.len() - pairs.len(),
+        dropped_estimate: estimate.len() - pairs.len(),
+        largest_diff_secs: 0.0,
+        notes: vec!["the files have no times: poses are matched by the numbers of their frames".into()],
+    })
+}
+
 fn by_index(reference: &Trajectory, estimate: &Trajectory) -> Matches {
     let len = reference.len().min(estimate.len());
     let indices: Vec<usize> = (0..len).collect();
@@ -284,7 +303,7 @@ fn one_to_one_sorted(sparse: &[f64], dense: &[f64], max_diff_secs: f64) -> Vec<(
         candidates.extend(with_diff.filter(|(diff, ..)| *diff <= max_diff_secs));
     }
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
-    let mut partner: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
+    let mut partner: BTreeMap<usize, usize> = BTreeMap::new();
     for (_, sparse_rank, dense_rank) in candidates {
         let before = partner.range(..=sparse_rank).next_back();
         let after = partner.range(sparse_rank..).next();

@@ -7,6 +7,9 @@ use cinesplat_geometry::Pose;
 /// Length of the mean up direction of cameras that are upright: their up is within about 45 degrees of it.
 const UPRIGHT: f64 = 0.7;
 
+/// Frames per second in a [`PoseTrack`] without times.
+const COUNTED_FPS: f64 = 30.0;
+
 /// A camera path for error measures: poses with the rotation matrices of their file.
 ///
 /// Rotations are matrices, not quaternions, because the rounded matrices of a file (KITTI) are not exactly orthonormal,
@@ -15,6 +18,8 @@ const UPRIGHT: f64 = 0.7;
 pub struct Trajectory {
     /// Time stamps; `None` if the file has none.
     pub times_secs: Option<Vec<f64>>,
+    /// Numbers of the frames of a file without times; `None` if the file has none.
+    pub frame_numbers: Option<Vec<f64>>,
     /// Camera centers, world.
     pub positions: Vec<DVec3>,
     /// Rotations of `world_from_camera`, OpenCV camera axes.
@@ -25,14 +30,15 @@ pub struct Trajectory {
     pub up: Option<DVec3>,
 }
 
-/// Numbers of frames count as times, so that paths with other gaps are matched by number.
 impl From<&PoseTrack> for Trajectory {
     fn from(track: &PoseTrack) -> Self {
         let rotation =
             |frame: &cinesplat_export::PoseFrame| frame.matrix.unwrap_or(DMat3::from_quat(frame.pose.rotation));
+        let times = || track.frames.iter().map(|frame| frame.time_secs);
         Self {
-            times_secs: (track.timed || track.is_numbered)
-                .then(|| track.frames.iter().map(|frame| frame.time_secs).collect()),
+            times_secs: track.timed.then(|| times().collect()),
+            frame_numbers: (track.is_numbered && !track.timed)
+                .then(|| times().map(|secs| (secs * COUNTED_FPS).round()).collect()),
             positions: track.frames.iter().map(|frame| frame.pose.position).collect(),
             rotations: track.frames.iter().map(rotation).collect(),
             fov_y_rad: track.frames.iter().map(|frame| frame.fov_y_rad).collect(),
@@ -46,6 +52,7 @@ impl Trajectory {
     pub fn from_poses(times_secs: Option<Vec<f64>>, poses: &[Pose]) -> Self {
         Self {
             times_secs,
+            frame_numbers: None,
             positions: poses.iter().map(|pose| pose.position).collect(),
             rotations: poses.iter().map(|pose| DMat3::from_quat(pose.rotation)).collect(),
             fov_y_rad: vec![None; poses.len()],
@@ -74,6 +81,7 @@ impl Trajectory {
         let pick = |list: &[f64]| indices.iter().filter_map(|idx| list.get(*idx).copied()).collect();
         Self {
             times_secs: self.times_secs.as_deref().map(pick),
+            frame_numbers: self.frame_numbers.as_deref().map(pick),
             positions: indices.iter().filter_map(|idx| self.positions.get(*idx).copied()).collect(),
             rotations: indices.iter().filter_map(|idx| self.rotations.get(*idx).copied()).collect(),
             fov_y_rad: indices.iter().filter_map(|idx| self.fov_y_rad.get(*idx).copied()).collect(),

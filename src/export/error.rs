@@ -75,6 +75,14 @@ pub enum ExportError {
         /// The values allowed.
         expected: String,
     },
+    /// A fault in one of a folder's files.
+    #[error("{name}: {error}")]
+    InFile {
+        /// Name of the file.
+        name: String,
+        /// The fault.
+        error: Box<Self>,
+    },
     /// Keyframes that make no shot.
     #[error("{0}")]
     BadShot(#[from] TrajectoryError),
@@ -111,6 +119,7 @@ impl ExportError {
             Self::BadField { .. } => "EXCHANGE-FIELD",
             Self::BadLine { .. } => "EXCHANGE-LINE",
             Self::BadBytes { .. } => "EXCHANGE-BYTES",
+            Self::InFile { error, .. } => error.code(),
             Self::BadShot(_) => "EXCHANGE-SHOT",
             Self::NoPoses => "EXCHANGE-EMPTY",
             Self::NotWritable { .. } => "EXCHANGE-READ-ONLY",

@@ -88,7 +88,7 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
     let ReadSettings { format, camera } = settings;
     let pose_files = if path.is_dir() { seven_scenes::pose_files(path) } else { Vec::new() };
     if !pose_files.is_empty() && format.is_none_or(|format| format == Format::SevenScenes) {
-        return imported(Format::SevenScenes, seven_scenes::read(&pose_files)?);
+        return imported(Format::SevenScenes, seven_scenes::read_folder(&pose_files)?);
     }
     let path = &file_of(path)?;
     let bytes = read_bytes(path)?;
@@ -105,7 +105,7 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
         Format::Colmap => read_colmap(path, &bytes),
         Format::Supersplat if bytes.starts_with(b"PK") => supersplat::read(&supersplat::document_in_project(&bytes)?),
         _ => {
-            let text = text_of(&bytes)?;
+            let text = if is_by_line(format) { lines_of(&bytes)? } else { text_of(&bytes)? };
             match format {
                 Format::Tum | Format::Euroc => match &lines {
                     Some(found) => pose_lines::read(text, found.layout),
@@ -120,7 +120,7 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
                 Format::Aria => aria::read(text),
                 Format::MotionCtrl => motionctrl::read(text),
                 Format::ReCamMaster => recammaster::read(text, camera.as_deref()),
-                Format::SevenScenes => seven_scenes::read(std::slice::from_ref(path)),
+                Format::SevenScenes => seven_scenes::read_file(path),
                 Format::Nerfstudio => nerfstudio::read(text),
                 Format::Transforms => transforms::read(text),
                 Format::Supersplat => supersplat::read(text),
@@ -147,6 +147,12 @@ fn imported(format: Format, track: PoseTrack) -> Result<Imported, ExportError> {
     if track.frames.is_empty() {
         return Err(ExportError::NoPoses);
     }
+    let (num_frames, limit) = (track.frames.len(), Limits::DEFAULT.poses);
+    if num_frames > limit {
+        let expected = format!("at most {limit}");
+        let place = "camera poses".to_owned();
+        return Err(ExportError::BadField { place, found: num_frames.to_string(), expected });
+    }
     Ok(Imported { format, track, shot: None, doubt: None, notes: Vec::new() })
 }
 
@@ -164,13 +170,36 @@ fn unknown_content() -> ExportError {
     ExportError::WrongFormat { found: "content of no known format".into(), expected: Format::VARIANTS.join(", ") }
 }
 
-fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
+/// Whether a format has a line, or several, per pose. The memory for JSON is limited by its own reader.
+fn is_by_line(format: Format) -> bool {
+    use Format as F;
+    !matches!(
+        format,
+        F::Cameras
+            | F::Inria
+            | F::MotionCtrl
+            | F::ReCamMaster
+            | F::Nerfstudio
+            | F::Transforms
+            | F::Supersplat
+            | F::Lichtfeld
+            | F::Blender
+            | F::Shot
+    )
+}
+
+/// The text of a file with a pose per line, if it has no more lines than a path may have poses.
+fn lines_of(bytes: &[u8]) -> Result<&str, ExportError> {
     // A line of a few bytes becomes a pose of hundreds.
     let limit = Limits::DEFAULT.poses;
     if bytes.iter().filter(|byte| **byte == b'\n').take(limit + 1).count() > limit {
         let expected = format!("at most {limit} lines");
         return Err(ExportError::BadLine { line: limit + 1, found: "a further line".into(), expected });
     }
+    text_of(bytes)
+}
+
+fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
     std::str::from_utf8(bytes).map_err(|error| ExportError::BadBytes {
         offset: error.valid_up_to(),
         found: "bytes that are not UTF-8".into(),
@@ -218,5 +247,5 @@ fn read_colmap(path: &Path, bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     if binary {
         return colmap::read_binary(&images, cameras.as_deref());
     }
-    colmap::read_text(text_of(&images)?, cameras.as_deref().map(text_of).transpose()?)
+    colmap::read_text(lines_of(&images)?, cameras.as_deref().map(lines_of).transpose()?)
 }

@@ -13,16 +13,19 @@ const OBJECT_BYTES: u64 = 640;
 const TEXT_BYTES: u64 = 40;
 
 /// What a parser of `text` would exceed, as found and expected; `None` where it stays within the limits. The text need not
-/// be JSON.
+/// be JSON. The letters of its texts take as much memory as in the file: they count against the limit on files of scenes.
 pub fn json_excess(text: &[u8], limits: &Limits) -> Option<String> {
-    let (mut depth, mut bytes) = (0_usize, VALUE_BYTES);
+    let (mut depth, mut bytes, mut letters) = (0_usize, VALUE_BYTES, 0);
     let mut rest = text.iter();
     while let Some(byte) = rest.next() {
         bytes += match byte {
             b'[' => LIST_BYTES + VALUE_BYTES,
             b'{' => OBJECT_BYTES,
             b',' => VALUE_BYTES,
-            b'"' => TEXT_BYTES + skip_text(&mut rest),
+            b'"' => {
+                letters += skip_text(&mut rest);
+                TEXT_BYTES
+            }
             _ => 0,
         };
         match byte {
@@ -36,6 +39,9 @@ pub fn json_excess(text: &[u8], limits: &Limits) -> Option<String> {
         if bytes > limits.json_bytes {
             break;
         }
+    }
+    if letters > limits.scene_bytes {
+        return Some(format!("texts of {letters} bytes, expected at most {}", limits.scene_bytes));
     }
     let excess = || format!("values that take over {0} bytes of memory, expected at most {0}", limits.json_bytes);
     (bytes > limits.json_bytes).then(excess)

@@ -36,16 +36,16 @@ pub struct LensFlare {
 }
 
 impl LensFlare {
-    /// Adds the reflections to a picture in light.
-    fn add_to(self, frame: &mut Frame) {
+    /// Adds the reflections to a picture in light, whose pixels are `squeeze` times as many across as down.
+    fn add_to(self, frame: &mut Frame, squeeze: f64) {
         let height = f64::from(frame.height);
         let strength = self.strength as f32;
         let bright = Small::of(frame, |light| (light - THRESHOLD).max(0.0) / (1.0 - THRESHOLD));
-        bright.blurred([VEIL.1 * height; 2]).add_to(frame, strength * VEIL.0);
+        bright.blurred([VEIL.1 * height * squeeze, VEIL.1 * height]).add_to(frame, strength * VEIL.0);
         for (scale, share, deviation, tint) in GHOSTS {
             bright
                 .about_the_middle(scale)
-                .blurred([deviation * height; 2])
+                .blurred([deviation * height * squeeze, deviation * height])
                 .tinted(tint)
                 .add_to(frame, strength * share);
         }
@@ -71,10 +71,15 @@ impl Effect for LensFlare {
     }
 
     fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
+        if frame.is_changed {
+            // The flare is that of the finished picture, in which other things may be bright.
+            return Ok(Loss::of_one_sample(self.strength, budget.color));
+        }
         let mut picture = Picture::of_display(frame.small_picture(JUDGED_FRAC)?);
         let light = picture.linear();
         let plain = light.rgb.clone();
-        self.add_to(light);
+        let own = frame.moment.camera.intrinsics;
+        self.add_to(light, own.fx_px / own.fy_px);
         let error = light.rgb.iter().zip(&plain).map(|(with, plain)| f64::from(with - plain)).fold(0.0, f64::max);
         Ok(Loss::of_one_sample(error, budget.color))
     }
@@ -86,7 +91,8 @@ impl Effect for LensFlare {
     fn apply(&self, moment: &Moment<'_>, _: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         let mut picture = next(moment)?;
         picture.ask_for_dither(mixed(moment.take.seed, 0x6c66));
-        self.add_to(picture.linear());
+        let own = moment.camera.intrinsics;
+        self.add_to(picture.linear(), own.fx_px / own.fy_px);
         Ok(picture)
     }
 }

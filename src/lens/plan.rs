@@ -70,8 +70,14 @@ impl EffectPlan {
             shown.unwrap_or(camera)
         };
         let inside = Take { camera_at: &inside_at, ..take };
+        let changes = |called: &&CalledEffect| called.effect.develops() && !called.effect.shares_samples();
+        let is_changed = called.iter().filter(changes).count() > 1;
         let facts_of = |frame_idx: usize| {
-            [take, inside].map(|take| FrameFacts::new(Moment::of_frame(take, frame_idx, render), renderer))
+            [take, inside].map(|take| {
+                let mut facts = FrameFacts::new(Moment::of_frame(take, frame_idx, render), renderer);
+                facts.is_changed = is_changed;
+                facts
+            })
         };
         let first = facts_of(0);
         for planned in &mut effects {

@@ -25,6 +25,8 @@ pub struct SeenPoint {
 pub struct FrameFacts<'a> {
     /// The frame.
     pub moment: Moment<'a>,
+    /// Whether effects other than lens and shutter may show what the plain picture lacks.
+    pub(super) is_changed: bool,
     renderer: &'a Renderer<'a>,
     seen: OnceCell<Vec<SeenPoint>>,
 }
@@ -38,7 +40,7 @@ impl fmt::Debug for FrameFacts<'_> {
 impl<'a> FrameFacts<'a> {
     /// The facts of a frame.
     pub fn new(moment: Moment<'a>, renderer: &'a Renderer<'a>) -> Self {
-        Self { moment, renderer, seen: OnceCell::new() }
+        Self { moment, is_changed: false, renderer, seen: OnceCell::new() }
     }
 
     /// Dilation of the splats, pixels squared: the blur that a picture has without any effect.

@@ -75,7 +75,10 @@ impl Effect for TiltShift {
         let height = frame.height as usize;
         // Half the width of a box whose passes have the variance: a box of a single pixel blurs nothing.
         let reaches: Vec<f64> = (0..height).map(|row| (self.deviation_px(row, height).powi(2) + 0.25).sqrt()).collect();
-        across(frame, &reaches);
+        // Pixels of a squeezed picture are not square.
+        let own = moment.camera.intrinsics;
+        let wide = |row: usize| ((self.deviation_px(row, height) * own.fx_px / own.fy_px).powi(2) + 0.25).sqrt();
+        across(frame, &(0..height).map(wide).collect::<Vec<f64>>());
         down(frame, &reaches);
         Ok(picture)
     }

@@ -16,4 +16,6 @@ pub(super) struct DecodedScene {
     pub(super) up: Option<(DVec3, String)>,
     /// Prior probabilities of up axes for this kind of file.
     pub(super) up_prior: UpPrior,
+    /// SHA-256 of each further file that was read, in a fixed order, with its name where the files present decide which is read.
+    pub(super) further_sha256: Vec<String>,
 }

@@ -54,18 +54,31 @@ pub enum SceneError {
     },
     /// The scene does not fit into memory.
     #[error(
-        "{}: {found} Gaussians take {} MB of memory, expected at most {} MB",
-        shown(path), needed_bytes.div_ceil(1 << 20), limit_bytes >> 20
+        "{}: {} {} MB of memory, expected at most {} MB",
+        shown(path), taker(*found), needed_bytes.div_ceil(1 << 20), limit_bytes >> 20
     )]
     OutOfMemory {
+        /// The file.
+        path: PathBuf,
+        /// Number found; 0 for the files of a scene before its Gaussians are counted.
+        found: u64,
+        /// Bytes that reading them takes.
+        needed_bytes: u64,
+        /// Bytes that it may take.
+        limit_bytes: u64,
+    },
+    /// The system has not the memory that the limit allows.
+    #[error(
+        "{}: {} {} MB of memory, expected no more than the system has free",
+        shown(path), taker(*found), needed_bytes.div_ceil(1 << 20)
+    )]
+    NoMemory {
         /// The file.
         path: PathBuf,
         /// Number found.
         found: u64,
         /// Bytes that reading them takes.
         needed_bytes: u64,
-        /// Bytes that it may take.
-        limit_bytes: u64,
     },
     /// Content of an unknown format.
     #[error("{}: {found}, expected .ply, .splat, .spz, .sog, .ksplat, .glb or .pcd", shown(path))]
@@ -233,7 +246,7 @@ impl SceneError {
             Self::Io { .. } => "IO-FAILED",
             Self::TooManyBytes { .. } => "SCENE-BYTES-CAP",
             Self::TooManyGaussians { .. } => "SCENE-COUNT-CAP",
-            Self::OutOfMemory { .. } => "MEM-CAP",
+            Self::OutOfMemory { .. } | Self::NoMemory { .. } => "MEM-CAP",
             Self::UnknownFormat { .. } => "SCENE-FORMAT",
             Self::NotReadYet { .. } => "SCENE-UNSUPPORTED",
             Self::PlyHeader { .. } => "PLY-HEADER",
@@ -264,6 +277,11 @@ impl SceneError {
 }
 
 /// A path on one line. Control characters become `?`, so that a file name cannot forge output.
-fn shown(path: &Path) -> String {
+pub(super) fn shown(path: &Path) -> String {
     path.to_string_lossy().chars().map(|c| if c.is_control() { '?' } else { c }).collect()
+}
+
+/// What takes the memory, with its verb.
+fn taker(num_gaussians: u64) -> String {
+    if num_gaussians == 0 { "its content takes".to_owned() } else { format!("{num_gaussians} Gaussians take") }
 }

@@ -3,6 +3,7 @@
 //! Enters: decoded values of any codec. Leaves: columns, the positions of dropped Gaussians and notes. Invariant: every
 //! value in the columns is finite and every rotation has unit length. A Gaussian with extreme but valid values is kept.
 
+use std::ops::Range;
 use std::path::Path;
 
 use glam::{DQuat, DVec3, Vec3};
@@ -75,7 +76,8 @@ impl Intake {
     /// An intake with memory for `count` Gaussians of a degree, 0..=3.
     ///
     /// # Errors
-    /// [`SceneError::OutOfMemory`] when the limits forbid that much memory, or the system has not that much.
+    /// [`SceneError::OutOfMemory`] when the limits forbid that much memory, [`SceneError::NoMemory`] when the system has not
+    /// that much.
     pub(super) fn new(source: &SourceFile, count: usize, sh_degree: u8) -> Result<Self, SceneError> {
         source.check_memory(count, sh_degree, 0)?;
         let mut out = Gaussians { sh_degree, ..Gaussians::default() };
@@ -88,7 +90,7 @@ impl Intake {
             .and_then(|()| out.sh_dc.try_reserve_exact(count))
             .and_then(|()| out.sh_rest.try_reserve_exact(num_rest));
         if reserved.is_err() {
-            return Err(source.out_of_memory(count, collected_bytes(count, sh_degree)));
+            return Err(source.no_memory(count, collected_bytes(count, sh_degree)));
         }
         Ok(Self { means, out, num_seen: 0, dropped: Vec::new(), num_by_reason: [0; DropReason::COUNT], num_clamped: 0 })
     }
@@ -115,6 +117,12 @@ impl Intake {
         }
     }
 
+    /// Counts a Gaussian that the reader of a file inside this one dropped. Its notes tell why.
+    pub(super) fn push_dropped(&mut self) {
+        self.dropped.push(self.num_seen);
+        self.num_seen += 1;
+    }
+
     /// The columns, with a local origin if the scene is far from the world's origin.
     ///
     /// # Errors
@@ -123,7 +131,11 @@ impl Intake {
         let drops = self.num_by_reason.iter().zip(DropReason::VARIANTS).filter(|(count, _)| **count > 0);
         let mut notes: Vec<String> = drops.map(|(count, reason)| format!("{count} dropped: {reason}")).collect();
         if self.means.is_empty() {
-            let reason = if notes.is_empty() { "the file holds none".to_owned() } else { notes.join("; ") };
+            let reason = match self.dropped.len() {
+                0 => "the file holds none".to_owned(),
+                _ if notes.is_empty() => "all are dropped in its files".to_owned(),
+                _ => notes.join("; "),
+            };
             return Err(SceneError::Empty { path: path.to_path_buf(), found: u64::from(self.num_seen), reason });
         }
         if self.num_clamped > 0 {
@@ -139,6 +151,23 @@ impl Intake {
         }
         self.out.means = self.means.iter().map(|mean| (*mean - self.out.origin).as_vec3()).collect();
         Ok(Collected { gaussians: self.out, dropped: self.dropped, notes })
+    }
+}
+
+impl Collected {
+    /// Number of Gaussians in the file, with those that were dropped.
+    pub(super) fn num_in_file(&self) -> usize {
+        self.gaussians.len() + self.dropped.len()
+    }
+
+    /// The Gaussians of a range of the file as indices into the columns; `None` for each that was dropped.
+    pub(super) fn in_file_order(&self, range: Range<usize>) -> impl Iterator<Item = Option<usize>> {
+        let mut num_dropped = self.dropped.partition_point(|idx| (*idx as usize) < range.start);
+        range.map(move |file_idx| {
+            let is_dropped = self.dropped.get(num_dropped).is_some_and(|idx| *idx as usize == file_idx);
+            num_dropped += usize::from(is_dropped);
+            (!is_dropped).then(|| file_idx - num_dropped)
+        })
     }
 }
 

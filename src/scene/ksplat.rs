@@ -83,6 +83,7 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         filter: None,
         up: None,
         up_prior: UpPrior::PlyFrame,
+        further_sha256: Vec::new(),
     })
 }
 

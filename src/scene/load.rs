@@ -37,7 +37,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`].
 pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, SceneError> {
-    let source = SourceFile { path, bytes, options };
+    let source = SourceFile { path, bytes, options, held_bytes: 0 };
     let decoded = match sniff::format_of(&source)? {
         SceneFormat::Ply => ply::read(&source)?,
         SceneFormat::Splat => splat::read(&source)?,
@@ -52,7 +52,7 @@ pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
     let (up, up_source) = choose_up(path, &decoded, options)?;
     Ok(Scene {
         path: path.to_path_buf(),
-        sha256: cinesplat_files::sha256_hex(bytes),
+        sha256: hash_of(bytes, &decoded.further_sha256),
         format: decoded.format,
         gaussians: decoded.collected.gaussians,
         dropped: decoded.collected.dropped,
@@ -61,6 +61,16 @@ pub fn load_bytes(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
         up_source,
         notes: decoded.collected.notes,
     })
+}
+
+/// SHA-256 of the file; of several files that of a list of theirs.
+fn hash_of(bytes: &[u8], further: &[String]) -> String {
+    let own = cinesplat_files::sha256_hex(bytes);
+    if further.is_empty() {
+        own
+    } else {
+        cinesplat_files::sha256_hex(format!("{own}\n{}", further.join("\n")).as_bytes())
+    }
 }
 
 /// World up and its source: the caller's, else the file's, else the estimate.

@@ -36,7 +36,8 @@ impl fmt::Display for UpSource {
 pub struct Scene {
     /// Path that the scene was read from; the requested name if it is generated.
     pub path: PathBuf,
-    /// SHA-256 of the file (of `meta.json` for an unbundled SOG), in lower-case hexadecimal; empty for a generated scene.
+    /// SHA-256 of the file, in lower-case hexadecimal; empty for a generated scene. Of a scene in several files it is that of
+    /// the list of their SHA-256, one a line.
     pub sha256: String,
     /// Name of the format, such as `spz v2`.
     pub format: String,

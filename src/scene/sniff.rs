@@ -3,7 +3,10 @@
 //! Enters: a file. Leaves: its format, or an error that names the known format without a reader. Only a `.splat`, which
 //! has no magic number, may be decided by its extension.
 
+use std::collections::BTreeMap;
+
 use cinesplat_files::json_excess;
+use serde::de::IgnoredAny;
 
 use super::error::SceneError;
 use super::source_file::SourceFile;
@@ -35,7 +38,7 @@ pub(super) enum SceneFormat {
 ///
 /// # Errors
 /// [`SceneError::NotReadYet`] for a known format without a reader, [`SceneError::UnknownFormat`] for any other content,
-/// [`SceneError::SplatSize`] for a `.splat` whose size is not a multiple of its record size.
+/// [`SceneError::Damaged`] for JSON beyond the limits, [`SceneError::SplatSize`] for a `.splat` whose size is not a multiple of its record size.
 pub(super) fn format_of(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes;
     let is_named_splat = source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("splat"));
@@ -90,18 +93,20 @@ fn starts_json(bytes: &[u8]) -> bool {
 
 fn json_format(source: &SourceFile) -> Result<SceneFormat, SceneError> {
     let bytes = source.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(source.bytes);
-    if json_excess(bytes, &source.options.limits).is_some_and(|_| !plausible_splat(bytes)) {
-        return Err(SceneError::UnknownFormat {
-            path: source.path.to_path_buf(),
-            found: "JSON with too many values".to_owned(),
-        });
-    }
     // Binary data may begin like JSON; one in 256 .splat files does.
-    let Ok(value) = serde_json::from_slice::<serde_json::Value>(bytes) else {
-        let splat = bytes.len().is_multiple_of(32) && plausible_splat(bytes);
-        return if splat { Ok(SceneFormat::Splat) } else { Err(unknown(source)) };
+    let is_splat = || source.bytes.len().is_multiple_of(32) && plausible_splat(source.bytes);
+    if let Some(reason) = json_excess(bytes, &source.options.limits) {
+        let excess = || SceneError::Damaged { path: source.path.to_path_buf(), byte: 0, reason };
+        return if is_splat() { Ok(SceneFormat::Splat) } else { Err(excess()) };
+    }
+    #[expect(
+        clippy::zero_sized_map_values,
+        reason = "serde reads JSON objects into maps; the values are of no interest"
+    )]
+    let Ok(keys) = serde_json::from_slice::<BTreeMap<String, IgnoredAny>>(bytes) else {
+        return if is_splat() { Ok(SceneFormat::Splat) } else { Err(unknown(source)) };
     };
-    let has = |key: &str| value.get(key).is_some();
+    let has = |key: &str| keys.contains_key(key);
     if has("lodLevels") || has("tree") && has("filenames") {
         Ok(SceneFormat::SogStreamed)
     } else if has("means") {

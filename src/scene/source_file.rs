@@ -17,6 +17,8 @@ pub(super) struct SourceFile<'a> {
     pub(super) bytes: &'a [u8],
     /// Limits of reading.
     pub(super) options: &'a LoadOptions,
+    /// Bytes of memory that the scene's other files take already.
+    pub(super) held_bytes: u64,
 }
 
 impl SourceFile<'_> {
@@ -32,24 +34,25 @@ impl SourceFile<'_> {
         Ok(found as usize)
     }
 
-    /// Checks, before anything is allocated, the memory for `count` Gaussians of a degree, the file, and `unpacked_bytes`.
+    /// Checks, before anything is allocated, the memory for `count` Gaussians of a degree, the scene's files, and
+    /// `unpacked_bytes`.
     ///
     /// # Errors
     /// [`SceneError::OutOfMemory`] when the limits forbid that much.
     pub(super) fn check_memory(&self, count: usize, sh_degree: u8, unpacked_bytes: u64) -> Result<(), SceneError> {
-        let held = (self.bytes.len() as u64).saturating_add(unpacked_bytes);
+        let held = (self.bytes.len() as u64).saturating_add(unpacked_bytes).saturating_add(self.held_bytes);
         let needed_bytes = collected_bytes(count, sh_degree).saturating_add(held);
         if needed_bytes > self.options.limits.memory_bytes {
-            Err(self.out_of_memory(count, needed_bytes))
+            let (path, limit_bytes) = (self.path.to_path_buf(), self.options.limits.memory_bytes);
+            Err(SceneError::OutOfMemory { path, found: count as u64, needed_bytes, limit_bytes })
         } else {
             Ok(())
         }
     }
 
-    /// The error for Gaussians that take too much memory.
-    pub(super) fn out_of_memory(&self, count: usize, needed_bytes: u64) -> SceneError {
-        let (path, limit_bytes) = (self.path.to_path_buf(), self.options.limits.memory_bytes);
-        SceneError::OutOfMemory { path, found: count as u64, needed_bytes, limit_bytes }
+    /// The error for memory that the limits allow and the system has not.
+    pub(super) fn no_memory(&self, count: usize, needed_bytes: u64) -> SceneError {
+        SceneError::NoMemory { path: self.path.to_path_buf(), found: count as u64, needed_bytes }
     }
 }
 

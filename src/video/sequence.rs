@@ -1,8 +1,8 @@
 use std::fs;
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use cinesplat_files::{Existing, FileError, create_folder, folder_of};
+use cinesplat_files::{Existing, FileError, create_folder};
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 
 use super::{FramePattern, VideoError, VideoSettings};
@@ -44,21 +44,21 @@ impl SequenceWriter {
     }
 }
 
-/// Removes the pictures of a sequence from number `first` on, which a longer film left. Returns how many there were.
+/// Removes the pictures of a sequence from number `first` up to the first gap, which a longer film left. Returns how many
+/// there were. Pictures behind a gap may be those of another film.
 ///
 /// # Errors
 /// [`VideoError::File`] with the system's reason.
 pub fn remove_frames_from(pattern: &FramePattern, first: usize) -> Result<usize, VideoError> {
-    let folder = folder_of(&pattern.path(first)).to_owned();
-    let entries = fs::read_dir(&folder).map_err(|source| FileError::Read { path: folder, source })?;
-    let is_older = |name: &str| pattern.number_of(name).is_some_and(|number| number >= first);
-    let older = entries.flatten().filter(|entry| entry.file_name().to_str().is_some_and(is_older));
-    let mut num_removed = 0;
-    for path in older.map(|entry| entry.path()) {
-        fs::remove_file(&path).map_err(|source| FileError::Write { path, source })?;
-        num_removed += 1;
+    for number in first.. {
+        let path = pattern.path(number);
+        match fs::remove_file(&path) {
+            Ok(()) => {}
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(number - first),
+            Err(source) => return Err(FileError::Write { path, source }.into()),
+        }
     }
-    Ok(num_removed)
+    Ok(0)
 }
 
 /// Writes one 8-bit RGB picture of `[width, height]` pixels as PNG. The file is complete or absent.

@@ -1,7 +1,7 @@
 //! Formats that are only read: files written here from known poses by the definition of each format.
 
 use cinesplat::evaluation::{EvalSettings, Trajectory, evaluate};
-use cinesplat::export::{Format, ImportSettings, Imported, ReadSettings, cameras_json, read, read_with};
+use cinesplat::export::{Format, ImportSettings, Imported, PoseFrame, ReadSettings, cameras_json, read, read_with};
 use cinesplat::geometry::{Pose, rotation};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
@@ -178,6 +178,44 @@ fn a_lost_pose_does_not_shift_the_later_frames_of_7scenes() {
     assert_eq!(positions, (0..12).map(f64::from).collect::<Vec<_>>());
     let found = evaluate(&Trajectory::from(&whole), &Trajectory::from(&gap), &EvalSettings::default()).unwrap();
     assert_eq!((found.errors.len(), found.statistics.max), (11, 0.0));
+    // Numbers are no times: a path with stamps is matched by index.
+    let stamps = (0..12).map(|idx| 1000.0 + f64::from(idx)).collect();
+    let stamped = Trajectory { times_secs: Some(stamps), frame_numbers: None, ..Trajectory::from(&whole) };
+    let found = evaluate(&stamped, &Trajectory::from(&whole), &EvalSettings::default()).unwrap();
+    assert_eq!((found.errors.len(), found.statistics.max), (12, 0.0));
+    assert!(found.notes.iter().any(|line| line.contains("by index")), "{:?}", found.notes);
+}
+
+#[test]
+fn sequences_of_7scenes_in_one_folder_follow_each_other() {
+    let read_names = |names: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        for (idx, name) in names.iter().enumerate() {
+            let matrix = Pose::new(DVec3::new(idx as f64, 0.0, 0.0), DQuat::IDENTITY).world_from_camera();
+            let text: String = rows(matrix).chunks(4).map(|row| joined(row, " ") + "\n").collect();
+            std::fs::write(folder.path().join(format!("{name}.pose.txt")), text).unwrap();
+        }
+        let track = read(folder.path(), None).unwrap().track;
+        let found = |frame: &PoseFrame| (frame.pose.position.x, (30.0 * frame.time_secs).round());
+        track.frames.iter().map(found).collect::<Vec<_>>()
+    };
+    let counted = vec![(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0)];
+    let sequences = ["seq-01-frame-000004", "seq-01-frame-000010", "seq-02-frame-000000", "seq-02-frame-000005"];
+    assert_eq!(read_names(&sequences), counted);
+    // Decimals of a stamp are no numbers of frames.
+    assert_eq!(read_names(&["9.25", "9.5", "10.125", "10.75"]), counted);
+    assert_eq!(read_names(&["frame.7", "frame.10"]), vec![(0.0, 7.0), (1.0, 10.0)]);
+}
+
+#[test]
+fn a_fault_in_a_folder_of_7scenes_names_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("frame-000007.pose.txt"), "1 0 0\n").unwrap();
+    let error = read(folder.path(), None).unwrap_err();
+    assert_eq!(
+        (error.code(), error.to_string().starts_with("frame-000007.pose.txt: line 1: ")),
+        ("EXCHANGE-LINE", true)
+    );
 }
 
 #[test]

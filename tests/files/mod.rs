@@ -192,7 +192,7 @@ fn a_name_that_ends_in_a_slash_is_a_folder() {
 
 #[test]
 fn json_beyond_the_limits_is_found_before_it_is_parsed() {
-    let limits = Limits { json_depth: 4, json_bytes: 10_000, ..Limits::DEFAULT };
+    let limits = Limits { json_depth: 4, json_bytes: 10_000, scene_bytes: 30_000, ..Limits::DEFAULT };
     let excess = |text: &str| json_excess(text.as_bytes(), &limits);
     assert_eq!(excess(r#"{"a": [1, 2, {"b": "]]]]]][[[[[[{{{{{{"}]}"#), None);
     assert_eq!(excess("[[[[1]]]]"), None);
@@ -203,7 +203,9 @@ fn json_beyond_the_limits_is_found_before_it_is_parsed() {
     let many = format!("[{}1]", "1,".repeat(400));
     assert!(excess(&many).unwrap().contains("over 10000 bytes of memory"));
     assert!(excess(&format!("[{}]", vec!["{}"; 20].join(","))).is_some());
-    assert!(excess(&format!("\"{}\"", "x".repeat(11_000))).is_some());
+    // Embedded data is no larger in memory than in the file.
+    assert_eq!(excess(&format!("\"{}\"", "x".repeat(11_000))), None);
+    assert_eq!(excess(&format!("\"{}\"", "x".repeat(31_000))).unwrap(), "texts of 31001 bytes, expected at most 30000");
     // Text that is no JSON is no reason to panic.
     for text in ["", "]]]]", "\"", "\"\\", "{\"a", "\u{feff}["] {
         assert_eq!(excess(text), None, "{text:?}");

@@ -32,6 +32,42 @@ fn pictures_of_a_sog_that_unpack_to_far_more_than_their_size_are_refused() {
     assert!(error.to_string().contains("2400 x 2400 texels in"), "{error}");
 }
 
+/// A scan may have one scale or one rotation: that plane takes a few bytes, and the positions many.
+#[test]
+fn a_plane_of_one_value_is_no_bomb_beside_full_planes() {
+    let mut files = sog::files();
+    let side = 64;
+    let encoded = |picture: RgbaImage| {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, ImageFormat::WebP).unwrap();
+        bytes.into_inner()
+    };
+    let hash = |x: u32, y: u32| {
+        let mixed = (x * 64 + y + 1).wrapping_mul(2_654_435_761);
+        let mixed = (mixed ^ (mixed >> 15)).wrapping_mul(2_246_822_519);
+        (mixed ^ (mixed >> 13)).wrapping_mul(3_266_489_917)
+    };
+    let full = encoded(RgbaImage::from_fn(side, side, |x, y| image::Rgba(hash(x, y).to_le_bytes())));
+    let flat = encoded(RgbaImage::new(side, side));
+    for (name, bytes) in &mut files {
+        match name.as_str() {
+            "meta.json" => {
+                let text = String::from_utf8(bytes.clone()).unwrap();
+                *bytes = text.replacen("\"count\":2", "\"count\":4096", 1).into_bytes();
+            }
+            "n.webp" => {}
+            "l.webp" => bytes.clone_from(&full),
+            _ => bytes.clone_from(&flat),
+        }
+    }
+    let limits = Limits { unpacked_bytes: 4096, ratio: 10, ..Limits::DEFAULT };
+    assert!(limits.unpacked(flat.len()) < 4 * 4096, "{}", flat.len());
+    assert!(full.len() > 10_000, "{}", full.len());
+    let options = LoadOptions { limits, up: None };
+    let scene = load_bytes(Path::new("a.sog"), &sog::bundle(&files), &options).unwrap();
+    assert_eq!(scene.gaussians.len(), 4096);
+}
+
 /// Zeros compress a thousandfold: 80 kilobytes used to take 1.5 gigabytes.
 #[test]
 fn an_spz_of_zeros_is_refused_beyond_what_any_small_file_may_unpack_to() {
@@ -57,9 +93,9 @@ fn only_the_first_buffer_of_a_gltf_may_lack_an_address() {
 fn json_with_too_many_values_is_refused_before_it_is_parsed() {
     // Each of these objects of seven bytes takes hundreds of bytes once it is parsed.
     let text = format!(r#"{{"asset":{{}},"nodes":[{}{{}}]}}"#, r#"{"":0},"#.repeat(2_000_000));
-    assert_eq!(code("a.gltf", text.as_bytes()), "SCENE-FORMAT");
+    assert_eq!(code("a.gltf", text.as_bytes()), "SCENE-DAMAGED");
     let deep = format!("{{\"asset\":{}1{}}}", "[".repeat(200_000), "]".repeat(200_000));
-    assert_eq!(code("a.gltf", deep.as_bytes()), "SCENE-FORMAT");
+    assert_eq!(code("a.gltf", deep.as_bytes()), "SCENE-DAMAGED");
 }
 
 #[test]

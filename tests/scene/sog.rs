@@ -129,10 +129,42 @@ fn a_streamed_sog_is_read_at_its_finest_level_that_is_whole() {
     assert!(coarse.notes.iter().any(|line| line == note), "{:?}", coarse.notes);
     write("0_0");
     let fine = load(&meta, &LoadOptions::default()).unwrap();
+    // Which level is read depends on the files, and so does the hash.
+    assert_ne!(fine.sha256, coarse.sha256);
     assert_eq!((fine.gaussians, fine.format.as_str()), (own.subset(&[1, 0]), "sog (streamed, level 0 of 2)"));
     // The environment is around every level.
     std::fs::write(&meta, TREE.replace("null", r#""1_0/meta.json""#)).unwrap();
     assert_eq!(load(&meta, &LoadOptions::default()).unwrap().gaussians, own.subset(&[1, 0, 0, 1]));
+}
+
+#[test]
+fn gaussians_that_a_level_drops_keep_their_numbers_and_a_file_listed_twice_is_read_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut all = files();
+    let mut own: serde_json::Value = serde_json::from_slice(&all[0].1).unwrap();
+    // The first Gaussian has byte 255, which the codebook then lacks.
+    own["sh0"]["codebook"].as_array_mut().unwrap().pop();
+    all[0].1 = own.to_string().into_bytes();
+    write_folder(folder.path(), &all);
+    let meta = folder.path().join("lod-meta.json");
+    let twice =
+        TREE.replace("0_0/", "").replace("1_0/", "").replace(r#""file":0,"offset":0"#, r#""file":1,"offset":0"#);
+    std::fs::write(&meta, twice).unwrap();
+    let scene = load(&meta, &LoadOptions::default()).unwrap();
+    assert_eq!((scene.gaussians.len(), scene.dropped.as_slice(), scene.num_in_file()), (1, &[1][..], 2));
+    assert_eq!(scene.notes, ["meta.json: 1 dropped: color is not finite"]);
+}
+
+#[test]
+fn the_hash_of_an_unbundled_sog_covers_its_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut all = files();
+    let mut hash = || {
+        write_folder(folder.path(), &all);
+        all[3].1 = webp(2, 1, &[192, 128, 1, 255, 192, 192, 192, 255]);
+        load(folder.path(), &LoadOptions::default()).unwrap().sha256
+    };
+    assert_ne!(hash(), hash());
 }
 
 #[test]
@@ -151,7 +183,7 @@ fn a_streamed_sog_with_a_bad_tree_is_refused() {
     assert_eq!(code(&here.replace("\"count\":1", "\"count\":99999999999")), "SCENE-COUNT-CAP");
     assert_eq!(code(r#"{"lodLevels":1,"filenames":["meta.json"],"tree":{}}"#), "SCENE-DAMAGED");
     let deep = (0..99).fold("{}".to_owned(), |inner, _| format!(r#"{{"children":[{inner}]}}"#));
-    assert_eq!(code(&format!(r#"{{"lodLevels":1,"filenames":[],"tree":{deep}}}"#)), "SCENE-FORMAT");
+    assert_eq!(code(&format!(r#"{{"lodLevels":1,"filenames":[],"tree":{deep}}}"#)), "SCENE-DAMAGED");
     for (name, bytes) in [
         ("a.glb", &b"glTF\x02\0\0\0"[..]),
         ("a.gltf", br#"{"asset":{"version":"2.0"}}"#),

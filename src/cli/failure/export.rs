@@ -17,6 +17,7 @@ impl From<ExportError> for Failure {
             E::BadField { place, expected, .. } => (Exit::BadData, format!("set {place} to {expected}")),
             E::BadLine { line, .. } => (Exit::BadData, format!("correct or remove line {line}")),
             E::BadBytes { .. } => (Exit::BadData, "the file may be cut off: copy it again".to_owned()),
+            E::InFile { name, error } => return Self::from(*error).in_file(name.as_ref()),
             E::BadShot(TrajectoryError::TooManyKeyframes { .. }) => {
                 (Exit::BadData, "leave out keys: the path between them is smooth".to_owned())
             }

@@ -22,7 +22,7 @@ impl From<SceneError> for Failure {
             E::TooManyGaussians { .. } => {
                 (Exit::OverCap, "raise the cap with --max-gaussians, or thin the scene out in an editor")
             }
-            E::OutOfMemory { .. } => (Exit::OverCap, MORE_MEMORY),
+            E::OutOfMemory { .. } | E::NoMemory { .. } => (Exit::OverCap, MORE_MEMORY),
             E::UnknownFormat { .. } => {
                 (Exit::BadData, "export the scene again as one of these; the content decides, not the extension")
             }

@@ -78,7 +78,9 @@ impl Args {
             console::data(&format!("{summary:#}\n"))?;
         }
         let mut decided = deciding(shot).to_vec();
-        let is_even = report.qualities.iter().all(|(_, quality)| *quality == predicted.quality);
+        let is_even = report.num_kept == 0
+            && !report.qualities.is_empty()
+            && report.qualities.iter().all(|(_, quality)| *quality == predicted.quality);
         if self.budget.is_some() && is_even {
             // The same budget may choose another quality on another machine. A least PSNR chooses the same one.
             decided.push(("--quality", predicted.quality.as_ref().to_owned()));
@@ -122,6 +124,10 @@ impl Args {
         } else {
             let promised = pipeline::promised(renderer, shot, &self.output, settings, requirements)?;
             console::warnings(&promised.doubt);
+            let called = pipeline::called_effects(shot, &settings.effects, 1.0).effects;
+            if self.min_psnr.is_some() && called.iter().any(|called| called.effect.develops()) {
+                console::note("--min-psnr is that of the picture before its effects; they get at least `final`");
+            }
             settings.promise = Some(promised.promise);
             match self.kept_quality() {
                 // Frames of an earlier run began with another quality, and go on with it.

@@ -61,6 +61,11 @@ impl<'a> Filmed<'a> {
         EffectPlan::moved(&self.called, path_camera(&self.path, self.shot, time_secs), time_secs)
     }
 
+    /// Whether an effect changes pictures.
+    pub(in crate::pipeline) fn develops(&self) -> bool {
+        self.called.iter().any(|called| called.effect.develops())
+    }
+
     /// Calls `work` with the source of the shot's cameras.
     fn with_take<T>(&self, work: impl FnOnce(Take<'_>) -> T) -> T {
         let camera_at = |time_secs: f64| self.camera_at(time_secs);

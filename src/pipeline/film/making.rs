@@ -1,4 +1,4 @@
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::mem;
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,6 +12,7 @@ use super::watch::QualityWatch;
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Keeper, Kept, Picture};
 use crate::pipeline::panic_point::panic_point;
+use crate::pipeline::promise::rank;
 use cinesplat_geometry::Camera;
 use cinesplat_lens::EffectPlan;
 use cinesplat_render::{Quality, RenderSettings, Renderer, Rgb8Frame};
@@ -40,6 +41,8 @@ pub(super) struct FrameMaker<'a> {
     /// Decides the quality of every frame; `None` = that of the settings.
     watch: Option<QualityWatch<'a>>,
     qualities: Vec<(usize, Quality)>,
+    /// Plans of the effects at other qualities than that of the settings, from their first frame on, by rank.
+    plans: BTreeMap<u8, EffectPlan>,
 }
 
 /// A finished frame.
@@ -75,6 +78,7 @@ impl<'a> FrameMaker<'a> {
             keep_time: Duration::ZERO,
             watch: None,
             qualities: Vec::new(),
+            plans: BTreeMap::new(),
         }
     }
 
@@ -102,8 +106,10 @@ impl<'a> FrameMaker<'a> {
             return Ok(made);
         }
         // The same camera gives the same picture, unless an effect changes it with time or begins or ends here.
-        let is_new = |idx: usize| self.effects.changes_with_time(idx);
-        let may_repeat = |last: usize| !is_new(frame_idx) && self.effects.has_same_layers(last, frame_idx);
+        let last_quality = self.qualities.last().map_or(self.settings.quality, |(_, quality)| *quality);
+        let effects = self.plans.get(&rank(last_quality)).unwrap_or(self.effects);
+        let may_repeat =
+            |last: usize| !effects.changes_with_time(frame_idx) && effects.has_same_layers(last, frame_idx);
         let is_same = |(last, _, seen): &(usize, _, Camera)| *seen == camera && may_repeat(*last);
         let repeated = self.last.take().filter(is_same).map(|(_, picture, _)| picture);
         let is_repeated = repeated.is_some();
@@ -145,25 +151,33 @@ impl<'a> FrameMaker<'a> {
         self.qualities.push((frame_idx, quality));
         let start = Instant::now();
         let (renderer, settings) = (self.renderer, &RenderSettings { quality, ..*self.settings });
+        if let Some(watch) = self.watch.as_ref().filter(|_| quality != self.settings.quality)
+            && !self.effects.effects.is_empty()
+            && !self.plans.contains_key(&rank(quality))
+        {
+            let plan = self.filmed.plan(watch.rest_from(frame_idx), (renderer, settings))?;
+            self.plans.insert(rank(quality), plan);
+        }
+        let effects = self.plans.get(&rank(quality)).unwrap_or(self.effects);
         let picture = match self.form {
             Form::Planes => {
-                self.filmed.render_rgb8(self.effects, frame_idx, (renderer, settings), &mut frame)?;
+                self.filmed.render_rgb8(effects, frame_idx, (renderer, settings), &mut frame)?;
                 let planes = planes_from_rgb8(&frame.rgb8, frame.width as usize, frame.height as usize);
                 self.rendered = frame;
                 Picture::Planes(planes)
             }
             Form::Rgb8 => {
-                self.filmed.render_rgb8(self.effects, frame_idx, (renderer, settings), &mut frame)?;
+                self.filmed.render_rgb8(effects, frame_idx, (renderer, settings), &mut frame)?;
                 Picture::Rgb8(frame)
             }
             Form::AlphaPlanes => {
-                let developed = self.filmed.expose(self.effects, frame_idx, (renderer, settings))?;
+                let developed = self.filmed.expose(effects, frame_idx, (renderer, settings))?;
                 let size = [developed.frame().width, developed.frame().height].map(|len| len as usize);
                 Picture::AlphaPlanes(AlphaPlanes::new(&developed.to_rgba(), size[0], size[1]))
             }
             Form::Alpha | Form::Exr => {
-                let developed = self.filmed.expose(self.effects, frame_idx, (renderer, settings))?;
-                let bytes = self.form.file_of(&developed, self.effects.is_transparent())?;
+                let developed = self.filmed.expose(effects, frame_idx, (renderer, settings))?;
+                let bytes = self.form.file_of(&developed, effects.is_transparent())?;
                 developed.into_rgb8(&mut frame);
                 Picture::File(bytes, frame)
             }

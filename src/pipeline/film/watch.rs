@@ -64,6 +64,11 @@ impl<'a> QualityWatch<'a> {
         }
     }
 
+    /// The frames from one on.
+    pub(super) fn rest_from(&self, frame_idx: usize) -> Range<usize> {
+        frame_idx..self.frames.end
+    }
+
     /// The quality of a frame. Frames are asked for in order.
     pub(super) fn quality_of(&mut self, frame_idx: usize) -> Result<Quality, RenderError> {
         if let Some(deadline) = self.promise.deadline {
@@ -94,7 +99,9 @@ impl<'a> QualityWatch<'a> {
         if let Some(from) = beside[0] {
             self.differences.retain(|(check, _), _| *check >= from);
         }
-        let allowed = rank(self.allowed);
+        // Checks compare plain pictures: how close effects come to those of `reference` is not known.
+        let floor = if self.filmed.develops() { Quality::Final } else { Quality::Draft };
+        let allowed = rank(self.allowed).max(rank(floor));
         for quality in Quality::VARIANTS.iter().copied().filter(|quality| rank(*quality) >= allowed) {
             let needed_db = least_db + margin_db(quality);
             let is_sufficient = match quality {

@@ -323,6 +323,11 @@ impl Encoding {
     /// Bytes of the frames between renderer and encoder, and inside the encoder.
     fn held_bytes(&self) -> u64 {
         let frame_bytes = self.video.frame_bytes();
+        if self.video.has_alpha {
+            // Four planes of 16 bits; the frame that is being made has four floats per pixel besides.
+            let num_pixels = frame_bytes / 3;
+            return (num_pixels * (8 * (film::QUEUE_FRAMES + 2 + self.num_ahead + HELD_FRAMES) + 16)) as u64;
+        }
         // One frame is being rendered, one encoded; the others wait.
         let between = frame_bytes * (film::QUEUE_FRAMES + 2);
         let inside = frame_bytes / 3 * HELD_BYTES * (self.num_ahead + HELD_FRAMES);

@@ -43,6 +43,10 @@ pub fn promised(
         let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
         let cameras = filmed.moving_cameras(settings.frames.of_film(shot.num_frames())?);
         sample_worst(renderer, &cameras, &settings.render, &mut forecasts)?;
+        if filmed.develops() {
+            // Plain pictures are compared: how close effects of less than `final` come to those of `reference` is not known.
+            forecasts.retain(|forecast| forecast.quality == Quality::Final);
+        }
     }
     if requirements.may_need_reference(&forecasts) {
         forecasts.extend(at(&[Quality::Reference])?);

@@ -16,7 +16,7 @@ use crate::decoded::DecodedScene;
 use crate::error::SceneError;
 use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian};
-use crate::source_file::{SourceFile, read_file};
+use crate::source_file::{SourceFile, collected_bytes, read_file};
 use crate::up::UpPrior;
 use accessor::Numbers;
 use cinesplat_files::{base64, json_excess};
@@ -40,6 +40,9 @@ struct Primitive {
     placed: Placed,
 }
 
+/// The buffers of a file, and the SHA-256 of those in files of their own.
+type Buffers<'a> = (Vec<Cow<'a, [u8]>>, Vec<String>);
+
 /// Gaussians of a glTF file.
 ///
 /// # Errors
@@ -48,8 +51,10 @@ struct Primitive {
 pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let (text, binary) = chunks(source)?;
     json_excess(text, &source.options.limits).map_or(Ok(()), |excess| Err(damaged(source, excess)))?;
+    // The letters of embedded data are in memory twice.
+    source.check_memory(0, 0, text.len() as u64)?;
     let json: Value = serde_json::from_slice(text).map_err(|error| damaged(source, format!("not JSON: {error}")))?;
-    let buffers = buffers(source, &json, binary)?;
+    let (buffers, further_sha256) = buffers(source, &json, binary)?;
     let (mut primitives, mut packed, mut total) = (Vec::new(), Vec::new(), 0);
     for placed in nodes::placed_meshes(&json) {
         let mesh = json.pointer(&format!("/meshes/{}/primitives", placed.mesh)).and_then(Value::as_array);
@@ -57,6 +62,7 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
             if let Some(extension) = primitive.pointer(&format!("/extensions/{EXTENSION}")) {
                 let inner = extension.get("extensions");
                 if let Some(view) = inner.and_then(packed::view_of) {
+                    let source = &SourceFile { held_bytes: collected_bytes(total as usize, 3), ..*source };
                     let read = Packed::read(source, (&json, &buffers), view, placed.clone())?;
                     total += read.len() as u64;
                     source.check_count(total)?;
@@ -93,6 +99,9 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     for primitive in &packed {
         collected.notes.extend(primitive.decoded.collected.notes.iter().map(|note| format!("SPZ: {note}")));
     }
+    if !packed.is_empty() {
+        collected.notes.push(packed::AXES_NOTE.to_owned());
+    }
     if is_log {
         collected.notes.push("scales below 0: read as logarithms, as in drafts of the extension".to_owned());
     }
@@ -107,7 +116,7 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let format = format!("gltf ({num_primitives} primitives{spz})");
     let filter = packed.first().and_then(|primitive| primitive.decoded.filter);
     let up = Some((DVec3::Y, "glTF has +y up".to_owned()));
-    Ok(DecodedScene { format, collected, filter, up, up_prior: UpPrior::PlyFrame })
+    Ok(DecodedScene { format, collected, filter, up, up_prior: UpPrior::PlyFrame, further_sha256 })
 }
 
 fn damaged(source: &SourceFile, reason: impl Into<String>) -> SceneError {
@@ -137,21 +146,25 @@ fn chunks<'a>(source: &SourceFile<'a>) -> Result<(&'a [u8], Option<&'a [u8]>), S
 }
 
 /// The buffers in order. The binary chunk is the first one, if that has no address; another one without an address holds
-/// nothing.
-fn buffers<'a>(source: &SourceFile, json: &Value, binary: Option<&'a [u8]>) -> Result<Vec<Cow<'a, [u8]>>, SceneError> {
+/// nothing. With them the SHA-256 of those in files of their own.
+fn buffers<'a>(source: &SourceFile, json: &Value, binary: Option<&'a [u8]>) -> Result<Buffers<'a>, SceneError> {
     let list = json.get("buffers").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
-    let (mut found, mut num_bytes) = (Vec::new(), 0);
+    let (mut found, mut further_sha256, mut num_bytes) = (Vec::new(), Vec::new(), 0);
     for (idx, buffer) in list.iter().enumerate() {
-        let content = match buffer.get("uri").and_then(Value::as_str) {
+        let uri = buffer.get("uri").and_then(Value::as_str);
+        let content = match uri {
             Some(uri) => Cow::Owned(buffer_at(source, uri)?),
             None => Cow::Borrowed(binary.filter(|_| idx == 0).unwrap_or_default()),
         };
         num_bytes += content.len() as u64;
         // Many buffers may name one file.
         source.check_memory(0, 0, num_bytes)?;
+        if uri.is_some_and(|uri| !uri.starts_with("data:")) {
+            further_sha256.push(cinesplat_files::sha256_hex(&content));
+        }
         found.push(content);
     }
-    Ok(found)
+    Ok((found, further_sha256))
 }
 
 /// The buffer at an address: data in the address itself, or a file beside this one.

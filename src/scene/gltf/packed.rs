@@ -1,7 +1,7 @@
-//! Primitives compressed as SPZ (`KHR_gaussian_splatting_compression_spz_2`). The extension stores them in the axes left, up,
-//! front: those of an SPZ, which are right, up, back, turned by half a turn about +y.
+//! Primitives compressed as SPZ (`KHR_gaussian_splatting_compression_spz_2`). The numbers of the SPZ are coordinates of the
+//! glTF's node, as in `CesiumJS` and in the files made for it. Drafts of the extension turn them by half a turn about +y.
 
-use glam::{DQuat, Vec3};
+use glam::Vec3;
 use std::borrow::Cow;
 
 use serde_json::Value;
@@ -16,10 +16,8 @@ use crate::spz;
 
 /// Start of the names of the extension; drafts had other endings.
 const EXTENSION: &str = "KHR_gaussian_splatting_compression_spz";
-/// Half a turn about +y.
-const HALF_TURN_Y: DQuat = DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0);
-/// Signs of the coefficients above degree 0 after half a turn about +y: those odd in x and z together change.
-const HALF_TURN_SIGNS: [f32; 15] = [1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0];
+/// What is assumed of the axes.
+pub(super) const AXES_NOTE: &str = "SPZ: its coordinates are taken as those of the glTF, as in CesiumJS; drafts of the extension turn them by 180 degrees about y";
 
 /// Gaussians of a compressed primitive.
 pub(super) struct Packed {
@@ -63,8 +61,9 @@ impl Packed {
         &self.decoded.collected.gaussians
     }
 
+    /// Number of Gaussians in the SPZ, with those that were dropped.
     pub(super) fn len(&self) -> usize {
-        self.gaussians().len()
+        self.decoded.collected.num_in_file()
     }
 
     /// Degree in the file, and the degree that is drawn: 0 under a rotated node.
@@ -78,10 +77,13 @@ impl Packed {
         let gaussians = self.gaussians();
         let mut rest = vec![Vec3::ZERO; NUM_SH_REST[usize::from(degree)]];
         let own = NUM_SH_REST[usize::from(self.degrees()[1])];
-        let turn = self.placed.rotation * HALF_TURN_Y;
-        for idx in 0..gaussians.len() {
-            let signed = gaussians.sh_rest_of(idx).iter().zip(HALF_TURN_SIGNS).map(|(value, sign)| *value * sign);
-            rest.iter_mut().zip(signed).take(own).for_each(|(to, value)| *to = value);
+        let turn = self.placed.rotation;
+        for kept in self.decoded.collected.in_file_order(0..self.len()) {
+            let Some(idx) = kept else {
+                intake.push_dropped();
+                continue;
+            };
+            rest.iter_mut().zip(gaussians.sh_rest_of(idx)).take(own).for_each(|(to, value)| *to = *value);
             let turned = turn * gaussians.rotations[idx].as_dquat();
             let raw = RawGaussian {
                 mean: self.placed.position + turn * (gaussians.mean_world(idx) * self.placed.scale),

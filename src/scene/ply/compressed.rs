@@ -113,6 +113,7 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
         filter: comments::filter(&header.comments),
         up: comments::up(&header.comments),
         up_prior: UpPrior::PlyFrame,
+        further_sha256: Vec::new(),
     })
 }
 

@@ -87,6 +87,7 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
         filter,
         up: comments::up(&header.comments),
         up_prior: UpPrior::PlyFrame,
+        further_sha256: Vec::new(),
     })
 }
 

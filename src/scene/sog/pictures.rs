@@ -1,5 +1,5 @@
 use std::io::{Cursor, Read};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use image::{ImageReader, Limits};
 use zip::ZipArchive;
@@ -14,8 +14,17 @@ const MAX_META_BYTES: u64 = 4 << 20;
 /// rows may be padded.
 const EXTRA_AREA: u64 = 1 << 20;
 
-/// Location of the pictures of a SOG.
-pub(super) enum PictureFiles<'a> {
+/// The pictures of a SOG.
+pub(super) struct PictureFiles<'a> {
+    place: Place<'a>,
+    /// Bytes of the pictures read so far, and bytes that they unpack to.
+    packed: usize,
+    unpacked: u64,
+    /// SHA-256 of each file read from a folder.
+    sha256: Vec<String>,
+}
+
+enum Place<'a> {
     /// A zip archive.
     Zip(Box<ZipArchive<Cursor<&'a [u8]>>>),
     /// A folder.
@@ -40,8 +49,22 @@ impl<'a> PictureFiles<'a> {
     pub(super) fn in_zip(source: &SourceFile<'a>) -> Result<Self, SceneError> {
         let archive = ZipArchive::new(Cursor::new(source.bytes));
         archive
-            .map(|archive| Self::Zip(Box::new(archive)))
+            .map(|archive| Self::at(Place::Zip(Box::new(archive))))
             .map_err(|fault| picture_fault(source, "zip directory", fault.to_string()))
+    }
+
+    /// The pictures in a folder.
+    pub(super) fn in_folder(folder: &Path) -> Self {
+        Self::at(Place::Folder(folder.to_path_buf()))
+    }
+
+    fn at(place: Place<'a>) -> Self {
+        Self { place, packed: 0, unpacked: 0, sha256: Vec::new() }
+    }
+
+    /// SHA-256 of each file read from a folder, in the order of reading; none for a bundle.
+    pub(super) fn into_sha256(self) -> Vec<String> {
+        self.sha256
     }
 
     /// Content of `meta.json`, which may be in a folder inside the bundle.
@@ -67,8 +90,12 @@ impl<'a> PictureFiles<'a> {
         if area < least as u64 || area > most {
             return Err(fault(format!("{width} x {height} texels, expected {least} to {most}")));
         }
-        let (unpacked, cap) = (4 * area, source.options.limits.unpacked(bytes.len()));
-        if unpacked > cap {
+        let unpacked = 4 * area;
+        self.packed += bytes.len();
+        self.unpacked += unpacked;
+        let cap = source.options.limits.unpacked(bytes.len());
+        // A plane of one value takes few bytes; the positions, which are read first, take many.
+        if unpacked > cap && self.unpacked > source.options.limits.unpacked(self.packed) {
             return Err(fault(format!(
                 "{width} x {height} texels in {} bytes, expected at most {}",
                 bytes.len(),
@@ -88,9 +115,13 @@ impl<'a> PictureFiles<'a> {
 
     /// Content of a file of at most `cap` bytes.
     fn bytes(&mut self, source: &SourceFile, name: &str, cap: u64) -> Result<Vec<u8>, SceneError> {
-        match self {
-            Self::Folder(folder) => read_file(&folder.join(name), cap),
-            Self::Zip(archive) => zip_bytes(source, archive, name, cap),
+        match &mut self.place {
+            Place::Folder(folder) => {
+                let bytes = read_file(&folder.join(name), cap)?;
+                self.sha256.push(cinesplat_files::sha256_hex(&bytes));
+                Ok(bytes)
+            }
+            Place::Zip(archive) => zip_bytes(source, archive, name, cap),
         }
     }
 }

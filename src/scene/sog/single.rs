@@ -17,7 +17,7 @@ use crate::up::UpPrior;
 pub(crate) fn read_bundle(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let mut files = PictureFiles::in_zip(source)?;
     let meta = Meta::parse(source, &files.meta(source)?)?;
-    read(source, &meta, &mut files, "bundled")
+    read(source, &meta, files, "bundled")
 }
 
 /// Gaussians of a folder; the source is its `meta.json`.
@@ -27,17 +27,17 @@ pub(crate) fn read_bundle(source: &SourceFile) -> Result<DecodedScene, SceneErro
 pub(crate) fn read_unbundled(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let meta = Meta::parse(source, source.bytes)?;
     let folder = source.path.parent().unwrap_or(Path::new(""));
-    read(source, &meta, &mut PictureFiles::Folder(folder.to_path_buf()), "unbundled")
+    read(source, &meta, PictureFiles::in_folder(folder), "unbundled")
 }
 
 fn read(
     source: &SourceFile,
     meta: &Meta,
-    files: &mut PictureFiles,
+    mut files: PictureFiles,
     container: &str,
 ) -> Result<DecodedScene, SceneError> {
     let count = source.check_count(meta.count)?;
-    let mut collected = decode(source, meta, files, count)?;
+    let mut collected = decode(source, meta, &mut files, count)?;
     collected.notes.extend(meta.notes.iter().cloned());
     Ok(DecodedScene {
         format: format!("sog v{} ({container})", meta.version),
@@ -45,5 +45,6 @@ fn read(
         filter: meta.filter,
         up: None,
         up_prior: UpPrior::PlyFrame,
+        further_sha256: files.into_sha256(),
     })
 }

@@ -4,15 +4,16 @@
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
+use cinesplat_files::json_excess;
 use glam::Vec3;
 use serde_json::Value;
 
 use super::single::{read_bundle, read_unbundled};
 use crate::decoded::DecodedScene;
-use crate::error::SceneError;
+use crate::error::{SceneError, shown};
 use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian};
-use crate::source_file::{SourceFile, read_file};
+use crate::source_file::{SourceFile, collected_bytes, read_file};
 use crate::up::UpPrior;
 
 /// Deepest tree.
@@ -34,6 +35,7 @@ struct Piece {
 /// [`SceneError::Damaged`] for a bad tree, [`SceneError::NotFound`] if no level is whole, and the errors of SOG.
 pub(crate) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let bytes = source.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(source.bytes);
+    json_excess(bytes, &source.options.limits).map_or(Ok(()), |excess| Err(damaged(source, excess)))?;
     let json: Value = serde_json::from_slice(bytes).map_err(|error| damaged(source, format!("not JSON: {error}")))?;
     let files = file_names(source, &json)?;
     let num_levels = json.get("lodLevels").and_then(Value::as_u64).unwrap_or(1).clamp(1, MAX_LEVELS);
@@ -107,34 +109,40 @@ fn assemble(
 ) -> Result<DecodedScene, SceneError> {
     let total = pieces.iter().fold(0_u64, |sum, piece| sum.saturating_add(piece.count as u64));
     source.check_count(total)?;
-    let mut scenes: BTreeMap<usize, FileScene> = BTreeMap::new();
-    for piece in pieces {
-        if let std::collections::btree_map::Entry::Vacant(e) = scenes.entry(piece.file) {
-            e.insert(FileScene::read(source, &files[piece.file])?);
+    let around = json.get("environment").filter(|name| name.is_string());
+    let around = around.map(|name| file_path(source, name)).transpose()?;
+    let mut scenes: BTreeMap<&Path, FileScene> = BTreeMap::new();
+    let mut held_bytes = source.held_bytes;
+    for path in pieces.iter().map(|piece| &files[piece.file]).chain(&around) {
+        if !scenes.contains_key(path.as_path()) {
+            let scene = FileScene::read(&SourceFile { held_bytes, ..*source }, path)?;
+            held_bytes = held_bytes.saturating_add(scene.num_bytes());
+            scenes.insert(path, scene);
         }
     }
-    let environment = match json.get("environment") {
-        Some(name) if name.is_string() => Some(FileScene::read(source, &file_path(source, name)?)?),
-        _ => None,
-    };
-    let all = || scenes.values().chain(&environment);
+    let all = || scenes.values();
+    let environment = around.as_deref().and_then(|path| scenes.get(path));
     let degree = all().map(|scene| scene.decoded.collected.gaussians.sh_degree).max().unwrap_or(0);
-    let num_around = environment.as_ref().map_or(0, FileScene::count);
+    let num_around = environment.map_or(0, FileScene::count);
     let count = source.check_count(total + num_around as u64)?;
-    let mut intake = Intake::new(source, count, degree)?;
+    let mut intake = Intake::new(&SourceFile { held_bytes, ..*source }, count, degree)?;
     for piece in pieces {
-        let Some(scene) = scenes.get(&piece.file) else { continue };
+        let Some(scene) = scenes.get(files[piece.file].as_path()) else { continue };
         if piece.start.checked_add(piece.count).is_none_or(|end| end > scene.count()) {
             let found = format!("Gaussians {} + {} of a file of {}", piece.start, piece.count, scene.count());
             return Err(damaged(source, found));
         }
         scene.push(&mut intake, piece.start, piece.count, degree);
     }
-    if let Some(scene) = &environment {
+    if let Some(scene) = environment {
         scene.push(&mut intake, 0, scene.count(), degree);
     }
     let mut collected = intake.finish(source.path)?;
-    collected.notes.extend(all().flat_map(|scene| scene.decoded.collected.notes.iter().cloned()));
+    let folder = source.path.parent().unwrap_or(Path::new(""));
+    for (path, scene) in &scenes {
+        let name = shown(path.strip_prefix(folder).unwrap_or(path));
+        collected.notes.extend(scene.decoded.collected.notes.iter().map(|note| format!("{name}: {note}")));
+    }
     if level > 0 {
         collected.notes.push(format!(
             "the files of finer levels of detail are missing: level {level} of 0 to {} is read",
@@ -143,7 +151,13 @@ fn assemble(
     }
     let filter = all().find_map(|scene| scene.decoded.filter);
     let format = format!("sog (streamed, level {level} of {num_levels})");
-    Ok(DecodedScene { format, collected, filter, up: None, up_prior: UpPrior::PlyFrame })
+    // Files of two levels may have the same content.
+    let named = |(path, scene): (&Path, FileScene)| {
+        let name = shown(path.strip_prefix(folder).unwrap_or(path));
+        std::iter::once(name).chain(scene.decoded.further_sha256)
+    };
+    let further_sha256 = scenes.into_iter().flat_map(named).collect();
+    Ok(DecodedScene { format, collected, filter, up: None, up_prior: UpPrior::PlyFrame, further_sha256 })
 }
 
 /// A SOG of the tree.
@@ -154,22 +168,31 @@ struct FileScene {
 impl FileScene {
     fn read(source: &SourceFile, path: &Path) -> Result<Self, SceneError> {
         let bytes = read_file(path, source.options.limits.scene_bytes)?;
-        let file = SourceFile { path, bytes: &bytes, options: source.options };
-        let decoded = if bytes.starts_with(b"PK") { read_bundle(&file)? } else { read_unbundled(&file)? };
+        let file = SourceFile { path, bytes: &bytes, ..*source };
+        let mut decoded = if bytes.starts_with(b"PK") { read_bundle(&file)? } else { read_unbundled(&file)? };
+        decoded.further_sha256.insert(0, cinesplat_files::sha256_hex(&bytes));
         Ok(Self { decoded })
     }
 
     /// Number of Gaussians in the file, with those that were dropped.
     fn count(&self) -> usize {
-        self.decoded.collected.gaussians.len() + self.decoded.collected.dropped.len()
+        self.decoded.collected.num_in_file()
     }
 
-    /// Adds the Gaussians of a range of the file, without those that were dropped.
+    /// Bytes of memory that it takes.
+    fn num_bytes(&self) -> u64 {
+        collected_bytes(self.count(), self.decoded.collected.gaussians.sh_degree)
+    }
+
+    /// Adds the Gaussians of a range of the file; those that were dropped only count.
     fn push(&self, intake: &mut Intake, start: usize, count: usize, degree: u8) {
-        let (gaussians, dropped) = (&self.decoded.collected.gaussians, &self.decoded.collected.dropped);
-        let kept_before = |idx: usize| idx - dropped.partition_point(|drop| (*drop as usize) < idx);
+        let gaussians = &self.decoded.collected.gaussians;
         let mut rest = vec![Vec3::ZERO; NUM_SH_REST[usize::from(degree)]];
-        for idx in kept_before(start)..kept_before(start + count) {
+        for kept in self.decoded.collected.in_file_order(start..start + count) {
+            let Some(idx) = kept else {
+                intake.push_dropped();
+                continue;
+            };
             rest.iter_mut().zip(gaussians.sh_rest_of(idx)).for_each(|(to, value)| *to = *value);
             let turn = gaussians.rotations[idx].as_dquat();
             let raw = RawGaussian {

@@ -256,7 +256,7 @@ fn unpack_frame(source: &SourceFile, packed: &[u8], size: usize) -> Result<Vec<u
     let mut decoder = StreamingDecoder::new_with_max_window_size(packed, window).map_err(|fault| damaged(&fault))?;
     let mut out = Vec::new();
     if out.try_reserve_exact(size).is_err() {
-        return Err(source.out_of_memory(0, size as u64));
+        return Err(source.no_memory(0, size as u64));
     }
     decoder.by_ref().take(size as u64 + 1).read_to_end(&mut out).map_err(|fault| damaged(&fault))?;
     if out.len() != size {

@@ -41,5 +41,6 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         filter: (header.flags & ANTIALIASED != 0).then_some(SplatFilter::Mip),
         up: found.up,
         up_prior: UpPrior::Spz,
+        further_sha256: Vec::new(),
     })
 }

@@ -88,7 +88,8 @@ impl FilmEncoder {
                 .map_err(|source| FileError::Write { path: self.path.clone(), source })?;
         }
         if let Some(packing) = self.eyes {
-            marks::mark_eyes(self.file.file(), packing)
+            let codec = if self.encoder.format() == format::Pixel::YUV420P { *b"avc1" } else { *b"ap4h" };
+            marks::mark_eyes(self.file.file(), packing, codec)
                 .map_err(|source| FileError::Write { path: self.path.clone(), source })?;
         }
         read_back::check(self.file.path(), &self.path, self.num_sent, self.tick)?;

@@ -35,11 +35,11 @@ pub(super) fn mark_panorama(file: &File) -> io::Result<()> {
     append(file, &TO_DESCRIPTION[..2], &mark)
 }
 
-/// Marks a film of one video track as one of a view per eye.
+/// Marks a film of one video track as one of a view per eye. `codec` is the name of its sample description.
 ///
 /// # Errors
 /// As [`mark_panorama`].
-pub(super) fn mark_eyes(file: &File, packing: EyePacking) -> io::Result<()> {
+pub(super) fn mark_eyes(file: &File, packing: EyePacking, codec: [u8; 4]) -> io::Result<()> {
     let mode = match packing {
         EyePacking::OverUnder => 1,
         EyePacking::SideBySide => 2,
@@ -48,8 +48,7 @@ pub(super) fn mark_eyes(file: &File, packing: EyePacking) -> io::Result<()> {
     mark.extend(b"st3d");
     // Version and flags, then the mode.
     mark.extend([0, 0, 0, 0, mode]);
-    let with_codec = |codec| [&TO_DESCRIPTION[..], &[codec]].concat();
-    append(file, &with_codec(b"avc1"), &mark).or_else(|_| append(file, &with_codec(b"ap4h"), &mark))
+    append(file, &[&TO_DESCRIPTION[..], &[&codec]].concat(), &mark)
 }
 
 /// Appends a box to the innermost of nested boxes, the first of which is the index.

@@ -31,7 +31,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     size: Size,
     /// Frames per film
-    #[arg(long, value_name = "N", default_value_t = 90, value_parser = clap::value_parser!(u16).range(2..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 90, value_parser = clap::value_parser!(u16).range(6..=1000))]
     frames: u16,
     /// Presets to measure
     #[arg(

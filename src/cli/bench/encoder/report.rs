@@ -43,15 +43,20 @@ pub(super) fn to_table(rows: &[EncoderRow]) -> String {
             let name = if row.step == Step::Render { "render" } else { "convert" };
             let _ = writeln!(table, "| {} | {name} | {:.1} | | |", film.name, busy_ms(row));
         }
+        // Cells without a meaning are empty.
+        let shown = |value: f64, text: String| if value.is_finite() { text } else { String::new() };
         let of_baseline = film.rate_of(BASELINE.0).unwrap_or(f64::NAN);
         for preset in film.presets() {
             let rate = film.rate_of(preset).unwrap_or(f64::NAN);
+            let busy_ms = film.busy_ms_of(preset);
             let percent = rate / of_baseline * 100.0;
             let _ = writeln!(
                 table,
-                "| {} | {preset} | {:.1} | {rate:.0} | {percent:.0} % |",
+                "| {} | {preset} | {} | {} | {} |",
                 film.name,
-                film.busy_ms_of(preset)
+                shown(busy_ms, format!("{busy_ms:.1}")),
+                shown(rate, format!("{rate:.0}")),
+                shown(percent, format!("{percent:.0} %"))
             );
         }
     }

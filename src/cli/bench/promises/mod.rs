@@ -36,10 +36,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u16).range(2..=10_000))]
     frames: u16,
     /// Least PSNR of the films, one film each, dB
-    #[arg(long, value_name = "DB,..", default_value = "35,43,46,60,70,78,85,110", value_delimiter = ',')]
+    #[arg(long, value_name = "DB,..", default_value = "35,43,46,60,70,78,85,110", value_delimiter = ',', value_parser = above_zero)]
     psnrs: Vec<f64>,
     /// Budgets of the films, one film each, over the time of forecast and film at `standard` without load
-    #[arg(long, value_name = "SHARE,..", default_value = "1.2,1.6,2.5,5", value_delimiter = ',')]
+    #[arg(long, value_name = "SHARE,..", default_value = "1.2,1.6,2.5,5", value_delimiter = ',', value_parser = above_zero)]
     budgets: Vec<f64>,
     #[command(flatten)]
     folder: BenchFolder,
@@ -93,4 +93,9 @@ impl Args {
         }
         Ok(())
     }
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    let found = text.parse().ok().filter(|value: &f64| *value > 0.0 && *value <= 1e6);
+    found.ok_or_else(|| "expected a number above 0, at most 1000000".to_owned())
 }
