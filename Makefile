@@ -80,43 +80,55 @@ bench: build
 	$(BIN) bench director --overwrite -o renders/bench > /dev/null
 
 # Effects: blur over samples and methods, films with effects where they show against films with effects on every frame, and the
-# cost of each. Ten minutes on two quiet cores.
+# cost of each. Takes a quarter of an hour on two cores, in pieces of LENS_SECS at most: rows that the folder holds are kept.
+LENS_SECS := 450
 LENS_REAL := composites/kitchen_plus_dev.spz@golden/kitchen.cameras.json playbot/2_0@auto skull/skull.sog@auto
 LENS_FOUND := $(foreach scene,$(LENS_REAL),$(if $(wildcard $(DATA)/$(firstword $(subst @, ,$(scene)))),$(scene)))
 LENS_SCENES := $(if $(LENS_FOUND),$(foreach scene,$(LENS_FOUND),$(DATA)/$(firstword $(subst @, ,$(scene)))@$(patsubst \
 	golden%,$(DATA)/golden%,$(word 2,$(subst @, ,$(scene))))),synth:demo@auto)
 bench-lens: build
-	nice $(BIN) bench lens $(foreach scene,$(LENS_SCENES),$(word 1,$(subst @, ,$(scene)))) \
+	timeout --foreground $(LENS_SECS) nice $(BIN) bench lens $(foreach scene,$(LENS_SCENES),$(word 1,$(subst @, ,$(scene)))) \
 		$(foreach scene,$(LENS_SCENES),--cameras $(word 2,$(subst @, ,$(scene)))) \
-		--size 480x270 --overwrite -o renders/lens > /dev/null
+		--size 480x270 --resume --overwrite -o renders/lens > /dev/null || \
+		{ code=$$?; [ $$code = 124 ] || exit $$code; echo "stopped: make bench-lens again goes on with the next row" >&2; exit 75; }
 
 # Kills, stops and starves renders and other commands, and compares their films with undisturbed ones; prints a table.
 # Takes about half an hour. Needs Python, and a C compiler for the rows of failing writes.
-faults: build
-	cargo build --release --locked --features panic-points && cp $(BIN) target/cinesplat-panics
-	cargo build --release --locked
+faults: target/cinesplat-panics
 	python3 tests/faults/run.py $(BIN) --panics target/cinesplat-panics
+
+# The program with the feature panic-points.
+target/cinesplat-panics: build
+	cargo build --release --locked --features panic-points && cp $(BIN) $@
+	cargo build --release --locked
 
 # Films on a Slurm cluster of two virtual nodes on this machine that lose tasks and nodes; prints a table. Needs root and
 # Debian's packages slurmctld, slurmd, slurm-client and munge; takes ten minutes.
 check-slurm: build
 	python3 tests/slurm/check.py $(BIN)
 
-# Fuzzes every reader for FUZZ_SECS seconds each, guided by coverage; a crash stops its target and is written to tests/fuzz/artifacts.
+# Fuzzes every reader for FUZZ_SECS seconds each, guided by coverage; a crash stops its target, is written to
+# tests/fuzz/artifacts, and makes this fail when the other targets are done.
 # Needs a nightly compiler and cargo-fuzz (`cargo install cargo-fuzz`).
 FUZZ_SECS := 1800
 FUZZ_TARGETS := scene path shot cameras objects array
 fuzz:
 	mkdir -p target/fuzz
-	cd tests/fuzz && for target in $(FUZZ_TARGETS); do \
-		mkdir -p corpus/$$target; \
-		cargo +nightly fuzz run --fuzz-dir . --target-dir ../../target/fuzz -s none $$target corpus/$$target seeds/$$target -- \
-			-max_total_time=$(FUZZ_SECS) -rss_limit_mb=2048 -timeout=20 -max_len=16384 2>&1 | tee ../../target/fuzz/$$target.log | tail -n 1; \
-	done
+	cd tests/fuzz && cargo +nightly fuzz build --fuzz-dir . --target-dir ../../target/fuzz -s none
+	cd tests/fuzz && failed=""; for target in $(FUZZ_TARGETS); do \
+		mkdir -p corpus/$$target; log=../../target/fuzz/$$target.log; \
+		if cargo +nightly fuzz run --fuzz-dir . --target-dir ../../target/fuzz -s none $$target corpus/$$target seeds/$$target -- \
+			-max_total_time=$(FUZZ_SECS) -rss_limit_mb=2048 -timeout=20 -max_len=16384 > $$log 2>&1; then \
+			echo "$$target: $$(grep '^Done ' $$log || tail -n 1 $$log)"; \
+		else \
+			echo "$$target: failed, the end of target/fuzz/$$target.log:" >&2; tail -n 30 $$log >&2; failed="$$failed $$target"; \
+		fi; \
+	done; \
+	[ -z "$$failed" ] || { echo "failed:$$failed" >&2; exit 1; }
 
-# Measures all rows, and writes the page of their figures.
-reliability: build
-	python3 tests/faults/page.py $(BIN) --rows all --kills 200 --fuzz-logs target/fuzz
+# Measures all rows that were not measured at this commit, and writes the page of their figures after each.
+reliability: target/cinesplat-panics
+	python3 tests/faults/page.py $(BIN) --rows all --kills 200 --panics target/cinesplat-panics --fuzz-logs target/fuzz
 
 # Checks that the camera does what the prompts say. Plans the cases of ../shared (not part of this repository) with the
 # solver off and full, from the network's programs and from hand-written ones, and runs the checker of ../shared.
@@ -155,21 +167,30 @@ gallery: demo
 			< /dev/null || exit; \
 	done < prompts/gallery.txt
 
-# Each effect of the README off (left) and on (right), from prompts/gallery-effects.txt. Needs the program ffmpeg.
+# Each effect of prompts/gallery-effects.txt off (left) and on (right) with its cost under it (renders/lens/lens-costs.csv), on
+# one sheet. Needs the program ffmpeg and the scene.
+GALLERY_SCENE := $(DATA)/composites/kitchen_plus_dev.spz
+GALLERY_PX := 320x180
 gallery-effects: build
-	mkdir -p target/gallery-effects renders/lens
-	while IFS='|' read -r name scene frame prompt; do \
-		name=$${name// } scene=$${scene// } frame=$${frame// } prompt=$${prompt# }; \
-		base=target/gallery-effects/$$(echo "$$scene $$prompt" | cksum | cut -d' ' -f1); \
-		[ -f $$base.json ] || $(BIN) plan $$scene -p "$$prompt" --size 480x270 --solve fast -o $$base.json < /dev/null || exit; \
+	test -f $(GALLERY_SCENE) || { echo "no scene $(GALLERY_SCENE)" >&2; exit 66; }
+	rm -rf target/gallery-effects && mkdir -p target/gallery-effects
+	number=100; while IFS='|' read -r name shot frame; do \
+		name=$${name// } shot=$${shot// } frame=$${frame// } number=$$((number + 1)); \
 		for effects in off $$name; do \
-			$(BIN) render $$scene --shot $$base.json --effects $$effects --frames $$frame..$$((frame + 1)) --quality final \
-				--no-job --overwrite -o $$base-$$effects-%03d.png < /dev/null || exit; \
+			[ -f target/gallery-effects/$$shot-$$effects-$$(printf %03d $$frame).png ] || \
+			$(BIN) render $(GALLERY_SCENE) --shot prompts/gallery-effects/$$shot.shot.json --effects $$effects --quality final \
+				--size $(GALLERY_PX) --frames $$frame..$$((frame + 1)) --no-job --overwrite -q \
+				-o target/gallery-effects/$$shot-$$effects-%03d.png < /dev/null || exit; \
 		done; \
-		number=$$(printf %03d $$frame); \
-		ffmpeg -v error -y -i $$base-off-$$number.png -i $$base-$$name-$$number.png -filter_complex hstack=inputs=2 \
-			-quality 80 renders/lens/$$name.webp < /dev/null || exit; \
+		cost=$$(awk -F, -v name=$$name '$$2 == name && $$1 ~ /kitchen/ { print $$4 }' renders/lens/lens-costs.csv); \
+		still=$$(printf %03d $$frame); \
+		ffmpeg -v error -y -i target/gallery-effects/$$shot-off-$$still.png -i target/gallery-effects/$$shot-$$name-$$still.png \
+			-filter_complex "hstack=inputs=2,pad=iw+8:ih+30:4:4:white,drawtext=text='$${name//-/ }  $${cost:+$$cost x}':x=6:y=h-21:fontsize=16:fontcolor=black" \
+			-frames:v 1 target/gallery-effects/sheet-$$number.png < /dev/null || exit; \
 	done < prompts/gallery-effects.txt
+	ffmpeg -v error -y -start_number 101 -i target/gallery-effects/sheet-%03d.png -filter_complex \
+		"tile=2x$$((($$(wc -l < prompts/gallery-effects.txt) + 1) / 2)):color=white" -frames:v 1 -quality 78 -compression_level 6 \
+		renders/lens/effects.webp
 
 clean:
 	cargo clean

@@ -7,10 +7,14 @@
 #![allow(unsafe_code, reason = "an allocator cannot be written without: every call passes its layout on unchanged")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
 use std::fmt::{self, Write as _};
 use std::io::Write as _;
-use std::sync::atomic::{AtomicI64, AtomicU8, AtomicU64, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU8, AtomicU64, Ordering::Relaxed};
+use std::thread;
+use std::time::Duration;
 
+use cinesplat::files::remove_open_files;
 use mimalloc::MiMalloc;
 
 /// Exit code of a program that needs more memory than it may take.
@@ -62,8 +66,11 @@ unsafe impl GlobalAlloc for BoundedAllocator {
     }
 
     unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        take(size);
-        give_back(layout.size());
+        // What a block grows by, not both blocks: while bytes are moved, the new block's end is untouched yet.
+        match size.checked_sub(layout.size()) {
+            Some(more) => take(more),
+            None => give_back(layout.size() - size),
+        }
         let moved = unsafe {
             if is_fast() { MiMalloc.realloc(block, layout, size) } else { System.realloc(block, layout, size) }
         };
@@ -121,21 +128,40 @@ fn checked(block: *mut u8, bytes: usize) -> *mut u8 {
     block
 }
 
-/// Ends the program. Nothing here allocates.
+/// Whether the program is being ended.
+static IS_ENDING: AtomicBool = AtomicBool::new(false);
+/// Time that the thread which ends the program has for it.
+const TIME_TO_END: Duration = Duration::from_millis(500);
+
+thread_local! {
+    /// Whether this thread is the one that ends the program.
+    static ENDS: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Ends the program: says so, and removes the temporary files that are being written. Next to nothing here allocates.
 #[cold]
 fn end(bytes: usize) -> ! {
     // The report itself must not be bounded.
     CAP_BYTES.store(0, Relaxed);
+    if IS_ENDING.swap(true, Relaxed) {
+        // It is being said already: by another thread, or by this one where the system refuses even that.
+        if !ENDS.get() {
+            thread::sleep(TIME_TO_END);
+        }
+        std::process::exit(OVER_CAP);
+    }
+    ENDS.set(true);
     let mut text = ShortText { bytes: [0; 320], len: 0 };
     // What does not fit is cut off.
     let _ = write!(
         text,
         "error[MEM-CAP]: {} MB more memory are needed, expected to stay within --max-memory and the system's limits\n\
-         help: raise --max-memory, the limit of the shell (ulimit -v) or of the container, or reduce --size and --threads\n",
+         help: raise --max-memory, and the limit of the shell (ulimit -v) where that is lower, or reduce --size and --threads\n",
         bytes.div_ceil(1 << 20)
     );
     // There is no other place to report a failed report.
     let _ = std::io::stderr().write_all(&text.bytes[..text.len]);
+    remove_open_files();
     std::process::exit(OVER_CAP)
 }
 

@@ -9,6 +9,7 @@
 #![allow(clippy::float_cmp, reason = "what is exact by design is compared exactly")]
 #![allow(unreachable_pub, reason = "what areas share is public within this one binary")]
 
+mod allocator;
 mod architecture;
 mod cli;
 mod critic;

@@ -8,7 +8,7 @@ use std::time::Instant;
 use glam::DQuat;
 
 use cinesplat_geometry::{Camera, Intrinsics};
-use cinesplat_lens::{Between, LensAndShutter};
+use cinesplat_lens::{Between, LensAndShutter, Sampling};
 use cinesplat_render::{
     Frame, Quality, RenderError, RenderSettings, RenderStats, Renderer, Rgb8Frame, SubFrame, ThinLens,
 };
@@ -16,7 +16,7 @@ use cinesplat_render::{
 /// Samples of the reference.
 const REFERENCE_SAMPLES: usize = 256;
 /// Samples of the methods.
-const NUM_SAMPLES: [usize; 5] = [1, 3, 4, 8, 16];
+const NUM_SAMPLES: [usize; 8] = [1, 2, 3, 4, 5, 7, 9, 16];
 
 /// What blurs the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,8 +65,10 @@ pub const LENS_CASES: [LensCase; 8] = [
 pub enum LensMethod {
     /// Not at all: the plain picture.
     Plain,
-    /// Sharp pictures.
+    /// Sharp pictures, each rendered by itself.
     Sharp,
+    /// Sharp pictures that share one projection and one depth order.
+    Shared,
     /// Pictures whose splats are blurred.
     Blurred,
     /// As the preset chooses.
@@ -135,31 +137,51 @@ impl LensCase {
     }
 }
 
+/// What is measured of every case: a quality, a method and a number of samples, which the presets choose themselves.
+fn variants() -> Vec<(Quality, LensMethod, Option<usize>)> {
+    let standard = Quality::Standard;
+    let presets = [Quality::Draft, standard, Quality::Final].map(|quality| (quality, LensMethod::Preset, None));
+    let plain = (standard, LensMethod::Plain, Some(1));
+    let of = |method: LensMethod| NUM_SAMPLES.map(|num| (standard, method, Some(num)));
+    // One sharp sample is the plain picture.
+    let is_own = |(_, method, num): &(_, LensMethod, Option<usize>)| *method == LensMethod::Blurred || *num != Some(1);
+    let methods = [LensMethod::Blurred, LensMethod::Sharp, LensMethod::Shared].into_iter().flat_map(of).filter(is_own);
+    presets.into_iter().chain([plain]).chain(methods).collect()
+}
+
 impl LensBench<'_> {
-    /// Measures a case with a camera; calls `on_row` with every row. No rows for a picture without splats.
+    /// Measures a case with a camera: calls `on_row` with every row that is not known yet, by its quality, its method and its
+    /// number of samples (`None` for the presets, which choose it). No rows for a picture without splats.
     ///
     /// # Errors
     /// [`RenderError`] of the first picture that cannot be rendered.
-    pub fn measure(&self, camera: &Camera, case: LensCase, on_row: &mut dyn FnMut(LensRow)) -> Result<(), RenderError> {
-        let Some(focus) = self.focus_distance(camera)? else { return Ok(()) };
+    pub fn measure(
+        &self,
+        (camera, case): (&Camera, LensCase),
+        is_known: &dyn Fn(Quality, LensMethod, Option<usize>) -> bool,
+        on_row: &mut dyn FnMut(LensRow),
+    ) -> Result<(), RenderError> {
+        let wanted: Vec<_> = variants().into_iter().filter(|&(a, b, c)| !is_known(a, b, c)).collect();
+        let Some(focus) = self.focus_distance(camera)?.filter(|_| !wanted.is_empty()) else { return Ok(()) };
         let strength = self.strength(camera, case, focus)?;
         let camera_at = |fraction: f64| case.camera_at(camera, strength, fraction);
         let exposure = LensAndShutter { camera_at: &camera_at, lens: case.lens(strength, focus) };
         let mut reference = Frame::default();
         let samples = exposure.subframes(REFERENCE_SAMPLES, Between::Sharp);
         self.renderer.expose_into(&samples, &self.with(Quality::Final), &mut reference)?;
-        for quality in [Quality::Draft, Quality::Standard, Quality::Final] {
-            let planned = exposure.plan(self.renderer, &self.with(quality))?.subframes;
-            on_row(self.row((case, quality, LensMethod::Preset), (camera, &planned), &reference)?);
-        }
-        let quality = Quality::Standard;
-        let plain = [SubFrame::from(*camera)];
-        on_row(self.row((case, quality, LensMethod::Plain), (camera, &plain), &reference)?);
-        for (method, between) in [(LensMethod::Blurred, Between::Blurred), (LensMethod::Sharp, Between::Sharp)] {
-            for num_samples in NUM_SAMPLES.into_iter().filter(|num| *num > 1 || between == Between::Blurred) {
-                let subframes = exposure.subframes(num_samples, between);
-                on_row(self.row((case, quality, method), (camera, &subframes), &reference)?);
-            }
+        for (quality, method, num_samples) in wanted {
+            let num = num_samples.unwrap_or(1);
+            let sampling = match method {
+                LensMethod::Preset => exposure.plan(self.renderer, &self.with(quality))?.sampling,
+                LensMethod::Plain => Sampling::SubFrames(vec![SubFrame::from(*camera)]),
+                LensMethod::Blurred => Sampling::SubFrames(exposure.subframes(num, Between::Blurred)),
+                LensMethod::Sharp => Sampling::SubFrames(exposure.subframes(num, Between::Sharp)),
+                LensMethod::Shared => {
+                    let moves = case.source != BlurSource::Focus;
+                    Sampling::Sweep(Box::new(exposure.even_sweep(num, moves)))
+                }
+            };
+            on_row(self.row((case, quality, method), (camera, &sampling), &reference)?);
         }
         Ok(())
     }
@@ -195,17 +217,17 @@ impl LensBench<'_> {
     fn row(
         &self,
         (case, quality, method): (LensCase, Quality, LensMethod),
-        (camera, subframes): (&Camera, &[SubFrame]),
+        (camera, sampling): (&Camera, &Sampling),
         reference: &Frame,
     ) -> Result<LensRow, RenderError> {
         let settings = self.with(quality);
         let mut frame = Frame::default();
-        self.renderer.expose_into(subframes, &settings, &mut frame)?;
+        sampling.take(self.renderer, &settings, &mut frame)?;
         let mut timed = Vec::new();
         let mut blends = [0; 2];
         for _ in 0..self.num_repeats.max(1) {
-            let (plain_secs, plain) = self.time(&[SubFrame::from(*camera)], &settings)?;
-            let (secs, stats) = self.time(subframes, &settings)?;
+            let (plain_secs, plain) = self.time(&Sampling::SubFrames(vec![SubFrame::from(*camera)]), &settings)?;
+            let (secs, stats) = self.time(sampling, &settings)?;
             timed.push((secs / plain_secs, plain_secs));
             blends = [plain, stats].map(|stats| stats.counts.num_block_blends);
         }
@@ -217,7 +239,7 @@ impl LensBench<'_> {
             case,
             quality,
             method,
-            num_samples: subframes.len(),
+            num_samples: sampling.num_samples(),
             psnr_db: frame.psnr_db(reference),
             times_plain,
             plain_ms: plain_secs * 1e3,
@@ -225,10 +247,10 @@ impl LensBench<'_> {
         })
     }
 
-    fn time(&self, subframes: &[SubFrame], settings: &RenderSettings) -> Result<(f64, RenderStats), RenderError> {
+    fn time(&self, sampling: &Sampling, settings: &RenderSettings) -> Result<(f64, RenderStats), RenderError> {
         let mut frame = Rgb8Frame::default();
         let start = Instant::now();
-        self.renderer.expose_rgb8_into(subframes, settings, &mut frame)?;
+        sampling.take_rgb8(self.renderer, settings, &mut frame)?;
         Ok((start.elapsed().as_secs_f64(), frame.stats))
     }
 }

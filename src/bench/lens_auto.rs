@@ -1,15 +1,17 @@
 //! Effects where they show, against effects on every frame.
 //!
 //! Enters: a renderer and a camera. Leaves: one [`AutoRow`] per shot and quality. Each shot has parts that move and parts
-//! that rest. Its frames are exposed twice: as planned, and with every effect on every frame, with the samples of the frame
-//! that needs most. Times are alternate, and those of the plan count as a part of the first.
+//! that rest. Its frames are exposed three times: as planned; with every effect on every frame and in every part of it, with
+//! the samples of the plan, which shows the error of skipping alone; and with the samples of the frame that needs most on
+//! every frame, which is what a film takes that is not looked at before. Times are alternate, and those of the plan count as
+//! a part of the first. As in films, a frame that must equal the one before it is not taken again.
 
 use std::time::Instant;
 
 use glam::DQuat;
 
 use cinesplat_geometry::{Camera, Pose};
-use cinesplat_lens::{Call, Called, Calls, EffectChoice, EffectPlan, Moment, OpticsTrack, Source, Take};
+use cinesplat_lens::{Call, Called, Calls, EffectChoice, EffectPlan, Moment, OpticsTrack, Picture, Source, Take};
 use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
 use cinesplat_trajectory::{Easing, KeyOptics, Keyframe};
 
@@ -20,8 +22,8 @@ const FPS: f64 = 24.0;
 /// Qualities that are measured, with the least PSNR that skipping may cost on any frame, dB.
 pub const AUTO_FLOORS: [(Quality, f64); 2] = [(Quality::Standard, 50.0), (Quality::Final, 60.0)];
 /// The header of [`AutoRow::csv_line`].
-pub const AUTO_CSV_HEADER: &str = "scene,shot,quality,frames,frames_with_effects,pictures,forced_pictures,worst_psnr_db,\
-    worst_frame,floor_db,secs,forced_secs,cost_ratio\n";
+pub const AUTO_CSV_HEADER: &str = "scene,camera,shot,quality,frames,frames_with_effects,pictures,forced_pictures,worst_psnr_db,\
+    worst_frame,floor_db,worst_of_forced_db,secs,forced_secs,cost_ratio\n";
 
 /// A shot with parts that move and parts that rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +46,8 @@ pub enum AutoShot {
 pub struct AutoRow {
     /// The scene.
     pub scene: String,
+    /// The camera.
+    pub camera: String,
     /// The shot.
     pub shot: AutoShot,
     /// The quality.
@@ -52,8 +56,10 @@ pub struct AutoRow {
     pub num_with_effects: usize,
     /// Pictures of all frames, as planned and with every effect on every frame.
     pub num_pictures: [u64; 2],
-    /// Least PSNR of a planned frame against the one with every effect, dB, and its number.
+    /// Least PSNR of a planned frame against the one from which nothing is skipped, dB, and its number.
     pub worst: (f64, usize),
+    /// Least PSNR of a planned frame against the one with the most samples, dB.
+    pub worst_of_forced_db: f64,
     /// Seconds of all frames, as planned and with every effect on every frame.
     pub secs: [f64; 2],
     /// The least PSNR that is allowed, dB.
@@ -68,13 +74,14 @@ impl AutoRow {
 
     /// The row as a line of a CSV.
     pub fn csv_line(&self) -> String {
-        let Self { scene, shot, quality, num_with_effects, num_pictures, worst, secs, floor_db } = self;
+        let Self { scene, camera, shot, quality, num_with_effects, num_pictures, worst, secs, floor_db, .. } = self;
         format!(
-            "{scene},{shot},{quality},{AUTO_FRAMES},{num_with_effects},{},{},{:.1},{},{floor_db},{:.2},{:.2},{:.3}\n",
+            "{scene},{camera},{shot},{quality},{AUTO_FRAMES},{num_with_effects},{},{},{:.1},{},{floor_db},{:.1},{:.2},{:.2},{:.3}\n",
             num_pictures[0],
             num_pictures[1],
             worst.0.min(150.0),
             worst.1,
+            self.worst_of_forced_db.min(150.0),
             secs[0],
             secs[1],
             self.cost_ratio()
@@ -135,6 +142,12 @@ impl AutoShot {
     }
 }
 
+/// Whether a film repeats the frame before this one.
+fn repeats(plan: &EffectPlan, take: Take<'_>, frame_idx: usize) -> bool {
+    let [last, this] = [frame_idx - 1, frame_idx].map(|idx| (take.camera_at)(idx as f64 / take.fps));
+    last == this && plan.repeats(frame_idx, frame_idx - 1)
+}
+
 /// Measures a shot at a quality, without the scene's name. `distance` is that of what the camera looks at.
 ///
 /// # Errors
@@ -155,25 +168,43 @@ pub fn measure_auto(
     let take = Take { camera_at: &camera_at, optics: &optics, up: None, fps: FPS, seed: 0 };
     let start = Instant::now();
     let plan = EffectPlan::of(&called, take, 0..AUTO_FRAMES, (renderer, &render))?;
-    let mut secs = [start.elapsed().as_secs_f64(), 0.0];
-    let plans = [plan.clone(), plan.clone().forced()];
-    let (mut worst, mut num_pictures) = ((f64::INFINITY, 0), [0; 2]);
+    let mut secs = [start.elapsed().as_secs_f64(), 0.0, 0.0];
+    let plans = [plan.clone(), plan.clone().forced(), plan.clone().everywhere()];
+    let (mut worst, mut worst_of_forced_db, mut num_pictures) = ((f64::INFINITY, 0), f64::INFINITY, [0; 3]);
+    let mut pictures: [Option<Picture>; 3] = [None, None, None];
     for frame_idx in 0..AUTO_FRAMES {
         let moment = Moment::of_frame(take, frame_idx, &render);
-        let mut pictures = Vec::new();
         for (idx, plan) in plans.iter().enumerate() {
+            // Forced, no frame is known to equal another one.
+            if idx == 0 && frame_idx > 0 && repeats(plan, take, frame_idx) {
+                continue;
+            }
             let start = Instant::now();
             let mut picture = plan.expose(&moment, renderer)?;
             picture.display();
             secs[idx] += start.elapsed().as_secs_f64();
             num_pictures[idx] += u64::from(plan.num_samples(frame_idx));
-            pictures.push(picture);
+            pictures[idx] = Some(picture);
         }
-        let psnr_db = pictures[0].frame().psnr_db(pictures[1].frame());
+        let [Some(planned), Some(forced), Some(everywhere)] = &pictures else { continue };
+        let psnr_db = planned.frame().psnr_db(everywhere.frame());
+        worst_of_forced_db = worst_of_forced_db.min(planned.frame().psnr_db(forced.frame()));
         if psnr_db < worst.0 {
             worst = (psnr_db, frame_idx);
         }
     }
     let num_with_effects = (0..AUTO_FRAMES).filter(|&frame_idx| !plan.is_plain(frame_idx)).count();
-    Ok(AutoRow { scene: String::new(), shot, quality, num_with_effects, num_pictures, worst, secs, floor_db })
+    let ([planned_pictures, forced_pictures, _], [planned_secs, forced_secs, _]) = (num_pictures, secs);
+    Ok(AutoRow {
+        scene: String::new(),
+        camera: String::new(),
+        shot,
+        quality,
+        num_with_effects,
+        num_pictures: [planned_pictures, forced_pictures],
+        worst,
+        worst_of_forced_db,
+        secs: [planned_secs, forced_secs],
+        floor_db,
+    })
 }

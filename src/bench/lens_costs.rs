@@ -18,13 +18,15 @@ const FPS: f64 = 24.0;
 const TRUCK: f64 = 0.25;
 const TURN_RAD: f64 = 0.15;
 /// The header of [`CostRow::csv_line`].
-pub const COST_CSV_HEADER: &str = "scene,effect,pictures,times_plain,plain_ms\n";
+pub const COST_CSV_HEADER: &str = "scene,camera,effect,pictures,times_plain,plain_ms\n";
 
 /// The cost of an effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CostRow {
     /// The scene.
     pub scene: String,
+    /// The camera.
+    pub camera: String,
     /// The effect.
     pub effect: &'static str,
     /// Pictures' worth of samples; 0 = the frame does not need the effect.
@@ -38,12 +40,12 @@ pub struct CostRow {
 impl CostRow {
     /// The row as a line of a CSV.
     pub fn csv_line(&self) -> String {
-        let Self { scene, effect, num_pictures, times_plain, plain_ms } = self;
-        format!("{scene},{effect},{num_pictures},{times_plain:.2},{plain_ms:.2}\n")
+        let Self { scene, camera, effect, num_pictures, times_plain, plain_ms } = self;
+        format!("{scene},{camera},{effect},{num_pictures},{times_plain:.2},{plain_ms:.2}\n")
     }
 }
 
-/// Measures every effect, without the scene's name. `distance` is that of what the camera looks at.
+/// Measures every effect, without the names of scene and camera. `distance` is that of what the camera looks at.
 ///
 /// # Errors
 /// Those of the renderer.
@@ -91,7 +93,7 @@ pub fn measure_costs(
         let (times_plain, plain_secs) = timed[timed.len() / 2];
         let num_pictures = if plan.is_plain(FRAME) { 0 } else { plan.num_samples(FRAME) };
         let (effect, plain_ms) = (kind.name, plain_secs * 1e3);
-        rows.push(CostRow { scene: String::new(), effect, num_pictures, times_plain, plain_ms });
+        rows.push(CostRow { scene: String::new(), camera: String::new(), effect, num_pictures, times_plain, plain_ms });
     }
     Ok(rows)
 }

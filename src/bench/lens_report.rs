@@ -27,6 +27,28 @@ pub fn lens_csv_line(row: &LensRow) -> String {
     )
 }
 
+/// The row of a line that [`lens_csv_line`] wrote; `None` for any other line.
+pub fn lens_row_of(line: &str) -> Option<LensRow> {
+    let fields: Vec<&str> = line.trim_end().split(',').collect();
+    let [scene, camera, source, blur_px, quality, method, samples, psnr_db, times_plain, plain_ms, blends_ratio] =
+        fields[..]
+    else {
+        return None;
+    };
+    Some(LensRow {
+        scene: scene.to_owned(),
+        camera: camera.to_owned(),
+        case: LensCase { source: source.parse().ok()?, blur_px: blur_px.parse().ok()? },
+        quality: quality.parse().ok()?,
+        method: method.parse().ok()?,
+        num_samples: samples.parse().ok()?,
+        psnr_db: psnr_db.parse().ok()?,
+        times_plain: times_plain.parse().ok()?,
+        plain_ms: plain_ms.parse().ok()?,
+        blends_ratio: blends_ratio.parse().ok()?,
+    })
+}
+
 /// One panel per case: PSNR against time, with one line per method and the presets as labeled dots. Means over scenes
 /// and cameras.
 pub fn lens_svg(rows: &[LensRow]) -> String {
@@ -41,10 +63,11 @@ pub fn lens_svg(rows: &[LensRow]) -> String {
     grid(title, &methods().map(entry), &charts, 4.min(charts.len().max(1)), PANEL_PX)
 }
 
-fn methods() -> [(LensMethod, &'static str); 4] {
+fn methods() -> [(LensMethod, &'static str); 5] {
     [
         (LensMethod::Plain, COLORS[0]),
         (LensMethod::Sharp, COLORS[1]),
+        (LensMethod::Shared, COLORS[3]),
         (LensMethod::Blurred, COLORS[2]),
         (LensMethod::Preset, COLORS[7]),
     ]
@@ -54,6 +77,7 @@ fn name(method: LensMethod) -> &'static str {
     match method {
         LensMethod::Plain => "no blur",
         LensMethod::Sharp => "sharp samples",
+        LensMethod::Shared => "sharp samples of one projection",
         LensMethod::Blurred => "samples with blurred splats",
         LensMethod::Preset => "preset",
     }
@@ -67,10 +91,10 @@ fn chart(rows: &[LensRow], case: LensCase) -> Chart {
         let label = |(samples, quality): (usize, Quality)| match method {
             LensMethod::Preset => quality.to_string(),
             LensMethod::Plain => String::new(),
-            LensMethod::Sharp | LensMethod::Blurred => samples.to_string(),
+            LensMethod::Sharp | LensMethod::Shared | LensMethod::Blurred => samples.to_string(),
         };
         let mark = |(idx, point): (usize, &Mean)| Marker { label: label(point.key), ..Marker::dot(idx, 3.5) };
-        let has_line = matches!(method, LensMethod::Sharp | LensMethod::Blurred);
+        let has_line = matches!(method, LensMethod::Sharp | LensMethod::Shared | LensMethod::Blurred);
         chart.series.push(Series {
             points: points.iter().map(|point| (point.times, point.psnr_db)).collect(),
             color,

@@ -23,7 +23,7 @@ pub use difference::{Difference, difference};
 pub use lens::{BlurSource, LENS_CASES, LensBench, LensCase, LensMethod, LensRow};
 pub use lens_auto::{AUTO_CSV_HEADER, AUTO_FLOORS, AUTO_FRAMES, AutoRow, AutoShot, measure_auto};
 pub use lens_costs::{COST_CSV_HEADER, CostRow, measure_costs};
-pub use lens_report::{LENS_CSV_HEADER, lens_csv_line, lens_svg};
+pub use lens_report::{LENS_CSV_HEADER, lens_csv_line, lens_row_of, lens_svg};
 pub use measure::{BenchPlan, BenchRow, Timing, measure};
 pub use output::RenderOutput;
 pub use pareto::{AccuracyAxis, pareto_svg};

@@ -14,7 +14,8 @@ const EXAMPLES: &str = "\
 Examples:
   cinesplat import camera_path.json -o shot.json
   cinesplat import poses.txt --from kitti --fps 10 -o shot.json
-  cinesplat import poses.tum --size 1920x1080 --fov 40 --up 0,0,1 -o shot.json";
+  cinesplat import poses.tum --size 1920x1080 --fov 40 --up 0,0,1 -o shot.json
+  cinesplat import run.bag#/odom -o shot.json";
 
 /// Turn another program's camera path into a shot
 ///
@@ -22,7 +23,7 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, after_long_help = formats::table_with(EXAMPLES))]
 pub(super) struct Args {
-    /// Camera path to read, or the folder of a COLMAP, EuRoC, nerfstudio or 7-Scenes capture
+    /// Camera path to read, or the folder of a COLMAP, EuRoC, nerfstudio or 7-Scenes capture, or RECORDING#TOPIC of ROS
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Shot to write, or - for stdout

@@ -3,6 +3,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::console;
 use super::failure::Failure;
+use cinesplat::files::remove_open_files;
 
 /// Makes a write beyond the limit on file sizes (`ulimit -f`) an error instead of the end of the program. Call it before
 /// any thread is started.
@@ -31,6 +32,7 @@ impl Interrupt {
             if count.fetch_add(1, Ordering::SeqCst) == 0 {
                 console::note("stopping after the current step; Ctrl-C again stops at once");
             } else {
+                remove_open_files();
                 std::process::exit(130);
             }
         });

@@ -2,11 +2,16 @@
 //!
 //! Enters: `--max-memory`, the limit on address space (`ulimit -v`), the limit of the control group (containers, Slurm).
 //! Leaves: the bytes that are left, for estimates before work. What exceeds them in the end is refused by the allocator.
+//!
+//! `--max-memory` takes the place of what the control group has left and of the caps that readers and renderers have without
+//! it: whoever gives a number knows more than an estimate does. The machine's memory, the control group's limit and the limit
+//! on address space cannot be overruled.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::allocator;
+use cinesplat::files::{group_memory_left, group_memory_max};
 use cinesplat::render;
 use cinesplat::scene::Limits;
 
@@ -17,25 +22,32 @@ const SPARE_BYTES: u64 = 48 << 20;
 
 /// Bounds the memory of everything that follows.
 pub(super) fn set_max(bytes: u64) {
+    let bounds = [in_group(group_memory_max), bytes_in("/proc/meminfo", "MemTotal:")];
+    let bytes = bounds.into_iter().flatten().fold(bytes, u64::min);
     // What the program holds before its first command is in the bound too.
     allocator::set_cap(bytes.saturating_sub(status_bytes("VmRSS:").unwrap_or(0)));
 }
 
 /// Bytes that may still be taken; `None` where nothing bounds them, or the system does not say.
 pub(super) fn left_bytes() -> Option<u64> {
-    [allocator::left_bytes(), left_addresses(), left_in_group()].into_iter().flatten().min()
+    [allocator::left_bytes().or_else(|| in_group(group_memory_left)), left_addresses()].into_iter().flatten().min()
 }
 
 /// The limits of readers.
 pub(super) fn reading(limits: Limits) -> Limits {
-    let memory_bytes = left_bytes().map_or(limits.memory_bytes, |left| left.saturating_sub(SPARE_BYTES));
-    Limits { memory_bytes: memory_bytes.min(limits.memory_bytes), ..limits }
+    Limits { memory_bytes: share_of_left(1.0, limits.memory_bytes), ..limits }
 }
 
 /// The limits of the renderer.
 pub(super) fn rendering(limits: render::Limits) -> render::Limits {
-    let left = left_bytes().map(|left| (left.saturating_sub(SPARE_BYTES) as f64 * RENDER_SHARE) as u64);
-    render::Limits { max_memory_bytes: left.unwrap_or(u64::MAX).min(limits.max_memory_bytes), ..limits }
+    render::Limits { max_memory_bytes: share_of_left(RENDER_SHARE, limits.max_memory_bytes), ..limits }
+}
+
+/// A share of what is left beyond [`SPARE_BYTES`]; without `--max-memory` at most `cap`.
+fn share_of_left(share: f64, cap: u64) -> u64 {
+    let left = left_bytes().map(|left| (left.saturating_sub(SPARE_BYTES) as f64 * share) as u64);
+    let cap = if allocator::left_bytes().is_some() { u64::MAX } else { cap };
+    left.unwrap_or(u64::MAX).min(cap)
 }
 
 /// Whether so little is left that a library which fails may have failed for it.
@@ -71,33 +83,18 @@ fn left_addresses() -> Option<u64> {
 
 /// A size of this process, as Linux states it in kilobytes.
 fn status_bytes(name: &str) -> Option<u64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix(name))?;
+    bytes_in("/proc/self/status", name)
+}
+
+/// As [`status_bytes`], from another of Linux's files.
+fn bytes_in(file: &str, name: &str) -> Option<u64> {
+    let text = fs::read_to_string(file).ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     Some(line.split_whitespace().next()?.parse::<u64>().ok()? << 10)
 }
 
-/// What is left of the limits of the control group and of those above it. Memory that only caches files is not counted:
-/// the system gives it up on demand.
-fn left_in_group() -> Option<u64> {
+/// A figure of the control group.
+fn in_group(of: fn(&str, &Path) -> Option<u64>) -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").ok()?;
-    let unified = groups.lines().find_map(|line| line.strip_prefix("0::"));
-    let legacy = groups.lines().find_map(|line| line.split_once(":memory:").map(|(_, path)| path));
-    let left = |root: &str, path: &str, [max, used]: [&str; 2], cached: &str| {
-        let folder = PathBuf::from(root).join(path.trim_start_matches('/'));
-        let folders = folder.ancestors().take_while(|folder| folder.starts_with(root));
-        folders.filter_map(|folder| left_in(folder, [max, used], cached)).min()
-    };
-    let unified =
-        unified.and_then(|path| left("/sys/fs/cgroup", path, ["memory.max", "memory.current"], "inactive_file "));
-    let names = ["memory.limit_in_bytes", "memory.usage_in_bytes"];
-    let legacy = legacy.and_then(|path| left("/sys/fs/cgroup/memory", path, names, "total_inactive_file "));
-    [unified, legacy].into_iter().flatten().min()
-}
-
-fn left_in(folder: &Path, [max, used]: [&str; 2], cached: &str) -> Option<u64> {
-    let number = |name: &str| fs::read_to_string(folder.join(name)).ok()?.trim().parse::<u64>().ok();
-    let (max, used) = (number(max)?, number(used)?);
-    let stat = fs::read_to_string(folder.join("memory.stat")).unwrap_or_default();
-    let cached = stat.lines().find_map(|line| line.strip_prefix(cached)?.trim().parse::<u64>().ok()).unwrap_or(0);
-    Some(max.saturating_sub(used.saturating_sub(cached)))
+    of(&groups, Path::new("/sys/fs/cgroup"))
 }

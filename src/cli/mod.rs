@@ -66,6 +66,9 @@ struct Cli {
     #[arg(short, long, global = true, display_order = 900)]
     quiet: bool,
     /// Memory that the program may take, such as 2G [default: what container and shell allow]
+    ///
+    /// A size takes the place of what the container has left and of the built-in caps, 4 GB for a picture and 32 GB for a
+    /// scene. The memory of the machine and the container's limit bound it.
     #[arg(long, global = true, display_order = 901, hide_short_help = true, value_name = "SIZE", value_parser = memory::parse_size)]
     max_memory: Option<u64>,
 }

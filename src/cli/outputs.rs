@@ -66,6 +66,18 @@ impl BenchFolder {
         self.output.is_some()
     }
 
+    /// The text of a file that an earlier run wrote to the folder.
+    pub(super) fn read(&self, name: &str) -> Result<Option<String>, Failure> {
+        let file = self.output.as_ref().map(|folder| folder.join(name)).filter(|file| file.is_file());
+        file.map(|file| read_text(&file)).transpose()
+    }
+
+    /// Writes a file of the folder over that of an earlier moment of this run, or of a run that it goes on with.
+    pub(super) fn rewrite(&self, name: &str, text: &str) -> Result<(), Failure> {
+        let Some(folder) = &self.output else { return Ok(()) };
+        Ok(files::write(&folder.join(name), text.as_bytes(), Existing::Replace)?)
+    }
+
     /// Writes a file of the folder, where there is one.
     pub(super) fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
         let Some(folder) = &self.output else { return Ok(()) };

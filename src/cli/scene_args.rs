@@ -139,6 +139,20 @@ impl PictureArgs {
         pool.map_err(|_| Failure::no_threads())
     }
 
+    /// The flags that are given, for a table: `quality Final near 0.1`.
+    pub(super) fn given(&self) -> String {
+        let Self { quality, filter, sort, color_clamp, near, threads } = self;
+        let flags = [
+            quality.map(|quality| format!("quality {quality:?}")),
+            filter.map(|filter| format!("filter {filter:?}")),
+            sort.map(|sort| format!("sort {sort:?}")),
+            color_clamp.map(|clamp| format!("clamp {clamp:?}")),
+            near.map(|near| format!("near {near}")),
+            threads.map(|threads| format!("threads {threads}")),
+        ];
+        flags.into_iter().flatten().collect::<Vec<_>>().join(" ")
+    }
+
     /// Settings for a scene. `filter` and `near` come from a cameras file; a flag takes precedence over them.
     pub(super) fn settings(
         &self,

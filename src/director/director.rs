@@ -20,7 +20,7 @@ use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::network::PromptBatch;
-use crate::said::take_said_directions;
+use crate::said::{drop_descriptions, take_said_directions};
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -145,6 +145,7 @@ impl Director {
             certainty.probability = self.model.calibration.apply(certainty.probability);
         }
         take_said_directions(linked, &mut direction.program.steps);
+        drop_descriptions(linked, &mut direction.program.steps);
         // What the scene lacks stays a group, so that callers can tell it.
         direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)

@@ -4,7 +4,7 @@
 //! direction, the step takes it.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::Step;
+use cinesplat_operator::{Pass, Step};
 use cinesplat_trajectory::Move;
 
 /// Words that may stand between a verb and its direction.
@@ -77,6 +77,63 @@ fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {
         }
         step.with.iter_mut().filter(|other| is_opposite(other)).for_each(|other| *other = movement);
     }
+}
+
+/// Words that say where a thing is, and the way past that the network may read into them.
+const PLACINGS: [(&[&str], Pass); 10] = [
+    (&["under"], Pass::Under),
+    (&["below"], Pass::Under),
+    (&["beneath"], Pass::Under),
+    (&["underneath"], Pass::Under),
+    (&["over"], Pass::Over),
+    (&["above"], Pass::Over),
+    (&["behind"], Pass::Behind),
+    (&["beside"], Pass::Past),
+    (&["next", "to"], Pass::Past),
+    (&["in", "front", "of"], Pass::Front),
+];
+
+/// Removes ways past an object that only say which thing is meant: `push in on the cupboard under the tv`.
+pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| stays_before_subject(step.movement)) {
+        let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
+        let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
+        let id_at = |at: usize| linked.slot_at(words.get(at)?);
+        let is_subject = |id: &u32| step.end.subjects.contains(id) || step.start.subjects.contains(id);
+        let describes = |at: usize, placing: &[&str]| {
+            let is_place = |id: &u32| via.objects == [*id];
+            words[at..].starts_with(placing)
+                && at.checked_sub(1).and_then(id_at).is_some_and(|id| is_subject(&id))
+                && id_at(at + placing.len()).is_some_and(|id| is_place(&id) && !is_subject(&id))
+        };
+        let mut placings = PLACINGS.iter().filter(|(_, how)| *how == via.how);
+        if placings.any(|(placing, _)| (0..words.len()).any(|at| describes(at, placing))) {
+            step.via = None;
+        }
+    }
+}
+
+/// Whether a move goes to its subject, or stays before it, and so passes nothing else.
+fn stays_before_subject(movement: Move) -> bool {
+    matches!(
+        movement,
+        Move::PushIn
+            | Move::PullOut
+            | Move::ZoomIn
+            | Move::ZoomOut
+            | Move::DollyZoomIn
+            | Move::DollyZoomOut
+            | Move::Static
+            | Move::PanLeft
+            | Move::PanRight
+            | Move::TiltUp
+            | Move::TiltDown
+            | Move::WhipPan
+            | Move::OrbitLeft
+            | Move::OrbitRight
+            | Move::ArcLeft
+            | Move::ArcRight
+    )
 }
 
 /// The move that a verb at word `at` and the direction after it say, and the word for the other direction.

@@ -133,6 +133,10 @@ impl<'a> Stamps<'a> {
         if pairs.is_empty() {
             return None;
         }
+        if 2 * pairs.len() < self.sparse.len() {
+            let (num, max_diff) = (self.sparse.len(), settings.max_diff_secs);
+            notes.push(format!("only {} of {num} poses have a partner within {max_diff} s", pairs.len()));
+        }
         let [reference_secs, estimate_secs] = self.ordered((self.sparse, self.dense));
         if settings.convention == Convention::Cinesplat {
             pairs.sort_by(|a, b| reference_secs[a[0]].total_cmp(&reference_secs[b[0]]));

@@ -6,6 +6,7 @@
 //! things at once.
 
 use super::named_move::{NamedMove, extent, name_move};
+use super::progress::is_one_way;
 use super::svd::rotation_angle;
 use super::{Reduction, Trajectory};
 use cinesplat_trajectory::Move;
@@ -31,6 +32,8 @@ const STILL_ZOOM_PER_SEC: f64 = 0.002;
 const BLEND_FRAC: f64 = 0.12;
 /// Costs of a span: with a name, with a name of its middle alone, and without a name, plus that of its length.
 const NAMED_COST: f64 = 1.0;
+/// Added for a move that turns while it travels: a straight move with the beginning of a pan looks like a short arc.
+const CURVED_COST: f64 = 0.05;
 const BLENDED_COST: f64 = 2.0;
 const UNNAMED_COST: f64 = 2.5;
 const UNNAMED_COST_PER_WHOLE: f64 = 8.0;
@@ -174,15 +177,22 @@ fn moves_between_holds(path: &Trajectory, still_distance: f64, start_secs: f64) 
 fn priced(span: &Trajectory, still_distance: f64, share: f64) -> Priced {
     // Among equal splits the one with even spans is cheapest.
     let evenness = 1e-3 * share * share;
-    if let Some(found) = name_move(span, still_distance) {
-        return (Some(found), NAMED_COST + evenness);
+    if let Some(found) = name_move(span, still_distance).filter(|found| is_one_way(span, found.name, still_distance)) {
+        return (Some(found), NAMED_COST + curved_cost(found.name) + evenness);
     }
     let ends = (BLEND_FRAC * span.len() as f64) as usize;
     let middle = span.select(&(ends..span.len() - ends).collect::<Vec<_>>());
-    let inside = name_move(&middle, still_distance).filter(|found| found.name != Move::Static);
+    let is_move = |found: &NamedMove| found.name != Move::Static && is_one_way(&middle, found.name, still_distance);
+    let inside = name_move(&middle, still_distance).filter(is_move);
     let blended = inside.and_then(|found| Some(NamedMove { amount: extent(span, found.name)?, ..found }));
     match blended {
         Some(found) => (Some(found), BLENDED_COST + evenness),
         None => (None, UNNAMED_COST + UNNAMED_COST_PER_WHOLE * share),
     }
+}
+
+fn curved_cost(name: Move) -> f64 {
+    use Move as M;
+    let is_curved = matches!(name, M::ArcLeft | M::ArcRight | M::OrbitLeft | M::OrbitRight | M::CraneUp | M::CraneDown);
+    if is_curved { CURVED_COST } else { 0.0 }
 }

@@ -61,7 +61,7 @@ impl Description {
     /// The moves as a table: times, move, amount, height of the camera's view, lens, and the subject's size.
     pub fn table(&self) -> String {
         let mut out =
-            format!("{:>8} {:>8}  {:<15} {:<16} {:<23} {:<15}", "from s", "to s", "move", "amount", "angle", "fov deg");
+            format!("{:>8} {:>8}  {:<15} {:<18} {:<23} {:<15}", "from s", "to s", "move", "amount", "angle", "fov deg");
         out += if self.subject.is_some() { " size\n" } else { "\n" };
         for found in &self.moves {
             let ends = self.ends(found);
@@ -71,7 +71,7 @@ impl Description {
             };
             let name = found.movement.map_or("several at once", |found| found.name.into());
             let line = format!(
-                "{:>8.2} {:>8.2}  {name:<15} {:<16} {:<23} {:<15} {}",
+                "{:>8.2} {:>8.2}  {name:<15} {:<18} {:<23} {:<15} {}",
                 found.from_secs,
                 found.to_secs,
                 amount(found).map_or(String::new(), |(value, unit)| format!("{} {unit}", significant(value, DIGITS))),

@@ -24,6 +24,8 @@ const AXIS_HEIGHT: f64 = 215.0;
 const SPREAD_HEIGHT: f64 = 260.0;
 /// Width of the color bar with its values, px.
 const COLOR_BAR_WIDTH: f64 = 110.0;
+/// Width of the only map with its color bar, over that of the figure; the error over time is beside it.
+const ONLY_MAP_FRAC: f64 = 0.47;
 /// Most maps beside each other.
 const MAX_COLUMNS: usize = 3;
 /// Bars of the histogram.
@@ -45,13 +47,21 @@ pub fn error_figure(reference_name: &str, estimates: &[Named]) -> Drawing {
     let num_map_rows = estimates.len().div_ceil(MAX_COLUMNS);
     let is_absolute = estimates.iter().all(|(_, found)| found.settings.metric == Metric::Ape);
     let axis_height = if is_absolute { AXIS_HEIGHT } else { 0.0 };
-    let height = HEADER + num_map_rows as f64 * MAP_HEIGHT + TIME_HEIGHT + axis_height + SPREAD_HEIGHT;
+    let is_alone = estimates.len() == 1;
+    let time_height = if is_alone { 0.0 } else { TIME_HEIGHT };
+    let height = HEADER + num_map_rows as f64 * MAP_HEIGHT + time_height + axis_height + SPREAD_HEIGHT;
     let mut figure = Figure::new([WIDTH, height], &title);
     figure.legend(&legend(reference_name, estimates));
-    maps(&mut figure, estimates);
+    let maps_width = if is_alone { ONLY_MAP_FRAC * WIDTH } else { WIDTH };
+    maps(&mut figure, estimates, maps_width);
     let mut top = HEADER + num_map_rows as f64 * MAP_HEIGHT;
-    figure.chart([MARGIN, top, WIDTH - 2.0 * MARGIN, TIME_HEIGHT], &over_time(estimates));
-    top += TIME_HEIGHT;
+    let time_area = if is_alone {
+        [maps_width + GAP, HEADER, WIDTH - MARGIN - GAP - maps_width, MAP_HEIGHT]
+    } else {
+        [MARGIN, top, WIDTH - 2.0 * MARGIN, TIME_HEIGHT]
+    };
+    figure.chart(time_area, &over_time(estimates));
+    top += time_height;
     if is_absolute {
         thirds(&mut figure, top, AXIS_HEIGHT, &along_axes(estimates));
         top += AXIS_HEIGHT;
@@ -106,13 +116,14 @@ fn map_axes(found: &Evaluation) -> [(DVec3, String); 2] {
     largest.map(|(axis, name)| (axis, format!("{name}, scene units")))
 }
 
-fn maps(figure: &mut Figure, estimates: &[Named]) {
+/// Draws a map per estimate and the color bar, in the left part of the figure of this width.
+fn maps(figure: &mut Figure, estimates: &[Named], total_width: f64) {
     let errors = || estimates.iter().flat_map(|(_, found)| found.errors.iter().copied());
     let range = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| (low.min(e), high.max(e)));
     let Some((_, first)) = estimates.first() else { return };
     let scale = ColorScale { range };
     let columns = estimates.len().clamp(1, MAX_COLUMNS) as f64;
-    let width = (WIDTH - 2.0 * MARGIN - COLOR_BAR_WIDTH - GAP * columns) / columns;
+    let width = (total_width - 2.0 * MARGIN - COLOR_BAR_WIDTH - GAP * columns) / columns;
     let [across, up] = map_axes(first);
     for (idx, (name, found)) in estimates.iter().enumerate() {
         let mut chart = Chart::new(name, Axis::linear(&across.1), Axis::linear(&up.1));
@@ -127,7 +138,7 @@ fn maps(figure: &mut Figure, estimates: &[Named]) {
         let corner = [MARGIN + column * (width + GAP), HEADER + row * MAP_HEIGHT];
         figure.chart([corner[0], corner[1], width, MAP_HEIGHT], &chart);
     }
-    let area = [WIDTH - MARGIN - COLOR_BAR_WIDTH + 20.0, HEADER + 24.0, 16.0, MAP_HEIGHT - 64.0];
+    let area = [total_width - MARGIN - COLOR_BAR_WIDTH + 20.0, HEADER + 24.0, 16.0, MAP_HEIGHT - 64.0];
     figure.color_bar(area, first.settings.relation.name_with_unit(), &scale);
 }
 

@@ -21,6 +21,7 @@ mod motion;
 mod named_move;
 mod pairs;
 mod path_figure;
+mod progress;
 mod reduce;
 mod relation;
 mod report;

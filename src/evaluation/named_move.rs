@@ -133,7 +133,7 @@ fn travelling(moved_camera: DVec3, rise: f64, zoom: f64) -> Option<NamedMove> {
 }
 
 /// The point with the least sum of squared distances to all view axes; `None` for parallel axes.
-fn aimed_at(path: &Trajectory) -> Option<DVec3> {
+pub(super) fn aimed_at(path: &Trajectory) -> Option<DVec3> {
     let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
     for (position, rotation) in path.positions.iter().zip(&path.rotations) {
         let axis = rotation.z_axis;

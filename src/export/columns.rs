@@ -5,8 +5,14 @@ use super::json_read::quoted;
 
 /// Lines with data and their numbers from 1, without comments (`#`) and empty lines.
 pub(super) fn data_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
-    lines.map(|(idx, line)| (idx + 1, line.trim())).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+    let numbered = all_lines(text).enumerate().map(|(idx, line)| (idx + 1, line));
+    numbered.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+}
+
+/// All lines without the white space around them. A line ends with `\n`, `\r\n` or `\r`, also in one text.
+pub(super) fn all_lines(text: &str) -> impl Iterator<Item = &str> {
+    let text = text.trim_start_matches('\u{feff}');
+    text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r')).map(str::trim)
 }
 
 /// An error at a line.

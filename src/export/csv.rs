@@ -8,6 +8,7 @@ use glam::{DQuat, DVec3};
 
 use super::ExportError;
 use super::columns::{bad_line, cells, data_lines, joined, number};
+use super::json_read::quoted;
 use super::pose_lines::unit_pose;
 use super::shot_json::level_angles;
 use super::track::{PoseFrame, PoseTrack};
@@ -34,6 +35,10 @@ pub(super) fn write(track: &PoseTrack) -> String {
     out
 }
 
+/// Columns that may be missing, and columns that repeat the quaternion for people.
+const OPTIONAL: [&str; 4] = ["fov_y_deg", "focus_distance", "easing", "cut"];
+const ANGLES: [&str; 3] = ["yaw_deg", "pitch_deg", "roll_deg"];
+
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let mut lines = data_lines(text);
     let Some((first, header)) = lines.next() else { return Err(ExportError::NoPoses) };
@@ -44,9 +49,12 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     for (idx, name) in idx_of.iter_mut().zip(required) {
         *idx = column(name).ok_or_else(|| bad_line(first, header, format!("a column {name}")))?;
     }
-    let optional = ["fov_y_deg", "focus_distance", "easing", "cut"].map(column);
+    let optional = OPTIONAL.map(column);
+    let is_unknown = |name: &&&str| !required.contains(*name) && !OPTIONAL.contains(*name) && !ANGLES.contains(*name);
+    let unknown: Vec<String> = names.iter().filter(is_unknown).map(|name| quoted(name)).collect();
+    let unread = (!unknown.is_empty()).then(|| format!("columns that are not read: {}", unknown.join(", ")));
     let frames = lines.map(|(line, text)| read_row(line, text, &idx_of, optional)).collect::<Result<Vec<_>, _>>()?;
-    Ok(PoseTrack { timed: true, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { timed: true, unread: unread.into_iter().collect(), ..PoseTrack::untimed(frames) })
 }
 
 fn read_row(
@@ -68,7 +76,16 @@ fn read_row(
         fov_y_rad: cell(fov).map(|cell| number(line, cell)).transpose()?.map(f64::to_radians),
         focus_distance: cell(focus).map(|cell| number(line, cell)).transpose()?,
         easing: easing.transpose()?.unwrap_or(Easing::Linear),
-        cut: cell(cut).is_some_and(|cell| cell == "1" || cell == "true"),
+        cut: cell(cut).map(|cell| flag(line, cell)).transpose()?.unwrap_or(false),
         ..PoseFrame::new(v[0], pose.ok_or_else(|| bad_line(line, text, "a unit quaternion"))?)
     })
+}
+
+/// A truth value, as people and spreadsheets write it.
+fn flag(line: usize, cell: &str) -> Result<bool, ExportError> {
+    match cell.to_ascii_lowercase().as_str() {
+        "1" | "true" => Ok(true),
+        "0" | "false" => Ok(false),
+        _ => Err(bad_line(line, cell, "1, 0, true or false")),
+    }
 }

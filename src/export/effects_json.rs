@@ -1,6 +1,7 @@
 //! The `effects` of a `shot.json`: kind, settings, reason, and the frames that each runs on.
 //!
-//! Settings are numbers under their own names beside `kind` and `because`. `frames`, `samples`, `measure`, `error` and
+//! Settings are numbers under their own names beside `kind` and `because`; anything else there is no setting, which a
+//! note says. `frames`, `samples`, `measure`, `error` and
 //! `allowed` record what the last plan found; they bind nothing.
 
 use super::ExportError;
@@ -13,11 +14,28 @@ const OWN_KEYS: [&str; 7] = ["kind", "because", "frames", "samples", "measure", 
 
 /// Reads one effect.
 pub(super) fn read(node: &Node) -> Result<EffectRequest, ExportError> {
-    let numbers = node.fields().into_iter().filter(|(name, _)| !OWN_KEYS.contains(name));
-    let settings = numbers.filter_map(|(name, value)| value.number().ok().map(|v| (name.to_owned(), v))).collect();
+    let names = node.fields().into_iter().map(|(name, _)| name).filter(|name| !OWN_KEYS.contains(name));
+    // Null is a setting that is not stated.
+    let stated = names.filter_map(|name| Some((name, node.optional(name)?)));
+    let settings = stated.filter(|(_, value)| is_setting(value));
+    let settings = settings.map(|(name, value)| Ok((name.to_owned(), value.number()?)));
+    let settings = settings.collect::<Result<_, ExportError>>()?;
     let kind = node.field("kind", "the name of an effect")?.text()?.to_owned();
     let because = node.optional("because").map_or(Ok(String::new()), |text| text.text().map(str::to_owned))?;
     Ok(EffectRequest { kind, because, settings, runs: read_runs(node)? })
+}
+
+/// One line per value of an effect that is no number, and so no setting.
+pub(super) fn notes(node: &Node) -> Vec<String> {
+    let others = node.fields().into_iter().filter(|(name, _)| !OWN_KEYS.contains(name));
+    let is_stated = |(name, value): &(&str, Node)| node.optional(name).is_some() && !is_setting(value);
+    let unread = others.filter(is_stated);
+    unread.map(|(_, value)| format!("{}: no number, and so no setting: it is not read", value.place())).collect()
+}
+
+/// Whether a value is a number; one in quotes is meant as one.
+fn is_setting(value: &Node) -> bool {
+    value.number().is_ok() || value.text().is_ok_and(|text| text.parse::<f64>().is_ok())
 }
 
 fn read_runs(node: &Node) -> Result<Option<EffectRuns>, ExportError> {

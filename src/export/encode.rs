@@ -157,7 +157,8 @@ fn encode_poses(format: Format, shot: &Shot, track: &PoseTrack, layout: Layout) 
         | Format::SevenScenes
         | Format::Dpvo
         | Format::MotionCtrl
-        | Format::ReCamMaster => String::new(),
+        | Format::ReCamMaster
+        | Format::Ros => String::new(),
     };
     Ok(Encoded { files: EncodedFiles::Single(text.into_bytes()), losses })
 }

@@ -75,10 +75,10 @@ pub enum ExportError {
         /// The values allowed.
         expected: String,
     },
-    /// A fault in one of a folder's files.
+    /// A fault in one of a folder's files, or in a topic of a recording.
     #[error("{name}: {error}")]
     InFile {
-        /// Name of the file.
+        /// Name of the file or topic.
         name: String,
         /// The fault.
         error: Box<Self>,

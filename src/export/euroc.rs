@@ -23,5 +23,5 @@ pub(super) fn write(track: &PoseTrack) -> String {
 }
 
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
-    pose_lines::read(text, LineLayout::EUROC)
+    pose_lines::read_as(text, LineLayout::EUROC)
 }

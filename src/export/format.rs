@@ -4,7 +4,8 @@ use glam::DVec3;
 use serde_json::Value;
 
 use super::columns::{cells, data_lines};
-use super::line_layout::{self, FoundLayout, LineLayout, POSE_COLUMNS, StampUnit, UNIT_TOLERANCE};
+use super::line_layout::{self, EUROC_COLUMNS, FoundLayout, LineLayout, UNIT_TOLERANCE};
+use super::stamp_unit::StampUnit;
 
 /// The file formats of camera paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -57,6 +58,8 @@ pub enum Format {
     /// ReCamMaster's cameras; read only.
     #[strum(serialize = "recammaster")]
     ReCamMaster,
+    /// A topic of a recording of ROS: a bag or MCAP; read only.
+    Ros,
     /// A `shot.json` of cinesplat.
     Shot,
 }
@@ -140,6 +143,7 @@ impl Format {
                 | Self::Dpvo
                 | Self::MotionCtrl
                 | Self::ReCamMaster
+                | Self::Ros
         )
     }
 
@@ -157,7 +161,7 @@ impl Format {
         };
         let timed = Holds { times: true, ..none };
         match self {
-            Self::Tum | Self::Euroc | Self::Dpvo | Self::Aria => Holds { clock: true, ..timed },
+            Self::Tum | Self::Euroc | Self::Dpvo | Self::Aria | Self::Ros => Holds { clock: true, ..timed },
             Self::Kitti | Self::Log | Self::SevenScenes | Self::MotionCtrl | Self::ReCamMaster => none,
             Self::Re10k => Holds { clock: true, fov: true, ..timed },
             Self::Nerfstudio => Holds { fov: true, size: true, ..timed },
@@ -185,6 +189,9 @@ impl Format {
 pub(super) fn detect_with_layout(bytes: &[u8]) -> Option<(Format, Option<FoundLayout>)> {
     if bytes.starts_with(b"glTF") {
         return Some((Format::Gltf, None));
+    }
+    if super::ros::is_recording(bytes) {
+        return Some((Format::Ros, None));
     }
     if bytes.starts_with(b"PK\x03\x04") {
         let format = if super::usd::is_package(bytes) { Format::Usd } else { Format::Supersplat };
@@ -215,20 +222,29 @@ pub struct Doubt {
 impl Doubt {
     /// The doubt about a layout; `None` for one that is certain and the format's own.
     pub(super) fn new(format: Format, found: &FoundLayout) -> Option<Self> {
+        let FoundLayout { layout, num_columns, shown_unit, is_unit_certain, is_order_certain } = *found;
         let own = if format == Format::Tum { LineLayout::TUM } else { LineLayout::EUROC };
-        let is_same = |a: LineLayout, b: LineLayout| (a.unit, a.order) == (b.unit, b.order);
-        let is_own = is_same(found.layout, own);
-        if found.is_certain && is_own {
+        if is_unit_certain && is_order_certain && layout == own {
             return None;
         }
-        let (other, other_layout) = match format {
-            _ if !is_own => (format, own),
-            Format::Tum => (Format::Euroc, LineLayout::EUROC),
-            _ => (Format::Dpvo, LineLayout::DPVO),
+        // A format that is named decides the order; the text still decides the unit where it shows one.
+        let named =
+            [(Format::Dpvo, LineLayout::DPVO), (Format::Tum, LineLayout::TUM), (Format::Euroc, LineLayout::EUROC)];
+        let resolved = |named: LineLayout| LineLayout { unit: shown_unit.unwrap_or(named.unit), ..named };
+        let is_other = |(_, named): &&(Format, LineLayout)| {
+            let reads = resolved(*named);
+            if is_order_certain { reads.unit != layout.unit } else { reads.order != layout.order }
         };
+        let differs = |(_, named): &&(Format, LineLayout)| resolved(*named) != layout;
+        let is_at_home = |row: &&(Format, LineLayout)| row.1 == resolved(row.1);
+        let mut others = named.iter().filter(is_at_home).chain(&named);
+        // A note says that the unit is in doubt, where every format reads the same one.
+        let is_noted = shown_unit.is_some() && is_order_certain && layout == own;
+        let found_other = others.clone().find(is_other).or(others.find(differs)).filter(|_| !is_noted);
+        let (other, other_layout) = found_other.map(|(format, named)| (*format, resolved(*named)))?;
         let reading = |layout: LineLayout| format!("{}, quaternion {}", layout.unit, layout.order);
         Some(Self {
-            read_as: format!("{format} ({} columns, {})", found.num_columns, reading(found.layout)),
+            read_as: format!("{format} ({num_columns} columns, {})", reading(layout)),
             other,
             other_reading: reading(other_layout),
         })
@@ -267,6 +283,12 @@ fn detect_columns(text: &str) -> Option<(Format, Option<FoundLayout>)> {
     let format = match (columns.len(), numbers.len()) {
         (12, 12) if are_orthonormal_rows(&numbers) => Some(Format::Kitti),
         (13, 13) if are_orthonormal_rows(&numbers[1..]) => Some(Format::Kitti),
+        (16, 16)
+            if are_orthonormal_rows(&numbers[..12])
+                && super::kitti::is_last_row([12, 13, 14, 15].map(|at| numbers[at])) =>
+        {
+            Some(Format::Kitti)
+        }
         (super::re10k::COLUMNS, super::re10k::COLUMNS) if are_orthonormal_rows(&numbers[7..]) => Some(Format::Re10k),
         (3, 3) => Some(Format::Log),
         (10, 9) => Some(Format::Colmap),
@@ -284,7 +306,7 @@ fn detect_columns(text: &str) -> Option<(Format, Option<FoundLayout>)> {
         // The reader of KITTI says which line is no rigid pose.
         None => (numbers.len() == 12 && columns.len() == 12).then_some((Format::Kitti, None)),
         Some(found) => {
-            let is_euroc = found.layout.unit == StampUnit::Nanoseconds || found.num_columns > POSE_COLUMNS;
+            let is_euroc = found.layout.unit == StampUnit::Nanoseconds || found.num_columns == EUROC_COLUMNS;
             Some((if is_euroc { Format::Euroc } else { Format::Tum }, Some(found)))
         }
     }

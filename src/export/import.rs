@@ -5,12 +5,14 @@ use strum::VariantNames;
 
 use cinesplat_files::{FileError, Limits};
 
+use super::columns::data_lines;
 use super::format::{self, Doubt};
 use super::imported_shot::{ImportSettings, overrule, shot_of};
+use super::json_read::quoted;
 use super::line_layout::LineLayout;
 use super::{
     ExportError, Format, PoseTrack, aria, blender, cameras_json, colmap, csv, euroc, gltf, inria, kitti, lichtfeld,
-    motionctrl, named_camera, nerfstudio, pose_lines, re10k, recammaster, redwood_log, seven_scenes, shot_json,
+    motionctrl, named_camera, nerfstudio, pose_lines, re10k, recammaster, redwood_log, ros, seven_scenes, shot_json,
     supersplat, transforms, tum, usd,
 };
 use cinesplat_trajectory::Shot;
@@ -79,7 +81,7 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
 
 /// The camera path in a file, or in a folder that holds a COLMAP, EuRoC, nerfstudio or 7-Scenes capture.
 ///
-/// Without a format, the content of the file determines it.
+/// Without a format, the content of the file determines it. `RECORDING#TOPIC` names a topic of a recording of ROS.
 ///
 /// # Errors
 /// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is
@@ -90,18 +92,20 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
     if !pose_files.is_empty() && format.is_none_or(|format| format == Format::SevenScenes) {
         return imported(Format::SevenScenes, seven_scenes::read_folder(&pose_files)?);
     }
+    let (path, topic) = without_topic(path);
     let path = &file_of(path)?;
     let bytes = read_bytes(path)?;
     refuse_recordings(&bytes)?;
     let by_name = || Format::from_path(path).filter(|format| *format == Format::Colmap);
     let (format, lines) = match (*format).or_else(by_name) {
         Some(format) => (format, None),
-        None => format::detect_with_layout(&bytes).ok_or_else(unknown_content)?,
+        None => format::detect_with_layout(&bytes).ok_or_else(|| unknown_content(&bytes))?,
     };
     let (mut shot, mut notes) = (None, Vec::new());
     let track = match format {
         Format::Gltf => gltf::read(&bytes, &|name| read_beside(path, name)),
         Format::Usd => usd::read(&bytes),
+        Format::Ros => ros::read(&bytes, topic.or(camera.as_deref())),
         Format::Colmap => read_colmap(path, &bytes),
         Format::Supersplat if bytes.starts_with(b"PK") => supersplat::read(&supersplat::document_in_project(&bytes)?),
         _ => {
@@ -113,7 +117,7 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
                     None => euroc::read(text),
                 },
                 Format::Kitti => kitti::read(text).map(|track| kitti::with_times_beside(track, path)),
-                Format::Dpvo => pose_lines::read(text, LineLayout::DPVO),
+                Format::Dpvo => pose_lines::read_as(text, LineLayout::DPVO),
                 Format::Cameras => named_camera::track(&cameras_json::read(text)?.cameras),
                 Format::Inria => inria::read(text),
                 Format::Re10k => re10k::read(text),
@@ -156,18 +160,30 @@ fn imported(format: Format, track: PoseTrack) -> Result<Imported, ExportError> {
     Ok(Imported { format, track, shot: None, doubt: None, notes: Vec::new() })
 }
 
-/// Recordings of ROS hold any kind of message; the error names the command that takes a path out of one.
+/// A path and the topic behind it, unless the whole path is a file.
+fn without_topic(path: &Path) -> (&Path, Option<&str>) {
+    let split = path.to_str().and_then(ros::split_topic).filter(|_| !path.exists());
+    split.map_or((path, None), |(file, topic)| (Path::new(file), Some(topic)))
+}
+
+/// Refuses recordings of ROS without a reader; the error names the command that takes a path out of one.
 fn refuse_recordings(bytes: &[u8]) -> Result<(), ExportError> {
-    let kinds: [(&[u8], &str); 3] = [(b"#ROSBAG", "bag"), (b"SQLite format 3\0", "bag2"), (b"\x89MCAP0\r\n", "bag2")];
+    let kinds: [(&[u8], &str); 2] = [(b"#ROSBAG V1", "bag"), (b"SQLite format 3\0", "bag2")];
     let Some((_, kind)) = kinds.iter().find(|(magic, _)| bytes.starts_with(magic)) else { return Ok(()) };
     let reason = format!(
-        "recordings of ROS are not read: `evo_traj {kind} RECORDING TOPIC --save_as_tum` (of evo) writes a TUM file, which is"
+        "databases and version 1 of ROS are not read: `evo_traj {kind} RECORDING TOPIC --save_as_tum` (of evo) writes a TUM file, which is"
     );
     Err(ExportError::NotReadable { format: "ros", reason })
 }
 
-fn unknown_content() -> ExportError {
-    ExportError::WrongFormat { found: "content of no known format".into(), expected: Format::VARIANTS.join(", ") }
+/// The error of a file that fits no format, with its first line of data.
+fn unknown_content(bytes: &[u8]) -> ExportError {
+    let first = text_of(bytes).ok().and_then(|text| data_lines(text).next());
+    let found = match first {
+        Some((line, text)) => format!("content of no known format (line {line}: \"{}\")", quoted(text)),
+        None => "content of no known format".to_owned(),
+    };
+    ExportError::WrongFormat { found, expected: Format::VARIANTS.join(", ") }
 }
 
 /// Whether a format has a line, or several, per pose. The memory for JSON is limited by its own reader.
@@ -192,7 +208,8 @@ fn is_by_line(format: Format) -> bool {
 fn lines_of(bytes: &[u8]) -> Result<&str, ExportError> {
     // A line of a few bytes becomes a pose of hundreds.
     let limit = Limits::DEFAULT.poses;
-    if bytes.iter().filter(|byte| **byte == b'\n').take(limit + 1).count() > limit {
+    let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    if bytes.iter().filter(|byte| **byte == end).take(limit + 1).count() > limit {
         let expected = format!("at most {limit} lines");
         return Err(ExportError::BadLine { line: limit + 1, found: "a further line".into(), expected });
     }
@@ -230,7 +247,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, ExportError> {
 /// A file that another file names. It must be in the same folder, so that a file cannot read from elsewhere.
 fn read_beside(path: &Path, name: &str) -> Result<Vec<u8>, ExportError> {
     if name.is_empty() || name.contains(['/', '\\']) || name.starts_with('.') {
-        let found = super::json_read::quoted(name);
+        let found = quoted(name);
         return Err(ExportError::WrongFormat { found, expected: "the name of a file in the same folder".into() });
     }
     read_bytes(&path.with_file_name(name))

@@ -1,5 +1,7 @@
 //! The shot of a track that another program wrote: its frame rate, what is assumed, and what is lost.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use super::ExportError;
@@ -32,17 +34,18 @@ pub struct ImportSettings {
 /// [`ExportError::NoPoses`] without frames, [`ExportError::BadShot`] if times do not increase or a number is out of
 /// range.
 pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(Shot, Vec<String>), ExportError> {
+    let (track, mut lines) = in_order(track);
     let Some(first) = track.frames.first() else { return Err(ExportError::NoPoses) };
-    let mut lines = track.unread.clone();
+    lines.splice(0..0, track.unread.iter().cloned());
     if track.timed && first.time_secs != 0.0 {
         lines.push(format!("a shot starts at 0 s: {} s are subtracted from every time", first.time_secs));
     }
-    let rate = FrameRate::new(track, settings);
+    let rate = FrameRate::new(&track, settings);
     let fps = settings.fps.or(rate.own).unwrap_or(DEFAULT_FPS);
-    lines.extend(rate.line(track, settings));
-    let (size_px, line) = size_px(track, settings);
+    lines.extend(rate.line(&track, settings));
+    let (size_px, line) = size_px(&track, settings);
     lines.extend(line);
-    lines.extend(fov_line(track, settings));
+    lines.extend(fov_line(&track, settings));
     let lens = |fov_y_rad: f64| match track.lens_side {
         LensSide::Vertical => fov_y_rad,
         LensSide::Larger => refitted(fov_y_rad, size_px),
@@ -77,6 +80,28 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     let scene = SceneRef { up, ..SceneRef::default() };
     let shot = Shot { scene, ..Shot::from_keyframes(size_px.into(), fps, duration_secs, keyframes) };
     Ok((shot.validated()?, lines))
+}
+
+/// The track in order of time and without poses that stand there twice, and a line for each of both. Frames with cuts
+/// belong to those before them and stay.
+fn in_order(track: &PoseTrack) -> (Cow<'_, PoseTrack>, Vec<String>) {
+    let is_late = |pair: &[PoseFrame]| !(pair[0].time_secs < pair[1].time_secs);
+    if !track.timed || !track.frames.windows(2).any(is_late) || track.frames.iter().any(|frame| frame.cut) {
+        return (Cow::Borrowed(track), Vec::new());
+    }
+    let mut ordered = track.clone();
+    let num_early = track.frames.windows(2).filter(|pair| pair[1].time_secs < pair[0].time_secs).count();
+    ordered.frames.sort_by(|a, b| a.time_secs.total_cmp(&b.time_secs));
+    ordered.frames.dedup();
+    let num_repeated = track.frames.len() - ordered.frames.len();
+    let mut lines = Vec::new();
+    if num_early > 0 {
+        lines.push(format!("the poses are put in order of time (places where the time steps back: {num_early})"));
+    }
+    if num_repeated > 0 {
+        lines.push(format!("poses that are repeated with their times are taken once (repetitions: {num_repeated})"));
+    }
+    (Cow::Owned(ordered), lines)
 }
 
 /// The vertical field of view in an image of a size, from that in the default size with the same field of view along the

@@ -1,5 +1,5 @@
 //! KITTI odometry poses: per line the 12 numbers of a 3 x 4 `world_from_camera` matrix in row-major order, with OpenCV
-//! camera axes. Times may stand before them, in 13 columns, or in a file beside it, `times.txt` or `NAME_times.txt`, with
+//! camera axes, or the 16 of a 4 x 4 matrix. Times may stand before 12 numbers, in 13 columns, or in a file beside it, `times.txt` or `NAME_times.txt`, with
 //! one per line, s.
 
 use std::path::Path;
@@ -9,11 +9,18 @@ use cinesplat_files::Limits;
 use super::ExportError;
 use super::columns::{bad_line, cells, data_lines, joined, numbers};
 use super::json_read::matrix_from_rows;
+use super::line_layout::LineLayout;
+use super::stamp_unit::{StampUnit, UnitEvidence};
 use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack};
 use cinesplat_geometry::Pose;
 
 /// Columns of a line with a time.
 const TIMED_COLUMNS: usize = 13;
+/// Columns of a line with a 4 x 4 matrix, and its last row.
+const SQUARE_COLUMNS: usize = 16;
+const LAST_ROW: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+/// Largest deviation from [`LAST_ROW`], which sums in 32 bits leave.
+const LAST_ROW_TOLERANCE: f64 = 1e-6;
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let mut out = String::new();
@@ -25,20 +32,38 @@ pub(super) fn write(track: &PoseTrack) -> String {
     out
 }
 
-pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
+pub(super) fn read(whole: &str) -> Result<PoseTrack, ExportError> {
     let mut frames = Vec::new();
-    let is_timed = data_lines(text).next().is_some_and(|(_, line)| cells(line).len() == TIMED_COLUMNS);
-    for (line, text) in data_lines(text) {
+    let layout = LineLayout::TUM.with_unit_of(whole);
+    let unit = layout.unit;
+    let num_columns = data_lines(whole).next().map_or(0, |(_, line)| cells(line).len());
+    let is_timed = num_columns == TIMED_COLUMNS;
+    for (line, text) in data_lines(whole) {
         let (time_secs, rows) = if is_timed {
             let [time_secs, rows @ ..] = numbers::<TIMED_COLUMNS>(line, text)?;
             (Some(time_secs), rows)
+        } else if num_columns == SQUARE_COLUMNS {
+            let [rows @ .., a, b, c, d] = numbers::<SQUARE_COLUMNS>(line, text)?;
+            if !is_last_row([a, b, c, d]) {
+                return Err(bad_line(line, text, "a last row of 0 0 0 1"));
+            }
+            (None, rows)
         } else {
             (None, numbers::<12>(line, text)?)
         };
         let frame = matrix_frame(frames.len(), &rows).map_err(|reason| bad_line(line, text, reason))?;
-        frames.push(PoseFrame { time_secs: time_secs.unwrap_or(frame.time_secs), ..frame });
+        let time_secs = time_secs.map_or(frame.time_secs, |stamp| stamp / unit.per_sec());
+        frames.push(PoseFrame { time_secs, ..frame });
     }
-    Ok(PoseTrack { timed: is_timed, ..PoseTrack::untimed(frames) })
+    let is_other_unit = is_timed && unit != StampUnit::Seconds;
+    let unread = is_other_unit.then(|| format!("the times are read as {unit}: as seconds they make no path"));
+    let doubt = if is_timed { UnitEvidence::of(whole).doubt(layout.unit) } else { None };
+    Ok(PoseTrack { timed: is_timed, unread: unread.into_iter().chain(doubt).collect(), ..PoseTrack::untimed(frames) })
+}
+
+/// Whether four numbers are the last row of a 4 x 4 matrix of a pose, within rounding.
+pub(super) fn is_last_row(row: [f64; 4]) -> bool {
+    row.iter().zip(LAST_ROW).all(|(found, wanted)| (found - wanted).abs() <= LAST_ROW_TOLERANCE)
 }
 
 /// The track with the times of a file beside `path`, if there is one with as many times as poses.

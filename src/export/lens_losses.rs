@@ -11,6 +11,8 @@ pub(super) struct LensLosses {
     distortion: Option<(String, f64)>,
     /// Horizontal over vertical focal length, minus 1.
     stretch: f64,
+    /// A lens model that is no pinhole, even without distortion.
+    model: Option<String>,
 }
 
 /// Offsets and ratios below this are rounding.
@@ -34,6 +36,14 @@ impl LensLosses {
         }
     }
 
+    /// Notes the name of a lens model.
+    pub(super) fn model(&mut self, name: &str) {
+        let name = name.to_ascii_uppercase();
+        let is_bent =
+            ["FISHEYE", "EQUIRECT", "PANORAMA", "SPHERICAL", "ORTHO", "FOV"].iter().any(|part| name.contains(part));
+        self.model = self.model.take().or(is_bent.then_some(name));
+    }
+
     /// Notes different focal lengths.
     pub(super) fn focal_px(&mut self, horizontal: f64, vertical: f64) {
         let stretch = horizontal / vertical - 1.0;
@@ -45,6 +55,9 @@ impl LensLosses {
     /// One line per loss, with its amount.
     pub(super) fn into_lines(self) -> Vec<String> {
         let mut lines = Vec::new();
+        if let Some(name) = self.model {
+            lines.push(format!("the lens model {name:.40} is read as a pinhole of the same focal length"));
+        }
         if self.off_center_px > ROUNDING {
             lines.push(format!(
                 "the principal point, up to {:.2} px from the image's center, is not read",

@@ -2,6 +2,7 @@
 
 use super::ExportError;
 use super::lens_losses::LensLosses;
+use super::name_order::out_of_order;
 use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack};
 use cinesplat_geometry::Camera;
 
@@ -33,5 +34,6 @@ pub(super) fn track(cameras: &[NamedCamera]) -> Result<PoseTrack, ExportError> {
     if num_other > 0 {
         unread.push(format!("{num_other} cameras have other image sizes than the first, {} x {}", first.0, first.1));
     }
+    unread.extend(out_of_order(cameras.iter().map(|named| named.name.as_str())));
     Ok(PoseTrack { size_px: Some(first), unread, ..PoseTrack::untimed(frames) })
 }

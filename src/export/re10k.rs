@@ -1,5 +1,5 @@
 //! Camera files of RealEstate10K, which CameraCtrl also reads: an optional line with the address of the film, then lines of
-//! microseconds, `fx fy cx cy` over the image's size, two numbers without meaning, and `camera_from_world` (3 x 4, row-major)
+//! microseconds, `fx fy cx cy` over the image's size, two numbers that are 0 (distortion in other programs' files), and `camera_from_world` (3 x 4, row-major)
 //! with OpenCV camera axes.
 
 use glam::DMat3;
@@ -34,6 +34,8 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         // Pixels are square, so the focal lengths over the sizes give the aspect.
         stated_aspect = stated_aspect.or(Some(fy / fx));
         losses.principal_point_frac([cx - 0.5, cy - 0.5]);
+        losses.distortion("k1", v[5]);
+        losses.distortion("k2", v[6]);
         frames.push(PoseFrame {
             fov_y_rad: Some(2.0 * (0.5 / fy).atan()),
             matrix: Some(DMat3::from_mat4(camera_from_world).transpose()),

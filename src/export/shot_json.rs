@@ -112,6 +112,8 @@ pub fn read(text: &str) -> Result<ShotFile, ExportError> {
     let angles = keys.iter().map(read_euler).collect::<Result<Vec<_>, _>>()?;
     let mut notes = unknown_keys(&root, &keys).into_notes();
     notes.extend(euler_edits::apply(&mut shot.keyframes, &angles, shot.scene.up));
+    let effects = root.optional("effects").and_then(|effects| effects.items().ok());
+    notes.extend(effects.iter().flatten().flat_map(effects_json::notes));
     notes.extend(look_at::apply(&mut shot.keyframes, shot.scene.up));
     Ok(ShotFile { shot, notes })
 }

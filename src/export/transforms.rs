@@ -10,6 +10,7 @@ use super::ExportError;
 use super::json_read::{self, Node};
 use super::json_write::{Json, matrix_rows, object};
 use super::lens_losses::LensLosses;
+use super::name_order::out_of_order;
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::frames::{from_opengl, to_opengl};
 
@@ -42,6 +43,9 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let mut timed = !nodes.is_empty();
     let mut size_px = None;
     let mut losses = LensLosses::default();
+    if let Some(model) = root.optional("camera_model").and_then(|node| node.text().ok()) {
+        losses.model(model);
+    }
     for (idx, node) in nodes.iter().enumerate() {
         let time_secs = node.optional("time_secs").map(|time| time.number()).transpose()?;
         timed &= time_secs.is_some();
@@ -59,7 +63,12 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
             ..PoseFrame::new(time_secs.unwrap_or(idx as f64 / fps.unwrap_or(DEFAULT_FPS)), pose)
         });
     }
-    Ok(PoseTrack { size_px, fps, timed, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
+    let mut unread = losses.into_lines();
+    if !timed {
+        let names = nodes.iter().filter_map(|node| node.optional("file_path")?.text().ok());
+        unread.extend(out_of_order(names));
+    }
+    Ok(PoseTrack { size_px, fps, timed, unread, ..PoseTrack::untimed(frames) })
 }
 
 fn note_distortion(frame: &Node, root: &Node, losses: &mut LensLosses) -> Result<(), ExportError> {

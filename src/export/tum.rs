@@ -1,6 +1,6 @@
 //! TUM RGB-D trajectories: lines of `time tx ty tz qx qy qz qw`, `world_from_camera` with OpenCV camera axes, seconds
 //! on any clock. Reference: the file formats of the TUM RGB-D benchmark, read with 8 columns and `#` comments.
-//! Columns may also be separated by commas.
+//! Columns may also be separated by commas; further columns are not read, which a note says.
 
 use super::columns::joined;
 use super::line_layout::LineLayout;
@@ -18,5 +18,5 @@ pub(super) fn write(track: &PoseTrack) -> String {
 }
 
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
-    pose_lines::read(text, LineLayout::TUM)
+    pose_lines::read_as(text, LineLayout::TUM)
 }

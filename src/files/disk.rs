@@ -34,6 +34,16 @@ fn refused_by_kind(error: std::io::Error) -> std::io::Result<()> {
     }
 }
 
+/// Whether the error of a lock says that this file system has none, as some network disks do.
+pub fn has_no_locks(error: &std::io::Error) -> bool {
+    #[cfg(unix)]
+    if let Some(errno) = rustix::io::Errno::from_io_error(error) {
+        use rustix::io::Errno;
+        return [Errno::NOLCK, Errno::NOSYS, Errno::OPNOTSUPP, Errno::NOTSUP].contains(&errno);
+    }
+    error.kind() == std::io::ErrorKind::Unsupported
+}
+
 /// Bytes that a new file in this folder may take; `None` where the system does not say.
 pub fn free_bytes(folder: &Path) -> Option<u64> {
     #[cfg(unix)]

@@ -6,6 +6,7 @@ use tempfile::{Builder, NamedTempFile};
 
 use crate::FileError;
 use crate::disk::sync_folder;
+use crate::open_files::Listed;
 use crate::paths::folder_of;
 
 /// What happens to a file that has the output's name already.
@@ -38,7 +39,7 @@ pub struct NewFile {
 
 #[derive(Debug)]
 enum Content {
-    Temporary(NamedTempFile),
+    Temporary { file: NamedTempFile, listed: Listed },
     Special(File),
 }
 
@@ -53,7 +54,7 @@ impl NewFile {
             Content::Special(File::options().write(true).open(target).map_err(failed)?)
         } else {
             check_free(target, existing)?;
-            Content::Temporary(temporary(target, folder_of(target)).map_err(failed)?)
+            temporary(target, folder_of(target)).map_err(failed)?
         };
         Ok(Self { target: target.to_owned(), existing, content })
     }
@@ -65,13 +66,13 @@ impl NewFile {
     pub fn create_in(folder: &Path, target: &Path, existing: Existing) -> Result<Self, FileError> {
         check_free(target, existing)?;
         let made = temporary(target, folder).map_err(|source| FileError::Create { path: target.to_owned(), source })?;
-        Ok(Self { target: target.to_owned(), existing, content: Content::Temporary(made) })
+        Ok(Self { target: target.to_owned(), existing, content: made })
     }
 
     /// The file, open for reading and writing.
     pub fn file(&self) -> &File {
         match &self.content {
-            Content::Temporary(temporary) => temporary.as_file(),
+            Content::Temporary { file, .. } => file.as_file(),
             Content::Special(file) => file,
         }
     }
@@ -79,7 +80,7 @@ impl NewFile {
     /// The temporary path; that of the target where it is a special file.
     pub fn path(&self) -> &Path {
         match &self.content {
-            Content::Temporary(temporary) => temporary.path(),
+            Content::Temporary { file, .. } => file.path(),
             Content::Special(_) => &self.target,
         }
     }
@@ -89,8 +90,8 @@ impl NewFile {
     /// # Errors
     /// [`FileError::Exists`] if another program took the name meanwhile, [`FileError::Write`].
     pub fn commit(self) -> Result<(), FileError> {
-        let Content::Temporary(temporary) = &self.content else { return Ok(()) };
-        let flushed = temporary.as_file().sync_all();
+        let Content::Temporary { file, .. } = &self.content else { return Ok(()) };
+        let flushed = file.as_file().sync_all();
         flushed.map_err(|source| FileError::Write { path: self.target.clone(), source })?;
         let target = self.target.clone();
         self.commit_unflushed()?;
@@ -102,11 +103,12 @@ impl NewFile {
     /// # Errors
     /// As [`NewFile::commit`].
     pub fn commit_unflushed(self) -> Result<(), FileError> {
-        let (target, Content::Temporary(temporary)) = (self.target, self.content) else { return Ok(()) };
+        let (target, Content::Temporary { file, listed }) = (self.target, self.content) else { return Ok(()) };
         let named = match self.existing {
-            Existing::Replace => temporary.persist(&target),
-            Existing::Keep => temporary.persist_noclobber(&target),
+            Existing::Replace => file.persist(&target),
+            Existing::Keep => file.persist_noclobber(&target),
         };
+        drop(listed);
         named.map(drop).map_err(|error| match error.error.kind() {
             ErrorKind::AlreadyExists => FileError::Exists { path: target },
             _ => FileError::Write { path: target, source: error.error },
@@ -174,7 +176,7 @@ pub(crate) fn is_special(path: &Path) -> bool {
 const MAX_REPEATED_BYTES: usize = 200;
 
 /// A new file whose name no other process has, with the permissions that any new file gets.
-fn temporary(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+fn temporary(target: &Path, folder: &Path) -> io::Result<Content> {
     let mut prefix = std::ffi::OsString::from(".");
     let name = target.file_name().unwrap_or_default();
     prefix.push(if name.len() > MAX_REPEATED_BYTES { "output".as_ref() } else { name });
@@ -183,5 +185,7 @@ fn temporary(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     builder.prefix(&prefix).suffix(".part");
     #[cfg(unix)]
     builder.permissions(<Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
-    builder.tempfile_in(folder)
+    let file = builder.tempfile_in(folder)?;
+    let listed = Listed::new(file.path());
+    Ok(Content::Temporary { file, listed })
 }

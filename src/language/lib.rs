@@ -2,10 +2,12 @@
 //!
 //! Enters: a prompt and the scene's named objects. Leaves ([`link`]): the prompt as plain words in which placeholders
 //! stand for objects and quantities, each word with its bytes of the prompt. The one invariant: spans lie on character
-//! boundaries of the prompt. The crate never decides what a prompt means; the director's network does.
+//! boundaries of the prompt. What a prompt means is the director's to decide; idioms
+//! are only said in other words.
 //!
 //! Before anything else shorthand becomes plain words (`Z/I 24-70` = `zoom in 24 to 70`; `prompts/shorthand.txt`), and
-//! misspelled words of command are mended ([`plain_words`]). A prompt that says part by part what happens when is a
+//! misspelled words of command are mended ([`plain_words`]). After it idioms become the words of the trade (`let the mug slide
+//! past from right to left` = `truck right past the mug`; `prompts/idioms.txt`). A prompt that says part by part what happens when is a
 //! [`Timeline`], and the director reads it part by part.
 //!
 //! # Notation of programs
@@ -80,6 +82,7 @@ mod edit_distance;
 mod effects;
 mod error;
 mod frame_shape;
+mod idioms;
 mod inflection;
 mod known_words;
 mod lexicon;
@@ -115,7 +118,7 @@ pub use notation::{
 };
 pub use numbered::{NumberedMention, numbered_mention_at};
 pub use numerals::number_word;
-pub use plain::plain_words;
+pub use plain::{mend_names, plain_words};
 pub use quantity::{Quantity, QuantityKind};
 pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
 pub use timeline::{Beat, BeatLength, Timeline};

@@ -70,6 +70,7 @@ pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, Langu
         }
         i += len;
     }
+    linked.rewrite_idioms()?;
     Ok(linked)
 }
 

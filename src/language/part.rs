@@ -43,6 +43,11 @@ impl Linked {
         part
     }
 
+    /// The id that a placeholder of an object stands for.
+    pub fn slot_at(&self, word: &str) -> Option<u32> {
+        self.slots.get(slot_of(word, "<obj-")?).copied()
+    }
+
     /// The id that stands for some objects: that of an object, or of a group that the prompt names.
     pub fn id_of(&self, objects: &[u32]) -> Option<u32> {
         match objects {

@@ -2,8 +2,8 @@
 //!
 //! Enters: any UTF-8 text. Leaves: one word per run of letters or digits, one word per punctuation mark. Case, accents,
 //! typographic quotes and dashes, full-width forms, joiners and direction marks do not change the words. Hyphens split
-//! words (`push-in` = `push in`), and so does the border between digits and letters (`2.5s` = `2.5 s`). One pass over
-//! the text.
+//! words (`push-in` = `push in`), and so does the border between digits and letters (`2.5s` = `2.5 s`). The sign of a turn is a
+//! word (`yaw -30` = `yaw minus 30`). One pass over the text.
 
 use super::inflection::stem;
 
@@ -147,6 +147,10 @@ impl Tokenizer {
             Glyph::Hyphen if matches!(before, Some(Glyph::Space)) && matches!(after, Some(Glyph::Space)) => {
                 self.push_mark(",", span);
             }
+            // The sign of a turn: `yaw -30`.
+            Glyph::Hyphen if next_is_digit && matches!(before, Some(Glyph::Space)) && self.is_after_turn() => {
+                self.push_mark("minus", span);
+            }
             Glyph::Hyphen => {
                 self.end_word();
                 self.after_hyphen = next_is_digit && matches!(before, Some(Glyph::Digit(_) | Glyph::Letter(_)));
@@ -162,6 +166,12 @@ impl Tokenizer {
             Glyph::Space => self.end_word(),
             Glyph::Invisible => {}
         }
+    }
+
+    /// Whether the last word is a turn about an axis.
+    fn is_after_turn(&self) -> bool {
+        let last = self.words.last().map(|word| word.text.as_str());
+        matches!(last, Some("yaw" | "pitch" | "roll" | "pan" | "tilt" | "heading" | "azimuth" | "elevation"))
     }
 
     fn has_point(&self) -> bool {

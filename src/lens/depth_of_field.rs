@@ -203,9 +203,9 @@ impl Effect for DepthOfField {
         Ok(Loss { error: circle_px, allowed: budget.blur_px, samples: budget.lens_samples(circle_px) })
     }
 
-    fn changes_with_time(&self) -> bool {
-        // Only with the focus distances of keyframes, which the camera does not show.
-        true
+    fn state(&self, moment: &Moment<'_>) -> Option<Vec<f64>> {
+        // The focus distances of keyframes are nothing that the camera shows.
+        Some(self.lens(moment).map_or_else(Vec::new, |lens| vec![lens.aperture_diameter, lens.focus_distance]))
     }
 
     fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {

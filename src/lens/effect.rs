@@ -122,6 +122,13 @@ pub trait Effect: Debug + Send + Sync {
         true
     }
 
+    /// What the picture of a moment depends on besides its camera: with equal cameras and states, pictures are equal. `None` if
+    /// no two pictures are.
+    fn state(&self, moment: &Moment<'_>) -> Option<Vec<f64>> {
+        let _ = moment;
+        (!self.changes_with_time()).then(Vec::new)
+    }
+
     /// The picture of a moment with the effect, made from pictures that `next` gives. `samples` are those of
     /// [`Loss::samples`].
     ///

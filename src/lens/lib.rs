@@ -19,8 +19,10 @@
 //!
 //! Lens and shutter take the mean light of several pictures. [`Budget::of`] says how many and why, from the figures of `make
 //! bench-lens` (`renders/lens/lens.csv`): samples are sharp where they stand close, and only where there are gaps between
-//! them the splats of each one are blurred. `bench lens --parts auto` compares films with films whose effects run on
-//! every frame.
+//! them the splats of each one are blurred. Sharp samples share one projection ([`cinesplat_render::Sweep`]), and a tile of
+//! the picture takes as many of them as its splats move: none but the middle where nothing moves. A frame that a film has
+//! already, because neither the camera nor the state of an effect has changed, is repeated ([`EffectPlan::repeats`]).
+//! `bench lens --parts auto` compares films with films whose effects run everywhere on every frame.
 //!
 //! # Adding an effect
 //!
@@ -53,6 +55,7 @@ mod motion_blur;
 mod optics;
 mod panorama;
 mod plan;
+mod planned;
 mod rack_focus;
 mod resample;
 mod rolling_shutter;
@@ -85,9 +88,10 @@ pub use lens_flare::LensFlare;
 pub use light::{Light, Picture};
 pub use moment::{Exposing, Moment, OpticsTrack, Take};
 pub use motion_blur::MotionBlur;
-pub use optics::{Aperture, LensAndShutter, PlannedExposure, SENSOR_M, focal_length_m};
+pub use optics::{Aperture, LensAndShutter, SENSOR_M, focal_length_m};
 pub use panorama::Panorama;
 pub use plan::{EffectPlan, PlannedEffect};
+pub use planned::{PlannedExposure, Sampling};
 pub use rack_focus::RackFocus;
 pub use rolling_shutter::RollingShutter;
 pub use samples::Between;

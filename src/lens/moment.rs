@@ -2,7 +2,9 @@
 
 use std::fmt;
 
+use super::budget::Budget;
 use super::optics::LensAndShutter;
+use super::planned::Sampling;
 use super::samples::Between;
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{RenderSettings, SubFrame, ThinLens};
@@ -43,11 +45,14 @@ pub struct Exposing {
     pub between: Between,
     /// Height over width of the aperture, 1 or more.
     pub squeeze: f64,
+    /// Whether every part of the picture takes all samples, even where little is blurred.
+    pub is_even: bool,
 }
 
 impl Exposing {
     /// A sharp picture of an instant.
-    pub const SHARP: Self = Self { shutter_secs: None, lens: None, samples: 1, between: Between::Sharp, squeeze: 1.0 };
+    pub const SHARP: Self =
+        Self { shutter_secs: None, lens: None, samples: 1, between: Between::Sharp, squeeze: 1.0, is_even: false };
 }
 
 /// What a picture is taken of, and how: an effect changes it for the pictures that it asks for.
@@ -114,18 +119,24 @@ impl<'a> Moment<'a> {
         moment
     }
 
-    /// The sub-frames whose mean light the picture is.
-    pub(super) fn subframes(&self) -> Vec<SubFrame> {
-        let Exposing { shutter_secs, lens, samples, between, squeeze } = self.exposing;
+    /// How the renderer takes the picture.
+    pub(super) fn sampling(&self) -> Sampling {
+        let Exposing { shutter_secs, lens, samples, between, squeeze, is_even } = self.exposing;
         if shutter_secs.is_none() && lens.is_none() {
-            return vec![SubFrame::from(self.camera)];
+            return Sampling::SubFrames(vec![SubFrame::from(self.camera)]);
         }
         let camera_at = |fraction: f64| match shutter_secs {
             Some([opens, closes]) => self.at(opens + (closes - opens) * fraction).camera,
             None => self.camera,
         };
         let lens = lens.map(|lens| ThinLens { squeeze, ..lens });
-        LensAndShutter { camera_at: &camera_at, lens }.subframes(samples as usize, between)
+        let budget = Budget::of(self.render.quality);
+        let taken = LensAndShutter { camera_at: &camera_at, lens };
+        let (samples, moves) = (samples as usize, shutter_secs.is_some());
+        if is_even && between == Between::Sharp && samples > 1 {
+            return Sampling::Sweep(Box::new(taken.even_sweep(samples, moves)));
+        }
+        taken.sampling(samples, (between, moves), &budget)
     }
 
     /// Time from one frame to the next.

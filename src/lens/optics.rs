@@ -4,10 +4,9 @@
 //! takes one moment and one point of the aperture. Where these are few, its splats are blurred by what lies between it and
 //! its neighbors.
 
-use super::budget::Budget;
 use super::samples::{Between, lens_points, moments};
 use cinesplat_geometry::{Camera, Intrinsics};
-use cinesplat_render::{BlurExtent, RenderError, RenderSettings, Renderer, SplatBlur, SubFrame, ThinLens};
+use cinesplat_render::{SplatBlur, SubFrame, ThinLens};
 
 /// The longer side of the sensor that f-stops refer to, meters: full frame, 36 mm x 24 mm.
 pub const SENSOR_M: f64 = 0.036;
@@ -77,44 +76,6 @@ impl LensAndShutter<'_> {
             SubFrame { camera, blur: SplatBlur { lens, motion: Some([pinhole(start), pinhole(end)]) } }
         };
         moments(num_samples).enumerate().map(frame).collect()
-    }
-}
-
-/// What a frame needs.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlannedExposure {
-    /// The sub-frames to average; a single one without blur is the plain picture.
-    pub subframes: Vec<SubFrame>,
-    /// How much blur is in the picture.
-    pub extent: BlurExtent,
-    /// Whether the motion is blurred, and whether what is out of focus is.
-    pub blurs: [bool; 2],
-}
-
-impl LensAndShutter<'_> {
-    /// What the frame needs at the settings' quality: blur below the budget leaves the plain picture.
-    ///
-    /// # Errors
-    /// Those of [`Renderer::blur_extent`].
-    pub fn plan(&self, renderer: &Renderer<'_>, settings: &RenderSettings) -> Result<PlannedExposure, RenderError> {
-        let budget = Budget::of(settings.quality);
-        let camera = self.camera();
-        let extent = renderer.blur_extent(&camera, &self.blur(), settings)?;
-        let blurs = [extent.motion_px, extent.circle_px].map(|blur| blur > budget.blur_px);
-        let [moves, is_out_of_focus] = blurs;
-        let still = |_| camera;
-        let camera_at = if moves { self.camera_at } else { &still };
-        let lens = self.lens.filter(|_| is_out_of_focus);
-        let for_motion = if moves { budget.motion_samples(extent.motion_px) } else { 1 };
-        let for_lens = if is_out_of_focus { budget.lens_samples(extent.circle_px) } else { 1 };
-        let has_gaps = moves && budget.between_motion(for_motion) == Between::Blurred
-            || is_out_of_focus && budget.between_lens(for_lens) == Between::Blurred;
-        let between = if has_gaps { Between::Blurred } else { Between::Sharp };
-        let subframes = match blurs {
-            [false, false] => vec![SubFrame::from(camera)],
-            _ => LensAndShutter { camera_at, lens }.subframes(for_motion.max(for_lens) as usize, between),
-        };
-        Ok(PlannedExposure { subframes, extent, blurs })
     }
 }
 

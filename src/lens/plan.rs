@@ -23,6 +23,8 @@ pub struct EffectPlan {
     pub effects: Vec<PlannedEffect>,
     /// First frame that was examined.
     first_frame: usize,
+    /// See [`EffectPlan::forced`].
+    is_forced: bool,
 }
 
 /// An effect of a film.
@@ -37,6 +39,8 @@ pub struct PlannedEffect {
     is_inside: bool,
     /// What leaving it out would cost, per frame.
     losses: Vec<Loss>,
+    /// See [`Effect::state`], per frame.
+    states: Vec<Option<Vec<f64>>>,
 }
 
 impl EffectPlan {
@@ -56,13 +60,14 @@ impl EffectPlan {
         let planned = |called: &CalledEffect| {
             let CalledEffect { name, effect, because, .. } = called.clone();
             let losses = Vec::with_capacity(frames.len());
-            let planned = PlannedEffect { name, because, effect, is_inside, losses };
+            let states = Vec::with_capacity(frames.len());
+            let planned = PlannedEffect { name, because, effect, is_inside, losses, states };
             is_inside |= planned.effect.seen_through(camera, take.up).is_some();
             planned
         };
         let mut effects: Vec<PlannedEffect> = called.iter().map(planned).collect();
         if effects.is_empty() {
-            return Ok(Self { effects, first_frame: frames.start });
+            return Ok(Self { effects, first_frame: frames.start, is_forced: false });
         }
         let inside_at = |time_secs: f64| {
             let camera = (take.camera_at)(time_secs);
@@ -91,19 +96,30 @@ impl EffectPlan {
             for planned in &mut effects {
                 let facts = &facts[usize::from(planned.is_inside)];
                 planned.losses.push(planned.effect.error_if_skipped(facts, &budget)?);
+                planned.states.push(planned.effect.state(&facts.moment));
             }
         }
-        Ok(Self { effects, first_frame: frames.start })
+        Ok(Self { effects, first_frame: frames.start, is_forced: false })
     }
 
-    /// The plan in which every effect runs on every frame, with the samples of the frame that needs most: what a film costs
-    /// whose frames are not looked at before.
+    /// The plan in which every effect runs on every frame, with the samples of the frame that needs most in every part of it:
+    /// what a film costs whose frames are not looked at before.
     #[must_use]
     pub fn forced(mut self) -> Self {
         for planned in &mut self.effects {
             let samples = planned.losses.iter().map(|loss| loss.samples).max().unwrap_or(1);
-            planned.losses.iter_mut().for_each(|loss| *loss = Loss { error: f64::INFINITY, samples, ..*loss });
+            planned.losses.iter_mut().for_each(|loss| loss.samples = samples);
         }
+        self.everywhere()
+    }
+
+    /// The plan in which every effect runs on every frame and in every part of it, with the samples that the frame needs:
+    /// what is skipped is the only difference.
+    #[must_use]
+    pub fn everywhere(mut self) -> Self {
+        self.is_forced = true;
+        let losses = self.effects.iter_mut().flat_map(|planned| &mut planned.losses);
+        losses.for_each(|loss| loss.error = f64::INFINITY);
         self
     }
 
@@ -130,9 +146,16 @@ impl EffectPlan {
         self.layers(frame_idx).is_empty()
     }
 
-    /// Whether the picture of a frame depends on more than its camera.
-    pub fn changes_with_time(&self, frame_idx: usize) -> bool {
-        self.layers(frame_idx).iter().any(|(effect, _)| effect.changes_with_time())
+    /// Whether a frame has the picture of another one with the same camera: the same effects with the same samples, in the
+    /// same state.
+    pub fn repeats(&self, frame_idx: usize, other_idx: usize) -> bool {
+        let state =
+            |planned: &PlannedEffect, idx: usize| planned.states.get(idx.checked_sub(self.first_frame)?)?.clone();
+        self.effects.iter().all(|planned| {
+            let [this, other] =
+                [frame_idx, other_idx].map(|idx| (self.layer_samples(planned, idx), state(planned, idx)));
+            this.0 == other.0 && (this.0.is_none() || this.1.is_some() && this.1 == other.1)
+        })
     }
 
     /// Whether the film carries how much of each pixel the scene covers.
@@ -150,13 +173,6 @@ impl EffectPlan {
         self.effects.iter().find_map(|planned| planned.effect.eyes())
     }
 
-    /// Whether two frames have the same effects with the same samples.
-    pub fn has_same_layers(&self, frame_idx: usize, other_idx: usize) -> bool {
-        let sketch =
-            |idx: usize| self.effects.iter().map(move |planned| self.layer_samples(planned, idx)).collect::<Vec<_>>();
-        sketch(frame_idx) == sketch(other_idx)
-    }
-
     /// Pictures' worth of work that a frame takes: the product over its effects, of which lens and shutter share their
     /// samples.
     pub fn num_samples(&self, frame_idx: usize) -> u32 {
@@ -172,7 +188,9 @@ impl EffectPlan {
     /// # Errors
     /// Those of the renderer.
     pub fn expose(&self, moment: &Moment<'_>, renderer: &Renderer<'_>) -> Result<Picture, RenderError> {
-        expose(&self.layers(moment.frame_idx), moment, renderer)
+        let mut moment = moment.clone();
+        moment.exposing.is_even |= self.is_forced;
+        expose(&self.layers(moment.frame_idx), &moment, renderer)
     }
 
     /// Writes the plan into a shot: settings, frames, samples, and the number that decided.
@@ -201,7 +219,7 @@ fn expose(layers: &[(&dyn Effect, u32)], moment: &Moment<'_>, renderer: &Rendere
         return effect.apply(moment, *samples, &mut |asked| expose(inner, asked, renderer));
     }
     let mut frame = Frame::default();
-    renderer.expose_into(&moment.subframes(), &moment.render, &mut frame)?;
+    moment.sampling().take(renderer, &moment.render, &mut frame)?;
     Ok(Picture::of_display(frame))
 }
 

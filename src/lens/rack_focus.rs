@@ -58,6 +58,10 @@ impl Effect for RackFocus {
         self.0.error_if_skipped(frame, budget)
     }
 
+    fn state(&self, moment: &Moment<'_>) -> Option<Vec<f64>> {
+        self.0.state(moment)
+    }
+
     fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         self.0.apply(moment, samples, next)
     }

@@ -50,7 +50,7 @@ impl Effect for RollingShutter {
         let [from, to] = self.read_secs(&frame.moment);
         let skew_px = frame.travel_px(from, to)?;
         let rows = frame.moment.camera.intrinsics.height;
-        let strips = (skew_px / budget.shift_px).ceil().clamp(1.0, f64::from(rows)) as u32;
+        let strips = (skew_px / budget.blur_px).ceil().clamp(1.0, f64::from(rows)) as u32;
         Ok(Loss { error: skew_px, allowed: budget.shift_px, samples: strips })
     }
 

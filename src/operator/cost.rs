@@ -87,16 +87,17 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     let position = |state: &CameraState| state.pose.position;
     let sunk = states.iter().map(|s| world.sunk_frac(position(s))).fold(0.0, f64::max);
     if sunk > 0.0 && world.is_indoor() {
-        return 5.0 + 20.0 * sunk.min(0.4);
+        return LEFT_ROOM_COST + 20.0 * sunk.min(0.4) + outside_cost(world, states);
     }
     let beyond = states.iter().map(|s| world.beyond_corner_frac(position(s))).fold(0.0, f64::max);
     if beyond > 0.0 && world.is_indoor() {
-        return 5.0 + 20.0 * beyond.min(0.4);
+        return LEFT_ROOM_COST + 20.0 * beyond.min(0.4) + outside_cost(world, states);
     }
     let uncaptured =
         states.iter().filter(|s| !world.in_capture_region(position(s))).count() as f64 / states.len() as f64;
     if uncaptured > 0.0 {
-        return 5.0 + 8.0 * uncaptured + outside_cost(world, states);
+        let left = if world.is_indoor() { LEFT_ROOM_COST } else { 5.0 };
+        return left + 8.0 * uncaptured + outside_cost(world, states);
     }
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
     let wrong = ends.iter().filter(|s| !world.sees_front_faces(position(s))).count();
@@ -104,8 +105,12 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
 }
 
-/// Cost per end of a segment that lies outside the captured region of a room.
-const OUTSIDE_COST: f64 = 6.0;
+/// Cost of a segment that leaves the captured region of a room, under its floor or behind its walls: more than that of two
+/// violated constraints, because nobody keeps a film of the backs of walls.
+const LEFT_ROOM_COST: f64 = 24.0;
+/// Cost per end of a segment that lies outside the captured region of a room: where no camera meets all the words, the
+/// film still stays in the room.
+const OUTSIDE_COST: f64 = 12.0;
 
 /// Cost of the ends of a segment outside the captured region of a room, from where its walls are seen from behind: where
 /// no camera meets all the words, the film still stays in the room.
@@ -113,7 +118,9 @@ fn outside_cost(world: &World, states: &[CameraState]) -> f64 {
     let ends = [&states[0], &states[states.len() - 1]];
     let is_outside = |state: &&&CameraState| {
         let position = state.pose.position;
-        world.beyond_corner_frac(position) > 0.0 || !world.in_capture_region(position)
+        world.sunk_frac(position) > 0.0
+            || world.beyond_corner_frac(position) > 0.0
+            || !world.in_capture_region(position)
     };
     if world.is_indoor() { OUTSIDE_COST * ends.iter().filter(is_outside).count() as f64 } else { 0.0 }
 }

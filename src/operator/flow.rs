@@ -134,7 +134,25 @@ impl Flow {
             flow.spans.push([at, end]);
             at = end;
         }
+        flow.change_speed_throughout();
         flow
+    }
+
+    /// Where the words ask for a change of speed, a straight move alone in its shot changes it all the way: a ramp at one end
+    /// would not show. A move that flows on keeps its cruise.
+    fn change_speed_throughout(&mut self) {
+        for nth in 0..self.segments.len() {
+            let begins = nth == 0 || self.segments[nth].cut;
+            let ends = self.segments.get(nth + 1).is_none_or(|next| next.cut);
+            let segment = &mut self.segments[nth];
+            segment.easing = match segment.easing {
+                Easing::EaseIn if segment.states.len() == 2 && begins && ends => Easing::SineIn,
+                // Ramps of a fifth of a second would be jolts.
+                Easing::Smooth if segment.states.len() == 2 && segment.movement == Move::WhipPan => Easing::SineInOut,
+                Easing::EaseOut if segment.states.len() == 2 && begins && ends => Easing::SineOut,
+                easing => easing,
+            };
+        }
     }
 
     /// Length of the film.

@@ -36,7 +36,7 @@ fn secs_per_root_width(movement: Move) -> f64 {
         Move::CraneUp | Move::CraneDown => 10.5,
         Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => 7.6,
         Move::TruckLeft | Move::TruckRight | Move::PedestalUp | Move::PedestalDown => 8.2,
-        Move::WhipPan => 0.55,
+        Move::WhipPan => 0.7,
         _ => 7.0,
     }
 }
@@ -45,7 +45,7 @@ fn secs_per_root_width(movement: Move) -> f64 {
 const JOIN_SECS: f64 = 3.0;
 /// Least and largest duration of a move at normal speed, of a whip pan, and of a turn between two moves.
 const MOVE_RANGE_SECS: (f64, f64) = (2.0, 13.0);
-const WHIP_RANGE_SECS: (f64, f64) = (0.35, 1.0);
+const WHIP_RANGE_SECS: (f64, f64) = (0.6, 1.0);
 const JOIN_RANGE_SECS: (f64, f64) = (0.9, 4.5);
 
 /// Sets the duration of every segment whose duration nothing fixes.

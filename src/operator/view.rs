@@ -110,6 +110,8 @@ pub(super) fn opening_view(
     // A subject that must not be seen is hidden by what is in the way.
     let free = framing.distance.is_none() && framing.lens.is_none() && !framing.hidden;
     let view = if free { in_front_of_matter(world, target, bearing, view) } else { view };
+    let lies = free && framing.height.is_none() && framing.elevation_deg.is_none();
+    let view = if lies { above_floor(world, target, framing.angle, view) } else { view };
     aimed_at_side(world, target, framing.part, view)
 }
 
@@ -153,6 +155,45 @@ fn in_front_of_matter(world: &World, target: &Target, bearing: Bearing, view: Ca
     let fits = free > LEAST_SPACE * start && free < distance && tan <= widest;
     if fits { with_fov(&moved(&view, away * (free - distance)), 2.0 * tan.atan()) } else { view }
 }
+
+/// The view of a room, raised to the floor where it would lie under it: as low as a camera can lie, nearer for the angle
+/// of the shot, with a wider lens for the same picture.
+fn above_floor(world: &World, target: &Target, angle: Option<ShotAngle>, view: CameraState) -> CameraState {
+    if !world.is_indoor() || world.sunk_frac(view.pose.position) <= 0.0 {
+        return view;
+    }
+    let lying = LYING_RADII * world.camera_radius;
+    let away = view.pose.position - target.aim;
+    let level = world.frame.horizontal(away);
+    // A worm looks at the upper part of what towers above it.
+    let top = target.corners.iter().map(|c| world.height_above_floor(*c)).fold(f64::NEG_INFINITY, f64::max);
+    let middle = world.height_above_floor(target.aim);
+    let aimed_height = if angle == Some(ShotAngle::Worm) { middle.midpoint(top) } else { middle };
+    let rise = (aimed_height - lying).max(world.camera_radius);
+    let steepness = match angle {
+        Some(ShotAngle::Worm) => Some(WORM_PITCH_DEG),
+        Some(ShotAngle::Low) => Some(LOW_PITCH_DEG),
+        _ => None,
+    };
+    let reach = target.corners.iter().map(|c| world.frame.horizontal(*c - target.aim).length()).fold(0.0, f64::max);
+    let nearest = reach + 2.0 * world.camera_radius;
+    let wanted = steepness.map_or(away.length(), |deg| rise / deg.to_radians().tan());
+    let distance = wanted.min(away.length()).max(nearest);
+    let direction = level.try_normalize().unwrap_or_else(|| world.frame.direction(0.0));
+    let up = world.frame.up;
+    let position = target.aim + direction * distance + up * (lying - middle);
+    let widest = (WIDEST_STEEP_DEG / 2.0).to_radians().tan();
+    let tan = ((view.fov_y_rad / 2.0).tan() * away.length() / distance.hypot(rise)).min(widest);
+    let tan = tan.max((view.fov_y_rad / 2.0).tan().min(widest));
+    let raised = with_fov(&moved(&view, position - view.pose.position), 2.0 * tan.atan());
+    aimed(world, &raised, target.aim + up * (aimed_height - middle))
+}
+
+/// Height of a camera that lies on the floor, over its radius.
+const LYING_RADII: f64 = 1.3;
+/// Pitch of a worm's view and of a low one from the floor, degrees.
+const WORM_PITCH_DEG: f64 = 43.0;
+const LOW_PITCH_DEG: f64 = 14.0;
 
 /// Distance from a target's aim, in the direction of a bearing, to the point that is `wanted` away from the center of
 /// its first subject.

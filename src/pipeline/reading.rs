@@ -2,7 +2,7 @@
 
 use cinesplat_director::{Direction, SceneContext};
 use cinesplat_language::{EffectMention, Linked, effect_mentions};
-use cinesplat_operator::{Framing, Look, Motion, Program, Step};
+use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
 use super::error::PipelineError;
@@ -113,8 +113,9 @@ pub fn read(
     let mut direction = interpreter.direct(prompt, &linked, scene)?;
     let stays = stated::apply(prompt, linked.timeline.as_ref(), &mut direction.program);
     retain_steps(&mut direction, &stays);
-    merge_holds(&mut direction);
+    merge_holds(&linked, &mut direction);
     keep_held_pictures(&mut direction.program.steps);
+    begin_turns(prompt, &mut direction.program.steps);
     let mut problems = Vec::new();
     problems.extend(unmet(prompt, &direction, &effects));
     problems.extend(missing_aside(&linked, &mut direction.program));
@@ -124,7 +125,7 @@ pub fn read(
 }
 
 /// Makes one static step of two in a row that hold the same picture: `go low and look up at it, then stay there for 5 s`.
-fn merge_holds(direction: &mut Direction) {
+fn merge_holds(linked: &Linked, direction: &mut Direction) {
     let mut nth = 1;
     while nth < direction.program.steps.len() {
         let steps = &mut direction.program.steps;
@@ -134,8 +135,12 @@ fn merge_holds(direction: &mut Direction) {
             nth += 1;
             continue;
         }
-        let lengths = first.duration_secs.into_iter().chain(second.duration_secs);
-        first.duration_secs = lengths.reduce(|sum, secs| sum + secs);
+        // Two steps with a length that the words state once are one hold.
+        let stated =
+            |secs: f64| linked.quantities.iter().filter(move |quantity| quantity.value.to_bits() == secs.to_bits());
+        let is_new = |secs: &f64| first.duration_secs != Some(*secs) || stated(*secs).count() > 1;
+        let further = second.duration_secs.filter(is_new);
+        first.duration_secs = first.duration_secs.into_iter().chain(further).reduce(|sum, secs| sum + secs);
         first.words = match (first.words, second.words) {
             (Some([start, end]), Some([other_start, other_end])) => Some([start.min(other_start), end.max(other_end)]),
             (words, other) => words.or(other),
@@ -159,6 +164,26 @@ fn keep_held_pictures(steps: &mut [Step]) {
         let holds = second.movement == Move::Static && !second.cut && second.start == Framing::default();
         if holds && !plain.subjects.is_empty() && second.end == plain && first.end != plain {
             second.end = Framing::default();
+        }
+    }
+}
+
+/// A turn in place from an object begins at its picture: `from the vase look up to the clock`. Where somebody stands at the
+/// object, he says so.
+fn begin_turns(prompt: &str, steps: &mut [Step]) {
+    const STANDS: [&str; 10] =
+        ["stand", "standing", "beside", "next", "near", "by", "sit", "sitting", "position", "viewpoint"];
+    let stands = |step: &Step| {
+        let words = step.words.and_then(|[from, to]| prompt.get(from..to)).unwrap_or_default().to_lowercase();
+        words.split(|c: char| !c.is_alphanumeric()).any(|word| STANDS.contains(&word))
+    };
+    let turns = |movement: Move| {
+        matches!(movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan)
+    };
+    for step in steps.iter_mut().filter(|step| turns(step.movement) && step.start.subjects.is_empty() && !stands(step))
+    {
+        if let Some(via) = step.via.take_if(|via| via.how == Pass::From) {
+            step.start.subjects = via.objects;
         }
     }
 }

@@ -16,6 +16,7 @@ use super::pixels::TilePixels;
 use super::record::{RECORDS_LEN, Record};
 use super::splat::{EXPONENT_DIVISOR, Splat};
 use super::splats::Splats;
+use super::sweep::Sample;
 use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, BLOCKS_ACROSS, NUM_BLOCKS, NUM_STRIPS, StripMasks};
 
 /// Work buffers for one tile, reused for the next.
@@ -53,6 +54,8 @@ pub(super) struct Tile<'a, I, A, K> {
     pub(super) splats: &'a Splats,
     /// The view.
     pub(super) view: &'a View,
+    /// The picture of a sweep; `None` = the view's own.
+    pub(super) sample: Option<&'a Sample>,
     /// Work buffers; hold the pixels afterwards.
     pub(super) workspace: &'a mut Workspace,
     /// Receives the weights.
@@ -62,11 +65,12 @@ pub(super) struct Tile<'a, I, A, K> {
 }
 
 impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Tile<'a, I, A, K> {
-    type Output = ();
+    /// Number of splats that were blended before the tile was opaque.
+    type Output = usize;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { origin_px, places, splats, view, workspace, sink, .. } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> usize {
+        let Self { origin_px, places, splats, view, sample, workspace, sink, .. } = self;
         workspace.clear(origin_px, view);
         let cutoffs = Cutoffs {
             level: A::level((view.alpha_cut.log2() / EXPONENT_DIVISOR) as f32),
@@ -76,6 +80,7 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
         };
         let constants = Constants::new(simd, cutoffs);
         let corner = origin_px.map(|position| position as f32);
+        let mut num_taken = 0;
         let mut left = places.flatten().map(|&place| splats.get(place));
         while workspace.done != [u8::MAX; NUM_STRIPS] {
             // Copied first: the loads of the copies overlap; the work below would wait for each load.
@@ -87,8 +92,13 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
             if len == 0 {
                 break;
             }
+            num_taken += len;
+            if let Some(sample) = sample {
+                workspace.splats[..len].iter_mut().for_each(|splat| sample.move_splat(splat));
+            }
             workspace.blend_copied::<S, A, K>(simd, (len, corner), &constants, sink);
         }
+        num_taken
     }
 }
 

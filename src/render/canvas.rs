@@ -99,6 +99,8 @@ pub(super) struct FinishedTile<'a, 'frame> {
     pub(super) width: usize,
     /// Background color, weighted with the transmittance.
     pub(super) background: [f32; 3],
+    /// Weight in a sum of light, and whether it is the first of the tile; `None` = those of the canvas.
+    pub(super) share: Option<(f32, bool)>,
 }
 
 impl WithSimd for FinishedTile<'_, '_> {
@@ -106,7 +108,7 @@ impl WithSimd for FinishedTile<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { pixels, band, column, width, background } = self;
+        let Self { pixels, band, column, width, background, share } = self;
         let (left, right) = (column * TILE_PX, ((column + 1) * TILE_PX).min(width));
         match &mut *band.lock().unwrap_or_else(PoisonError::into_inner) {
             Canvas::Linear { rgb, transmittance } => {
@@ -122,6 +124,7 @@ impl WithSimd for FinishedTile<'_, '_> {
                 }
             }
             Canvas::Light(sums) => {
+                (sums.weight, sums.is_first) = share.unwrap_or((sums.weight, sums.is_first));
                 let (mut rgb, mut rest) = ([0.0; 3 * TILE_PX], [0.0; TILE_PX]);
                 let (rgb, rest) = (&mut rgb[..(right - left) * 3], &mut rest[..right - left]);
                 for row in 0..sums.transmittance.len() / width {

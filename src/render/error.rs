@@ -60,3 +60,11 @@ impl RenderError {
         }
     }
 }
+
+/// Checks the length of an input.
+///
+/// # Errors
+/// [`RenderError::Length`].
+pub(super) fn check_len(what: &'static str, found: usize, expected: usize) -> Result<(), RenderError> {
+    if found == expected { Ok(()) } else { Err(RenderError::Length { what, found, expected }) }
+}

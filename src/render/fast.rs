@@ -22,6 +22,7 @@ use super::payload::{Payload, TileArea};
 use super::project::Projection;
 use super::sort::DepthKey;
 use super::splats::Splats;
+use super::sweep::{Sample, ViewSweep};
 use super::tiles::{TILE_PX, TileGrid};
 use super::{Precision, RenderError, RenderSettings, RenderStats, StageTimes, View};
 use cinesplat_scene::Gaussians;
@@ -85,7 +86,7 @@ pub(super) fn render<P: Payload>(
     view: &View,
     settings: &RenderSettings,
     buffers: &mut Buffers,
-    (canvas, payload): (Canvas<'_>, &P),
+    (canvas, sweep, payload): (Canvas<'_>, Option<&ViewSweep>, &P),
 ) -> Result<(RenderStats, Vec<P::TileOutput>), RenderError> {
     let (gaussians, groups) = scene;
     let mut budget = Budget::of_picture(view, &settings.limits)?;
@@ -100,6 +101,7 @@ pub(super) fn render<P: Payload>(
     let mut picture = Picture {
         scene,
         view,
+        sweep,
         settings,
         buffers: &mut *buffers,
         payload,
@@ -122,6 +124,8 @@ pub(super) fn render<P: Payload>(
 struct Picture<'a, P: Payload> {
     scene: (&'a Gaussians, &'a Groups),
     view: &'a View,
+    /// The pictures whose mean light is taken; `None` = that of the view alone.
+    sweep: Option<&'a ViewSweep>,
     settings: &'a RenderSettings,
     buffers: &'a mut Buffers,
     payload: &'a P,
@@ -164,7 +168,7 @@ impl<P: Payload> Picture<'_, P> {
         let Buffers { splats, order, bins, visible_frac, .. } = &mut *self.buffers;
         let grid = self.grid.rows(rows);
         let start = Instant::now();
-        let projection = Projection::new(self.view, grid);
+        let projection = Projection::new(self.view, self.sweep, grid);
         let num_projected = splats.find_visible_groups(groups, &projection);
         self.num_in_view = self.num_in_view.max(num_projected);
         let mut budget = self.budget;
@@ -210,23 +214,49 @@ impl<P: Payload> Picture<'_, P> {
         blends.into_iter().sum()
     }
 
-    /// Blends one tile and writes it onto the canvas.
+    /// Blends one tile and writes it onto the canvas: the picture of the view or, in a sweep, as many pictures as the tile
+    /// needs.
     fn blend_tile<A: Arithmetic>(&self, grid: TileGrid, tile_idx: usize) -> (u64, P::TileOutput) {
         let Buffers { splats, bins, workspaces, .. } = &*self.buffers;
-        let (view, width) = (self.view, self.view.width as usize);
-        let (column, row) = (tile_idx % grid.across, grid.first_row + tile_idx / grid.across);
-        let origin_px = [column * TILE_PX, row * TILE_PX];
-        let area = TileArea { origin_px, width, height: view.height as usize };
+        let column_row = [tile_idx % grid.across, grid.first_row + tile_idx / grid.across];
+        let origin_px = column_row.map(|position| position * TILE_PX);
+        let area = TileArea { origin_px, width: self.view.width as usize, height: self.view.height as usize };
         let mut sink = self.payload.sink(area);
         workspaces.with(|workspace| {
-            let (places, arithmetic) = (bins.of_tile(tile_idx), PhantomData::<A>);
-            let tile =
-                Tile { origin_px, places, splats, view, workspace: &mut *workspace, sink: &mut sink, arithmetic };
-            view.instructions.dispatch(tile);
-            let background = self.settings.visible_background().to_array();
-            let pixels = workspace.pixels();
-            view.instructions.dispatch(FinishedTile { pixels, band: &self.bands[row], column, width, background });
-            (workspace.num_block_blends(), self.payload.finish(sink, area))
+            let mut num_blends = 0;
+            let mut blend = |sample: Option<&Sample>, workspace: &mut Workspace| {
+                let places = bins.of_tile(tile_idx);
+                let (view, sink, arithmetic) = (self.view, &mut sink, PhantomData::<A>);
+                let tile =
+                    Tile { origin_px, places, splats, view, sample, workspace: &mut *workspace, sink, arithmetic };
+                let num_taken = view.instructions.dispatch(tile);
+                num_blends += workspace.num_block_blends();
+                num_taken
+            };
+            let num_taken = blend(None, workspace);
+            let seen = || bins.of_tile(tile_idx).flatten().take(num_taken).map(|&place| splats.get(place));
+            match self.sweep.map(|sweep| sweep.pattern_of(seen())) {
+                None => self.write(column_row, workspace, None),
+                Some(None) => self.write(column_row, workspace, Some((1.0, true))),
+                Some(Some(pattern)) => {
+                    let is_seen = pattern.center_weight > 0.0;
+                    if is_seen {
+                        self.write(column_row, workspace, Some((pattern.center_weight, true)));
+                    }
+                    for (idx, sample) in pattern.around.iter().enumerate() {
+                        blend(Some(sample), workspace);
+                        self.write(column_row, workspace, Some((sample.weight, idx == 0 && !is_seen)));
+                    }
+                }
+            }
+            (num_blends, self.payload.finish(sink, area))
         })
+    }
+
+    /// Writes a blended tile onto the canvas, with its share in a sum of light.
+    fn write(&self, [column, row]: [usize; 2], workspace: &Workspace, share: Option<(f32, bool)>) {
+        let (pixels, band, width) = (workspace.pixels(), &self.bands[row], self.view.width as usize);
+        let background = self.settings.visible_background().to_array();
+        self.view.instructions.dispatch(FinishedTile { pixels, band, column, width, background, share });
     }
 }

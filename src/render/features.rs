@@ -1,7 +1,7 @@
+use super::error::check_len;
 use super::memory::Budget;
 use super::payload::{Payload, Sink, TileArea, TileRows};
 use super::record::Record;
-use super::renderer::check_len;
 use super::tiles::{TILE_LEN, TILE_PX};
 use super::{RenderError, RenderSettings, Renderer, View};
 use cinesplat_geometry::Camera;

@@ -53,7 +53,8 @@
 //! | blend | `blend`, `coverage`, `kernel` | tiles to pixels, front to back, in blocks of 8 x 4 pixels in SIMD registers |
 //!
 //! Effects of the lens are extra inputs of these stages: `blur` widens the splats of one picture, `exposure` averages
-//! several pictures. A picture without them runs the code that it would run if they did not exist.
+//! several pictures, `sweep` blends several pictures of the splats of one. A picture without them runs the code that it
+//! would run if they did not exist.
 //!
 //! `fast` runs these stages in `f32`. `reference` renders the same picture in `f64`, pixel by pixel; it defines the
 //! *spec image* that every accuracy is measured against. `spec` holds the constants of both.
@@ -74,6 +75,7 @@ mod blend;
 mod blur;
 mod blur_extent;
 mod canvas;
+mod close;
 mod coverage;
 mod depth;
 mod error;
@@ -106,6 +108,7 @@ mod splats;
 mod spread;
 pub mod srgb;
 mod stats;
+mod sweep;
 mod tiles;
 mod upsample;
 mod view;
@@ -125,6 +128,7 @@ pub use memory::memory_target_bytes;
 pub use renderer::Renderer;
 pub use settings::{Accuracy, ColorClamp, Limits, Precision, Quality, RenderSettings, SortMode};
 pub use stats::{RenderStats, StageTimes, WorkCounts};
+pub use sweep::{Sweep, SweepPattern};
 pub use weights::PixelWeight;
 
 /// The crate of poses and cameras.

@@ -13,6 +13,7 @@ use super::groups::{Group, LANES, Lane, Pack};
 use super::logarithm::log2;
 use super::splat::{EXPONENT_DIVISOR, Splat, whitening_unit};
 use super::spread::Spread;
+use super::sweep::{Reaches, ViewSweep, swept_px};
 use super::tiles::{TILE_PX, TileGrid};
 use super::{View, harmonics, reference};
 use cinesplat_scene::Gaussians;
@@ -38,29 +39,33 @@ struct Outputs {
     /// Blur; see [`AddedVariance`]. Zeros without blur.
     disk_px2: [Lane; 2],
     smear_px: [Lane; 2],
+    /// How far the splats move in a sweep. Zeros without one.
+    reaches: Reaches,
 }
 
-/// Projects the members of one group, with or without blur; compiled for every instruction set.
-struct GroupMembers<'a, const IS_BLURRED: bool> {
-    projection: &'a Projection,
+/// Projects the members of one group, with or without blur, for one picture or for all pictures of a sweep; compiled for
+/// every instruction set.
+struct GroupMembers<'a, const IS_BLURRED: bool, const IS_SWEPT: bool> {
+    projection: &'a Projection<'a>,
     gaussians: &'a Gaussians,
     packs: &'a [Pack],
     batch: &'a mut Batch,
 }
 
-impl<const IS_BLURRED: bool> WithSimd for GroupMembers<'_, IS_BLURRED> {
+impl<const IS_BLURRED: bool, const IS_SWEPT: bool> WithSimd for GroupMembers<'_, IS_BLURRED, IS_SWEPT> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.projection.project_packs::<IS_BLURRED>(self.gaussians, self.packs, self.batch);
+        self.projection.project_packs::<IS_BLURRED, IS_SWEPT>(self.gaussians, self.packs, self.batch);
     }
 }
 
 /// A view and the tiles to render, in `f32` where that is precise enough.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Projection {
+pub(super) struct Projection<'a> {
     view: View,
+    sweep: Option<&'a ViewSweep>,
     /// Rows of the rotation from world to camera.
     rows: [Vec3; 3],
     focal_px: [f32; 2],
@@ -83,14 +88,15 @@ pub(super) struct Projection {
     rows_of_tiles: [f32; 2],
 }
 
-impl Projection {
-    /// The projection of a view onto some of its tiles.
-    pub(super) fn new(view: &View, grid: TileGrid) -> Self {
+impl<'a> Projection<'a> {
+    /// The projection of a view, and of the pictures of a sweep around it, onto some of its tiles.
+    pub(super) fn new(view: &View, sweep: Option<&'a ViewSweep>, grid: TileGrid) -> Self {
         let rows = view.camera_from_world.transpose();
         let (top, bottom) = (grid.first_row, grid.first_row + grid.down);
         let narrow = |(low, high): (f64, f64)| (low as f32, high as f32);
         Self {
             view: *view,
+            sweep,
             rows: [rows.x_axis.as_vec3(), rows.y_axis.as_vec3(), rows.z_axis.as_vec3()],
             focal_px: view.focal_px.map(|focal| focal as f32),
             slope: [narrow(view.slope_x), narrow(view.slope_y)],
@@ -123,7 +129,8 @@ impl Projection {
             return false;
         }
         let blur_px = view.blur.map_or(0.0, |blur| sigmas * blur.max_deviation_px(center, radius));
-        let margin_px = MARGIN_PX + blur_px;
+        let sweep_px = self.sweep.map_or(0.0, |sweep| sweep.max_reach_px(center, radius));
+        let margin_px = MARGIN_PX + blur_px + sweep_px;
         // Whether the group lies outside the strip between two lines across the picture.
         let is_beside = |focal: f64, bounds: (f64, f64), along: f64, [first_px, last_px]: [f64; 2]| {
             let stretch = focal * (1.0 + bounds.0.abs().max(bounds.1).powi(2)).sqrt();
@@ -139,22 +146,41 @@ impl Projection {
 
     /// Appends the splats of a group's members.
     pub(super) fn project_group(&self, gaussians: &Gaussians, packs: &[Pack], batch: &mut Batch) {
-        if self.view.blur.is_some() {
-            self.view.instructions.dispatch(GroupMembers::<true> { projection: self, gaussians, packs, batch });
-        } else {
-            self.view.instructions.dispatch(GroupMembers::<false> { projection: self, gaussians, packs, batch });
+        match (self.view.blur.is_some(), self.sweep.is_some()) {
+            (false, false) => self.project_members::<false, false>(gaussians, packs, batch),
+            (true, false) => self.project_members::<true, false>(gaussians, packs, batch),
+            (false, true) => self.project_members::<false, true>(gaussians, packs, batch),
+            (true, true) => self.project_members::<true, true>(gaussians, packs, batch),
         }
     }
 
+    fn project_members<const IS_BLURRED: bool, const IS_SWEPT: bool>(
+        &self,
+        gaussians: &Gaussians,
+        packs: &[Pack],
+        batch: &mut Batch,
+    ) {
+        let members = GroupMembers::<IS_BLURRED, IS_SWEPT> { projection: self, gaussians, packs, batch };
+        self.view.instructions.dispatch(members);
+    }
+
     #[inline(always)]
-    fn project_packs<const IS_BLURRED: bool>(&self, gaussians: &Gaussians, packs: &[Pack], batch: &mut Batch) {
+    fn project_packs<const IS_BLURRED: bool, const IS_SWEPT: bool>(
+        &self,
+        gaussians: &Gaussians,
+        packs: &[Pack],
+        batch: &mut Batch,
+    ) {
         let mut outputs = Outputs::default();
         for pack in packs {
             self.centers(pack, &mut outputs);
             if IS_BLURRED {
                 self.blurs(pack, &mut outputs);
             }
-            self.shapes::<IS_BLURRED>(pack, &mut outputs);
+            if let Some(sweep) = self.sweep.filter(|_| IS_SWEPT) {
+                sweep.reaches(&outputs.mean_px, &outputs.depth, &mut outputs.reaches);
+            }
+            self.shapes::<IS_BLURRED, IS_SWEPT>(pack, &mut outputs);
             for lane in 0..LANES {
                 if outputs.visibility[lane] != 0.0
                     && let Some((splat, rect)) = self.finish_lane(gaussians, pack, &outputs, lane)
@@ -206,7 +232,7 @@ impl Projection {
     /// Computes shape and opacity; clears `visibility` if the splat is below the alpha cut or outside the picture.
     #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch, which prevents vectorization")]
     #[inline(always)]
-    fn shapes<const IS_BLURRED: bool>(&self, inputs: &Pack, out: &mut Outputs) {
+    fn shapes<const IS_BLURRED: bool, const IS_SWEPT: bool>(&self, inputs: &Pack, out: &mut Outputs) {
         let [r0, r1, r2] = self.rows;
         for lane in 0..LANES {
             let inverse_depth = 1.0 / out.depth[lane];
@@ -264,21 +290,30 @@ impl Projection {
             out.skew_px[lane] = sigmas * sd_x * b / a;
 
             let (x, y) = (out.mean_px[0][lane] - 0.5, out.mean_px[1][lane] - 0.5);
-            let is_near = (x + radius_px >= 1.0)
-                & (y + radius_px >= 1.0)
-                & (x - radius_px < self.end_px[0])
-                & (y - radius_px < self.end_px[1])
+            let (x_px, y_px) = (out.mean_px[0][lane], out.mean_px[1][lane]);
+            // From the leftmost place of the center to the rightmost, and from the uppermost to the lowest.
+            let (mut x_ends, mut y_ends, mut reach_px) = ([x_px, x_px], [y_px, y_px], radius_px);
+            if IS_SWEPT {
+                // One by one: a copy of the arrays does not vectorize.
+                let (left, right) = (out.reaches[0][lane], out.reaches[1][lane]);
+                let (up, down) = (out.reaches[2][lane], out.reaches[3][lane]);
+                (x_ends, y_ends) = ([x_px - left, x_px + right], [y_px - up, y_px + down]);
+                reach_px += left.max(right).max(up).max(down);
+            }
+            let is_near = (x + reach_px >= 1.0)
+                & (y + reach_px >= 1.0)
+                & (x - reach_px < self.end_px[0])
+                & (y - reach_px < self.end_px[1])
                 & (reach >= 0.0);
             let (half_x, half_y) = (out.half_px[0][lane], out.half_px[1][lane]);
-            let (x_px, y_px) = (out.mean_px[0][lane], out.mean_px[1][lane]);
+            let (x_ends, y_ends) = ([x_ends[0] - half_x, x_ends[1] + half_x], [y_ends[0] - half_y, y_ends[1] + half_y]);
             let ([width, height], [top, bottom]) = (self.size_px, self.grid_px);
-            let is_inside =
-                (x_px + half_x > 0.0) & (x_px - half_x < width) & (y_px + half_y > 0.0) & (y_px - half_y < height);
-            let is_in_grid = (y_px + half_y >= top) & (y_px - half_y < bottom);
-            out.tile_rect[0][lane] = tile(x_px - half_x, self.columns);
-            out.tile_rect[1][lane] = tile(x_px + half_x, self.columns);
-            out.tile_rect[2][lane] = tile(y_px - half_y, self.rows_of_tiles);
-            out.tile_rect[3][lane] = tile(y_px + half_y, self.rows_of_tiles);
+            let is_inside = (x_ends[1] > 0.0) & (x_ends[0] < width) & (y_ends[1] > 0.0) & (y_ends[0] < height);
+            let is_in_grid = (y_ends[1] >= top) & (y_ends[0] < bottom);
+            out.tile_rect[0][lane] = tile(x_ends[0], self.columns);
+            out.tile_rect[1][lane] = tile(x_ends[1], self.columns);
+            out.tile_rect[2][lane] = tile(y_ends[0], self.rows_of_tiles);
+            out.tile_rect[3][lane] = tile(y_ends[1], self.rows_of_tiles);
             // 0 if all are finite, else NaN: the splat is then computed in `f64`.
             let nan_if_infinite = (det + ux + x + y + radius_px) * 0.0;
             let front = out.visibility[lane];
@@ -302,6 +337,7 @@ impl Projection {
                 depth: out.depth[lane],
                 color: [0.0; 3],
                 gaussian_idx,
+                swept_px: swept_px(&out.reaches, lane),
             };
             (splat, [0, 1, 2, 3].map(|side| out.tile_rect[side][lane]))
         } else {

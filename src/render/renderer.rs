@@ -5,12 +5,14 @@ use glam::{DVec3, Vec3};
 use super::blur::SubFrame;
 use super::canvas::Canvas;
 use super::depth::{DepthMap, DepthPayload};
+use super::error::check_len;
 use super::fast::{self, Buffers, Pool};
 use super::groups::{Groups, Pack};
 use super::ids::{IdMap, IdPayload};
 use super::lift::{LiftPayload, LiftedValues};
 use super::memory::{Budget, SharedBudget, bytes_of};
 use super::payload::{ColorOnly, Payload};
+use super::sweep::ViewSweep;
 use super::upsample::upsample;
 use super::weights::{PixelWeight, WeightPayload};
 use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Rgb8Frame, View, reference};
@@ -22,7 +24,7 @@ use cinesplat_scene::Gaussians;
 /// Uses the threads of the current rayon pool. A picture has the same bits for any number of threads.
 #[derive(Debug)]
 pub struct Renderer<'scene> {
-    gaussians: &'scene Gaussians,
+    pub(super) gaussians: &'scene Gaussians,
     groups: Groups,
     buffers: Pool<Buffers>,
     small_frames: Pool<Frame>,
@@ -166,7 +168,7 @@ impl<'scene> Renderer<'scene> {
     ) -> Result<RenderStats, RenderError> {
         let resolution_frac = settings.effective_accuracy().resolution_frac;
         if resolution_frac >= 1.0 {
-            return Ok(self.render_payload(view, settings, canvas, &ColorOnly)?.0);
+            return Ok(self.render_payload(view, settings, (canvas, None), &ColorOnly)?.0);
         }
         let mut small_view = self.view_of(&subframe.scaled(resolution_frac), settings)?;
         // Keeps the dilation that the large picture has. The small picture then samples the large one, and enlarging
@@ -174,7 +176,8 @@ impl<'scene> Renderer<'scene> {
         small_view.dilation_px2 *= resolution_frac * resolution_frac;
         self.small_frames.with(|small| {
             small.resize(small_view.width, small_view.height);
-            let (stats, _) = self.render_payload(&small_view, settings, Canvas::from(&mut *small), &ColorOnly)?;
+            let (stats, _) =
+                self.render_payload(&small_view, settings, (Canvas::from(&mut *small), None), &ColorOnly)?;
             upsample(small, canvas, [view.width, view.height], settings.instructions);
             Ok(stats)
         })
@@ -245,7 +248,7 @@ impl<'scene> Renderer<'scene> {
         let view = View::new(camera, self.gaussians.origin, settings)?;
         let mut frame = Frame::default();
         frame.resize(view.width, view.height);
-        let (stats, tiles) = self.render_payload(&view, settings, Canvas::from(&mut frame), payload)?;
+        let (stats, tiles) = self.render_payload(&view, settings, (Canvas::from(&mut frame), None), payload)?;
         frame.stats = stats;
         Ok((frame, tiles))
     }
@@ -254,11 +257,22 @@ impl<'scene> Renderer<'scene> {
         &self,
         view: &View,
         settings: &RenderSettings,
-        canvas: Canvas<'_>,
+        (canvas, sweep): (Canvas<'_>, Option<&ViewSweep>),
         payload: &P,
     ) -> Result<(RenderStats, Vec<P::TileOutput>), RenderError> {
         let scene = (self.gaussians, &self.groups);
-        self.buffers.with(|buffers| fast::render(scene, view, settings, buffers, (canvas, payload)))
+        self.buffers.with(|buffers| fast::render(scene, view, settings, buffers, (canvas, sweep, payload)))
+    }
+
+    /// Renders the sum of the light of a sweep around a view, at full resolution.
+    pub(super) fn sweep_onto(
+        &self,
+        canvas: Canvas<'_>,
+        view: &View,
+        sweep: &ViewSweep,
+        settings: &RenderSettings,
+    ) -> Result<RenderStats, RenderError> {
+        Ok(self.render_payload(view, settings, (canvas, Some(sweep)), &ColorOnly)?.0)
     }
 
     fn render_reference(&self, view: &View, settings: &RenderSettings, frame: &mut Frame) -> Result<(), RenderError> {
@@ -271,14 +285,6 @@ impl<'scene> Renderer<'scene> {
         add_background(frame, settings.visible_background());
         Ok(())
     }
-}
-
-/// Checks the length of an input.
-///
-/// # Errors
-/// [`RenderError::Length`].
-pub(super) fn check_len(what: &'static str, found: usize, expected: usize) -> Result<(), RenderError> {
-    if found == expected { Ok(()) } else { Err(RenderError::Length { what, found, expected }) }
 }
 
 /// Adds the background color, weighted with the transmittance.

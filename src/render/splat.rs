@@ -40,6 +40,8 @@ pub(super) struct Splat {
     pub(super) depth: f32,
     /// Index of the Gaussian.
     pub(super) gaussian_idx: u32,
+    /// How far it moves in a sweep, across or down, pixels; 0 without one.
+    pub(super) swept_px: f32,
 }
 
 impl Splat {
@@ -61,6 +63,7 @@ impl Splat {
             color: [0.0; 3],
             depth: exact.depth as f32,
             gaussian_idx: 0,
+            swept_px: 0.0,
         }
     }
 

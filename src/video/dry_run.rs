@@ -32,11 +32,12 @@ pub fn encode_and_discard(path: &Path, settings: &VideoSettings, frames: &[&[u8]
 /// Delay of the encoder in frames: the number of frames that it buffers before it returns the first packet. About as
 /// many are still to be encoded after the last frame was sent.
 ///
-/// For x264 it is the sum of `rc-lookahead`, the number of threads minus one and, with a lookahead, the number of
+/// For x264 it is the sum of `rc-lookahead` or the number of B-frames if that is greater, the number of threads minus one and, with a lookahead, the number of
 /// B-frames plus one. `x264 --fullhelp` lists the values of the presets.
 pub fn encoder_delay_frames(format: &VideoFormat, settings: &VideoSettings) -> usize {
     let (lookahead, num_b_frames) = match settings.preset.unwrap_or_default() {
         X264Preset::Ultrafast => (0, 0),
+        X264Preset::Superfast => (0, 3),
         X264Preset::Veryfast => (10, 3),
         X264Preset::Faster => (20, 3),
         X264Preset::Fast => (30, 3),
@@ -51,7 +52,7 @@ pub fn encoder_delay_frames(format: &VideoFormat, settings: &VideoSettings) -> u
         VideoFormat::WebM => VP9_LOOKAHEAD,
         VideoFormat::Mp4 | VideoFormat::Mkv | VideoFormat::Mov => {
             let num_synced = if lookahead > 0 { num_b_frames + 1 } else { 0 };
-            lookahead + num_synced + NUM_THREADS - 1
+            lookahead.max(num_b_frames) + num_synced + NUM_THREADS - 1
         }
     }
 }

@@ -111,6 +111,8 @@ pub enum EyePacking {
 pub enum X264Preset {
     /// The least effort.
     Ultrafast,
+    /// Between ultrafast and veryfast.
+    Superfast,
     /// Little effort.
     Veryfast,
     /// Between veryfast and fast.

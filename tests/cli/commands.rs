@@ -37,6 +37,8 @@ fn help_shows_every_command_and_examples() {
 
           --max-memory <SIZE>
               Memory that the program may take, such as 2G [default: what container and shell allow]
+              
+              A size takes the place of what the container has left and of the built-in caps, 4 GB for a picture and 32 GB for a scene. The memory of the machine and the container's limit bound it.
 
       -h, --help
               Print help (see a summary with '-h')
@@ -64,7 +66,7 @@ fn help_shows_every_command_and_examples() {
     Usage: cinesplat import [OPTIONS] --output <SHOT.JSON> <FILE>
 
     Arguments:
-      <FILE>  Camera path to read, or the folder of a COLMAP, EuRoC, nerfstudio or 7-Scenes capture
+      <FILE>  Camera path to read, or the folder of a COLMAP, EuRoC, nerfstudio or 7-Scenes capture, or RECORDING#TOPIC of ROS
 
     Options:
           --from <FORMAT>  Format to read [default: by the content of the file]
@@ -86,6 +88,7 @@ fn help_shows_every_command_and_examples() {
       cinesplat import camera_path.json -o shot.json
       cinesplat import poses.txt --from kitti --fps 10 -o shot.json
       cinesplat import poses.tum --size 1920x1080 --fov 40 --up 0,0,1 -o shot.json
+      cinesplat import run.bag#/odom -o shot.json
     ");
 }
 
@@ -167,7 +170,7 @@ fn a_path_that_fits_two_formats_names_the_flag_that_settles_it() {
     fs::write(folder.path().join("film.tum"), lines(" ")).unwrap();
     fs::write(folder.path().join("film.txt"), lines(",")).unwrap();
     let doubt = "note: film.txt: read as tum (8 columns, seconds, quaternion x y z w); --from euroc reads \
-                 nanoseconds, quaternion w x y z\n";
+                 seconds, quaternion w x y z\n";
     let answered = answer(folder.path(), &["eval", "film.tum", "film.txt", "--json"]);
     assert!(answered.contains(doubt) && answered.contains("\"pairs\": 8"), "{answered}");
     let wanted = ["--fps", "8", "--size", "64x36", "--fov", "40", "--up", "0,-1,0"];
@@ -275,6 +278,8 @@ fn stills_are_named_after_their_cameras() {
 #[test]
 fn bench_without_a_scene_or_a_benchmark_is_a_usage_error() {
     let folder = tempfile::tempdir().unwrap();
+    let twice = answer(folder.path(), &["bench", "promises", "a/x.ply", "b/x.ply"]);
+    assert!(twice.starts_with("exit 2\n") && twice.contains("have one name"), "{twice}");
     assert!(answer(folder.path(), &["bench"]).starts_with("exit 2\n"));
     assert!(answer(folder.path(), &["bench", "operator", "void"]).starts_with("exit 2\n"));
     assert!(answer(folder.path(), &["bench", "operator", "--help"]).contains("films"));
@@ -304,8 +309,8 @@ fn bench_lens_prints_rows_and_writes_a_plot() {
     assert_eq!(fs::read_to_string(folder.path().join("out/lens.csv")).unwrap(), csv);
     assert!(folder.path().join("out/lens.svg").exists());
     let rows: Vec<Vec<String>> = csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect();
-    // Eight kinds of blur: three presets, no blur, and both methods.
-    assert_eq!(rows.len(), 8 * (3 + 1 + 5 + 4), "{csv}");
+    // Eight kinds of blur: three presets, no blur, eight numbers of blurred samples, and sharp ones of two kinds from two on.
+    assert_eq!(rows.len(), 8 * (3 + 1 + 8 + 7 + 7), "{csv}");
     let psnr_db = |row: &Vec<String>| row[7].parse::<f64>().unwrap();
     let of = |method: &str, samples: &str| -> Vec<f64> {
         rows.iter().filter(|row| row[5] == method && row[6] == samples).map(psnr_db).collect()
@@ -327,8 +332,14 @@ fn bench_lens_compares_planned_films_with_forced_ones_and_prices_every_effect() 
     let films = rows("lens-auto.csv");
     let number = |row: &Vec<String>, at: usize| row[at].parse::<f64>().unwrap();
     assert_eq!(films.len(), 8);
-    assert!(films.iter().all(|row| number(row, 5) <= number(row, 6) && number(row, 4) <= 24.0), "{films:?}");
+    assert!(films.iter().all(|row| number(row, 6) <= number(row, 7) && number(row, 5) <= 24.0), "{films:?}");
     assert_eq!(rows("lens-costs.csv").len(), cinesplat::lens::KINDS.len());
+    // The rows of one camera are not those of another one.
+    let two = [&both[..], &["--max-cameras", "2", "--resume", "--overwrite"]].concat();
+    data(folder.path(), &two);
+    let costs = rows("lens-costs.csv");
+    assert_eq!(costs.iter().filter(|row| row[1] == "front").count(), costs.len() / 2);
+    assert_eq!((rows("lens-auto.csv").len(), costs.len()), (16, 2 * cinesplat::lens::KINDS.len()));
 }
 
 #[test]

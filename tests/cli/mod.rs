@@ -2,6 +2,7 @@
 
 mod commands;
 mod errors;
+mod farm;
 mod films;
 mod map;
 mod memory;

@@ -141,6 +141,61 @@ fn one_program_works_on_a_film_and_a_lock_without_a_holder_is_none() {
     assert_eq!(names(folder.path()), ["film.mp4", "shot.json"]);
 }
 
+/// A disk without locks used to end the film. Programs there write a file each, which is heeded on every disk.
+#[cfg(unix)]
+#[test]
+fn the_file_of_a_program_without_locks_is_heeded_until_it_is_old() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let holders = folder.path().join("film.mp4.job/holders");
+    fs::create_dir_all(&holders).unwrap();
+    fs::write(folder.path().join("film.mp4.job/lock"), "").unwrap();
+    let holder = fs::File::create(holders.join("elsewhere.1-7-0")).unwrap();
+    fs::write(holders.join("elsewhere.1-7-0"), "shared").unwrap();
+    let line = ["render", SMALL_SCENE, "--shot", "shot.json", "-o", "film.mp4"];
+    let said = answer(folder.path(), &line);
+    assert!(said.starts_with("exit 75\n") && said.contains("error[JOB-LOCKED]"), "{said}");
+    data(folder.path(), &[&line[..], &["--part", "--frames", "0..2"]].concat());
+    assert_eq!(names(&holders), ["elsewhere.1-7-0"], "a part works beside a part");
+    holder.set_modified(std::time::SystemTime::now() - std::time::Duration::from_mins(10)).unwrap();
+    data(folder.path(), &line);
+    assert_eq!(names(folder.path()), ["film.mp4", "shot.json"]);
+}
+
+/// Two programs used to write one film where one of them was halted so long that the other one took over.
+#[cfg(unix)]
+#[test]
+fn a_program_that_lost_its_folder_makes_no_film() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = undisturbed(folder.path());
+    let film = start(folder.path(), &render("film.mp4", &[]), 1);
+    let holders = folder.path().join("film.mp4.job/holders");
+    assert_eq!(names(&holders).len(), 1, "locks or not, a program shows itself");
+    fs::remove_file(holders.join(&names(&holders)[0])).unwrap();
+    let ended = film.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert!(ended.status.code() == Some(75) && said.contains("error[JOB-LOST]: film.mp4.job"), "{said}");
+    assert_eq!(names(folder.path()), ["film.mp4.job", "shot.json"]);
+    data(folder.path(), &render("film.mp4", &[]));
+    assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
+    assert_eq!(names(folder.path()), ["film.mp4", "shot.json"]);
+}
+
+/// It used to be parsed whatever its size in memory.
+#[test]
+fn the_description_of_a_film_is_bounded_as_all_json_is() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    fs::create_dir(folder.path().join("film.mp4.job")).unwrap();
+    let many = format!("[{}{{}}]", "{},".repeat(900_000));
+    fs::write(folder.path().join("film.mp4.job/job.json"), many).unwrap();
+    let said = answer(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "film.mp4"]);
+    assert!(
+        said.starts_with("exit 65\n") && said.contains("error[JOB-READ]: film.mp4.job/job.json: values that take"),
+        "{said}"
+    );
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn places_that_cannot_be_written_are_refused_before_any_work() {
@@ -303,59 +358,4 @@ fn a_part_says_the_line_that_makes_the_film() {
     assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
     let wrong = run(folder.path(), &render("film.mp4", &["--part=4/3"]));
     assert_eq!(wrong.status.code(), Some(2));
-}
-
-/// Stands for Slurm: a job runs when it is submitted, task by task. The tasks of the first job do the frames 0..9 only, as
-/// if they were killed then.
-#[cfg(unix)]
-const SBATCH: &str = r#"#!/bin/sh
-for word; do
-    case "$word" in
-        --array=1-*) SLURM_ARRAY_TASK_COUNT=${word#--array=1-} ;;
-        --output=*) log=$(echo "${word#--output=}" | sed 's/%A-%a/7-1/') ;;
-    esac
-    script=$word
-done
-echo "$@" >> sbatch.words
-export SLURM_ARRAY_TASK_COUNT
-for SLURM_ARRAY_TASK_ID in $(seq 1 ${SLURM_ARRAY_TASK_COUNT:-0}); do
-    export SLURM_ARRAY_TASK_ID
-    if [ -e killed ]; then sh "$script"; else sh -c "$(tail -n 1 "$script") --frames 0..9"; fi >> "$log" 2>&1
-done
-touch killed
-echo 7
-"#;
-
-#[cfg(unix)]
-#[test]
-fn a_cluster_renders_one_film_and_is_given_again_what_it_lost() {
-    use std::os::unix::fs::PermissionsExt;
-
-    let folder = tempfile::tempdir().unwrap();
-    let whole = undisturbed(folder.path());
-    let programs = folder.path().join("bin");
-    fs::create_dir(&programs).unwrap();
-    for (name, text) in [("sbatch", SBATCH), ("squeue", "#!/bin/sh\n"), ("scancel", "#!/bin/sh\n")] {
-        fs::write(programs.join(name), text).unwrap();
-        fs::set_permissions(programs.join(name), fs::Permissions::from_mode(0o755)).unwrap();
-    }
-    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
-    let farm = |arguments: &[&str]| {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
-        let output = program.args(arguments).current_dir(folder.path()).env("PATH", &path).output().unwrap();
-        (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
-    };
-    let flags = ["farm", "--slurm", "--parts", "3", "--sbatch", "--partition=long -t 5"];
-    let (code, said) = farm(&[&flags[..], &render("film.mp4", &[])[1..]].concat());
-    assert!(code == 0 && said.contains("15 frames are missing: they are submitted again"), "{code}: {said}");
-    assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
-    let words = fs::read_to_string(folder.path().join("sbatch.words")).unwrap();
-    assert_eq!(words.lines().count(), 2, "{words}");
-    assert!(
-        words.contains("--array=1-3") && words.contains("--partition=long -t 5 film.mp4.job/tasks/part.sh"),
-        "{words}"
-    );
-    assert_eq!(names(folder.path()), ["bin", "film.mp4", "killed", "sbatch.words", "shot.json"], "no job folder");
-    let (code, said) = farm(&["farm", "--slurm", "none.ply", "--shot", "shot.json", "-o", "other.mp4"]);
-    assert!(code == 69 && said.contains("finished no frame: error[SCENE-NOT-FOUND]: none.ply"), "{code}: {said}");
 }

@@ -28,3 +28,17 @@ fn a_direction_beside_the_verb_is_the_direction_of_the_move() {
         assert_eq!(moves(prompt).first(), Some(&(movement, false)), "{prompt}");
     }
 }
+
+#[test]
+fn where_a_thing_is_says_no_way_past_it() {
+    let director = Director::embedded().unwrap();
+    let boxed =
+        |id: u32, label: &str, y: f64| Object::from_box(id, label, DVec3::new(0.0, y, -1.0), DVec3::new(0.5, 0.3, 0.2));
+    let objects = [boxed(1, "cupboard", 0.4), boxed(2, "television", 1.4)];
+    let names: Vec<NamedObject> =
+        objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+    let context = SceneContext { objects: &objects, up: DVec3::Y, center: DVec3::new(0.0, 1.0, -1.5), size: 7.0 };
+    let linked = director.link("7 second move in on the cupboard under the television", &names).unwrap();
+    let program = director.direct(&linked, &context).unwrap().program;
+    assert_eq!((program.steps[0].movement, program.steps[0].via.as_ref()), (Move::PushIn, None));
+}

@@ -111,6 +111,26 @@ fn an_arc_is_told_as_an_arc() {
 }
 
 #[test]
+fn a_move_and_its_way_back_are_two_moves() {
+    let push = Walk::new().travel(2.0, DVec3::Z * 1.2).travel(2.0, DVec3::NEG_Z * 1.5).path();
+    assert_eq!(names(&push), [Move::PushIn, Move::PullOut].map(Some));
+    let whole_way = Walk::new().travel(2.0, DVec3::Z).travel(2.0, DVec3::NEG_Z).path();
+    assert_eq!(names(&whole_way), [Move::PushIn, Move::PullOut].map(Some));
+    let aside = Walk::new().travel(2.0, DVec3::Z).travel(2.0, DVec3::X).travel(2.0, DVec3::NEG_X).path();
+    assert_eq!(names(&aside), [Move::PushIn, Move::TruckRight, Move::TruckLeft].map(Some));
+    let pan = Walk::new().pan(2.0, 40.0).pan(2.0, -40.0).path();
+    assert_eq!(names(&pan), [Move::PanRight, Move::PanLeft].map(Some));
+    let arc = Walk::new().orbit(2.0, 2.5, 50.0).orbit(2.0, 2.5, -80.0).path();
+    assert_eq!(names(&arc), [Move::ArcRight, Move::ArcLeft].map(Some));
+}
+
+#[test]
+fn a_straight_move_before_a_pan_is_no_short_arc() {
+    let path = Walk::new().travel(2.0, DVec3::X * 1.5).pan(2.5, -30.0).path();
+    assert_eq!(names(&path), [Move::TruckRight, Move::PanLeft].map(Some));
+}
+
+#[test]
 fn several_moves_at_once_are_told_by_their_directions() {
     // Forward and to the right while the view turns right, which aims at nothing.
     let path = Walk::new()
@@ -132,8 +152,8 @@ fn the_size_of_a_subject_and_the_height_of_view_are_told() {
     let table = Description::new(&path, &[], Some(subject)).table();
     // Height 2 asin(0.5 / 4) against 0.8 rad, then at half the distance.
     insta::assert_snapshot!(table, @r"
-    from s     to s  move            amount           angle                   fov deg         size
-      0.00     2.00  push-in         2 scene units    eye-level               45.8            long to medium
+    from s     to s  move            amount             angle                   fov deg         size
+      0.00     2.00  push-in         2 scene units      eye-level               45.8            long to medium
     ");
 }
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Compares `cinesplat eval --like-evo` with evo on evo's own test data.
 
-    python3 tests/exchange/evo_figures.py target/release/cinesplat FOLDER
+    python3 tests/exchange/evo_figures.py target/release/cinesplat FOLDER [ESTIMATE ..]
 
-FOLDER holds the files of `test/data` of evo's repository (https://github.com/MichaelGrupp/evo, GPL-3). evo is called as an
+With names of estimates only their pairs are compared. FOLDER holds the files of `test/data` of evo's repository (https://github.com/MichaelGrupp/evo, GPL-3). evo is called as an
 installed package; no part of it is in this repository. Prints one line per comparison that differs by more than 1e-9 and a
 summary; exits with 1 if there is one.
 """
@@ -131,9 +131,11 @@ def by_cinesplat(program, reference, estimate, case):
 
 
 def main():
-    program, folder = sys.argv[1], Path(sys.argv[2])
+    program, folder, only = sys.argv[1], Path(sys.argv[2]), sys.argv[3:]
     compared, differing, refused, largest = 0, 0, 0, 0.0
     for kind, reference_name, estimate_name in PAIRS:
+        if only and estimate_name not in only:
+            continue
         paths = [folder / reference_name, folder / estimate_name]
         if not all(path.exists() for path in paths):
             print(f"missing: {reference_name} or {estimate_name}")

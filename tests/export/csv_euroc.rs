@@ -28,3 +28,15 @@ fn euroc_counts_nanoseconds_and_puts_w_first() {
     assert!((frame.time_secs - 1_403_636_580.838_555_6).abs() < 1e-6);
     assert!((frame.pose.rotation.w - 0.534_108).abs() < 1e-6 && (frame.pose.rotation.z + 0.082_152).abs() < 1e-6);
 }
+
+#[test]
+fn the_ground_truth_of_euroc_has_z_up_and_a_path_alone_has_none() {
+    let pose = |idx: i64| format!("{},1.0,2.0,{}.0,0.5,-0.5,0.5,0.5", 1_403_715_524_907_143_168 + 5_000_000 * idx, idx);
+    let state = ",0.1,0.2,0.3,0.01,0.02,0.03,0.04,0.05,0.06";
+    let lines = |rest: &str| (0..4).map(|idx| pose(idx) + rest + "\n").collect::<String>();
+    for (rest, up) in [(state, Some(glam::DVec3::Z)), ("", None)] {
+        let (path, _folder) = file("data.csv", lines(rest).as_bytes());
+        let imported = read(&path, None).unwrap();
+        assert_eq!((imported.format, imported.track.up), (Format::Euroc, up), "{rest}");
+    }
+}

@@ -107,3 +107,20 @@ fn columns_that_are_not_read_are_counted() {
     assert_eq!(lines[0], "9 columns behind the quaternion are not read");
     assert!(lines[1].starts_with("a shot starts at 0 s: 1403636580.8"), "{lines:?}");
 }
+
+#[test]
+fn poses_out_of_order_are_sorted_and_repeated_ones_dropped_aloud() {
+    let line = |idx: usize| format!("{} {idx} 2 3 0 0 0 1\n", idx as f64 / 24.0);
+    let order = [5, 6, 7, 0, 1, 2, 2, 3, 4, 7];
+    let (path, _folder) = file("a.tum", order.map(line).concat().as_bytes());
+    let (back, lines) = read(&path, None).unwrap().into_shot(&ImportSettings::default()).unwrap();
+    let places: Vec<f64> = back.keyframes.iter().map(|key| key.pose.position.x).collect();
+    assert_eq!((places, back.fps), ((0..8).map(f64::from).collect(), 24.0));
+    insta::assert_snapshot!(lines[..2].join("\n"), @r"
+    the poses are put in order of time (places where the time steps back: 1)
+    poses that are repeated with their times are taken once (repetitions: 2)
+    ");
+    // Two places at one time are a fault of the file.
+    let (path, _folder) = file("a.tum", b"0 1 2 3 0 0 0 1\n0.1 1 2 3 0 0 0 1\n0.1 9 2 3 0 0 0 1\n");
+    assert!(read(&path, None).unwrap().into_shot(&ImportSettings::default()).is_err());
+}

@@ -12,6 +12,7 @@ mod nerfstudio;
 mod other_readers;
 mod parents;
 mod read_only_formats;
+mod ros;
 mod round_trips;
 mod sample_shot;
 mod shot_json;

@@ -248,6 +248,21 @@ fn a_misspelled_key_is_named_with_the_nearest_known_one() {
     ");
 }
 
+/// A number in quotes used to be left out without a word.
+#[test]
+fn a_setting_of_an_effect_that_is_no_number_is_refused() {
+    let error = read(&EXAMPLE.replace("\"f_stop\":2.8", "\"f_stop\":\"2.8\"")).unwrap_err();
+    insta::assert_snapshot!(error, @r#"effects[0].f_stop: found "2.8", expected a finite number"#);
+    assert!(read(&EXAMPLE.replace("\"f_stop\":2.8", "\"f_stop\":null")).unwrap().effects[0].settings.is_empty());
+}
+
+#[test]
+fn a_word_among_the_settings_of_an_effect_is_noted_and_left_out() {
+    let file = shot_json::read(&EXAMPLE.replace("\"f_stop\":2.8", "\"f_stop\":2.8, \"author\":\"A. Meyer\"")).unwrap();
+    assert_eq!(file.shot.effects[0].settings, vec![("f_stop".to_owned(), 2.8)]);
+    assert!(file.notes.contains(&"effects[0].author: no number, and so no setting: it is not read".to_owned()));
+}
+
 #[test]
 fn a_misspelled_required_key_is_named_in_the_error() {
     let error = read(&EXAMPLE.replace("\"fov_y_deg\":40", "\"fov_y_degs\":40")).unwrap_err();

@@ -4,6 +4,7 @@ A command may end with 0 or with an exit code that says what is wrong; never by 
 program), and never with an output that is neither whole nor absent.
 """
 
+import atexit
 import collections
 import json
 import os
@@ -44,6 +45,7 @@ class Folder:
     def __init__(self, program):
         self.program = program
         self.path = pathlib.Path(tempfile.mkdtemp(prefix="cinesplat-faults-"))
+        atexit.register(self.close)
         key = lambda time, x: {"time_secs": time, "position": [x, 1.2, 1.5], "rotation_xyzw": [1, 0, 0, 0],
                                "fov_y_deg": 50, "easing": "smooth"}
         shot = {"format": "cinesplat.shot", "version": 1, "width": 320, "height": 180, "fps": 30, "duration_secs": 0.1,

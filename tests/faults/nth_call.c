@@ -1,6 +1,7 @@
 // Makes the nth call of a program that writes a file fail. Loaded with LD_PRELOAD; reads FAULT_KIND (enospc, eio, eintr,
 // short) and FAULT_CALL (n, from 1). enospc fails that call and all later writes, the other kinds fail that call alone.
-// Writes "reached" to the file FAULT_REACHED when the call comes. Standard streams are left alone.
+// Writes "reached" to the file FAULT_REACHED when the call comes. Standard streams are left alone. With FAULT_LOCKS every
+// lock fails with that error number, as on a disk without locks.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -9,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -66,4 +68,12 @@ int rename(const char *from, const char *to) {
     int (*real)(const char *, const char *) = dlsym(RTLD_NEXT, "rename");
     if (turn() == 1 && (is_kind("eio") || is_kind("enospc"))) { errno = is_kind("eio") ? EIO : ENOSPC; return -1; }
     return real(from, to);
+}
+
+int flock(int fd, int operation) {
+    int (*real)(int, int) = dlsym(RTLD_NEXT, "flock");
+    const char *number = getenv("FAULT_LOCKS");
+    if (!number) return real(fd, operation);
+    errno = atoi(number);
+    return -1;
 }

@@ -1,10 +1,11 @@
 """Writes `tests/reliability.md` anew: load held, faults survived, bad inputs tried, and the matrix of faults with its tests.
 
-Usage: python3 tests/faults/page.py target/release/cinesplat [--rows ROW ..] [--kills 20] [--fuzz-logs DIR]
+Usage: python3 tests/faults/page.py target/release/cinesplat [--rows ROW ..] [--kills 20] [--panics PROGRAM] [--fuzz-logs DIR]
 
 The rows named by --rows are measured now (none without it); figures of other rows stay as they were measured, each with its
-date and commit. Figures are kept in `target/faults/figures.json`, and beside the page in a comment at its end, so that a clone
-keeps them. Exits with 1 if a test that the matrix names does not exist.
+date and commit. The page is written after each row. `--rows all` leaves out rows that were measured at this commit without a
+fault, so the same line goes on where it was stopped. Figures are kept in a comment at the end of the page. Exits with 1 if a
+row finds a fault, or if a test that the matrix names does not exist.
 """
 
 import argparse
@@ -57,16 +58,18 @@ MATRIX = [
     (28, "loss of power", ["a_log_that_is_cut_at_any_byte_loses_only_the_frames_after_the_cut", "`losses`"]),
     (29, "frames of another film", ["frames_of_another_film_are_refused_field_by_field"]),
     (30, "a damaged frame", ["damaged_frames_and_lines_are_rendered_again"]),
-    (31, "two programs on one film", ["one_program_works_on_a_film_and_a_lock_without_a_holder_is_none"]),
-    (32, "a lock without a holder", ["one_program_works_on_a_film_and_a_lock_without_a_holder_is_none"]),
+    (31, "two programs on one film", ["one_program_works_on_a_film_and_a_lock_without_a_holder_is_none", "several_programs_render_one_film", "`farm`", "`locks`"]),
+    (32, "a lock without a holder", ["one_program_works_on_a_film_and_a_lock_without_a_holder_is_none", "the_file_of_a_program_without_locks_is_heeded_until_it_is_old", "`locks`"]),
     (33, "limits on memory", ["a_bound_on_memory_is_kept_by_bands_or_by_refusal", "a_limit_on_address_space_ends_in_an_error_and_never_in_an_abort",
+                              "what_caches_files_is_left_of_a_containers_memory", "a_block_that_grows_counts_once",
+                              "temporary_files_are_removed_at_an_end_without_destructors",
                               "`address-space`", "`max-memory`"]),
     (34, "any number of threads, any instruction set", ["a_film_has_the_same_bytes_on_any_number_of_threads", "every_instruction_set_gives_the_same_bits"]),
     (35, "missing encoder, odd size, too many frames", ["a_film_of_too_many_frames_is_refused_before_it_is_planned", "invalid_arguments"]),
     (36, "other clocks and locales", ["other_locales_and_time_zones_change_no_byte"]),
     (37, "requests for files elsewhere", []),
     (38, "floods of requests", []),
-    (39, "a panic of a worker", ["a_panic_leaves_the_finished_frames_and_no_film"]),
+    (39, "a panic of a worker", ["a_panic_leaves_the_finished_frames_and_no_film", "`panics`"]),
     (40, "closed pipes, no HOME, no TMPDIR", ["a_closed_pipe_and_a_missing_home_are_no_faults"]),
 ]
 NO_SERVER = "applies once there is a server"
@@ -88,7 +91,8 @@ def figures():
 def commit():
     """The commit, with a plus where files differ from it."""
     git = lambda *words: subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True).stdout.strip()
-    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "--untracked-files=no") else "")
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!tests/reliability.md")
+    return git("rev-parse", "--short", "HEAD") + ("+" if changed else "")
 
 
 def measured(name, make):
@@ -98,7 +102,7 @@ def measured(name, make):
         print(f"{name}: {fault}", file=sys.stderr, flush=True)
     result = row.result if not row.faults else f"**{len(row.faults)} faults** ({row.result})"
     print(f"| {row.fault} | {row.tried} | {result} |", flush=True)
-    return {"fault": row.fault, "tried": row.tried, "result": result, "date": str(datetime.date.today()), "commit": commit()}
+    return {"fault": row.fault, "tried": row.tried, "result": result, "faults": len(row.faults), "date": str(datetime.date.today()), "commit": commit()}
 
 
 def fuzzed(folder):
@@ -169,24 +173,45 @@ Names in italics are tests of `make test`, names in backquotes rows of `make fau
 """
 
 
+def is_measured(row, num_kills):
+    """Whether a row was measured without a fault at this commit, with as many kills."""
+    found = commit()
+    # A plus stands for changes that no commit tells apart.
+    return bool(row) and not row.get("faults", 1) and row.get("kills") == num_kills and row["commit"] == found and not found.endswith("+")
+
+
+def write(text):
+    """Writes the page, whole or not at all."""
+    new = PAGE.with_suffix(".md.tmp")
+    new.write_text(text)
+    new.replace(PAGE)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--rows", nargs="*", default=[])
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--fuzz-logs")
+    parser.add_argument("--panics", help="the program built with the feature panic-points")
     arguments = parser.parse_args()
-    rows = run.rows(os.path.abspath(arguments.program), arguments.kills)
+    rows = run.rows(os.path.abspath(arguments.program), arguments.kills, arguments.panics)
     kept = {"rows": {}, "fuzz": {}, **figures()}
-    for name in rows if arguments.rows == ["all"] else arguments.rows:
-        kept["rows"][name] = measured(name, rows[name])
+    # The row of panics exists in the matrix whether its program was built or not.
+    lines, missing = matrix(existing_tests(), [*rows, "panics"])
     if arguments.fuzz_logs:
         kept["fuzz"].update(fuzzed(arguments.fuzz_logs))
-    lines, missing = matrix(existing_tests(), rows)
-    PAGE.write_text(page(kept, lines))
+    write(page(kept, lines))
     for name in missing:
         print(f"the matrix names {name}, which does not exist", file=sys.stderr)
-    sys.exit(1 if missing else 0)
+    num_faults = 0
+    for name in rows if arguments.rows == ["all"] else arguments.rows:
+        if arguments.rows == ["all"] and is_measured(kept["rows"].get(name), arguments.kills):
+            continue
+        kept["rows"][name] = {**measured(name, rows[name]), "kills": arguments.kills}
+        num_faults += kept["rows"][name]["faults"]
+        write(page(kept, lines))
+    sys.exit(1 if missing or num_faults else 0)
 
 
 if __name__ == "__main__":

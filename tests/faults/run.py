@@ -8,7 +8,9 @@ byte by byte. Needs Linux and, for the rows of failing writes, a C compiler. Exi
 """
 
 import argparse
+import atexit
 import collections
+import errno
 import json
 import os
 import pathlib
@@ -41,6 +43,7 @@ class Bench:
     def __init__(self, program, num_frames):
         self.program, self.num_frames = program, num_frames
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="cinesplat-faults-"))
+        atexit.register(self.close)
         self.film, self.job = self.folder / "film.mp4", self.folder / "film.mp4.job"
         (self.folder / "shot.json").write_text(json.dumps(shot(num_frames / 30, 30)))
         start = time.monotonic()
@@ -83,7 +86,11 @@ class Bench:
         shutil.rmtree(self.job, ignore_errors=True)
 
     def close(self):
+        if os.path.ismount(self.folder / "disk"):
+            subprocess.run(["umount", self.folder / "disk"], check=False)
         shutil.rmtree(self.folder, ignore_errors=True)
+        pathlib.Path(f"{self.folder}.so").unlink(missing_ok=True)
+        pathlib.Path(f"{self.folder}.so.reached").unlink(missing_ok=True)
 
 
 class Row:
@@ -220,12 +227,51 @@ def losses(program, num):
     return row
 
 
+def faults_library(folder):
+    """Builds the library that makes calls fail, beside a folder."""
+    library = folder.parent / f"{folder.name}.so"
+    built = subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, HERE / "nth_call.c", "-ldl"])
+    assert built.returncode == 0, "no C compiler"
+    return library
+
+
+def without_locks(program, num):
+    """A disk whose locks fail: films that are killed and go on, a second program, a farm."""
+    bench, rng, row = Bench(program, 60), random.Random(6), Row("Disk without locks (ENOLCK, ENOSYS, EOPNOTSUPP): kills, a second program, a farm", "")
+    numbers, num_killed, num_refused = [errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP], 0, 0
+    library = faults_library(bench.folder)
+    for idx in range(num):
+        faulty = {**os.environ, "LD_PRELOAD": str(library), "FAULT_LOCKS": str(numbers[idx % 3])}
+        child = bench.start(env=faulty)
+        bench.wait_for(child, rng.randint(1, 30))
+        # It stands still while the second one tries.
+        child.send_signal(signal.SIGSTOP)
+        if child.poll() is None and not bench.film.exists():
+            second = bench.run(env=faulty)
+            row.check(second.returncode == 75 and "JOB-LOCKED" in second.stderr, f"a second program: exit {second.returncode}: {second.stderr[-300:]}")
+            num_refused += second.returncode == 75
+        child.kill()
+        child.communicate()
+        num_killed += child.returncode == -signal.SIGKILL
+        # The killed program was on this machine: it is known to be gone at once.
+        again = bench.run("--overwrite", env=faulty)
+        row.check(again.returncode == 0 and bench.is_whole(), f"exit {again.returncode}: {again.stderr[-300:]}")
+        row.check(bench.leftovers() == [], f"left: {bench.leftovers()}")
+        bench.clear()
+        farmed = bench.start(command=("farm", "--local", "3"), env=faulty)
+        said = farmed.communicate()[1]
+        row.check(farmed.returncode == 0 and bench.is_whole() and bench.leftovers() == [], f"farm: exit {farmed.returncode}: {said[-300:]}")
+        bench.clear()
+    row.tried = f"{num_killed} kills, {num} farms"
+    row.result = f"{num_refused} second programs refused; all films byte-identical"
+    bench.close()
+    return row
+
+
 def calls(program, kind):
     """The nth call that writes fails, n = 1, 2, .. until a run passes without reaching it."""
     bench, row = Bench(program, 3), Row(f"nth write fails: {kind}, film of 3 frames", "")
-    library = bench.folder.parent / f"{bench.folder.name}.so"
-    built = subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, HERE / "nth_call.c", "-ldl"])
-    assert built.returncode == 0, "no C compiler"
+    library = faults_library(bench.folder)
     codes, call = collections.Counter(), 0
     reached = pathlib.Path(f"{library}.reached")
     while True:
@@ -246,7 +292,6 @@ def calls(program, kind):
         bench.clear()
         if not reached.exists():
             break
-    library.unlink()
     row.tried = f"{call - 1} calls"
     row.result = ", ".join(f"exit {code}: {count}" for code, count in sorted(codes.items())) + "; the next run makes the film"
     bench.close()
@@ -334,6 +379,7 @@ def rows(program, num, panics_program=None):
         "farm": lambda: farm(program, max(1, num // 20)),
         "losses": lambda: losses(program, max(1, num // 4)),
         **{kind: lambda kind=kind: calls(program, kind) for kind in ("enospc", "eio", "eintr", "short")},
+        "locks": lambda: without_locks(program, max(3, num // 20)),
         "disk": lambda: small_disk(program),
         "file-limits": lambda: file_limits(program),
         **({"panics": lambda: panics(os.path.abspath(panics_program))} if panics_program else {}),

@@ -1,5 +1,8 @@
 //! The crate `files`: complete or absent files, protection of existing files, numpy arrays, relative paths.
 
+mod group_memory;
+mod open_files;
+
 use std::fs;
 use std::io::Write;
 use std::path::Path;

@@ -11,6 +11,7 @@ mod effects;
 mod exam;
 mod frame_shape;
 mod grammar;
+mod idioms;
 mod link;
 mod mention;
 mod notation;

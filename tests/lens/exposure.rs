@@ -2,9 +2,9 @@
 
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::lens::{
-    Aperture, Between, Budget, LensAndShutter, MAX_SAMPLES, PlannedExposure, SENSOR_M, focal_length_m,
+    Aperture, Between, Budget, LensAndShutter, MAX_SAMPLES, PlannedExposure, SENSOR_M, Sampling, focal_length_m,
 };
-use cinesplat::render::{Quality, RenderSettings, Renderer, SplatBlur, SubFrame, ThinLens};
+use cinesplat::render::{Quality, RenderSettings, Renderer, SubFrame, ThinLens};
 use cinesplat::scene::Gaussians;
 use glam::{DVec2, DVec3, Quat, Vec3};
 
@@ -112,6 +112,10 @@ fn a_static_frame_takes_one_plain_picture_and_blur_as_many_samples_as_it_needs()
     let scene = wall();
     let renderer = Renderer::new(&scene);
     let camera = normal_lens();
+    let is_sharp = |plan: &PlannedExposure| match &plan.sampling {
+        Sampling::SubFrames(subframes) => subframes.iter().all(|subframe| subframe.blur.is_none()),
+        Sampling::Sweep(sweep) => sweep.blur.is_none(),
+    };
     for quality in [Quality::Draft, Quality::Standard, Quality::Final] {
         let settings = RenderSettings { quality, ..RenderSettings::default() };
         let budget = Budget::of(quality);
@@ -125,31 +129,59 @@ fn a_static_frame_takes_one_plain_picture_and_blur_as_many_samples_as_it_needs()
             let lens = Some(ThinLens { aperture_diameter, focus_distance: f64::INFINITY, squeeze: 1.0 });
             LensAndShutter { camera_at: &camera_at, lens }.plan(&renderer, &settings).unwrap()
         };
-        let plain = vec![SubFrame::from(camera)];
-        assert_eq!(plan(0.0, 0.0).subframes, plain);
+        let plain = Sampling::SubFrames(vec![SubFrame::from(camera)]);
+        assert_eq!(plan(0.0, 0.0).sampling, plain);
         let below = budget.blur_px * 0.98;
-        assert_eq!(plan(below, below).subframes, plain);
+        assert_eq!(plan(below, below).sampling, plain);
         let above = budget.blur_px * 1.02;
         let moving = plan(above, below);
-        // One step takes two samples, which are sharp.
-        assert_eq!((moving.subframes.len(), moving.blurs), (2, [true, false]));
+        // One step takes two samples, and one in the middle. All are sharp.
+        assert_eq!((moving.sampling.num_samples(), moving.blurs), (3, [true, false]));
         assert!((moving.extent.motion_px / above - 1.0).abs() < 0.01);
-        assert!(moving.subframes.iter().all(|subframe| subframe.blur == SplatBlur::default()));
+        assert!(is_sharp(&moving));
         let open = plan(below, above);
-        assert_eq!((open.subframes.len(), open.blurs), (3, [false, true]));
+        assert_eq!((open.sampling.num_samples(), open.blurs), (4, [false, true]));
+        assert!(is_sharp(&open));
         // The largest numbers of samples leave gaps, over which the splats are blurred.
         let [most_motion, most_lens] = budget.max_samples;
-        let has_blur = |plan: &PlannedExposure| plan.subframes.iter().all(|subframe| !subframe.blur.is_none());
         let wide = plan(1e6, 0.0);
-        assert_eq!((wide.subframes.len(), has_blur(&wide)), (most_motion as usize, true));
+        assert_eq!((wide.sampling.num_samples(), is_sharp(&wide)), (most_motion as usize, false));
         let open = plan(0.0, 300.0);
-        assert_eq!((open.subframes.len(), has_blur(&open)), (most_lens as usize, true));
+        assert_eq!((open.sampling.num_samples(), is_sharp(&open)), (most_lens as usize, false));
         assert!(most_motion.max(most_lens) <= MAX_SAMPLES);
         if quality != Quality::Draft {
             let few = plan(budget.motion_step_px * 3.5, 0.0);
-            assert_eq!((few.subframes.len(), has_blur(&few)), (5, false));
+            assert_eq!((few.sampling.num_samples(), is_sharp(&few)), (5, true));
             let few = plan(0.0, budget.circle_step_px * 2.9);
-            assert_eq!((few.subframes.len(), has_blur(&few)), (9, false));
+            assert_eq!((few.sampling.num_samples(), is_sharp(&few)), (9, true));
+        }
+    }
+}
+
+/// A ring integrates polynomials over the disk: the mean of x^i y^j is that of the disk, to the third degree with five
+/// points, and to the fifth with seven.
+#[test]
+fn rings_of_samples_have_the_moments_of_the_aperture() {
+    let still = |_: f64| normal_lens();
+    let lens = ThinLens { aperture_diameter: 2.0, focus_distance: f64::INFINITY, squeeze: 1.0 };
+    let exposure = LensAndShutter { camera_at: &still, lens: Some(lens) };
+    for (num, degree) in [(4, 2), (5, 3), (6, 4), (7, 5)] {
+        let sweep = exposure.even_sweep(num, false);
+        let pattern = &sweep.patterns[0];
+        let points = pattern.around.iter().map(|(camera, weight)| (camera.pose.position.truncate(), *weight));
+        let points: Vec<(DVec2, f64)> = points.chain([(DVec2::ZERO, pattern.center_weight)]).collect();
+        assert_eq!(points.len(), num);
+        for (i, j) in (0..=degree).flat_map(|i| (0..=degree - i).map(move |j| (i, j))) {
+            // Means of x^i y^j over the unit disk; odd ones are 0.
+            let wanted = match (i, j) {
+                (0, 0) => 1.0,
+                (2, 0) | (0, 2) => 0.25,
+                (4, 0) | (0, 4) => 0.125,
+                (2, 2) => 1.0 / 24.0,
+                _ => 0.0,
+            };
+            let found: f64 = points.iter().map(|(p, weight)| weight * p.x.powi(i) * p.y.powi(j)).sum();
+            assert!((found - wanted).abs() < 1e-9, "{num}: x^{i} y^{j} {found}");
         }
     }
 }

@@ -258,3 +258,21 @@ fn an_empty_scene_has_no_blur() {
     let effects = called(&calls, &EffectChoice::Auto).effects;
     with_shot(1.0, &[], |take| assert!(plan_of(&effects, take, &renderer).is_plain(1)));
 }
+
+/// Every frame of a resting camera was rendered anew as soon as its lens was open.
+#[test]
+fn a_resting_frame_through_an_open_lens_is_repeated_until_its_focus_moves() {
+    let scene = board();
+    let renderer = Renderer::new(&scene);
+    let keys = [key(0.0, false, Some(1.0)), key(0.1, false, Some(1.0)), key(0.3, false, Some(4.0))];
+    let effects = called(&[call("depth-of-field", &[("f_stop", 0.04)])], &EffectChoice::Auto).effects;
+    with_shot(0.0, &keys, |take| {
+        let plan = plan_of(&effects, take, &renderer);
+        for loss in plan.effects[0].losses() {
+            assert!(loss.shows());
+        }
+        assert!(plan.repeats(1, 0) && !plan.repeats(2, 1));
+        assert_eq!(frame_of(&plan, take, 0, &renderer).rgb, frame_of(&plan, take, 1, &renderer).rgb);
+        assert_ne!(frame_of(&plan, take, 1, &renderer).rgb, frame_of(&plan, take, 2, &renderer).rgb);
+    });
+}

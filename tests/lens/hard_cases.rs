@@ -1,7 +1,7 @@
 //! Hard cases of lens and shutter: each has an oracle besides the effect itself.
 
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
-use cinesplat::lens::{CalledEffect, EffectChoice, EffectPlan, Moment, OpticsTrack, Take};
+use cinesplat::lens::{CalledEffect, EffectChoice, EffectPlan, MAX_SAMPLES, Moment, OpticsTrack, Take};
 use cinesplat::render::{Frame, Quality, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use cinesplat::trajectory::{Easing, KeyOptics, Keyframe};
@@ -178,7 +178,7 @@ fn a_splat_that_crosses_the_near_plane_inside_the_shutter_smears_nothing_over_th
     let forward = |secs: f64| Camera { pose: Pose::new(DVec3::Z * (5.2 * secs), DQuat::IDENTITY), ..camera(0.9) };
     let shutter = effect("motion-blur", &[("shutter_angle_deg", 180.0)]);
     let (frame, plan) = exposed(&shutter, &forward, &[], (1, &scene));
-    assert!(frame.rgb.iter().all(|value| value.is_finite()) && plan.num_samples(1) <= 64);
+    assert!(frame.rgb.iter().all(|value| value.is_finite()) && plan.num_samples(1) <= MAX_SAMPLES);
     let at = |sample: i32| forward(0.1 + ((f64::from(sample) + 0.5) / 200.0 - 0.5) * 0.05);
     let exact = mean_light(&scene, (0..200).map(at));
     let (without, _) = exposed(&shutter, &forward, &[], (1, &far));

@@ -2,7 +2,7 @@
 
 use cinesplat::geometry::rotation;
 use cinesplat::operator::{Amount, Framing, Program, Solution, SolveLevel, SolveSettings, Speed, Step, realize};
-use cinesplat::trajectory::{CameraPath, Move, Shot};
+use cinesplat::trajectory::{CameraPath, Easing, Move, Shot};
 
 use super::{solved, world};
 use crate::support::shot_over;
@@ -155,4 +155,16 @@ fn a_film_without_a_stated_time_lasts_at_most_15_seconds() {
     let circle = Step { amount: Some(Amount::Degrees(360.0)), speed: Speed::Slow, ..Step::of(Move::OrbitLeft) };
     let solution = solved(&world(), vec![push(), circle, pan(120.0)]);
     assert!(solution.duration_secs <= 15.0 + 1e-9, "{} s", solution.duration_secs);
+}
+
+#[test]
+fn a_change_of_speed_shows_over_the_whole_move() {
+    for (easing, faster) in [(Easing::EaseIn, 1), (Easing::EaseOut, 0)] {
+        let speeds: Vec<f64> =
+            rates(&solved(&world(), vec![Step { easing: Some(easing), ..push() }])).iter().map(|r| r[0]).collect();
+        let fastest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
+        let share = speeds.len() * 2 / 5;
+        let ends = [fastest(&speeds[..share]), fastest(&speeds[speeds.len() - share..])];
+        assert!(ends[faster] > 1.3 * ends[1 - faster], "{easing}: {ends:?}");
+    }
 }

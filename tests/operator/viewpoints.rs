@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use cinesplat::objects::{Object, ObjectSet};
-use cinesplat::operator::{Framing, Program, Solution, SolveLevel, SolveSettings, Step, World, realize};
+use cinesplat::operator::{Amount, Framing, Program, Solution, SolveLevel, SolveSettings, Step, World, realize};
 use cinesplat::pipeline::{OpenedScene, open_scene};
 use cinesplat::scene::{Gaussians, LoadOptions};
-use cinesplat::trajectory::{CameraState, Move, ShotSize};
+use cinesplat::trajectory::{CameraState, Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
 use super::composition::{CENTER, HALF, assert_met};
@@ -220,6 +220,29 @@ fn a_film_that_no_camera_can_make_still_stays_in_the_room() {
     let tilt = Step { start: about(1), end: about(2), ..Step::of(Move::TiltUp) };
     for seed in 0..3 {
         for state in film(&solved_with_seed(&world(), tilt.clone(), seed)) {
+            let eye = state.pose.position;
+            assert!(eye.x.abs() < ROOM.x && eye.z.abs() < ROOM.z && eye.y > 0.0, "seed {seed}: stands at {eye}");
+        }
+    }
+}
+
+#[test]
+fn a_worm_lies_on_the_floor_and_not_under_it() {
+    for angle in [ShotAngle::Worm, ShotAngle::Low] {
+        let low = Step { end: Framing { angle: Some(angle), ..about(1) }, ..Step::of(Move::Static) };
+        for seed in 0..3 {
+            for state in film(&solved_with_seed(&world(), low.clone(), seed)) {
+                assert!(state.pose.position.y > 0.0, "{angle} of seed {seed} lies at {}", state.pose.position);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_circle_in_a_room_stays_between_its_walls() {
+    let circle = Step { end: about(1), amount: Some(Amount::Degrees(360.0)), ..Step::of(Move::OrbitRight) };
+    for seed in 0..3 {
+        for state in film(&solved_with_seed(&world(), circle.clone(), seed)) {
             let eye = state.pose.position;
             assert!(eye.x.abs() < ROOM.x && eye.z.abs() < ROOM.z && eye.y > 0.0, "seed {seed}: stands at {eye}");
         }

@@ -51,6 +51,8 @@ fn a_budget_chooses_the_most_accurate_quality_and_a_psnr_the_fastest() {
     assert_eq!(chosen(None, Some(29.5)), Some(Quality::Standard), "the worst frame counts");
     assert_eq!(chosen(Some(40), Some(60.0)), Some(Quality::Final));
     assert_eq!((chosen(Some(25), Some(60.0)), chosen(Some(5), None)), (None, None));
+    // In time without a margin.
+    assert_eq!((chosen(Some(11), None), chosen(Some(31), Some(60.0))), (Some(Quality::Draft), Some(Quality::Final)));
 }
 
 #[test]

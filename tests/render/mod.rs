@@ -10,6 +10,7 @@ mod payloads;
 mod per_ray;
 mod pictures;
 mod repeatable;
-mod scenes;
+pub(crate) mod scenes;
 mod settings;
 mod sort_modes;
+mod sweep;

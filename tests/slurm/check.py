@@ -7,6 +7,7 @@ what it needs.
 """
 
 import argparse
+import atexit
 import collections
 import json
 import os
@@ -32,6 +33,9 @@ class Bench:
     def __init__(self, program, num_frames):
         self.program, self.num_frames, self.faults = program, num_frames, []
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="cinesplat-farm-"))
+        atexit.register(shutil.rmtree, self.folder, ignore_errors=True)
+        self.children = []
+        atexit.register(self.end_children)
         self.film, self.job = self.folder / "film.mp4", self.folder / "film.mp4.job"
         (self.folder / "shot.json").write_text(json.dumps({**shot(num_frames / 30, 30), "scene": {"path": SCENE, "up": [0, 1, 0]}}))
         self.words = [SCENE, "--shot", "shot.json", "--size", "640x360", "-o", "film.mp4"]
@@ -42,8 +46,15 @@ class Bench:
         self.film.unlink()
 
     def farm(self, *flags):
-        return subprocess.Popen([self.program, "farm", *flags, *self.words], cwd=self.folder, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.PIPE, text=True)
+        child = subprocess.Popen([self.program, "farm", *flags, *self.words], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.PIPE, text=True)
+        self.children.append(child)
+        return child
+
+    def end_children(self):
+        for child in self.children:
+            if child.poll() is None:
+                child.kill()
 
     def num_done(self):
         return len(set(self.frames()))
@@ -146,14 +157,38 @@ def left_alone(bench, cluster):
 
 
 def refused(bench, cluster):
-    """Tasks that cannot work say why, and are not submitted for ever."""
-    child = subprocess.run([bench.program, "farm", "--slurm", "--parts", "2", "none.ply", "--shot", "shot.json", "-o", "film.mp4"],
-                           cwd=bench.folder, capture_output=True, text=True)
-    is_right = child.returncode == 69 and "error[SCENE-NOT-FOUND]" in child.stderr
+    """Bad inputs are refused at once; tasks that cannot work say why, and are not submitted for ever."""
+    farm = lambda *words: subprocess.run([bench.program, "farm", "--slurm", "--parts", "2", *words, "--shot", "shot.json", "-o", "film.mp4"],
+                                         cwd=bench.folder, capture_output=True, text=True)
+    before = farm("none.ply")
+    # Their shot is not in that folder.
+    inside = farm(SCENE, "--sbatch", "--chdir=/")
+    is_right = (before.returncode == 66 and "error[SCENE-NOT-FOUND]" in before.stderr
+                and inside.returncode == 69 and "finished no frame: error[" in inside.stderr)
     if not is_right:
-        bench.faults.append(f"refused: exit {child.returncode}\n{child.stderr}")
-    print(f"| Slurm, tasks that cannot work | 2 tasks | {'exit 69 with what a task says' if is_right else '**fault**'} |", flush=True)
+        bench.faults.append(f"refused: exit {before.returncode}\n{before.stderr}\nexit {inside.returncode}\n{inside.stderr}")
+    print(f"| Slurm, a scene that is missing; tasks that cannot work | 2 farms | {'exit 66 at once; exit 69 with what a task says' if is_right else '**fault**'} |", flush=True)
     bench.clear()
+
+
+def held(bench, cluster):
+    """A person holds the waiting tasks, and releases them later: they are not canceled."""
+    start = time.monotonic()
+    cluster.scontrol("update", "nodename=n1,n2", "state=drain", "reason=test")
+    child = bench.farm("--slurm", "--parts", "4", "--keep-frames")
+    job = ""
+    while not job and child.poll() is None:
+        job = cluster.output("squeue", "-h", "-o", "%A").split()[:1]
+        time.sleep(0.1)
+    job = job[0] if job else "0"
+    cluster.scontrol("hold", job)
+    cluster.scontrol("update", "nodename=n1,n2", "state=resume")
+    time.sleep(6)
+    is_waiting = child.poll() is None and len(cluster.output("squeue", "-h", "--array", "-o", "%r").split()) == 4
+    cluster.scontrol("release", job)
+    bench.row("Slurm, waiting tasks held by a person, released later", "4 tasks", child, start)
+    if not is_waiting:
+        bench.faults.append("held: the tasks did not wait")
 
 
 def main():
@@ -165,7 +200,7 @@ def main():
     bench = Bench(os.path.abspath(arguments.program), arguments.frames)
     print("| fault | tried | result |\n|---|---|---|", flush=True)
     with Cluster() as cluster:
-        for row in (undisturbed, killed_tasks, crashed_node, stopped_farm, left_alone, refused):
+        for row in (undisturbed, killed_tasks, crashed_node, stopped_farm, held, left_alone, refused):
             if not arguments.only or row.__name__ in arguments.only:
                 row(bench, cluster)
     for fault in bench.faults:

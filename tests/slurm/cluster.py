@@ -3,10 +3,14 @@
 Needs root, Debian's packages slurmctld, slurmd, slurm-client and munge, and no Slurm that runs already.
 """
 
+import atexit
 import os
 import pathlib
+import shutil
+import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -17,6 +21,10 @@ class Cluster:
     def __init__(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="cinesplat-slurm-"))
         self.programs = {}
+        # However the check ends: no daemon and no folder stay.
+        atexit.register(self.take_down)
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, lambda *_: sys.exit(1))
         host = socket.gethostname().split(".")[0]
         nodes = "\n".join(f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={17100 + idx} CPUs=2 RealMemory=2000 State=UNKNOWN"
                           for idx, name in enumerate(NODES))
@@ -60,9 +68,23 @@ PartitionName=main Nodes={",".join(NODES)} Default=YES State=UP
             if self.output("sinfo", "-h", "-N", "-o", "%t").split() == ["idle"] * len(NODES):
                 return self
             time.sleep(0.2)
-        raise SystemExit(f"the cluster does not come up: see {self.folder}")
+        for log in sorted(self.folder.glob("*.log")):
+            print(f"{log.name}:", *log.read_text(errors="replace").splitlines()[-10:], sep="\n", file=sys.stderr)
+        raise SystemExit("the cluster does not come up")
 
     def __exit__(self, *_):
+        self.take_down()
+
+    def take_down(self):
+        """Ends all jobs, all daemons and what they left, and removes the folder. Does nothing the second time."""
+        if not self.folder.exists():
+            return
+        if self.programs:
+            try:
+                subprocess.run(["scancel", "--signal=KILL", "--full", "--me"], capture_output=True, timeout=10)
+            except subprocess.TimeoutExpired:
+                # A controller that hangs must not keep the daemons alive.
+                pass
         for program in self.programs.values():
             program.terminate()
         for program in self.programs.values():
@@ -70,6 +92,24 @@ PartitionName=main Nodes={",".join(NODES)} Default=YES State=UP
                 program.wait(10)
             except subprocess.TimeoutExpired:
                 program.kill()
+        for process in self.orphans():
+            try:
+                os.kill(process, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def orphans(self):
+        """Processes of this cluster that outlived their daemon: they have its configuration in their environment."""
+        mark, found = f"SLURM_CONF={self.folder}/".encode(), []
+        for folder in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                is_own = mark in (folder / "environ").read_bytes()
+            except OSError:
+                continue
+            if is_own and int(folder.name) != os.getpid():
+                found.append(int(folder.name))
+        return found
 
     def daemon(self, *words):
         return subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

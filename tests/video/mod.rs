@@ -3,6 +3,7 @@
 mod bt709;
 mod contact_sheet;
 mod dry_run;
+mod exr;
 mod film;
 mod pattern;
 mod sequence;

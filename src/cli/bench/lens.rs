@@ -10,8 +10,8 @@ use crate::cli::scene_args::PictureArgs;
 use cinesplat::geometry::Camera;
 use cinesplat::render::{Quality, Renderer};
 use cinesplat_bench::{
-    AUTO_CSV_HEADER, AUTO_FLOORS, AutoShot, COST_CSV_HEADER, LENS_CASES, LENS_CSV_HEADER, LensBench, LensRow,
-    lens_csv_line, lens_svg, measure_auto, measure_costs,
+    AUTO_CSV_HEADER, AUTO_FLOORS, AutoShot, COST_CSV_HEADER, CostRow, LENS_CASES, LENS_CSV_HEADER, LensBench,
+    LensMethod, LensRow, lens_csv_line, lens_row_of, lens_svg, measure_auto, measure_costs,
 };
 
 /// A part of the bench.
@@ -38,7 +38,7 @@ times_plain is the median ratio to the time of the plain picture of the same qua
 blur_px is the 99th percentile over the visible splats.
 The part `auto` compares films whose effects run where they show with films in which they run on every frame: the worst
 frame's PSNR, and the ratio of the times. The part `costs` is the time of each effect alone over that of the plain frame.
--o keeps a CSV per part and a plot.")]
+-o keeps a CSV per part and a plot, after every measurement: `--resume` goes on from there.")]
 pub(crate) struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,
@@ -54,6 +54,9 @@ pub(crate) struct Args {
     /// Timed runs per row, after one warm-up run
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
+    /// Keep the rows that the folder holds, and measure only what they lack
+    #[arg(long, requires_all = ["output", "overwrite"])]
+    resume: bool,
     #[command(flatten)]
     folder: BenchFolder,
     #[command(flatten)]
@@ -62,13 +65,14 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(self) -> Result<(), Failure> {
+        self.scenes.check_names()?;
         let mut files = Vec::new();
         for part in &self.parts {
             files.extend_from_slice(part.files());
         }
         let scenes = self.scenes.begin((&self.folder, &files), &self.picture, "")?;
-        let mut tables = Part::VARIANTS.iter().map(|_| String::new()).collect::<Vec<_>>();
-        let mut rows: Vec<LensRow> = Vec::new();
+        let table = |part: &Part| Table::of(*part, &self.folder, self.resume);
+        let mut tables = self.parts.iter().map(table).collect::<Result<Vec<_>, _>>()?;
         for (path, file) in &scenes {
             let scene = self.scenes.options.open(path)?.scene;
             let cameras = views(&scene, file.as_ref())?;
@@ -76,17 +80,11 @@ impl Args {
             let settings = settings(&self.picture, &scene, Quality::Standard, file.as_ref());
             let bench = LensBench { renderer: &renderer, settings, num_repeats: usize::from(self.runs) };
             for (name, camera) in cameras.iter().take(usize::from(self.max_cameras)) {
-                let view = (scene_name(path), name.clone(), resized(camera, self.size));
-                for part in &self.parts {
-                    let table = &mut tables[*part as usize];
-                    part.measure(&bench, &view, (table, &mut rows))?;
-                }
+                let view = (scene_name(path), name.replace(',', " "), resized(camera, self.size));
+                tables.iter_mut().try_for_each(|table| table.measure(&bench, &view))?;
             }
         }
-        for part in &self.parts {
-            self.folder.write(part.files()[0], &format!("{}{}", part.header(), tables[*part as usize]))?;
-        }
-        if self.parts.contains(&Part::Sampling) { self.folder.write("lens.svg", &lens_svg(&rows)) } else { Ok(()) }
+        tables.iter().try_for_each(Table::write)
     }
 }
 
@@ -106,44 +104,96 @@ impl Part {
             Self::Costs => COST_CSV_HEADER,
         }
     }
+}
 
-    /// Measures the part in a view: the names of scene and camera, and the camera. Adds its lines to the table, which has
-    /// none for a picture without splats.
+/// The rows of a part, which the folder holds as soon as they are measured.
+struct Table<'a> {
+    part: Part,
+    folder: &'a BenchFolder,
+    /// Lines without the header.
+    lines: String,
+}
+
+impl<'a> Table<'a> {
+    /// An empty table, or the one that the folder holds.
+    fn of(part: Part, folder: &'a BenchFolder, resume: bool) -> Result<Self, Failure> {
+        let kept = if resume { folder.read(part.files()[0])? } else { None };
+        let lines = match kept.as_deref().map(|text| text.strip_prefix(part.header())) {
+            None => String::new(),
+            Some(Some(lines)) => lines.to_owned(),
+            Some(None) => {
+                let found = format!("{} has other columns", part.files()[0]);
+                return Err(Failure::usage(found, "leave --resume out to measure everything again"));
+            }
+        };
+        Ok(Self { part, folder, lines })
+    }
+
+    /// Whether a row begins with these fields.
+    fn holds(&self, fields: &[&str]) -> bool {
+        let start = format!("{},", fields.join(","));
+        self.lines.lines().any(|line| line.starts_with(&start))
+    }
+
+    /// Adds rows.
+    fn add(&mut self, lines: &str) -> Result<(), Failure> {
+        let header = if self.lines.is_empty() { self.part.header() } else { "" };
+        // A closed stdout is reported at the end.
+        let _ = console::data(&format!("{header}{lines}"));
+        self.lines.push_str(lines);
+        self.write()
+    }
+
+    fn write(&self) -> Result<(), Failure> {
+        self.folder.rewrite(self.part.files()[0], &format!("{}{}", self.part.header(), self.lines))?;
+        if self.part != Part::Sampling {
+            return Ok(());
+        }
+        let rows: Vec<LensRow> = self.lines.lines().filter_map(lens_row_of).collect();
+        self.folder.rewrite("lens.svg", &lens_svg(&rows))
+    }
+
+    /// Measures what the table lacks of a view: the names of scene and camera, and the camera. A picture without splats has
+    /// no rows.
     fn measure(
-        self,
+        &mut self,
         bench: &LensBench<'_>,
         (scene, name, camera): &(String, String, Camera),
-        (table, rows): (&mut String, &mut Vec<LensRow>),
     ) -> Result<(), Failure> {
-        let mut add = |line: &str| {
-            let header = if table.is_empty() { self.header() } else { "" };
-            // A closed stdout is reported at the end.
-            let _ = console::data(&format!("{header}{line}"));
-            table.push_str(line);
-        };
         let Some(distance) = bench.focus_distance(camera)? else { return Ok(()) };
         let LensBench { renderer, settings, num_repeats } = bench;
-        match self {
-            Self::Sampling => {
+        match self.part {
+            Part::Sampling => {
                 for case in LENS_CASES {
-                    bench.measure(camera, case, &mut |row| {
-                        let row = LensRow { scene: scene.clone(), camera: name.clone(), ..row };
-                        add(&lens_csv_line(&row));
-                        rows.push(row);
+                    let mut lines = String::new();
+                    let is_known = |quality: Quality, method: LensMethod, samples: Option<usize>| {
+                        let samples = samples.map(|num| num.to_string());
+                        let blur = case.blur_px.to_string();
+                        let row = [scene, name, case.source.as_ref(), &blur, quality.as_ref(), method.as_ref()];
+                        self.holds(&row.into_iter().chain(samples.as_deref()).collect::<Vec<&str>>())
+                    };
+                    bench.measure((camera, case), &is_known, &mut |row| {
+                        lines += &lens_csv_line(&LensRow { scene: scene.clone(), camera: name.clone(), ..row });
                     })?;
+                    if !lines.is_empty() {
+                        self.add(&lines)?;
+                    }
                 }
             }
-            Self::Auto => {
+            Part::Auto => {
                 for (shot, floor) in AutoShot::VARIANTS.iter().flat_map(|shot| AUTO_FLOORS.map(|floor| (shot, floor))) {
-                    let mut row = measure_auto(renderer, settings, (camera, distance), *shot, floor)?;
-                    row.scene.clone_from(scene);
-                    add(&row.csv_line());
+                    if !self.holds(&[scene, name, shot.as_ref(), floor.0.as_ref()]) {
+                        let mut row = measure_auto(renderer, settings, (camera, distance), *shot, floor)?;
+                        (row.scene, row.camera) = (scene.clone(), name.clone());
+                        self.add(&row.csv_line())?;
+                    }
                 }
             }
-            Self::Costs => {
-                for mut row in measure_costs(renderer, settings, (camera, distance), *num_repeats)? {
-                    row.scene.clone_from(scene);
-                    add(&row.csv_line());
+            Part::Costs => {
+                if !self.holds(&[scene, name]) {
+                    let mut rows = measure_costs(renderer, settings, (camera, distance), *num_repeats)?;
+                    rows.iter_mut().for_each(|row| (row.scene, row.camera) = (scene.clone(), name.clone()));
+                    self.add(&rows.iter().map(CostRow::csv_line).collect::<String>())?;
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Scenes of a bench with their cameras.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
@@ -41,6 +42,18 @@ impl ScenesArgs {
         picture.bound_threads()?;
         console::data(header)?;
         Ok(scenes)
+    }
+
+    /// Refuses two scenes whose rows would begin with the same name.
+    pub(super) fn check_names(&self) -> Result<(), Failure> {
+        let mut first_of = BTreeMap::new();
+        for path in &self.scenes {
+            if let Some(first) = first_of.insert(scene_name(path), path) {
+                let found = format!("{} and {} have one name in the table", first.display(), path.display());
+                return Err(Failure::usage(found, "give each scene once, or rename a file"));
+            }
+        }
+        Ok(())
     }
 
     /// Every scene with its cameras, read before any work; `None` = the views of [`own_views`].

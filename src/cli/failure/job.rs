@@ -12,6 +12,7 @@ impl From<JobError> for Failure {
             E::File(error) => return error.into(),
             E::Video(error) => return (*error).into(),
             E::Locked { .. } => (Exit::Stopped, "wait until it ends, or give this film another name"),
+            E::Lost { .. } => (Exit::Stopped, "type the same line again: finished frames that are there are kept"),
             E::Mismatch { .. } => {
                 (Exit::BadData, "type the line of that film to go on with it, or pass --fresh to throw its frames away")
             }

@@ -17,7 +17,7 @@ pub(crate) struct Failure {
 
 /// What to do where memory is short.
 pub(super) const MORE_MEMORY: &str =
-    "raise --max-memory, the limit of the shell (ulimit -v) or of the container, or reduce --size and --threads";
+    "raise --max-memory, and the limit of the shell (ulimit -v) where that is lower, or reduce --size and --threads";
 
 impl Failure {
     /// A failure with a stable `code`. `message` is `FILE: found, expected`, without `FILE` where no file is at fault;

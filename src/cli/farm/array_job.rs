@@ -6,6 +6,20 @@ use std::process::{Command, Output};
 
 use crate::cli::failure::{Exit, Failure};
 
+/// Waiting tasks that a person holds, and those that Slurm never starts.
+const HELD: &str = "HELD";
+const LOST: &str = "LOST";
+/// Reasons of tasks that Slurm never starts by itself, in small letters alone: their node failed while it started them,
+/// they wait for a job that failed, or no machine and no account suits them.
+const NEVER_STARTS: [&str; 6] = [
+    "launchfailedrequeuedheld",
+    "jobholdmaxrequeue",
+    "dependencyneversatisfied",
+    "badconstraints",
+    "invalidaccount",
+    "invalidqos",
+];
+
 /// A job that was submitted.
 pub(super) struct Job {
     id: String,
@@ -16,8 +30,10 @@ pub(super) struct Job {
 pub(super) enum Tasks {
     /// Some run or wait.
     Left {
-        /// Numbers of tasks by state, such as `RUNNING`. Waiting tasks that nothing will start count as `HELD`.
+        /// Numbers of tasks by state, such as `RUNNING`. Waiting tasks that a person holds count as `HELD`.
         states: BTreeMap<String, usize>,
+        /// Why those that count as `LOST` never start, in Slurm's words.
+        lost: Option<String>,
     },
     /// None are left.
     Ended,
@@ -26,9 +42,20 @@ pub(super) enum Tasks {
 }
 
 impl Tasks {
-    /// Whether tasks are left and all of them are held.
-    pub(super) fn are_held(&self) -> bool {
-        matches!(self, Self::Left { states } if states.keys().eq(["HELD"]))
+    /// Why all tasks that are left never start; `None` if one may.
+    pub(super) fn never_start(&self) -> Option<&str> {
+        match self {
+            Self::Left { states, lost } if states.keys().eq([LOST]) => lost.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// Number of tasks that a person holds.
+    pub(super) fn num_held(&self) -> usize {
+        match self {
+            Self::Left { states, .. } => states.get(HELD).copied().unwrap_or(0),
+            _ => 0,
+        }
     }
 }
 
@@ -37,8 +64,10 @@ impl Job {
     pub(super) fn submit(words: &[String]) -> Result<Self, Failure> {
         let output = run("sbatch", &[&["--parsable".to_owned()], words].concat())?;
         if !output.status.success() {
-            let found = format!("sbatch refuses the job: {}", first_line(&output.stderr));
-            return Err(Failure::new("SLURM-REFUSED", found, "--sbatch passes words on to sbatch", Exit::Unavailable));
+            let reason = first_line(&output.stderr);
+            let exit = if is_silent(&reason) { Exit::Unavailable } else { Exit::Usage };
+            let found = format!("sbatch refuses the job: {reason}");
+            return Err(Failure::new("SLURM-REFUSED", found, "--sbatch passes words on to sbatch", exit));
         }
         // On a federation the name of the cluster follows a semicolon.
         let id = first_line(&output.stdout);
@@ -58,14 +87,14 @@ impl Job {
             // Slurm forgets a job some minutes after its end.
             return Ok(if reason.contains("Invalid job id") { Tasks::Ended } else { Tasks::Unknown(reason) });
         }
-        let mut states = BTreeMap::new();
+        let (mut states, mut lost) = (BTreeMap::new(), None);
         for line in String::from_utf8_lossy(&output.stdout).lines() {
             let (state, reason) = line.split_once('|').unwrap_or((line, ""));
-            // A task whose node failed while it started is held until somebody releases it.
-            let is_held = state == "PENDING" && reason.to_ascii_lowercase().contains("held");
-            *states.entry(if is_held { "HELD" } else { state }.to_owned()).or_insert(0) += 1;
+            let state = if state == "PENDING" { waiting_state(reason) } else { state };
+            lost = lost.or_else(|| (state == LOST).then(|| reason.to_owned()));
+            *states.entry(state.to_owned()).or_insert(0) += 1;
         }
-        Ok(if states.is_empty() { Tasks::Ended } else { Tasks::Left { states } })
+        Ok(if states.is_empty() { Tasks::Ended } else { Tasks::Left { states, lost } })
     }
 
     /// Stops what is left: tasks that render finish their frame.
@@ -82,6 +111,25 @@ fn run(program: &str, words: &[String]) -> Result<Output, Failure> {
         let exit = if error.kind() == ErrorKind::PermissionDenied { Exit::Permission } else { Exit::Unavailable };
         Failure::new("SLURM-MISSING", found, help, exit)
     })
+}
+
+/// The state of a waiting task by the reason that Slurm gives.
+fn waiting_state(reason: &str) -> &'static str {
+    let plain: String = reason.chars().filter(char::is_ascii_alphabetic).collect::<String>().to_ascii_lowercase();
+    if NEVER_STARTS.contains(&plain.as_str()) {
+        LOST
+    } else if plain.contains("held") {
+        HELD
+    } else {
+        "PENDING"
+    }
+}
+
+/// Whether `sbatch` refuses a job because it does not reach the cluster.
+fn is_silent(reason: &str) -> bool {
+    ["contact", "connect", "timed out", "communication", "socket"]
+        .iter()
+        .any(|word| reason.to_ascii_lowercase().contains(word))
 }
 
 fn first_line(bytes: &[u8]) -> String {

@@ -2,13 +2,14 @@ mod array_job;
 mod local;
 mod slurm;
 mod waiting;
+mod words;
 
 use std::num::NonZeroU16;
 use std::path::Path;
 
 use super::failure::{Exit, Failure};
 use super::interrupt::Interrupt;
-use super::{heading, render, reproduce};
+use super::{console, heading, render, reproduce};
 use cinesplat::pipeline;
 use waiting::{Ended, wait_for_lost_programs};
 
@@ -51,6 +52,9 @@ impl Args {
 
     pub(super) fn run(self) -> Result<(), Failure> {
         let output = self.render.check_shared()?;
+        if self.place.slurm && !self.cluster.waits_for_jobs()? {
+            self.check_inputs()?;
+        }
         if self.render.starts_fresh() {
             pipeline::clear_job(&output)?;
         }
@@ -63,6 +67,22 @@ impl Args {
             Ended::Done if wait_for_lost_programs(&output, &interrupt) => self.render.run_after(interrupt),
             Ended::Done | Ended::Stopped => Err(stopped(&output)),
             Ended::LeftAlone => Ok(()),
+        }
+    }
+}
+
+impl Args {
+    /// Says here and now what is wrong with the inputs, and not by a task in an hour.
+    fn check_inputs(&self) -> Result<(), Failure> {
+        match self.render.check_inputs() {
+            // The machines of the cluster may have the memory that this one lacks.
+            Err(failure) if failure.exit() == Exit::OverCap => {
+                let said = failure.to_string();
+                let reason = said.lines().next().unwrap_or_default();
+                console::warnings([format!("the inputs are not checked before the tasks start: {reason}")]);
+                Ok(())
+            }
+            checked => checked,
         }
     }
 }

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::array_job::{Job, Tasks};
 use super::waiting::{Ended, pause};
+use super::words;
 use crate::cli::console;
 use crate::cli::failure::{Exit, Failure};
 use crate::cli::interrupt::Interrupt;
@@ -25,6 +26,9 @@ pub(super) struct ClusterArgs {
     parts: NonZeroU16,
     /// With --slurm: further words for sbatch, such as "--partition=long --time=2:00:00"
     ///
+    /// They are taken apart as in a shell: --sbatch '--comment="two words" --time=2:00:00'. A --dependency is what the tasks
+    /// wait for, and may make their inputs. The job of --no-wait waits for the tasks too.
+    ///
     /// A task has the threads that --cpus-per-task says, 1 without it. A node that fails, and preemption where the cluster
     /// says so, put a task back into the queue.
     #[arg(long, value_name = "WORDS", help_heading = heading::OUTPUT, hide_short_help = true, default_value = "", hide_default_value = true, allow_hyphen_values = true, conflicts_with = "local")]
@@ -32,6 +36,13 @@ pub(super) struct ClusterArgs {
     /// With --slurm: do not wait; a further job makes the film after the tasks
     #[arg(long, help_heading = heading::OUTPUT, hide_short_help = true, conflicts_with = "local")]
     no_wait: bool,
+}
+
+impl ClusterArgs {
+    /// Whether the tasks wait for other jobs, which may make their inputs.
+    pub(super) fn waits_for_jobs(&self) -> Result<bool, Failure> {
+        Ok(!words::take_dependencies(&mut words::split(&self.sbatch)?).is_empty())
+    }
 }
 
 /// A film that an array job renders.
@@ -51,7 +62,7 @@ impl<'a> Farm<'a> {
             output,
             folder: pipeline::tasks_folder(output)?,
             num_parts: usize::from(args.parts.get()),
-            further: args.sbatch.split_whitespace().map(str::to_owned).collect(),
+            further: words::split(&args.sbatch)?,
             is_left_alone: args.no_wait,
         })
     }
@@ -87,26 +98,28 @@ impl<'a> Farm<'a> {
     fn submit(&self, num_tasks: usize, script: &Path) -> Result<Job, Failure> {
         let mut words = vec![format!("--array=1-{num_tasks}"), "--requeue".to_owned(), "--open-mode=append".to_owned()];
         words.push(self.log_word("%A-%a.log"));
-        Job::submit(&self.words(words, script))
+        Job::submit(&words_of(words, &self.further, script))
     }
 
     /// Submits the job that makes the film when the tasks have ended. It renders the frames that they left.
     fn submit_film(&self, tasks: &Job) -> Result<(), Failure> {
         let script = self.write_script("film.sh", &reproduce::words_of_film("farm"), "")?;
-        let after = format!("--dependency=afterany:{}", tasks.id());
-        let job = Job::submit(&self.words(vec![after, self.log_word("film-%j.log")], &script))?;
+        let mut further = self.further.clone();
+        let stated = words::take_dependencies(&mut further).pop();
+        // A list with question marks takes no further member. What it names has ended when the tasks have.
+        let stated = stated.filter(|stated| !stated.contains('?')).map(|stated| format!(",{stated}"));
+        let after = format!("--dependency=afterany:{}{}", tasks.id(), stated.unwrap_or_default());
+        let own = vec![after, self.log_word("film-%j.log")];
+        let job = Job::submit(&words_of(own, &further, &script))?;
         console::note(&format!("job {}: makes {} after them", job.id(), self.output.display()));
         Ok(())
     }
 
-    fn words(&self, own: Vec<String>, script: &Path) -> Vec<String> {
-        let script = script.to_string_lossy().into_owned();
-        [vec!["--job-name=cinesplat".to_owned()], own, self.further.clone(), vec![script]].concat()
-    }
-
-    /// Where a job writes what its programs say. The output's own percent signs are no placeholders of Slurm.
+    /// Where a job writes what its programs say, also where --sbatch names another folder to work in. The output's own percent
+    /// signs are no placeholders of Slurm.
     fn log_word(&self, name: &str) -> String {
-        format!("--output={}/{name}", self.folder.to_string_lossy().replace('%', "%%"))
+        let folder = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
+        format!("--output={}/{name}", folder.to_string_lossy().replace('%', "%%"))
     }
 
     fn write_script(&self, name: &str, words: &[String], part: &str) -> Result<PathBuf, Failure> {
@@ -142,17 +155,23 @@ impl<'a> Farm<'a> {
             match &tasks {
                 Tasks::Ended => break Ended::Done,
                 // What is left has nothing to do, or will never start.
-                _ if self.num_missing() == Some(0) || tasks.are_held() => {
+                _ if self.num_missing() == Some(0) || tasks.never_start().is_some() => {
+                    if let Some(reason) = tasks.never_start() {
+                        console::warnings([format!("Slurm never starts the tasks that are left: {reason}")]);
+                    }
                     job.cancel()?;
                     break Ended::Done;
                 }
                 Tasks::Unknown(reason) if answered.elapsed() > PATIENCE => return Err(self.no_answer(reason)),
                 Tasks::Unknown(_) => {}
-                Tasks::Left { states } => {
+                Tasks::Left { states, .. } => {
                     answered = Instant::now();
                     if tasks != last {
                         let states: Vec<_> = states.iter().map(|(name, num)| format!("{num} {name}")).collect();
                         console::note(&format!("tasks: {}", states.join(", ").to_lowercase()));
+                        if tasks.num_held() > 0 {
+                            console::note(&format!("held tasks run after `scontrol release {}`", job.id()));
+                        }
                     }
                 }
             }
@@ -202,4 +221,10 @@ impl<'a> Farm<'a> {
         let error = text.lines().find(|line| line.contains("error"));
         error.or_else(|| text.lines().rfind(|line| !line.is_empty())).map(console::one_line)
     }
+}
+
+/// The words for `sbatch`: those of the farm, those of the user, the script.
+fn words_of(own: Vec<String>, further: &[String], script: &Path) -> Vec<String> {
+    let script = script.to_string_lossy().into_owned();
+    [vec!["--job-name=cinesplat".to_owned()], own, further.to_vec(), vec![script]].concat()
 }

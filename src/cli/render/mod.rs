@@ -153,6 +153,17 @@ impl Args {
         Ok(self.output.clone())
     }
 
+    /// Reads scene, objects, shot and words, as the programs will that render the film.
+    pub(super) fn check_inputs(&self) -> Result<(), Failure> {
+        let mut checked = self.clone();
+        checked.shot.skip_search();
+        let (.., shots) = checked.open(&mut PhaseTimes::default())?;
+        for shot in &shots {
+            shot.check_frames()?;
+        }
+        Ok(())
+    }
+
     /// The film, or the pattern of its pictures.
     pub(super) fn output(&self) -> &Path {
         &self.output

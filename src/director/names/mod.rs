@@ -30,7 +30,7 @@ pub use words::{NameWord, name_words};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use cinesplat_language::{Mention, NamedObject, nearest_names, plain_words, tokenize};
+use cinesplat_language::{Mention, NamedObject, mend_names, nearest_names, plain_words, tokenize};
 
 use crate::error::DirectorError;
 
@@ -85,7 +85,8 @@ impl Names {
     pub fn mentions(&self, prompt: &str, objects: &[NamedObject]) -> Result<Vec<FoundMention>, DirectorError> {
         let labels: BTreeSet<String> =
             objects.iter().flat_map(|object| tokenize(&object.label)).map(|word| word.stem).collect();
-        let words = plain_words(prompt, &tokenize(prompt), &|word| labels.contains(&word.stem))?;
+        let mut words = plain_words(prompt, &tokenize(prompt), &|word| labels.contains(&word.stem))?;
+        mend_names(&mut words, &labels)?;
         let sentence = Sentence::about(name_words(&words), objects)?;
         let mut found = Vec::new();
         for decoded in decode(&self.network, &sentence)? {

@@ -5,6 +5,7 @@ use strum::VariantArray;
 
 use super::super::ExportError;
 use super::super::lens_losses::LensLosses;
+use super::super::name_order::by_name;
 use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::Pose;
 
@@ -81,12 +82,22 @@ pub(super) struct ModelCamera {
     pub(super) off_center_px: [f64; 2],
     /// The parameter of the lens distortion with the largest magnitude.
     pub(super) distortion: f64,
+    pub(super) model: CameraModel,
 }
 
 impl ModelCamera {
     /// A pinhole camera with a centered principal point.
     pub(super) fn pinhole(id: u32, width: u32, height: u32, focal_y_px: f64) -> Self {
-        Self { id, width, height, focal_y_px, stretch: 1.0, off_center_px: [0.0; 2], distortion: 0.0 }
+        Self {
+            id,
+            width,
+            height,
+            focal_y_px,
+            stretch: 1.0,
+            off_center_px: [0.0; 2],
+            distortion: 0.0,
+            model: CameraModel::Pinhole,
+        }
     }
 
     /// The camera with these parameters; `None` for a wrong number of parameters, an empty image or a focal length that
@@ -101,6 +112,7 @@ impl ModelCamera {
             stretch: params[0] / focal_y_px,
             off_center_px: [cx - f64::from(size.0) / 2.0, cy - f64::from(size.1) / 2.0],
             distortion: distortion.unwrap_or(0.0),
+            model,
             ..Self::pinhole(id, size.0, size.1, focal_y_px)
         })
     }
@@ -128,7 +140,7 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
     if images.is_empty() {
         return Err(ExportError::NoPoses);
     }
-    images.sort_by(|a, b| a.name.cmp(&b.name));
+    images.sort_by(|a, b| by_name(&a.name, &b.name));
     let camera_of = |image: &ModelImage| cameras.iter().find(|camera| camera.id == image.camera_id);
     let size_px = images.first().and_then(camera_of).map(|camera| (camera.width, camera.height));
     let frame = |(idx, image): (usize, &ModelImage)| {
@@ -143,6 +155,7 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
         losses.principal_point_px(camera.off_center_px);
         losses.focal_px(camera.stretch, 1.0);
         losses.distortion("a parameter", camera.distortion);
+        losses.model(camera.model.into());
     }
     Ok(PoseTrack { size_px, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
 }

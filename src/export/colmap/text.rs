@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use glam::{DQuat, DVec3};
 
 use super::super::ExportError;
-use super::super::columns::{bad_line, data_lines, joined, number};
+use super::super::columns::{all_lines, bad_line, data_lines, joined, number};
 use super::super::track::PoseTrack;
 use super::model::{CameraModel, ModelCamera, ModelFiles, ModelImage, model, track};
 
@@ -35,7 +35,7 @@ pub(crate) fn write(track: &PoseTrack) -> ModelFiles {
 /// The track of `images.txt` and `cameras.txt`; without the latter the fields of view are unknown.
 pub(crate) fn read(images: &str, cameras: Option<&str>) -> Result<PoseTrack, ExportError> {
     let cameras = cameras.map(read_cameras).transpose()?.unwrap_or_default();
-    let mut lines = images.lines().enumerate().map(|(idx, line)| (idx + 1, line.trim()));
+    let mut lines = all_lines(images).enumerate().map(|(idx, line)| (idx + 1, line));
     let mut list = Vec::new();
     while let Some((line, text)) = lines.next() {
         if text.is_empty() || text.starts_with('#') {

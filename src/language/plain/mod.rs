@@ -5,6 +5,8 @@
 mod shorthand;
 mod spelling;
 
+use std::collections::BTreeSet;
+
 use super::error::LanguageError;
 use super::inflection::stem;
 use super::numbered::numbered_mention_at;
@@ -52,4 +54,20 @@ pub fn plain_words(prompt: &str, words: &[Word], is_name: &dyn Fn(&Word) -> bool
         i += 1;
     }
     Ok(out)
+}
+
+/// Mends misspelled words of names: `curtin`, `sidebord`. `names` are the words of the scene's names, as stems.
+///
+/// # Errors
+/// [`LanguageError::BadData`] when an embedded list is malformed.
+pub fn mend_names(words: &mut [Word], names: &BTreeSet<String>) -> Result<(), LanguageError> {
+    let spelling = Spelling::embedded()?;
+    for word in words.iter_mut().filter(|word| !names.contains(&word.stem)) {
+        if let Some(name) = spelling.mended_name(&word.stem, names) {
+            let plural = if word.text != word.stem && word.text.ends_with('s') { "s" } else { "" };
+            word.text = format!("{name}{plural}");
+            name.clone_into(&mut word.stem);
+        }
+    }
+    Ok(())
 }

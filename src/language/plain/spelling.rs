@@ -52,23 +52,18 @@ impl Spelling {
             return None;
         }
         let most = if letters >= LONG_LETTERS { 2 } else { 1 };
-        // Nobody slips at the first letter, unless two change places.
-        let is_like = |command: &&&str| {
-            command.len().abs_diff(letters) <= most
-                && (command.as_bytes()[0] == word.as_bytes()[0] || is_swap(word, command))
-                && (letters > MIN_LETTERS || command.len() > letters || is_swap(word, command))
-        };
-        let ranked = self.commands.iter().filter(is_like).map(|command| {
-            let rank = (edit_distance(word, command), !is_swap(word, command));
-            (rank, *command)
-        });
-        let mut found: Vec<_> = ranked.filter(|((distance, _), _)| *distance <= most).collect();
-        found.sort_unstable();
-        match found[..] {
-            [] => None,
-            [(first, command), (second, _), ..] => (first < second).then_some(command),
-            [(_, command)] => Some(command),
+        nearest(word, self.commands.iter().copied(), most)
+    }
+
+    /// The word of a name that a misspelled word means: one that is no English word, and near to one of `names` only.
+    pub(super) fn mended_name<'a>(&self, word: &str, names: &'a BTreeSet<String>) -> Option<&'a str> {
+        let letters = word.len();
+        if letters <= MIN_LETTERS + 1 || !word.bytes().all(|byte| byte.is_ascii_lowercase()) || self.is_known(word) {
+            return None;
         }
+        let most = if letters >= LONG_LETTERS - 1 { 2 } else { 1 };
+        let long = names.iter().map(String::as_str).filter(|name| name.is_ascii() && name.len() > MIN_LETTERS);
+        nearest(word, long, most)
     }
 
     fn is_known(&self, word: &str) -> bool {
@@ -77,6 +72,25 @@ impl Spelling {
             || Things::embedded().roles(word) != 0
             || Lexicon::embedded()
                 .is_ok_and(|lexicon| lexicon.is_shot_language(word) || lexicon.noun_heads.contains(word))
+    }
+}
+
+/// The word at most `most` edits from `word`, if no other is as near. Nobody slips at the first letter, unless two change
+/// places.
+fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>, most: usize) -> Option<&'a str> {
+    let letters = word.len();
+    let is_like = |known: &&str| {
+        known.len().abs_diff(letters) <= most
+            && (known.as_bytes()[0] == word.as_bytes()[0] || is_swap(word, known))
+            && (letters > MIN_LETTERS || known.len() > letters || is_swap(word, known))
+    };
+    let ranked = known.filter(is_like).map(|known| ((edit_distance(word, known), !is_swap(word, known)), known));
+    let mut found: Vec<_> = ranked.filter(|((distance, _), _)| *distance <= most).collect();
+    found.sort_unstable();
+    match found[..] {
+        [] => None,
+        [(first, known), (second, _), ..] => (first < second).then_some(known),
+        [(_, known)] => Some(known),
     }
 }
 

@@ -9,13 +9,18 @@ use crate::tokenizer::{Word, word_at};
 /// Longest focal length that is read, in millimeters. Beyond it `mm` is a length.
 const MAX_FOCAL_MM: f64 = 1000.0;
 
+/// Turns whose amount may have a sign: `yaw minus 30 degrees`.
+const TURNS: [&str; 8] = ["yaw", "pitch", "roll", "pan", "tilt", "heading", "azimuth", "elevation"];
+
 /// Whether a number and the word after it only look like a measure: `a second orbit`, `an S`, `the 80s`, `1880s`.
 pub(super) fn is_no_measure(words: &[Word], i: usize, unit_idx: usize, number: Numeral) -> bool {
     let unit_word = word_at(words, unit_idx);
     let is_article = number.form == NumeralForm::Article;
     let letter = is_article && unit_word.len() <= 2;
     let ordinal = is_article && unit_word == "second" && !second_is_time(words, i, unit_idx + 1);
-    let is_negative = matches!(word_before(words, i, 1), "minus" | "negative") && word_before(words, i, 2) != "plus";
+    let before = word_before(words, i, 2);
+    let is_signed = before == "plus" || TURNS.contains(&before);
+    let is_negative = matches!(word_before(words, i, 1), "minus" | "negative") && !is_signed;
     let is_label = unit_word == "beat" && word_before(words, i, 1) == "beat";
     let of_each =
         is_article && is_rate(words, i) || is_article && word_at(words, i) != "another" && unit_word == "unit";

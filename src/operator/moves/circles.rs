@@ -9,7 +9,7 @@ use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Bearing, Target, bearing_of, view_at};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
-use crate::view::{aimed, lerp, moved};
+use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
@@ -28,7 +28,12 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     let away = first.pose.position - pivot;
     let frame = &context.world.frame;
     let degrees = deg_to_side(context, &target, frame.azimuth(away), sign).unwrap_or_else(|| orbit_deg(context));
-    let (radius, rise) = (frame.horizontal(away).length(), frame.height(away));
+    let (first, squeeze) = squeezed(context, first, degrees);
+    let radius = squeeze * frame.horizontal(away).length();
+    // A stated angle is kept; else a closer circle at the same height looks down on its subject from above the furniture.
+    let is_stated = |framing: &Framing| framing.angle.is_some() || framing.elevation_deg.is_some();
+    let keeps_angle = is_stated(&context.step.start) || is_stated(&context.step.end);
+    let rise = if keeps_angle { squeeze * frame.height(away) } else { frame.height(away) };
     let from = frame.azimuth(away);
     let count = (degrees / DEG_PER_KEY).ceil().max(2.0) as usize;
     let at = |i: usize| {
@@ -52,6 +57,37 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     segments.push(require_visible(segment, &target, Scope::All));
     segments
 }
+
+/// A wide orbit in a room may be closer than its picture asks for, with a wider lens: the camera, and the factor on the
+/// radius. Parameter 7 chooses it.
+fn squeezed(context: &StepContext, first: CameraState, degrees: f64) -> (CameraState, f64) {
+    let start = &context.step.start;
+    let end = &context.step.end;
+    let is_stated = |framing: &Framing| {
+        framing.size.is_some()
+            || framing.height_frac.is_some()
+            || framing.distance.is_some()
+            || framing.lens.is_some()
+            || framing.height.is_some()
+    };
+    let opens = context.before.is_none();
+    let parameter = context.parameters[7];
+    if !opens || degrees < WIDE_ORBIT_DEG || !context.world.is_indoor() || is_stated(start) || is_stated(end) {
+        return (first, 1.0);
+    }
+    let squeeze = if parameter <= 0.5 { 1.0 } else { lerp((1.0, LEAST_SQUEEZE), (parameter - 0.5) / 0.5) };
+    let widest = (SQUEEZED_LENS_DEG / 2.0).to_radians().tan();
+    let tan = (first.fov_y_rad / 2.0).tan();
+    let tan = (tan / squeeze).min(widest).max(tan);
+    (with_fov(&first, 2.0 * tan.atan()), squeeze)
+}
+
+/// Least angle of an orbit that may be squeezed between walls, degrees.
+const WIDE_ORBIT_DEG: f64 = 120.0;
+/// Least factor on the radius of an orbit between walls.
+const LEAST_SQUEEZE: f64 = 0.35;
+/// Widest vertical field of view of an orbit between walls, degrees.
+const SQUEEZED_LENS_DEG: f64 = 72.0;
 
 /// Angle of an orbit that ends on a stated side of its subject: at least 20 degrees. `None` where the prompt states no
 /// side, or an angle.

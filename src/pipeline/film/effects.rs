@@ -47,14 +47,20 @@ impl<'a> Filmed<'a> {
         self.camera_at(self.shot.frame_time_secs(frame_idx))
     }
 
-    /// Cameras of the frames that a film renders. Frames with the camera of the frame before are not rendered again.
+    /// Cameras of the frames that a film renders. Frames with the camera of the frame before, and with effects
+    /// in the same state, are not rendered again.
     pub(in crate::pipeline) fn moving_cameras(&self, frames: Range<usize>) -> Vec<Camera> {
-        let mut cameras: Vec<Camera> = frames.map(|frame_idx| self.camera(frame_idx)).collect();
-        let changes = |called: &CalledEffect| called.effect.develops() && called.effect.changes_with_time();
-        if !self.called.iter().any(changes) {
-            cameras.dedup();
-        }
-        cameras
+        let seen = |frame_idx: usize| {
+            self.with_take(|take| {
+                let moment = Moment::of_frame(take, frame_idx, &RenderSettings::default());
+                let developing = self.called.iter().filter(|called| called.effect.develops());
+                let states: Option<Vec<_>> = developing.map(|called| called.effect.state(&moment)).collect();
+                (moment.camera, states)
+            })
+        };
+        let mut seen: Vec<_> = frames.map(seen).collect();
+        seen.dedup_by(|next, last| last == next && next.1.is_some());
+        seen.into_iter().map(|(camera, _)| camera).collect()
     }
 
     fn camera_at(&self, time_secs: f64) -> Camera {

@@ -108,8 +108,7 @@ impl<'a> FrameMaker<'a> {
         // The same camera gives the same picture, unless an effect changes it with time or begins or ends here.
         let last_quality = self.qualities.last().map_or(self.settings.quality, |(_, quality)| *quality);
         let effects = self.plans.get(&rank(last_quality)).unwrap_or(self.effects);
-        let may_repeat =
-            |last: usize| !effects.changes_with_time(frame_idx) && effects.has_same_layers(last, frame_idx);
+        let may_repeat = |last: usize| effects.repeats(frame_idx, last);
         let is_same = |(last, _, seen): &(usize, _, Camera)| *seen == camera && may_repeat(*last);
         let repeated = self.last.take().filter(is_same).map(|(_, picture, _)| picture);
         let is_repeated = repeated.is_some();

@@ -42,6 +42,8 @@ const STILL_FRAC: f64 = 0.05;
 /// Time that a forecast must leave free: a factor, and what opening and closing a film may take.
 const TIME_MARGIN: f64 = 1.2;
 const TIME_RESERVE: Duration = Duration::from_millis(100);
+/// Largest share of a budget that goes to further samples.
+const SAMPLED_BUDGET_FRAC: f64 = 0.05;
 /// Least ratio of the times of `reference` and `final`.
 const REFERENCE_FACTOR: f64 = 10.0;
 /// Bytes per pixel of a frame inside an encoder: 4:2:0, a half-size copy, vectors and costs of its blocks.
@@ -93,7 +95,18 @@ pub fn forecast(
     settings: &FilmSettings,
     qualities: &[Quality],
 ) -> Result<Vec<Forecast>, PipelineError> {
-    let limit = TimeLimit::new(TIME_LIMIT_SECS);
+    forecast_within((renderer, shot), output, settings, qualities, TIME_LIMIT_SECS)
+}
+
+/// As [`forecast`], with a time after which no further frames are sampled.
+fn forecast_within(
+    (renderer, shot): (&Renderer<'_>, &Shot),
+    output: &Path,
+    settings: &FilmSettings,
+    qualities: &[Quality],
+    limit_secs: f64,
+) -> Result<Vec<Forecast>, PipelineError> {
+    let limit = TimeLimit::new(limit_secs);
     let frames = settings.frames.of_film(shot.num_frames())?;
     let with_effects = Filmed::new(shot, &settings.effects, &settings.render)?;
     let cameras = with_effects.moving_cameras(frames.clone());
@@ -195,21 +208,24 @@ pub fn checked_psnr_db(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSett
 /// The quality that meets the requirements: with a least PSNR the least accurate one that has it, otherwise the most
 /// accurate one in time.
 ///
-/// Forecasts must meet them with a margin, because a film is noisier than its samples.
+/// Forecasts must meet them with a margin, because a film is noisier than its samples. If none does, the fastest one that
+/// is in time without a margin is chosen.
 ///
 /// # Errors
 /// [`PipelineError::Unreachable`] with all forecasts if no quality meets them.
 pub fn choose(forecasts: &[Forecast], requirements: Requirements) -> Result<Quality, PipelineError> {
-    let needs = |forecast: &Forecast| forecast.film_time.mul_f64(TIME_MARGIN) + TIME_RESERVE;
-    let is_in_time = |forecast: &&Forecast| requirements.budget.is_none_or(|budget| needs(forecast) <= budget);
+    let is_in_time = |forecast: &Forecast, margin: f64, reserve: Duration| {
+        requirements.budget.is_none_or(|budget| forecast.film_time.mul_f64(margin) + reserve <= budget)
+    };
     let is_good = |forecast: &&Forecast| {
         let margin_db = margin_db(forecast.quality);
         requirements.min_psnr_db.is_none_or(|least| forecast.worst_psnr_db >= least + margin_db)
     };
     // In order of accuracy, as `Quality::VARIANTS`: the choice does not depend on the noise of measured times.
-    let mut fitting = forecasts.iter().filter(is_in_time).filter(is_good);
-    let chosen = if requirements.min_psnr_db.is_some() { fitting.next() } else { fitting.next_back() };
-    chosen.map(|forecast| forecast.quality).ok_or_else(|| PipelineError::Unreachable {
+    let mut safe = forecasts.iter().filter(is_good).filter(|forecast| is_in_time(forecast, TIME_MARGIN, TIME_RESERVE));
+    let chosen = if requirements.min_psnr_db.is_some() { safe.next() } else { safe.next_back() };
+    let mut barely = forecasts.iter().filter(is_good).filter(|forecast| is_in_time(forecast, 1.0, Duration::ZERO));
+    chosen.or_else(|| barely.next()).map(|forecast| forecast.quality).ok_or_else(|| PipelineError::Unreachable {
         wanted: requirements.sentence(),
         reachable: forecasts.iter().map(Forecast::sentence).collect::<Vec<_>>().join("; "),
     })

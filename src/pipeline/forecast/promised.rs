@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::worst::sample_worst;
-use super::{Forecast, Requirements, choose, forecast};
+use super::{Forecast, Requirements, SAMPLED_BUDGET_FRAC, TIME_LIMIT_SECS, TIME_MARGIN, choose, forecast_within};
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::film::{FilmSettings, Filmed};
 use crate::pipeline::promise::Promise;
@@ -28,7 +28,7 @@ pub struct Promised {
 /// Forecasts a film at every quality, and chooses the one to begin with. The budget counts from the call.
 ///
 /// # Errors
-/// Those of [`forecast`], and [`PipelineError::Unreachable`] for requirements that cannot be met.
+/// Those of [`forecast`](super::forecast()), and [`PipelineError::Unreachable`] for requirements that cannot be met.
 pub fn promised(
     renderer: &Renderer<'_>,
     shot: &Shot,
@@ -37,7 +37,10 @@ pub fn promised(
     requirements: Requirements,
 ) -> Result<Promised, PipelineError> {
     let start = Instant::now();
-    let at = |qualities: &[Quality]| forecast(renderer, shot, output, settings, qualities);
+    let limit_secs = requirements
+        .budget
+        .map_or(TIME_LIMIT_SECS, |budget| TIME_LIMIT_SECS.min(SAMPLED_BUDGET_FRAC * budget.as_secs_f64()));
+    let at = |qualities: &[Quality]| forecast_within((renderer, shot), output, settings, qualities, limit_secs);
     let mut forecasts = at(&[Quality::Draft, Quality::Standard, Quality::Final])?;
     if requirements.min_psnr_db.is_some() {
         let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
@@ -70,10 +73,10 @@ pub fn promised(
         let fastest = if requirements.min_psnr_db.is_some() { Some(&chosen) } else { forecasts.first() };
         let cores = super::num_cores();
         let slower = cores as f64 / cores.saturating_sub(CORES_AT_RISK).max(1) as f64;
-        let needed = fastest?.film_time.mul_f64(slower) + super::TIME_RESERVE;
+        let needed = fastest?.film_time.mul_f64(slower.max(TIME_MARGIN)) + super::TIME_RESERVE;
         (needed > left).then(|| {
             format!(
-                "no reserve: if another program takes a core, even {} needs {:.1} s of the {:.1} s that are left",
+                "no reserve: if one more program takes a core, even {} needs {:.1} s of the {:.1} s that are left",
                 fastest.map_or("", |forecast| forecast.quality.as_ref()),
                 needed.as_secs_f64(),
                 left.as_secs_f64()

@@ -1,8 +1,7 @@
 use std::fs::{File, TryLockError};
-use std::io::ErrorKind;
 use std::path::Path;
 
-use cinesplat_files::{FileError, create_folder};
+use cinesplat_files::{FileError, create_folder, has_no_locks};
 
 use super::error::JobError;
 
@@ -23,7 +22,8 @@ pub(super) fn claim(folder: &Path, frame_idx: usize) -> Result<Option<Claim>, Jo
     match file.try_lock() {
         Ok(()) => Ok(Some(Claim { _lock: file })),
         Err(TryLockError::WouldBlock) => Ok(None),
-        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(Some(Claim { _lock: file })),
+        // On a disk without locks the programs of a farm meet only where one reaches the place that another began at.
+        Err(TryLockError::Error(error)) if has_no_locks(&error) => Ok(Some(Claim { _lock: file })),
         Err(TryLockError::Error(source)) => Err(FileError::Write { path, source }.into()),
     }
 }

@@ -3,6 +3,9 @@ use std::path::{Path, PathBuf};
 
 use cinesplat_video::VideoFormat;
 
+use super::holders::remove_folder;
+use super::lock::Lock;
+
 /// Folder of the frames in a job folder.
 pub(super) const FRAMES: &str = "frames";
 
@@ -49,7 +52,9 @@ fn remove_files(folder: &Path, is_removed: impl Fn(&str) -> bool) {
 }
 
 /// Removes a job folder that holds nothing but its lock.
-pub(super) fn remove_empty(folder: &Path) {
+pub(super) fn remove_empty(folder: &Path, lock: &mut Lock) {
+    lock.withdraw();
+    remove_folder(folder);
     let _ = fs::remove_file(folder.join("lock"));
     let _ = fs::remove_dir(folder);
 }

@@ -3,7 +3,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use cinesplat_files::FileError;
+use cinesplat_files::{FileError, has_no_locks};
 
 use super::frame_files::{FrameFiles, Kept};
 
@@ -83,7 +83,7 @@ impl DoneLog {
     fn write(&mut self, text: &str) -> Result<(), FileError> {
         let allowed = |locked: io::Result<()>| match locked {
             // On a shared disk without locks a line may be torn: that frame is rendered again.
-            Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(()),
+            Err(error) if has_no_locks(&error) => Ok(()),
             other => other,
         };
         let written = allowed(self.file.lock()).and_then(|()| {

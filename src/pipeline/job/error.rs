@@ -19,6 +19,12 @@ pub enum JobError {
         /// The folder.
         path: PathBuf,
     },
+    /// This program was halted or cut off from the disk, and another one took the folder.
+    #[error("{}: another cinesplat took this film over, or its folder was removed", path.display())]
+    Lost {
+        /// The folder.
+        path: PathBuf,
+    },
     /// The folder holds frames of another film.
     #[error("{}: its frames are of another film: {}", path.display(), differences.join("; "))]
     Mismatch {
@@ -78,6 +84,7 @@ impl JobError {
             Self::File(error) => error.code(),
             Self::Video(error) => error.code(),
             Self::Locked { .. } => "JOB-LOCKED",
+            Self::Lost { .. } => "JOB-LOST",
             Self::Mismatch { .. } => "JOB-MISMATCH",
             Self::Unreadable { .. } => "JOB-READ",
             Self::NoSpace { .. } => "JOB-SPACE",
@@ -92,6 +99,7 @@ impl JobError {
             Self::File(error) | Self::NotPlaced { error, .. } => Some(error.path()),
             Self::Video(error) => error.path(),
             Self::Locked { path }
+            | Self::Lost { path }
             | Self::Mismatch { path, .. }
             | Self::Unreadable { path, .. }
             | Self::NoSpace { path, .. }

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use cinesplat_export::shot_json;
-use cinesplat_files::{Existing, FileError, Limits, sha256_hex};
+use cinesplat_files::{Existing, FileError, Limits, json_excess, sha256_hex};
 use cinesplat_render::RenderSettings;
 use cinesplat_trajectory::{SceneRef, Shot};
 use cinesplat_video::VideoSettings;
@@ -86,6 +86,7 @@ impl Fingerprint {
         }
         let bytes = cinesplat_files::read(&path, Limits::DEFAULT.text_bytes)?;
         let unreadable = |reason: &str| JobError::Unreadable { path: path.clone(), reason: reason.to_owned() };
+        json_excess(&bytes, &Limits::DEFAULT).map_or(Ok(()), |excess| Err(unreadable(&excess)))?;
         let json: Value = serde_json::from_slice(&bytes).map_err(|error| unreadable(&error.to_string()))?;
         if json["format"] != FORMAT || json["version"] != VERSION {
             return Err(unreadable("another format or version"));

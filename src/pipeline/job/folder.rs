@@ -1,9 +1,10 @@
-use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use cinesplat_files::{Existing, create_folder, free_bytes, move_file};
 use cinesplat_video::{VideoFormat, VideoSettings};
 
+use super::access::Access;
 use super::claims::{Claim, claim};
 use super::cleanup::{FRAMES, film_path, remove_contents, remove_empty, remove_temporary};
 use super::done_log::DoneLog;
@@ -11,7 +12,7 @@ use super::error::JobError;
 use super::fingerprint::Fingerprint;
 use super::frame_files::{FrameFiles, Kept};
 use super::keeper::Keeper;
-use super::lock::{Access, locked, make_folder};
+use super::lock::{Lock, locked, make_folder};
 use super::outside::{job_folder, picture_folder};
 use super::settings::{JobSettings, JobStart};
 
@@ -21,8 +22,7 @@ pub(crate) struct Job {
     format: VideoFormat,
     keeper: Keeper,
     is_last: bool,
-    /// Unlocked when the file is closed, which the system does even for a killed program.
-    _lock: File,
+    lock: Lock,
 }
 
 impl Job {
@@ -54,9 +54,9 @@ impl Job {
         }
         fingerprint.write_or_compare(&folder)?;
         create_folder(&folder.join(FRAMES))?;
-        let keeper = Keeper::open(&folder, files)?;
+        let keeper = Keeper::open(&folder, files, Arc::clone(lock.sign()))?;
         keeper.check_names(video.first_frame..video.first_frame + video.num_frames)?;
-        let job = Self { folder, format, keeper, is_last: access == Access::Alone, _lock: lock };
+        let job = Self { folder, format, keeper, is_last: access == Access::Alone, lock };
         job.check_space(video)?;
         Ok(job)
     }
@@ -84,8 +84,9 @@ impl Job {
     /// Gives the finished film its name.
     ///
     /// # Errors
-    /// [`JobError::NotPlaced`]; the film stays in the folder.
+    /// [`JobError::NotPlaced`]; the film stays in the folder. [`JobError::Lost`].
     pub(crate) fn place_film(&self, output: &Path, existing: Existing) -> Result<(), JobError> {
+        self.lock.sign().check_now()?;
         let kept = self.film_path();
         move_file(&kept, output, existing).map_err(|error| JobError::NotPlaced { kept, error })
     }
@@ -114,11 +115,18 @@ impl Job {
 
     /// Removes the folder of a film that is whole.
     pub(crate) fn remove(mut self) {
-        self.keeper.abandon();
-        remove_contents(&self.folder, &self.format);
-        remove_empty(&self.folder);
+        self.remove_folder();
         // Nothing is left for the destructor.
         self.is_last = false;
+    }
+
+    fn remove_folder(&mut self) {
+        self.keeper.abandon();
+        // What another program took over is its own.
+        if self.lock.sign().check_now().is_ok() {
+            remove_contents(&self.folder, &self.format);
+            remove_empty(&self.folder, &mut self.lock);
+        }
     }
 
     /// Refuses a film whose frames do not fit on the disk.
@@ -135,9 +143,7 @@ impl Job {
 impl Drop for Job {
     fn drop(&mut self) {
         if self.is_last && self.keeper.num_kept() == 0 && self.finished_film().is_none() {
-            self.keeper.abandon();
-            remove_contents(&self.folder, &self.format);
-            remove_empty(&self.folder);
+            self.remove_folder();
         }
     }
 }

@@ -2,6 +2,7 @@ use std::fs;
 use std::io::Write;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use cinesplat_files::{Existing, FileError, NewFile, check_free, checksum};
 use cinesplat_video::encode_png;
@@ -11,6 +12,7 @@ use super::done_log::DoneLog;
 use super::error::JobError;
 use super::flusher::Flusher;
 use super::frame_files::{FrameFiles, Kept};
+use super::holders::Sign;
 use super::picture::Picture;
 
 /// Keeps finished frames.
@@ -20,13 +22,15 @@ pub(crate) struct Keeper {
     files: FrameFiles,
     log: DoneLog,
     flusher: Flusher,
+    /// Of the right to write.
+    sign: Arc<Sign>,
 }
 
 impl Keeper {
-    pub(super) fn open(folder: &Path, files: FrameFiles) -> Result<Self, JobError> {
+    pub(super) fn open(folder: &Path, files: FrameFiles, sign: Arc<Sign>) -> Result<Self, JobError> {
         let log = DoneLog::open(folder)?;
         let flusher = Flusher::start(log.path().to_owned());
-        Ok(Self { temporary: folder.join(FRAMES), files, log, flusher })
+        Ok(Self { temporary: folder.join(FRAMES), files, log, flusher, sign })
     }
 
     /// Refuses a sequence that would replace pictures of somebody else.
@@ -42,8 +46,9 @@ impl Keeper {
     /// Keeps a picture as frame `frame_idx`.
     ///
     /// # Errors
-    /// [`JobError::File`]
+    /// [`JobError::File`], [`JobError::Lost`].
     pub(crate) fn keep(&mut self, frame_idx: usize, picture: &Picture) -> Result<(), JobError> {
+        self.sign.check()?;
         match picture {
             Picture::Planes(planes) => self.write(frame_idx, &planes.parts()),
             Picture::AlphaPlanes(planes) => self.write(frame_idx, &[&planes.to_bytes()]),
@@ -59,8 +64,9 @@ impl Keeper {
     /// that is possible.
     ///
     /// # Errors
-    /// [`JobError::File`]
+    /// [`JobError::File`], [`JobError::Lost`].
     pub(crate) fn keep_again(&mut self, frame_idx: usize, picture: &Picture) -> Result<(), JobError> {
+        self.sign.check()?;
         let (path, earlier) = (self.files.path(frame_idx), self.files.path(frame_idx - 1));
         let is_own = !matches!(self.files, FrameFiles::Pictures { .. });
         if let Some(listed) = self.log.checksum(frame_idx - 1).filter(|_| is_own)

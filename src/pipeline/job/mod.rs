@@ -8,6 +8,7 @@
 //! done.log          one line per frame: number, checksum of its file
 //! lock              locked while a program works on the folder; the system unlocks it when that program ends
 //! claims/000012     locked while one of several programs renders that frame
+//! holders/          a file per program that works on the folder: a disk may have no locks
 //! tasks/            scripts and logs of the tasks that a cluster runs
 //! film.mp4          the film, between the moment it is whole and the moment it gets its own name
 //! ```
@@ -25,6 +26,7 @@
 //!
 //! Locks save work and nothing depends on them: programs that render one frame twice write the same bytes.
 
+mod access;
 mod claims;
 mod cleanup;
 mod done_log;
@@ -33,18 +35,20 @@ mod fingerprint;
 mod flusher;
 mod folder;
 mod frame_files;
+mod holders;
 mod keeper;
 mod lock;
 mod outside;
 mod picture;
+mod process;
 mod settings;
 
+pub(crate) use access::Access;
 pub use error::JobError;
 pub(crate) use fingerprint::Fingerprint;
 pub(crate) use folder::Job;
 pub(crate) use frame_files::Kept;
 pub(crate) use keeper::Keeper;
-pub(crate) use lock::Access;
 pub use outside::{check_job, check_shared_job, clear_job, has_job, job_field, job_folder, job_progress, tasks_folder};
 pub(crate) use picture::Picture;
 pub use settings::{JobSettings, JobStart};

@@ -4,15 +4,16 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use cinesplat_files::{Existing, NewFile, create_folder};
+use cinesplat_files::{Existing, FileError, NewFile, create_folder};
 use cinesplat_video::{VideoFormat, VideoSettings};
 
+use super::access::Access;
 use super::cleanup::{TASKS, remove_contents, remove_empty};
 use super::done_log::DoneLog;
 use super::error::JobError;
 use super::fingerprint::Fingerprint;
 use super::frame_files::FrameFiles;
-use super::lock::{Access, locked, make_folder};
+use super::lock::{check_lock, locked, make_folder};
 use crate::pipeline::frames::FrameRange;
 
 /// The job folder of an output: its path with `.job` at the end.
@@ -61,11 +62,11 @@ pub fn clear_job(output: &Path) -> Result<(), JobError> {
         return Ok(());
     }
     let format = VideoFormat::from_path(output).map_err(JobError::video)?;
-    let _lock = locked(&folder, Access::Alone)?;
+    let mut lock = locked(&folder, Access::Alone)?;
     let files = FrameFiles::new(&folder, &format, &VideoSettings::default());
     DoneLog::open(&folder)?.kept(&files).remove_all();
     remove_contents(&folder, &format);
-    remove_empty(&folder);
+    remove_empty(&folder, &mut lock);
     Ok(())
 }
 
@@ -88,14 +89,15 @@ pub fn check_shared_job(output: &Path) -> Result<(), JobError> {
 
 fn check(output: &Path, access: Access) -> Result<(), JobError> {
     let folder = job_folder(output);
-    if folder.join("lock").exists() {
-        locked(&folder, access)?;
-    }
     let pictures = picture_folder(output)?.filter(|pictures| !pictures.exists());
     pictures.as_deref().map(create_folder).transpose()?;
     let is_new = !folder.exists();
-    let probe =
-        make_folder(&folder).and_then(|()| Ok(NewFile::create(&folder.join("lock"), Existing::Replace).map(drop)?));
+    let probe = make_folder(&folder).and_then(|()| {
+        let probe = NewFile::create(&folder.join("lock"), Existing::Replace)?;
+        let now = probe.file().metadata().and_then(|found| found.modified());
+        let now = now.map_err(|source| FileError::Read { path: folder.clone(), source })?;
+        if folder.join("lock").exists() { check_lock(&folder, access, now) } else { Ok(()) }
+    });
     // A failed removal leaves empty folders, which the film takes.
     if is_new {
         let _ = fs::remove_dir(&folder);

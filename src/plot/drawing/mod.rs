@@ -7,6 +7,7 @@ mod glyphs;
 mod letters;
 mod pdf;
 mod pixels;
+mod simplify;
 mod svg;
 
 use glam::DVec2;

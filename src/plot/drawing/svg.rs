@@ -3,6 +3,7 @@ use std::fmt::Write as _;
 use cinesplat_files::base64;
 use glam::DVec2;
 
+use super::simplify::simplified;
 use super::{Anchor, Drawing, Ink, Mark, Stroke, TextStyle, text_width_px};
 
 impl Drawing {
@@ -35,7 +36,7 @@ fn element(mark: &Mark) -> String {
             format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius_px:.2}\" {}/>", paint(*fill, *border))
         }
         Mark::Line { points_px, stroke } => {
-            format!("<polyline points=\"{}\" {}/>", points(points_px), paint(None, Some(*stroke)))
+            format!("<polyline points=\"{}\" {}/>", points(&simplified(points_px)), paint(None, Some(*stroke)))
         }
         Mark::Text { at_px, style, halo_px, text } => text_element(*at_px, style, *halo_px, text),
         Mark::Picture { corner_px, size_px, picture } => format!(

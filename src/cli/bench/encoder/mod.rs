@@ -35,7 +35,7 @@ pub(crate) struct Args {
     frames: u16,
     /// Presets to measure
     #[arg(
-        long, value_name = "PRESET,..", default_value = "ultrafast,veryfast,faster,fast,medium,slow,veryslow",
+        long, value_name = "PRESET,..", default_value = "ultrafast,superfast,veryfast,faster,fast,medium,slow,veryslow",
         value_delimiter = ',', value_parser = choice::<X264Preset>()
     )]
     presets: Vec<X264Preset>,

@@ -30,8 +30,9 @@ Example:
   cinesplat bench films room.spz synth:demo --cameras room.cameras.json --cameras auto -o bench
 Films a dolly: a straight move along the view axis of the first camera (auto: the camera in the middle). Prints one CSV
 line per measurement, with its baseline and the difference in percent. All pictures of a film are kept in
-memory to encode them alone. Films that keep their frames in a job folder alternate with films that do not, three
-of each; the pair with the median ratio is printed. -o keeps films.csv and a table.")]
+memory to encode them alone. Films that keep their frames in a job folder alternate with films that do not, five
+of each; the pairs with the median ratios of wall time and of CPU time are printed: CPU time is what a busy machine
+leaves comparable. -o keeps films.csv and a table.")]
 pub(crate) struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,

@@ -5,7 +5,7 @@ use std::time::Instant;
 use glam::DQuat;
 
 use super::load::{Load, LoadTime};
-use super::report::{Outcome, PromiseRow};
+use super::report::{Film, Outcome, PromiseRow};
 use crate::cli::failure::Failure;
 use cinesplat::files::Existing;
 use cinesplat::geometry::{Camera, Intrinsics};
@@ -30,9 +30,9 @@ pub(super) struct PromisedFilm<'a> {
 
 impl PromisedFilm<'_> {
     /// Films with a least PSNR, and compares every frame with `reference`.
-    pub(super) fn with_psnr(&self, scene: &str, requirements: Requirements) -> Result<PromiseRow, Failure> {
+    pub(super) fn with_psnr(&self, film: &Film, requirements: Requirements) -> Result<PromiseRow, Failure> {
         let asked = requirements.min_psnr_db.unwrap_or_default();
-        let row = |outcome| PromiseRow { scene: scene.to_owned(), promise: "min-psnr", asked, load: "none", outcome };
+        let row = |outcome| PromiseRow::new(film.clone(), asked, &outcome);
         let Some((_, report)) = self.film(requirements, None)? else { return Ok(row(Outcome::Refused)) };
         let path = CameraPath::new(self.shot)?;
         let mut worst_db = f64::INFINITY;
@@ -49,13 +49,12 @@ impl PromisedFilm<'_> {
     /// Films with a budget while another process takes a core. The time counts from the forecast to the finished file.
     pub(super) fn with_budget(
         &self,
-        scene: &str,
+        film: &Film,
         requirements: Requirements,
         load: LoadTime,
     ) -> Result<PromiseRow, Failure> {
         let asked = requirements.budget.unwrap_or_default().as_secs_f64();
-        let when = if load == LoadTime::Throughout { "throughout" } else { "from the first frame" };
-        let row = |outcome| PromiseRow { scene: scene.to_owned(), promise: "budget", asked, load: when, outcome };
+        let row = |outcome| PromiseRow::new(film.clone(), asked, &outcome);
         let busy = (load == LoadTime::Throughout).then(Load::start).transpose()?;
         let start = Instant::now();
         let found = self.film(requirements, Some(load))?;
@@ -89,12 +88,14 @@ impl PromisedFilm<'_> {
     }
 }
 
-/// Seconds of the forecast of all qualities and of a film at `standard`, without load.
-pub(super) fn standard_secs(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<f64, Failure> {
+/// Seconds of the forecast of all qualities and of a film at `draft`, without load.
+pub(super) fn draft_secs(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<f64, Failure> {
     let output = TemporaryFilm::new();
     let start = Instant::now();
     pipeline::forecast(renderer, shot, &output.0, settings, &[Quality::Draft, Quality::Standard, Quality::Final])?;
-    pipeline::film(renderer, shot, &output.0, settings, &mut |_| ControlFlow::Continue(()))?;
+    let render = RenderSettings { quality: Quality::Draft, ..settings.render };
+    let settings = FilmSettings { render, ..settings.clone() };
+    pipeline::film(renderer, shot, &output.0, &settings, &mut |_| ControlFlow::Continue(()))?;
     Ok(start.elapsed().as_secs_f64())
 }
 

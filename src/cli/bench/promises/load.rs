@@ -11,6 +11,15 @@ pub(super) enum LoadTime {
     FromFirstFrame,
 }
 
+impl LoadTime {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Throughout => "throughout",
+            Self::FromFirstFrame => "from the first frame",
+        }
+    }
+}
+
 /// A process that takes a core until it is dropped.
 pub(super) struct Load(Child);
 

@@ -1,22 +1,21 @@
-use std::fmt::Write as _;
 use strum::VariantArray;
 
 use cinesplat::pipeline::FilmReport;
 use cinesplat::render::Quality;
 
 /// Header line of the CSV.
-pub(super) const CSV_HEADER: &str = "scene,promise,asked,got,qualities,load,outcome\n";
+pub(super) const CSV_HEADER: &str = "scene,promise,wanted,load,settings,asked,got,qualities,outcome\n";
+/// Cells of a line that name a film, and all cells.
+const NUM_NAMES: usize = 5;
+const NUM_CELLS: usize = 9;
 
-/// One film and its promise: decibels, or seconds.
-#[derive(Debug, Clone)]
-pub(super) struct PromiseRow {
-    pub(super) scene: String,
-    pub(super) promise: &'static str,
-    pub(super) asked: f64,
-    /// When another process takes a core.
-    pub(super) load: &'static str,
-    pub(super) outcome: Outcome,
-}
+/// The cells that name a film: scene, promise, what is wanted, when another process takes a core, and
+/// the settings of the bench: size, frames and flags.
+pub(super) type Film = [String; NUM_NAMES];
+
+/// A film, its promise in decibels or seconds, and what became of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct PromiseRow([String; NUM_CELLS]);
 
 /// What became of a promise.
 #[derive(Debug, Clone)]
@@ -28,13 +27,8 @@ pub(super) enum Outcome {
 }
 
 impl PromiseRow {
-    /// Whether the promise was made and is not kept.
-    pub(super) fn is_broken(&self) -> bool {
-        matches!(self.outcome, Outcome::Filmed { is_kept: false, is_doubted: false, .. })
-    }
-
-    fn cells(&self) -> [String; 7] {
-        let (got, qualities, outcome) = match &self.outcome {
+    pub(super) fn new([scene, promise, wanted, load, settings]: Film, asked: f64, outcome: &Outcome) -> Self {
+        let (got, qualities, outcome) = match outcome {
             Outcome::Refused => (String::new(), String::new(), "refused"),
             Outcome::Filmed { got, is_kept, is_doubted, report } => {
                 let outcome = match (is_kept, is_doubted) {
@@ -45,8 +39,17 @@ impl PromiseRow {
                 (format!("{got:.2}"), qualities(report), outcome)
             }
         };
-        let asked = format!("{:.2}", self.asked);
-        [self.scene.clone(), self.promise.to_owned(), asked, got, qualities, self.load.to_owned(), outcome.to_owned()]
+        Self([scene, promise, wanted, load, settings, format!("{asked:.2}"), got, qualities, outcome.to_owned()])
+    }
+
+    /// Whether the row is that of a film.
+    pub(super) fn is_of(&self, film: &Film) -> bool {
+        self.0[..NUM_NAMES] == film[..]
+    }
+
+    /// Whether the promise was made and is not kept.
+    pub(super) fn is_broken(&self) -> bool {
+        self.0[NUM_CELLS - 1] == "broken"
     }
 }
 
@@ -64,17 +67,17 @@ pub(super) fn to_csv(rows: &[PromiseRow]) -> String {
 
 /// One row as a line of the CSV; cells without a meaning are empty.
 pub(super) fn csv_line(row: &PromiseRow) -> String {
-    row.cells().join(",") + "\n"
+    row.0.join(",") + "\n"
+}
+
+/// The rows of a CSV of [`to_csv`]; `None` for any other text.
+pub(super) fn from_csv(text: &str) -> Option<Vec<PromiseRow>> {
+    let row = |line: &str| Some(PromiseRow(line.split(',').map(str::to_owned).collect::<Vec<_>>().try_into().ok()?));
+    text.strip_prefix(CSV_HEADER)?.lines().map(row).collect()
 }
 
 /// The rows as a Markdown table.
 pub(super) fn to_table(rows: &[PromiseRow]) -> String {
-    let mut table = String::from(
-        "| scene | promise | asked | got | frames | other process | outcome |\n|---|---|---|---|---|---|---|\n",
-    );
-    for row in rows {
-        // Writing to a string cannot fail.
-        let _ = writeln!(table, "| {} |", row.cells().join(" | "));
-    }
-    table
+    let header = "| scene | promise | wanted | other process | settings | asked | got | frames | outcome |\n|---|---|---|---|---|---|---|---|---|\n";
+    rows.iter().fold(header.to_owned(), |table, row| table + "| " + &row.0.join(" | ") + " |\n")
 }

@@ -1,0 +1,114 @@
+//! Bags of ROS 1: records of a header of `name=value` fields and data. Chunks hold connections and messages.
+
+use std::collections::BTreeMap;
+
+use cinesplat_files::Limits;
+
+use super::bytes::{Bytes, text};
+use super::message::{Encoding, Kind, Topic, Visit};
+use crate::ExportError;
+
+/// First bytes of a bag.
+pub(super) const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
+/// The kinds of records that are read.
+const MESSAGE: u8 = 2;
+const CHUNK: u8 = 5;
+const CONNECTION: u8 = 7;
+
+/// Topics by the number of their connection.
+type Connections = BTreeMap<u32, Topic>;
+
+/// Visits the messages of all topics with poses.
+pub(super) fn visit(bytes: &[u8], visit: &mut Visit<'_>) -> Result<(), ExportError> {
+    let mut connections = Connections::new();
+    records(bytes.strip_prefix(MAGIC).unwrap_or_default(), &mut connections, visit, true)
+}
+
+fn records(
+    data: &[u8],
+    connections: &mut Connections,
+    visit: &mut Visit<'_>,
+    may_hold_chunks: bool,
+) -> Result<(), ExportError> {
+    let mut bytes = Bytes::new(data);
+    while !bytes.is_empty() {
+        let header = Fields::new(bytes.counted()?)?;
+        let data = bytes.counted()?;
+        match header.op() {
+            Some(CHUNK) if may_hold_chunks => {
+                let packing = header.get("compression").unwrap_or_default();
+                if packing != b"none" {
+                    let name = String::from_utf8_lossy(packing);
+                    return Err(ExportError::NotReadable {
+                        format: "ros",
+                        reason: format!("a bag packed with {name}; `rosbag decompress BAG` (of ROS) unpacks it"),
+                    });
+                }
+                records(data, connections, visit, false)?;
+            }
+            Some(CONNECTION) => connect(&header, data, connections)?,
+            Some(MESSAGE) => {
+                if let Some(topic) = header.number("conn").and_then(|number| connections.get(&number)) {
+                    visit(topic, data)?;
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Notes the topic of a connection, if its messages hold poses.
+fn connect(header: &Fields<'_>, data: &[u8], connections: &mut Connections) -> Result<(), ExportError> {
+    // It holds the definition of the type, which is short for all types with poses.
+    if data.len() > Limits::DEFAULT.header_bytes {
+        return Ok(());
+    }
+    let own = Fields::new(data)?;
+    let (Some(number), Some(topic), Some(kind)) = (header.number("conn"), header.get("topic"), own.get("type")) else {
+        return Ok(());
+    };
+    if let Some(kind) = Kind::of(&text(kind, 0)?) {
+        connections.insert(number, Topic { name: text(topic, 0)?, kind, encoding: Encoding::Ros1 });
+    }
+    Ok(())
+}
+
+/// The fields of a header.
+struct Fields<'a>(Vec<(&'a [u8], &'a [u8])>);
+
+impl<'a> Fields<'a> {
+    fn new(data: &'a [u8]) -> Result<Self, ExportError> {
+        let limit = Limits::DEFAULT.header_bytes;
+        if data.len() > limit {
+            return Err(ExportError::BadBytes {
+                offset: 0,
+                found: format!("a header of {} bytes", data.len()),
+                expected: format!("at most {limit}"),
+            });
+        }
+        let (mut bytes, mut fields) = (Bytes::new(data), Vec::new());
+        while !bytes.is_empty() {
+            let field = bytes.counted()?;
+            let end = field.iter().position(|byte| *byte == b'=').ok_or_else(|| ExportError::BadBytes {
+                offset: bytes.position(),
+                found: "a field without =".into(),
+                expected: "name=value in the header of a record".into(),
+            })?;
+            fields.push((&field[..end], &field[end + 1..]));
+        }
+        Ok(Self(fields))
+    }
+
+    fn get(&self, name: &str) -> Option<&'a [u8]> {
+        self.0.iter().find(|(key, _)| *key == name.as_bytes()).map(|(_, value)| *value)
+    }
+
+    fn op(&self) -> Option<u8> {
+        self.get("op")?.first().copied()
+    }
+
+    fn number(&self, name: &str) -> Option<u32> {
+        Some(u32::from_le_bytes(self.get(name)?.try_into().ok()?))
+    }
+}

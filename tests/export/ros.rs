@@ -1,0 +1,199 @@
+//! Recordings of ROS, written here byte by byte as their specifications say.
+
+use cinesplat::export::{ExportError, Format, Imported, read};
+use glam::DVec3;
+
+use super::sample_shot::file;
+
+fn counted(bytes: &[u8]) -> Vec<u8> {
+    [&(bytes.len() as u32).to_le_bytes()[..], bytes].concat()
+}
+
+/// Header, body and pose of a message: x is `idx`, the time `100 + idx / 10` s. In CDR numbers are aligned to their size.
+fn body(idx: u32, frame: &str, child: Option<&str>, is_cdr: bool) -> Vec<u8> {
+    let mut out = if is_cdr { vec![] } else { idx.to_le_bytes().to_vec() };
+    out.extend(100_u32.to_le_bytes());
+    out.extend((idx * 100_000_000).to_le_bytes());
+    for text in std::iter::once(frame).chain(child) {
+        while is_cdr && out.len() % 4 != 0 {
+            out.push(0);
+        }
+        let zero: &[u8] = if is_cdr { &[0] } else { &[] };
+        out.extend(counted(&[text.as_bytes(), zero].concat()));
+    }
+    while is_cdr && out.len() % 8 != 0 {
+        out.push(0);
+    }
+    for number in [f64::from(idx), 2.0, 3.0, 0.0, 0.0, 0.6, 0.8] {
+        out.extend(number.to_le_bytes());
+    }
+    out
+}
+
+fn record(fields: &[(&str, &[u8])], data: &[u8]) -> Vec<u8> {
+    let header: Vec<u8> = fields.iter().flat_map(|(name, v)| counted(&[name.as_bytes(), b"=", *v].concat())).collect();
+    [counted(&header), counted(data)].concat()
+}
+
+/// A bag with a topic per name and type, three messages each, in one chunk.
+fn bag(topics: &[(&str, &str)], packing: &str) -> Vec<u8> {
+    let mut chunk = Vec::new();
+    for (conn, (name, kind)) in (0_u32..).zip(topics) {
+        let own: Vec<u8> = counted(&[b"type=", kind.as_bytes()].concat());
+        let conn = conn.to_le_bytes();
+        chunk.extend(record(&[("op", &[7]), ("conn", &conn), ("topic", name.as_bytes())], &own));
+        for idx in 0..3 {
+            let message = match *kind {
+                "nav_msgs/Odometry" => body(idx, "odom", Some("base"), false),
+                "tf2_msgs/TFMessage" => [
+                    &2_u32.to_le_bytes()[..],
+                    &body(idx, "map", Some("odom"), false),
+                    &body(idx, "odom", Some("base"), false),
+                ]
+                .concat(),
+                "std_msgs/String" => counted(b"no pose"),
+                _ => body(idx, "map", None, false),
+            };
+            chunk.extend(record(&[("op", &[2]), ("conn", &conn), ("time", &[0; 8])], &message));
+        }
+    }
+    let chunk = record(&[("op", &[5]), ("compression", packing.as_bytes()), ("size", &[0; 4])], &chunk);
+    [b"#ROSBAG V2.0\n".to_vec(), record(&[("op", &[3])], &[b' '; 40]), chunk].concat()
+}
+
+fn mcap_record(kind: u8, data: &[u8]) -> Vec<u8> {
+    [&[kind][..], &(data.len() as u64).to_le_bytes(), data].concat()
+}
+
+/// An MCAP file of ROS 2 with one topic of odometry in a plain chunk.
+fn mcap(packing: &str) -> Vec<u8> {
+    let schema =
+        [&1_u16.to_le_bytes()[..], &counted(b"nav_msgs/msg/Odometry"), &counted(b"ros2msg"), &counted(b"")].concat();
+    let ids = [4_u16.to_le_bytes(), 1_u16.to_le_bytes()].concat();
+    let channel = [ids, counted(b"/odom"), counted(b"cdr"), counted(b"")].concat();
+    let mut chunk = [mcap_record(3, &schema), mcap_record(4, &channel)].concat();
+    for idx in 0..3 {
+        let head = [&4_u16.to_le_bytes()[..], &[0; 20], &[0, 1, 0, 0]].concat();
+        chunk.extend(mcap_record(5, &[head, body(idx, "odom", Some("base_footprint"), true)].concat()));
+    }
+    let size = (chunk.len() as u64).to_le_bytes();
+    let packed = [&[0; 16][..], &size, &[0; 4], &counted(packing.as_bytes()), &size, &chunk].concat();
+    [
+        b"\x89MCAP0\r\n".to_vec(),
+        mcap_record(1, &[0; 8]),
+        mcap_record(6, &packed),
+        mcap_record(2, &[0; 20]),
+        b"\x89MCAP0\r\n".to_vec(),
+    ]
+    .concat()
+}
+
+fn topic(name: &str, bytes: &[u8], topic: &str) -> Result<Imported, ExportError> {
+    let (path, _folder) = file(name, bytes);
+    let named = if topic.is_empty() { path } else { format!("{}#{topic}", path.display()).into() };
+    read(&named, None)
+}
+
+fn assert_poses(imported: &Imported) {
+    assert_eq!((imported.format, imported.track.frames.len()), (Format::Ros, 3));
+    assert_eq!(imported.track.up, Some(DVec3::Z));
+    for (idx, frame) in imported.track.frames.iter().enumerate() {
+        assert!((frame.time_secs - 100.0 - 0.1 * idx as f64).abs() < 1e-9);
+        assert_eq!(frame.pose.position, DVec3::new(idx as f64, 2.0, 3.0));
+        assert!((frame.pose.rotation.z - 0.6).abs() < 1e-12 && (frame.pose.rotation.w - 0.8).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn every_kind_of_message_with_poses_is_read_from_a_bag() {
+    for kind in ["geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped", "nav_msgs/Odometry"] {
+        assert_poses(&topic("a.bag", &bag(&[("/chat", "std_msgs/String"), ("/pose", kind)], "none"), "").unwrap());
+    }
+    let transforms = bag(&[("/tf", "tf2_msgs/TFMessage")], "none");
+    assert_poses(&topic("a.bag", &transforms, "/tf:odom.base").unwrap());
+    assert_poses(&topic("a.bag", &transforms, "/tf:map.odom").unwrap());
+}
+
+#[test]
+fn one_of_several_topics_must_be_named() {
+    let bytes = bag(&[("/a", "geometry_msgs/PoseStamped"), ("/tf", "tf2_msgs/TFMessage")], "none");
+    let refused = |name: &str| topic("a.bag", &bytes, name).unwrap_err().to_string();
+    let listed = "expected one of /a (3), /tf:map.odom (3), /tf:odom.base (3)";
+    assert_eq!(refused(""), format!("topic (RECORDING#TOPIC): found none, {listed}"));
+    assert!(refused("/b").ends_with(listed));
+    assert_poses(&topic("a.bag", &bytes, "/a").unwrap());
+}
+
+#[test]
+fn recordings_of_ros_2_are_read_from_mcap() {
+    let imported = topic("a.mcap", &mcap(""), "/odom").unwrap();
+    assert_poses(&imported);
+    assert_eq!(
+        imported.track.unread,
+        ["/odom: the axes of the body base_footprint count as those of a camera: x right, y down, z forward"]
+    );
+}
+
+#[test]
+fn packed_parts_without_a_reader_name_the_command_that_unpacks_them() {
+    let error = topic("a.bag", &bag(&[("/a", "geometry_msgs/PoseStamped")], "bz2"), "").unwrap_err().to_string();
+    assert!(error.contains("bz2") && error.contains("rosbag decompress"), "{error}");
+    let error = topic("a.mcap", &mcap("lz4"), "").unwrap_err().to_string();
+    assert!(error.contains("lz4") && error.contains("mcap compress"), "{error}");
+}
+
+#[test]
+fn a_recording_that_ends_inside_a_record_is_an_error() {
+    let (bag, mcap) = (bag(&[("/a", "nav_msgs/Odometry")], "none"), mcap(""));
+    // Behind its chunk an MCAP file has a footer of 29 bytes, and its first bytes again.
+    let is_whole = |end: usize| end == mcap.len() - 37 || end >= mcap.len() - 8;
+    let cuts = (0..bag.len()).map(|end| &bag[..end]);
+    for cut in cuts.chain((0..mcap.len()).filter(|end| !is_whole(*end)).map(|end| &mcap[..end])) {
+        let (path, _folder) = file("a.bin", cut);
+        assert!(read(&path, Some(Format::Ros)).is_err(), "{} bytes", cut.len());
+    }
+    assert_poses(&topic("a.mcap", &mcap[..mcap.len() - 37], "").unwrap());
+}
+
+#[test]
+fn a_file_that_is_no_recording_is_refused() {
+    for bytes in [&b""[..], b"a", b"1 2 3 4 0 0 0 1\n"] {
+        let (path, _folder) = file("a.bin", bytes);
+        let error = read(&path, Some(Format::Ros)).unwrap_err();
+        assert!(matches!(error, ExportError::WrongFormat { .. }), "{error}");
+    }
+}
+
+#[test]
+fn a_pose_that_is_none_spoils_its_own_topic_alone() {
+    let mut bytes = bag(&[("/a", "geometry_msgs/PoseStamped"), ("/b", "geometry_msgs/PoseStamped")], "none");
+    // The last number of the last message is w of /b.
+    let end = bytes.len();
+    bytes[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
+    assert_poses(&topic("a.bag", &bytes, "/a").unwrap());
+    let error = topic("a.bag", &bytes, "/b").unwrap_err().to_string();
+    assert!(error.starts_with("/b at 100.2 s: found the pose"), "{error}");
+}
+
+#[test]
+fn two_bodies_on_one_topic_are_two_paths() {
+    let mut chunk =
+        record(&[("op", &[7]), ("conn", &[0; 4]), ("topic", b"/robots")], &counted(b"type=nav_msgs/Odometry"));
+    for idx in 0..3 {
+        for child in ["one", "two"] {
+            chunk.extend(record(&[("op", &[2]), ("conn", &[0; 4])], &body(idx, "map", Some(child), false)));
+        }
+    }
+    let bytes = [b"#ROSBAG V2.0\n".to_vec(), chunk].concat();
+    let error = topic("a.bag", &bytes, "/robots").unwrap_err().to_string();
+    assert!(error.ends_with("expected one of /robots:map.one (3), /robots:map.two (3)"), "{error}");
+    assert_poses(&topic("a.bag", &bytes, "/robots:map.two").unwrap());
+}
+
+#[test]
+fn a_header_has_a_limit() {
+    let long = vec![b'x'; 70_000];
+    let bytes = [b"#ROSBAG V2.0\n".to_vec(), record(&[("op", &[3]), ("x", &long)], b"")].concat();
+    let error = topic("a.bag", &bytes, "").unwrap_err().to_string();
+    assert!(error.contains("expected at most 65536"), "{error}");
+}
