@@ -131,7 +131,7 @@ fn carry_on(direction: &mut Direction, subjects: &mut Vec<u32>) {
             step.end.subjects.clone_from(subjects);
         }
         // A turn begins at the picture that is there.
-        if turns(step.movement)
+        if step.movement.looks_elsewhere()
             && !step.end.subjects.is_empty()
             && !subjects.is_empty()
             && step.start.subjects != *subjects
@@ -142,10 +142,6 @@ fn carry_on(direction: &mut Direction, subjects: &mut Vec<u32>) {
             subjects.clone_from(&step.end.subjects);
         }
     }
-}
-
-fn turns(movement: Move) -> bool {
-    matches!(movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan)
 }
 
 /// Whether a move is about a subject even where its words name none.

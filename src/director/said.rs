@@ -115,7 +115,7 @@ pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
 
 /// Whether a move goes to its subject, or stays before it, and so passes nothing else.
 fn stays_before_subject(movement: Move) -> bool {
-    matches!(
+    let circles_or_nears = matches!(
         movement,
         Move::PushIn
             | Move::PullOut
@@ -124,16 +124,12 @@ fn stays_before_subject(movement: Move) -> bool {
             | Move::DollyZoomIn
             | Move::DollyZoomOut
             | Move::Static
-            | Move::PanLeft
-            | Move::PanRight
-            | Move::TiltUp
-            | Move::TiltDown
-            | Move::WhipPan
             | Move::OrbitLeft
             | Move::OrbitRight
             | Move::ArcLeft
             | Move::ArcRight
-    )
+    );
+    circles_or_nears || movement.looks_elsewhere()
 }
 
 /// The move that a verb at word `at` and the direction after it say, and the word for the other direction.

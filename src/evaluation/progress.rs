@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 
 use super::Trajectory;
 use super::named_move::aimed_at;
-use cinesplat_geometry::{LevelAngles, LevelFrame};
+use cinesplat_geometry::{LevelAngles, LevelFrame, rotation};
 use cinesplat_trajectory::Move;
 
 /// Largest way back, over the whole way.
@@ -98,8 +98,7 @@ fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut found: Vec<f64> = Vec::new();
     for angle in angles {
         let last = found.last().copied().unwrap_or(angle);
-        let (sin, cos) = (angle - last).sin_cos();
-        found.push(last + sin.atan2(cos));
+        found.push(last + rotation::short_turn(angle - last));
     }
     found
 }

@@ -8,7 +8,7 @@ use super::effects::effect_words;
 use super::error::LanguageError;
 use super::known_words::KnownWords;
 use super::lexicon::Lexicon;
-use super::linked::{Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
+use super::linked::{Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, OBJECT};
 use super::names::{NameIndex, NameMatch, NamedObject, display_name};
 use super::numbered::numbered_mention_at;
 use super::quantity::{is_unread_number, quantity_at};
@@ -182,7 +182,7 @@ impl Linker<'_> {
     fn is_after_preposition_of_place(&self) -> bool {
         let mut last = self.linked.tokens_text.rsplit(' ');
         let (first, second) = (last.next().unwrap_or_default(), last.next().unwrap_or_default());
-        let is_object = |word: &str| word.starts_with("<obj-");
+        let is_object = |word: &str| word.starts_with(OBJECT);
         match (second, first) {
             ("next", "to") | ("front" | "top", "of") => true,
             (_, "on" | "by" | "near" | "beside" | "behind" | "in" | "under" | "at" | "above" | "with" | "inside") => {

@@ -10,6 +10,15 @@ pub const MAX_PROMPT_BYTES: usize = 8192;
 pub const MAX_SLOTS: usize = 100;
 /// Limit on the quantities of a prompt; further ones stay words.
 pub const MAX_QUANTITIES: usize = 32;
+/// How the placeholders of objects and quantities begin.
+pub(crate) const OBJECT: &str = "<obj-";
+pub(crate) const QUANTITY: &str = "<qty-";
+
+/// The number of a placeholder that begins so.
+pub(crate) fn slot_of(word: &str, opening: &str) -> Option<usize> {
+    word.strip_prefix(opening)?.strip_suffix('>')?.parse().ok()
+}
+
 /// A prompt with its objects and quantities replaced by placeholders, as the model reads it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Linked {

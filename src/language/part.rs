@@ -1,6 +1,6 @@
 //! A part of a linked prompt as a prompt of its own.
 
-use super::linked::Linked;
+use super::linked::{Linked, OBJECT, QUANTITY, slot_of};
 
 /// Pronouns that stand for the subject of the part before.
 const PRONOUNS: [&str; 5] = ["it", "them", "that", "this", "those"];
@@ -10,15 +10,15 @@ impl Linked {
     /// pronouns stand for `antecedent`, the id of an object or group.
     #[must_use]
     pub fn part(&self, bytes: [usize; 2], antecedent: Option<u32>) -> Self {
-        let names_object = self.words_in(bytes).any(|(word, _)| word.starts_with("<obj-"));
+        let names_object = self.words_in(bytes).any(|(word, _)| word.starts_with(OBJECT));
         let antecedent = antecedent.filter(|_| !names_object);
         let mut part = Self { groups: self.groups.clone(), unknown: self.unknown.clone(), ..Self::default() };
         for (word, span) in self.words_in(bytes) {
-            let id = match slot_of(word, "<obj-") {
+            let id = match slot_of(word, OBJECT) {
                 Some(slot) => self.slots.get(slot).copied(),
                 None => antecedent.filter(|_| PRONOUNS.contains(&word)),
             };
-            let quantity = slot_of(word, "<qty-").and_then(|slot| self.quantities.get(slot));
+            let quantity = slot_of(word, QUANTITY).and_then(|slot| self.quantities.get(slot));
             let text = match (id, quantity) {
                 (Some(id), _) => {
                     let known = part.slots.iter().position(|known| *known == id);
@@ -45,7 +45,7 @@ impl Linked {
 
     /// The id that a placeholder of an object stands for.
     pub fn slot_at(&self, word: &str) -> Option<u32> {
-        self.slots.get(slot_of(word, "<obj-")?).copied()
+        self.slots.get(slot_of(word, OBJECT)?).copied()
     }
 
     /// The id that stands for some objects: that of an object, or of a group that the prompt names.
@@ -61,9 +61,4 @@ impl Linked {
                 .or(objects.first().copied()),
         }
     }
-}
-
-/// The number of a placeholder.
-fn slot_of(word: &str, opening: &str) -> Option<usize> {
-    word.strip_prefix(opening)?.strip_suffix('>')?.parse().ok()
 }

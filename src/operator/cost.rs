@@ -1,5 +1,7 @@
 //! The cost of a motion segment: violated constraints, clearance, the captured region, and the quality of the pictures.
 
+use glam::DVec3;
+
 use super::captured_side::{back_cost, off_front_cost};
 use super::clearance::{ClearanceQuery, least_clearance};
 use super::constraint::{Constraint, ConstraintKind};
@@ -85,13 +87,11 @@ fn clearance_cost(world: &World, path: &CameraPath) -> f64 {
 /// core box.
 fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     let position = |state: &CameraState| state.pose.position;
-    let sunk = states.iter().map(|s| world.sunk_frac(position(s))).fold(0.0, f64::max);
-    if sunk > 0.0 && world.is_indoor() {
-        return LEFT_ROOM_COST + 20.0 * sunk.min(0.4) + outside_cost(world, states);
-    }
-    let beyond = states.iter().map(|s| world.beyond_corner_frac(position(s))).fold(0.0, f64::max);
-    if beyond > 0.0 && world.is_indoor() {
-        return LEFT_ROOM_COST + 20.0 * beyond.min(0.4) + outside_cost(world, states);
+    let most = |frac: fn(&World, DVec3) -> f64| states.iter().map(|s| frac(world, position(s))).fold(0.0, f64::max);
+    let sunk = most(World::sunk_frac);
+    let beyond_room = if sunk > 0.0 { sunk } else { most(World::beyond_corner_frac) };
+    if beyond_room > 0.0 && world.is_indoor() {
+        return LEFT_ROOM_COST + 20.0 * beyond_room.min(0.4) + outside_cost(world, states);
     }
     let uncaptured =
         states.iter().filter(|s| !world.in_capture_region(position(s))).count() as f64 / states.len() as f64;
@@ -101,15 +101,14 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     }
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
     let wrong = ends.iter().filter(|s| !world.sees_front_faces(position(s))).count();
-    let outside = states.iter().map(|s| world.outside_frac(position(s))).fold(0.0, f64::max);
+    let outside = most(World::outside_frac);
     3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
 }
 
 /// Cost of a segment that leaves the captured region of a room, under its floor or behind its walls: more than that of two
 /// violated constraints, because nobody keeps a film of the backs of walls.
 const LEFT_ROOM_COST: f64 = 24.0;
-/// Cost per end of a segment that lies outside the captured region of a room: where no camera meets all the words, the
-/// film still stays in the room.
+/// Cost of an end of a segment outside the captured region of a room.
 const OUTSIDE_COST: f64 = 12.0;
 
 /// Cost of the ends of a segment outside the captured region of a room, from where its walls are seen from behind: where
@@ -118,19 +117,22 @@ fn outside_cost(world: &World, states: &[CameraState]) -> f64 {
     let ends = [&states[0], &states[states.len() - 1]];
     let is_outside = |state: &&&CameraState| {
         let position = state.pose.position;
-        world.sunk_frac(position) > 0.0
-            || world.beyond_corner_frac(position) > 0.0
-            || !world.in_capture_region(position)
+        is_beyond_room(world, position) || !world.in_capture_region(position)
     };
     if world.is_indoor() { OUTSIDE_COST * ends.iter().filter(is_outside).count() as f64 } else { 0.0 }
+}
+
+/// Whether a point lies under the floor, or beyond a corner of the room.
+fn is_beyond_room(world: &World, point: DVec3) -> bool {
+    world.sunk_frac(point) > 0.0 || world.beyond_corner_frac(point) > 0.0
 }
 
 /// Share of the states inside the captured region, seeing front faces.
 pub(super) fn captured_frac(world: &World, states: &[CameraState]) -> f64 {
     let good = |s: &&CameraState| {
         let p = s.pose.position;
-        let inside = world.sunk_frac(p) <= 0.0 && world.beyond_corner_frac(p) <= 0.0;
-        world.in_capture_region(p) && world.sees_front_faces(p) && (inside || !world.is_indoor())
+        let inside = !(world.is_indoor() && is_beyond_room(world, p));
+        world.in_capture_region(p) && world.sees_front_faces(p) && inside
     };
     states.iter().filter(good).count() as f64 / states.len() as f64
 }

@@ -139,7 +139,7 @@ impl Flow {
     }
 
     /// Where the words ask for a change of speed, a straight move alone in its shot changes it all the way: a ramp at one end
-    /// would not show. A move that flows on keeps its cruise.
+    /// would not show. A move that flows on keeps its cruise. Whip pans change it all the way too, with no jolt.
     fn change_speed_throughout(&mut self) {
         for nth in 0..self.segments.len() {
             let begins = nth == 0 || self.segments[nth].cut;

@@ -177,11 +177,8 @@ fn begin_turns(prompt: &str, steps: &mut [Step]) {
         let words = step.words.and_then(|[from, to]| prompt.get(from..to)).unwrap_or_default().to_lowercase();
         words.split(|c: char| !c.is_alphanumeric()).any(|word| STANDS.contains(&word))
     };
-    let turns = |movement: Move| {
-        matches!(movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan)
-    };
-    for step in steps.iter_mut().filter(|step| turns(step.movement) && step.start.subjects.is_empty() && !stands(step))
-    {
+    let begins = |step: &&mut Step| step.movement.looks_elsewhere() && step.start.subjects.is_empty() && !stands(step);
+    for step in steps.iter_mut().filter(begins) {
         if let Some(via) = step.via.take_if(|via| via.how == Pass::From) {
             step.start.subjects = via.objects;
         }

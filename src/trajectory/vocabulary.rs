@@ -67,6 +67,11 @@ pub enum Move {
 }
 
 impl Move {
+    /// Whether the camera turns in place to look elsewhere: pans, tilts, whip pans.
+    pub fn looks_elsewhere(self) -> bool {
+        matches!(self, Self::PanLeft | Self::PanRight | Self::TiltUp | Self::TiltDown | Self::WhipPan)
+    }
+
     /// The same move in the other direction; `None` for a move without one.
     pub fn opposite(self) -> Option<Self> {
         let pairs = [

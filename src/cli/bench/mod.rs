@@ -11,6 +11,7 @@ mod promises;
 mod render;
 mod scaling;
 mod scenes;
+mod temporary_film;
 
 use crate::cli::failure::Failure;
 

@@ -13,7 +13,7 @@ use cinesplat_lens::{Call, Source};
 
 use super::error::LanguageError;
 use super::lexicon::Lexicon;
-use super::linked::Linked;
+use super::linked::{Linked, OBJECT};
 use super::tokenizer::{Word, span_of, tokenize};
 use lookalike::is_lookalike;
 use phrase::Found;
@@ -42,7 +42,7 @@ pub fn effect_mentions(prompt: &str, linked: &Linked) -> Result<Vec<EffectMentio
     let words = tokenize(prompt);
     let placeholders = linked.tokens_text.split(' ').zip(&linked.spans);
     let objects: Vec<[usize; 2]> =
-        placeholders.filter(|(word, _)| word.starts_with("<obj-")).map(|(_, span)| *span).collect();
+        placeholders.filter(|(word, _)| word.starts_with(OBJECT)).map(|(_, span)| *span).collect();
     let phrases = phrases_in(prompt, &words, &objects)?;
     let mut mentions: Vec<EffectMention> = Vec::new();
     let is_negated = forbidden(Table::embedded()?, &words, &phrases);

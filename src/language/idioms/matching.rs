@@ -1,6 +1,9 @@
 //! Matches a pattern against linked words.
 
+use std::sync::Arc;
+
 use crate::inflection::{VerbForm, inflect};
+use crate::linked::{OBJECT, QUANTITY, slot_of};
 use crate::quantity::{Quantity, QuantityKind};
 
 /// Most words of a gap.
@@ -12,18 +15,14 @@ const NEGATIONS: [&str; 7] = ["not", "no", "never", "without", "don", "doesn", "
 /// Most pieces that are tried at one word. No pattern needs a tenth of them for words that people write.
 const MAX_TRIED: usize = 3000;
 
-/// How the placeholders of objects and quantities begin.
-pub(super) const OBJECT: &str = "<obj-";
-pub(super) const QUANTITY: &str = "<qty-";
-
 /// A part of a pattern.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Piece {
     Word(String),
     /// A verb in any form: its forms.
     Verb([String; 3]),
-    /// The first of these that fits.
-    OneOf(Vec<Vec<Piece>>),
+    /// The first of these that fits. Patterns share their named lists.
+    OneOf(Arc<Vec<Vec<Piece>>>),
     /// An object, captured under a name.
     Object(String),
     /// A quantity of a kind, or of any, captured under a name.
@@ -101,7 +100,8 @@ fn run<'a>(
                 found.end += 1;
             }
             Piece::Quantity(kind, name) => {
-                let known = word.and_then(quantity_number).and_then(|nth| subject.quantities.get(nth))?;
+                let known =
+                    word.and_then(|word| slot_of(word, QUANTITY)).and_then(|nth| subject.quantities.get(nth))?;
                 if kind.is_some_and(|kind| kind != known.kind) {
                     return None;
                 }
@@ -151,10 +151,6 @@ fn may_begin(alternative: &[Piece], word: Option<&str>) -> bool {
         Some(Piece::Quantity(..)) => word.is_some_and(|word| word.starts_with(QUANTITY)),
         Some(Piece::OneOf(_) | Piece::Gap(_) | Piece::Start | Piece::End) | None => true,
     }
-}
-
-fn quantity_number(word: &str) -> Option<usize> {
-    word.strip_prefix(QUANTITY)?.strip_suffix('>')?.parse().ok()
 }
 
 fn is_joint(word: &str) -> bool {

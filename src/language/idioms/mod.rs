@@ -36,13 +36,15 @@ impl Linked {
         // The part of a timeline that a word belongs to: no idiom reaches beyond it.
         let beats = self.timeline.iter().flat_map(|timeline| &timeline.beats);
         let ends: Vec<usize> = beats.map(|beat| beat.bytes[1]).collect();
-        let part_of = |nth: usize| ends.iter().filter(|end| **end <= spans[nth][0]).count();
+        let part_of = |span: &[usize; 2]| ends.iter().filter(|end| **end <= span[0]).count();
+        let mut part_ends = Vec::with_capacity(words.len());
+        for part in spans.chunk_by(|a, b| part_of(a) == part_of(b)) {
+            part_ends.resize(part_ends.len() + part.len(), part_ends.len() + part.len());
+        }
         let mut out: Vec<String> = Vec::with_capacity(words.len());
         let mut i = 0;
         while i < words.len() {
-            let part = part_of(i);
-            let len = (i..words.len()).take_while(|nth| part_of(*nth) == part).count();
-            let Some((found, output)) = table.longest_at(&words[..i + len], i, &self.quantities) else {
+            let Some((found, output)) = table.longest_at(&words[..part_ends[i]], i, &self.quantities) else {
                 out.push(words[i].to_owned());
                 self.spans.push(spans[i]);
                 i += 1;

@@ -1,5 +1,7 @@
 //! Reads the patterns of idioms and what they stand for.
 
+use std::sync::Arc;
+
 use super::matching::Piece;
 use crate::quantity::{Quantity, QuantityKind};
 use crate::tokenizer::tokenize;
@@ -17,7 +19,7 @@ pub(super) enum Output {
 }
 
 /// Lists of alternatives by their names.
-pub(super) type Lists = std::collections::BTreeMap<String, Vec<Vec<Piece>>>;
+pub(super) type Lists = std::collections::BTreeMap<String, Arc<Vec<Vec<Piece>>>>;
 
 /// Reads a pattern; `lists` are the named ones before it.
 pub(super) fn pattern(text: &str, lists: &Lists) -> Result<Vec<Piece>, String> {
@@ -29,7 +31,7 @@ pub(super) fn pattern(text: &str, lists: &Lists) -> Result<Vec<Piece>, String> {
             "|" => open.last_mut().ok_or("`|` outside")?.push(Vec::new()),
             ")" => {
                 let group = open.pop().filter(|_| !open.is_empty()).ok_or("`)` without `(`")?;
-                push(&mut open, Piece::OneOf(group))?;
+                push(&mut open, Piece::OneOf(Arc::new(group)))?;
             }
             _ if is_plain(token) => {
                 // The words of a prompt are split in the same way: `don't` is `don` and `'t`.
@@ -45,7 +47,7 @@ pub(super) fn pattern(text: &str, lists: &Lists) -> Result<Vec<Piece>, String> {
     }
     match (open.pop(), open.is_empty()) {
         (Some(mut whole), true) if whole.len() == 1 => Ok(whole.remove(0)),
-        (Some(whole), true) => Ok(vec![Piece::OneOf(whole)]),
+        (Some(whole), true) => Ok(vec![Piece::OneOf(Arc::new(whole))]),
         _ => Err("`(` without `)`".to_owned()),
     }
 }
@@ -70,7 +72,7 @@ fn piece(token: &str, lists: &Lists) -> Result<Piece, String> {
     }
     if let Some(name) = token.strip_prefix('@') {
         let list = lists.get(name).ok_or_else(|| format!("no list `@{name}` before this line"))?;
-        return Ok(Piece::OneOf(list.clone()));
+        return Ok(Piece::OneOf(Arc::clone(list)));
     }
     if let Some(name) = token.strip_prefix('{').and_then(|rest| rest.strip_suffix('}')) {
         return Ok(capture(name));

@@ -1,11 +1,12 @@
 //! The list of idioms. `prompts/idioms.txt` describes its own format.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use super::matching::{Found, OBJECT, Piece, QUANTITY, Subject, match_at};
+use super::matching::{Found, Piece, Subject, match_at};
 use super::parse::{Lists, Output, output, pattern};
 use crate::error::LanguageError;
+use crate::linked::{OBJECT, QUANTITY};
 use crate::quantity::Quantity;
 
 const FILE: &str = "prompts/idioms.txt";
@@ -55,7 +56,7 @@ impl Table {
         if let Some((name, alternatives)) = line.strip_prefix('@').and_then(|rest| rest.split_once(" = ")) {
             let alternatives: Result<Vec<_>, _> =
                 alternatives.split(" | ").map(|alternative| pattern(alternative, lists)).collect();
-            lists.insert(name.trim().to_owned(), alternatives?);
+            lists.insert(name.trim().to_owned(), Arc::new(alternatives?));
             return Ok(());
         }
         let (left, right) =
@@ -135,7 +136,7 @@ fn first_words(pieces: &[Piece], into: &mut BTreeSet<String>) -> bool {
             Piece::OneOf(alternatives) => {
                 // An empty alternative leaves the first word to the next piece.
                 let mut is_open = false;
-                for alternative in alternatives {
+                for alternative in alternatives.iter() {
                     let is_known = first_words(alternative, into);
                     if !is_known && !alternative.is_empty() {
                         return false;

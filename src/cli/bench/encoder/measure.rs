@@ -1,5 +1,6 @@
 use std::fs;
 
+use crate::cli::bench::temporary_film::TemporaryFilm;
 use crate::cli::failure::Failure;
 use cinesplat::files::Existing;
 use cinesplat::pipeline::{self, TimeCost};
@@ -76,23 +77,21 @@ impl<'a> EncoderCase<'a> {
 
     /// Encodes the film, decodes it and compares the pictures.
     pub(super) fn encode(&self, preset: X264Preset, crf: u8) -> Result<EncoderRow, Failure> {
-        let output = std::env::temp_dir().join(format!("cinesplat-bench-{}.mp4", std::process::id()));
+        let output = TemporaryFilm::new();
         let existing = Existing::Replace;
         let video = VideoSettings { preset: Some(preset), crf, existing, ..VideoSettings::default() };
         let video = pipeline::video_of(self.shot, &(0..self.pictures.len()), &video);
         let (written, spent) = TimeCost::measure(|| {
-            let mut writer = VideoWriter::create(&output, &video)?;
+            let mut writer = VideoWriter::create(&output.0, &video)?;
             self.pictures.iter().try_for_each(|planes| writer.write_planes(planes))?;
             writer.finish()
         });
         written?;
-        let num_bytes = fs::metadata(&output).map_err(|error| Failure::io("the film", &error))?.len();
-        let ssim = self.ssim(&output);
-        // A file that stays is replaced by the next one.
-        let _ = fs::remove_file(&output);
+        let num_bytes = fs::metadata(&output.0).map_err(|error| Failure::io("the film", &error))?.len();
+        let ssim = self.ssim(&output.0)?;
         let secs = self.pictures.len() as f64 / self.shot.fps;
         let rate_kbps = num_bytes as f64 * 8e-3 / secs;
-        Ok(self.row(Step::Encode { preset, crf, rate_kbps, ssim: ssim? }, spent))
+        Ok(self.row(Step::Encode { preset, crf, rate_kbps, ssim }, spent))
     }
 
     /// Mean SSIM between some pictures and those of the film.

@@ -1,7 +1,8 @@
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
+use crate::cli::bench::temporary_film::TemporaryFilm;
 use crate::cli::failure::Failure;
 use cinesplat::files::Existing;
 use cinesplat::geometry::Camera;
@@ -185,20 +186,4 @@ fn render(
         }
     }
     Ok((pictures, sum))
-}
-
-/// Path of a film in the system's temporary folder. The file is removed on drop.
-struct TemporaryFilm(PathBuf);
-
-impl TemporaryFilm {
-    fn new() -> Self {
-        Self(std::env::temp_dir().join(format!("cinesplat-bench-{}.mp4", std::process::id())))
-    }
-}
-
-impl Drop for TemporaryFilm {
-    fn drop(&mut self) {
-        // A failed removal cannot be reported here.
-        let _ = std::fs::remove_file(&self.0);
-    }
 }

@@ -1,11 +1,11 @@
 use std::ops::ControlFlow;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::DQuat;
 
 use super::load::{Load, LoadTime};
 use super::report::{Film, Outcome, PromiseRow};
+use crate::cli::bench::temporary_film::TemporaryFilm;
 use crate::cli::failure::Failure;
 use cinesplat::files::Existing;
 use cinesplat::geometry::{Camera, Intrinsics};
@@ -122,20 +122,4 @@ pub(super) fn travel(scene: &Scene, camera: &Camera, num_frames: usize, idx: usi
     let keyframes = [0.0, 0.25, 0.5, 0.75, 1.0].map(key).to_vec();
     let scene = SceneRef { up: Some(scene.up), ..SceneRef::default() };
     Shot { scene, ..Shot::from_keyframes([width, height], RATE_FPS, duration_secs, keyframes) }
-}
-
-/// Path of a film in the system's temporary folder. The file is removed on drop.
-struct TemporaryFilm(PathBuf);
-
-impl TemporaryFilm {
-    fn new() -> Self {
-        Self(std::env::temp_dir().join(format!("cinesplat-promises-{}.mp4", std::process::id())))
-    }
-}
-
-impl Drop for TemporaryFilm {
-    fn drop(&mut self) {
-        // A failed removal cannot be reported here.
-        let _ = std::fs::remove_file(&self.0);
-    }
 }

@@ -265,8 +265,7 @@ impl<'a> Composer<'a> {
     /// Sets the focus to what the camera looks at after a step.
     fn update_focus(&mut self, step: &Step) {
         let via = step.via.as_ref().map(|via| via.objects.clone()).filter(|ids| ids.len() == 1);
-        let turns_away =
-            matches!(step.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan);
+        let turns_away = step.movement.looks_elsewhere();
         let stays = matches!(
             step.movement,
             Move::Static | Move::RollCw | Move::RollCcw | Move::ZoomIn | Move::ZoomOut | Move::PushIn
