@@ -10,6 +10,9 @@ use cinesplat_trajectory::{Move, ShotSize};
 use crate::direction::Direction;
 use crate::error::DirectorError;
 
+/// Words that begin a part that holds where the part before arrives.
+const LANDS: [&str; 6] = ["land", "lands", "settle", "settles", "rest", "rests"];
+
 /// Reads the parts of `linked`, which is a timeline, each with `read`.
 ///
 /// # Errors
@@ -38,6 +41,12 @@ pub(crate) fn direct_beats(
     for beat in &timeline.beats {
         let part = linked.part(beat.bytes, linked.id_of(&subjects));
         let mut direction = read(&part)?;
+        if let Some(first) = direction.program.steps.first_mut().filter(|first| first.movement == Move::Follow) {
+            let opening = part.tokens_text.split(' ').find(|word| word.starts_with(char::is_alphabetic));
+            if opening.is_some_and(|word| LANDS.contains(&word)) {
+                first.movement = Move::Static;
+            }
+        }
         land(&mut whole.program.steps, &direction.program.steps);
         carry_on(&mut direction, &mut subjects);
         let stated = direction.program.duration_secs;

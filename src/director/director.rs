@@ -20,7 +20,9 @@ use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::network::PromptBatch;
-use crate::said::{drop_descriptions, take_said_directions};
+use crate::said::{
+    complete_framings, drop_descriptions, open_unstated_directions, reverse_retraced, take_said_directions,
+};
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -122,7 +124,8 @@ impl Director {
     /// The program and cameras of a prompt that is read as a whole.
     fn direct_part(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
         let others = other_objects(scene.objects, &linked.expanded(&linked.slots));
-        let (tokens, grounding) = encode_text(linked, &others, &self.model.vocabulary)?;
+        let senses = linked.senses()?;
+        let (tokens, grounding) = encode_text(linked, &senses, &others, &self.model.vocabulary)?;
         // A group looks like its first member.
         let object = |id: &u32| {
             let id = linked.expanded(&[*id]).first().copied()?;
@@ -145,7 +148,10 @@ impl Director {
             certainty.probability = self.model.calibration.apply(certainty.probability);
         }
         take_said_directions(linked, &mut direction.program.steps);
+        reverse_retraced(linked, &mut direction.program.steps);
+        open_unstated_directions(linked, &mut direction.program.steps)?;
         drop_descriptions(linked, &mut direction.program.steps);
+        complete_framings(&mut direction.program.steps);
         // What the scene lacks stays a group, so that callers can tell it.
         direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)

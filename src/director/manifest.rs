@@ -1,6 +1,7 @@
 //! The description of a model: `director.json`.
 
 use cinesplat_files::sha256_hex;
+use cinesplat_language::sense_names;
 use cinesplat_operator::{FramePlace, Motion, Pass, Speed, SubjectPart, SubjectSide};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 use serde::{Deserialize, Serialize};
@@ -28,6 +29,9 @@ pub(crate) struct Manifest {
     pub(crate) config: ModelConfig,
     /// Names of all classes in order, so that weights trained for other classes are rejected.
     choices: Vec<String>,
+    /// Names of the senses of words in order, for the same reason; empty for a network that knows none.
+    #[serde(default)]
+    senses: Vec<String>,
     /// Calibration of the probabilities.
     #[serde(default)]
     pub(crate) calibration: Calibration,
@@ -46,6 +50,7 @@ impl Manifest {
             name: name.into(),
             config: config.clone(),
             choices: choices(),
+            senses: if config.senses > 0 { senses() } else { Vec::new() },
             calibration: Calibration::default(),
             weights_sha256: sha256_hex(weights),
             tokenizer_sha256: sha256_hex(tokenizer),
@@ -70,6 +75,10 @@ impl Manifest {
         }
         if manifest.choices != choices() {
             return Err(bad(&"choices of another version", &"the moves, sizes and angles of this program"));
+        }
+        if manifest.senses.len() != manifest.config.senses || !manifest.senses.is_empty() && manifest.senses != senses()
+        {
+            return Err(bad(&"senses of words of another version", &"those of prompts/senses.txt"));
         }
         Ok(manifest)
     }
@@ -98,6 +107,11 @@ fn choices() -> Vec<String> {
     let motions = Motion::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
     let of_moves = moves.chain(sizes).chain(angles).chain(easings).chain(parts).chain(passes).chain(speeds);
     of_moves.chain(places).chain(sides).chain(motions).collect()
+}
+
+/// Names of the senses of words that the network takes as input. A damaged list is reported where words are read.
+fn senses() -> Vec<String> {
+    sense_names().map(<[String]>::to_vec).unwrap_or_default()
 }
 
 fn bad(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {

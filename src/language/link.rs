@@ -48,7 +48,7 @@ pub fn link(prompt: &str, objects: &[NamedObject]) -> Result<Linked, LanguageErr
         return Err(LanguageError::TooLong { found: prompt.len(), limit: MAX_PROMPT_BYTES });
     }
     let words = tokenize(prompt);
-    if !words.iter().any(|word| word.text.starts_with(char::is_alphanumeric)) {
+    if !words.iter().any(|word| word.text.contains(char::is_alphanumeric)) {
         return Err(LanguageError::Empty);
     }
     let lexicon = Lexicon::embedded()?;

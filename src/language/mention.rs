@@ -30,7 +30,7 @@ pub fn check_prompt(prompt: &str) -> Result<(), LanguageError> {
     if prompt.len() > MAX_PROMPT_BYTES {
         return Err(LanguageError::TooLong { found: prompt.len(), limit: MAX_PROMPT_BYTES });
     }
-    if !tokenize(prompt).iter().any(|word| word.text.starts_with(char::is_alphanumeric)) {
+    if !tokenize(prompt).iter().any(|word| word.text.contains(char::is_alphanumeric)) {
         return Err(LanguageError::Empty);
     }
     Ok(())
@@ -56,7 +56,7 @@ pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, Langu
             let inside = |word: &&Word| span_of(std::slice::from_ref(*word))[0] < mention.bytes[1];
             let len = words[i..].iter().take_while(inside).count().max(1);
             let slot = linked.slot_of(mention, prompt)?;
-            linked.append(&format!("<obj-{slot}>"), &words[i..i + len]);
+            linked.append_mention(slot, &words[i..i + len], mention.ids.len() == 1);
             i += len;
             continue;
         }
@@ -74,6 +74,38 @@ pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, Langu
     Ok(linked)
 }
 
+/// Parts of a thing that a camera can look at, start from or end on.
+const PARTS: &str = "top tops bottom bottoms foot feet base head tip tips crown peak rim brim lid roof edge edges side sides \
+    front back backs rear corner corners end ends middle center centre part section handle neck nose face seat stem trunk \
+    underside surface apex tail";
+/// Fractions of a thing, after a word that says which: `the upper half`.
+const FRACTIONS: &str = "half halves third";
+const WHICH: &str = "top bottom left right upper lower middle front back";
+/// First words of what a mention chooses from: `the middle of the three`.
+const CHOICES: &str = "them these those all both two three four five six seven eight nine ten";
+
+fn is_in(list: &str, word: &Word) -> bool {
+    list.split_ascii_whitespace().any(|known| known == word.text)
+}
+
+/// Number of words with which a mention of one thing names a part of it: 3 in `the top of the pipes`, 0 in others.
+fn part_before(words: &[Word]) -> usize {
+    let Some(of) = words.iter().take(4).position(|word| word.text == "of").filter(|of| *of > 0) else { return 0 };
+    let is_fraction = is_in(FRACTIONS, &words[of - 1]) && of > 1 && is_in(WHICH, &words[of - 2]);
+    let whole: Vec<&Word> = words[of + 1..].iter().skip_while(|word| word.text == "the").collect();
+    let chooses = |word: &&Word| is_in(CHOICES, word) || !word.is_alphabetic();
+    let names_part = is_fraction || is_in(PARTS, &words[of - 1]);
+    if names_part && whole.first().is_some_and(|word| !chooses(word)) { of + 1 } else { 0 }
+}
+
+/// Number of words with which a mention of one thing ends in a part of it: 2 in `the chair's back`, 0 in others.
+fn part_behind(words: &[Word]) -> usize {
+    match words {
+        [_, .., mark, part] if mark.text == "'s" && is_in(PARTS, part) => 2,
+        _ => 0,
+    }
+}
+
 impl Linked {
     /// The slot of a mention's object or group, a new one at its first mention.
     fn slot_of(&mut self, mention: &Mention, prompt: &str) -> Result<usize, LanguageError> {
@@ -89,6 +121,17 @@ impl Linked {
         }
         self.slots.push(id);
         Ok(self.slots.len() - 1)
+    }
+
+    /// Appends a mention. The words that name a part of one thing stay, because they say where to look.
+    fn append_mention(&mut self, slot: usize, words: &[Word], is_one: bool) {
+        let before = if is_one { part_before(words) } else { 0 };
+        let behind = if is_one && before == 0 { part_behind(words) } else { 0 };
+        let (part, rest) = words.split_at(before);
+        let (thing, part_of_thing) = rest.split_at(rest.len() - behind);
+        part.iter().for_each(|word| self.append(&word.text, std::slice::from_ref(word)));
+        self.append(&format!("<obj-{slot}>"), thing);
+        part_of_thing.iter().for_each(|word| self.append(&word.text, std::slice::from_ref(word)));
     }
 
     /// Id of the group of a mention. Two things that the scene lacks are the same if their words are.

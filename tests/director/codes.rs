@@ -18,7 +18,7 @@ fn sampled_keys(seed: u64, count: usize, vocabulary: &Vocabulary) -> Vec<(Vec<Ke
         let objects = sampler.invent_objects(6, &mut rng);
         let labeled = sampler.sample(&objects, &mut rng);
         let linked = link(&labeled.prompt, &objects).unwrap();
-        let (_, grounding) = encode_text(&linked, &[], vocabulary).unwrap();
+        let (_, grounding) = encode_text(&linked, &linked.senses().unwrap(), &[], vocabulary).unwrap();
         (keys_of(&labeled.program), grounding)
     };
     (0..count).map(&mut sample).collect()

@@ -30,6 +30,24 @@ fn a_direction_beside_the_verb_is_the_direction_of_the_move() {
 }
 
 #[test]
+fn a_direction_that_nobody_said_is_open() {
+    for prompt in ["circle the microwave", "slide along the microwave", "sweep your gaze across the microwave"] {
+        let found = moves(prompt);
+        assert!(found[0].0.opposite().is_some() && found[0].1, "{prompt}: {found:?}");
+    }
+}
+
+#[test]
+fn a_way_back_goes_against_the_way_there() {
+    let found =
+        moves("Rotate round the microwave 30 degrees to the left, freeze for 2 seconds, then retrace the same curve.");
+    assert_eq!(
+        found.iter().map(|(movement, _)| *movement).collect::<Vec<_>>(),
+        [Move::OrbitLeft, Move::Static, Move::OrbitRight]
+    );
+}
+
+#[test]
 fn where_a_thing_is_says_no_way_past_it() {
     let director = Director::embedded().unwrap();
     let boxed =

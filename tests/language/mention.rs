@@ -45,3 +45,31 @@ fn things_that_the_scene_lacks_are_the_same_if_their_words_are() {
     assert_eq!(linked.missing(linked.slots[0]).unwrap().name, "fountain");
     assert_eq!(linked.tokens_text.matches("<obj-0>").count(), 2);
 }
+
+#[test]
+fn the_words_for_a_part_of_a_thing_stay_words() {
+    for (words, plain) in [
+        ("the top of the pipes", "tilt to the top of <obj-0>"),
+        ("the left side of the desk", "tilt to the left side of <obj-0>"),
+        ("the upper half of the bed", "tilt to the upper half of <obj-0>"),
+        ("the chair's back", "tilt to <obj-0> 's back"),
+        // No parts: one of several things, and a name with `of`.
+        ("the middle of the three", "tilt to <obj-0>"),
+        ("the middle of the 3 chairs", "tilt to <obj-0>"),
+        ("the third of the lamps", "tilt to <obj-0>"),
+        ("the stack of plates", "tilt to <obj-0>"),
+    ] {
+        let prompt = format!("tilt to {words}");
+        let linked = link_mentions(&prompt, &[mention(&prompt, words, &[3])]).unwrap();
+        assert_eq!(linked.tokens_text, plain);
+    }
+    let prompt = "the top of the three lamps";
+    let several = link_mentions(prompt, &[mention(prompt, prompt, &[1, 2, 3])]).unwrap();
+    assert_eq!(several.tokens_text, "<obj-0>");
+}
+
+#[test]
+fn a_number_with_its_point_first_is_a_word() {
+    assert_eq!(link_mentions(".0-", &[]).unwrap().tokens_text, ".0");
+    assert!(link_mentions(" -, !", &[]).is_err());
+}

@@ -18,6 +18,7 @@ mod notation;
 mod plain;
 mod prompt_sampler;
 mod quantity;
+mod senses;
 mod timeline;
 
 /// Asserts that linking found exactly the objects and quantities that a program names, in any order.

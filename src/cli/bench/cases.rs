@@ -157,7 +157,10 @@ impl CaseDirector {
         let opened = &self.scenes[&(case.scene.clone(), case.objects.clone())];
         let interpreter =
             self.interpreter.as_ref().ok_or_else(|| Failure::usage("programs of cases", "leave --intents out"))?;
-        let settings = DirectSettings { seed: self.seed, ..settings.clone() };
+        let mut settings = DirectSettings { seed: self.seed, ..settings.clone() };
+        if let Some((size_px, _)) = pipeline::stated_size(&case.prompt, &opened.objects) {
+            [settings.width, settings.height] = size_px;
+        }
         Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, interpreter, &settings)?)
     }
 

@@ -1,5 +1,6 @@
 //! One prompt with its objects, before it is padded into a batch.
 
+use cinesplat_language::Senses;
 use glam::DVec3;
 
 /// One prompt with its objects, in the frame of a [`SceneFrame`](crate::SceneFrame).
@@ -26,6 +27,8 @@ pub struct TokenInput {
     pub quantity: Option<usize>,
     /// Kind of that quantity, from 1; 0 for other tokens.
     pub kind: u32,
+    /// Senses of its word.
+    pub senses: Senses,
     /// Natural logarithm of that quantity over 5, about -1.4..=1.9; 0 for other tokens.
     pub value: f32,
 }

@@ -1,14 +1,14 @@
 //! A linked prompt as tokens.
 
-use cinesplat_language::{Linked, Quantity, QuantityKind};
+use cinesplat_language::{Linked, Quantity, QuantityKind, Senses};
 
 use super::grounding::{Grounding, TokenSource};
 use super::prompt::TokenInput;
 use super::vocabulary::{BEGIN, Token, Vocabulary};
 use crate::error::DirectorError;
 
-/// Tokens of a linked prompt, and the grounding of their indices. `others` are the ids of the objects that follow the
-/// named ones in the prompt's list of objects.
+/// Tokens of a linked prompt, and the grounding of their indices. `senses` has one entry per word; `others` are the ids of the
+/// objects that follow the named ones in the prompt's list of objects.
 ///
 /// # Errors
 /// [`DirectorError::PromptTooLong`] · [`DirectorError::EmptyPrompt`] without any token ·
@@ -16,6 +16,7 @@ use crate::error::DirectorError;
 /// when the tokenizer fails.
 pub fn encode_text(
     linked: &Linked,
+    senses: &[Senses],
     others: &[u32],
     vocabulary: &Vocabulary,
 ) -> Result<(Vec<TokenInput>, Grounding), DirectorError> {
@@ -25,7 +26,8 @@ pub fn encode_text(
     let mut sources = vec![TokenSource { bytes: [0, 0], word: None, quantity: None }];
     for token in tokens {
         let word_idx = word_starts.partition_point(|start| *start <= token.bytes[0]).saturating_sub(1);
-        let input = token_input(token, &linked.quantities);
+        let senses = senses.get(word_idx).copied().unwrap_or_default();
+        let input = TokenInput { senses, ..token_input(token, &linked.quantities) };
         let bytes = linked.spans.get(word_idx).copied().unwrap_or([0, 0]);
         sources.push(TokenSource { bytes, word: Some(word_idx), quantity: input.quantity });
         inputs.push(input);
@@ -46,6 +48,7 @@ fn token_input(token: Token, quantities: &[Quantity]) -> TokenInput {
         object: token.object_slot(),
         quantity: quantity.map(|(slot, _)| slot),
         kind: quantity.map_or(0, |(_, quantity)| kind_number(quantity.kind)),
+        senses: Senses::default(),
         value: quantity.map_or(0.0, |(_, quantity)| (quantity.value.clamp(1e-3, 1e4).ln() / 5.0) as f32),
     }
 }

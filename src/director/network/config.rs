@@ -27,11 +27,14 @@ pub struct ModelConfig {
     pub axis_features: usize,
     /// Number of tokens of the vocabulary.
     pub vocabulary: usize,
+    /// Number of senses of words; 0 in networks that know none.
+    #[serde(default)]
+    pub senses: usize,
 }
 
 impl ModelConfig {
-    /// The sizes of the shipped weights, for a vocabulary of this many tokens.
-    pub fn shipped(vocabulary: usize) -> Self {
+    /// The sizes of the shipped weights, for a vocabulary of this many tokens and this many senses of words.
+    pub fn shipped(vocabulary: usize, senses: usize) -> Self {
         Self {
             width: 128,
             heads: 4,
@@ -44,11 +47,12 @@ impl ModelConfig {
             pointer_width: 64,
             axis_features: 32,
             vocabulary,
+            senses,
         }
     }
 
     /// Small sizes for tests; every kind of layer is present.
-    pub fn tiny(vocabulary: usize) -> Self {
+    pub fn tiny(vocabulary: usize, senses: usize) -> Self {
         Self {
             width: 16,
             heads: 2,
@@ -61,6 +65,7 @@ impl ModelConfig {
             pointer_width: 8,
             axis_features: 8,
             vocabulary,
+            senses,
         }
     }
 
@@ -72,6 +77,7 @@ impl ModelConfig {
             && layers.iter().all(|layers| (1..=64).contains(layers))
             && self.width.is_multiple_of(self.heads)
             && self.width <= 4096
+            && self.senses <= 1024
             && self.hidden <= 16_384
             && self.axis_features.is_multiple_of(2)
             && (2..=512).contains(&self.axis_features)

@@ -18,6 +18,8 @@ pub struct PromptBatch {
     pub(super) ids: Tensor,
     /// `[batch * tokens]`
     pub(super) kinds: Tensor,
+    /// Senses of the tokens' words, each row of length 1 or 0: `[batch * tokens, senses]`
+    pub(super) senses: Tensor,
     /// `[batch, tokens, 1]`
     pub(super) values: Tensor,
     /// `[batch * tokens]`
@@ -68,6 +70,7 @@ impl PromptBatch {
             num_objects,
             ids: Tensor::from_vec(ids, size * num_tokens, cpu)?,
             kinds: Tensor::from_vec(kinds, size * num_tokens, cpu)?,
+            senses: encode_senses(tokens(), size * num_tokens, config.senses)?,
             values: Tensor::from_vec(values, (size, num_tokens, 1), cpu)?,
             token_exists: exists(&|p| p.tokens.len(), num_tokens).into(),
             object_tokens: mentions(prompts, num_objects, num_tokens, |token| token.object)?,
@@ -80,6 +83,22 @@ impl PromptBatch {
             object_exists: exists(&|p| p.objects.len(), num_objects),
         })
     }
+}
+
+/// The senses of all tokens, each row of length 1 or 0: `[num_tokens, num_senses]`
+fn encode_senses<'a>(
+    tokens: impl Iterator<Item = Option<&'a TokenInput>>,
+    num_tokens: usize,
+    num_senses: usize,
+) -> Result<Tensor> {
+    let mut rows = vec![0.0_f32; num_tokens * num_senses];
+    for (token, row) in tokens.zip(rows.chunks_exact_mut(num_senses.max(1))) {
+        let senses = token.map(|token| token.senses).unwrap_or_default();
+        let known: Vec<usize> = senses.indices().filter(|index| *index < num_senses).collect();
+        let length = (known.len() as f32).sqrt();
+        known.into_iter().for_each(|index| row[index] = length.recip());
+    }
+    Tensor::from_vec(rows, (num_tokens, num_senses), &Device::Cpu)
 }
 
 /// Per object or quantity, equal weights on the tokens that name it: `[batch, items, tokens]`. `item_of` gives the index of

@@ -18,6 +18,8 @@ pub(super) struct TextEncoder {
     /// `[NUM_KINDS, width]`
     kinds: Tensor,
     value: Linear,
+    /// `[senses, width]`, if the network knows senses.
+    senses: Option<Tensor>,
     layers: Vec<(AttentionLayer, FeedForward)>,
     norm: Norm,
 }
@@ -35,6 +37,10 @@ impl TextEncoder {
             table: parameters.get("text.table", &[config.vocabulary, width], Start::Normal(0.5))?,
             kinds: parameters.get("text.kinds", &[NUM_KINDS, width], Start::Normal(0.5))?,
             value: Linear::new(parameters, "text.value", 1, width)?,
+            senses: match config.senses {
+                0 => None,
+                num => Some(parameters.get("text.senses", &[num, width], Start::Constant(0.0))?),
+            },
             layers: (0..config.text_layers).map(|idx| layer(idx, parameters)).collect::<Result<_>>()?,
             norm: Norm::new(parameters, "text.norm", width)?,
         })
@@ -53,7 +59,11 @@ impl TextEncoder {
         let words = self.rows(&batch.ids)?.reshape(shape)?; // [batch, tokens, width]
         let kinds = self.kinds.index_select(&batch.kinds, 0)?.reshape(shape)?; // [batch, tokens, width]
         let values = self.value.apply(&batch.values)?;
-        let mut states = ((words + kinds)? + values)?.broadcast_add(&positions(batch.num_tokens, width)?)?;
+        let mut inputs = ((words + kinds)? + values)?;
+        if let Some(senses) = &self.senses {
+            inputs = (inputs + batch.senses.matmul(senses)?.reshape(shape)?)?;
+        }
+        let mut states = inputs.broadcast_add(&positions(batch.num_tokens, width)?)?;
         let all = Visibility { exists: batch.token_exists.clone(), causal: false };
         for (attention, feed) in &self.layers {
             states = feed.apply(&attention.apply(&states, None, &all, dropout)?, dropout)?;

@@ -2,12 +2,15 @@
 
 use cinesplat_director::codes::PoseCode;
 use cinesplat_director::inputs::{NUM_OBJECT_SLOTS, Prompt, object_token};
-use cinesplat_language::Linked;
+use cinesplat_language::{LanguageError, Linked, Senses};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 
 use super::phrases::Phrases;
+
+/// Stands for a word that cannot be read: no vocabulary has this character.
+const HIDDEN: &str = "\u{fffd}";
 
 /// Rates of augmentation. All fractions are 0..=1.
 #[allow(clippy::struct_field_names, reason = "fractions carry their unit")]
@@ -17,6 +20,8 @@ pub(super) struct Augmentation {
     pub(super) examples_frac: f64,
     /// Fraction of the words that are changed in such an example.
     pub(super) words_frac: f64,
+    /// Fraction of the words with senses that are hidden in such an example.
+    pub(super) hidden_frac: f64,
     /// Fraction of the examples whose objects get random identifiers instead of 0, 1, ..
     pub(super) slots_frac: f64,
     /// Fraction of the examples in which phrases are exchanged for others of the same meaning.
@@ -27,32 +32,56 @@ pub(super) struct Augmentation {
 
 impl Augmentation {
     /// No change.
-    pub(super) const NONE: Self =
-        Self { examples_frac: 0.0, words_frac: 0.0, slots_frac: 0.0, exchanged_frac: 0.0, phrases_frac: 0.0 };
+    pub(super) const NONE: Self = Self {
+        examples_frac: 0.0,
+        words_frac: 0.0,
+        hidden_frac: 0.0,
+        slots_frac: 0.0,
+        exchanged_frac: 0.0,
+        phrases_frac: 0.0,
+    };
 }
 
 impl Default for Augmentation {
     fn default() -> Self {
-        Self { examples_frac: 0.5, words_frac: 0.07, slots_frac: 0.2, exchanged_frac: 0.6, phrases_frac: 0.5 }
+        Self {
+            examples_frac: 0.6,
+            words_frac: 0.06,
+            hidden_frac: 0.15,
+            slots_frac: 0.2,
+            exchanged_frac: 0.6,
+            phrases_frac: 0.5,
+        }
     }
 }
 
 impl Augmentation {
-    /// The linked prompt with some words misspelled, replaced or made unreadable. The number of words stays the same.
-    /// `known_words` are the source of invented words.
-    pub(super) fn words(&self, linked: &Linked, known_words: &[String], rng: &mut Pcg64) -> Linked {
+    /// The linked prompt with some words misspelled, replaced or made unreadable, and the senses of its words. The number of
+    /// words stays the same. `known_words` are the source of invented words. A word that is hidden keeps its senses, so that
+    /// the network learns to read words by their senses alone; other changed words keep none.
+    pub(super) fn words(
+        &self,
+        linked: &Linked,
+        known_words: &[String],
+        rng: &mut Pcg64,
+    ) -> Result<(Linked, Vec<Senses>), LanguageError> {
+        let mut senses = linked.senses()?;
         if !rng.random_bool(self.examples_frac) {
-            return linked.clone();
+            return Ok((linked.clone(), senses));
         }
-        let words = linked.tokens_text.split(' ').map(|word| {
+        let words = linked.tokens_text.split(' ').zip(&mut senses).map(|(word, senses)| {
             let plain = word.chars().all(char::is_alphabetic);
-            if plain && rng.random_bool(self.words_frac) {
-                changed_word(word, known_words, rng)
-            } else {
-                word.to_owned()
+            if plain && !senses.is_empty() && rng.random_bool(self.hidden_frac) {
+                return if rng.random_bool(0.5) { HIDDEN.to_owned() } else { invented_word(word, known_words, rng) };
             }
+            if plain && rng.random_bool(self.words_frac) {
+                *senses = Senses::default();
+                return changed_word(word, known_words, rng);
+            }
+            word.to_owned()
         });
-        Linked { tokens_text: words.collect::<Vec<_>>().join(" "), ..linked.clone() }
+        let tokens_text = words.collect::<Vec<_>>().join(" ");
+        Ok((Linked { tokens_text, ..linked.clone() }, senses))
     }
 
     /// The linked prompt with some phrases exchanged for others of the same meaning.
@@ -87,8 +116,7 @@ impl Augmentation {
 
 fn changed_word(word: &str, known_words: &[String], rng: &mut Pcg64) -> String {
     match rng.random_range(0..4) {
-        // No vocabulary has this character.
-        0 | 1 => "\u{fffd}".to_owned(),
+        0 | 1 => HIDDEN.to_owned(),
         2 => invented_word(word, known_words, rng),
         _ => misspelled(word, rng),
     }

@@ -139,8 +139,8 @@ impl ExampleSampler<'_> {
             return Ok(None);
         }
         let exchanged = self.augmentation.phrases(linked, rng);
-        let augmented = self.augmentation.words(&exchanged, self.words, rng);
-        let (tokens, grounding) = encode_text(&augmented, others, self.vocabulary)?;
+        let (augmented, senses) = self.augmentation.words(&exchanged, self.words, rng)?;
+        let (tokens, grounding) = encode_text(&augmented, &senses, others, self.vocabulary)?;
         let codes = keys.iter().enumerate().map(|(idx, key)| encode_key(key, idx == 0, &program.forbidden, &grounding));
         let Some(keys) = codes.collect::<Option<Vec<_>>>() else { return Ok(None) };
         let film_length = match program.duration_secs {

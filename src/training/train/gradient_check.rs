@@ -18,7 +18,7 @@ use crate::sampler::PromptSampler;
 use cinesplat_director::codes::PoseCode;
 use cinesplat_director::inputs::Vocabulary;
 use cinesplat_director::network::{Dropout, ModelConfig, Network, Parameters};
-use cinesplat_language::link;
+use cinesplat_language::{link, sense_names};
 
 /// Distance that a parameter moves along its gradient, in both directions.
 const STEP: f32 = 0.01;
@@ -52,7 +52,7 @@ pub struct GradientCheck {
 /// [`TrainError::NoExample`] when no example can be drawn.
 pub fn check_gradients(seed: u64, num_examples: u64, part_size: usize) -> Result<GradientCheck, TrainError> {
     let vocabulary = small_vocabulary(seed)?;
-    let config = ModelConfig::tiny(vocabulary.size());
+    let config = ModelConfig::tiny(vocabulary.size(), sense_names()?.len());
     let mut parameters = Parameters::seeded(seed);
     let network = Network::new(&mut parameters, &config)?;
     let vars = match parameters {

@@ -32,7 +32,7 @@ use cinesplat_director::inputs::Vocabulary;
 use cinesplat_director::network::{Dropout, ModelConfig, Network, Parameters};
 use cinesplat_director::{Director, ModelFiles};
 use cinesplat_files::{Existing, check_free, create_folder, write};
-use cinesplat_language::link;
+use cinesplat_language::{link, sense_names};
 
 /// Name of the checkpoint in the output folder.
 const CHECKPOINT_FILE: &str = "checkpoint.safetensors";
@@ -98,7 +98,7 @@ pub fn train(
         Some(files) if files.is_current() && !settings.new_vocabulary => files.vocabulary()?,
         _ => Vocabulary::train(&corpus, settings.vocabulary)?,
     };
-    let config = ModelConfig::shipped(vocabulary.size());
+    let config = ModelConfig::shipped(vocabulary.size(), sense_names()?.len());
     let mut parameters = Parameters::seeded(settings.seed);
     let network = Network::new(&mut parameters, &config)?;
     let vars = trainable(&mut parameters, from.as_ref(), &vocabulary)?;

@@ -1,10 +1,10 @@
-//! Directions that the words say beside the verb: `truck left`, `tilt slowly up`, `orbit to the right`.
+//! Moves and directions that the words say beside the verb: `truck left`, `tilt slowly up`, `orbit to the right`.
 //!
 //! The network sometimes turns a direction around that is said plainly. Where the verb of a step's move is followed by a
 //! direction, the step takes it.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Pass, Step};
+use cinesplat_operator::Step;
 use cinesplat_trajectory::Move;
 
 /// Words that may stand between a verb and its direction.
@@ -40,7 +40,7 @@ const PLACES: [&str; 16] = [
     "above", "after",
 ];
 /// Words of somebody who corrects himself or rules something out.
-const CORRECTIONS: [&str; 15] = [
+pub(super) const CORRECTIONS: [&str; 15] = [
     "no", "not", "don", "dont", "never", "wait", "sorry", "actually", "mean", "instead", "rather", "scratch",
     "without", "oops", "or",
 ];
@@ -76,60 +76,20 @@ fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {
             step.either_way = false;
         }
         step.with.iter_mut().filter(|other| is_opposite(other)).for_each(|other| *other = movement);
+        add_lost_move(step, movement);
     }
 }
 
-/// Words that say where a thing is, and the way past that the network may read into them.
-const PLACINGS: [(&[&str], Pass); 10] = [
-    (&["under"], Pass::Under),
-    (&["below"], Pass::Under),
-    (&["beneath"], Pass::Under),
-    (&["underneath"], Pass::Under),
-    (&["over"], Pass::Over),
-    (&["above"], Pass::Over),
-    (&["behind"], Pass::Behind),
-    (&["beside"], Pass::Past),
-    (&["next", "to"], Pass::Past),
-    (&["in", "front", "of"], Pass::Front),
-];
-
-/// Removes ways past an object that only say which thing is meant: `push in on the cupboard under the tv`.
-pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
-    for step in steps.iter_mut().filter(|step| stays_before_subject(step.movement)) {
-        let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
-        let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
-        let id_at = |at: usize| linked.slot_at(words.get(at)?);
-        let is_subject = |id: &u32| step.end.subjects.contains(id) || step.start.subjects.contains(id);
-        let describes = |at: usize, placing: &[&str]| {
-            let is_place = |id: &u32| via.objects == [*id];
-            words[at..].starts_with(placing)
-                && at.checked_sub(1).and_then(id_at).is_some_and(|id| is_subject(&id))
-                && id_at(at + placing.len()).is_some_and(|id| is_place(&id) && !is_subject(&id))
-        };
-        let mut placings = PLACINGS.iter().filter(|(_, how)| *how == via.how);
-        if placings.any(|(placing, _)| (0..words.len()).any(|at| describes(at, placing))) {
-            step.via = None;
-        }
+/// Adds a move that the words say to a step that stands still but for a roll or shake: `dutch angle on the lamp, zoom in`.
+fn add_lost_move(step: &mut Step, said: Move) {
+    let moves = || std::iter::once(&step.movement).chain(&step.with);
+    let stands = |movement: &Move| matches!(movement, Move::Static | Move::RollCw | Move::RollCcw | Move::Handheld);
+    let travels = !said.looks_elsewhere() && !matches!(said, Move::TruckLeft | Move::TruckRight);
+    if step.with.len() < 2 && travels && moves().all(stands) {
+        let before = std::mem::replace(&mut step.movement, said);
+        step.either_way = false;
+        step.with.extend(Some(before).filter(|before| *before != Move::Static));
     }
-}
-
-/// Whether a move goes to its subject, or stays before it, and so passes nothing else.
-fn stays_before_subject(movement: Move) -> bool {
-    let circles_or_nears = matches!(
-        movement,
-        Move::PushIn
-            | Move::PullOut
-            | Move::ZoomIn
-            | Move::ZoomOut
-            | Move::DollyZoomIn
-            | Move::DollyZoomOut
-            | Move::Static
-            | Move::OrbitLeft
-            | Move::OrbitRight
-            | Move::ArcLeft
-            | Move::ArcRight
-    );
-    circles_or_nears || movement.looks_elsewhere()
 }
 
 /// The move that a verb at word `at` and the direction after it say, and the word for the other direction.
@@ -158,7 +118,9 @@ fn is_form(word: &str, verb: &str) -> bool {
 /// Verbs of a family of moves, and its moves by direction.
 type Family = (&'static [&'static str], [(&'static str, Move); 2]);
 
-const FAMILIES: [Family; 8] = [
+const FAMILIES: [Family; 10] = [
+    (&["push", "dolly"], [("in", Move::PushIn), ("out", Move::PullOut)]),
+    (&["pull"], [("back", Move::PullOut), ("in", Move::PushIn)]),
     (&["pan"], [("left", Move::PanLeft), ("right", Move::PanRight)]),
     (&["tilt"], [("up", Move::TiltUp), ("down", Move::TiltDown)]),
     (&["truck", "crab"], [("left", Move::TruckLeft), ("right", Move::TruckRight)]),

@@ -1,0 +1,79 @@
+//! What the words say of where things are and how they are seen.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Pass, Step, SubjectPart};
+use cinesplat_trajectory::Move;
+
+/// Words that say where a thing is, and the way past that the network may read into them.
+const PLACINGS: [(&[&str], Pass); 10] = [
+    (&["under"], Pass::Under),
+    (&["below"], Pass::Under),
+    (&["beneath"], Pass::Under),
+    (&["underneath"], Pass::Under),
+    (&["over"], Pass::Over),
+    (&["above"], Pass::Over),
+    (&["behind"], Pass::Behind),
+    (&["beside"], Pass::Past),
+    (&["next", "to"], Pass::Past),
+    (&["in", "front", "of"], Pass::Front),
+];
+
+/// Removes ways past an object that only say which thing is meant: `push in on the cupboard under the tv`.
+pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
+    let may_pass = |step: &&mut Step| stays_before_subject(step.movement) || step.movement == Move::FlyThrough;
+    for step in steps.iter_mut().filter(may_pass) {
+        let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
+        let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
+        let id_at = |at: usize| linked.slot_at(words.get(at)?);
+        let is_subject = |id: &u32| step.end.subjects.contains(id) || step.start.subjects.contains(id);
+        let describes = |at: usize, placing: &[&str]| {
+            let is_place = |id: &u32| via.objects == [*id];
+            words[at..].starts_with(placing)
+                && at.checked_sub(1).and_then(id_at).is_some_and(|id| is_subject(&id))
+                && id_at(at + placing.len()).is_some_and(|id| is_place(&id) && !is_subject(&id))
+        };
+        let mut placings = PLACINGS.iter().filter(|(_, how)| *how == via.how);
+        if placings.any(|(placing, _)| (0..words.len()).any(|at| describes(at, placing))) {
+            step.via = None;
+            if step.movement == Move::FlyThrough {
+                step.movement = Move::PushIn;
+            }
+        }
+    }
+}
+
+/// Whether a move goes to its subject, or stays before it, and so passes nothing else.
+fn stays_before_subject(movement: Move) -> bool {
+    let circles_or_nears = matches!(
+        movement,
+        Move::PushIn
+            | Move::PullOut
+            | Move::ZoomIn
+            | Move::ZoomOut
+            | Move::DollyZoomIn
+            | Move::DollyZoomOut
+            | Move::Static
+            | Move::OrbitLeft
+            | Move::OrbitRight
+            | Move::ArcLeft
+            | Move::ArcRight
+    );
+    circles_or_nears || movement.looks_elsewhere()
+}
+
+/// Gives a framing that says how its subjects are seen, but not which, the subjects of the step's other framing, or what
+/// it passes: `tilt from the foot of the lamp post up to its lantern`.
+pub(crate) fn complete_framings(steps: &mut [Step]) {
+    for step in steps {
+        let passed = step.via.as_ref().map(|via| via.objects.clone()).unwrap_or_default();
+        let [start, end] = [&step.start, &step.end].map(|framing| framing.subjects.clone());
+        let complete = |framing: &mut Framing, others: [&Vec<u32>; 2]| {
+            let is_seen = framing.part != SubjectPart::default() || framing.side.is_some();
+            if framing.subjects.is_empty() && is_seen {
+                framing.subjects = others.into_iter().find(|ids| !ids.is_empty()).cloned().unwrap_or_default();
+            }
+        };
+        complete(&mut step.start, [&end, &passed]);
+        complete(&mut step.end, [&start, &passed]);
+    }
+}
