@@ -132,6 +132,12 @@ fn effects_forced_on_run_on_every_frame_with_the_samples_of_the_worst() {
 /// renderer.
 #[test]
 fn off_is_free() {
+    // Each thread that renders keeps buffers, so one thread does all.
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    one_thread.install(plain_frames_without_effects);
+}
+
+fn plain_frames_without_effects() {
     let scene = crate::render::scenes::crowd(3000, 4);
     let render = RenderSettings { near: 0.01, ..settings() };
     let plain = || {
