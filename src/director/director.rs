@@ -149,7 +149,7 @@ impl Director {
         }
         take_said_directions(linked, &mut direction.program.steps);
         reverse_retraced(linked, &mut direction.program.steps);
-        open_unstated_directions(linked, &mut direction.program.steps)?;
+        open_unstated_directions(linked, &senses, &mut direction.program.steps)?;
         drop_descriptions(linked, &mut direction.program.steps);
         complete_framings(&mut direction.program.steps);
         // What the scene lacks stays a group, so that callers can tell it.

@@ -1,4 +1,4 @@
-//! English word forms: inflected verbs, singular nouns.
+//! English word forms: inflected verbs, their bases, singular nouns.
 
 /// Form of a verb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +16,9 @@ const DOUBLED: [&str; 22] = [
     "pan", "zip", "whip", "cut", "get", "begin", "stop", "drop", "dip", "spin", "put", "sit", "run", "step", "slip",
     "snap", "tip", "skim", "jog", "let", "nod", "set",
 ];
+
+/// Least letters of the base of an inflected word.
+const MIN_BASE: usize = 2;
 
 /// The base form `verb` in another form; of a hyphenated verb (`dolly-zoom`) the last word is inflected.
 ///
@@ -86,4 +89,27 @@ pub fn stem(word: &str) -> String {
         Some(base) if count > 3 && !base.ends_with('s') && !base.ends_with('u') => base.to_owned(),
         _ => word.to_owned(),
     }
+}
+
+/// Words that a word may be a form of, the likeliest first: `gliding` of `glide`, `hops` of `hop`, `panned` of `pan`.
+pub(crate) fn bases(word: &str) -> Vec<String> {
+    let mut bases = Vec::new();
+    if !word.is_ascii() {
+        return bases;
+    }
+    if let Some(base) = word.strip_suffix('s').filter(|base| !base.ends_with(['s', 'u'])) {
+        bases.push(base.to_owned());
+        bases.extend(base.strip_suffix('e').map(str::to_owned));
+        bases.extend(base.strip_suffix("ie").map(|base| format!("{base}y")));
+    }
+    for ending in ["ing", "ed", "er", "in"] {
+        let Some(base) = word.strip_suffix(ending) else { continue };
+        let mut letters = base.chars().rev();
+        let is_doubled = letters.next().is_some_and(|last| letters.next() == Some(last));
+        let undoubled = is_doubled.then(|| base[..base.len() - 1].to_owned());
+        bases.extend([Some(base.to_owned()), Some(format!("{base}e")), undoubled].into_iter().flatten());
+        bases.extend(base.strip_suffix('i').map(|base| format!("{base}y")));
+    }
+    bases.retain(|base| base.len() >= MIN_BASE);
+    bases
 }

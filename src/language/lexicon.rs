@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use strum::VariantArray;
 
 use super::error::LanguageError;
+use super::list_lines::list_lines;
 use super::tokenizer::{Word, tokenize};
 
 const FILE: &str = "prompts/lexicon.txt";
@@ -88,12 +89,8 @@ impl Lexicon {
     fn parse(text: &str) -> Result<Self, LanguageError> {
         let mut lexicon = Self::default();
         let mut section = None;
-        for (index, line) in text.lines().enumerate() {
-            let line = line.trim();
-            if line.is_empty() || line.starts_with('#') {
-                continue;
-            }
-            let bad = |what: String| LanguageError::BadData { file: FILE, line: index + 1, what };
+        for (number, line) in list_lines(text) {
+            let bad = |what: String| LanguageError::BadData { file: FILE, line: number, what };
             if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
                 section = Some(name.parse().map_err(|_| bad(format!("unknown section \"{name}\"")))?);
             } else {

@@ -88,6 +88,7 @@ mod known_words;
 mod lexicon;
 mod link;
 mod linked;
+mod list_lines;
 mod mention;
 mod names;
 mod notation;

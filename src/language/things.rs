@@ -6,6 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
+use super::list_lines::list_lines;
 use super::tokenizer::tokenize;
 
 static TEXT: &str = include_str!("../../prompts/things.txt");
@@ -80,7 +81,7 @@ impl Things {
     }
 
     fn parse(text: &str) -> Self {
-        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let lines = list_lines(text).map(|(_, line)| line);
         let mut things = Self { kinds: lines.map(kind).collect(), ..Self::default() };
         let mut firsts: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (at, kind) in things.kinds.iter().enumerate() {

@@ -139,10 +139,8 @@ impl CaseDirector {
     pub(super) fn direct(&mut self, case: &PromptCase, level: SolveLevel) -> Result<Shot, Failure> {
         self.scene_of(case)?;
         let opened = &self.scenes[&(case.scene.clone(), case.objects.clone())];
-        let mut settings = DirectSettings { seed: self.seed, solve: level, ..DirectSettings::default() };
-        if let Some((size_px, _)) = pipeline::stated_size(&case.prompt, &opened.objects) {
-            [settings.width, settings.height] = size_px;
-        }
+        let settings = DirectSettings { seed: self.seed, solve: level, ..DirectSettings::default() };
+        let settings = opened.sized(settings, &case.prompt);
         if let Some(program) = &case.program {
             let solve = SolveSettings { level, seed: self.seed, ..SolveSettings::default() };
             return Ok(opened.direct(program, &case.prompt, &solve, &settings)?.0);
@@ -157,10 +155,7 @@ impl CaseDirector {
         let opened = &self.scenes[&(case.scene.clone(), case.objects.clone())];
         let interpreter =
             self.interpreter.as_ref().ok_or_else(|| Failure::usage("programs of cases", "leave --intents out"))?;
-        let mut settings = DirectSettings { seed: self.seed, ..settings.clone() };
-        if let Some((size_px, _)) = pipeline::stated_size(&case.prompt, &opened.objects) {
-            [settings.width, settings.height] = size_px;
-        }
+        let settings = opened.sized(DirectSettings { seed: self.seed, ..settings.clone() }, &case.prompt);
         Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, interpreter, &settings)?)
     }
 
@@ -187,6 +182,14 @@ impl CaseScene {
     /// The objects of the scene.
     pub(super) fn objects(&self) -> &ObjectSet {
         &self.objects
+    }
+
+    /// The settings with the frame size that a prompt states.
+    fn sized(&self, mut settings: DirectSettings, prompt: &str) -> DirectSettings {
+        if let Some((size_px, _)) = pipeline::stated_size(prompt, &self.objects) {
+            [settings.width, settings.height] = size_px;
+        }
+        settings
     }
 
     /// The shot of a program, with the times of preparing the scene and of solving.

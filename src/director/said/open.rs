@@ -1,6 +1,6 @@
 //! Directions that follow from other words, or from none: ways back, and directions that the prompt leaves open.
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, Senses};
 use cinesplat_operator::Step;
 use cinesplat_trajectory::Move;
 
@@ -9,16 +9,39 @@ use crate::error::DirectorError;
 
 /// Words that may name a direction, besides those of the senses `left` and `right`. (Some phrases with `right` have
 /// another sense: `right round`.)
-const DIRECTION_WORDS: &str = "clock clockwise oclock cw ccw l r lft rgt rt rite minus plus x y ltr rtl";
+const DIRECTION_WORDS: [&str; 17] = [
+    "clock",
+    "clockwise",
+    "oclock",
+    "cw",
+    "ccw",
+    "l",
+    "r",
+    "lft",
+    "rgt",
+    "rt",
+    "rite",
+    "minus",
+    "plus",
+    "x",
+    "y",
+    "ltr",
+    "rtl",
+];
 
 /// Marks the direction of sideways moves as open where the prompt names none. A step that depends on another one (a
-/// return, a second orbit) keeps the direction that the network read.
+/// return, a second orbit) keeps the direction that the network read. `senses` has one entry per word.
 ///
 /// # Errors
 /// [`DirectorError::Language`] for a damaged list of senses.
-pub(crate) fn open_unstated_directions(linked: &Linked, steps: &mut [Step]) -> Result<(), DirectorError> {
-    let all = [0, usize::MAX];
-    if linked.words_in(all).any(|(word, _)| may_say_direction(word)) || linked.has_sense(all, &["left", "right"])? {
+pub(crate) fn open_unstated_directions(
+    linked: &Linked,
+    senses: &[Senses],
+    steps: &mut [Step],
+) -> Result<(), DirectorError> {
+    let sideways = Senses::named(&["left", "right"])?;
+    let mut words = linked.tokens_text.split(' ');
+    if words.any(may_say_direction) || senses.iter().any(|senses| senses.overlaps(sideways)) {
         return Ok(());
     }
     let moves: Vec<Move> = steps.iter().map(|step| step.movement).collect();
@@ -33,52 +56,60 @@ pub(crate) fn open_unstated_directions(linked: &Linked, steps: &mut [Step]) -> R
 fn may_say_direction(word: &str) -> bool {
     word.starts_with("left")
         || word.starts_with("right")
-        || DIRECTION_WORDS.split(' ').any(|known| known == word)
+        || DIRECTION_WORDS.contains(&word)
         // Arrows.
         || word.chars().any(|letter| !letter.is_ascii() && !letter.is_alphanumeric())
 }
 
 /// Words of a step that retraces the step before.
-const RETRACES: &str = "retrace retraces retracing reverse reverses reversing return returns undo rewind backtrack";
+const RETRACES: [&str; 11] = [
+    "retrace",
+    "retraces",
+    "retracing",
+    "reverse",
+    "reverses",
+    "reversing",
+    "return",
+    "returns",
+    "undo",
+    "rewind",
+    "backtrack",
+];
 /// Words behind `reverse` or `return` that make it another thing: `the reverse side`, `until it returns to view`.
-const OTHER_THINGS: &str = "side angle shot view frame sight";
+const OTHER_THINGS: [&str; 6] = ["side", "angle", "shot", "view", "frame", "sight"];
 
 /// Reverses a step that retraces the move before, which the network may read as the same move again: `orbit 30 degrees to
 /// the left, then retrace it`.
 pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
     for nth in 1..steps.len() {
-        let retraces = steps[nth].words.is_some_and(|words| retraces(linked, words));
-        let Some(there) = steps[..nth].iter().rposition(|step| step.movement != Move::Static).filter(|_| retraces)
-        else {
+        if !steps[nth].words.is_some_and(|words| says_retrace(linked, words)) {
             continue;
-        };
-        let movement = steps[there].movement;
-        let Some(back) = movement.opposite().filter(|_| movement == steps[nth].movement && returns_on_itself(movement))
-        else {
-            continue;
-        };
-        // A film that has moved nowhere else ends where it began, whichever way it went.
-        let is_first = steps[..there].iter().all(|step| step.movement == Move::Static);
-        if steps[there].either_way && is_first {
-            steps[nth].returns = true;
-        } else {
-            steps[there].either_way = false;
         }
-        steps[nth].either_way = steps[there].either_way;
-        steps[nth].movement = if steps[there].either_way { movement } else { back };
-        steps[nth].amount = steps[nth].amount.or(steps[there].amount);
+        let moving = |step: &Step| step.movement != Move::Static;
+        let Some(there) = steps[..nth].iter().rposition(moving) else { continue };
+        let (movement, amount) = (steps[there].movement, steps[there].amount);
+        let is_again = movement == steps[nth].movement && returns_on_itself(movement);
+        let Some(back) = movement.opposite().filter(|_| is_again) else { continue };
+        // A film that has moved nowhere else ends where it began, whichever way it went.
+        let is_open = steps[there].either_way && !steps[..there].iter().any(moving);
+        steps[there].either_way = is_open;
+        let step = &mut steps[nth];
+        step.either_way = is_open;
+        step.returns |= is_open;
+        step.movement = if is_open { movement } else { back };
+        step.amount = step.amount.or(amount);
     }
 }
 
-fn retraces(linked: &Linked, bytes: [usize; 2]) -> bool {
+fn says_retrace(linked: &Linked, bytes: [usize; 2]) -> bool {
     let words: Vec<&str> = linked.words_in(bytes).map(|(word, _)| word).collect();
-    let is_in = |list: &str, word: &str| list.split(' ').any(|known| known == word);
-    let says_way = |word: &str| may_say_direction(word) || matches!(word, "up" | "down" | "in" | "out");
-    let retraces =
-        |at: usize| is_in(RETRACES, words[at]) && !words[at + 1..].iter().take(2).any(|w| is_in(OTHER_THINGS, w));
-    !words.iter().any(|word| CORRECTIONS.contains(word))
-        && !words.iter().any(|word| says_way(word))
-        && (0..words.len()).any(retraces)
+    let says_otherwise = |word: &&str| {
+        CORRECTIONS.contains(word) || may_say_direction(word) || matches!(*word, "up" | "down" | "in" | "out")
+    };
+    let retraces = |at: usize| {
+        RETRACES.contains(&words[at]) && !words[at + 1..].iter().take(2).any(|word| OTHER_THINGS.contains(word))
+    };
+    !words.iter().any(says_otherwise) && (0..words.len()).any(retraces)
 }
 
 /// Whether the opposite move, from where the move ends, leads back to where it began.

@@ -7,6 +7,7 @@ use super::matching::{Found, Piece, Subject, match_at};
 use super::parse::{Lists, Output, output, pattern};
 use crate::error::LanguageError;
 use crate::linked::{OBJECT, QUANTITY};
+use crate::list_lines::list_lines;
 use crate::quantity::Quantity;
 
 const FILE: &str = "prompts/idioms.txt";
@@ -38,15 +39,9 @@ impl Table {
     /// Reads a list.
     pub(super) fn parse(text: &str) -> Result<Self, LanguageError> {
         let (mut table, mut lists) = (Self::default(), Lists::new());
-        for (index, line) in text.lines().enumerate() {
-            let line = line.trim();
-            if !line.is_empty() && !line.starts_with('#') {
-                table.take_line(line, &mut lists).map_err(|what| LanguageError::BadData {
-                    file: FILE,
-                    line: index + 1,
-                    what,
-                })?;
-            }
+        for (number, line) in list_lines(text) {
+            let bad = |what| LanguageError::BadData { file: FILE, line: number, what };
+            table.take_line(line, &mut lists).map_err(bad)?;
         }
         Ok(table)
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use crate::error::LanguageError;
+use crate::list_lines::list_lines;
 use crate::tokenizer::{Word, tokenize};
 
 const FILE: &str = "prompts/shorthand.txt";
@@ -32,14 +33,10 @@ impl Shorthand {
 
     fn parse(text: &str) -> Result<Self, LanguageError> {
         let mut shorthand = Self::default();
-        for (index, line) in text.lines().enumerate() {
-            let line = line.trim();
-            if line.is_empty() || line.starts_with('#') {
-                continue;
-            }
+        for (number, line) in list_lines(text) {
             let bad = || LanguageError::BadData {
                 file: FILE,
-                line: index + 1,
+                line: number,
                 what: "expected \"written | meaning\", found no word".to_owned(),
             };
             let (written, meaning) = line.split_once('|').unwrap_or((line, line));

@@ -21,6 +21,18 @@ pub fn sense_names() -> Result<&'static [String], LanguageError> {
     Ok(Table::embedded()?.names())
 }
 
+impl Senses {
+    /// The senses of these names; names that the list does not declare are left out.
+    ///
+    /// # Errors
+    /// [`LanguageError::BadData`] for a damaged list.
+    pub fn named(names: &[&str]) -> Result<Self, LanguageError> {
+        let is_named = |(_, name): &(usize, &String)| names.contains(&name.as_str());
+        let indices = sense_names()?.iter().enumerate().filter(is_named).map(|(index, _)| index);
+        Ok(indices.fold(Self::default(), Self::with))
+    }
+}
+
 impl Linked {
     /// The senses of each word of [`Self::tokens_text`]. A phrase of the list counts before its words.
     ///
@@ -29,17 +41,5 @@ impl Linked {
     pub fn senses(&self) -> Result<Vec<Senses>, LanguageError> {
         let words: Vec<&str> = self.tokens_text.split(' ').collect();
         Ok(Table::embedded()?.senses(&words))
-    }
-
-    /// Whether a word of `bytes` has one of the senses of these names.
-    ///
-    /// # Errors
-    /// [`LanguageError::BadData`] for a damaged list.
-    pub fn has_sense(&self, bytes: [usize; 2], names: &[&str]) -> Result<bool, LanguageError> {
-        let all = sense_names()?;
-        let is_asked = |index: usize| all.get(index).is_some_and(|name| names.contains(&name.as_str()));
-        let inside = |span: &[usize; 2]| bytes[0] <= span[0] && span[0] < bytes[1];
-        let words = self.senses()?.into_iter().zip(&self.spans);
-        Ok(words.filter(|(_, span)| inside(span)).any(|(senses, _)| senses.indices().any(is_asked)))
     }
 }

@@ -18,6 +18,11 @@ impl Senses {
         self.0 == 0
     }
 
+    /// Whether the sets have a sense in common.
+    pub fn overlaps(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
     pub(super) fn with(self, index: usize) -> Self {
         Self(self.0 | 1 << index)
     }

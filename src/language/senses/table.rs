@@ -5,13 +5,12 @@ use std::sync::OnceLock;
 
 use super::set::{MAX_SENSES, Senses};
 use crate::error::LanguageError;
+use crate::inflection::bases;
+use crate::list_lines::list_lines;
 use crate::tokenizer::tokenize;
 
 const FILE: &str = "prompts/senses.txt";
 static TEXT: &str = include_str!("../../../prompts/senses.txt");
-
-/// Least letters of the base of an inflected word.
-const MIN_BASE: usize = 2;
 
 /// The senses of the file.
 #[derive(Debug, Default)]
@@ -42,11 +41,9 @@ impl Table {
     /// Reads a list: `@name meaning` declares a sense, `words: name name` gives words their senses.
     pub(super) fn parse(text: &str) -> Result<Self, LanguageError> {
         let mut table = Self::default();
-        for (index, line) in text.lines().enumerate() {
-            let line = line.trim();
-            if !line.is_empty() && !line.starts_with('#') {
-                table.take_line(line).map_err(|what| LanguageError::BadData { file: FILE, line: index + 1, what })?;
-            }
+        for (number, line) in list_lines(text) {
+            let bad = |what| LanguageError::BadData { file: FILE, line: number, what };
+            table.take_line(line).map_err(bad)?;
         }
         for entries in table.entries.values_mut() {
             entries.sort_by_key(|entry| std::cmp::Reverse(entry.rest.len()));
@@ -67,7 +64,7 @@ impl Table {
             return Ok(());
         }
         let (words, senses) = line.split_once(": ").ok_or("expected \"words: sense sense\" or \"@sense meaning\"")?;
-        let mut words = tokenize(words).into_iter().map(|word| word.text);
+        let mut words = words_of(words).into_iter();
         let first = words.next().ok_or("senses without a word")?;
         let rest: Vec<String> = words.collect();
         let mut set = Senses::default();
@@ -110,27 +107,12 @@ impl Table {
     }
 }
 
-/// Words that a word may be a form of, the likeliest first: `gliding` of `glide`, `hops` of `hop`, `panned` of `pan`.
-fn bases(word: &str) -> Vec<String> {
-    let mut bases = Vec::new();
-    if !word.is_ascii() {
-        return bases;
+/// The words of an entry. Plain lower-case words, which nearly all are, need no tokenizer.
+fn words_of(text: &str) -> Vec<String> {
+    if text.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b' ') {
+        return text.split_ascii_whitespace().map(str::to_owned).collect();
     }
-    if let Some(base) = word.strip_suffix('s').filter(|base| !base.ends_with(['s', 'u'])) {
-        bases.push(base.to_owned());
-        bases.extend(base.strip_suffix('e').map(str::to_owned));
-        bases.extend(base.strip_suffix("ie").map(|base| format!("{base}y")));
-    }
-    for ending in ["ing", "ed", "er", "in"] {
-        let Some(base) = word.strip_suffix(ending) else { continue };
-        let mut letters = base.chars().rev();
-        let is_doubled = letters.next().is_some_and(|last| letters.next() == Some(last));
-        let undoubled = is_doubled.then(|| base[..base.len() - 1].to_owned());
-        bases.extend([Some(base.to_owned()), Some(format!("{base}e")), undoubled].into_iter().flatten());
-        bases.extend(base.strip_suffix('i').map(|base| format!("{base}y")));
-    }
-    bases.retain(|base| base.len() >= MIN_BASE);
-    bases
+    tokenize(text).into_iter().map(|word| word.text).collect()
 }
 
 #[cfg(test)]
