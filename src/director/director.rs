@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cinesplat_language::{Linked, Mention, NamedObject, check_prompt, link_mentions};
+use cinesplat_language::{Linked, Mention, NamedObject, check_prompt, link_mentions, without_frame_shape};
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
 use cinesplat_trajectory::{CameraState, ModelRef};
@@ -21,7 +21,8 @@ use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::network::PromptBatch;
 use crate::said::{
-    complete_framings, drop_descriptions, open_unstated_directions, reverse_retraced, take_said_directions,
+    complete_framings, drop_descriptions, merge_repeated, open_unstated_directions, reverse_retraced,
+    take_said_directions, take_said_dolly_zooms,
 };
 
 /// The facts about a scene that the director needs.
@@ -79,14 +80,15 @@ impl Director {
         ModelRef { name: self.model.name.clone(), sha256: self.model.weights_sha256.clone() }
     }
 
-    /// The words of a prompt, with its mentions of objects. A mention of something that the scene lacks is a group
-    /// without members.
+    /// The words of a prompt but those about the shape of the frame, with its mentions of objects. A mention of something
+    /// that the scene lacks is a group without members.
     ///
     /// # Errors
     /// [`DirectorError::Language`] for a prompt that is empty, too long, or names too many objects or a number that no
     /// object has · [`DirectorError::Compute`] when a tensor operation fails.
     pub fn link(&self, prompt: &str, objects: &[NamedObject]) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
+        let prompt = &*without_frame_shape(prompt, objects);
         let found = self.names.mentions(prompt, objects)?;
         let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
         let mut linked = link_mentions(prompt, &mentions)?;
@@ -148,10 +150,12 @@ impl Director {
             certainty.probability = self.model.calibration.apply(certainty.probability);
         }
         take_said_directions(linked, &mut direction.program.steps);
+        take_said_dolly_zooms(linked, &mut direction.program.steps);
         reverse_retraced(linked, &mut direction.program.steps);
         open_unstated_directions(linked, &senses, &mut direction.program.steps)?;
         drop_descriptions(linked, &mut direction.program.steps);
         complete_framings(&mut direction.program.steps);
+        merge_repeated(linked, &senses, &mut direction)?;
         // What the scene lacks stays a group, so that callers can tell it.
         direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)

@@ -1,5 +1,6 @@
 //! The shape of the frame where a prompt states it: `portrait`, `vertical video`, `9:16`, `square`.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::names::NamedObject;
@@ -36,6 +37,8 @@ const FILM: [&str; 16] = [
     "cut",
     "version",
 ];
+/// Words before a shape that go with it.
+const PREPOSITIONS: [&str; 4] = [" for", " in", " as", " on"];
 const ARTICLES: [&str; 10] = ["the", "this", "that", "his", "her", "their", "its", "each", "every", "my"];
 
 /// The first shape that a prompt states. Words in the name of an object (`portrait of a lady`) state none.
@@ -47,6 +50,22 @@ pub fn frame_shape(prompt: &str, objects: &[NamedObject]) -> Option<FrameShape> 
         let (len, ratio) = stated_at(&words, at, &names)?;
         Some(FrameShape { ratio, bytes: span_of(&words[at..at + len]) })
     })
+}
+
+/// The prompt without the words that state shapes of the frame: blanks stand for them, so that every other byte stays where
+/// it is. A prompt that states nothing else stays as it is.
+pub fn without_frame_shape<'a>(prompt: &'a str, objects: &[NamedObject]) -> Cow<'a, str> {
+    let mut blanked = Cow::Borrowed(prompt);
+    while let Some(shape) = frame_shape(&blanked, objects) {
+        let [start, end] = shape.bytes;
+        // `portrait: ..` and `.. for tiktok` lose their mark and preposition.
+        let end = end + usize::from(blanked[end..].starts_with([':', ',']));
+        let before = blanked[..start].trim_end();
+        let start = PREPOSITIONS.iter().find_map(|word| before.strip_suffix(word)).map_or(start, str::len);
+        blanked.to_mut().replace_range(start..end, &" ".repeat(end - start));
+    }
+    let says_more = blanked.contains(char::is_alphanumeric);
+    if says_more { blanked } else { Cow::Borrowed(prompt) }
 }
 
 impl FrameShape {

@@ -106,7 +106,7 @@ mod unknown;
 pub use edit_distance::edit_distance;
 pub use effects::{EffectMention, effect_mentions};
 pub use error::LanguageError;
-pub use frame_shape::{FrameShape, frame_shape};
+pub use frame_shape::{FrameShape, frame_shape, without_frame_shape};
 pub use inflection::{VerbForm, inflect, stem};
 pub use known_words::GRAMMAR_TEXT;
 pub use lexicon::{Lexicon, WordList};

@@ -138,12 +138,13 @@ impl Flow {
         flow
     }
 
-    /// Where the words ask for a change of speed, a straight move alone in its shot changes it all the way: a ramp at one end
-    /// would not show. A move that flows on keeps its cruise. Whip pans change it all the way too, with no jolt.
+    /// Where the words ask for a change of speed, a straight move between cuts, holds or the ends of the film changes it all
+    /// the way: a ramp at one end would not show. A move that flows on keeps its cruise. Whip pans change it all the way too, with no jolt.
     fn change_speed_throughout(&mut self) {
         for nth in 0..self.segments.len() {
-            let begins = nth == 0 || self.segments[nth].cut;
-            let ends = self.segments.get(nth + 1).is_none_or(|next| next.cut);
+            let rests = |other: &MotionSegment| other.movement == Move::Static;
+            let begins = nth == 0 || self.segments[nth].cut || rests(&self.segments[nth - 1]);
+            let ends = self.segments.get(nth + 1).is_none_or(|next| next.cut || rests(next));
             let segment = &mut self.segments[nth];
             segment.easing = match segment.easing {
                 Easing::EaseIn if segment.states.len() == 2 && begins && ends => Easing::SineIn,

@@ -8,7 +8,6 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::lookout::{Lookout, Thing};
 use super::world::World;
@@ -43,14 +42,22 @@ pub(super) fn lookouts(world: &World) -> &[Lookout] {
     world.lookouts.get_or_init(|| if world.is_indoor() { found(world) } else { Vec::new() })
 }
 
+/// Where somebody can stand in a room: free places at eye height from which the capture shows front faces; none outdoors.
+///
+/// The first caller finds them, on its own thread: a caller in a parallel search that waited for other threads here could
+/// be handed a task that asks for them again.
+pub(super) fn standing_places(world: &World) -> &[DVec3] {
+    world.standing_places.get_or_init(|| if world.is_indoor() { places(world) } else { Vec::new() })
+}
+
 fn found(world: &World) -> Vec<Lookout> {
-    let places = places(world);
-    let mut rated: Vec<Lookout> = places.par_iter().flat_map_iter(|&eye| around(world, eye, &world.things)).collect();
+    let places = standing_places(world);
+    let mut rated: Vec<Lookout> = places.iter().flat_map(|&eye| around(world, eye, &world.things)).collect();
     rated.sort_by(|a, b| b.rating.total_cmp(&a.rating));
     distinct(world, &rated)
 }
 
-/// Free places at eye height from which the capture shows front faces.
+/// The places, found anew.
 fn places(world: &World) -> Vec<DVec3> {
     let (bounds, frame) = (&world.bounds, &world.frame);
     let eye = world.eye_height();
@@ -70,7 +77,7 @@ fn places(world: &World) -> Vec<DVec3> {
         let at = (bounds.core_min - margin) + (bounds.core_max - bounds.core_min + 2.0 * margin) * share;
         at + frame.up * (eye - world.height_above_floor(at))
     };
-    (0..NUM_PLACES * NUM_PLACES).into_par_iter().map(place).filter(is_free).collect()
+    (0..NUM_PLACES * NUM_PLACES).map(place).filter(is_free).collect()
 }
 
 /// What the rays of one heading meet.

@@ -248,6 +248,7 @@ pub enum Look {
     /// Objects, by id: the first one's center, or the common middle of several, is in the middle of every frame.
     At(Vec<u32>),
     /// The direction of travel. Where the step has an end target, the camera turns to it on the last 30 % of the path.
+    /// On a path straight up or down this is no look of its own.
     Ahead,
     /// Against the direction of travel.
     Back,

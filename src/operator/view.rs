@@ -190,7 +190,7 @@ fn above_floor(world: &World, target: &Target, angle: Option<ShotAngle>, view: C
 }
 
 /// Height of a camera that lies on the floor, over its radius.
-const LYING_RADII: f64 = 1.3;
+pub(super) const LYING_RADII: f64 = 1.3;
 /// Pitch of a worm's view and of a low one from the floor, degrees.
 const WORM_PITCH_DEG: f64 = 43.0;
 const LOW_PITCH_DEG: f64 = 14.0;

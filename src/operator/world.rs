@@ -24,6 +24,12 @@ const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 const DEFAULT_CAMERA_RADIUS_FRAC: f64 = 0.012;
 /// The camera's radius in a scene without extent, scene units.
 const MIN_CAMERA_RADIUS: f64 = 1e-6;
+/// Distance from a box up to which matter does not hide the object, over the object's radius: boxes are drawn to the surface,
+/// and splats lie on both sides of it.
+const SKIN_FRAC: f64 = 0.05;
+/// Share of a scene's solid Gaussians from which on a subject is all that there is: what little else there is does not count
+/// as hiding it.
+const ALONE_FRAC: f64 = 0.9;
 /// Sample points per subject, for framing and visibility.
 const SUBJECT_POINTS: usize = 48;
 
@@ -47,6 +53,8 @@ pub struct World {
     /// Places where people stand in a room, with what they look at. [`lookouts`](super::lookouts::lookouts) finds them
     /// where a program first needs them.
     pub(super) lookouts: OnceLock<Vec<Lookout>>,
+    /// Free places at eye height in a room; [`standing_places`](super::lookouts::standing_places) finds them.
+    pub(super) standing_places: OnceLock<Vec<DVec3>>,
 }
 
 /// An object that a shot can frame.
@@ -102,6 +110,7 @@ impl World {
             region,
             things,
             lookouts: OnceLock::new(),
+            standing_places: OnceLock::new(),
         })
     }
 
@@ -210,12 +219,14 @@ pub(super) fn default_camera_radius(bounds: &Bounds) -> f64 {
 impl Subject {
     fn of(gaussians: &Gaussians, object: &Object, labels: &[u16], grid: &Grid) -> Self {
         let labelled = labels.iter().any(|&label| u32::from(label) == object.id);
-        let belongs = |i: usize| {
-            if labelled { u32::from(labels[i]) == object.id } else { object.contains(gaussians.mean_world(i), 0.0) }
+        let belongs = |i: usize, margin: f64| {
+            if labelled { u32::from(labels[i]) == object.id } else { object.contains(gaussians.mean_world(i), margin) }
         };
-        let own: Vec<bool> = (0..gaussians.len()).map(belongs).collect();
-        let solid: Vec<usize> =
-            (0..gaussians.len()).filter(|&i| own[i] && gaussians.opacities[i] >= SOLID_OPACITY).collect();
+        let is_solid = |i: &usize| gaussians.opacities[*i] >= SOLID_OPACITY;
+        let solid: Vec<usize> = (0..gaussians.len()).filter(is_solid).filter(|&i| belongs(i, 0.0)).collect();
+        let num_solid = (0..gaussians.len()).filter(is_solid).count();
+        let is_alone = !solid.is_empty() && solid.len() as f64 >= ALONE_FRAC * num_solid as f64;
+        let skin = SKIN_FRAC * object.radius();
         let corners = object.corners().to_vec();
         let stride = (solid.len() / SUBJECT_POINTS).max(1);
         let points = if solid.len() >= 20 {
@@ -224,7 +235,7 @@ impl Subject {
             corners.clone()
         };
         let facets = Facets::of(gaussians, &solid, object.center);
-        let others = OpacityGrid::of(grid.clone(), gaussians, |i| !own[i]);
+        let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !belongs(i, skin));
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
         let half = object.half_extents;
         let half_axes = [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z].map(|axis| object.rotation * axis);

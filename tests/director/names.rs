@@ -113,3 +113,11 @@ fn kinds_relate_names_kinds_and_parts() {
     assert!(has("drip tray", Relation::Part));
     assert!(!has("sofa", Relation::Same));
 }
+
+#[test]
+fn the_head_of_one_name_means_its_object() {
+    let scene = ["electric guitar", "potted palm", "golden skull", "knife rack", "teal base cabinet", "drawer chest"];
+    let mentions = read("Widen the glass until palm, guitar and skull all fit", &scene);
+    let guitar = mentions.iter().find(|(words, _)| words == "guitar").map(|(_, ids)| &ids[..]);
+    assert_eq!(guitar, Some(&[1][..]));
+}

@@ -1,6 +1,6 @@
 //! The shape of the frame that a prompt states.
 
-use cinesplat::language::{NamedObject, frame_shape};
+use cinesplat::language::{NamedObject, frame_shape, without_frame_shape};
 
 fn shape(prompt: &str, label: &str) -> Option<[u32; 2]> {
     let objects = [NamedObject { id: 1, label: label.to_owned() }];
@@ -47,4 +47,22 @@ fn a_shape_has_even_sides_and_the_shorter_one_is_given() {
     let shape = frame_shape("9:16 of the vase", &[]).unwrap();
     assert_eq!((shape.size_px(720), shape.bytes), ([720, 1280], [0, 4]));
     assert_eq!(frame_shape("4:5 of it", &[]).unwrap().size_px(721), [720, 900]);
+}
+
+#[test]
+fn shapes_leave_blanks_of_their_length() {
+    for (prompt, rest) in [
+        ("9:16 pedestal up along the chest", "pedestal up along the chest"),
+        ("portrait: tilt up from the rug", "tilt up from the rug"),
+        ("push in on the vase for tiktok", "push in on the vase"),
+        ("vertical video, 4:5, of the vase", "of the vase"),
+        ("push in on the vase", "push in on the vase"),
+        ("9:16", "9:16"),
+    ] {
+        let without = without_frame_shape(prompt, &[]);
+        assert_eq!(without.len(), prompt.len(), "{prompt}");
+        assert!(without.ends_with(rest) || without.trim() == rest, "{prompt}: {without:?}");
+    }
+    let named = [NamedObject { id: 1, label: "portrait".to_owned() }];
+    assert_eq!(without_frame_shape("portrait close-up", &named), "portrait close-up");
 }

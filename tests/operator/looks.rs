@@ -1,6 +1,6 @@
 //! What the camera looks at while it travels, what stays in view, what is never in view, and simultaneous moves.
 
-use cinesplat::operator::{Amount, Framing, Look, Step};
+use cinesplat::operator::{Amount, Framing, Look, Step, SubjectPart};
 use cinesplat::trajectory::{CameraState, Move};
 use glam::DVec3;
 
@@ -119,4 +119,46 @@ fn an_amount_that_the_move_does_not_take_is_that_of_the_further_move() {
     let level = |s: &CameraState| s.pose.forward().with_y(0.0);
     let turn = level(&frames[0]).angle_between(level(&frames[frames.len() - 1])).to_degrees();
     assert!((turn - 30.0).abs() < 1e-6, "{turn}");
+}
+
+#[test]
+fn eyes_ahead_do_not_look_at_the_sky() {
+    let world = world();
+    let step = Step { start: about(1), look: Some(Look::Ahead), ..Step::of(Move::PedestalUp) };
+    let frames = film(&solved(&world, vec![step]));
+    assert!(frames[0].pose.position.distance(frames[frames.len() - 1].pose.position) > 0.1);
+    for state in &frames {
+        assert!(state.pose.forward().dot(world.frame.up).abs() < 0.7, "{}", state.pose.forward());
+    }
+}
+
+#[test]
+fn a_whip_without_a_named_way_is_free_to_take_either() {
+    let whip = |with: Vec<Move>| {
+        let step = Step { start: about(1), end: about(2), with, ..Step::of(Move::WhipPan) };
+        let solution = solved(&world(), vec![step]);
+        solution.report.iter().any(|line| line.wanted.contains("turn to the right"))
+    };
+    assert!(!whip(Vec::new()));
+    assert!(whip(vec![Move::PanLeft]) && whip(vec![Move::PanRight]));
+}
+
+#[test]
+fn a_handheld_step_takes_its_time_from_the_move_beside_it() {
+    let step = Step { end: about(1), with: vec![Move::PushIn], ..Step::of(Move::Handheld) };
+    let solution = solved(&world(), vec![step]);
+    assert_met(&solution, "distance, end over start");
+    let moves = solution.keyframes.iter().filter_map(|key| key.intent.as_ref()?.movement);
+    assert!(moves.into_iter().any(|movement| movement == Move::PushIn));
+}
+
+#[test]
+fn a_crane_from_part_to_part_keeps_its_view() {
+    let part = |part: SubjectPart| Framing { part, ..about(1) };
+    let step = Step { start: part(SubjectPart::Top), end: part(SubjectPart::Bottom), ..Step::of(Move::CraneDown) };
+    let world = world();
+    let frames = film(&solved(&world, vec![step]));
+    let (first, last) = (&frames[0].pose, &frames[frames.len() - 1].pose);
+    assert!((last.position - first.position).dot(world.frame.up) < -0.05);
+    assert!(first.forward().angle_between(last.forward()) < 1e-6);
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use candle_core::Result;
 
 use super::batch::{MentionBatch, SentenceBatch};
-use super::mention_input::MentionInput;
+use super::mention_input::{MentionInput, says_place};
 use super::network::{NUM_TAGS, NamesNetwork};
 use super::sentence::Sentence;
 use crate::network::Dropout;
@@ -52,6 +52,7 @@ pub fn decode(network: &NamesNetwork, sentence: &Sentence) -> Result<Vec<Decoded
         let missing = scores.missing.to_vec2::<f32>()?.first().map_or(0.0, |row| yes(row));
         let (objects, pointed) = choose(&scored, missing);
         let objects = if input.is_plural() { objects } else { one_of(sentence, objects, &scored) };
+        let objects = named_one(sentence, &words, objects);
         let mention = by_number(sentence, DecodedMention { words, objects, probability: tagged * pointed });
         if !mention.objects.is_empty() || mention.probability >= REFUSAL_THRESHOLD {
             found.push(mention);
@@ -68,6 +69,17 @@ fn one_of(sentence: &Sentence, objects: Vec<usize>, scored: &[f64]) -> Vec<usize
     }
     let top = objects.iter().map(|at| scored[*at]).fold(0.0, f64::max);
     objects.into_iter().find(|at| scored[*at] > top - TIE).into_iter().collect()
+}
+
+/// The one object whose head a mention ends with, instead of an object that the words have nothing in common with. What
+/// stands behind `by` or `near` is where the thing is.
+fn named_one(sentence: &Sentence, words: &Range<usize>, chosen: Vec<usize>) -> Vec<usize> {
+    match chosen[..] {
+        [one] if !sentence.touches(words.clone(), one) && !says_place(sentence, words) => {
+            sentence.only_named(&(words.end - 1..words.end)).map_or(chosen, |named| vec![named])
+        }
+        _ => chosen,
+    }
 }
 
 /// The objects of a mention and their probability. Without any: a thing that the scene lacks.

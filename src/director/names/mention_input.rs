@@ -44,6 +44,15 @@ impl MentionInput {
     }
 }
 
+/// Words before the thing by which another one stands.
+const PLACES: [&str; 12] =
+    ["by", "near", "next", "behind", "beside", "on", "with", "in", "above", "under", "nearest", "closest"];
+
+/// Whether the words of a mention say where a thing is.
+pub(super) fn says_place(sentence: &Sentence, words: &Range<usize>) -> bool {
+    sentence.words[words.clone()].iter().any(|word| PLACES.contains(&word.text.as_str()))
+}
+
 fn best(matches: &[Vec<Matches>], object: usize) -> Matches {
     let mut out = [0.0; NUM_MATCHES];
     for row in matches {
@@ -75,9 +84,7 @@ fn own_features(sentence: &Sentence, words: Range<usize>, earlier: &[Vec<usize>]
         flag(first(&["its", "their", "his", "her"])),
         flag(first(&["a", "an", "one", "some", "any"])),
         flag(any(&["of"])),
-        flag(any(&[
-            "by", "near", "next", "behind", "beside", "on", "with", "in", "above", "under", "nearest", "closest",
-        ])),
+        flag(any(&PLACES)),
         flag(any(&["'s"])),
         flag(earlier.is_empty()),
         inside.len() as f32 / MAX_SPAN as f32,

@@ -77,6 +77,13 @@ impl Sentence {
         range.into_iter().any(any)
     }
 
+    /// The only object whose label has its head, in the very same form, among the words `range`.
+    pub(super) fn only_named(&self, range: &std::ops::Range<usize>) -> Option<usize> {
+        let is_named = |object: &usize| self.matches[range.clone()].iter().any(|row| row[*object][SAME_FORM] > 0.0);
+        let mut named = (0..self.scene.objects.len()).filter(is_named);
+        named.next().filter(|_| named.next().is_none())
+    }
+
     /// Whether a word is part of an object's name, its synonym or broader kind.
     pub fn names(&self, word: usize, object: usize) -> bool {
         let Some(m) = self.matches.get(word).and_then(|row| row.get(object)) else { return false };

@@ -88,7 +88,7 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         let moving = |step: &Step| step.movement != Move::Static;
         let Some(there) = steps[..nth].iter().rposition(moving) else { continue };
         let (movement, amount) = (steps[there].movement, steps[there].amount);
-        let is_again = movement == steps[nth].movement && returns_on_itself(movement);
+        let is_again = as_orbit(movement) == as_orbit(steps[nth].movement) && returns_on_itself(movement);
         let Some(back) = movement.opposite().filter(|_| is_again) else { continue };
         // A film that has moved nowhere else ends where it began, whichever way it went.
         let is_open = steps[there].either_way && !steps[..there].iter().any(moving);
@@ -110,6 +110,15 @@ fn says_retrace(linked: &Linked, bytes: [usize; 2]) -> bool {
         RETRACES.contains(&words[at]) && !words[at + 1..].iter().take(2).any(|word| OTHER_THINGS.contains(word))
     };
     !words.iter().any(says_otherwise) && (0..words.len()).any(retraces)
+}
+
+/// A move with an arc as an orbit: both are circles about a subject.
+pub(super) fn as_orbit(movement: Move) -> Move {
+    match movement {
+        Move::ArcLeft => Move::OrbitLeft,
+        Move::ArcRight => Move::OrbitRight,
+        other => other,
+    }
 }
 
 /// Whether the opposite move, from where the move ends, leads back to where it began.

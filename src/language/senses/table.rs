@@ -38,7 +38,8 @@ impl Table {
         &self.names
     }
 
-    /// Reads a list: `@name meaning` declares a sense, `words: name name` gives words their senses.
+    /// Reads a list: `@name meaning` declares a sense, `words: name name` gives words their senses, and
+    /// `word:` keeps a word from those of a verb that it looks like a form of (`flower`, `flow`).
     pub(super) fn parse(text: &str) -> Result<Self, LanguageError> {
         let mut table = Self::default();
         for (number, line) in list_lines(text) {
@@ -63,7 +64,10 @@ impl Table {
             self.names.push(name.to_owned());
             return Ok(());
         }
-        let (words, senses) = line.split_once(": ").ok_or("expected \"words: sense sense\" or \"@sense meaning\"")?;
+        let (words, senses) = line
+            .split_once(": ")
+            .or_else(|| line.strip_suffix(':').map(|words| (words, "")))
+            .ok_or("expected \"words: sense sense\", \"word:\" or \"@sense meaning\"")?;
         let mut words = words_of(words).into_iter();
         let first = words.next().ok_or("senses without a word")?;
         let rest: Vec<String> = words.collect();
@@ -100,7 +104,10 @@ impl Table {
         let fits = |entry: &&Entry| {
             entry.rest.len() <= rest.len() && entry.rest.iter().zip(rest).all(|(known, word)| known == word)
         };
-        let candidates = std::iter::once((*first).to_owned()).chain(bases(first));
+        let is_plain = |entry: &Entry| entry.rest.is_empty() && entry.senses == Senses::default();
+        let is_thing = self.entries.get(*first).is_some_and(|entries| entries.iter().any(is_plain));
+        let bases = if is_thing { Vec::new() } else { bases(first) };
+        let candidates = std::iter::once((*first).to_owned()).chain(bases);
         let found: Vec<&Entry> = candidates.filter_map(|base| self.entries.get(&base)?.iter().find(fits)).collect();
         let longest = found.iter().map(|entry| entry.rest.len()).max()?;
         found.into_iter().find(|entry| entry.rest.len() == longest)
@@ -136,10 +143,18 @@ mod tests {
     }
 
     #[test]
+    fn a_word_without_senses_is_no_form_of_another() {
+        let table = Table::parse("@go travels\nflow: go\nflow on: go\nflower:\n").unwrap();
+        assert_eq!(named(&table, "flows flower on"), ["go", "", ""]);
+    }
+
+    #[test]
     fn damage_is_named_by_its_line() {
         for (text, what) in [
             ("@go x\nfly: go fast", "`fast`"),
             ("fly go", "expected"),
+            ("@go x\n: go", "without a word"),
+            ("@go x\nfly:go", "expected"),
             ("@go x\nfly: go\nfly: go", "already"),
             ("@go x\n@go y", "another"),
         ] {

@@ -2,7 +2,8 @@
 //!
 //! The positions of a move stay as they are; every camera on the path turns to the look target. A look at a point is
 //! exact at every moment ([`MotionSegment::about`]). A look along the path follows its tangent at nine and more keys, and
-//! turns to the end framing on the last part of the path, where the step has one.
+//! turns to the end framing on the last part of the path, where the step has one; on a path straight up or down it is no
+//! look of its own, and the camera keeps to what the move looks at.
 
 use glam::{DQuat, DVec3};
 
@@ -20,6 +21,8 @@ use cinesplat_trajectory::{CameraState, Move};
 const NUM_KEYS: usize = 9;
 /// Largest distance of the look target from the frame's middle.
 const OFF_CENTER: f64 = 0.08;
+/// Sine of the steepest path along which the camera looks, 70 degrees.
+const STEEP_SIN: f64 = 0.94;
 /// Largest angle between the view axis and the path, degrees.
 const OFF_PATH_DEG: f64 = 15.0;
 
@@ -66,6 +69,9 @@ fn is_circular(movement: Move) -> bool {
 }
 
 fn look_along(context: &StepContext, segment: &mut MotionSegment, sign: f64) {
+    if sign > 0.0 && is_vertical(context, segment) {
+        return;
+    }
     if segment.states.len() < NUM_KEYS {
         segment.states = evenly_spaced(context.world, segment, NUM_KEYS);
     }
@@ -89,6 +95,14 @@ fn look_along(context: &StepContext, segment: &mut MotionSegment, sign: f64) {
     free_the_view(segment, goal.as_ref());
     let kind = ConstraintKind::LookAlong(sign, OFF_PATH_DEG);
     segment.constraints.push(Constraint { kind, scope: Scope::All });
+}
+
+/// Whether a path leads straight up or down. Somebody who rises with the eyes ahead does not look at the sky.
+fn is_vertical(context: &StepContext, segment: &MotionSegment) -> bool {
+    let ways = || segment.states.windows(2).map(|pair| pair[1].pose.position - pair[0].pose.position);
+    let (length, height): (f64, f64) =
+        (ways().map(DVec3::length).sum(), ways().map(|way| way.dot(context.world.frame.up).abs()).sum());
+    length > 1e-6 * context.world.bounds.size() && height > STEEP_SIN * length
 }
 
 /// From the look along the path to the end framing, on the part of the way after [`AHEAD_FRAC`].

@@ -9,6 +9,7 @@ mod compose;
 mod context;
 mod lens;
 mod look;
+mod overlook;
 mod passes;
 mod paths;
 mod requirements;
@@ -23,8 +24,8 @@ mod with;
 pub(super) use context::StepContext;
 
 use super::motion::MotionSegment;
-use super::program::Pass;
-use cinesplat_trajectory::Move;
+use super::program::{Framing, Motion, Pass, Step, SubjectPart};
+use cinesplat_trajectory::{Move, ShotAngle};
 
 /// The segments of one step.
 pub(super) fn build(context: &StepContext) -> Vec<MotionSegment> {
@@ -51,6 +52,22 @@ fn built(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
+/// Whether a crane rises or sinks without a turn to its subject: where the words rule the turn out, or lead from one part of
+/// the subject up or down to another. Heights that the words state for its views need the turn.
+fn keeps_its_view(context: &StepContext) -> bool {
+    let ends = [&context.step.start, &context.step.end];
+    let is_free = |framing: &&Framing| framing.elevation_deg.is_none() && framing.place.is_none();
+    let is_level = |framing: &&Framing| matches!(framing.angle, None | Some(ShotAngle::EyeLevel));
+    if !ends.iter().all(|framing| is_free(framing) && is_level(framing)) {
+        return false;
+    }
+    let is_upright = |framing: &&Framing| !matches!(framing.part, SubjectPart::Left | SubjectPart::Right);
+    let [start, end] = ends;
+    let along = !start.subjects.is_empty() && start.subjects == end.subjects && start.part != end.part;
+    along && ends.iter().all(is_upright)
+        || context.forbidden.iter().any(|motion| matches!(motion, Motion::Turn | Motion::Tilt))
+}
+
 fn family(context: &StepContext) -> Vec<MotionSegment> {
     let how = context.step.via.as_ref().map(|via| via.how);
     if let Some(segments) = how.and_then(|how| passing_a_side(context, how)) {
@@ -69,6 +86,12 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::PushIn | Move::PullOut => straight::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
         Move::PedestalUp | Move::PedestalDown => straight::pedestal(context),
+        Move::CraneUp | Move::CraneDown if keeps_its_view(context) => {
+            let up = context.step.movement == Move::CraneUp;
+            let movement = if up { Move::PedestalUp } else { Move::PedestalDown };
+            let step = Step { movement, ..context.step.clone() };
+            straight::pedestal(&StepContext { step: &step, ..context.clone() })
+        }
         Move::CraneUp | Move::CraneDown => circles::crane(context),
         Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => circles::orbit(context),
         Move::ZoomIn | Move::ZoomOut => lens::zoom(context),

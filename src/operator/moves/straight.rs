@@ -9,7 +9,7 @@ use crate::constraint::{ConstraintKind, Scope, TravelDirection};
 use crate::framing::{Fill, Target, bearing_of, distance_for, frame_position, in_frame_frac};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing, Pass, SubjectPart};
-use crate::view::{aimed, distance_along, lerp, moved, stated_fill};
+use crate::view::{LYING_RADII, aimed, distance_along, lerp, moved, stated_fill};
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Moves along the line to the subject, toward it or away from it.
@@ -225,7 +225,8 @@ fn slide(
     let passed = context.step.via.as_ref().filter(|via| beside(via.how));
     let passed = passed
         .and_then(|via| Target::of(context.world, &Framing { subjects: via.objects.clone(), ..Framing::default() }));
-    let same = matches!((&context.start, &context.end), (Some(a), Some(b)) if a.ids.first() == b.ids.first());
+    let same = matches!((&context.start, &context.end), (Some(a), Some(b)) if a.ids.first() == b.ids.first())
+        && context.step.start.part == context.step.end.part;
     let travels = context.end.is_some() && !same && (context.start.is_some() || context.before.is_some());
     let target =
         if travels { context.opening_target() } else { passed.clone().unwrap_or_else(|| context.main_target()) };
@@ -248,6 +249,9 @@ fn slide(
         // A truck passes its target halfway; a pedestal starts in front of it.
         let lead = if direction.is_vertical() && !target.ids.is_empty() { 0.12 } else { 0.5 };
         first = moved(&first, -along(&first) * way * lead);
+        if direction == TravelDirection::Down {
+            first = off_the_floor(context, &first, (&target, along(&first) * way));
+        }
     }
     first = through_gate(context, &first, along(&first) * way);
     let last = moved(&first, along(&first) * way);
@@ -272,6 +276,19 @@ fn slide(
     }
     segments.push(context.constrained_at_end(context.constrained_at_start(segment)));
     segments
+}
+
+/// The first camera of a descent that would end in the floor of a room: raised so that it ends above it, and aimed at its
+/// target again.
+fn off_the_floor(context: &StepContext, first: &CameraState, (target, way): (&Target, DVec3)) -> CameraState {
+    let world = context.world;
+    let lowest = world.height_above_floor(first.pose.position + way);
+    let lift = LYING_RADII * world.camera_radius - lowest;
+    if !world.is_indoor() || lift <= 0.0 {
+        return *first;
+    }
+    let raised = moved(first, world.frame.up * lift);
+    if target.ids.is_empty() { raised } else { aimed(world, &raised, target.aim) }
 }
 
 /// The first camera of a slide under or through an object: shifted so that the middle of the slide is the gate.

@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::overlook::overlook;
+use super::standing_view::stands;
 use super::sway::{num_sways, swayed};
 use crate::composition::front_azimuth;
 use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
@@ -201,6 +203,7 @@ fn turn(
     let angle_rad = stated_rad.unwrap_or(open_rad);
     let (mut segments, first, last) = match (&context.start, &context.end, stated_rad) {
         (_, Some(end), None) => onto(context, end, |state| by(state, -angle_rad)),
+        (Some(_), Some(end), Some(_)) if is_between(context) => onto(context, end, |state| by(state, -angle_rad)),
         (None, Some(end), Some(_)) if context.before.is_none() => onto(context, end, |state| by(state, -angle_rad)),
         _ => {
             let (segments, first) = context.opened_on(&context.opening_target(), (0.3, 0.6));
@@ -212,8 +215,19 @@ fn turn(
     let (first, last) = if tilts { (first, last) } else { leveled(context, [first, last], is_pinned) };
     let mut segment = context.segment(vec![first, last]);
     let (along, across) = limits(sign);
-    if !(whip && context.step.either_way) {
-        let along = if angle_rad < 0.3 && stated_rad.is_some() { None } else { Some(along) };
+    // A whip goes to its goal, whichever way that is, unless the words name one.
+    let names_way = context.step.with.iter().any(|other| matches!(other, Move::PanLeft | Move::PanRight));
+    let is_open = whip && (context.step.either_way || (context.end.is_some() && !names_way));
+    if !is_open {
+        // Between two subjects a stated angle is one to look for a place for.
+        let along = match context.step.amount {
+            Some(Amount::Degrees(degrees)) if is_between(context) => {
+                let stated = band(sign, (1.0 - ANGLE_TOLERANCE) * degrees, (1.0 + ANGLE_TOLERANCE) * degrees);
+                Some(if tilts { ConstraintKind::PitchChange(stated) } else { ConstraintKind::YawChange(stated) })
+            }
+            _ if angle_rad < 0.3 && stated_rad.is_some() => None,
+            _ => Some(along),
+        };
         segment.constraints.extend(along.map(|kind| Constraint { kind, scope: Scope::All }));
         segment = segment.requiring(Scope::All, across);
     }
@@ -226,6 +240,14 @@ fn turn(
     }
     segments.push(segment);
     segments
+}
+
+/// Tolerance of a stated angle between two subjects, over the angle.
+const ANGLE_TOLERANCE: f64 = 0.12;
+
+/// Whether a turn leads from one subject to another.
+fn is_between(context: &StepContext) -> bool {
+    matches!((&context.start, &context.end), (Some(start), Some(end)) if start.ids != end.ids)
 }
 
 /// The ends of a pan, brought nearer to one pitch where its subjects are at different heights: each may stand a little
@@ -269,20 +291,31 @@ fn onto(
 const OPEN_FILL: (f64, f64) = (0.32, 0.66);
 
 /// The first camera of a turn between two subjects: at a place with a view of the first one, or of a whip, whose goal is
-/// what counts, at one with a view of the second one. What stands behind other things is seen from few places. Parameter 7
-/// chooses.
+/// what counts, at one with a view of the second one; from [`OVERLOOK_FROM`] on where somebody stands in the room. What stands
+/// behind other things is seen from few places. Parameter 7 chooses.
 fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> CameraState {
     if start.ids == end.ids && is_along(context) {
         return context.view(start, &context.opening_framing(), ALONG_FILL, NORMAL_LENS_DEG);
     }
     let whip = context.step.movement == Move::WhipPan;
-    if !whip || is_stated(&context.step.start) || context.parameters[7] <= 0.5 {
+    let stated = [&context.step.start, &context.step.end].map(is_stated);
+    let choice = context.parameters[7];
+    // A tilt needs a place in one line with both subjects, which few of these are.
+    let tilts = matches!(context.step.movement, Move::TiltUp | Move::TiltDown);
+    let is_free = stated == [false; 2] && !tilts && !stands(&context.standing());
+    let overlooking = if choice > OVERLOOK_FROM && is_free { overlook(context, [start, end]) } else { None };
+    if let Some(camera) = overlooking {
+        return camera;
+    }
+    if !whip || stated[0] || choice <= OVERLOOK_FROM / 2.0 {
         return context.view(start, &context.opening_framing(), OPEN_FILL, NORMAL_LENS_DEG);
     }
     let place = context.view(end, &context.step.end, OPEN_FILL, NORMAL_LENS_DEG);
     aimed(context.world, &place, start.aim)
 }
 
+/// Value of the parameter from which on somebody stands in the room and looks at both subjects.
+const OVERLOOK_FROM: f64 = 0.6;
 /// Size of a subject along which the view turns, from one end to the other: more than the picture holds.
 const ALONG_FILL: (f64, f64) = (1.15, 1.7);
 

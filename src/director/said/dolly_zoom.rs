@@ -1,0 +1,89 @@
+//! Which way the camera goes in a dolly zoom: `pull away while the chair keeps its size`.
+//!
+//! The network knows a dolly zoom by its names and effects, but sometimes not the way of the camera beside them.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::Step;
+use cinesplat_trajectory::Move;
+
+use super::directions::{CORRECTIONS, is_form};
+
+/// Verbs of a camera, or of those who carry it.
+const TRAVELS: [&str; 16] = [
+    "dolly", "track", "move", "go", "travel", "come", "push", "pull", "step", "back", "rush", "reverse", "slide",
+    "glide", "walk", "roll",
+];
+const BACK: [&str; 6] = ["back", "backward", "backwards", "away", "out", "rearward"];
+const FORWARD: [&str; 9] = ["in", "into", "forward", "forwards", "toward", "towards", "closer", "nearer", "inward"];
+/// What goes the other way in a dolly zoom.
+const OTHERS: [&str; 14] = [
+    "background",
+    "backdrop",
+    "surroundings",
+    "room",
+    "wall",
+    "walls",
+    "world",
+    "scene",
+    "everything",
+    "lens",
+    "zoom",
+    "focal",
+    "behind",
+    "perspective",
+];
+/// Words between a verb and what goes.
+const NUM_BEFORE: usize = 3;
+
+/// Gives dolly zooms the way that the words of their steps say, where they say one. Words that several steps share say nothing
+/// about one step.
+pub(crate) fn take_said_dolly_zooms(linked: &Linked, steps: &mut [Step]) {
+    for nth in 0..steps.len() {
+        let span = steps[nth].words;
+        let is_shared = steps.iter().enumerate().any(|(other, step)| other != nth && step.words == span);
+        let Some(span) = span.filter(|_| !is_shared) else { continue };
+        let words: Vec<&str> = linked.words_in(span).map(|(word, _)| word).collect();
+        let said = match (says_travel(&words, &BACK), says_travel(&words, &FORWARD)) {
+            (true, false) => Move::DollyZoomOut,
+            (false, true) => Move::DollyZoomIn,
+            _ => continue,
+        };
+        if words.iter().any(|word| CORRECTIONS.contains(word)) {
+            continue;
+        }
+        let is_said = |movement: Move| movement == said || movement.opposite() == Some(said);
+        let step = &mut steps[nth];
+        if is_said(step.movement) {
+            step.movement = said;
+            step.either_way = false;
+        }
+        step.with.iter_mut().filter(|movement| is_said(**movement)).for_each(|movement| *movement = said);
+    }
+}
+
+/// Whether a verb of the camera is followed by one of the ways: `tracks slowly backwards`, `pulling away`, but not `the
+/// background pulls away`.
+fn says_travel(words: &[&str], ways: &[&str]) -> bool {
+    (0..words.len()).any(|at| {
+        let behind = words.get(at + 1..).unwrap_or_default().iter().take(2);
+        let before = &words[at.saturating_sub(NUM_BEFORE)..at];
+        TRAVELS.iter().any(|verb| is_form(words[at], verb))
+            && behind.into_iter().any(|word| ways.contains(word))
+            && !before.iter().any(|word| OTHERS.contains(word))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_camera_goes_and_not_the_background() {
+        let says = |text: &str, ways: &[&str]| says_travel(&text.split(' ').collect::<Vec<_>>(), ways);
+        assert!(says("track slowly backwards while the lens goes longer", &BACK));
+        assert!(says("the vertigo thing but pulling away", &BACK));
+        assert!(!says("rushing forward while the background pulls back", &BACK));
+        assert!(says("rushing forward while the background pulls back", &FORWARD));
+        assert!(!says("backing off while the lens goes in", &FORWARD));
+    }
+}

@@ -1,0 +1,190 @@
+//! Steps that say the step before once more: `crane up, look down on the boat, done, 6 s`.
+//!
+//! The network sometimes takes the details of a move (its length, its extent, its subject) for a second move of the same
+//! kind. Such a step is one with the step before, unless the words repeat the move.
+
+use cinesplat_language::{LanguageError, Linked, Senses};
+use cinesplat_operator::{Amount, Framing, Speed, Step};
+use cinesplat_trajectory::Move;
+
+use super::open::as_orbit;
+use crate::direction::Direction;
+
+/// Senses of words that make a second move of it: `again`, `back`, `the other way`, `twice`, `then`.
+const REPEATS: [&str; 5] = ["again", "back", "other", "double", "then"];
+
+/// Makes one step of two in a row of which the second says nothing that the first does not. `senses` has one entry per word.
+///
+/// # Errors
+/// [`LanguageError::BadData`] for a damaged list of senses.
+pub(crate) fn merge_repeated(
+    linked: &Linked,
+    senses: &[Senses],
+    direction: &mut Direction,
+) -> Result<(), LanguageError> {
+    let repeats = Senses::named(&REPEATS)?;
+    let says_so = |step: &Step| {
+        let [from, to] = step.words.unwrap_or_default();
+        let words = linked.spans.iter().zip(senses).filter(|(span, _)| (from..to).contains(&span[0]));
+        words.into_iter().any(|(_, senses)| senses.overlaps(repeats))
+    };
+    let mut nth = 1;
+    while nth < direction.program.steps.len() {
+        let steps = &mut direction.program.steps;
+        match merged(linked, &steps[nth - 1], &steps[nth]).filter(|_| !says_so(&steps[nth])) {
+            Some(one) => {
+                if let Some(certainty) = direction.certainty.get_mut(nth - 1) {
+                    certainty.words = one.words;
+                }
+                steps[nth - 1] = one;
+                steps.remove(nth);
+                remove_at(&mut direction.step_cameras, nth);
+                remove_at(&mut direction.certainty, nth);
+            }
+            None => nth += 1,
+        }
+    }
+    Ok(())
+}
+
+fn remove_at<T>(list: &mut Vec<T>, nth: usize) {
+    if nth < list.len() {
+        list.remove(nth);
+    }
+}
+
+/// The first of two steps with the details that only the second one states: its length, a stated angle, its speed profile.
+/// `None` where the second states anything else, no detail, or an extent of its own.
+fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
+    if first.movement == Move::Static || second.cut || second.returns || !is_same_move(first, second) {
+        return None;
+    }
+    let is_once =
+        |secs: f64| linked.quantities.iter().filter(|other| other.value.to_bits() == secs.to_bits()).count() < 2;
+    let length = match (first.duration_secs, second.duration_secs) {
+        (Some(a), Some(b)) if a.to_bits() != b.to_bits() || !is_once(a) => return None,
+        (a, b) => a.or(b),
+    };
+    let amount = match (first.amount, second.amount) {
+        (None, Some(Amount::Degrees(degrees))) => Some(Amount::Degrees(degrees)),
+        (Some(Amount::Degrees(a)), Some(Amount::Degrees(b))) if a.to_bits() == b.to_bits() && is_once(a) => {
+            first.amount
+        }
+        (amount, None) => amount,
+        _ => return None,
+    };
+    if second.duration_secs.is_none() && second.amount.is_none() && second.easing.is_none() {
+        return None;
+    }
+    let words = match (first.words, second.words) {
+        (Some([start, end]), Some([other_start, other_end])) => Some([start.min(other_start), end.max(other_end)]),
+        (words, other) => words.or(other),
+    };
+    let stated = if first.either_way { second } else { first };
+    let one = Step {
+        movement: stated.movement,
+        either_way: stated.either_way,
+        duration_secs: length,
+        amount,
+        easing: first.easing.or(second.easing),
+        words,
+        ..first.clone()
+    };
+    (with_all_of(&one, second) == one).then_some(one)
+}
+
+/// Whether both steps make one move in one direction, which one of them may leave open; a circle and an arc are one.
+fn is_same_move(first: &Step, second: &Step) -> bool {
+    let (a, b) = (as_orbit(first.movement), as_orbit(second.movement));
+    a == b || first.either_way && a.opposite() == Some(b)
+}
+
+/// The first step with everything that the second one states in place of its own.
+fn with_all_of(first: &Step, second: &Step) -> Step {
+    let or = |own: &Vec<u32>, other: &Vec<u32>| if other.is_empty() { own.clone() } else { other.clone() };
+    Step {
+        with: if second.with.is_empty() { first.with.clone() } else { second.with.clone() },
+        start: framing_of(&first.start, &second.start),
+        end: framing_of(&first.end, &second.end),
+        via: second.via.clone().or_else(|| first.via.clone()),
+        look: second.look.clone().or_else(|| first.look.clone()),
+        keep: or(&first.keep, &second.keep),
+        avoid: or(&first.avoid, &second.avoid),
+        amount: second.amount.or(first.amount),
+        speed: if second.speed == Speed::Normal { first.speed } else { second.speed },
+        easing: second.easing.or(first.easing),
+        ..first.clone()
+    }
+}
+
+/// A framing with everything that another one states in place of its own.
+fn framing_of(own: &Framing, other: &Framing) -> Framing {
+    let part = if other.part == Framing::default().part { own.part } else { other.part };
+    Framing {
+        subjects: if other.subjects.is_empty() { own.subjects.clone() } else { other.subjects.clone() },
+        size: other.size.or(own.size),
+        angle: other.angle.or(own.angle),
+        part,
+        whole: own.whole || other.whole,
+        height_frac: other.height_frac.or(own.height_frac),
+        elevation_deg: other.elevation_deg.or(own.elevation_deg),
+        height: other.height.or(own.height),
+        distance: other.distance.or(own.distance),
+        lens: other.lens.or(own.lens),
+        side: other.side.or(own.side),
+        place: other.place.or(own.place),
+        hidden: own.hidden || other.hidden,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(end: u32, change: impl FnOnce(&mut Step)) -> Step {
+        let mut step = Step::of(Move::OrbitRight);
+        step.end.subjects = vec![end];
+        change(&mut step);
+        step
+    }
+
+    fn read(first: &Step, second: &Step) -> Option<Step> {
+        merged(&Linked::default(), first, second)
+    }
+
+    #[test]
+    fn details_of_a_move_are_no_second_move() {
+        let high = step(1, |step| step.end.angle = Some(cinesplat_trajectory::ShotAngle::High));
+        let timed = step(1, |step| {
+            step.movement = Move::ArcRight;
+            step.duration_secs = Some(6.0);
+        });
+        let one = read(&high, &timed).unwrap();
+        assert_eq!((one.end, one.duration_secs), (high.end.clone(), Some(6.0)));
+        // Another height, thing, speed or way; a move without details; an extent of its own.
+        assert_eq!(read(&timed, &high), None);
+        for change in [
+            (|step| step.end.subjects = vec![2]) as fn(&mut Step),
+            |step| step.speed = Speed::Fast,
+            |step| step.movement = Move::OrbitLeft,
+            |step| step.duration_secs = None,
+            |step| step.amount = Some(Amount::Slight),
+        ] {
+            let mut other = timed.clone();
+            change(&mut other);
+            assert_eq!(read(&high, &other), None, "{other:?}");
+        }
+    }
+
+    #[test]
+    fn a_stated_way_is_kept() {
+        let open = step(1, |step| step.either_way = true);
+        let left = step(1, |step| {
+            step.movement = Move::OrbitLeft;
+            step.duration_secs = Some(4.0);
+        });
+        let one = read(&open, &left).unwrap();
+        assert_eq!((one.movement, one.either_way), (Move::OrbitLeft, false));
+        assert_eq!(read(&left, &open), None);
+    }
+}
