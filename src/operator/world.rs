@@ -29,7 +29,7 @@ const MIN_CAMERA_RADIUS: f64 = 1e-6;
 const SKIN_FRAC: f64 = 0.05;
 /// Share of a scene's solid Gaussians from which on a subject is all that there is: what little else there is does not count
 /// as hiding it.
-const ALONE_FRAC: f64 = 0.9;
+const ALONE_FRAC: f64 = 0.85;
 /// Sample points per subject, for framing and visibility.
 const SUBJECT_POINTS: usize = 48;
 
@@ -225,8 +225,9 @@ impl Subject {
         let is_solid = |i: &usize| gaussians.opacities[*i] >= SOLID_OPACITY;
         let solid: Vec<usize> = (0..gaussians.len()).filter(is_solid).filter(|&i| belongs(i, 0.0)).collect();
         let num_solid = (0..gaussians.len()).filter(is_solid).count();
-        let is_alone = !solid.is_empty() && solid.len() as f64 >= ALONE_FRAC * num_solid as f64;
         let skin = SKIN_FRAC * object.radius();
+        let num_own = (0..gaussians.len()).filter(is_solid).filter(|&i| belongs(i, skin)).count();
+        let is_alone = num_own > 0 && num_own as f64 >= ALONE_FRAC * num_solid as f64;
         let corners = object.corners().to_vec();
         let stride = (solid.len() / SUBJECT_POINTS).max(1);
         let points = if solid.len() >= 20 {

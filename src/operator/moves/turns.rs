@@ -302,8 +302,9 @@ fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> Came
     let choice = context.parameters[7];
     // A tilt needs a place in one line with both subjects, which few of these are.
     let tilts = matches!(context.step.movement, Move::TiltUp | Move::TiltDown);
-    let is_free = stated == [false; 2] && !tilts && !stands(&context.standing());
-    let overlooking = if choice > OVERLOOK_FROM && is_free { overlook(context, [start, end]) } else { None };
+    let least = if tilts { OVERLOOK_TILT_FROM } else { OVERLOOK_FROM };
+    let is_free = stated == [false; 2] && !stands(&context.standing());
+    let overlooking = if choice > least && is_free { overlook(context, [start, end]) } else { None };
     if let Some(camera) = overlooking {
         return camera;
     }
@@ -314,8 +315,9 @@ fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> Came
     aimed(context.world, &place, start.aim)
 }
 
-/// Value of the parameter from which on somebody stands in the room and looks at both subjects.
+/// Value of the parameter from which on somebody stands in the room and looks at both subjects: for pans and for tilts.
 const OVERLOOK_FROM: f64 = 0.6;
+const OVERLOOK_TILT_FROM: f64 = 0.75;
 /// Size of a subject along which the view turns, from one end to the other: more than the picture holds.
 const ALONG_FILL: (f64, f64) = (1.15, 1.7);
 
