@@ -108,15 +108,8 @@ impl Subject {
 }
 
 fn gaussians_of(gaussians: &Gaussians, object: &Object, labels: &[u16]) -> Vec<usize> {
-    let is_labelled = labels.iter().any(|&label| u32::from(label) == object.id);
-    let belongs = |i: &usize| {
-        if is_labelled {
-            labels.get(*i).is_some_and(|&label| u32::from(label) == object.id)
-        } else {
-            object.contains(gaussians.mean_world(*i), 0.0)
-        }
-    };
-    (0..gaussians.len()).filter(belongs).collect()
+    let owns = object.owns(labels, 0.0);
+    (0..gaussians.len()).filter(|&i| owns(i, gaussians.mean_world(i))).collect()
 }
 
 /// Gaussians between invisible and solid.

@@ -26,3 +26,17 @@ pub struct Direction {
     /// Bytes of the prompt that ask for something that no program can say.
     pub unmet: Vec<[usize; 2]>,
 }
+
+impl Direction {
+    /// Removes a step with its cameras and its certainty.
+    pub fn remove_step(&mut self, nth: usize) {
+        fn remove<T>(list: &mut Vec<T>, nth: usize) {
+            if nth < list.len() {
+                list.remove(nth);
+            }
+        }
+        remove(&mut self.program.steps, nth);
+        remove(&mut self.step_cameras, nth);
+        remove(&mut self.certainty, nth);
+    }
+}

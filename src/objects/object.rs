@@ -65,6 +65,16 @@ impl Object {
         let local = self.rotation.conjugate() * (point - self.center);
         local.abs().cmple(self.half_extents + margin).all()
     }
+
+    /// Which Gaussians are the object's, by index and center (world): those with its label where `labels` has any, or else
+    /// those in its box extended by `margin` (scene units).
+    pub fn owns<'a>(&'a self, labels: &'a [u16], margin: f64) -> impl Fn(usize, DVec3) -> bool + 'a {
+        let is_own = |label: &u16| u32::from(*label) == self.id;
+        let is_labelled = labels.iter().any(is_own);
+        move |i, center| {
+            if is_labelled { labels.get(i).is_some_and(is_own) } else { self.contains(center, margin) }
+        }
+    }
 }
 
 /// All objects of a scene, and the object of every Gaussian.

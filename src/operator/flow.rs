@@ -139,7 +139,8 @@ impl Flow {
     }
 
     /// Where the words ask for a change of speed, a straight move between cuts, holds or the ends of the film changes it all
-    /// the way: a ramp at one end would not show. A move that flows on keeps its cruise. Whip pans change it all the way too, with no jolt.
+    /// the way: a ramp at one end would not show. A move that flows on keeps its cruise. Whip pans change it all the way
+    /// too, with no jolt.
     fn change_speed_throughout(&mut self) {
         for nth in 0..self.segments.len() {
             let rests = |other: &MotionSegment| other.movement == Move::Static;

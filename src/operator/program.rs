@@ -122,6 +122,14 @@ pub struct Step {
 }
 
 impl Step {
+    /// The words of this step and of another one, from the first to the last.
+    pub fn joint_words(&self, other: &Self) -> Option<[usize; 2]> {
+        match (self.words, other.words) {
+            (Some([start, end]), Some([other_start, other_end])) => Some([start.min(other_start), end.max(other_end)]),
+            (words, other) => words.or(other),
+        }
+    }
+
     /// A step of one move, with everything else unspecified.
     pub fn of(movement: Move) -> Self {
         Self {

@@ -77,8 +77,9 @@ pub fn finalists(
     candidates.into_iter().map(|candidate| solution(world, (program, prompt), candidate, settings)).collect()
 }
 
-/// The program with the move first where a step says `handheld` before it: the sway takes its time from the move. `None` where
-/// no step does. A whip pan and a reveal, whose first further move is their direction, and a view over a shoulder stay.
+/// The program with the move first where a step says `handheld` before it: the sway takes its time from the move. `None`
+/// where no step does. A whip pan and a reveal, whose first further move is their direction, and a view over a shoulder
+/// stay.
 fn with_moves_leading(program: &Program) -> Option<Program> {
     let leads = |movement: &Move| !matches!(movement, Move::WhipPan | Move::Reveal | Move::Static | Move::Handheld);
     let passes = |step: &Step| step.via.as_ref().is_some_and(|via| via.how == Pass::Past);

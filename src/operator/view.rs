@@ -228,11 +228,15 @@ fn elevation_at(
     low.midpoint(high)
 }
 
+/// The item of a list that a share of 0..=1 picks, each by an equal part of it; `None` of an empty list.
+pub(super) fn picked<T>(list: &[T], share: f64) -> Option<&T> {
+    list.get(((share * list.len() as f64) as usize).min(list.len().saturating_sub(1)))
+}
+
 /// One of several azimuths, or up to 20 degrees beside it. Parameter 4 picks it, parameter 0 the deviation.
 pub(super) fn beside(azimuths_rad: &[f64], parameters: &StepParameters) -> f64 {
-    let pick = ((parameters[4] * azimuths_rad.len() as f64) as usize).min(azimuths_rad.len().saturating_sub(1));
     let off = parameters[0] * 2.0 - 1.0;
-    azimuths_rad.get(pick).copied().unwrap_or(0.0) + off * off.abs() * 0.35
+    picked(azimuths_rad, parameters[4]).copied().unwrap_or(0.0) + off * off.abs() * 0.35
 }
 
 /// A preferred azimuth or any azimuth. The director's counts twice among the preferred ones.

@@ -218,16 +218,15 @@ pub(super) fn default_camera_radius(bounds: &Bounds) -> f64 {
 
 impl Subject {
     fn of(gaussians: &Gaussians, object: &Object, labels: &[u16], grid: &Grid) -> Self {
-        let labelled = labels.iter().any(|&label| u32::from(label) == object.id);
-        let belongs = |i: usize, margin: f64| {
-            if labelled { u32::from(labels[i]) == object.id } else { object.contains(gaussians.mean_world(i), margin) }
+        let within = |margin: f64| -> Vec<bool> {
+            let owns = object.owns(labels, margin);
+            (0..gaussians.len()).map(|i| owns(i, gaussians.mean_world(i))).collect()
         };
-        let is_solid = |i: &usize| gaussians.opacities[*i] >= SOLID_OPACITY;
-        let solid: Vec<usize> = (0..gaussians.len()).filter(is_solid).filter(|&i| belongs(i, 0.0)).collect();
-        let num_solid = (0..gaussians.len()).filter(is_solid).count();
-        let skin = SKIN_FRAC * object.radius();
-        let num_own = (0..gaussians.len()).filter(is_solid).filter(|&i| belongs(i, skin)).count();
-        let is_alone = num_own > 0 && num_own as f64 >= ALONE_FRAC * num_solid as f64;
+        let (own, near) = (within(0.0), within(SKIN_FRAC * object.radius()));
+        let all_solid = || (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY);
+        let solid: Vec<usize> = all_solid().filter(|&i| own[i]).collect();
+        let num_near = all_solid().filter(|&i| near[i]).count();
+        let is_alone = num_near > 0 && num_near as f64 >= ALONE_FRAC * all_solid().count() as f64;
         let corners = object.corners().to_vec();
         let stride = (solid.len() / SUBJECT_POINTS).max(1);
         let points = if solid.len() >= 20 {
@@ -236,7 +235,7 @@ impl Subject {
             corners.clone()
         };
         let facets = Facets::of(gaussians, &solid, object.center);
-        let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !belongs(i, skin));
+        let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !near[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
         let half = object.half_extents;
         let half_axes = [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z].map(|axis| object.rotation * axis);

@@ -141,17 +141,8 @@ fn merge_holds(linked: &Linked, direction: &mut Direction) {
         let is_new = |secs: &f64| first.duration_secs != Some(*secs) || stated(*secs).count() > 1;
         let further = second.duration_secs.filter(is_new);
         first.duration_secs = first.duration_secs.into_iter().chain(further).reduce(|sum, secs| sum + secs);
-        first.words = match (first.words, second.words) {
-            (Some([start, end]), Some([other_start, other_end])) => Some([start.min(other_start), end.max(other_end)]),
-            (words, other) => words.or(other),
-        };
-        steps.remove(nth);
-        if direction.step_cameras.len() > nth {
-            direction.step_cameras.remove(nth);
-        }
-        if direction.certainty.len() > nth {
-            direction.certainty.remove(nth);
-        }
+        first.words = first.joint_words(second);
+        direction.remove_step(nth);
     }
 }
 

@@ -76,7 +76,7 @@ fn one_of(sentence: &Sentence, objects: Vec<usize>, scored: &[f64]) -> Vec<usize
 fn named_one(sentence: &Sentence, words: &Range<usize>, chosen: Vec<usize>) -> Vec<usize> {
     match chosen[..] {
         [one] if !sentence.touches(words.clone(), one) && !says_place(sentence, words) => {
-            sentence.only_named(&(words.end - 1..words.end)).map_or(chosen, |named| vec![named])
+            sentence.only_named(words.end - 1).map_or(chosen, |named| vec![named])
         }
         _ => chosen,
     }

@@ -77,9 +77,9 @@ impl Sentence {
         range.into_iter().any(any)
     }
 
-    /// The only object whose label has its head, in the very same form, among the words `range`.
-    pub(super) fn only_named(&self, range: &std::ops::Range<usize>) -> Option<usize> {
-        let is_named = |object: &usize| self.matches[range.clone()].iter().any(|row| row[*object][SAME_FORM] > 0.0);
+    /// The only object whose label has a word, in the very same form, as its head.
+    pub(super) fn only_named(&self, word: usize) -> Option<usize> {
+        let is_named = |object: &usize| self.matches[word][*object][SAME_FORM] > 0.0;
         let mut named = (0..self.scene.objects.len()).filter(is_named);
         named.next().filter(|_| named.next().is_none())
     }

@@ -52,12 +52,17 @@ const NUM_BEHIND: usize = 3;
 /// directions of an axis, say nothing about one step.
 pub(crate) fn take_said_directions(linked: &Linked, steps: &mut [Step]) {
     for nth in 0..steps.len() {
-        let span = steps[nth].words;
-        let is_shared = steps.iter().enumerate().any(|(other, step)| other != nth && step.words == span);
-        if let Some(span) = span.filter(|_| !is_shared) {
+        if let Some(span) = own_words(steps, nth) {
             take_said_direction(linked, &mut steps[nth], span);
         }
     }
+}
+
+/// The words of a step that no other step shares, bytes of the prompt.
+pub(super) fn own_words(steps: &[Step], nth: usize) -> Option<[usize; 2]> {
+    let span = steps[nth].words;
+    let is_shared = steps.iter().enumerate().any(|(other, step)| other != nth && step.words == span);
+    span.filter(|_| !is_shared)
 }
 
 fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {

@@ -6,7 +6,7 @@ use cinesplat_language::Linked;
 use cinesplat_operator::Step;
 use cinesplat_trajectory::Move;
 
-use super::directions::{CORRECTIONS, is_form};
+use super::directions::{CORRECTIONS, is_form, own_words};
 
 /// Verbs of a camera, or of those who carry it.
 const TRAVELS: [&str; 16] = [
@@ -35,13 +35,11 @@ const OTHERS: [&str; 14] = [
 /// Words between a verb and what goes.
 const NUM_BEFORE: usize = 3;
 
-/// Gives dolly zooms the way that the words of their steps say, where they say one. Words that several steps share say nothing
-/// about one step.
+/// Gives dolly zooms the way that the words of their steps say, where they say one. Words that several steps share say
+/// nothing about one step.
 pub(crate) fn take_said_dolly_zooms(linked: &Linked, steps: &mut [Step]) {
     for nth in 0..steps.len() {
-        let span = steps[nth].words;
-        let is_shared = steps.iter().enumerate().any(|(other, step)| other != nth && step.words == span);
-        let Some(span) = span.filter(|_| !is_shared) else { continue };
+        let Some(span) = own_words(steps, nth) else { continue };
         let words: Vec<&str> = linked.words_in(span).map(|(word, _)| word).collect();
         let said = match (says_travel(&words, &BACK), says_travel(&words, &FORWARD)) {
             (true, false) => Move::DollyZoomOut,

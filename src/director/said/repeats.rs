@@ -13,7 +13,7 @@ use crate::direction::Direction;
 /// Senses of words that make a second move of it: `again`, `back`, `the other way`, `twice`, `then`.
 const REPEATS: [&str; 5] = ["again", "back", "other", "double", "then"];
 
-/// Makes one step of two in a row of which the second says nothing that the first does not. `senses` has one entry per word.
+/// Makes one step of two in a row of which the second only adds a detail to the first. `senses` has one entry per word.
 ///
 /// # Errors
 /// [`LanguageError::BadData`] for a damaged list of senses.
@@ -25,8 +25,8 @@ pub(crate) fn merge_repeated(
     let repeats = Senses::named(&REPEATS)?;
     let says_so = |step: &Step| {
         let [from, to] = step.words.unwrap_or_default();
-        let words = linked.spans.iter().zip(senses).filter(|(span, _)| (from..to).contains(&span[0]));
-        words.into_iter().any(|(_, senses)| senses.overlaps(repeats))
+        let is_said = |span: &[usize; 2]| (from..to).contains(&span[0]);
+        linked.spans.iter().zip(senses).any(|(span, senses)| is_said(span) && senses.overlaps(repeats))
     };
     let mut nth = 1;
     while nth < direction.program.steps.len() {
@@ -37,20 +37,12 @@ pub(crate) fn merge_repeated(
                     certainty.words = one.words;
                 }
                 steps[nth - 1] = one;
-                steps.remove(nth);
-                remove_at(&mut direction.step_cameras, nth);
-                remove_at(&mut direction.certainty, nth);
+                direction.remove_step(nth);
             }
             None => nth += 1,
         }
     }
     Ok(())
-}
-
-fn remove_at<T>(list: &mut Vec<T>, nth: usize) {
-    if nth < list.len() {
-        list.remove(nth);
-    }
 }
 
 /// The first of two steps with the details that only the second one states: its length, a stated angle, its speed profile.
@@ -76,10 +68,6 @@ fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
     if second.duration_secs.is_none() && second.amount.is_none() && second.easing.is_none() {
         return None;
     }
-    let words = match (first.words, second.words) {
-        (Some([start, end]), Some([other_start, other_end])) => Some([start.min(other_start), end.max(other_end)]),
-        (words, other) => words.or(other),
-    };
     let stated = if first.either_way { second } else { first };
     let one = Step {
         movement: stated.movement,
@@ -87,7 +75,7 @@ fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
         duration_secs: length,
         amount,
         easing: first.easing.or(second.easing),
-        words,
+        words: first.joint_words(second),
         ..first.clone()
     };
     (with_all_of(&one, second) == one).then_some(one)

@@ -5,7 +5,7 @@ use glam::DQuat;
 use super::context::StepContext;
 use crate::framing::{Target, extent_frac};
 use crate::lookouts::standing_places;
-use crate::view::{aimed, lerp};
+use crate::view::{aimed, lerp, picked};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::CameraState;
 
@@ -21,8 +21,7 @@ const OVERLOOK_HEIGHT: (f64, f64) = (0.72, 1.08);
 pub(super) fn overlook(context: &StepContext, targets: [&Target; 2]) -> Option<CameraState> {
     let world = context.world;
     let parameters = context.parameters;
-    let places = standing_places(world);
-    let place = places.get(((parameters[4] * places.len() as f64) as usize).min(places.len().saturating_sub(1)))?;
+    let place = picked(standing_places(world), parameters[4])?;
     let rise = (lerp(OVERLOOK_HEIGHT, parameters[1]) - 1.0) * world.eye_height();
     let pose = Pose { position: *place + world.frame.up * rise, rotation: DQuat::IDENTITY };
     let widest = CameraState { pose, fov_y_rad: OVERLOOK_LENS_DEG.1.to_radians(), focus_distance: None };

@@ -10,7 +10,7 @@ use crate::lookout::Lookout;
 use crate::lookouts::lookouts;
 use crate::motion::StepParameters;
 use crate::program::Framing;
-use crate::view::{aimed, lerp};
+use crate::view::{aimed, lerp, picked};
 use crate::world::World;
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraState, ShotAngle, ShotSize};
@@ -30,7 +30,7 @@ const BOX_FRAC: f64 = 0.18;
 
 /// What a view of a room is aimed at; `None` where nobody can stand.
 pub(super) fn room_target(world: &World, parameters: &StepParameters) -> Option<Target> {
-    let lookout = picked(world, parameters)?;
+    let lookout = lookout(world, parameters)?;
     let off = parameters[0] * 2.0 - 1.0;
     let along = world.frame.direction(lookout.azimuth_rad + off * off.abs() * 0.2);
     let fall = lerp(DOWN_DEG, parameters[1]).to_radians().tan();
@@ -54,7 +54,7 @@ pub(super) fn room_view(
     parameters: &StepParameters,
     fov_deg: Option<(f64, f64)>,
 ) -> Option<CameraState> {
-    let lookout = picked(world, parameters)?;
+    let lookout = lookout(world, parameters)?;
     let eye = world.eye_height();
     let height = match (framing.height, framing.angle) {
         (Some(height), _) => height,
@@ -90,10 +90,8 @@ fn for_aspect(world: &World, (low, high): (f64, f64)) -> (f64, f64) {
 }
 
 /// The lookout of parameter 4; better ones more often.
-fn picked(world: &World, parameters: &StepParameters) -> Option<Lookout> {
-    let lookouts = lookouts(world);
-    let pick = (parameters[4] * parameters[4] * lookouts.len() as f64) as usize;
-    lookouts.get(pick.min(lookouts.len().saturating_sub(1))).copied()
+fn lookout(world: &World, parameters: &StepParameters) -> Option<Lookout> {
+    picked(lookouts(world), parameters[4] * parameters[4]).copied()
 }
 
 fn target_at(eye: DVec3, way: DVec3) -> Target {

@@ -141,10 +141,7 @@ pub(super) fn pan(context: &StepContext) -> Vec<MotionSegment> {
         sign,
         whip,
         |state, angle_rad| turned(context, state, angle_rad * sign, 0.0),
-        |sign| {
-            let yaw = band(sign, 13.0, 178.0);
-            (ConstraintKind::YawChange(yaw), ConstraintKind::PitchChange((-10.0, 10.0)))
-        },
+        |yaw| (ConstraintKind::YawChange(yaw), ConstraintKind::PitchChange((-10.0, 10.0))),
     )
 }
 
@@ -157,10 +154,7 @@ pub(super) fn tilt(context: &StepContext) -> Vec<MotionSegment> {
         sign,
         false,
         |state, angle_rad| turned(context, state, 0.0, angle_rad * sign),
-        |sign| {
-            let pitch = band(sign, 10.0, 120.0);
-            (ConstraintKind::PitchChange(pitch), ConstraintKind::YawChange((-9.0, 9.0)))
-        },
+        |pitch| (ConstraintKind::PitchChange(pitch), ConstraintKind::YawChange((-9.0, 9.0))),
     )
 }
 
@@ -183,13 +177,13 @@ fn turned(context: &StepContext, state: &CameraState, yaw_rad: f64, pitch_rad: f
 }
 
 /// A turn in place. `by` turns a camera by an angle in the step's direction; `limits` gives the constraints along and
-/// across the turn.
+/// across the turn for a range of signed degrees.
 fn turn(
     context: &StepContext,
     sign: f64,
     whip: bool,
     by: impl Fn(&CameraState, f64) -> CameraState,
-    limits: impl Fn(f64) -> (ConstraintKind, ConstraintKind),
+    limits: impl Fn((f64, f64)) -> (ConstraintKind, ConstraintKind),
 ) -> Vec<MotionSegment> {
     let tilts = matches!(context.step.movement, Move::TiltUp | Move::TiltDown);
     let open_deg = if tilts { OPEN_TILT_DEG } else { OPEN_PAN_DEG };
@@ -201,10 +195,10 @@ fn turn(
         _ => None,
     };
     let angle_rad = stated_rad.unwrap_or(open_rad);
-    let (mut segments, first, last) = match (&context.start, &context.end, stated_rad) {
-        (_, Some(end), None) => onto(context, end, |state| by(state, -angle_rad)),
-        (Some(_), Some(end), Some(_)) if is_between(context) => onto(context, end, |state| by(state, -angle_rad)),
-        (None, Some(end), Some(_)) if context.before.is_none() => onto(context, end, |state| by(state, -angle_rad)),
+    let is_free = context.start.is_none() && context.before.is_none();
+    let goes_to_end = stated_rad.is_none() || is_between(context) || is_free;
+    let (mut segments, first, last) = match &context.end {
+        Some(end) if goes_to_end => onto(context, end, |state| by(state, -angle_rad)),
         _ => {
             let (segments, first) = context.opened_on(&context.opening_target(), (0.3, 0.6));
             let last = by(&first, angle_rad);
@@ -214,20 +208,21 @@ fn turn(
     let is_pinned = context.before.is_some() || !segments.is_empty() || stated_rad.is_some();
     let (first, last) = if tilts { (first, last) } else { leveled(context, [first, last], is_pinned) };
     let mut segment = context.segment(vec![first, last]);
-    let (along, across) = limits(sign);
     // A whip goes to its goal, whichever way that is, unless the words name one.
     let names_way = context.step.with.iter().any(|other| matches!(other, Move::PanLeft | Move::PanRight));
     let is_open = whip && (context.step.either_way || (context.end.is_some() && !names_way));
     if !is_open {
         // Between two subjects a stated angle is one to look for a place for.
-        let along = match context.step.amount {
-            Some(Amount::Degrees(degrees)) if is_between(context) => {
-                let stated = band(sign, (1.0 - ANGLE_TOLERANCE) * degrees, (1.0 + ANGLE_TOLERANCE) * degrees);
-                Some(if tilts { ConstraintKind::PitchChange(stated) } else { ConstraintKind::YawChange(stated) })
-            }
-            _ if angle_rad < 0.3 && stated_rad.is_some() => None,
-            _ => Some(along),
+        let sought = match context.step.amount {
+            Some(Amount::Degrees(degrees)) if is_between(context) => Some(degrees),
+            _ => None,
         };
+        let (least, most) = sought.map_or(if tilts { TILT_RANGE_DEG } else { PAN_RANGE_DEG }, |degrees| {
+            ((1.0 - ANGLE_TOLERANCE) * degrees, (1.0 + ANGLE_TOLERANCE) * degrees)
+        });
+        let (along, across) = limits(band(sign, least, most));
+        let is_slight = angle_rad < 0.3 && stated_rad.is_some() && sought.is_none();
+        let along = Some(along).filter(|_| !is_slight);
         segment.constraints.extend(along.map(|kind| Constraint { kind, scope: Scope::All }));
         segment = segment.requiring(Scope::All, across);
     }
@@ -242,6 +237,9 @@ fn turn(
     segments
 }
 
+/// Least and largest turn of a pan and of a tilt, degrees.
+const PAN_RANGE_DEG: (f64, f64) = (13.0, 178.0);
+const TILT_RANGE_DEG: (f64, f64) = (10.0, 120.0);
 /// Tolerance of a stated angle between two subjects, over the angle.
 const ANGLE_TOLERANCE: f64 = 0.12;
 
@@ -291,8 +289,8 @@ fn onto(
 const OPEN_FILL: (f64, f64) = (0.32, 0.66);
 
 /// The first camera of a turn between two subjects: at a place with a view of the first one, or of a whip, whose goal is
-/// what counts, at one with a view of the second one; from [`OVERLOOK_FROM`] on where somebody stands in the room. What stands
-/// behind other things is seen from few places. Parameter 7 chooses.
+/// what counts, at one with a view of the second one; from [`OVERLOOK_FROM`] on where somebody stands in the room. What
+/// stands behind other things is seen from few places. Parameter 7 chooses.
 fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> CameraState {
     if start.ids == end.ids && is_along(context) {
         return context.view(start, &context.opening_framing(), ALONG_FILL, NORMAL_LENS_DEG);
