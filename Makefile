@@ -105,7 +105,7 @@ target/cinesplat-panics: build
 # Films on a Slurm cluster of two virtual nodes on this machine that lose tasks and nodes; prints a table. Needs root and
 # Debian's packages slurmctld, slurmd, slurm-client and munge; takes ten minutes.
 check-slurm: build
-	python3 tests/slurm/check.py $(BIN)
+	set -o pipefail; python3 tests/slurm/check.py $(BIN) | tee target/slurm.txt
 
 # Fuzzes every reader for FUZZ_SECS seconds each, guided by coverage; a crash stops its target, is written to
 # tests/fuzz/artifacts, and makes this fail when the other targets are done.
@@ -128,7 +128,8 @@ fuzz:
 
 # Measures all rows that were not measured at this commit, and writes the page of their figures after each.
 reliability: target/cinesplat-panics
-	python3 tests/faults/page.py $(BIN) --rows all --kills 200 --panics target/cinesplat-panics --fuzz-logs target/fuzz
+	python3 tests/faults/page.py $(BIN) --rows all --kills 200 --panics target/cinesplat-panics --fuzz-logs target/fuzz \
+		$(if $(wildcard target/slurm.txt),--slurm-log target/slurm.txt)
 
 # Checks that the camera does what the prompts say. Plans the cases of ../shared (not part of this repository) with the
 # solver off and full, from the network's programs and from hand-written ones, and runs the checker of ../shared.

@@ -19,7 +19,7 @@ mod paths;
 mod read;
 mod unknown_keys;
 
-pub use disk::{free_bytes, has_no_locks, sync_file, sync_folder};
+pub use disk::{free_bytes, has_no_locks, start_sync, sync_file, sync_folder};
 pub use error::FileError;
 pub use group_memory::{group_memory_left, group_memory_max};
 pub use hash::{checksum, sha256_hex};

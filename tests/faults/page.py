@@ -1,6 +1,7 @@
 """Writes `tests/reliability.md` anew: load held, faults survived, bad inputs tried, and the matrix of faults with its tests.
 
 Usage: python3 tests/faults/page.py target/release/cinesplat [--rows ROW ..] [--kills 20] [--panics PROGRAM] [--fuzz-logs DIR]
+           [--slurm-log FILE]
 
 The rows named by --rows are measured now (none without it); figures of other rows stay as they were measured, each with its
 date and commit. The page is written after each row. `--rows all` leaves out rows that were measured at this commit without a
@@ -118,6 +119,13 @@ def fuzzed(folder):
     return found
 
 
+def of_cluster(log):
+    """The rows that `make check-slurm` printed, if it found no fault."""
+    lines = [line.strip("| \n").split(" | ") for line in pathlib.Path(log).read_text().splitlines() if line.startswith("| Slurm")]
+    assert lines and all(len(line) == 3 and "**" not in line[2] for line in lines), f"{log}: no table, or one with faults"
+    return [[*line, str(datetime.date.today()), commit()] for line in lines]
+
+
 def table(head, lines):
     rule = "|" + "---|" * len(head)
     return "\n".join(["| " + " | ".join(head) + " |", rule, *("| " + " | ".join(line) + " |" for line in lines)])
@@ -141,7 +149,8 @@ def cost():
 
 
 def page(kept, lines):
-    load = [[row["fault"], row["tried"], row["result"], f"`{name}`", row["date"], row["commit"]] for name, row in kept["rows"].items()]
+    lines_of = lambda is_load: [[row["fault"], row["tried"], row["result"], f"`{name}`", row["date"], row["commit"]]
+                                for name, row in kept["rows"].items() if name.startswith("load-") == is_load]
     fuzz = [[f"`{name}`", f"{row['runs']:,}", f"{row['secs'] // 60} min", str(row["corpus"]), str(row["crashes"]), row["date"], row["commit"]]
             for name, row in kept["fuzz"].items()]
     return f"""# Reliability
@@ -149,12 +158,23 @@ def page(kept, lines):
 Written by `python3 tests/faults/page.py target/release/cinesplat --rows ROW ..`; do not edit, but for the section on cost. Every figure has the date and the
 commit that it was measured at, a plus for a commit with changes. `make faults` measures all rows, `make fuzz` runs the fuzz targets.
 
+## Load held
+
+Memory is the most that the system counted at one time, of several programs the sum.
+
+{table(["load", "tried", "result", "row", "date", "commit"], lines_of(True))}
+
 ## Faults survived
 
 `python3 tests/faults/run.py target/release/cinesplat --only ROW` measures one row alone. Films are compared byte by byte with
 those of undisturbed runs.
 
-{table(["fault", "tried", "result", "row", "date", "commit"], load)}
+{table(["fault", "tried", "result", "row", "date", "commit"], lines_of(False))}
+
+`make check-slurm`: films of 240 frames by real `sbatch` on two virtual nodes of one machine, compared with the film that one
+thread makes.
+
+{table(["fault", "tried", "result", "date", "commit"], kept["slurm"])}
 
 ## Bad inputs tried
 
@@ -192,15 +212,18 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--rows", nargs="*", default=[])
     parser.add_argument("--kills", type=int, default=20)
-    parser.add_argument("--fuzz-logs")
+    parser.add_argument("--fuzz-logs", help="folder of the logs of make fuzz")
+    parser.add_argument("--slurm-log", help="what make check-slurm printed")
     parser.add_argument("--panics", help="the program built with the feature panic-points")
     arguments = parser.parse_args()
     rows = run.rows(os.path.abspath(arguments.program), arguments.kills, arguments.panics)
-    kept = {"rows": {}, "fuzz": {}, **figures()}
+    kept = {"rows": {}, "fuzz": {}, "slurm": [], **figures()}
     # The row of panics exists in the matrix whether its program was built or not.
     lines, missing = matrix(existing_tests(), [*rows, "panics"])
     if arguments.fuzz_logs:
         kept["fuzz"].update(fuzzed(arguments.fuzz_logs))
+    if arguments.slurm_log:
+        kept["slurm"] = of_cluster(arguments.slurm_log)
     write(page(kept, lines))
     for name in missing:
         print(f"the matrix names {name}, which does not exist", file=sys.stderr)

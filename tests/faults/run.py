@@ -24,6 +24,7 @@ import tempfile
 import time
 
 import commands
+import load
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENE = "synth:tabletop:1:0.02"
@@ -384,6 +385,7 @@ def rows(program, num, panics_program=None):
         "file-limits": lambda: file_limits(program),
         **({"panics": lambda: panics(os.path.abspath(panics_program))} if panics_program else {}),
         **commands.rows(program),
+        **load.rows(program),
     }
 
 

@@ -214,6 +214,22 @@ fn pictures_of_a_sequence_are_their_own_frames() {
     assert!(read("sheet.png") == read("other.png"), "the same sheet");
 }
 
+/// Pictures that cannot be flushed fail the sequence: they are its output, so that they must be on the disk at its end.
+#[test]
+fn the_last_pictures_of_a_sequence_are_flushed_before_it_counts_as_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut watch = |progress: FilmProgress| {
+        // By now the encoder has written it: at most five later pictures wait.
+        if let Some(written) = progress.done.checked_sub(6) {
+            fs::remove_file(folder.path().join(format!("{written:02}.png"))).unwrap();
+        }
+        ControlFlow::Continue(())
+    };
+    let pattern = folder.path().join("%02d.png");
+    let filmed = film(&Renderer::new(&scene().gaussians), &shot(), &pattern, &with_job(), &mut watch);
+    assert!(matches!(filmed, Err(PipelineError::Job(JobError::File(_)))), "{filmed:?}");
+}
+
 #[test]
 fn a_resting_camera_is_kept_without_copies() {
     let (folder, path, _) = undisturbed();

@@ -25,6 +25,8 @@ from run import shot
 from cluster import Cluster
 
 SCENE = "synth:tabletop:1:0.3"
+# Tasks that are killed in one film.
+NUM_KILLED = 4
 
 
 class Bench:
@@ -38,7 +40,7 @@ class Bench:
         atexit.register(self.end_children)
         self.film, self.job = self.folder / "film.mp4", self.folder / "film.mp4.job"
         (self.folder / "shot.json").write_text(json.dumps({**shot(num_frames / 30, 30), "scene": {"path": SCENE, "up": [0, 1, 0]}}))
-        self.words = [SCENE, "--shot", "shot.json", "--size", "640x360", "-o", "film.mp4"]
+        self.words = [SCENE, "--shot", "shot.json", "--size", "960x540", "-o", "film.mp4"]
         start = time.monotonic()
         subprocess.run([program, "render", *self.words, "--threads", "1"], cwd=self.folder, check=True, capture_output=True)
         self.secs = time.monotonic() - start
@@ -99,8 +101,8 @@ def killed_tasks(bench, cluster):
     start, rng = time.monotonic(), random.Random(5)
     child = bench.farm("--slurm", "--parts", "8", "--keep-frames")
     killed = []
-    for step in range(4):
-        bench.wait_for(child, bench.num_frames * (step + 1) // 8)
+    for step in range(NUM_KILLED):
+        bench.wait_for(child, bench.num_frames * (step + 1) // 16)
         tasks = cluster.running()
         if tasks:
             job, task, node = rng.choice(tasks)
@@ -113,6 +115,8 @@ def killed_tasks(bench, cluster):
     bench.wait_for(child, bench.num_frames * 3 // 4)
     cluster.scontrol("update", "nodename=n2", "state=resume")
     bench.row("Slurm, tasks killed, one of two nodes drained", f"{len(killed)} of 8 tasks", child, start)
+    if len(killed) < NUM_KILLED:
+        bench.faults.append(f"only {len(killed)} tasks were killed before the film was whole")
 
 
 def crashed_node(bench, cluster):

@@ -77,11 +77,18 @@ pub fn film_planned(
     }
     match job {
         Some(mut job) if report.is_partial() => job.flush()?,
-        Some(job) => {
-            if !job.is_sequence() {
+        Some(mut job) => {
+            let keeps_frames = settings.job.as_ref().is_some_and(|settings| settings.keeps_frames);
+            if job.is_sequence() {
+                // Its frames are the output: they are on the disk before the log that proves them goes.
+                job.flush()?;
+            } else {
+                if !keeps_frames {
+                    job.abandon_frames();
+                }
                 job.place_film(output, settings.video.existing)?;
             }
-            if settings.job.as_ref().is_none_or(|settings| !settings.keeps_frames) {
+            if !keeps_frames {
                 job.remove();
             }
         }

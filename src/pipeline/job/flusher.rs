@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use cinesplat_files::{FileError, folder_of, sync_file, sync_folder};
+use cinesplat_files::{FileError, folder_of, start_sync, sync_file, sync_folder};
 
 use super::error::JobError;
 use crate::pipeline::panic_point::panic_point;
@@ -78,10 +78,14 @@ fn run(receiver: &Receiver<PathBuf>, log: &Path, is_abandoned: &AtomicBool) -> R
             paths.push(path);
         }
         panic_point("flush", 0);
-        if is_abandoned.load(Ordering::Relaxed) {
-            return Ok(());
+        paths.iter().for_each(|path| start_sync(path));
+        for path in &paths {
+            // The program waits for this thread: what nobody needs any more must not keep it.
+            if is_abandoned.load(Ordering::Relaxed) {
+                return Ok(());
+            }
+            sync_file(path)?;
         }
-        paths.iter().try_for_each(|path| sync_file(path))?;
         sync_folder(folder_of(&paths[0]))?;
         sync_file(log)?;
     }

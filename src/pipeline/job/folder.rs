@@ -113,6 +113,11 @@ impl Job {
         self.keeper.flush()
     }
 
+    /// Flushes no frame any more: the film is whole, and its frames are about to go.
+    pub(crate) fn abandon_frames(&mut self) {
+        self.keeper.abandon();
+    }
+
     /// Removes the folder of a film that is whole.
     pub(crate) fn remove(mut self) {
         self.remove_folder();

@@ -121,7 +121,7 @@ impl Sign {
         let before = written(&self.path);
         let shown = File::options().write(true).open(&self.path);
         let shown =
-            shown.and_then(|mut file| file.write_all(word(self.access).as_bytes()).and_then(|()| file.sync_all()));
+            shown.and_then(|mut file| file.write_all(word(self.access).as_bytes()).and_then(|()| file.sync_data()));
         // Where a sign of life fails otherwise, the next one may not.
         let is_removed = shown.is_err_and(|error| error.kind() == ErrorKind::NotFound);
         let was_late = || {
