@@ -184,8 +184,12 @@ def farm(program, num):
             bench.wait_for(child, rng.randint(1, 50))
             parts = subprocess.run(["pgrep", "-P", str(child.pid)], capture_output=True, text=True).stdout.split()
             if parts:
-                os.kill(int(rng.choice(parts)), signal.SIGKILL)
-                num_killed += 1
+                try:
+                    os.kill(int(rng.choice(parts)), signal.SIGKILL)
+                    num_killed += 1
+                except ProcessLookupError:
+                    # It ended by itself since it was listed.
+                    pass
         said = child.communicate()[1]
         listed = collections.Counter(bench.frames())
         num_twice += sum(count - 1 for count in listed.values())
