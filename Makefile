@@ -150,10 +150,11 @@ check-shots: build
 EVO_DATA := target/exchange/evo/test/data
 check-exchange: build
 	test -x target/exchange/venv/bin/python || python3 -m venv target/exchange/venv
-	target/exchange/venv/bin/pip install -q evo==1.38.1 pycolmap usd-core pygltflib
+	target/exchange/venv/bin/pip install -q evo==1.38.1 pycolmap usd-core pygltflib rosbags
 	test -d target/exchange/evo || git clone -q --depth 1 https://github.com/MichaelGrupp/evo target/exchange/evo
 	$(BIN) plan $(DEMO_SCENE) -p "$(DEMO_PROMPT)" -o target/exchange/demo.shot.json --overwrite
 	target/exchange/venv/bin/python tests/exchange/open_exports.py $(BIN) target/exchange/demo.shot.json
+	target/exchange/venv/bin/python tests/exchange/other_files.py $(BIN)
 	target/exchange/venv/bin/python tests/exchange/evo_figures.py $(BIN) $(EVO_DATA)
 
 # The pictures of the README: the demo film, and a sheet of each film of prompts/gallery.txt. Needs the program ffmpeg.

@@ -6,6 +6,7 @@ use strum::{VariantArray, VariantNames};
 use super::failure::Failure;
 use super::{console, formats, heading, outputs, shot_args};
 use cinesplat::export::{self, Content, EncodedFiles, ExportSettings, Format, Layout};
+use cinesplat::objects::{self, Object};
 use cinesplat::trajectory::retimed;
 
 const EXAMPLES: &str = "\
@@ -37,6 +38,9 @@ pub(super) struct Args {
     /// Write the keyframes instead of every frame
     #[arg(long)]
     keyframes: bool,
+    /// Objects that keys of the shot look at by name
+    #[arg(long, value_name = "OBJECTS.JSON")]
+    objects: Option<PathBuf>,
     /// Move the inner keys in time so that the camera's speed is constant
     #[arg(long)]
     retime: bool,
@@ -68,7 +72,10 @@ impl Args {
             }
             (false, _) => export::check_output(&self.output, format, layout, self.overwrite.existing())?,
         }
-        let shot = shot_args::read_file(&self.shot)?;
+        let objects = self.objects.as_deref().map(objects::read_boxes).transpose()?.unwrap_or_default();
+        // An object without a box has no place outside its scene.
+        let objects: Vec<Object> = objects.into_iter().filter(|object| object.radius() > 0.0).collect();
+        let shot = shot_args::read_file(&self.shot, &objects)?;
         shot_args::print_warnings(&shot);
         let shot = if self.retime { retimed(&shot) } else { shot };
         let content = if self.keyframes { Content::Keyframes } else { Content::Sampled };

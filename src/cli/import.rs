@@ -9,6 +9,7 @@ use super::scene_args::parse_vector;
 use super::shot_args::{parse_rate, parse_size};
 use super::{console, formats, heading};
 use cinesplat::export::{self, Format, ImportSettings, ReadSettings, shot_json};
+use cinesplat::lens;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,6 +64,7 @@ impl Args {
             ImportSettings { fps: self.fps, size_px: self.size, fov_y_rad: self.fov.map(f64::to_radians), up: self.up };
         let (shot, assumed) = imported.into_shot(&settings).map_err(in_file)?;
         console::warnings(&assumed);
+        console::file_warnings(&self.file, &lens::unknown_names(&shot.effects));
         self.overwrite.write(&self.output, shot_json::write(&shot).as_bytes())?;
         let (keys, secs) = (shot.keyframes.len(), shot.duration_secs);
         console::note(&format!("{}: {keys} keys, {secs:.2} s, from {format}", self.output.display()));

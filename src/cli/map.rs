@@ -41,10 +41,10 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         figures::check(&self.output, self.overwrite)?;
-        let shot = shot_args::read_file(&self.shot)?;
+        let (scene, objects) = self.scene.open_with_objects(self.objects.as_deref())?;
+        let shot = shot_args::read_file(&self.shot, &objects.objects)?;
         shot_args::print_warnings(&shot);
         let mut shot = if self.retime { retimed(&shot) } else { shot };
-        let (scene, objects) = self.scene.open_with_objects(self.objects.as_deref())?;
         shot_args::print_other_scene(&self.shot, &shot, &scene);
         shot.clearance = Some(pipeline::prove_clearance(&scene, &shot)?);
         write(&self.output, (&scene, &objects), &shot, self.overwrite)?;

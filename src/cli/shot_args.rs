@@ -8,8 +8,9 @@ use super::failure::Failure;
 use super::model_args::ModelArgs;
 use super::takes::TakesArgs;
 use super::{console, heading, outputs};
+use cinesplat::export::shot_json;
 use cinesplat::lens::{self, Called, EffectChoice};
-use cinesplat::objects::ObjectSet;
+use cinesplat::objects::{self, Object, ObjectSet};
 use cinesplat::operator::SolveLevel;
 use cinesplat::pipeline::{self, DirectSettings, Directed, FilmChoice, Interpreter};
 use cinesplat::scene::Scene;
@@ -107,8 +108,8 @@ impl ShotArgs {
     }
 
     /// Reads a shot and applies the flags to it.
-    pub(super) fn read_shot(&self, path: &Path, scene: &Scene) -> Result<Shot, Failure> {
-        let shot = read_file(path)?;
+    pub(super) fn read_shot(&self, path: &Path, (scene, objects): (&Scene, &ObjectSet)) -> Result<Shot, Failure> {
+        let shot = read_file(path, &objects.objects)?;
         print_other_scene(path, &shot, scene);
         let mut shot = self.changed(shot);
         print_warnings(&shot);
@@ -132,12 +133,22 @@ impl ShotArgs {
     }
 }
 
-/// Reads a shot.
-pub(super) fn read_file(path: &Path) -> Result<Shot, Failure> {
+/// Reads a shot; its keyframes may look at `objects`.
+pub(super) fn read_file(path: &Path, objects: &[Object]) -> Result<Shot, Failure> {
     let text = outputs::read_text(path)?;
-    let read = cinesplat::export::shot_json::read(&text).map_err(|error| Failure::from(error).in_file(path))?;
+    let find = |name: &str| match objects {
+        [] => Err("a point, or an object of --objects OBJECTS.JSON".to_owned()),
+        _ => objects::named(objects, name).map(|object| object.center),
+    };
+    let read = shot_json::read_in(&text, &find).map_err(|error| Failure::from(error).in_file(path))?;
     console::file_warnings(path, &read.notes);
+    console::file_warnings(path, &lens::unknown_names(&read.shot.effects));
     Ok(read.shot)
+}
+
+/// Whether a shot looks at objects by their names, so that it can't be read without them.
+pub(super) fn names_objects(path: &Path) -> Result<bool, Failure> {
+    outputs::read_text(path).map(|text| shot_json::names_objects(&text))
 }
 
 /// Warns of a shot that was made for another scene.

@@ -75,16 +75,27 @@ pub enum EncodedFiles {
 /// # Errors
 /// [`ExportError::BadShot`] if the shot is not usable.
 pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<Encoded, ExportError> {
-    let track = match settings.content {
+    // The last key eases nothing.
+    let eased = shot.keyframes.split_last().map_or(&[][..], |(_, keys)| keys);
+    let num_eased = eased.iter().filter(|key| !lichtfeld::has(key.easing)).count();
+    let is_too_eased = format == Format::Lichtfeld && num_eased > 0;
+    let content = if is_too_eased { Content::Sampled } else { settings.content };
+    let track = match content {
         Content::Sampled => PoseTrack::sampled(shot, settings.fps)?,
         Content::Keyframes => PoseTrack::keyframes(shot),
     };
-    if format == Format::Shot && settings.content == Content::Keyframes {
+    if format == Format::Shot && content == Content::Keyframes {
         return Ok(Encoded { files: EncodedFiles::Single(shot_json::write(shot).into_bytes()), losses: Vec::new() });
     }
     let mut encoded = encode_poses(format, shot, &track, settings.layout)?;
-    if settings.content == Content::Keyframes && shot.keyframes.len() > 1 {
+    if content == Content::Keyframes && shot.keyframes.len() > 1 {
         encoded.losses.extend(stray::line(format, shot)?);
+    }
+    if content != settings.content {
+        encoded.losses.push(format!(
+            "lichtfeld has linear and cubic easings: every frame is a key, because {num_eased} of {} keys ease otherwise",
+            shot.keyframes.len()
+        ));
     }
     Ok(encoded)
 }

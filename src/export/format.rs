@@ -31,7 +31,7 @@ pub enum Format {
     Lichtfeld,
     /// glTF 2.0 with an animated camera.
     Gltf,
-    /// USD, text form.
+    /// USD: written as text; the binary form and packages are read too.
     Usd,
     /// A Python script for Blender.
     Blender,

@@ -7,6 +7,7 @@
 
 mod aria;
 mod blender;
+mod bytes;
 pub mod cameras_json;
 mod clearance_json;
 mod colmap;

@@ -1,8 +1,8 @@
 //! LichtFeld Studio timelines, version 4: per key seconds, position, quaternion (w x y z, OpenGL camera axes), focal
 //! length in mm for a frame 24 mm high, and one of four easings.
 //!
-//! Other easings are replaced by the one of the four that rests at the same ends. The program joins the keys with its
-//! own spline and stores numbers as f32.
+//! The program joins positions with a uniform Catmull-Rom spline and stores numbers as f32. Its easings are linear and
+//! cubic: a shot with others is written with a key per frame.
 
 use super::ExportError;
 use super::json_read::{self, Node};
@@ -17,7 +17,23 @@ const FRAME_HEIGHT_MM: f64 = 24.0;
 /// Range of focal lengths in the program, mm; it clamps others.
 pub(super) const FOCAL_RANGE_MM: (f64, f64) = (10.0, 200.0);
 /// Easings in the order of their numbers in the file.
-const EASINGS: [Easing; 4] = [Easing::Linear, Easing::EaseIn, Easing::EaseOut, Easing::Smooth];
+const EASINGS: [Easing; 4] = [Easing::Linear, Easing::CubicIn, Easing::CubicOut, Easing::CubicInOut];
+
+/// Whether the program has an easing.
+pub(super) fn has(easing: Easing) -> bool {
+    EASINGS.contains(&easing)
+}
+
+/// The program's share of the way at a share of the time.
+pub(super) fn eased(easing: Easing, t: f64) -> f64 {
+    match easing {
+        Easing::CubicIn => t.powi(3),
+        Easing::CubicOut => 1.0 - (1.0 - t).powi(3),
+        Easing::CubicInOut if t < 0.5 => 4.0 * t.powi(3),
+        Easing::CubicInOut => 1.0 - 4.0 * (1.0 - t).powi(3),
+        _ => t,
+    }
+}
 
 pub(super) fn focal_mm(fov_y_rad: f64) -> f64 {
     FRAME_HEIGHT_MM / 2.0 / (fov_y_rad / 2.0).tan()
@@ -26,7 +42,7 @@ pub(super) fn focal_mm(fov_y_rad: f64) -> f64 {
 pub(super) fn write(track: &PoseTrack) -> String {
     let keyframes = track.since_start().map(|(secs, frame)| {
         let [x, y, z, w] = opengl_rotation(&frame.pose).to_array();
-        let easing = EASINGS.iter().position(|easing| *easing == frame.easing.as_cruise()).unwrap_or(0);
+        let easing = EASINGS.iter().position(|easing| *easing == frame.easing).unwrap_or(0);
         object([
             ("time", secs.into()),
             ("position", frame.pose.position.into()),

@@ -1,8 +1,52 @@
-//! `look_at` on keyframes of a `shot.json`: a point that the camera looks at, whatever else was edited.
+//! `look_at` on keyframes of a `shot.json`: what the camera looks at, whatever else was edited.
+//!
+//! It is a point (`[x, y, z]`), the name of an object (`"<obj-3>"`, `"mug"`), or both (`{"object": .., "point": ..}`), as
+//! the writer leaves it: then the point decides, and who leaves it out has it found anew.
 
 use cinesplat_geometry::{LevelAngles, LevelFrame};
-use cinesplat_trajectory::Keyframe;
+use cinesplat_trajectory::{Keyframe, LookAt};
 use glam::{DQuat, DVec3};
+
+use super::ExportError;
+use super::json_read::Node;
+use super::json_write::{Json, object};
+
+/// Keys of a `look_at` with an object.
+pub(super) const KEYS: [&str; 2] = ["object", "point"];
+
+/// The center of the object of a name, world, or what was expected instead.
+pub type FindObject<'a> = dyn Fn(&str) -> Result<DVec3, String> + 'a;
+
+/// Whether a `look_at` names an object without its place.
+pub(super) fn is_name(node: &Node) -> bool {
+    node.text().is_ok() || node.optional("object").is_some() && node.optional("point").is_none()
+}
+
+/// Reads a `look_at` of the camera at `position`.
+pub(super) fn read(node: &Node, position: DVec3, find: &FindObject<'_>) -> Result<LookAt, ExportError> {
+    let found = |name: &Node| find(name.text()?).map_err(|expected| name.error(&expected));
+    let (point, name) = if node.text().is_ok() {
+        (found(node)?, Some(node.text()?))
+    } else if let Some(name) = node.optional("object") {
+        let point = node.optional("point").map_or_else(|| found(&name), |point| point.vector())?;
+        (point, Some(name.text()?))
+    } else {
+        let expected = "a point (3 finite numbers) or the name of an object (\"<obj-3>\")";
+        (node.vector().map_err(|_| node.error(expected))?, None)
+    };
+    if !(point.distance(position) > 0.0) {
+        return Err(node.error("a point other than the key's own position"));
+    }
+    Ok(LookAt { point, object: name.map(str::to_owned) })
+}
+
+/// A `look_at` as JSON.
+pub(super) fn write(look_at: &LookAt) -> Json {
+    match &look_at.object {
+        Some(name) => object([("object", name.as_str().into()), ("point", look_at.point.into())]),
+        None => look_at.point.into(),
+    }
+}
 
 /// Largest angle between the view axis and the direction to the point that needs no new aim, degrees.
 const TOLERANCE_DEG: f64 = 0.01;
@@ -13,7 +57,7 @@ pub(super) fn apply(keys: &mut [Keyframe], up: Option<DVec3>) -> Vec<String> {
     let level = up.and_then(|up| LevelFrame::new(up).ok());
     let mut notes = Vec::new();
     for (idx, key) in keys.iter_mut().enumerate() {
-        let point = key.intent.as_ref().and_then(|intent| intent.look_at);
+        let point = key.intent.as_ref().and_then(|intent| Some(intent.look_at.as_ref()?.point));
         let Some(toward) = point.and_then(|point| (point - key.pose.position).try_normalize()) else { continue };
         let off_deg = key.pose.forward().angle_between(toward).to_degrees();
         if off_deg > TOLERANCE_DEG {

@@ -33,11 +33,6 @@ pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
     lost(!holds.size && track.size_px.is_some(), "holds no image size".into());
     lost(!holds.focus && any(|f| f.focus_distance.is_some()), "holds no focus distance".into());
     lost(!holds.easing && any(|f| f.easing != Easing::Linear), "holds no easing".into());
-    let has_curve = any(|f| f.easing != f.easing.as_cruise());
-    lost(
-        format == Format::Lichtfeld && has_curve,
-        "has four easings: each other easing becomes the one that rests at the same ends".into(),
-    );
     lost(!holds.cuts && any(|f| f.cut), "holds no cuts: other programs may interpolate across them".into());
     let roll = if holds.roll { 0.0 } else { largest_roll_rad(track, DVec3::NEG_Y) };
     lost(

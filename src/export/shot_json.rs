@@ -5,7 +5,7 @@
 //! unknown keys and edited `euler_deg`, and rejects another `format` or `version`.
 
 use cinesplat_files::UnknownKeys;
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 
 use super::ExportError;
 use super::clearance_json;
@@ -14,6 +14,7 @@ use super::euler_edits;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
 use super::look_at;
+pub use super::look_at::FindObject;
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose};
 use cinesplat_trajectory::Easing;
 use cinesplat_trajectory::{Intent, KeyOptics, Keyframe, ModelRef, ReportLine, SceneRef, Shot};
@@ -75,12 +76,20 @@ pub struct ShotFile {
 /// yaw about the scene's up, 0 at the first keyframe and positive to the operator's right, then pitch, positive up, then
 /// roll, positive clockwise. Where the first keyframe of the file is not the one that the yaws were written for (it was
 /// removed, or its quaternion replaced) and at least two keyframes agree on the old heading, yaw counts from that. An
-/// unknown key becomes a note.
+/// unknown key becomes a note. `look_at` aims a keyframe at a point, or at the center of an object.
 ///
 /// # Errors
 /// [`ExportError::NotJson`], [`ExportError::WrongFormat`], [`ExportError::WrongVersion`]; [`ExportError::BadField`] and
 /// [`ExportError::BadShot`] name the keyframe and the field.
 pub fn read(text: &str) -> Result<ShotFile, ExportError> {
+    read_in(text, &|_| Err("a point (3 finite numbers), because no objects are given".to_owned()))
+}
+
+/// As [`read`], with the objects that a `look_at` may name.
+///
+/// # Errors
+/// Those of [`read`], and [`ExportError::BadField`] for the name of an object that is not found.
+pub fn read_in(text: &str, find: &FindObject<'_>) -> Result<ShotFile, ExportError> {
     let value = json_read::parse(text)?;
     let root = Node::root(&value);
     check_header(&root)?;
@@ -94,7 +103,7 @@ pub fn read(text: &str) -> Result<ShotFile, ExportError> {
         height: root.field("height", "a number of pixels")?.pixels()?,
         fps: root.field("fps", "frames per second")?.number()?,
         duration_secs: root.field("duration_secs", "seconds")?.number()?,
-        keyframes: keys.iter().map(read_keyframe).collect::<Result<_, _>>()?,
+        keyframes: keys.iter().map(|key| read_keyframe(key, find)).collect::<Result<_, _>>()?,
         effects: root.optional("effects").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, effects_json::read))?,
         report: root.optional("report").map_or_else(|| Ok(Vec::new()), |node| list_of(&node, read_report_line))?,
         clearance: None,
@@ -118,6 +127,13 @@ pub fn read(text: &str) -> Result<ShotFile, ExportError> {
     Ok(ShotFile { shot, notes })
 }
 
+/// Whether a keyframe of a `shot.json` looks at an object whose place the file does not state; `false` for another text.
+pub fn names_objects(text: &str) -> bool {
+    let Ok(value) = json_read::parse(text) else { return false };
+    let keys = Node::root(&value).optional("keyframes").and_then(|keys| keys.items().ok()).unwrap_or_default();
+    keys.iter().filter_map(|key| key.optional("look_at")).any(|look_at| look_at::is_name(&look_at))
+}
+
 /// The keys that no version 1 file has. The settings of effects are free.
 fn unknown_keys(root: &Node, keyframes: &[Node]) -> UnknownKeys {
     let mut unknown = UnknownKeys::default();
@@ -136,6 +152,8 @@ fn unknown_keys(root: &Node, keyframes: &[Node]) -> UnknownKeys {
     for node in keyframes {
         node.note_unknown(&KEYFRAME_KEYS, &mut unknown);
         node.optional("euler_deg").iter().for_each(|euler| euler.note_unknown(&EULER_KEYS, &mut unknown));
+        let look_at = node.optional("look_at").filter(|look_at| look_at.text().is_err() && look_at.items().is_err());
+        look_at.iter().for_each(|look_at| look_at.note_unknown(&look_at::KEYS, &mut unknown));
         node.optional("intent").iter().for_each(|intent| intent.note_unknown(&INTENT_KEYS, &mut unknown));
     }
     let report = root.optional("report").and_then(|report| report.items().ok());
@@ -186,7 +204,7 @@ fn read_model(node: &Node) -> Result<ModelRef, ExportError> {
     Ok(ModelRef { name: text_or_empty(node, "name")?, sha256: text_or_empty(node, "sha256")? })
 }
 
-fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
+fn read_keyframe(node: &Node, find: &FindObject<'_>) -> Result<Keyframe, ExportError> {
     let rotation = DQuat::from_array(node.field("rotation_xyzw", "4 finite numbers")?.numbers()?);
     let position = node.field("position", "3 finite numbers")?.vector()?;
     Ok(Keyframe {
@@ -200,19 +218,16 @@ fn read_keyframe(node: &Node) -> Result<Keyframe, ExportError> {
         },
         easing: node.optional("easing").map_or(Ok(Easing::Smooth), |easing| easing.choice())?,
         cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
-        intent: with_look_at(node, node.optional("intent").map(|intent| read_intent(&intent)).transpose()?)?,
+        intent: read_intents(node, position, find)?,
     })
 }
 
-/// The intent with the point that the keyframe looks at.
-fn with_look_at(keyframe: &Node, intent: Option<Intent>) -> Result<Option<Intent>, ExportError> {
+/// The intent of a keyframe, with what it looks at.
+fn read_intents(keyframe: &Node, position: DVec3, find: &FindObject<'_>) -> Result<Option<Intent>, ExportError> {
+    let intent = keyframe.optional("intent").map(|intent| read_intent(&intent)).transpose()?;
     let Some(node) = keyframe.optional("look_at") else { return Ok(intent) };
-    let point = node.vector().map_err(|_| node.error("a point: 3 finite numbers"))?;
-    let position = keyframe.field("position", "3 finite numbers")?.vector()?;
-    if !(point.distance(position) > 0.0) {
-        return Err(node.error("a point other than the key's own position"));
-    }
-    Ok(Some(Intent { look_at: Some(point), ..intent.unwrap_or_default() }))
+    let look_at = Some(look_at::read(&node, position, find)?);
+    Ok(Some(Intent { look_at, ..intent.unwrap_or_default() }))
 }
 
 fn read_intent(node: &Node) -> Result<Intent, ExportError> {
@@ -316,8 +331,8 @@ fn keyframe_json(key: &Keyframe, euler: Option<LevelAngles>) -> Json {
     fields.extend(key.optics.shutter_angle_rad.map(|angle| ("shutter_angle_deg", angle.to_degrees().into())));
     fields.extend([("easing", key.easing.as_ref().into()), ("cut", key.cut.into())]);
     if let Some(intent) = &key.intent {
-        fields.extend(intent.look_at.map(|point| ("look_at", point.into())));
-        if *intent != (Intent { look_at: intent.look_at, ..Intent::default() }) {
+        fields.extend(intent.look_at.as_ref().map(|target| ("look_at", look_at::write(target))));
+        if *intent != (Intent { look_at: intent.look_at.clone(), ..Intent::default() }) {
             fields.push(("intent", intent_json(intent)));
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{ExportError, Format, PoseTrack};
+use super::{ExportError, Format, PoseTrack, lichtfeld};
 use cinesplat_geometry::rotation;
 use cinesplat_trajectory::Shot;
 
@@ -13,12 +13,15 @@ enum Curve {
     /// A cubic spline through the keys whose slope at a key is that between its neighbors; of rotations the same, by
     /// components.
     Spline,
+    /// Positions by that spline with a key's easing, keys counting as evenly spaced; rotations and lens straight.
+    EasedSpline,
 }
 
 fn curve_of(format: Format) -> Option<Curve> {
     match format {
         Format::Gltf | Format::Usd => Some(Curve::Linear),
-        Format::Nerfstudio | Format::Supersplat | Format::Lichtfeld => Some(Curve::Spline),
+        Format::Nerfstudio | Format::Supersplat => Some(Curve::Spline),
+        Format::Lichtfeld => Some(Curve::EasedSpline),
         // The script for Blender sets the curves itself, the rest holds poses alone.
         _ => None,
     }
@@ -50,7 +53,7 @@ pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, Export
     }
     let what = match curve {
         Curve::Linear => "lines",
-        Curve::Spline => "its own spline",
+        Curve::Spline | Curve::EasedSpline => "its own spline",
     };
     Ok(Some(format!(
         "{format} joins keyframes with {what}: up to {moved:.4} scene units (at {worst_secs:.2} s), {:.2} degrees and a \
@@ -73,6 +76,21 @@ fn between(curve: &Curve, keys: &PoseTrack, from: usize, time_secs: f64) -> (DVe
             rotation::slerp(a.pose.rotation, b.pose.rotation, t),
             fov(from) + (fov(from + 1) - fov(from)) * t,
         ),
+        Curve::EasedSpline => {
+            let t = lichtfeld::eased(a.easing, t);
+            let at = |idx: usize| frames[idx.min(frames.len() - 1)].pose.position;
+            let (before, after) = (at(from.saturating_sub(1)), at(from + 2));
+            let (low, high) = (a.pose.position, b.pose.position);
+            let point = low * (2.0 + t * t * (3.0 * t - 5.0))
+                + high * (t * (1.0 + t * (4.0 - 3.0 * t)))
+                + before * (t * (t * (2.0 - t) - 1.0))
+                + after * (t * t * (t - 1.0));
+            let turn = rotation::slerp(a.pose.rotation, b.pose.rotation, t);
+            // The file holds focal lengths.
+            let focal = |idx: usize| 1.0 / (fov(idx) / 2.0).tan();
+            let lens = focal(from) + (focal(from + 1) - focal(from)) * t;
+            (point / 2.0, turn, 2.0 * (1.0 / lens).atan())
+        }
         Curve::Spline => {
             let turns = rotation::aligned(&frames.iter().map(|frame| frame.pose.rotation).collect::<Vec<_>>());
             let values = |idx: usize| -> [f64; 8] {

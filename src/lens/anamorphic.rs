@@ -27,6 +27,7 @@ pub struct Anamorphic {
 
 impl EffectKind for Anamorphic {
     const NAME: &'static str = "anamorphic";
+    const SETTINGS: &'static [&'static str] = &["squeeze", "streaks"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let squeeze = call.setting("squeeze").unwrap_or(2.0).clamp(1.0, 4.0);

@@ -21,6 +21,7 @@ pub struct Background {
 
 impl EffectKind for Background {
     const NAME: &'static str = "background";
+    const SETTINGS: &'static [&'static str] = &["red", "green", "blue", "alpha"];
     const YIELDS_TO: &'static [(&'static str, &'static str)] =
         &[("fog", "fog hides what is behind the scene, and its film is opaque")];
 

@@ -24,6 +24,7 @@ pub struct Bloom {
 
 impl EffectKind for Bloom {
     const NAME: &'static str = "bloom";
+    const SETTINGS: &'static [&'static str] = &["strength"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let strength = call.setting_or("strength", [0.25, 0.5, 1.0]).min(4.0);

@@ -23,6 +23,7 @@ pub struct ChromaticAberration {
 
 impl EffectKind for ChromaticAberration {
     const NAME: &'static str = "chromatic-aberration";
+    const SETTINGS: &'static [&'static str] = &["shift_px"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let shift_px = call.setting_or("shift_px", [1.2, 2.5, 5.0]).min(50.0);

@@ -152,6 +152,8 @@ pub(super) fn rack_focus_call(calls: &Calls<'_>) -> Option<Call> {
 
 impl EffectKind for DepthOfField {
     const NAME: &'static str = "depth-of-field";
+    const SETTINGS: &'static [&'static str] =
+        &["f_stop", "background_blur", "meters_per_unit", "focus_x", "focus_y", "focus_z", "focus_nearer"];
 
     fn call(calls: &Calls<'_>) -> Option<Call> {
         // A rack focus has a depth of field of its own.

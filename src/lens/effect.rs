@@ -22,6 +22,9 @@ pub trait EffectKind: Effect + Sized {
     /// Name, as in `--effects` and in `shot.json`.
     const NAME: &'static str;
 
+    /// Names of the settings that it reads from a call.
+    const SETTINGS: &'static [&'static str];
+
     /// Other names that ask for the effect.
     const ALSO: &'static [&'static str] = &[];
 

@@ -21,6 +21,7 @@ pub struct Exposure {
 
 impl EffectKind for Exposure {
     const NAME: &'static str = "exposure";
+    const SETTINGS: &'static [&'static str] = &["stops", "sign"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let sign = call.setting("sign").unwrap_or(1.0).signum();

@@ -29,6 +29,7 @@ pub struct FilmGrain {
 
 impl EffectKind for FilmGrain {
     const NAME: &'static str = "film-grain";
+    const SETTINGS: &'static [&'static str] = &["strength", "size_px"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let strength = call.setting_or("strength", [0.012, 0.022, 0.05]).min(0.5);

@@ -37,6 +37,7 @@ impl Fisheye {
 
 impl EffectKind for Fisheye {
     const NAME: &'static str = "fisheye";
+    const SETTINGS: &'static [&'static str] = &["fov_deg"];
     const YIELDS_TO: &'static [(&'static str, &'static str)] = &[("panorama", "a picture has one projection")];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {

@@ -24,6 +24,7 @@ pub struct Fog {
 
 impl EffectKind for Fog {
     const NAME: &'static str = "fog";
+    const SETTINGS: &'static [&'static str] = &["density", "red", "green", "blue"];
 
     fn called_for(call: &Call, calls: &Calls<'_>) -> Option<Self> {
         // Over the size of the scene 20, 50 and 80 percent of the light are lost.

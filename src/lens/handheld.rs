@@ -46,6 +46,7 @@ impl Handheld {
 
 impl EffectKind for Handheld {
     const NAME: &'static str = "handheld";
+    const SETTINGS: &'static [&'static str] = &["turn_deg", "shift", "seed"];
 
     fn call(calls: &Calls<'_>) -> Option<Call> {
         calls.named(Self::NAME).cloned().or_else(|| calls.of_move(Self::NAME, Move::Handheld))

@@ -23,6 +23,8 @@ use super::rolling_shutter::RollingShutter;
 use super::stereo::Stereo;
 use super::tilt_shift::TiltShift;
 use super::vignette::Vignette;
+use cinesplat_files::{UnknownKeys, misspelling};
+use cinesplat_trajectory::EffectRequest;
 
 /// All effects, the outermost layer first: a frame passes through them from the end of the list to its
 /// front.
@@ -61,6 +63,8 @@ pub struct Kind {
     pub name: &'static str,
     /// Other names that ask for it.
     pub also: &'static [&'static str],
+    /// Names of its settings.
+    pub settings: &'static [&'static str],
     /// The call that asks for it.
     pub(super) call: fn(&Calls<'_>) -> Option<Call>,
     /// The effect as a call asks for it.
@@ -71,7 +75,14 @@ pub struct Kind {
 
 impl Kind {
     const fn of<E: EffectKind + 'static>() -> Self {
-        Self { name: E::NAME, also: E::ALSO, call: E::call, make: make::<E>, yields_to: E::YIELDS_TO }
+        Self {
+            name: E::NAME,
+            also: E::ALSO,
+            settings: E::SETTINGS,
+            call: E::call,
+            make: make::<E>,
+            yields_to: E::YIELDS_TO,
+        }
     }
 
     pub(super) fn is_named(&self, name: &str) -> bool {
@@ -91,4 +102,24 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// Whether an effect has this name.
 pub fn is_known(name: &str) -> bool {
     names().any(|known| known == name)
+}
+
+/// One line per effect and setting of a shot's file that no effect has, with the nearest name.
+pub fn unknown_names(requests: &[EffectRequest]) -> Vec<String> {
+    let known_names: Vec<&str> = names().collect();
+    let mut notes = Vec::new();
+    let mut settings = UnknownKeys::default();
+    for (idx, request) in requests.iter().enumerate() {
+        let place = format!("effects[{idx}]");
+        match KINDS.iter().find(|kind| kind.is_named(&request.kind)) {
+            Some(kind) => settings.check(&place, request.settings.iter().map(|(name, _)| name.as_str()), kind.settings),
+            None => {
+                let near = misspelling(&request.kind, known_names.iter().copied());
+                let near = near.map_or_else(String::new, |name| format!(", the nearest known effect is {name}"));
+                notes.push(format!("{place}.kind: unknown effect{near}"));
+            }
+        }
+    }
+    notes.extend(settings.into_notes());
+    notes
 }

@@ -82,6 +82,7 @@ impl LensDistortion {
 
 impl EffectKind for LensDistortion {
     const NAME: &'static str = "lens-distortion";
+    const SETTINGS: &'static [&'static str] = &["k1", "k2", "p1", "p2", "k3", "bulge", "sign"];
     const YIELDS_TO: &'static [(&'static str, &'static str)] =
         &[("panorama", "a picture has one projection"), ("fisheye", "a picture has one projection")];
 

@@ -54,6 +54,7 @@ impl LensFlare {
 
 impl EffectKind for LensFlare {
     const NAME: &'static str = "lens-flare";
+    const SETTINGS: &'static [&'static str] = &["strength"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let strength = call.setting_or("strength", [0.2, 0.4, 0.8]).min(4.0);

@@ -82,7 +82,7 @@ pub use film_grain::FilmGrain;
 pub use fisheye::Fisheye;
 pub use fog::Fog;
 pub use handheld::Handheld;
-pub use kinds::{KINDS, Kind, is_known, names};
+pub use kinds::{KINDS, Kind, is_known, names, unknown_names};
 pub use lens_distortion::LensDistortion;
 pub use lens_flare::LensFlare;
 pub use light::{Light, Picture};

@@ -39,6 +39,7 @@ impl MotionBlur {
 
 impl EffectKind for MotionBlur {
     const NAME: &'static str = "motion-blur";
+    const SETTINGS: &'static [&'static str] = &["shutter_speed", "shutter_angle_deg"];
 
     fn call(calls: &Calls<'_>) -> Option<Call> {
         let of_key = || {

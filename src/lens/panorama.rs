@@ -21,6 +21,7 @@ pub struct Panorama;
 
 impl EffectKind for Panorama {
     const NAME: &'static str = "panorama";
+    const SETTINGS: &'static [&'static str] = &[];
 
     fn called_for(_: &Call, _: &Calls<'_>) -> Option<Self> {
         Some(Self)

@@ -19,6 +19,7 @@ pub struct RackFocus(pub DepthOfField);
 
 impl EffectKind for RackFocus {
     const NAME: &'static str = RACK_FOCUS;
+    const SETTINGS: &'static [&'static str] = DepthOfField::SETTINGS;
 
     fn call(calls: &Calls<'_>) -> Option<Call> {
         rack_focus_call(calls)

@@ -30,6 +30,7 @@ impl RollingShutter {
 
 impl EffectKind for RollingShutter {
     const NAME: &'static str = "rolling-shutter";
+    const SETTINGS: &'static [&'static str] = &["readout"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let readout = call.setting_or("readout", [0.35, 0.7, 1.0]).clamp(0.0, 1.0);

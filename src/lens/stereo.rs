@@ -56,6 +56,7 @@ impl Stereo {
 
 impl EffectKind for Stereo {
     const NAME: &'static str = "stereo";
+    const SETTINGS: &'static [&'static str] = &["over_under", "screen_distance", "eye_distance"];
     const YIELDS_TO: &'static [(&'static str, &'static str)] = &[
         ("panorama", "an eye that looks everywhere has no right side"),
         ("fisheye", "its picture cannot be squeezed"),

@@ -39,6 +39,7 @@ impl TiltShift {
 
 impl EffectKind for TiltShift {
     const NAME: &'static str = "tilt-shift";
+    const SETTINGS: &'static [&'static str] = &["blur", "middle", "band"];
     const YIELDS_TO: &'static [(&'static str, &'static str)] =
         &[("panorama", "a picture of all directions has no upper border")];
 

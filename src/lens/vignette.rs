@@ -31,6 +31,7 @@ impl Vignette {
 
 impl EffectKind for Vignette {
     const NAME: &'static str = "vignette";
+    const SETTINGS: &'static [&'static str] = &["stops"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let stops = call.setting_or("stops", [0.5, 1.0, 1.8]);

@@ -8,6 +8,7 @@ mod agreement;
 pub mod alpha_shape;
 mod background;
 mod boxes;
+mod by_name;
 mod candidates;
 mod closed_room;
 mod cloud;
@@ -46,6 +47,7 @@ mod views;
 mod voxels;
 
 pub use agreement::{Agreement, agreements};
+pub use by_name::named;
 pub use cloud::{CloudSettings, fill_clouds, fill_clouds_of};
 pub use error::ObjectsError;
 pub use file::{ObjectsFile, read, read_boxes, read_labels};

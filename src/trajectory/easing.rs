@@ -148,17 +148,6 @@ impl Easing {
         }
     }
 
-    /// The easing with a cruise and ramps that rests at the same ends.
-    #[must_use]
-    pub fn as_cruise(self) -> Self {
-        match (self.rests_at_start(), self.rests_at_end()) {
-            (true, true) => Self::Smooth,
-            (true, false) => Self::EaseIn,
-            (false, true) => Self::EaseOut,
-            (false, false) => Self::Linear,
-        }
-    }
-
     /// The curve of the easing; `None` for a cruise with ramps.
     pub(super) fn curve(self) -> Option<Curve> {
         let (family, rest) = match self {

@@ -28,8 +28,8 @@ pub use error::TrajectoryError;
 pub use path::CameraPath;
 pub use profile::ramp_secs;
 pub use shot::{
-    EffectRequest, EffectRuns, Intent, KeyOptics, Keyframe, MAX_FRAMES, MAX_KEYFRAMES, ModelRef, ReportLine, SceneRef,
-    Shot,
+    EffectRequest, EffectRuns, Intent, KeyOptics, Keyframe, LookAt, MAX_FRAMES, MAX_KEYFRAMES, ModelRef, ReportLine,
+    SceneRef, Shot,
 };
 pub use timing::{retime, retimed};
 pub use vocabulary::{Move, ShotAngle, ShotSize};

@@ -107,9 +107,18 @@ pub struct Intent {
     /// For orbits and arcs a point on the upright axis of the circle, world. With it the path from this key to the next
     /// is a true circle. JSON key `pivot`, an addition to version 1.
     pub pivot: Option<DVec3>,
-    /// A point that the camera looks at, world: a key whose position was edited is aimed at it again. JSON key `look_at` of
-    /// the keyframe, an addition to version 1.
-    pub look_at: Option<DVec3>,
+    /// What the camera looks at: a key whose position was edited is aimed at it again. JSON key `look_at` of the keyframe,
+    /// an addition to version 1.
+    pub look_at: Option<LookAt>,
+}
+
+/// What the camera of a key looks at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LookAt {
+    /// The point, world.
+    pub point: DVec3,
+    /// The object whose center the point is, as the file names it; `None` for a point alone.
+    pub object: Option<String>,
 }
 
 /// A requested effect.

@@ -18,4 +18,5 @@ mod sample_shot;
 mod shot_json;
 mod supersplat;
 mod tum_kitti;
+mod usd_binary;
 mod warnings;

@@ -138,8 +138,13 @@ fn recordings_of_ros_2_are_read_from_mcap() {
 fn packed_parts_without_a_reader_name_the_command_that_unpacks_them() {
     let error = topic("a.bag", &bag(&[("/a", "geometry_msgs/PoseStamped")], "bz2"), "").unwrap_err().to_string();
     assert!(error.contains("bz2") && error.contains("rosbag decompress"), "{error}");
+    let error = topic("a.mcap", &mcap("lzma"), "").unwrap_err().to_string();
+    assert!(error.contains("lzma") && error.contains("mcap compress"), "{error}");
+    // What says that it is packed with LZ4 and is not.
     let error = topic("a.mcap", &mcap("lz4"), "").unwrap_err().to_string();
-    assert!(error.contains("lz4") && error.contains("mcap compress"), "{error}");
+    assert!(error.contains("bytes packed with lz4"), "{error}");
+    let error = topic("a.bag", &bag(&[("/a", "geometry_msgs/PoseStamped")], "lz4"), "").unwrap_err().to_string();
+    assert!(error.contains("bytes packed with lz4"), "{error}");
 }
 
 #[test]
@@ -196,4 +201,71 @@ fn a_header_has_a_limit() {
     let bytes = [b"#ROSBAG V2.0\n".to_vec(), record(&[("op", &[3]), ("x", &long)], b"")].concat();
     let error = topic("a.bag", &bytes, "").unwrap_err().to_string();
     assert!(error.contains("expected at most 65536"), "{error}");
+}
+
+/// A bag of transforms: topic, frame, child, and the numbers of the messages.
+fn transforms(links: &[(&str, &str, &str, &[u32])]) -> Vec<u8> {
+    let mut bytes = b"#ROSBAG V2.0\n".to_vec();
+    for (conn, (name, frame, child, numbers)) in (0_u32..).zip(links) {
+        let conn = conn.to_le_bytes();
+        let own = counted(b"type=tf2_msgs/TFMessage");
+        bytes.extend(record(&[("op", &[7]), ("conn", &conn), ("topic", name.as_bytes())], &own));
+        for idx in *numbers {
+            let message = [&1_u32.to_le_bytes()[..], &body(*idx, frame, Some(child), false)].concat();
+            bytes.extend(record(&[("op", &[2]), ("conn", &conn)], &message));
+        }
+    }
+    bytes
+}
+
+#[test]
+fn transforms_are_joined_over_the_frames_between_two_frames() {
+    let links: [(&str, &str, &str, &[u32]); 3] = [
+        ("/tf", "map", "odom", &[0, 2, 4]),
+        ("/tf", "odom", "base", &[1, 2, 3, 4, 5]),
+        ("/tf_static", "base", "camera", &[7]),
+    ];
+    let bytes = transforms(&links);
+    let frames = topic("a.bag", &bytes, "/tf:map.camera").unwrap().track.frames;
+    // At the times of the most frequent transform, but for the last: map <- odom ends at 0.4 s.
+    let times: Vec<f64> = frames.iter().map(|frame| ((frame.time_secs - 100.0) * 1e6).round() / 1e6).collect();
+    assert_eq!(times, [0.1, 0.2, 0.3, 0.4]);
+    // Every link is a turn by the same angle about z, and a place (number, 2, 3); numbers lie on a line.
+    let turn = glam::DQuat::from_xyzw(0.0, 0.0, 0.6, 0.8);
+    for (frame, number) in frames.iter().zip([1.0, 2.0, 3.0, 4.0]) {
+        let place = |number: f64| DVec3::new(number, 2.0, 3.0);
+        let expected = place(number) + turn * (place(number) + turn * place(7.0));
+        assert!(frame.pose.position.distance(expected) < 1e-9, "{} {expected}", frame.pose.position);
+        assert!(frame.pose.rotation.dot(turn * turn * turn).abs() > 1.0 - 1e-12);
+    }
+    // The other way around, and beside each other: the inverse.
+    let back = topic("a.bag", &bytes, "/tf:camera.map").unwrap().track.frames;
+    for (there, back) in frames.iter().zip(&back) {
+        assert!(there.pose.compose(&back.pose).position.length() < 1e-9);
+    }
+    let named = topic(
+        "a.bag",
+        &transforms(&[links[0], links[1], ("/mounts", "base", "camera", &[7])]),
+        "/tf:map.camera:/mounts",
+    );
+    assert_eq!(named.unwrap().track.frames, frames);
+    // A static transform alone is one pose.
+    assert_eq!(topic("a.bag", &bytes, "/tf:camera.base").unwrap().track.frames.len(), 1);
+}
+
+#[test]
+fn frames_that_nothing_joins_are_refused_with_the_topics() {
+    let bytes = transforms(&[("/tf", "map", "odom", &[0, 1]), ("/tf", "world", "base", &[0, 1])]);
+    let error = topic("a.bag", &bytes, "/tf:map.base").unwrap_err().to_string();
+    assert!(error.ends_with("expected one of /tf:map.odom (2), /tf:world.base (2)"), "{error}");
+}
+
+#[test]
+fn transforms_in_a_circle_or_with_two_frames_above_are_errors() {
+    let circle = transforms(&[("/tf", "a", "b", &[0, 1]), ("/tf", "b", "a", &[0, 1])]);
+    let error = topic("a.bag", &circle, "/tf:a.c").unwrap_err().to_string();
+    assert!(error.contains("transforms without a circle"), "{error}");
+    let two = transforms(&[("/tf", "a", "c", &[0, 1]), ("/tf", "b", "c", &[0, 1]), ("/tf", "c", "d", &[0, 1])]);
+    let error = topic("a.bag", &two, "/tf:a.d").unwrap_err().to_string();
+    assert_eq!(error, "the frame c: found it below a, b, expected one frame above it");
 }

@@ -297,5 +297,48 @@ fn a_key_with_a_point_to_look_at_is_aimed_again_when_it_is_moved() {
         value["keyframes"][0]["look_at"] = 3.into();
         shot_json::read(&value.to_string()).unwrap_err().to_string()
     };
-    assert_eq!(error, "keyframes[0].look_at: found 3, expected a point: 3 finite numbers");
+    assert_eq!(
+        error,
+        "keyframes[0].look_at: found 3, expected a point (3 finite numbers) or the name of an object (\"<obj-3>\")"
+    );
+}
+
+/// A `shot.json` whose second key looks at something, read with one object: 3, the mug.
+fn looking_at(look_at: &Value, find: &shot_json::FindObject<'_>) -> Result<shot_json::ShotFile, ExportError> {
+    let mut value: Value = serde_json::from_str(&shot_json::write(&turning())).unwrap();
+    value["keyframes"][1]["look_at"] = look_at.clone();
+    shot_json::read_in(&value.to_string(), find)
+}
+
+#[test]
+fn a_key_that_looks_at_an_object_is_aimed_at_its_center() {
+    let center = DVec3::new(1.0, 0.5, 7.0);
+    let find = |name: &str| if name == "mug" { Ok(center) } else { Err("one of the objects <obj-3> mug".to_owned()) };
+    let read = looking_at(&"mug".into(), &find).unwrap();
+    let key = &read.shot.keyframes[1];
+    assert!(key.pose.forward().dot((center - key.pose.position).normalize()) > 1.0 - 1e-12);
+    // The point stays beside the name: the file is read without its objects from then on.
+    let written = shot_json::write(&read.shot);
+    assert!(shot_json::names_objects(&written.replace("\"point\"", "\"old\"")) && !shot_json::names_objects(&written));
+    let again = shot_json::read(&written).unwrap();
+    assert_eq!((again.notes.len(), &again.shot.keyframes[1].intent), (0, &key.intent));
+}
+
+#[test]
+fn an_object_that_is_not_there_is_an_error_that_names_those_that_are() {
+    let find = |_: &str| Err("one of the objects <obj-3> mug".to_owned());
+    let error = looking_at(&"lamp".into(), &find).unwrap_err().to_string();
+    assert_eq!(error, "keyframes[1].look_at: found \"lamp\", expected one of the objects <obj-3> mug");
+    let error = shot_json::read(&{
+        let mut value: Value = serde_json::from_str(&shot_json::write(&turning())).unwrap();
+        value["keyframes"][1]["look_at"] = serde_json::json!({"object": "lamp"});
+        value.to_string()
+    });
+    assert_eq!(
+        error.unwrap_err().to_string(),
+        "keyframes[1].look_at.object: found \"lamp\", expected a point (3 finite numbers), because no objects are given"
+    );
+    let misspelled = serde_json::json!({"object": "lamp", "pont": [0, 0, 9], "point": [0, 0, 9]});
+    let notes = looking_at(&misspelled, &find).unwrap().notes.join("\n");
+    assert!(notes.contains("keyframes[1].look_at.pont: unknown key, the nearest known key is point"), "{notes}");
 }

@@ -1,4 +1,5 @@
-use cinesplat::lens::{EffectChoice, Unmet, is_known, names};
+use cinesplat::lens::{EffectChoice, Unmet, is_known, names, unknown_names};
+use cinesplat::trajectory::EffectRequest;
 
 use super::stand::{call, called};
 
@@ -87,4 +88,34 @@ fn fog_takes_the_place_of_a_background_and_says_so() {
     let called = called(&calls, &EffectChoice::Auto);
     assert!(called.effects.iter().all(|effect| !effect.effect.is_transparent()), "fog is opaque");
     insta::assert_snapshot!(called.unmet[0].sentence(), @"background requested by 'the test': left out, fog takes its place: fog hides what is behind the scene, and its film is opaque");
+}
+
+#[test]
+fn every_effect_lists_its_settings() {
+    for kind in cinesplat::lens::KINDS {
+        let stated: Vec<(&str, f64)> = kind.settings.iter().map(|name| (*name, 0.5)).collect();
+        for effect in called(&[call(kind.name, &stated)], &EffectChoice::Auto).effects {
+            for (name, _) in effect.effect.settings() {
+                assert!(kind.settings.contains(&name), "{}: {name}", kind.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_misspelled_setting_or_effect_gets_a_line_with_the_nearest_name() {
+    let request = |kind: &str, name: &str| EffectRequest {
+        kind: kind.to_owned(),
+        because: String::new(),
+        settings: vec![(name.to_owned(), 2.8)],
+        runs: None,
+    };
+    let requests = [request("depth-of-field", "f_stpo"), request("vignete", "stops"), request("vignette", "stops")];
+    assert_eq!(
+        unknown_names(&requests),
+        [
+            "effects[1].kind: unknown effect, the nearest known effect is vignette",
+            "effects[0].f_stpo: unknown key, the nearest known key is f_stop",
+        ]
+    );
 }

@@ -3,6 +3,7 @@
 mod agreement;
 mod alpha_shape;
 mod boxes;
+mod by_name;
 mod cloud;
 mod delaunay;
 mod file;

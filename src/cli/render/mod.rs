@@ -11,7 +11,7 @@ use super::job_args::JobArgs;
 use super::outputs::Overwrite;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
-use super::shot_args::ShotArgs;
+use super::shot_args::{ShotArgs, names_objects};
 use super::{console, heading, map, takes};
 use cinesplat::files::{self, Existing, Limits};
 use cinesplat::objects::ObjectSet;
@@ -246,10 +246,11 @@ impl Args {
         if let Some(file) = &self.source.file {
             let opened = || self.scene.open().map(|opened| (opened.scene, ObjectSet::default()));
             let with_objects = || self.scene.open_with_objects(self.shot.objects.as_deref());
-            // The film needs no objects; the map names them.
+            // The film needs objects only where the shot looks at them by name; the map names them.
+            let needs_objects = self.map.is_some() || names_objects(file)?;
             let (scene, objects) =
-                times.measure(Phase::Load, || if self.map.is_some() { with_objects() } else { opened() })?;
-            let shot = self.shot.read_shot(file, &scene)?;
+                times.measure(Phase::Load, || if needs_objects { with_objects() } else { opened() })?;
+            let shot = self.shot.read_shot(file, (&scene, &objects))?;
             match shot.scene.up {
                 Some(up) => print_up_of(up, "the shot"),
                 None => print_up(&scene),

@@ -1,12 +1,15 @@
-//! Bags of ROS 1: records of a header of `name=value` fields and data. Chunks hold connections and messages.
+//! Bags of ROS 1: records of a header of `name=value` fields and data. Chunks hold connections and messages,
+//! plain or packed with LZ4.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use cinesplat_files::Limits;
 
-use super::bytes::{Bytes, text};
+use super::lz4;
 use super::message::{Encoding, Kind, Topic, Visit};
 use crate::ExportError;
+use crate::bytes::{Bytes, text};
 
 /// First bytes of a bag.
 pub(super) const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
@@ -15,12 +18,15 @@ const MESSAGE: u8 = 2;
 const CHUNK: u8 = 5;
 const CONNECTION: u8 = 7;
 
-/// Topics by the number of their connection.
-type Connections = BTreeMap<u32, Topic>;
+/// Topics by the number of their connection, and bytes that further chunks may unpack to.
+struct Connections {
+    topics: BTreeMap<u32, Topic>,
+    unpacked_left: u64,
+}
 
 /// Visits the messages of all topics with poses.
 pub(super) fn visit(bytes: &[u8], visit: &mut Visit<'_>) -> Result<(), ExportError> {
-    let mut connections = Connections::new();
+    let mut connections = Connections { topics: BTreeMap::new(), unpacked_left: Limits::DEFAULT.unpacked(bytes.len()) };
     records(bytes.strip_prefix(MAGIC).unwrap_or_default(), &mut connections, visit, true)
 }
 
@@ -36,19 +42,13 @@ fn records(
         let data = bytes.counted()?;
         match header.op() {
             Some(CHUNK) if may_hold_chunks => {
-                let packing = header.get("compression").unwrap_or_default();
-                if packing != b"none" {
-                    let name = String::from_utf8_lossy(packing);
-                    return Err(ExportError::NotReadable {
-                        format: "ros",
-                        reason: format!("a bag packed with {name}; `rosbag decompress BAG` (of ROS) unpacks it"),
-                    });
-                }
-                records(data, connections, visit, false)?;
+                let chunk = unpacked(&header, data, connections.unpacked_left)?;
+                connections.unpacked_left = connections.unpacked_left.saturating_sub(chunk.len() as u64);
+                records(&chunk, connections, visit, false)?;
             }
             Some(CONNECTION) => connect(&header, data, connections)?,
             Some(MESSAGE) => {
-                if let Some(topic) = header.number("conn").and_then(|number| connections.get(&number)) {
+                if let Some(topic) = header.number("conn").and_then(|number| connections.topics.get(&number)) {
                     visit(topic, data)?;
                 }
             }
@@ -56,6 +56,28 @@ fn records(
         }
     }
     Ok(())
+}
+
+/// The records of a chunk; packed ones may be of `left` bytes.
+fn unpacked<'a>(header: &Fields<'_>, packed: &'a [u8], left: u64) -> Result<Cow<'a, [u8]>, ExportError> {
+    let size = header.number("size").map_or(0, u64::from);
+    let limit = Limits::DEFAULT.unpacked(packed.len()).min(left);
+    match header.get("compression").unwrap_or_default() {
+        b"none" => Ok(Cow::Borrowed(packed)),
+        b"lz4" if size <= limit => lz4::unpacked(packed, size, 0).map(Cow::Owned),
+        b"lz4" => Err(ExportError::BadBytes {
+            offset: 0,
+            found: format!("a chunk of {size} bytes"),
+            expected: format!("at most {limit} for {} packed bytes", packed.len()),
+        }),
+        other => {
+            let name = String::from_utf8_lossy(other);
+            Err(ExportError::NotReadable {
+                format: "ros",
+                reason: format!("a bag packed with {name}; `rosbag decompress BAG` (of ROS) unpacks it"),
+            })
+        }
+    }
 }
 
 /// Notes the topic of a connection, if its messages hold poses.
@@ -69,7 +91,7 @@ fn connect(header: &Fields<'_>, data: &[u8], connections: &mut Connections) -> R
         return Ok(());
     };
     if let Some(kind) = Kind::of(&text(kind, 0)?) {
-        connections.insert(number, Topic { name: text(topic, 0)?, kind, encoding: Encoding::Ros1 });
+        connections.topics.insert(number, Topic { name: text(topic, 0)?, kind, encoding: Encoding::Ros1 });
     }
     Ok(())
 }

@@ -1,4 +1,5 @@
-//! MCAP: records of a kind, a length and data. Chunks hold schemas, channels and messages, plain or packed with Zstandard.
+//! MCAP: records of a kind, a length and data. Chunks hold schemas, channels and messages, plain or packed with Zstandard or
+//! LZ4.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,9 +8,10 @@ use std::io::Read;
 use cinesplat_files::Limits;
 use ruzstd::decoding::StreamingDecoder;
 
-use super::bytes::Bytes;
+use super::lz4;
 use super::message::{Encoding, Kind, Topic, Visit};
 use crate::ExportError;
+use crate::bytes::Bytes;
 
 /// First bytes of an MCAP file.
 pub(super) const MAGIC: &[u8] = b"\x89MCAP0\r\n";
@@ -100,7 +102,13 @@ fn unpacked<'a>(chunk: &mut Bytes<'a>, left: u64) -> Result<Cow<'a, [u8]>, Expor
     let limit = Limits::DEFAULT.unpacked(packed.len()).min(Limits::DEFAULT.array_bytes).min(left);
     match packing.as_str() {
         "" => Ok(Cow::Borrowed(packed)),
-        "zstd" if size <= limit => {
+        "lz4" | "zstd" if size > limit => Err(ExportError::BadBytes {
+            offset,
+            found: format!("a chunk of {size} bytes"),
+            expected: format!("at most {limit} for {length} packed bytes"),
+        }),
+        "lz4" => lz4::unpacked(packed, size, offset).map(Cow::Owned),
+        "zstd" => {
             let damaged = |found: String| ExportError::BadBytes {
                 offset,
                 found,
@@ -111,11 +119,6 @@ fn unpacked<'a>(chunk: &mut Bytes<'a>, left: u64) -> Result<Cow<'a, [u8]>, Expor
             decoder.take(size).read_to_end(&mut out).map_err(|error| damaged(error.to_string()))?;
             if out.len() as u64 == size { Ok(Cow::Owned(out)) } else { Err(damaged(format!("{} bytes", out.len()))) }
         }
-        "zstd" => Err(ExportError::BadBytes {
-            offset,
-            found: format!("a chunk of {size} bytes"),
-            expected: format!("at most {limit} for {length} packed bytes"),
-        }),
         other => Err(ExportError::NotReadable {
             format: "ros",
             reason: format!("chunks packed with {other}; `mcap compress --compression zstd IN -o OUT` packs them anew"),

@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use super::bytes::{Bytes, text};
 use crate::ExportError;
+use crate::bytes::{Bytes, text};
 use crate::pose_lines::NANOS;
 
 /// What a message holds.

@@ -5,9 +5,10 @@
 //! References: <http://wiki.ros.org/Bags/Format/2.0>, <https://mcap.dev/spec>, REP 103.
 
 mod bag;
-mod bytes;
+mod lz4;
 mod mcap;
 mod message;
+mod transforms;
 
 use std::collections::BTreeMap;
 
@@ -18,10 +19,10 @@ use super::ExportError;
 use super::pose_lines::unit_pose;
 use super::track::{PoseFrame, PoseTrack};
 use message::{Kind, Stamped, Topic};
+use transforms::{Asked, FRAMES_MARK, Links};
 
-/// Between the name of a recording and a topic, and between that of a topic and the two frames of a transform.
+/// Between the name of a recording and a topic.
 const TOPIC_MARK: char = '#';
-const FRAMES_MARK: char = ':';
 
 /// The name of a recording and of its topic in `NAME#TOPIC`.
 pub(super) fn split_topic(name: &str) -> Option<(&str, &str)> {
@@ -43,19 +44,24 @@ struct Found {
     num_poses: usize,
 }
 
-/// The poses of a topic; without a name those of the only topic with poses. A topic of transforms is named with its two
-/// frames, as `/tf:map.base_link`, and so is one that holds several bodies or frames.
+/// The poses of a topic; without a name those of the only topic with poses. A topic of transforms is named with two
+/// frames, as `/tf:map.base_link`, and so is one that holds several bodies or frames. The frames of transforms may be any
+/// two that links join, over static ones too.
 ///
 /// # Errors
 /// [`ExportError::WrongFormat`] for a file that is no recording, [`ExportError::BadField`] without such a topic, for a
 /// pose that is none and for too many poses, [`ExportError::BadBytes`] for a damaged file,
 /// [`ExportError::NotReadable`] for packed parts without a reader.
 pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Result<PoseTrack, ExportError> {
-    let mut paths = visit(bytes, topic)?.by_name(topic);
+    let is_of_topic = |name: &str| topic.is_none_or(|asked| is_asked(asked, name));
+    let mut paths = visit(bytes, &is_of_topic, topic)?.by_name(topic);
     // Single poses are mounts of sensors, and no path.
     paths.retain(|name, (_, frames)| frames.len() > 1 || topic == Some(name.as_str()));
     let chosen = match topic {
-        Some(name) => paths.remove_entry(name),
+        Some(name) => match paths.remove_entry(name) {
+            None => joined(bytes, name)?,
+            found => found,
+        },
         None if paths.len() == 1 => paths.pop_first(),
         None => None,
     };
@@ -71,7 +77,7 @@ type Named = BTreeMap<String, (Option<String>, Vec<PoseFrame>)>;
 /// The error that lists the topics of a recording; `paths` are those of the topic that is asked for.
 fn no_such_topic(bytes: &[u8], topic: Option<&str>, mut paths: Named) -> ExportError {
     if topic.is_some() && paths.is_empty() {
-        paths = match visit(bytes, None) {
+        paths = match visit(bytes, &|_| true, None) {
             Ok(found) => found.by_name(None),
             Err(error) => return error,
         };
@@ -88,15 +94,33 @@ fn no_such_topic(bytes: &[u8], topic: Option<&str>, mut paths: Named) -> ExportE
     }
 }
 
-/// The paths of the topic that `asked` names, alone or with frames; of all topics without a name.
-fn visit(bytes: &[u8], asked: Option<&str>) -> Result<Found, ExportError> {
+/// Whether a name asks for a topic, alone or with frames.
+fn is_asked(asked: &str, topic: &str) -> bool {
+    asked.strip_prefix(topic).is_some_and(|rest| rest.is_empty() || rest.starts_with(FRAMES_MARK))
+}
+
+/// A path with its name.
+type NamedPath = (String, (Option<String>, Vec<PoseFrame>));
+
+/// The poses between two frames that several transforms join; `None` without a way.
+fn joined(bytes: &[u8], name: &str) -> Result<Option<NamedPath>, ExportError> {
+    let Some(asked) = Asked::new(name) else { return Ok(None) };
+    let found = visit(bytes, &|topic| topic == asked.topic || topic == asked.static_topic, None)?;
+    let mut links = Links::default();
+    for ((topic, parent, child), (kind, frames)) in found.paths {
+        if let (Kind::Transforms, Some(child)) = (kind, child) {
+            links.add([parent, child], topic == asked.static_topic, frames);
+        }
+    }
+    let between = links.between(asked)?.filter(|(_, frames)| !frames.is_empty());
+    Ok(between.map(|(child, frames)| (name.to_owned(), (Some(child), frames))))
+}
+
+/// The paths of the topics that `is_read` chooses; of them that which `asked` names, or all without a name.
+fn visit(bytes: &[u8], is_read: &dyn Fn(&str) -> bool, asked: Option<&str>) -> Result<Found, ExportError> {
     let mut found = Found::default();
-    let is_asked = |name: &str| {
-        let rest = asked.map(|asked| asked.strip_prefix(name));
-        rest.is_none_or(|rest| rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(FRAMES_MARK)))
-    };
     let mut take = |topic: &Topic, message: &[u8]| {
-        if !is_asked(&topic.name) {
+        if !is_read(&topic.name) {
             return Ok(());
         }
         let in_topic = |error| ExportError::InFile { name: topic.name.clone(), error: Box::new(error) };

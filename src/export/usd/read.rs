@@ -3,8 +3,10 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use super::super::ExportError;
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
+use super::binary;
+use super::layer::{Prim, Value};
 use super::package;
-use super::parse::{Prim, Value, parse};
+use super::parse::parse;
 use super::write::HOLD_CODES;
 use cinesplat_geometry::rotation;
 
@@ -25,13 +27,11 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     } else {
         bytes
     };
-    if !bytes.starts_with(b"#usda") {
-        return Err(not_readable(
-            "the binary form is not read: `usdcat in.usdc -o out.usda` (of usd-core) makes the text form, which is",
-        ));
-    }
-    let text = std::str::from_utf8(bytes).map_err(|_| not_readable("the text is not UTF-8"))?;
-    let layer = parse(text)?;
+    let layer = if bytes.starts_with(binary::MAGIC) {
+        binary::parse(bytes)?
+    } else {
+        parse(std::str::from_utf8(bytes).map_err(|_| not_readable("the text is not UTF-8"))?)?
+    };
     let mut above = Vec::new();
     let camera = find_camera(&layer, &mut above).ok_or(ExportError::NoPoses)?;
     let meta = |name: &str| layer.meta(name).and_then(Value::number).filter(|v| *v > 0.0);

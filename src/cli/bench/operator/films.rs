@@ -41,7 +41,7 @@ impl Args {
         let mut all = Vec::new();
         for case in &cases {
             let shot = match &self.shots {
-                Some(folder) => shot_args::read_file(&file(folder, case, "shot.json"))?,
+                Some(folder) => shot_args::read_file(&file(folder, case, "shot.json"), &[])?,
                 None => self.planned(case, &mut director)?,
             };
             let facts = FlowFacts::of(&shot, director.scene_of(case)?.objects())?;
