@@ -7,6 +7,7 @@ use glam::Vec3;
 
 use super::background::structure;
 use super::flats::flats;
+use super::floating::join_floating;
 use super::groups::VoxelGroup;
 use super::pieces::{attach, contacts, diagonal, split};
 use super::planes::ScenePlane;
@@ -40,11 +41,12 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     let free: Vec<usize> = (0..is_free.len()).filter(|&voxel| is_free[voxel]).collect();
     let flats = flats(grid, planes, &is_structure);
     let (flats, bodies) = with_reliefs(grid, flats, bodies(grid, &free, &tops, settings));
-    let things = standing::join(grid, &bodies, &tops);
+    let max_diagonal = BACKGROUND_FRAC * settings.resolution;
+    let bodies = join_floating(grid, &bodies, &tops, &is_structure);
+    let things = standing::join(grid, &bodies, &tops, max_diagonal);
     let things = things.voxels.into_iter().zip(things.is_surface);
     let mut groups: Vec<VoxelGroup> =
         things.map(|(voxels, is_surface)| VoxelGroup::whole(voxels, is_surface)).collect();
-    let max_diagonal = BACKGROUND_FRAC * settings.resolution;
     groups.retain(|group| {
         group.voxels.len() >= settings.min_voxels
             && (group.is_surface || diagonal(grid, group.voxels.iter().copied()) <= max_diagonal)

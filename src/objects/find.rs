@@ -68,7 +68,10 @@ fn voxels_and_planes(scene: &Scene, cell: f64, settings: &FindSettings) -> (Voxe
     let found = of_cell(cell);
     let room = room_box(&found.1).map(|(low, high)| f64::from((high - low).length()) / settings.resolution.max(1.0));
     match room {
-        Some(smaller) if smaller < SMALL_ROOM_FRAC * cell && smaller > 0.0 => of_cell(smaller),
+        Some(smaller) if smaller < SMALL_ROOM_FRAC * cell && smaller > 0.0 => {
+            let finer = of_cell(smaller);
+            if room_box(&finer.1).is_some() { finer } else { found }
+        }
         _ => found,
     }
 }

@@ -11,8 +11,8 @@ use super::settings::FindSettings;
 use super::voxels::VoxelGrid;
 use super::{closed_room, open_room};
 
-/// Groups the voxels of a scene into objects, by the kind of capture: a closed room has floor, ceiling and walls; an open
-/// room has walls; every other capture shows single things, each a connected component.
+/// Groups the voxels of a scene into objects, by the kind of capture: a closed room has a floor, and a ceiling or
+/// walls on four sides; an open room has walls; every other capture shows single things, each a connected component.
 pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSettings) -> Vec<VoxelGroup> {
     let has_walls = planes.iter().any(|plane| plane.kind == PlaneKind::Wall);
     if has_walls && room_box(planes).is_some() {

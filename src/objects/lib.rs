@@ -21,6 +21,7 @@ mod file;
 mod file_write;
 mod find;
 mod flats;
+mod floating;
 mod grouping;
 mod groups;
 mod kept_points;

@@ -181,15 +181,61 @@ fn classify(grid: &VoxelGrid, planes: Vec<ScenePlane>) -> Vec<ScenePlane> {
     };
     let (level, upright): (Vec<_>, Vec<_>) = planes.into_iter().partition(ScenePlane::is_level);
     let mut classified: Vec<ScenePlane> = level.into_iter().map(|plane| as_level(grid, plane, footprint)).collect();
-    let closed = room_box(&classified);
-    let room = closed.unwrap_or_else(|| {
+    if room_box(&classified).is_none()
+        && let Some(lid) = lid(grid, &classified)
+    {
+        classified.push(lid);
+        let walls = room_box(&classified).map_or(Vec::new(), |room| walls_of_room(grid, &upright, room));
+        if num_sides(&walls) >= MIN_SIDES {
+            classified.extend(walls);
+            return classified;
+        }
+        classified.pop();
+    }
+    if let Some(room) = room_box(&classified) {
+        classified.extend(walls_of_room(grid, &upright, room));
+    } else {
         let ends = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| extent_along(grid, 0..grid.voxels.len(), axis));
-        (Vec3::from_array(ends.map(|end| end.0)), Vec3::from_array(ends.map(|end| end.1)))
-    });
-    let max_behind = if closed.is_some() { BEYOND_SIDE_FRAC } else { BEYOND_FRAC };
-    let walls = upright.into_iter().filter_map(|plane| as_wall(grid, plane, room, max_behind));
-    classified.extend(walls.filter(|wall| closed.is_none_or(|room| is_at_side(wall, room))));
+        let room = (Vec3::from_array(ends.map(|end| end.0)), Vec3::from_array(ends.map(|end| end.1)));
+        classified.extend(upright.into_iter().filter_map(|plane| as_wall(grid, plane, room, BEYOND_FRAC)));
+    }
     classified
+}
+
+/// The walls of a room with a floor and a ceiling.
+fn walls_of_room(grid: &VoxelGrid, upright: &[ScenePlane], room: (Vec3, Vec3)) -> Vec<ScenePlane> {
+    let walls = upright.iter().filter_map(|plane| as_wall(grid, plane.clone(), room, BEYOND_SIDE_FRAC));
+    walls.filter(|wall| is_at_side(wall, room)).collect()
+}
+
+/// Least number of sides with walls of a room whose ceiling was not captured.
+const MIN_SIDES: usize = 4;
+
+/// Number of directions in which walls face, of four.
+fn num_sides(walls: &[ScenePlane]) -> usize {
+    let faces = |direction: Vec3| walls.iter().any(|wall| wall.normal.dot(direction) > 0.9);
+    [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z].into_iter().filter(|&direction| faces(direction)).count()
+}
+
+/// Share of the voxels over a floor that may lie above the lid of its room: lamps, floaters.
+const OVER_LID_FRAC: f64 = 0.002;
+
+/// The ceiling of a room that was captured without one: a plane without voxels just over the walls that stand on the
+/// largest floor; `None` without a floor.
+fn lid(grid: &VoxelGrid, planes: &[ScenePlane]) -> Option<ScenePlane> {
+    let floors = planes.iter().filter(|plane| plane.kind == PlaneKind::Floor);
+    let floor = floors.max_by_key(|plane| plane.voxels.len())?;
+    let grown = |range: (f32, f32)| {
+        let margin = SIDE_FRAC * length(range) + 2.0 * grid.cell;
+        (range.0 - margin, range.1 + margin)
+    };
+    let reach = ScenePlane { extent: floor.extent.map(grown), voxels: Vec::new(), ..floor.clone() };
+    let over = grid.voxels.iter().map(|voxel| voxel.position).filter(|&p| reach.spans(p));
+    let mut heights: Vec<f32> = over.map(|p| p.y).collect();
+    let at = heights.len().checked_sub(1 + (heights.len() as f64 * OVER_LID_FRAC) as usize)?;
+    let top = *heights.select_nth_unstable_by(at, f32::total_cmp).1 + 2.0 * grid.cell;
+    let extent = floor.extent;
+    Some(ScenePlane { kind: PlaneKind::Ceiling, normal: Vec3::NEG_Y, offset: -top, extent, voxels: Vec::new() })
 }
 
 /// A level plane with its extent and kind.

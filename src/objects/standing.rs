@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 use super::color;
+use super::segmentation::DisjointSets;
 use super::tops::Top;
 use super::voxels::VoxelGrid;
 
@@ -16,6 +17,10 @@ const SUNK_CELLS: f32 = 1.6;
 
 /// Least share of the contacts of a top with all bodies under it that its carrier has.
 const CARRIER_FRAC: f32 = 0.15;
+
+/// Share of a body's contacts with the top that it touches most from below, under which it carries no other top: the
+/// apron of a table touches the seats of the chairs under it.
+const MAIN_FRAC: f32 = 0.2;
 
 /// Share of a thing's contacts with a top at the edges of the top's box from which it is the top's own upright, such as a
 /// backrest.
@@ -29,6 +34,9 @@ const UPRIGHT_FRAC: f32 = 0.4;
 
 /// Largest color difference between a top and its own upright.
 const SAME_COLOR: f32 = 9.0;
+
+/// Least overlap of the footprints of two tops that are boards of one shelf.
+const SAME_FOOTPRINT: f32 = 0.75;
 
 /// Bodies and tops joined into things.
 pub(crate) struct Things {
@@ -48,50 +56,131 @@ struct Contact {
     rim: usize,
 }
 
-/// Joins every top with the bodies that carry it.
-pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top]) -> Things {
+/// Joins every top with the bodies that carry it. Things larger than `max_diagonal` (cells), such as a row of counters,
+/// come apart again.
+pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top], max_diagonal: f64) -> Things {
     let num_bodies = bodies.len();
     let owner = owners(grid, bodies);
-    let lowest: Vec<f32> = bodies.iter().map(|body| lowest(grid, body)).collect();
-    let colors: Vec<Vec3> = bodies.iter().map(|body| mean_color(grid, body)).collect();
-    let boxes: Vec<(Vec3, Vec3)> = bodies.iter().map(|body| extent(grid, body)).collect();
+    let measured: Vec<Body> = bodies.iter().map(|voxels| Body::new(grid, voxels)).collect();
+    let touching: Vec<BTreeMap<usize, Contact>> = tops.iter().map(|top| contacts(grid, top, &owner)).collect();
+    let mut most_below = vec![0_usize; num_bodies];
+    for (&body, contact) in touching.iter().flatten() {
+        most_below[body] = most_below[body].max(contact.below);
+    }
     // Sets of bodies and tops, tops after bodies.
-    let mut sets = super::segmentation::DisjointSets::new(num_bodies + tops.len());
-    for (t, top) in tops.iter().enumerate() {
-        let contacts = contacts(grid, top, &owner);
-        let total_below: usize = contacts.values().map(|contact| contact.below).sum();
-        let top_color = mean_color(grid, &top.voxels);
-        let (low, high) = extent(grid, &top.voxels);
-        let rests = |body: usize| lowest[body] > top.height - SUNK_CELLS * grid.cell;
+    let mut sets = DisjointSets::new(num_bodies + tops.len());
+    join_boards(grid, tops, num_bodies, &mut sets);
+    for (t, (top, contacts)) in tops.iter().zip(&touching).enumerate() {
+        let seat = Seat::new(grid, top, contacts);
+        let rests = |body: usize| seat.holds(grid, &measured[body]);
         // A foot carries one thing and stands on the floor.
-        let resting: Vec<usize> = contacts.keys().copied().filter(|&body| rests(body)).collect();
-        if let [only] = resting.as_slice()
-            && contacts.len() == 1
-        {
-            sets.join(*only, num_bodies + t);
+        if let Some(only) = contacts.keys().next().copied().filter(|&only| contacts.len() == 1 && rests(only)) {
+            sets.join(only, num_bodies + t);
             continue;
         }
-        for (&body, contact) in &contacts {
+        for (&body, contact) in contacts {
             let carries = if rests(body) {
-                let at_rim = contact.rim as f32 >= RIM_FRAC * contact.above as f32;
-                let side = (boxes[body].1 - boxes[body].0) * Vec3::new(1.0, 0.0, 1.0);
-                let is_long = side.max_element() >= UPRIGHT_FRAC * (high - low).max_element();
-                at_rim && is_long && color::difference(colors[body], top_color) < SAME_COLOR
+                seat.is_upright(&measured[body], contact)
             } else {
-                let share = contact.below as f32 / total_below.max(1) as f32;
-                contact.below > 0 && (share >= CARRIER_FRAC || under_frac(grid, &bodies[body], top) >= UNDER_FRAC)
+                let is_main = contact.below as f32 >= MAIN_FRAC * most_below[body] as f32;
+                is_main && seat.is_carried(contact, || under_frac(grid, &bodies[body], top))
             };
             if carries {
                 sets.join(body, num_bodies + t);
             }
         }
     }
-    let all: Vec<usize> = (0..num_bodies + tops.len()).collect();
+    assemble(grid, bodies, tops, (&mut sets, max_diagonal))
+}
+
+/// A body, measured.
+struct Body {
+    lowest: f32,
+    color_lab: Vec3,
+    sides: Vec3,
+}
+
+impl Body {
+    fn new(grid: &VoxelGrid, voxels: &[usize]) -> Self {
+        let (low, high) = extent(grid, voxels);
+        Self { lowest: lowest(grid, voxels), color_lab: mean_color(grid, voxels), sides: high - low }
+    }
+}
+
+/// A top, measured.
+struct Seat {
+    height: f32,
+    color_lab: Vec3,
+    sides: Vec3,
+    /// Contacts with all bodies under it.
+    total_below: usize,
+}
+
+impl Seat {
+    fn new(grid: &VoxelGrid, top: &Top, contacts: &BTreeMap<usize, Contact>) -> Self {
+        let (low, high) = extent(grid, &top.voxels);
+        let total_below = contacts.values().map(|contact| contact.below).sum();
+        Self { height: top.height, color_lab: mean_color(grid, &top.voxels), sides: high - low, total_below }
+    }
+
+    /// Whether a body that touches the top stands on it.
+    fn holds(&self, grid: &VoxelGrid, body: &Body) -> bool {
+        body.lowest > self.height - SUNK_CELLS * grid.cell
+    }
+
+    /// Whether a body on the top is its own upright.
+    fn is_upright(&self, body: &Body, contact: &Contact) -> bool {
+        let at_rim = contact.rim as f32 >= RIM_FRAC * contact.above as f32;
+        let longer = |sides: Vec3| sides.x.max(sides.z);
+        let is_long = longer(body.sides) >= UPRIGHT_FRAC * longer(self.sides);
+        at_rim && is_long && color::difference(body.color_lab, self.color_lab) < SAME_COLOR
+    }
+
+    /// Whether a body under the top carries it. `under_frac`: the share of the body under the top.
+    fn is_carried(&self, contact: &Contact, under_frac: impl FnOnce() -> f32) -> bool {
+        let share = contact.below as f32 / self.total_below.max(1) as f32;
+        contact.below > 0 && (share >= CARRIER_FRAC || under_frac() >= UNDER_FRAC)
+    }
+}
+
+/// Joins the boards of a shelf: tops over each other with nearly the same footprint.
+fn join_boards(grid: &VoxelGrid, tops: &[Top], num_bodies: usize, sets: &mut DisjointSets) {
+    let boxes: Vec<(Vec3, Vec3)> = tops.iter().map(|top| extent(grid, &top.voxels)).collect();
+    for t in 0..tops.len() {
+        for other in (0..t).filter(|&other| footprint_overlap(boxes[t], boxes[other]) >= SAME_FOOTPRINT) {
+            sets.join(num_bodies + t, num_bodies + other);
+        }
+    }
+}
+
+/// Overlap of two boxes seen from above: intersection over union.
+fn footprint_overlap(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> f32 {
+    let area = |(low, high): (Vec3, Vec3)| (high.x - low.x).max(0.0) * (high.z - low.z).max(0.0);
+    let shared = area((a.0.max(b.0), a.1.min(b.1)));
+    shared / (area(a) + area(b) - shared).max(f32::MIN_POSITIVE)
+}
+
+/// The things of the sets of bodies and tops.
+fn assemble(
+    grid: &VoxelGrid,
+    bodies: &[Vec<usize>],
+    tops: &[Top],
+    (sets, max_diagonal): (&mut DisjointSets, f64),
+) -> Things {
+    let all: Vec<usize> = (0..bodies.len() + tops.len()).collect();
+    let is_top = |item: usize| item >= bodies.len();
+    let of = |item: usize| if is_top(item) { &tops[item - bodies.len()].voxels } else { &bodies[item] };
     let mut things = Things { voxels: Vec::new(), is_surface: Vec::new() };
     for group in sets.groups(&all) {
-        things.is_surface.push(group.iter().all(|&item| item >= num_bodies));
-        let of = |item: usize| if item < num_bodies { &bodies[item] } else { &tops[item - num_bodies].voxels };
-        things.voxels.push(group.into_iter().flat_map(|item| of(item).iter().copied()).collect());
+        let union: Vec<usize> = group.iter().flat_map(|&item| of(item).iter().copied()).collect();
+        let (low, high) = extent(grid, &union);
+        if f64::from((high - low).length() / grid.cell) > max_diagonal {
+            things.is_surface.extend(group.iter().map(|&item| is_top(item)));
+            things.voxels.extend(group.iter().map(|&item| of(item).clone()));
+        } else {
+            things.is_surface.push(group.iter().all(|&item| is_top(item)));
+            things.voxels.push(union);
+        }
     }
     things
 }
@@ -142,7 +231,7 @@ pub(crate) fn extent(grid: &VoxelGrid, voxels: &[usize]) -> (Vec3, Vec3) {
     voxels.iter().map(|&v| grid.voxels[v].position).fold(start, |(low, high), p| (low.min(p), high.max(p)))
 }
 
-fn lowest(grid: &VoxelGrid, body: &[usize]) -> f32 {
+pub(crate) fn lowest(grid: &VoxelGrid, body: &[usize]) -> f32 {
     let mut heights: Vec<f32> = body.iter().map(|&v| grid.voxels[v].position.y).collect();
     let at = heights.len() / 50;
     if heights.is_empty() { 0.0 } else { *heights.select_nth_unstable_by(at, f32::total_cmp).1 }

@@ -10,6 +10,9 @@ use super::voxels::VoxelGrid;
 /// Least upward component of the normal of a level voxel.
 const LEVEL_COSINE: f32 = 0.92;
 
+/// Least levelness of the Gaussians of a level voxel without a normal.
+const LEVEL_SHARE: f32 = 0.8;
+
 /// Largest distance of a voxel from the mean height of its top, cells.
 const FLAT_CELLS: f32 = 0.9;
 
@@ -37,7 +40,10 @@ pub(crate) struct Top {
 /// with what carries it.
 pub(crate) fn tops(grid: &VoxelGrid, is_free: &[bool]) -> Vec<Top> {
     let mut taken: Vec<bool> = is_free.iter().map(|free| !free).collect();
-    let is_level = |v: usize| grid.voxels[v].normal.y.abs() > LEVEL_COSINE;
+    let is_level = |v: usize| {
+        let voxel = &grid.voxels[v];
+        voxel.normal.y.abs() > LEVEL_COSINE || (voxel.normal == Vec3::ZERO && voxel.level > LEVEL_SHARE)
+    };
     let mut tops = Vec::new();
     for seed in 0..grid.voxels.len() {
         if taken[seed] || !is_level(seed) {

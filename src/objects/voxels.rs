@@ -72,6 +72,9 @@ pub(crate) struct Voxel {
     pub(crate) color_lab: Vec3,
     /// Unit normal of the surface, of either sign; zero where there is no surface.
     pub(crate) normal: Vec3,
+    /// How level its Gaussians lie, 0..=1: mean square of the upward component of their thinnest axes. The two sides of a
+    /// board as thick as a cell have no normal, but each of them is level.
+    pub(crate) level: f32,
 }
 
 /// The voxels of a scene.
@@ -93,6 +96,7 @@ struct Moments {
     offset: Vec3,
     square: Mat3,
     color_lab: Vec3,
+    level: f32,
 }
 
 impl VoxelGrid {
@@ -116,6 +120,7 @@ impl VoxelGrid {
             position: empty.middle(*key) + moments.offset / moments.mass,
             color_lab: moments.color_lab / moments.mass,
             normal: surface_normal(*key, empty.cell, &cells, &index),
+            level: moments.level / moments.mass,
         });
         let voxels = voxels.collect();
         Self { voxels, index, ..empty }
@@ -162,10 +167,11 @@ impl VoxelGrid {
         for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= FAINT_OPACITY) {
             let mass = gaussians.opacities[i];
             let color_lab = color::lab(gaussians.base_color(i)) * mass;
+            let level = levelness(turn * gaussians.rotations[i], gaussians.scales[i]) * mass;
             self.fill(gaussians, i, turn, &mut filled);
             for &(key, position) in &filled {
                 let p = position - self.middle(key);
-                let sample = Moments { mass, offset: p * mass, square: outer(p, p) * mass, color_lab };
+                let sample = Moments { mass, offset: p * mass, square: outer(p, p) * mass, color_lab, level };
                 let cell = *index.entry(key).or_insert(cells.len() as u32) as usize;
                 match cells.get_mut(cell) {
                     Some((_, moments)) => moments.add(&sample),
@@ -205,13 +211,14 @@ impl VoxelGrid {
 
 impl Moments {
     /// No samples. Not `Default`, because glam's default matrix is the identity.
-    const EMPTY: Self = Self { mass: 0.0, offset: Vec3::ZERO, square: Mat3::ZERO, color_lab: Vec3::ZERO };
+    const EMPTY: Self = Self { mass: 0.0, offset: Vec3::ZERO, square: Mat3::ZERO, color_lab: Vec3::ZERO, level: 0.0 };
 
     fn add(&mut self, other: &Self) {
         self.mass += other.mass;
         self.offset += other.offset;
         self.square += other.square;
         self.color_lab += other.color_lab;
+        self.level += other.level;
     }
 
     /// The sums relative to the middle of another cell; this cell's middle is at `step` from it.
@@ -225,6 +232,17 @@ impl Moments {
 fn outer(a: Vec3, b: Vec3) -> Mat3 {
     Mat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
+
+/// Square of the upward component of a Gaussian's thinnest axis; 0 of one that is not flat.
+fn levelness(rotation: Quat, scale: Vec3) -> f32 {
+    let thinnest = scale.min_position();
+    let others = scale[(thinnest + 1) % 3].min(scale[(thinnest + 2) % 3]);
+    let is_flat = scale[thinnest] < FLAT_SCALE * others;
+    if is_flat { (rotation * Vec3::AXES[thinnest]).y.powi(2) } else { 0.0 }
+}
+
+/// Largest thickness of a flat Gaussian over its next larger axis.
+const FLAT_SCALE: f32 = 0.5;
 
 /// All offsets of at most `reach` cells along every axis.
 fn offsets(reach: i32) -> impl Iterator<Item = [i32; 3]> {
