@@ -27,6 +27,7 @@ mod info;
 mod interrupt;
 mod job_args;
 mod map;
+mod masks;
 mod memory;
 mod model_args;
 mod objects;

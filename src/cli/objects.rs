@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::failure::{Exit, Failure};
 use super::outputs::Overwrite;
 use super::scene_args::{SceneArgs, print_up};
-use super::{console, heading, outputs, reproduce};
+use super::{console, heading, masks, outputs, reproduce};
 use cinesplat::objects::{self, FindSettings, Object, ObjectSet, Renaming, SheetSettings};
 use cinesplat::pipeline;
 use cinesplat::scene::Scene;
@@ -14,12 +14,13 @@ use cinesplat::video;
 
 /// Find or read the objects of a scene
 ///
-/// Prints a table of the objects, parts indented under their whole. Without --labels and --objects they are those of the
+/// Prints a table of the objects, parts indented under their whole. Without --labels, --masks and --objects they are those of the
 /// scene itself, else those that a search finds.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   cinesplat objects room.spz -o objects.json --sheet objects.html
+  cinesplat objects room.spz --masks masks --cameras transforms.json -o objects.json
   cinesplat objects room.spz --objects objects.json --name 41=mug -o objects.json --overwrite
 A prompt can then say \"the mug\"; <obj-41> always works.")]
 pub(super) struct Args {
@@ -33,6 +34,15 @@ pub(super) struct Args {
     /// A .npy file of u8, u16 or u32 in the order of the scene's file.
     #[arg(long, value_name = "LABELS.NPY", help_heading = heading::SCENE, conflicts_with = "objects")]
     labels: Option<PathBuf>,
+    /// Read the objects from masks of posed images: a folder of PNG files of ids
+    ///
+    /// Gray, 8 or 16 bits; the value is the id, the same in every picture, and 0 is no object. Each has the name of its
+    /// image. Pixels vote with the blending weights of the Gaussians that they show.
+    #[arg(long, value_name = "DIR", help_heading = heading::SCENE, requires = "cameras", conflicts_with_all = ["labels", "objects"])]
+    masks: Option<PathBuf>,
+    /// Cameras of --masks: transforms.json, a COLMAP model or a cameras file
+    #[arg(long, value_name = "CAMERAS", help_heading = heading::SCENE, requires = "masks")]
+    cameras: Option<PathBuf>,
     /// Read the objects from an objects file
     #[arg(long, value_name = "OBJECTS.JSON", help_heading = heading::SCENE)]
     objects: Option<PathBuf>,
@@ -121,6 +131,14 @@ impl Args {
             let scene = self.scene.open()?.scene;
             print_up(&scene);
             let set = objects::from_labels(&scene, objects::read_labels(labels, &scene)?);
+            return Ok((scene, set));
+        }
+        if let (Some(folder), Some(cameras)) = (&self.masks, &self.cameras) {
+            let masks = masks::read(folder, cameras)?;
+            let scene = self.scene.open()?.scene;
+            print_up(&scene);
+            let labels = objects::lift_masks(&scene, &masks)?;
+            let set = objects::from_labels(&scene, labels);
             return Ok((scene, set));
         }
         match self.detail.filter(|_| self.objects.is_none()) {

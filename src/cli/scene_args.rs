@@ -10,7 +10,7 @@ use cinesplat::export::cameras_json::FilterChoice;
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
-use cinesplat::scene::{Limits, LoadOptions, Scene, SplatFilter, UpSource};
+use cinesplat::scene::{Limits, LoadOptions, SURE_PERCENT, Scene, SplatFilter, UpSource};
 
 /// A scene and the options for reading it.
 #[derive(Debug, Clone, Args)]
@@ -82,14 +82,22 @@ pub(super) fn print_up(scene: &Scene) {
     if let UpSource::Estimated(percent) = scene.up_source
         && percent < SURE_PERCENT
     {
-        let [x, y, z] = scene.up.to_array().map(|v| (v * 1e3).round() / 1e3 + 0.0);
-        let others = ["0,1,0", "0,-1,0", "0,0,1"].map(|axis| format!("--up {axis}")).join(", ");
-        console::note(&format!("up is a guess: keep it with --up {x},{y},{z}, or turn the scene with one of {others}"));
+        let flag = |up: DVec3| {
+            let [x, y, z] = up.to_array().map(|v| (v * 1e3).round() / 1e3 + 0.0);
+            format!("--up {x},{y},{z}")
+        };
+        let others = scene.up_candidates().into_iter().skip(1).take(NUM_OTHERS);
+        let others: Vec<String> = others.map(|c| format!("{} ({} %)", flag(c.up), c.confidence_percent)).collect();
+        let turn = if others.is_empty() { String::new() } else { format!(", or type {}", others.join(" or ")) };
+        console::note(&format!(
+            "up is a guess: keep it with {}{turn}; `cinesplat objects --sheet` shows them",
+            flag(scene.up)
+        ));
     }
 }
 
-/// Confidence below which the program says how to state the up axis.
-const SURE_PERCENT: u8 = 80;
+/// Number of other directions that the program names if up is a guess.
+const NUM_OTHERS: usize = 3;
 
 /// As [`print_up`], for a direction from elsewhere.
 pub(super) fn print_up_of(up: DVec3, source: &str) {

@@ -32,6 +32,8 @@ pub struct PoseTrack {
     /// The keyframes of sampled `frames`, for formats that hold both; empty if `frames` are the keyframes or they are
     /// unknown.
     pub keys: Vec<PoseFrame>,
+    /// Name of the image of each of the `frames` in a capture; empty if the file names none.
+    pub images: Vec<String>,
     /// One line per thing in the file that was not read.
     pub unread: Vec<String>,
 }
@@ -102,6 +104,7 @@ impl PoseTrack {
             is_numbered: false,
             frames,
             keys: Vec::new(),
+            images: Vec::new(),
             unread: Vec::new(),
         }
     }

@@ -64,11 +64,13 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         });
     }
     let mut unread = losses.into_lines();
+    let names: Option<Vec<String>> =
+        nodes.iter().map(|node| node.optional("file_path")?.text().ok().map(str::to_owned)).collect();
     if !timed {
         let names = nodes.iter().filter_map(|node| node.optional("file_path")?.text().ok());
         unread.extend(out_of_order(names));
     }
-    Ok(PoseTrack { size_px, fps, timed, unread, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { size_px, fps, timed, unread, images: names.unwrap_or_default(), ..PoseTrack::untimed(frames) })
 }
 
 fn note_distortion(frame: &Node, root: &Node, losses: &mut LensLosses) -> Result<(), ExportError> {

@@ -73,6 +73,14 @@ pub enum ObjectsError {
         /// What was found.
         found: String,
     },
+    /// A mask is not a gray PNG.
+    #[error("{}: mask: found {found}, expected a gray PNG of 8 or 16 bits whose values are ids", path.display())]
+    BadMask {
+        /// The mask.
+        path: PathBuf,
+        /// What was found.
+        found: String,
+    },
     /// A picture cannot be rendered or encoded.
     #[error("picture of the objects failed: {reason}")]
     Picture {
@@ -92,6 +100,7 @@ impl ObjectsError {
             Self::DuplicateId { .. } => "OBJ-DUPLICATE",
             Self::BadLabels { .. } => "OBJ-LABELS",
             Self::BadClouds { .. } => "OBJ-CLOUDS",
+            Self::BadMask { .. } => "OBJ-MASK",
             Self::Picture { .. } => "OBJ-PICTURE",
         }
     }

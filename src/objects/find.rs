@@ -95,7 +95,7 @@ fn assemble(scene: &Scene, labels: Vec<u16>, of_id: &dyn Fn(u32) -> Traits) -> O
         let members = members.get(&object.id).map_or(&[][..], Vec::as_slice);
         let Some(fitted) = boxes::fit(&scene.gaussians, members, scene.up) else { continue };
         let traits = of_id(object.id);
-        let describe = || naming::describe(&scene.gaussians, members, &fitted, (size, traits.is_surface));
+        let describe = || naming::describe(scene, members, &fitted, (size, traits.is_surface));
         object.label = traits.name.map_or_else(describe, str::to_owned);
         (object.center, object.half_extents, object.rotation) = (fitted.center, fitted.half_extents, fitted.rotation);
         object.num_gaussians = members.len();

@@ -1,7 +1,7 @@
 //! The objects of a scene, and their sparse clouds by multi-view alpha shapes.
 //!
 //! Enters: a scene, and optionally boxes or labels. Leaves: an [`ObjectSet`]. Objects are found ([`find()`]), read from
-//! a file ([`read()`]) or assembled from labels ([`from_labels`]). [`fill_clouds`] computes the clouds that the
+//! a file ([`read()`]) or assembled from labels ([`from_labels`]), which masks of posed images give ([`lift_masks`]). [`fill_clouds`] computes the clouds that the
 //! director takes as input, and [`sheet()`] draws a contact sheet of all objects.
 
 mod agreement;
@@ -25,12 +25,14 @@ mod floating;
 mod grouping;
 mod groups;
 mod kept_points;
+mod lifting;
 mod mask;
 mod naming;
 mod object;
 mod open_background;
 mod open_room;
 mod parts;
+mod photo;
 mod pieces;
 mod planes;
 pub mod radius_search;
@@ -42,7 +44,9 @@ mod sheet;
 mod sheet_html;
 mod silhouettes;
 mod standing;
+mod structure;
 mod tops;
+mod up_views;
 mod viewpoints;
 mod views;
 mod voxels;
@@ -54,8 +58,10 @@ pub use error::ObjectsError;
 pub use file::{ObjectsFile, read, read_boxes, read_labels};
 pub use file_write::{Sidecars, clouds_path, labels_path, to_json, write};
 pub use find::{find, from_labels};
+pub use lifting::{PosedMask, lift_masks, read_mask};
 pub use object::{Object, ObjectSet};
 pub use renaming::{Renaming, rename};
 pub use sampling::PointSampler;
 pub use settings::FindSettings;
 pub use sheet::{Sheet, SheetSettings, Tile, sheet};
+pub use up_views::UpView;

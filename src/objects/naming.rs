@@ -5,13 +5,26 @@ use glam::Vec3;
 use super::boxes::UprightBox;
 use super::color;
 use super::object::Object;
-use cinesplat_scene::Gaussians;
+use super::structure;
+use cinesplat_scene::{Gaussians, Scene};
 
-/// A description such as `large turquoise object` or `tall brown panel`.
+/// Distance from the middle of a box, over half of its extent, from which a Gaussian is on a face.
+const FACE_FRAC: f64 = 0.8;
+
+/// Least shares of the Gaussians of a box on one face or more, and on two or more. The faces of a cube have 1 and 0.36
+/// of them; a ball has 0.6 and none, a cylinder few.
+const MIN_ON_FACES: f64 = 0.75;
+const MIN_ON_EDGES: f64 = 0.2;
+
+/// A description such as `floor`, `large turquoise object` or `tall brown box`.
 ///
 /// `setting` is the scene size, and whether the object is only a level surface. An object is large from a quarter of
 /// the scene size on, and small up to a tenth of it.
-pub(crate) fn describe(gaussians: &Gaussians, members: &[usize], fitted: &UprightBox, setting: (f64, bool)) -> String {
+pub(crate) fn describe(scene: &Scene, members: &[usize], fitted: &UprightBox, setting: (f64, bool)) -> String {
+    if let Some(name) = structure::name(scene, members, fitted) {
+        return name.to_owned();
+    }
+    let gaussians = &scene.gaussians;
     let (scene_size, is_surface) = setting;
     let share = 2.0 * fitted.half_extents.length() / scene_size;
     let size = if share >= 0.25 {
@@ -21,25 +34,39 @@ pub(crate) fn describe(gaussians: &Gaussians, members: &[usize], fitted: &Uprigh
     } else {
         ""
     };
-    let (shape, noun) = if is_surface { ("", "surface") } else { form(fitted) };
+    let (shape, noun) = if is_surface { ("", "surface") } else { form(gaussians, members, fitted) };
     format!("{size}{shape}{} {noun}", color::name(typical_color(gaussians, members)))
 }
 
-/// Adjective and noun for the proportions of a box.
-fn form(fitted: &UprightBox) -> (&'static str, &'static str) {
+/// Adjective and noun for the proportions of a box and for how its Gaussians fill it.
+fn form(gaussians: &Gaussians, members: &[usize], fitted: &UprightBox) -> (&'static str, &'static str) {
     let half = fitted.half_extents;
     let (thin, wide) = (half.x.min(half.z), half.x.max(half.z));
     if thin < 0.2 * wide && thin < 0.2 * half.y {
-        ("", "panel")
-    } else if half.y > 2.2 * wide {
-        ("tall ", "object")
-    } else if half.y < 0.3 * wide {
-        ("flat ", "object")
-    } else if wide > 3.0 * thin {
-        ("long ", "object")
-    } else {
-        ("", "object")
+        return ("", "panel");
     }
+    let noun = if is_box(gaussians, members, fitted) { "box" } else { "object" };
+    if half.y > 2.2 * wide {
+        ("tall ", noun)
+    } else if half.y < 0.3 * wide {
+        ("flat ", noun)
+    } else if wide > 3.0 * thin {
+        ("long ", noun)
+    } else {
+        ("", noun)
+    }
+}
+
+/// Whether the Gaussians lie on the faces of their box, up to its edges.
+fn is_box(gaussians: &Gaussians, members: &[usize], fitted: &UprightBox) -> bool {
+    let local_from_world = fitted.rotation.conjugate();
+    let num_faces = |i: &usize| {
+        let local = local_from_world * (gaussians.mean_world(*i) - fitted.center) / fitted.half_extents;
+        local.to_array().into_iter().filter(|along| along.abs() > FACE_FRAC).count()
+    };
+    let share =
+        |least: usize| members.iter().filter(|i| num_faces(i) >= least).count() as f64 / members.len().max(1) as f64;
+    share(1) >= MIN_ON_FACES && share(2) >= MIN_ON_EDGES
 }
 
 /// Median color, CIE Lab, of the more opaque half of the Gaussians.

@@ -11,10 +11,12 @@ use rayon::prelude::*;
 use super::drawing::{self, Ink};
 use super::error::ObjectsError;
 use super::object::{Object, ObjectSet};
+use super::photo::{TILE_BACKGROUND, TILE_FOV_RAD, photo};
+use super::up_views::{UpView, up_views};
 use super::viewpoints::{IdPicture, ViewpointSearch};
 use cinesplat_geometry::{Camera, Intrinsics};
-use cinesplat_render::{Quality, RenderSettings, Renderer};
-use cinesplat_scene::{Scene, SplatFilter};
+use cinesplat_render::{Quality, Renderer};
+use cinesplat_scene::Scene;
 
 /// Settings of [`sheet`].
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +41,15 @@ impl SheetSettings {
         (width, width * 3 / 4)
     }
 
+    /// Upper left corner of the i-th tile below a height.
+    fn place(&self, height: u32, i: u32) -> (i64, i64) {
+        let columns = self.num_columns.max(1);
+        let (width, picture_height) = self.tile_size_px();
+        let left = GAP_PX + i % columns * (width + GAP_PX);
+        let top = height + GAP_PX + i / columns * (picture_height + CAPTION_PX + GAP_PX);
+        (left.into(), top.into())
+    }
+
     fn overview_size_px(&self) -> (u32, u32) {
         let width = self.num_columns.max(1) * (self.tile_size_px().0 + GAP_PX) + GAP_PX;
         (width, width * 9 / 16)
@@ -51,17 +62,12 @@ const INK: Ink = Rgb([12, 12, 14]);
 
 /// Vertical field of view of the overview.
 const OVERVIEW_FOV_RAD: f64 = 1.15;
-/// Vertical field of view of the tiles: a normal lens.
-const TILE_FOV_RAD: f64 = 0.7;
 
 /// Height of the two lines of text under a tile.
 const CAPTION_PX: u32 = 44;
 
 /// Space between tiles.
 const GAP_PX: u32 = 6;
-
-/// Color behind an object that is cut out.
-const TILE_BACKGROUND: [f32; 3] = [0.24, 0.24, 0.26];
 
 /// Step to the right of the caption of a part.
 const INDENT_PX: i64 = 16;
@@ -79,6 +85,8 @@ pub struct Sheet {
     pub overview: RgbImage,
     /// One picture per object, each whole followed by its parts.
     pub tiles: Vec<Tile>,
+    /// If up is a guess: the scene with each direction that may be up, most likely first.
+    pub up_views: Vec<UpView>,
 }
 
 /// The picture of one object, cut out.
@@ -106,7 +114,7 @@ pub fn sheet(scene: &Scene, set: &ObjectSet, settings: &SheetSettings) -> Result
     let overview = painter.overview()?;
     let tiles: Result<Vec<Tile>, ObjectsError> =
         ordered.into_par_iter().map(|(object, depth)| painter.tile(object, depth)).collect();
-    Ok(Sheet { overview, tiles: tiles? })
+    Ok(Sheet { overview, tiles: tiles?, up_views: up_views(scene, settings.tile_size_px(), settings.quality)? })
 }
 
 impl Sheet {
@@ -116,14 +124,16 @@ impl Sheet {
         let (tile_width, picture_height) = settings.tile_size_px();
         let row_height = picture_height + CAPTION_PX + GAP_PX;
         let num_rows = (self.tiles.len() as u32).div_ceil(columns);
-        let overview_height = self.overview.height();
+        let num_up_rows = (self.up_views.len() as u32).div_ceil(columns);
+        let overview_height = self.overview.height() + num_up_rows * row_height;
         let height = overview_height + GAP_PX + num_rows * row_height;
         let mut page = RgbImage::from_pixel(self.overview.width(), height, BACKGROUND);
         imageops::replace(&mut page, &self.overview, 0, 0);
-        for (i, tile) in self.tiles.iter().enumerate() {
-            let (column, row) = (i as u32 % columns, i as u32 / columns);
-            let left = i64::from(GAP_PX + column * (tile_width + GAP_PX));
-            let top = i64::from(overview_height + GAP_PX + row * row_height);
+        for (i, view) in (0..).zip(&self.up_views) {
+            view.draw(&mut page, settings.place(self.overview.height(), i), picture_height);
+        }
+        for (i, tile) in (0..).zip(&self.tiles) {
+            let (left, top) = settings.place(overview_height, i);
             imageops::replace(&mut page, &tile.picture, left, top);
             let indent = INDENT_PX * tile.depth.min(3) as i64;
             if tile.depth > 0 {
@@ -155,7 +165,12 @@ impl SheetPainter<'_> {
         let (width, height) = self.settings.overview_size_px();
         let camera = self.viewpoints.overview(Intrinsics::from_fov_y(width, height, OVERVIEW_FOV_RAD));
         let renderer = Renderer::new(&self.scene.gaussians);
-        let mut image = self.photo(&renderer, &camera, (self.scene.bounds().default_near(), [0.0; 3]))?;
+        let mut image = photo(
+            self.scene,
+            &renderer,
+            &camera,
+            (self.scene.bounds().default_near(), [0.0; 3], self.settings.quality),
+        )?;
         let ids = self.viewpoints.id_picture(&camera);
         let scale = f64::from(width) / ids.width as f64;
         let place = |object| Some((object, visible_middle(&ids, self.set, object)? * scale));
@@ -180,25 +195,13 @@ impl SheetPainter<'_> {
         let (camera, _) = self.viewpoints.closeup(object, Intrinsics::from_fov_y(width, height, TILE_FOV_RAD));
         let members = self.members.get(&object.id).map_or(&[][..], Vec::as_slice);
         let gaussians = self.scene.gaussians.subset(members);
-        let mut picture = self.photo(&Renderer::new(&gaussians), &camera, (0.0, TILE_BACKGROUND))?;
+        let mut picture =
+            photo(self.scene, &Renderer::new(&gaussians), &camera, (0.0, TILE_BACKGROUND, self.settings.quality))?;
         if gaussians.is_empty() {
             draw_box(&mut picture, &camera, object, 0.0);
         }
         drawing::tag(&mut picture, (8, 8), 3, (INK, ink_of(object.id)), &object.id.to_string());
         Ok(Tile { id: object.id, label: object.label.clone(), depth, picture })
-    }
-
-    /// `look`: near plane and background.
-    fn photo(&self, renderer: &Renderer, camera: &Camera, look: (f64, [f32; 3])) -> Result<RgbImage, ObjectsError> {
-        let filter = self.scene.filter.unwrap_or(SplatFilter::Classic);
-        let (near, background) = look;
-        let quality = self.settings.quality;
-        let settings =
-            RenderSettings { quality, filter, near, background: background.into(), ..RenderSettings::default() };
-        let failed = |reason: String| ObjectsError::Picture { reason };
-        let frame = renderer.render(camera, &settings).map_err(|error| failed(error.to_string()))?;
-        let image = RgbImage::from_raw(frame.width, frame.height, frame.to_rgb8());
-        image.ok_or_else(|| failed("the frame has another size than its pixels".to_owned()))
     }
 }
 

@@ -26,8 +26,9 @@ impl Sheet {
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\
              <style>{STYLE}</style></head>\n<body><h1>{title}</h1>\n\
              <p>Name an object with <code>--name ID=NAME</code>; <code>&lt;obj-ID&gt;</code> in a prompt always works.</p>\n\
-             <img id=\"all\" alt=\"the scene\" src=\"{}\">\n<main>\n",
-            data_uri(&self.overview)?
+             <img id=\"all\" alt=\"the scene\" src=\"{}\">\n{}<main>\n",
+            data_uri(&self.overview)?,
+            self.up_section()?
         );
         let mut is_open = false;
         for tile in &self.tiles {
@@ -40,6 +41,25 @@ impl Sheet {
         page.push_str(if is_open { "</section>\n" } else { "" });
         page.push_str("</main></body></html>\n");
         Ok(page)
+    }
+
+    /// The directions that may be up; empty where up is known.
+    fn up_section(&self) -> Result<String, ObjectsError> {
+        if self.up_views.is_empty() {
+            return Ok(String::new());
+        }
+        let mut text = "<h2>Which way is up?</h2>\n<main>\n".to_owned();
+        for view in &self.up_views {
+            let [likely, flag] = view.caption();
+            let picture = data_uri(&view.picture)?;
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "<section><img alt=\"{flag}\" src=\"{picture}\"><p>{likely} <code>{flag}</code></p></section>"
+            );
+        }
+        text.push_str("</main>\n<h2>Objects</h2>\n");
+        Ok(text)
     }
 }
 

@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::bounds::Bounds;
 use super::filter::SplatFilter;
 use super::gaussians::Gaussians;
+use super::up::{self, UpEstimate, UpPrior};
 
 /// Source of the up direction of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,6 +60,12 @@ impl Scene {
     /// Bounds of all Gaussians and of the scene's core.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(&self.gaussians)
+    }
+
+    /// The directions that may be up if the file does not state one, at least 15 degrees apart, most likely first.
+    pub fn up_candidates(&self) -> Vec<UpEstimate> {
+        let prior = if self.format.starts_with("spz") { UpPrior::Spz } else { UpPrior::PlyFrame };
+        up::estimates(&self.gaussians, prior)
     }
 
     /// Number of Gaussians in the file, dropped ones included.

@@ -8,6 +8,7 @@ mod cloud;
 mod delaunay;
 mod file;
 mod find;
+mod lifting;
 mod naming;
 mod radius_search;
 mod renaming;

@@ -1,5 +1,5 @@
 use cinesplat::objects::{self, ObjectSet, SheetSettings, sheet};
-use cinesplat::scene::{Gaussians, Scene};
+use cinesplat::scene::{Gaussians, Scene, UpSource};
 use glam::{DVec3, Vec3};
 
 use super::{push_box, scene_of};
@@ -84,4 +84,25 @@ fn a_scene_without_objects_has_an_overview() {
 fn a_scene_without_extent_is_an_error() {
     let error = sheet(&scene_of(Gaussians::default()), &ObjectSet::default(), &SheetSettings::default()).unwrap_err();
     assert_eq!(error.code(), "OBJ-PICTURE");
+}
+
+#[test]
+fn a_sheet_of_a_scene_whose_up_is_a_guess_shows_the_candidates() {
+    let (mut scene, set) = two_boxes();
+    let settings = SheetSettings { tile_width_px: 120, ..SheetSettings::default() };
+    scene.up_source = UpSource::Estimated(79);
+    let guessed = sheet(&scene, &set, &settings).unwrap();
+    assert!(!guessed.up_views.is_empty() && guessed.up_views.is_sorted_by_key(|view| 100 - view.percent));
+    for view in &guessed.up_views {
+        // The scene is in the middle of its picture: not the gray of the background.
+        let middle = view.picture.get_pixel(view.picture.width() / 2, view.picture.height() / 2).0;
+        let colors = view.picture.pixels().filter(|p| p.0[0].abs_diff(p.0[2]) > 20).count();
+        assert!(colors > 50, "{} shows nothing: {middle:?}", view.up);
+    }
+    let page = guessed.html("boxes").unwrap();
+    assert!(page.contains("Which way is up?") && page.contains("<code>--up "));
+    scene.up_source = UpSource::Estimated(80);
+    let sure = sheet(&scene, &set, &settings).unwrap();
+    assert!(sure.up_views.is_empty() && !sure.html("boxes").unwrap().contains("Which way is up?"));
+    assert!(sure.page(&settings).height() < guessed.page(&settings).height());
 }

@@ -1,5 +1,7 @@
-use cinesplat::scene::{Gaussians, LoadOptions, UpPrior, UpSource, estimate_up, load};
+use cinesplat::pipeline::open_scene;
+use cinesplat::scene::{Gaussians, LoadOptions, UpPrior, UpSource, estimate_up, load, up_estimates};
 use glam::{DQuat, DVec3};
+use std::path::Path;
 
 use crate::support;
 
@@ -78,4 +80,46 @@ fn without_evidence_the_prior_decides() {
     assert_eq!(estimate_up(&ball, UpPrior::PlyFrame).up, DVec3::NEG_Y);
     assert_eq!(estimate_up(&ball, UpPrior::Spz).up, DVec3::Y);
     assert_eq!(estimate_up(&Gaussians::default(), UpPrior::PlyFrame).up, DVec3::NEG_Y);
+}
+
+/// Random poses, without what a kind of file suggests. The scans of rooms are right in every one of them.
+#[test]
+fn up_does_not_depend_on_the_pose_of_the_file() {
+    let mut rooms = Vec::new();
+    for name in ["synth:room:501:0.06", "synth:room:502:0.06", "synth:tabletop:501:0.06", "synth:tabletop:502:0.06"] {
+        let scene = open_scene(Path::new(name), &LoadOptions::default()).unwrap().scene;
+        rooms.push((name, scene.gaussians, DVec3::Y));
+    }
+    for (name, up) in [
+        ("playbot/6_0", DVec3::NEG_Y),
+        ("composites/livingroom_surfels.spz", DVec3::new(0.004, -0.9995, -0.031)),
+        ("skull/skull.sog", DVec3::NEG_Y),
+    ] {
+        rooms.extend(shared_scene(name).map(|gaussians| (name, gaussians, up.normalize())));
+    }
+    for (name, gaussians, up) in rooms {
+        for (x, y, z) in [(0.3, -1.2, 2.1), (2.8, 0.4, -0.9)] {
+            let turn = DQuat::from_euler(glam::EulerRot::XYZ, x, y, z);
+            let found = estimate_up(&turned(&gaussians, turn), UpPrior::Any).up;
+            let off = found.angle_between(turn * up).to_degrees();
+            assert!(off < 5.0, "{name}: {off:.2} degrees off");
+        }
+    }
+}
+
+/// A cube looks the same from all sides, so that no side can be sure to be up, and all are named.
+#[test]
+fn the_candidates_of_a_cube_are_unsure_and_add_up() {
+    let mut cube = Gaussians::default();
+    crate::objects::push_box(&mut cube, DVec3::ZERO, DVec3::ONE, 0.1, glam::Vec3::splat(0.5));
+    let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.9, -0.3);
+    let found = up_estimates(&turned(&cube, turn), UpPrior::Any);
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [turn * axis, -(turn * axis)]);
+    for axis in axes {
+        let nearest = found.iter().map(|c| c.up.angle_between(axis).to_degrees()).fold(180.0, f64::min);
+        assert!(nearest < 6.0, "a side is no candidate: {nearest} degrees off");
+    }
+    assert!(found[0].confidence_percent < 50, "{:?}", found[0]);
+    let sum: u32 = found.iter().map(|c| u32::from(c.confidence_percent)).sum();
+    assert!((90..=110).contains(&sum), "{sum}");
 }

@@ -12,6 +12,7 @@ mod render;
 mod scaling;
 mod scenes;
 mod temporary_film;
+mod up;
 
 use crate::cli::failure::Failure;
 
@@ -26,6 +27,7 @@ Examples:
   cinesplat bench promises room.spz synth:demo -o bench
   cinesplat bench lens room.spz --cameras cameras.json -o bench
   cinesplat bench objects synth:room:1:0.3 -o bench
+  cinesplat bench up synth:room:1:0.1 palm.splat --rotations 20
   cinesplat bench operator moves
   cinesplat bench critic --cases public.jsonl -o critic
   cinesplat bench director -o bench")]
@@ -43,6 +45,7 @@ enum Benchmark {
     Promises(promises::Args),
     Lens(lens::Args),
     Objects(objects::Args),
+    Up(up::Args),
     Operator(operator::Args),
     Critic(critic::Args),
     #[cfg(feature = "training")]
@@ -59,6 +62,7 @@ impl Args {
             Benchmark::Promises(args) => args.run(),
             Benchmark::Lens(args) => args.run(),
             Benchmark::Objects(args) => args.run(),
+            Benchmark::Up(args) => args.run(),
             Benchmark::Operator(args) => args.run(),
             Benchmark::Critic(args) => args.run(),
             #[cfg(feature = "training")]

@@ -25,6 +25,10 @@ impl From<ObjectsError> for Failure {
             E::BadClouds { .. } => {
                 (Exit::BadData, "clear `clouds` in the objects file: they are computed anew".to_owned())
             }
+            E::BadMask { .. } => {
+                let help = "write ids as gray values: colors of a palette are not ids";
+                (Exit::BadData, help.to_owned())
+            }
             E::Picture { .. } => (Exit::Fault, "leave out --sheet, or report the scene that it fails on".to_owned()),
         };
         Self::new(code, message, help, exit)

@@ -157,7 +157,8 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
         losses.distortion("a parameter", camera.distortion);
         losses.model(camera.model.into());
     }
-    Ok(PoseTrack { size_px, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
+    let names = images.into_iter().map(|image| image.name).collect();
+    Ok(PoseTrack { size_px, images: names, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
 }
 
 /// Cameras and images of a track. A new camera starts wherever the field of view changes; ids count from 1.

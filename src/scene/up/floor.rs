@@ -35,6 +35,10 @@ const FULL_PATCHES: f64 = 1000.0;
 /// The best floor perpendicular to a direction.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Floor {
+    /// Share of the footprint that the floor covers, reduced for patches below it, 0..=1.
+    pub(super) coverage: f64,
+    /// Share of level normals at the floor beyond chance, 0..=1.
+    pub(super) levelness: f64,
     /// Evidence for the floor, 0..=1: the product of coverage, mass and levelness.
     pub(super) evidence: f64,
     /// Height of the floor along the direction, from the center of the scene's core.
@@ -55,7 +59,8 @@ pub(super) fn find_floor(sample: &PatchSample, facets: &[Facet], up: DVec3) -> F
         * (coverage / FULL_COVERAGE).min(1.0)
         * (mass / FULL_MASS).min(1.0)
         * ((levelness - LEVEL_CHANCE) / FULL_LEVELNESS).clamp(0.0, 1.0);
-    Floor { evidence, height, mean_height: slabs.mean_height(idx) }
+    let levelness = ((levelness - LEVEL_CHANCE) / (1.0 - LEVEL_CHANCE)).max(0.0);
+    Floor { evidence, height, mean_height: slabs.mean_height(idx), coverage, levelness }
 }
 
 /// Slabs of a scene perpendicular to a direction.

@@ -1,20 +1,27 @@
 //! Estimation of world up, for files that do not state it.
 //!
-//! Enters: Gaussians and the prior of the kind of file. Leaves: a unit direction with a confidence. The candidates are the
-//! six coordinate axes and the frequent surface normals ([`candidates`]). The score of a candidate combines the evidence
-//! for a floor perpendicular to it ([`floor`]) with the prior ([`UpPrior`]). A plane fit levels the floor of a candidate.
+//! Enters: Gaussians and the prior of the kind of file. Leaves: unit directions with probabilities. The candidates are the
+//! frequent surface normals ([`candidates`]), the directions in which the scene can rest on the ground and its principal
+//! axes ([`resting`]), and, unless the pose is arbitrary, the six coordinate axes. A plane fit levels the floor of a
+//! candidate. The [`evidence`] for each gives its odds by fixed weights ([`weights`]), and the prior ([`UpPrior`])
+//! multiplies them.
 //!
 //! Invariant: the result is deterministic. Of equal scores the first wins: -y, +y, +z, -z, x, -x, then other directions.
 
 mod candidates;
+mod evidence;
 mod facets;
 mod floor;
 mod prior;
+mod resting;
 mod sample;
+mod weights;
 
 use glam::DVec3;
 
 use super::gaussians::Gaussians;
+use evidence::{NUM_EVIDENCE, evidence};
+use facets::Facet;
 use prior::AXES;
 use sample::PatchSample;
 
@@ -30,11 +37,8 @@ pub struct UpEstimate {
     pub confidence_percent: u8,
 }
 
-/// Score of full evidence for a floor, as the logarithm of odds.
-const FLOOR_WEIGHT: f64 = 6.0;
-
-/// Score for matter that is concentrated near the floor rather than near the ceiling.
-const HEIGHT_WEIGHT: f64 = 3.0;
+/// Confidence below which an estimate is a guess that a person should look at.
+pub const SURE_PERCENT: u8 = 80;
 
 /// Evidence for a floor below which the candidate is not leveled.
 const MIN_EVIDENCE: f64 = 0.03;
@@ -48,55 +52,71 @@ const SNAP_COS: f64 = 0.999_962;
 /// Cosine of the angle within which two candidates count as one direction (15 degrees).
 const SAME_COS: f64 = 0.966;
 
-/// Estimates world up from the floor of a scene; without a floor the prior decides.
+/// Cosine of the angle within which a candidate of another source is not tried again (3 degrees).
+const REPEATED_COS: f64 = 0.9986;
+
+/// Estimates world up from the shape of a scene; without a shape the prior decides.
 pub fn estimate(gaussians: &Gaussians, prior: UpPrior) -> UpEstimate {
-    let scored = match PatchSample::of(gaussians) {
-        Some(sample) => score_candidates(&sample, prior),
+    let first = estimates(gaussians, prior).into_iter().next();
+    first.unwrap_or(UpEstimate { up: DVec3::NEG_Y, confidence_percent: 0 })
+}
+
+/// The directions that may be up, at least 15 degrees apart, most likely first.
+pub fn estimates(gaussians: &Gaussians, prior: UpPrior) -> Vec<UpEstimate> {
+    let scored = match candidates_of(gaussians, prior) {
+        Some(found) => {
+            let floorless = 1.0 - found.iter().map(|(_, evidence)| evidence[0]).fold(0.0, f64::max);
+            found.into_iter().map(|c| (c.0, prior.of(c.0) + weights::score(&c.1, floorless))).collect()
+        }
         None => AXES.into_iter().map(|up| (up, prior.of_axis(up))).collect(),
     };
-    // Of equal scores the first wins.
-    let best = scored.iter().copied().reduce(|best, next| if next.1 > best.1 { next } else { best });
-    let (up, score) = best.unwrap_or((DVec3::NEG_Y, 0.0));
-    let odds = |(_, other): &(DVec3, f64)| (other - score).exp();
+    ranked(scored)
+}
+
+/// Groups nearby directions by their best and turns scores, the logarithms of odds, into probabilities.
+fn ranked(mut scored: Vec<(DVec3, f64)>) -> Vec<UpEstimate> {
+    // Of equal scores the first wins: the sort is stable.
+    scored.sort_by(|a, b| b.1.total_cmp(&a.1));
     // Each group of nearby directions counts once, by its best, so that a crowded group does not dominate the sum.
     let mut groups: Vec<(DVec3, f64)> = Vec::new();
-    let mut ranked = scored.clone();
-    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-    for candidate in ranked {
+    for candidate in scored {
         if groups.iter().all(|known| known.0.dot(candidate.0) < SAME_COS) {
             groups.push(candidate);
         }
     }
-    let percent = 100.0 / groups.iter().map(odds).sum::<f64>().max(1.0);
-    UpEstimate { up, confidence_percent: percent.round() as u8 }
+    let best = groups.first().map_or(0.0, |group| group.1);
+    let sum: f64 = groups.iter().map(|group| (group.1 - best).exp()).sum();
+    let percent = |score: f64| (100.0 * (score - best).exp() / sum).round() as u8;
+    groups.into_iter().map(|(up, score)| UpEstimate { up, confidence_percent: percent(score) }).collect()
 }
 
-/// All candidates with their scores: the axes, and other directions with a floor.
-fn score_candidates(sample: &PatchSample, prior: UpPrior) -> Vec<(DVec3, f64)> {
+/// All candidates with their evidence; `None` for a scene without extent.
+pub(super) fn candidates_of(gaussians: &Gaussians, prior: UpPrior) -> Option<Vec<(DVec3, [f64; NUM_EVIDENCE])>> {
+    let sample = &PatchSample::of(gaussians)?;
     let facets = facets::find_facets(sample);
-    let peaks = candidates::normal_peaks(sample, &facets);
-    let scored = |up: DVec3| score_direction(sample, &facets, prior, up);
-    let off_axis =
-        peaks.into_iter().flat_map(|peak| [peak, -peak]).map(scored).filter(|scored| scored.2 >= LEVELING_EVIDENCE);
-    AXES.into_iter().map(scored).chain(off_axis).map(|(up, score, _)| (up, score)).collect()
+    let mut directions: Vec<DVec3> = if prior == UpPrior::Any { Vec::new() } else { AXES.to_vec() };
+    let peaks = candidates::normal_peaks(sample, &facets).into_iter().flat_map(|peak| [peak, -peak]);
+    directions.extend(peaks);
+    for direction in resting::resting(sample).into_iter().chain(resting::principal(sample)) {
+        if directions.iter().all(|known| known.dot(direction) < REPEATED_COS) {
+            directions.push(direction);
+        }
+    }
+    Some(directions.into_iter().map(|up| leveled(sample, &facets, prior, up)).collect())
 }
 
-/// A candidate, leveled if it has a floor, with its score and the evidence for the floor.
-fn score_direction(sample: &PatchSample, facets: &[facets::Facet], prior: UpPrior, up: DVec3) -> (DVec3, f64, f64) {
-    let scored = |direction: DVec3, floor: floor::Floor| {
-        // The height of the matter is informative only relative to a floor.
-        let low_lying = HEIGHT_WEIGHT * floor.evidence * (0.5 - floor.mean_height);
-        (direction, prior.of(direction) + FLOOR_WEIGHT * floor.evidence + low_lying, floor.evidence)
-    };
-    let first = floor::find_floor(sample, facets, up);
-    if first.evidence < MIN_EVIDENCE {
-        return scored(up, first);
+/// A candidate, leveled if it has a floor, with its evidence.
+fn leveled(sample: &PatchSample, facets: &[Facet], prior: UpPrior, up: DVec3) -> (DVec3, [f64; NUM_EVIDENCE]) {
+    let (first, floor) = evidence(sample, facets, up);
+    if floor.evidence < MIN_EVIDENCE {
+        return (up, first);
     }
     // A floor that is tilted against the candidate gives weak evidence. Level the candidate to it and search again.
-    let leveled = snapped(candidates::level(sample, up, first.height));
-    let second = floor::find_floor(sample, facets, leveled);
-    let is_better = second.evidence >= LEVELING_EVIDENCE && second.evidence >= 0.9 * first.evidence;
-    if is_better { scored(leveled, second) } else { scored(up, first) }
+    let level = candidates::level(sample, up, floor.height);
+    let level = if prior == UpPrior::Any { level } else { snapped(level) };
+    let (second, leveled) = evidence(sample, facets, level);
+    let is_better = leveled.evidence >= LEVELING_EVIDENCE && leveled.evidence >= 0.9 * floor.evidence;
+    if is_better { (level, second) } else { (up, first) }
 }
 
 /// The nearby coordinate axis if there is one, else the direction.

@@ -7,6 +7,8 @@ pub enum UpPrior {
     PlyFrame,
     /// SPZ: y up by the specification, and about as often y down, as converters write it.
     Spz,
+    /// A scene in any pose: no direction is more likely than another.
+    Any,
 }
 
 /// Cost of a direction off the axes, and cost per degree off. Many scenes have the frame of their first camera, which is
@@ -20,6 +22,9 @@ pub(super) const AXES: [DVec3; 6] = [DVec3::NEG_Y, DVec3::Y, DVec3::Z, DVec3::NE
 impl UpPrior {
     /// Logarithm of the odds of a coordinate axis relative to the most likely one.
     pub(super) fn of_axis(self, axis: DVec3) -> f64 {
+        if self == Self::Any {
+            return 0.0;
+        }
         match (self, axis.to_array().map(|v| v as i32)) {
             (Self::PlyFrame, [0, -1, 0]) | (Self::Spz, [0, 1, 0]) => 0.0,
             (Self::Spz, [0, -1, 0]) => -0.2,
@@ -32,6 +37,9 @@ impl UpPrior {
 
     /// Logarithm of the odds of a direction: that of the best axis minus the cost of the tilt.
     pub(super) fn of(self, direction: DVec3) -> f64 {
+        if self == Self::Any {
+            return 0.0;
+        }
         let tilted = |axis: DVec3| {
             let degrees = direction.dot(axis).clamp(-1.0, 1.0).acos().to_degrees();
             let cost = if degrees < 0.5 { 0.0 } else { TILT_COST + TILT_COST_PER_DEGREE * degrees };
