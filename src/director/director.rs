@@ -19,7 +19,6 @@ use crate::keys::{boundaries_of, steps_of};
 use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
-use crate::network::PromptBatch;
 use crate::said::{
     complete_framings, drop_descriptions, merge_repeated, open_unstated_directions, reverse_retraced,
     take_said_directions, take_said_dolly_zooms,
@@ -142,9 +141,8 @@ impl Director {
             objects: objects.map(Option::unwrap_or_default).collect(),
             num_named: linked.slots.len(),
         };
-        let batch = PromptBatch::new(&[&prompt], &self.model.config)?;
         let rules = WordRules { kinds: grounding.kinds(), is_move: grounding.is_move(&linked.tokens_text) };
-        let decoded = decode(&self.model.network, &prompt, &batch, &rules)?;
+        let decoded = decode((&self.model.network, &self.model.config), &prompt, &rules)?;
         let mut direction = direction(&decoded, &grounding, &frame)?;
         for certainty in &mut direction.certainty {
             certainty.probability = self.model.calibration.apply(certainty.probability);

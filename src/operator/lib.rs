@@ -11,6 +11,7 @@
 //!
 //! The crate does no IO.
 
+mod as_filmed;
 mod capture_region;
 mod captured_side;
 mod clearance;

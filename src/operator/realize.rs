@@ -1,5 +1,6 @@
 //! A program becomes keyframes: search, detours, timing, clearance certificate, report.
 
+use super::as_filmed::as_filmed;
 use super::detours;
 use super::dutch;
 use super::flow::{Flow, Joint, joints, tightened, without_stops};
@@ -7,7 +8,7 @@ use super::forbidden;
 use super::handles::{MAX_FREE_FILM_SECS, handles, settle};
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
-use super::program::{Framing, Pass, Program, Step};
+use super::program::{Framing, Program, Step};
 use super::report;
 use super::search::{Candidate, SearchProblem, best_candidates};
 use super::settings::{SolveLevel, SolveSettings};
@@ -71,27 +72,9 @@ pub fn finalists(
     } else {
         program
     };
-    let led = with_moves_leading(program);
-    let program = led.as_ref().unwrap_or(program);
+    let program = &as_filmed(program);
     let candidates = best_candidates(&SearchProblem { world, program, suggestions }, settings, num);
     candidates.into_iter().map(|candidate| solution(world, (program, prompt), candidate, settings)).collect()
-}
-
-/// The program with the move first where a step says `handheld` before it: the sway takes its time from the move. `None`
-/// where no step does. A whip pan and a reveal, whose first further move is their direction, and a view over a shoulder
-/// stay.
-fn with_moves_leading(program: &Program) -> Option<Program> {
-    let leads = |movement: &Move| !matches!(movement, Move::WhipPan | Move::Reveal | Move::Static | Move::Handheld);
-    let passes = |step: &Step| step.via.as_ref().is_some_and(|via| via.how == Pass::Past);
-    let sways = |step: &Step| step.movement == Move::Handheld && step.with.first().is_some_and(leads) && !passes(step);
-    program.steps.iter().any(sways).then(|| {
-        let mut led = program.clone();
-        for step in led.steps.iter_mut().filter(|step| sways(step)) {
-            step.movement = step.with.remove(0);
-            step.with.push(Move::Handheld);
-        }
-        led
-    })
 }
 
 /// The finished film of a candidate: detours, times, keyframes, certificate and report.

@@ -65,6 +65,36 @@ fn the_second_of_three_clauses_is_not_lost() {
     assert_eq!(moves("After panning right to the table, push in on it."), [Move::PanRight, Move::PushIn]);
 }
 
+/// What a sentence asks for does not depend on where things are and how large they are.
+#[test]
+fn programs_are_read_from_the_words_alone() {
+    let director = Director::embedded().unwrap();
+    let objects = room();
+    let shifted = |(idx, object): (usize, &Object)| Object {
+        center: DVec3::new(3.0 - 2.5 * idx as f64, 1.5 * idx as f64, 2.0 * (idx % 2) as f64),
+        half_extents: object.half_extents * (0.2 + idx as f64),
+        points: Vec::new(),
+        ..object.clone()
+    };
+    let elsewhere: Vec<Object> = objects.iter().enumerate().map(shifted).collect();
+    for prompt in [
+        "We open wide on the room, drift past the table, and come to rest on a medium close-up of the golden skull.",
+        "Find the guitar. Push in slowly, let the lamp go by in the foreground, finish on a close-up of the guitar.",
+        "overhead shot of the table, rotate slowly clockwise",
+        "sneak up on the sofa from the left, low",
+    ] {
+        let words = linked(prompt, &objects);
+        let read = |objects: &[Object]| {
+            let context = SceneContext { objects, up: DVec3::Y, center: DVec3::new(0.0, 1.0, -1.5), size: 7.0 };
+            director.direct(&words, &context).unwrap()
+        };
+        let (here, there) = (read(&objects), read(&elsewhere));
+        assert_eq!(here.program, there.program, "{prompt}");
+        assert_eq!(here.certainty.len(), there.certainty.len());
+        assert_ne!(here.step_cameras, there.step_cameras, "{prompt}: cameras depend on where things are");
+    }
+}
+
 /// The hand-written programs give the objects that each sentence names.
 #[test]
 fn programs_use_the_objects_that_the_sentences_name() {

@@ -3,7 +3,7 @@
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Framing, Pass, Solution, Step, Via, World};
 use cinesplat::scene::Gaussians;
-use cinesplat::trajectory::{CameraState, Move};
+use cinesplat::trajectory::{CameraState, Move, ShotSize};
 use glam::DVec3;
 
 use super::composition::assert_met;
@@ -202,6 +202,19 @@ fn from_an_object_the_camera_starts_next_to_it_and_ends_on_the_subject() {
         assert_met(&solution, "the camera starts at box 2");
         assert_met(&solution, "visible share of box 1");
     }
+}
+
+#[test]
+fn a_flight_from_one_thing_to_another_begins_at_the_first_and_looks_ahead() {
+    let walk = Step { start: about(2), end: about(1), ..Step::of(Move::FlyThrough) };
+    let solution = solved(&furnished(false), vec![walk.clone()]);
+    assert_met(&solution, "the camera starts at box 2");
+    let frames = film(&solution);
+    assert!(off_box_deg(&frames[0]) < 60.0 && off_box_deg(&frames[frames.len() - 1]) < 20.0);
+    // A stated picture of the first thing is one to open on.
+    let start = Framing { size: Some(ShotSize::MediumCloseUp), ..about(2) };
+    let solution = solved(&furnished(false), vec![Step { start, ..walk }]);
+    assert!(!solution.report.iter().any(|line| line.wanted.contains("the camera starts at")));
 }
 
 #[test]

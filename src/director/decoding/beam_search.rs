@@ -11,7 +11,7 @@ use super::key_choice::{ChosenKey, KeyCertainty, ScoreRow, WordRules, best_key, 
 use crate::codes::{Field, KeyCode, NEXT_STOP, POSE_WIDTH, PoseCode, previous_poses};
 use crate::inputs::Prompt;
 use crate::keys::MAX_KEYS;
-use crate::network::{Dropout, KeyBatch, Memory, Network, PromptBatch, anchor_objects};
+use crate::network::{Dropout, KeyBatch, Memory, ModelConfig, Network, PromptBatch, anchor_objects};
 
 /// Number of sequences that the beam holds.
 const BEAM_WIDTH: usize = 6;
@@ -22,6 +22,9 @@ const MENTION_PENALTY: f64 = 4.0;
 /// Penalty for an omitted word that names a move, in nats. It is lower: one step may have two such words, or a span that is
 /// too short.
 const MOVE_PENALTY: f64 = 2.0;
+
+/// How much surer a reading with the unnamed objects must be than one without them, in nats.
+const OTHERS_MARGIN: f64 = 1.0;
 
 /// Keys and poses of a prompt.
 #[derive(Debug, Clone, Default)]
@@ -60,26 +63,55 @@ struct EncodedPrompt<'a> {
     memory: Memory,
 }
 
-/// Decodes one prompt; `batch` holds this prompt alone.
+/// Decodes one prompt: its keys from the words, as where things are does not change what a sentence asks for, then the
+/// poses of the keys among the objects.
+///
+/// The words are read twice: with the named objects alone, and with the others beside them. The second reading counts
+/// where it is surer by [`OTHERS_MARGIN`].
 pub(crate) fn decode(
-    network: &Network,
+    (network, config): (&Network, &ModelConfig),
     prompt: &Prompt,
-    batch: &PromptBatch,
     rules: &WordRules,
 ) -> Result<DecodedPrompt> {
-    let memory = network.encode(batch, &Dropout::off())?;
-    let encoded = EncodedPrompt { network, prompt, batch, rules, memory };
+    let read = |num_objects| keys_of_words((network, config), &prompt.placeless(num_objects), rules);
+    let (mut decoded, score) = read(prompt.num_named)?;
+    if prompt.objects.len() > prompt.num_named {
+        let (beside_others, other_score) = read(prompt.objects.len())?;
+        if other_score > score + OTHERS_MARGIN {
+            decoded = beside_others;
+        }
+    }
+    let batch = PromptBatch::new(&[prompt], config)?;
+    decoded.poses = EncodedPrompt::new(network, prompt, &batch, rules)?.poses(&decoded.keys)?;
+    Ok(decoded)
+}
+
+/// The keys of a prompt, and their log-likelihood less the penalty for the words that they omit.
+fn keys_of_words(
+    (network, config): (&Network, &ModelConfig),
+    words: &Prompt,
+    rules: &WordRules,
+) -> Result<(DecodedPrompt, f64)> {
+    let batch = PromptBatch::new(&[words], config)?;
+    let encoded = EncodedPrompt::new(network, words, &batch, rules)?;
     let mut decoded = encoded.greedy()?;
     if encoded.penalty(&decoded) > 0.0 {
         decoded = encoded.beam_search()?;
     }
     let unmet = network.unmet(&encoded.memory)?.squeeze(0)?.to_vec2::<f32>()?; // [tokens, 2]
     decoded.unmet = unmet.iter().map(|scores| matches!(scores[..], [said, unsaid] if unsaid > said)).collect();
-    decoded.poses = encoded.poses(&decoded.keys)?;
-    Ok(decoded)
+    let choices = decoded.certainties.iter().flat_map(|certainty| &certainty.choices);
+    let log_likelihood: f64 = choices.map(|(_, probability)| probability.max(1e-9).ln()).sum();
+    let score = log_likelihood - encoded.penalty(&decoded);
+    Ok((decoded, score))
 }
 
-impl EncodedPrompt<'_> {
+impl<'a> EncodedPrompt<'a> {
+    fn new(network: &'a Network, prompt: &'a Prompt, batch: &'a PromptBatch, rules: &'a WordRules) -> Result<Self> {
+        let memory = network.encode(batch, &Dropout::off())?;
+        Ok(Self { network, prompt, batch, rules, memory })
+    }
+
     /// Scores of the key after the keys `before`.
     fn scores(&self, before: &[KeyCode]) -> Result<ScoreRow> {
         let off = Dropout::off();

@@ -12,6 +12,10 @@ pub const MAX_POINTS: usize = 64;
 /// Limit on the unnamed objects that are inputs of the network.
 pub const MAX_OTHER_OBJECTS: usize = 12;
 
+/// Distance and half extent of objects nowhere, in scene sizes. The readings hardly depend on them.
+const PLACE_STEP: f64 = 0.07;
+const PLACE_EXTENT: f64 = 0.02;
+
 /// An object in `frame` with the identifier of `slot`. Of a larger cloud every n-th point is kept, at most
 /// [`MAX_POINTS`].
 pub fn object_input(object: &Object, slot: usize, frame: &SceneFrame) -> ObjectInput {
@@ -28,6 +32,16 @@ pub fn object_input(object: &Object, slot: usize, frame: &SceneFrame) -> ObjectI
             .iter()
             .map(|point| ((*point - centroid) * scale).clamp_length_max(4.0).as_vec3().to_array())
             .collect(),
+    }
+}
+
+/// An object of which only the slot is known: it has a place of its own, in a row, and no cloud.
+pub(super) fn object_nowhere(slot: usize) -> ObjectInput {
+    ObjectInput {
+        slot_token: object_token(slot),
+        center: DVec3::new(0.0, 0.0, -PLACE_STEP * slot as f64),
+        half_extents: DVec3::splat(PLACE_EXTENT),
+        points: Vec::new(),
     }
 }
 

@@ -3,6 +3,8 @@
 use cinesplat_language::Senses;
 use glam::DVec3;
 
+use super::objects::object_nowhere;
+
 /// One prompt with its objects, in the frame of a [`SceneFrame`](crate::SceneFrame).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Prompt {
@@ -14,6 +16,18 @@ pub struct Prompt {
     pub objects: Vec<ObjectInput>,
     /// Number of objects that the text names.
     pub num_named: usize,
+}
+
+impl Prompt {
+    /// The words with the first `num_objects` objects, all of them nowhere.
+    pub(crate) fn placeless(&self, num_objects: usize) -> Self {
+        Self {
+            tokens: self.tokens.clone(),
+            num_quantities: self.num_quantities,
+            objects: (0..num_objects.min(self.objects.len())).map(object_nowhere).collect(),
+            num_named: self.num_named,
+        }
+    }
 }
 
 /// One token as input of the network.
