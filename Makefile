@@ -184,7 +184,7 @@ gallery-effects: build
 				--size $(GALLERY_PX) --frames $$frame..$$((frame + 1)) --no-job --overwrite -q \
 				-o target/gallery-effects/$$shot-$$effects-%03d.png < /dev/null || exit; \
 		done; \
-		cost=$$(awk -F, -v name=$$name '$$2 == name && $$1 ~ /kitchen/ { print $$4 }' renders/lens/lens-costs.csv); \
+		cost=$$(awk -F, -v name=$$name '$$3 == name && $$1 ~ /kitchen/ { print $$5 }' renders/lens/lens-costs.csv); \
 		still=$$(printf %03d $$frame); \
 		ffmpeg -v error -y -i target/gallery-effects/$$shot-off-$$still.png -i target/gallery-effects/$$shot-$$name-$$still.png \
 			-filter_complex "hstack=inputs=2,pad=iw+8:ih+30:4:4:white,drawtext=text='$${name//-/ }  $${cost:+$$cost x}':x=6:y=h-21:fontsize=16:fontcolor=black" \

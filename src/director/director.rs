@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use cinesplat_language::{Linked, Mention, NamedObject, check_prompt, link_mentions, without_frame_shape};
+use cinesplat_language::{
+    Linked, Mention, NamedObject, check_prompt, is_effect_phrase, link_mentions, without_frame_shape, without_slant,
+};
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
 use cinesplat_trajectory::{CameraState, ModelRef};
@@ -88,8 +90,15 @@ impl Director {
     pub fn link(&self, prompt: &str, objects: &[NamedObject]) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
         let prompt = &*without_frame_shape(prompt, objects);
+        let prompt = &*without_slant(prompt)?;
         let found = self.names.mentions(prompt, objects)?;
-        let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
+        let mut mentions: Vec<Mention> = Vec::new();
+        for FoundMention { mention, .. } in &found {
+            // The scene lacks no `bloom`: it is what the lens makes.
+            if !mention.ids.is_empty() || !is_effect_phrase(prompt, mention.bytes)? {
+                mentions.push(mention.clone());
+            }
+        }
         let mut linked = link_mentions(prompt, &mentions)?;
         for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
             let words = |found: &&FoundMention| {

@@ -47,6 +47,9 @@ impl Finding {
             1 => " (here and in 1 other place)".to_owned(),
             _ => format!(" (here and in {num_others} other places)"),
         };
+        if nearest.is_empty() {
+            return format!("{first_place}: unknown key{others}");
+        }
         format!("{first_place}: unknown key{others}, the nearest known key is {nearest}")
     }
 }

@@ -111,13 +111,12 @@ pub fn unknown_names(requests: &[EffectRequest]) -> Vec<String> {
     let mut settings = UnknownKeys::default();
     for (idx, request) in requests.iter().enumerate() {
         let place = format!("effects[{idx}]");
-        match KINDS.iter().find(|kind| kind.is_named(&request.kind)) {
-            Some(kind) => settings.check(&place, request.settings.iter().map(|(name, _)| name.as_str()), kind.settings),
-            None => {
-                let near = misspelling(&request.kind, known_names.iter().copied());
-                let near = near.map_or_else(String::new, |name| format!(", the nearest known effect is {name}"));
-                notes.push(format!("{place}.kind: unknown effect{near}"));
-            }
+        if let Some(kind) = KINDS.iter().find(|kind| kind.is_named(&request.kind)) {
+            settings.check(&place, request.settings.iter().map(|(name, _)| name.as_str()), kind.settings);
+        } else {
+            let near = misspelling(&request.kind, known_names.iter().copied());
+            let near = near.map_or_else(String::new, |name| format!(", the nearest known effect is {name}"));
+            notes.push(format!("{place}.kind: unknown effect{near}"));
         }
     }
     notes.extend(settings.into_notes());

@@ -95,6 +95,9 @@ impl<'a> FrameFacts<'a> {
     /// Those of the renderer.
     pub fn travel_px(&self, from_secs: f64, to_secs: f64) -> Result<f64, RenderError> {
         let (from, to) = (self.moment.at(from_secs).camera, self.moment.at(to_secs).camera);
+        if from == to {
+            return Ok(0.0);
+        }
         let camera = self.moment.camera;
         let travel = |point: &SeenPoint| {
             let ray = camera.ray(point.position_px);

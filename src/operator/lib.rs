@@ -59,7 +59,7 @@ pub use program::{
 };
 pub use realize::{Solution, finalists, realize};
 pub use route::{NoRoute, Route, route};
-pub use settings::{SolveLevel, SolveSettings};
+pub use settings::{Slant, SolveLevel, SolveSettings};
 pub use sighting::Sighting;
 pub use suggestion::StepCameras;
 pub use world::World;

@@ -87,6 +87,9 @@ fn solution(
     let cost = candidate.cost();
     let mut segments: Vec<MotionSegment> = candidate.segments.into_iter().flatten().collect();
     settle(&mut segments);
+    if let Some(slant) = settings.slant {
+        segments = dutch::slanted(segments, slant);
+    }
     // A detour is searched: without a search the report names the matter in the way.
     let detours = match settings.level {
         SolveLevel::Off => Vec::new(),
@@ -98,15 +101,12 @@ fn solution(
     let handles = handles(program, &segments);
     let wanted_secs = program.duration_secs.or_else(|| too_long(&segments, handles));
     fit_duration(&mut segments, wanted_secs);
-    if let Some(degrees) = settings.dutch_deg {
-        dutch::roll(&mut segments, degrees);
-    }
     let (flow, keys, clearance) = filmed(world, program, &segments, (joints, handles));
     let path = CameraPath::fine(keys.clone(), world.frame);
     let mut report = report::report(world, (program, prompt), (&segments, &flow.spans), &path, settings.level);
     report.extend(detours::clearance_lines(world, (program, prompt), (&segments, &flow.spans), &detours, &clearance));
     report.extend(forbidden::lines(world, program, &segments, &keys));
-    report.extend(settings.dutch_deg.map(|_| dutch::report_line(world, &keys)));
+    report.extend(settings.slant.map(|slant| dutch::report_line(world, &segments, slant)));
     let step_keys = step_keys(&flow.segments, program.steps.len());
     let sightings = sightings(&segments, &flow.spans, flow.secs());
     Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance }

@@ -27,13 +27,21 @@ pub struct SolveSettings {
     pub seed: u64,
     /// Factor on the level's number of candidates, for measuring accuracy against time.
     pub tries_factor: f64,
-    /// Roll of the whole film in degrees, clockwise: the dutch angle that the prompt requests. `None` keeps the horizon
-    /// level.
-    pub dutch_deg: Option<f64>,
+    /// The dutch angle that the prompt requests; `None` keeps the horizon level.
+    pub slant: Option<Slant>,
+}
+
+/// A slanted horizon during some steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slant {
+    /// Roll of the camera in degrees, clockwise.
+    pub degrees: f64,
+    /// The first step that it belongs to, and the last.
+    pub steps: [usize; 2],
 }
 
 impl Default for SolveSettings {
     fn default() -> Self {
-        Self { level: SolveLevel::default(), seed: 0, tries_factor: 1.0, dutch_deg: None }
+        Self { level: SolveLevel::default(), seed: 0, tries_factor: 1.0, slant: None }
     }
 }

@@ -8,7 +8,7 @@ use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{EffectMention, LanguageError, Linked, NamedObject};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
-use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, Step, World};
+use cinesplat_operator::{Program, Slant, Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot};
 
@@ -16,6 +16,8 @@ use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot};
 /// storyboards use.
 const DUTCH: &str = "dutch-angle";
 const DUTCH_DEG: f64 = 15.0;
+/// Words beside a dutch angle that give it to every step.
+const THROUGHOUT: [&str; 6] = ["throughout", "whole film", "whole shot", "whole time", "entire", "all the way"];
 
 /// Settings of a shot beyond its prompt.
 #[derive(Debug, Clone, PartialEq)]
@@ -139,11 +141,9 @@ pub fn direct(
         let fronts = times.measure(Phase::Judge, || subjects.fronts(&world.frame))?;
         fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
     }
-    let is_dutch = |mention: &&EffectMention| mention.call.name == DUTCH && !mention.is_forbidden;
-    let dutch_deg = effects.iter().find(is_dutch).map(|_| DUTCH_DEG);
-    let (level, seed) = (settings.solve, settings.seed);
-    let solve = SolveSettings { level, seed, dutch_deg, ..SolveSettings::default() };
     let program = &direction.program;
+    let (level, seed, slant) = (settings.solve, settings.seed, slant_of(&effects, program, prompt));
+    let solve = SolveSettings { level, seed, slant, ..SolveSettings::default() };
     let num = settings.choice.num_finalists(level);
     let mut solutions = times.measure(Phase::Solve, || {
         cinesplat_operator::finalists(&world, (program, prompt), &direction.step_cameras, &solve, num)
@@ -212,6 +212,25 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     let mut set = objects.clone();
     cinesplat_objects::fill_clouds_of(scene, &mut set, &seen, &CloudSettings::default())?;
     Ok(set)
+}
+
+/// The dutch angle that the words ask for, during the step whose words are nearest to them, or throughout where they say so.
+fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &str) -> Option<Slant> {
+    let mention = mentions.iter().find(|mention| mention.call.name == DUTCH && !mention.is_forbidden)?;
+    let [start, end] = mention.span;
+    let last = program.steps.len().checked_sub(1)?;
+    let around = [prompt.get(..start).unwrap_or_default(), prompt.get(end..).unwrap_or_default()];
+    let beside = [around[0].rsplit(['.', ',', ';']).next(), around[1].split(['.', ',', ';']).next()];
+    let says = |clause: &str| THROUGHOUT.iter().any(|words| clause.to_lowercase().contains(words));
+    if beside.into_iter().flatten().any(says) {
+        return Some(Slant { degrees: DUTCH_DEG, steps: [0, last] });
+    }
+    let gap = |step: &Step| {
+        let [from, to] = step.words.unwrap_or([usize::MAX; 2]);
+        from.saturating_sub(end).max(start.saturating_sub(to))
+    };
+    let step = (0..=last).min_by_key(|at| gap(&program.steps[*at]))?;
+    Some(Slant { degrees: DUTCH_DEG, steps: [step, step] })
 }
 
 /// The effects that the words and the moves of a program call for.

@@ -52,7 +52,7 @@ fn a_binary_layer_that_is_cut_or_changed_is_an_error_or_another_path() {
         }
         for at in 8..bytes.len() {
             let mut changed = bytes.to_vec();
-            changed[at] = [0xff, 0x80, 0x01][at % 3] ^ changed[at];
+            changed[at] ^= [0xff, 0x80, 0x01][at % 3];
             drop(read_changed(&changed));
         }
     }

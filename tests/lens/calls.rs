@@ -110,12 +110,19 @@ fn a_misspelled_setting_or_effect_gets_a_line_with_the_nearest_name() {
         settings: vec![(name.to_owned(), 2.8)],
         runs: None,
     };
-    let requests = [request("depth-of-field", "f_stpo"), request("vignete", "stops"), request("vignette", "stops")];
+    let requests = [
+        request("depth-of-field", "f_stpo"),
+        request("vignete", "stops"),
+        request("vignette", "stops"),
+        request("panorama", "fov"),
+    ];
     assert_eq!(
         unknown_names(&requests),
         [
             "effects[1].kind: unknown effect, the nearest known effect is vignette",
             "effects[0].f_stpo: unknown key, the nearest known key is f_stop",
+            // Panoramas have no settings.
+            "effects[3].fov: unknown key",
         ]
     );
 }

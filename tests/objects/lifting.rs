@@ -15,7 +15,7 @@ fn cameras(scene: &Scene) -> Vec<Camera> {
     let intrinsics = Intrinsics::from_fov_y(200, 150, 1.2);
     let view = |step: usize| {
         let (sin, cos) = (std::f64::consts::TAU * step as f64 / 16.0).sin_cos();
-        let height = if step % 2 == 0 { 0.1 } else { 0.5 } * half.y;
+        let height = if step.is_multiple_of(2) { 0.1 } else { 0.5 } * half.y;
         let eye = middle + DVec3::new(0.6 * half.x * cos, height, 0.6 * half.z * sin);
         let target = middle - DVec3::new(0.3 * half.x * cos, 0.4 * half.y, 0.3 * half.z * sin);
         Camera { pose: Pose::facing(eye, target - eye, DVec3::Y, None), intrinsics }
@@ -70,7 +70,6 @@ fn masks_of_any_segmenter_become_labels() {
     let mut dice = Dice::new(7);
     let spoiled: Vec<PosedMask> = perfect.iter().map(|mask| spoiled(mask, &mut dice, 40)).collect();
     let (noisy, _) = mean_iou(&scene, &spoiled, &perfect, &truth);
-    eprintln!("{num} things: {exact:.3} exact, {noisy:.3} spoiled");
     assert!(num >= 5, "{num} things are shown");
     assert!(exact > 0.7, "{exact}");
     assert!(noisy > 0.5, "{noisy}");

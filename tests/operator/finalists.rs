@@ -12,7 +12,7 @@ fn program(movement: Move) -> Program {
     Program { steps: vec![step], ..Program::default() }
 }
 
-const FAST: SolveSettings = SolveSettings { level: SolveLevel::Fast, seed: 3, tries_factor: 1.0, dutch_deg: None };
+const FAST: SolveSettings = SolveSettings { level: SolveLevel::Fast, seed: 3, tries_factor: 1.0, slant: None };
 
 /// Largest distance and largest angle between the views of two films, over their course.
 fn apart(a: &Solution, b: &Solution) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! Every move follows the definition of `Move`, measured on the film.
 
 use cinesplat::geometry::{LevelFrame, rotation};
-use cinesplat::operator::{Amount, Framing, Program, SolveLevel, SolveSettings, Step, StepCameras, realize};
+use cinesplat::operator::{Amount, Framing, Program, Slant, SolveLevel, SolveSettings, Step, StepCameras, realize};
 use cinesplat::trajectory::{CameraState, Move, ShotSize};
 use glam::DVec3;
 
@@ -139,13 +139,35 @@ fn a_held_view_puts_its_subject_on_a_third_and_a_push_in_the_middle() {
 fn a_dutch_angle_slants_every_frame_and_the_report_says_so() {
     let step = Step { start: about(1), amount: Some(Amount::Degrees(60.0)), ..Step::of(Move::OrbitRight) };
     let program = Program { steps: vec![step], ..Program::default() };
-    let settings = SolveSettings { dutch_deg: Some(15.0), level: SolveLevel::Fast, ..SolveSettings::default() };
+    let slant = Some(Slant { degrees: 15.0, steps: [0, 0] });
+    let settings = SolveSettings { slant, level: SolveLevel::Fast, ..SolveSettings::default() };
     let solution = realize(&world(), &program, "", &[], &settings);
     let frame = LevelFrame::new(DVec3::Y).unwrap();
     for state in film(&solution) {
         let roll = frame.roll_rad(&state.pose).to_degrees();
         assert!((roll - 15.0).abs() < 1e-6, "roll {roll}");
     }
+    assert!(solution.report.iter().any(|line| line.clause == "dutch angle" && line.met));
+}
+
+#[test]
+fn a_dutch_angle_belongs_to_its_step() {
+    let orbit = Step { start: about(1), amount: Some(Amount::Degrees(60.0)), ..Step::of(Move::OrbitRight) };
+    let program = Program {
+        steps: vec![Step { end: about(1), ..Step::of(Move::PushIn) }, orbit, Step::of(Move::PullOut)],
+        ..Program::default()
+    };
+    let slant = Some(Slant { degrees: 15.0, steps: [1, 1] });
+    let settings = SolveSettings { slant, level: SolveLevel::Fast, ..SolveSettings::default() };
+    let solution = realize(&world(), &program, "", &[], &settings);
+    let frame = LevelFrame::new(DVec3::Y).unwrap();
+    let rolls: Vec<f64> = film(&solution).iter().map(|state| frame.roll_rad(&state.pose).to_degrees()).collect();
+    let ends = [rolls[0], rolls[rolls.len() - 1]];
+    assert!(ends.iter().all(|roll| roll.abs() < 1e-6), "level before and after: {ends:?}");
+    let most = rolls.iter().copied().fold(0.0, f64::max);
+    assert!((most - 15.0).abs() < 1e-6, "{most}");
+    let steepest = rolls.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    assert!(steepest < 5.0, "leans over without a jump: {steepest}");
     assert!(solution.report.iter().any(|line| line.clause == "dutch angle" && line.met));
 }
 

@@ -194,6 +194,32 @@ fn sweeps_have_the_same_bits_on_any_threads_and_instructions_and_in_bands() {
 }
 
 #[test]
+fn less_memory_or_more_threads_never_change_the_bytes_of_a_sweep() {
+    let (scene, view) = (crowd(4000, 11), camera(203, 117));
+    let camera_at = |fraction: f64| at(&view, "truck", fraction);
+    let (sweep, _) = both(&LensAndShutter { camera_at: &camera_at, lens: Some(LENS) }, 7, true);
+    let expected = swept(&scene, &sweep, &settings(Quality::Standard));
+    let mut refused = 0;
+    for num_threads in [1, 4] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
+        // In steps of 2 %, so that some limits lie between what this picture takes and what each of its samples would take.
+        let mut bytes = 64e6;
+        while bytes > 1e6 {
+            bytes *= 0.98;
+            let limits = Limits { max_memory_bytes: bytes as u64, ..Limits::default() };
+            let settings = RenderSettings { limits, ..settings(Quality::Standard) };
+            let mut frame = Frame::default();
+            match pool.install(|| Renderer::new(&scene).sweep_into(&sweep, &settings, &mut frame)) {
+                Ok(()) => assert!(frame.rgb == expected.rgb, "{bytes} bytes, {num_threads} threads"),
+                Err(RenderError::Memory { .. }) => refused += 1,
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
+    assert!(refused > 0);
+}
+
+#[test]
 fn unusable_sweeps_are_errors() {
     let scene = crowd(10, 1);
     let (renderer, view) = (Renderer::new(&scene), camera(32, 32));

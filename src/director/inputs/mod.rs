@@ -9,8 +9,8 @@ mod text;
 mod vocabulary;
 
 pub use grounding::Grounding;
-pub use objects::{MAX_OTHER_OBJECTS, MAX_POINTS, object_input};
-pub use prompt::{ObjectInput, Prompt, TokenInput};
+pub use objects::{MAX_OTHER_OBJECTS, MAX_POINTS, ObjectInput, object_input};
+pub use prompt::{Prompt, TokenInput};
 pub use text::encode_text;
 pub use vocabulary::{NUM_OBJECT_SLOTS, Vocabulary, object_token};
 

@@ -3,7 +3,6 @@
 use cinesplat_objects::Object;
 use glam::DVec3;
 
-use super::prompt::ObjectInput;
 use super::vocabulary::object_token;
 use crate::frame::SceneFrame;
 
@@ -15,6 +14,19 @@ pub const MAX_OTHER_OBJECTS: usize = 12;
 /// Distance and half extent of objects nowhere, in scene sizes. The readings hardly depend on them.
 const PLACE_STEP: f64 = 0.07;
 const PLACE_EXTENT: f64 = 0.02;
+
+/// One object as input of the network.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ObjectInput {
+    /// Token id of its slot.
+    pub slot_token: u32,
+    /// Center of its box, in scene sizes.
+    pub center: DVec3,
+    /// Half extents along the frame's axes, in scene sizes.
+    pub half_extents: DVec3,
+    /// Points of its cloud relative to their centroid, in units of the box's half diagonal.
+    pub points: Vec<[f32; 3]>,
+}
 
 /// An object in `frame` with the identifier of `slot`. Of a larger cloud every n-th point is kept, at most
 /// [`MAX_POINTS`].

@@ -1,9 +1,8 @@
 //! One prompt with its objects, before it is padded into a batch.
 
 use cinesplat_language::Senses;
-use glam::DVec3;
 
-use super::objects::object_nowhere;
+use super::objects::{ObjectInput, object_nowhere};
 
 /// One prompt with its objects, in the frame of a [`SceneFrame`](crate::SceneFrame).
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -45,17 +44,4 @@ pub struct TokenInput {
     pub senses: Senses,
     /// Natural logarithm of that quantity over 5, about -1.4..=1.9; 0 for other tokens.
     pub value: f32,
-}
-
-/// One object as input of the network.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ObjectInput {
-    /// Token id of its slot.
-    pub slot_token: u32,
-    /// Center of its box, in scene sizes.
-    pub center: DVec3,
-    /// Half extents along the frame's axes, in scene sizes.
-    pub half_extents: DVec3,
-    /// Points of its cloud relative to their centroid, in units of the box's half diagonal.
-    pub points: Vec<[f32; 3]>,
 }

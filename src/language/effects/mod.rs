@@ -9,17 +9,25 @@ mod row;
 mod scope;
 mod table;
 
+use std::borrow::Cow;
+
 use cinesplat_lens::{Call, Source};
 
 use super::error::LanguageError;
 use super::lexicon::Lexicon;
 use super::linked::{Linked, OBJECT};
-use super::tokenizer::{Word, span_of, tokenize};
+use super::tokenizer::{Word, span_of, tokenize, word_at};
 use lookalike::is_lookalike;
 use phrase::Found;
 use row::Meaning;
 use scope::{degree_of, forbidden};
 use table::Table;
+
+/// Name of the slanted horizon in the table.
+const SLANT: &str = "dutch-angle";
+const ARTICLES: [&str; 3] = ["a", "an", "the"];
+/// Words that may stand before a dutch angle and say nothing else.
+const LEADS_TO_SLANT: [&str; 8] = ["with", "at", "using", "add", "slight", "subtle", "strong", "heavy"];
 
 /// A mention in a prompt of an effect, or of another request that no camera move can meet.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +76,46 @@ pub(crate) fn effect_words(prompt: &str, words: &[Word]) -> Result<Vec<bool>, La
         }
     }
     Ok(is_effect)
+}
+
+/// Whether some bytes of a prompt hold nothing but a phrase for an effect: `bloom` in `push in with bloom`.
+///
+/// # Errors
+/// Those of [`effect_mentions`].
+pub fn is_effect_phrase(prompt: &str, [start, end]: [usize; 2]) -> Result<bool, LanguageError> {
+    let words = tokenize(prompt);
+    let is_effect = effect_words(prompt, &words)?;
+    let mut inside =
+        words.iter().zip(is_effect).filter(|(word, _)| start <= word.span[0] && word.span[0] < end).peekable();
+    Ok(inside.peek().is_some() && inside.all(|(word, is_effect)| is_effect || ARTICLES.contains(&word.text.as_str())))
+}
+
+/// The prompt without a dutch angle and the words that lead to it (`with a slight dutch angle`): blanks stand for them, so
+/// that every other byte stays where it is. The slant is no move of its own. A prompt that says nothing else stays as it is,
+/// and so does a camera that leans over (`roll into a dutch angle`).
+///
+/// # Errors
+/// Those of [`effect_mentions`].
+pub fn without_slant(prompt: &str) -> Result<Cow<'_, str>, LanguageError> {
+    let words = tokenize(prompt);
+    let mut blanked = Cow::Borrowed(prompt);
+    for found in
+        phrases_in(prompt, &words, &[])?.iter().filter(|found| found.row.names.iter().any(|name| name == SLANT))
+    {
+        let leads =
+            |at: usize| LEADS_TO_SLANT.contains(&word_at(&words, at)) || ARTICLES.contains(&word_at(&words, at));
+        let num_before = (0..found.start).rev().take_while(|at| leads(*at)).count();
+        let first = found.start - num_before;
+        if first.checked_sub(1).is_some_and(|before| matches!(word_at(&words, before), "to" | "into" | "no" | "not")) {
+            continue;
+        }
+        let end = found.start + found.len;
+        let end = end + usize::from(matches!(word_at(&words, end), ":" | ","));
+        let [start, end] = span_of(&words[first..end]);
+        blanked.to_mut().replace_range(start..end, &" ".repeat(end - start));
+    }
+    let says_more = blanked.contains(char::is_alphanumeric);
+    Ok(if says_more { blanked } else { Cow::Borrowed(prompt) })
 }
 
 /// The phrases of the table in a prompt, without those that only look like an effect.

@@ -87,7 +87,10 @@ fn is_forbidden_after(words: &[Word], end: usize) -> bool {
     if skip == 0 && first == "no" && ends {
         return true;
     }
-    matches!(first, "off" | "free" | "disabled" | "removed" | "none" | "zero")
+    // `flares off the window` come from there.
+    let is_origin =
+        matches!(first, "off" | "free") && matches!(second, "the" | "a" | "an" | "of" | "its" | "that" | "every");
+    !is_origin && matches!(first, "off" | "free" | "disabled" | "removed" | "none" | "zero")
         || matches!(
             (first, second),
             ("turned" | "switched" | "be" | "to", "off" | "zero") | ("not", "wanted" | "needed")

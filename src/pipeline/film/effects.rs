@@ -118,8 +118,9 @@ impl<'a> Filmed<'a> {
         Ok(())
     }
 
-    /// Time of a frame with the effects over that of a plain one, as a mean over the film: the pictures that sampled frames
-    /// take, times what the effects add to one picture, which is measured on a frame that has some.
+    /// Time of a frame with the effects over that of a plain one, as a mean over the film. Frames are planned at even
+    /// positions. Those with the fewest samples, the most, and the middle one are measured; the others lie between them: samples
+    /// share work, so that time does not grow in proportion.
     pub(in crate::pipeline) fn cost_factor(
         &self,
         frames: &Range<usize>,
@@ -129,21 +130,25 @@ impl<'a> Filmed<'a> {
             return Ok(1.0);
         }
         let num = NUM_COSTED.min(frames.len()).max(1);
-        let (mut pictures, mut num_plain, mut measured) = (0.0, 0_u32, None);
+        let mut planned = Vec::new();
         for idx in 0..num {
             let frame_idx = frames.start + (2 * idx + 1) * frames.len() / (2 * num);
             let plan = self.plan(frame_idx..frame_idx + 1, (renderer, render))?;
-            if plan.is_plain(frame_idx) {
-                num_plain += 1;
-                continue;
-            }
-            let samples = f64::from(plan.num_samples(frame_idx));
-            pictures += samples;
-            if measured.is_none() {
-                measured = Some(self.measured_factor(&plan, frame_idx, (renderer, render))? / samples);
+            if !plan.is_plain(frame_idx) {
+                planned.push((plan.num_samples(frame_idx), frame_idx, plan));
             }
         }
-        Ok((f64::from(num_plain) + pictures * measured.unwrap_or(1.0)) / num as f64)
+        planned.sort_by_key(|(samples, frame_idx, _)| (*samples, *frame_idx));
+        let Some(last) = planned.len().checked_sub(1) else { return Ok(1.0) };
+        let mut places = vec![0, last / 2, last];
+        places.dedup();
+        let mut measured = Vec::new();
+        for place in places {
+            let (samples, frame_idx, plan) = &planned[place];
+            measured.push((*samples, self.measured_factor(plan, *frame_idx, (renderer, render))?));
+        }
+        let with_effects: f64 = planned.iter().map(|(samples, ..)| between(&measured, *samples)).sum();
+        Ok(((num - planned.len()) as f64 + with_effects) / num as f64)
     }
 
     /// Time of a frame with effects over that of the plain frame.
@@ -170,6 +175,24 @@ impl<'a> Filmed<'a> {
     /// Entries of the effects without the frames that they run on: what the frames depend on.
     pub(in crate::pipeline) fn requests(called: &Called) -> Vec<EffectRequest> {
         called.effects.iter().map(CalledEffect::request).collect()
+    }
+}
+
+/// The factor of a frame with this many samples, on a line through measured numbers of samples and factors; factors of one
+/// number count as their mean, and beyond the ends the nearest number counts.
+fn between(measured: &[(u32, f64)], samples: u32) -> f64 {
+    let mean = |number: u32| {
+        let own: Vec<f64> = measured.iter().filter(|point| point.0 == number).map(|point| point.1).collect();
+        own.iter().sum::<f64>() / own.len().max(1) as f64
+    };
+    let numbers = || measured.iter().map(|point| point.0);
+    match (numbers().filter(|number| *number <= samples).max(), numbers().filter(|number| *number >= samples).min()) {
+        (Some(below), Some(above)) if above > below => {
+            let share = f64::from(samples - below) / f64::from(above - below);
+            mean(below) + (mean(above) - mean(below)) * share
+        }
+        (Some(number), _) | (None, Some(number)) => mean(number),
+        (None, None) => 1.0,
     }
 }
 
