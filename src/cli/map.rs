@@ -41,8 +41,11 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         figures::check(&self.output, self.overwrite)?;
+        // A shot that cannot be read is refused before its scene is loaded; one that names objects needs them first.
+        let is_complete = !shot_args::names_objects(&self.shot)?;
+        let early = is_complete.then(|| shot_args::read_file(&self.shot, &[])).transpose()?;
         let (scene, objects) = self.scene.open_with_objects(self.objects.as_deref())?;
-        let shot = shot_args::read_file(&self.shot, &objects.objects)?;
+        let shot = early.map_or_else(|| shot_args::read_file(&self.shot, &objects.objects), Ok)?;
         shot_args::print_warnings(&shot);
         let mut shot = if self.retime { retimed(&shot) } else { shot };
         shot_args::print_other_scene(&self.shot, &shot, &scene);

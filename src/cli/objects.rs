@@ -14,8 +14,8 @@ use cinesplat::video;
 
 /// Find or read the objects of a scene
 ///
-/// Prints a table of the objects, parts indented under their whole. Without --labels, --masks and --objects they are those of the
-/// scene itself, else those that a search finds.
+/// Prints a table of the objects, parts indented under their whole. Without --labels, --masks and --objects they are
+/// those of the scene itself, else those that a search finds.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -38,7 +38,8 @@ pub(super) struct Args {
     ///
     /// Gray, 8 or 16 bits; the value is the id, the same in every picture, and 0 is no object. Each has the name of its
     /// image. Pixels vote with the blending weights of the Gaussians that they show.
-    #[arg(long, value_name = "DIR", help_heading = heading::SCENE, requires = "cameras", conflicts_with_all = ["labels", "objects"])]
+    #[arg(long, value_name = "DIR", help_heading = heading::SCENE, requires = "cameras")]
+    #[arg(conflicts_with_all = ["labels", "objects", "detail"])]
     masks: Option<PathBuf>,
     /// Cameras of --masks: transforms.json, a COLMAP model or a cameras file
     #[arg(long, value_name = "CAMERAS", help_heading = heading::SCENE, requires = "masks")]
@@ -137,8 +138,7 @@ impl Args {
             let masks = masks::read(folder, cameras)?;
             let scene = self.scene.open()?.scene;
             print_up(&scene);
-            let labels = objects::lift_masks(&scene, &masks)?;
-            let set = objects::from_labels(&scene, labels);
+            let set = masks::lift(&scene, &masks)?;
             return Ok((scene, set));
         }
         match self.detail.filter(|_| self.objects.is_none()) {

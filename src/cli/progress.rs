@@ -26,6 +26,11 @@ impl FrameProgress {
         Self::of(["row", "rows/s"])
     }
 
+    /// Progress of masks that are lifted.
+    pub(super) fn of_masks() -> Self {
+        Self::of(["mask", "masks/s"])
+    }
+
     fn of(names: [&'static str; 2]) -> Self {
         let start = Instant::now();
         Self { names, bar: console::is_watched().then(|| new_bar(names)), start, last_line: start }

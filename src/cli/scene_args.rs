@@ -86,7 +86,9 @@ pub(super) fn print_up(scene: &Scene) {
             let [x, y, z] = up.to_array().map(|v| (v * 1e3).round() / 1e3 + 0.0);
             format!("--up {x},{y},{z}")
         };
-        let others = scene.up_candidates().into_iter().skip(1).take(NUM_OTHERS);
+        let others =
+            scene.up_candidates().into_iter().filter(|c| c.confidence_percent > 0 && c.up.dot(scene.up) < SAME_UP_COS);
+        let others = others.take(NUM_OTHERS);
         let others: Vec<String> = others.map(|c| format!("{} ({} %)", flag(c.up), c.confidence_percent)).collect();
         let turn = if others.is_empty() { String::new() } else { format!(", or type {}", others.join(" or ")) };
         console::note(&format!(
@@ -95,6 +97,9 @@ pub(super) fn print_up(scene: &Scene) {
         ));
     }
 }
+
+/// Cosine of 15 degrees: closer directions are one.
+const SAME_UP_COS: f64 = 0.965_925_826;
 
 /// Number of other directions that the program names if up is a guess.
 const NUM_OTHERS: usize = 3;

@@ -18,6 +18,9 @@ pub(super) struct LensLosses {
 /// Offsets and ratios below this are rounding.
 const ROUNDING: f64 = 1e-6;
 
+/// Coefficients below this bend a picture by less than about half a pixel in a thousand.
+const MIN_DISTORTION: f64 = 1e-3;
+
 impl LensLosses {
     /// Notes a principal point at an offset from the image's center, px.
     pub(super) fn principal_point_px(&mut self, offset: [f64; 2]) {
@@ -50,6 +53,11 @@ impl LensLosses {
         if stretch.abs() > self.stretch.abs() {
             self.stretch = stretch;
         }
+    }
+
+    /// Whether pixels lie elsewhere than those of a pinhole.
+    pub(super) fn is_distorted(&self) -> bool {
+        self.model.is_some() || self.distortion.as_ref().is_some_and(|(_, value)| value.abs() > MIN_DISTORTION)
     }
 
     /// One line per loss, with its amount.

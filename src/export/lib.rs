@@ -56,4 +56,4 @@ pub use error::ExportError;
 pub use format::{Doubt, Format};
 pub use import::{Imported, ReadSettings, read, read_with};
 pub use imported_shot::ImportSettings;
-pub use track::{LensSide, PoseFrame, PoseTrack};
+pub use track::{ImageLens, LensSide, PoseFrame, PoseTrack};

@@ -1,7 +1,8 @@
 //! `look_at` on keyframes of a `shot.json`: what the camera looks at, whatever else was edited.
 //!
-//! It is a point (`[x, y, z]`), the name of an object (`"<obj-3>"`, `"mug"`), or both (`{"object": .., "point": ..}`), as
-//! the writer leaves it: then the point decides, and who leaves it out has it found anew.
+//! It is a point (`[x, y, z]`), the name of an object (`"<obj-3>"`, `"mug"`), or both
+//! (`{"object": .., "point": .., "point_of": ..}`), as the writer leaves it. The point counts while `point_of` is the
+//! name in `object`: who writes another name, or leaves the point out, has it found anew.
 
 use cinesplat_geometry::{LevelAngles, LevelFrame};
 use cinesplat_trajectory::{Keyframe, LookAt};
@@ -12,14 +13,20 @@ use super::json_read::Node;
 use super::json_write::{Json, object};
 
 /// Keys of a `look_at` with an object.
-pub(super) const KEYS: [&str; 2] = ["object", "point"];
+pub(super) const KEYS: [&str; 3] = ["object", "point", "point_of"];
 
 /// The center of the object of a name, world, or what was expected instead.
 pub type FindObject<'a> = dyn Fn(&str) -> Result<DVec3, String> + 'a;
 
 /// Whether a `look_at` names an object without its place.
 pub(super) fn is_name(node: &Node) -> bool {
-    node.text().is_ok() || node.optional("object").is_some() && node.optional("point").is_none()
+    node.text().is_ok() || node.optional("object").is_some_and(|name| own_point(node, &name).is_none())
+}
+
+/// The point of a `look_at`, if it is that of the object of this name.
+fn own_point<'a>(node: &Node<'a>, name: &Node<'a>) -> Option<Node<'a>> {
+    let is_own = node.optional("point_of").is_some_and(|of| of.text().ok() == name.text().ok());
+    node.optional("point").filter(|_| is_own)
 }
 
 /// Reads a `look_at` of the camera at `position`.
@@ -28,7 +35,7 @@ pub(super) fn read(node: &Node, position: DVec3, find: &FindObject<'_>) -> Resul
     let (point, name) = if node.text().is_ok() {
         (found(node)?, Some(node.text()?))
     } else if let Some(name) = node.optional("object") {
-        let point = node.optional("point").map_or_else(|| found(&name), |point| point.vector())?;
+        let point = own_point(node, &name).map_or_else(|| found(&name), |point| point.vector())?;
         (point, Some(name.text()?))
     } else {
         let expected = "a point (3 finite numbers) or the name of an object (\"<obj-3>\")";
@@ -43,7 +50,11 @@ pub(super) fn read(node: &Node, position: DVec3, find: &FindObject<'_>) -> Resul
 /// A `look_at` as JSON.
 pub(super) fn write(look_at: &LookAt) -> Json {
     match &look_at.object {
-        Some(name) => object([("object", name.as_str().into()), ("point", look_at.point.into())]),
+        Some(name) => object([
+            ("object", name.as_str().into()),
+            ("point", look_at.point.into()),
+            ("point_of", name.as_str().into()),
+        ]),
         None => look_at.point.into(),
     }
 }

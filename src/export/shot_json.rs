@@ -82,7 +82,9 @@ pub struct ShotFile {
 /// [`ExportError::NotJson`], [`ExportError::WrongFormat`], [`ExportError::WrongVersion`]; [`ExportError::BadField`] and
 /// [`ExportError::BadShot`] name the keyframe and the field.
 pub fn read(text: &str) -> Result<ShotFile, ExportError> {
-    read_in(text, &|_| Err("a point (3 finite numbers), because no objects are given".to_owned()))
+    read_in(text, &|_| {
+        Err("a point (3 finite numbers), because no objects are given (`render` and `map` know them)".to_owned())
+    })
 }
 
 /// As [`read`], with the objects that a `look_at` may name.
@@ -127,7 +129,8 @@ pub fn read_in(text: &str, find: &FindObject<'_>) -> Result<ShotFile, ExportErro
     Ok(ShotFile { shot, notes })
 }
 
-/// Whether a keyframe of a `shot.json` looks at an object whose place the file does not state; `false` for another text.
+/// Whether a keyframe of a `shot.json` looks at an object whose place the file does not state; `false` for another
+/// text.
 pub fn names_objects(text: &str) -> bool {
     let Ok(value) = json_read::parse(text) else { return false };
     let keys = Node::root(&value).optional("keyframes").and_then(|keys| keys.items().ok()).unwrap_or_default();

@@ -1,6 +1,6 @@
 use glam::{DMat3, DVec3};
 
-use cinesplat_geometry::Pose;
+use cinesplat_geometry::{Intrinsics, Pose};
 use cinesplat_trajectory::{CameraPath, Easing, Keyframe, Shot, TrajectoryError};
 
 /// Vertical field of view of a shot whose file states none, degrees.
@@ -34,8 +34,23 @@ pub struct PoseTrack {
     pub keys: Vec<PoseFrame>,
     /// Name of the image of each of the `frames` in a capture; empty if the file names none.
     pub images: Vec<String>,
+    /// The lens of each of the `images`; empty if the format has none.
+    pub lenses: Vec<ImageLens>,
+    /// Whether the file states a lens distortion that a pinhole leaves out.
+    pub is_distorted: bool,
     /// One line per thing in the file that was not read.
     pub unread: Vec<String>,
+}
+
+/// What a file states of the lens of an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ImageLens {
+    /// Size, focal lengths and principal point.
+    Pixels(Intrinsics),
+    /// The horizontal field of view alone, rad.
+    AcrossRad(f64),
+    /// At most the vertical field of view, which the frame has.
+    Unknown,
 }
 
 /// The side of the image along which a file states fields of view.
@@ -105,6 +120,8 @@ impl PoseTrack {
             frames,
             keys: Vec::new(),
             images: Vec::new(),
+            lenses: Vec::new(),
+            is_distorted: false,
             unread: Vec::new(),
         }
     }

@@ -11,7 +11,8 @@ use super::json_read::{self, Node};
 use super::json_write::{Json, matrix_rows, object};
 use super::lens_losses::LensLosses;
 use super::name_order::out_of_order;
-use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
+use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, ImageLens, PoseFrame, PoseTrack, fov_y_or_default};
+use cinesplat_geometry::Intrinsics;
 use cinesplat_geometry::frames::{from_opengl, to_opengl};
 
 pub(super) fn write(track: &PoseTrack) -> String {
@@ -42,6 +43,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let mut frames = Vec::with_capacity(nodes.len());
     let mut timed = !nodes.is_empty();
     let mut size_px = None;
+    let mut lenses = Vec::with_capacity(nodes.len());
     let mut losses = LensLosses::default();
     if let Some(model) = root.optional("camera_model").and_then(|node| node.text().ok()) {
         losses.model(model);
@@ -56,6 +58,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         intrinsics.note_losses(&mut losses);
         note_distortion(node, &root, &mut losses)?;
         size_px = size_px.or(intrinsics.size_px());
+        lenses.push(intrinsics.lens());
         let opencv_axes = DMat3::from_mat4(matrix) * DMat3::from_diagonal(glam::DVec3::new(1.0, -1.0, -1.0));
         frames.push(PoseFrame {
             fov_y_rad: intrinsics.fov_y_rad(),
@@ -63,6 +66,7 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
             ..PoseFrame::new(time_secs.unwrap_or(idx as f64 / fps.unwrap_or(DEFAULT_FPS)), pose)
         });
     }
+    let is_distorted = losses.is_distorted();
     let mut unread = losses.into_lines();
     let names: Option<Vec<String>> =
         nodes.iter().map(|node| node.optional("file_path")?.text().ok().map(str::to_owned)).collect();
@@ -70,7 +74,8 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         let names = nodes.iter().filter_map(|node| node.optional("file_path")?.text().ok());
         unread.extend(out_of_order(names));
     }
-    Ok(PoseTrack { size_px, fps, timed, unread, images: names.unwrap_or_default(), ..PoseTrack::untimed(frames) })
+    let images = names.unwrap_or_default();
+    Ok(PoseTrack { size_px, fps, timed, images, lenses, is_distorted, unread, ..PoseTrack::untimed(frames) })
 }
 
 fn note_distortion(frame: &Node, root: &Node, losses: &mut LensLosses) -> Result<(), ExportError> {
@@ -122,6 +127,24 @@ impl FrameIntrinsics {
 
     fn size_px(&self) -> Option<(u32, u32)> {
         self.width.zip(self.height).map(|(width, height)| (width as u32, height as u32))
+    }
+
+    fn lens(&self) -> ImageLens {
+        let focal = |size: f64, angle: f64| size / 2.0 / (angle / 2.0).tan();
+        let from_angle = self.width.zip(self.angle_x).map(|(width, angle)| focal(width, angle));
+        let fx_px = self.fl_x.or(self.fl_y).or(from_angle);
+        if let (Some((width, height)), Some(fx_px)) = (self.size_px(), fx_px) {
+            let [cx, cy] = [f64::from(width) / 2.0, f64::from(height) / 2.0];
+            return ImageLens::Pixels(Intrinsics {
+                width,
+                height,
+                fx_px,
+                fy_px: self.fl_y.unwrap_or(fx_px),
+                cx_px: self.cx.unwrap_or(cx),
+                cy_px: self.cy.unwrap_or(cy),
+            });
+        }
+        self.angle_x.map_or(ImageLens::Unknown, ImageLens::AcrossRad)
     }
 
     fn fov_y_rad(&self) -> Option<f64> {

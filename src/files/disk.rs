@@ -12,9 +12,9 @@ pub fn sync_file(path: &Path) -> Result<(), FileError> {
     synced.map_err(|source| FileError::Write { path: path.to_owned(), source })
 }
 
-/// Asks the system to start writing the data of a file to the disk, and does not wait for it: many files that are flushed
-/// after that wait for the disk once, not once each. Does nothing where the system knows no such request. What fails is
-/// reported by [`sync_file`].
+/// Asks the system to start writing the data of a file to the disk, and does not wait for it: many files that are
+/// flushed after that wait for the disk once, not once each. Does nothing where the system knows no such request. What
+/// fails is reported by [`sync_file`].
 pub fn start_sync(path: &Path) {
     #[cfg(target_os = "linux")]
     if let Ok(file) = File::open(path) {

@@ -17,8 +17,8 @@ pub struct Budget {
     /// Distance between two samples of an aperture on a circle of confusion, pixels: the circle takes the square of its
     /// diameter over this.
     pub circle_step_px: f64,
-    /// As `circle_step_px`, for parts of a picture that take fewer samples than the whole: what they lack is the error of
-    /// skipping, which has a floor of its own.
+    /// As `circle_step_px`, for parts of a picture that take fewer samples than the whole: what they lack is the error
+    /// of skipping, which has a floor of its own.
     pub part_circle_step_px: f64,
     /// Samples of a shutter at most, and of an aperture.
     pub max_samples: [u32; 2],
@@ -46,7 +46,8 @@ impl Budget {
     /// - Steps: at `standard`, motion of 4 px takes 3 samples, one of 16 px 9 (52 and 48 dB), a circle of 8 px takes 5 (43 dB,
     ///   and 43; with 4 it has 40). Five in a ring have 1 dB more than five on a spiral, seven have 1.3 to 3.7 dB more.
     /// - A part of the picture that is blurred less than the whole takes as few samples as leave out no more than 50 dB
-    ///   (`standard`) and 60 dB (`final`) of the whole: four for a circle of 4 px have 47 dB in the kitchen, seven have 58.
+    ///   (`standard`) and 60 dB (`final`) of the whole: four for a circle of 4 px have 47 dB in the kitchen, seven have
+    ///   58.
     /// - Only where the largest number of samples leaves gaps, the splats of each one are blurred over its gap: what is lost
     ///   in decibels is less of an eyesore than ghosts.
     pub fn of(quality: Quality) -> Self {
@@ -89,7 +90,8 @@ impl Budget {
         self.motion_step_px * (samples as f64 - 1.0)
     }
 
-    /// The largest circle of confusion that this many samples of an aperture are enough for in a part of a picture, pixels.
+    /// The largest circle of confusion that this many samples of an aperture are enough for in a part of a picture,
+    /// pixels.
     pub fn circle_reach_px(&self, samples: usize) -> f64 {
         self.part_circle_step_px * (samples as f64).sqrt()
     }

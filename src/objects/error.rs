@@ -73,6 +73,12 @@ pub enum ObjectsError {
         /// What was found.
         found: String,
     },
+    /// Masks cannot be lifted to the Gaussians.
+    #[error("masks cannot be lifted: {reason}")]
+    Lift {
+        /// Message of the renderer.
+        reason: String,
+    },
     /// A mask is not a gray PNG.
     #[error("{}: mask: found {found}, expected a gray PNG of 8 or 16 bits whose values are ids", path.display())]
     BadMask {
@@ -101,6 +107,7 @@ impl ObjectsError {
             Self::BadLabels { .. } => "OBJ-LABELS",
             Self::BadClouds { .. } => "OBJ-CLOUDS",
             Self::BadMask { .. } => "OBJ-MASK",
+            Self::Lift { .. } => "OBJ-LIFT",
             Self::Picture { .. } => "OBJ-PICTURE",
         }
     }

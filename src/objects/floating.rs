@@ -20,8 +20,8 @@ const GAPS: [i32; 2] = [3, 6];
 /// Owner of a voxel of the structure or of a top.
 const ON_TOP: usize = usize::MAX - 1;
 
-/// Joins every body that rests on nothing but one other body with it: the shade of a lamp with its pole, a crown with its
-/// pot. What stands on tops, touches structure or is the lower one stays alone.
+/// Joins every body that rests on nothing but one other body with it: the shade of a lamp with its pole, a crown with
+/// its pot. What stands on tops, touches structure or is the lower one stays alone.
 pub(crate) fn join_floating(
     grid: &VoxelGrid,
     bodies: &[Vec<usize>],
@@ -46,8 +46,8 @@ pub(crate) fn join_floating(
     sets.groups(&all).into_iter().map(union).collect()
 }
 
-/// The other body that the lower part of a body touches most; `None` where it touches a top or the structure, or nothing.
-/// A body's voxels have its index as their owner.
+/// The other body that the lower part of a body touches most; `None` where it touches a top or the structure, or
+/// nothing. A body's voxels have its index as their owner.
 fn carrier(grid: &VoxelGrid, voxels: &[usize], (body, owner): (usize, &[usize])) -> Option<usize> {
     let (low, high) = extent(grid, voxels);
     let end = low.y + FOOT_FRAC * (high.y - low.y);

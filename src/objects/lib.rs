@@ -1,8 +1,9 @@
 //! The objects of a scene, and their sparse clouds by multi-view alpha shapes.
 //!
 //! Enters: a scene, and optionally boxes or labels. Leaves: an [`ObjectSet`]. Objects are found ([`find()`]), read from
-//! a file ([`read()`]) or assembled from labels ([`from_labels`]), which masks of posed images give ([`lift_masks`]). [`fill_clouds`] computes the clouds that the
-//! director takes as input, and [`sheet()`] draws a contact sheet of all objects.
+//! a file ([`read()`]) or assembled from labels ([`from_labels`]), which masks of posed images give ([`lift_masks`]).
+//! [`fill_clouds`] computes the clouds that the director takes as input, and [`sheet()`] draws a contact sheet of all
+//! objects.
 
 mod agreement;
 pub mod alpha_shape;
@@ -58,7 +59,7 @@ pub use error::ObjectsError;
 pub use file::{ObjectsFile, read, read_boxes, read_labels};
 pub use file_write::{Sidecars, clouds_path, labels_path, to_json, write};
 pub use find::{find, from_labels};
-pub use lifting::{PosedMask, lift_masks, read_mask};
+pub use lifting::{LiftedLabels, PosedMask, lift_masks, read_mask};
 pub use object::{Object, ObjectSet};
 pub use renaming::{Renaming, rename};
 pub use sampling::PointSampler;

@@ -1,6 +1,6 @@
 //! Descriptive names of objects by their size, shape and color.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::boxes::UprightBox;
 use super::color;
@@ -12,16 +12,17 @@ use cinesplat_scene::{Gaussians, Scene};
 const FACE_FRAC: f64 = 0.8;
 
 /// Least shares of the Gaussians of a box on one face or more, and on two or more. The faces of a cube have 1 and 0.36
-/// of them; a ball has 0.6 and none, a cylinder few.
+/// of them; a ball has 0.6 and none, a disc
+/// 0.21 and a can 0.18 of the latter.
 const MIN_ON_FACES: f64 = 0.75;
-const MIN_ON_EDGES: f64 = 0.2;
+const MIN_ON_EDGES: f64 = 0.28;
 
 /// A description such as `floor`, `large turquoise object` or `tall brown box`.
 ///
 /// `setting` is the scene size, and whether the object is only a level surface. An object is large from a quarter of
 /// the scene size on, and small up to a tenth of it.
 pub(crate) fn describe(scene: &Scene, members: &[usize], fitted: &UprightBox, setting: (f64, bool)) -> String {
-    if let Some(name) = structure::name(scene, members, fitted) {
+    if let Some(name) = structure::name(scene, members, fitted, setting.0) {
         return name.to_owned();
     }
     let gaussians = &scene.gaussians;
@@ -60,8 +61,9 @@ fn form(gaussians: &Gaussians, members: &[usize], fitted: &UprightBox) -> (&'sta
 /// Whether the Gaussians lie on the faces of their box, up to its edges.
 fn is_box(gaussians: &Gaussians, members: &[usize], fitted: &UprightBox) -> bool {
     let local_from_world = fitted.rotation.conjugate();
+    let half = fitted.half_extents.max(DVec3::splat(f64::MIN_POSITIVE));
     let num_faces = |i: &usize| {
-        let local = local_from_world * (gaussians.mean_world(*i) - fitted.center) / fitted.half_extents;
+        let local = local_from_world * (gaussians.mean_world(*i) - fitted.center) / half;
         local.to_array().into_iter().filter(|along| along.abs() > FACE_FRAC).count()
     };
     let share =

@@ -20,9 +20,9 @@ const THIN_FRAC: f64 = 0.12;
 const MIN_COVERED: f64 = 0.6;
 
 /// `floor`, `ceiling` or `wall` if an object is one: thin, at an end of the scene, and most of its width.
-pub(crate) fn name(scene: &Scene, members: &[usize], fitted: &UprightBox) -> Option<&'static str> {
+pub(crate) fn name(scene: &Scene, members: &[usize], fitted: &UprightBox, scene_size: f64) -> Option<&'static str> {
     let half = fitted.half_extents;
-    let is_large = 2.0 * half.length() >= MIN_SHARE * scene.bounds().size();
+    let is_large = 2.0 * half.length() >= MIN_SHARE * scene_size;
     if !is_large || members.len() as f64 > MAX_MEMBERS * scene.gaussians.len() as f64 {
         return None;
     }
@@ -58,8 +58,10 @@ impl Span {
         let gaussians = &scene.gaussians;
         let solid = (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY);
         let mut along: Vec<f64> = solid.map(|i| gaussians.mean_world(i).dot(direction)).collect();
-        along.sort_unstable_by(f64::total_cmp);
-        let at = |frac: f64| along.get((frac * along.len().saturating_sub(1) as f64) as usize).copied().unwrap_or(0.0);
+        let mut at = |frac: f64| {
+            let idx = (frac * along.len().saturating_sub(1) as f64) as usize;
+            if along.is_empty() { 0.0 } else { *along.select_nth_unstable_by(idx, f64::total_cmp).1 }
+        };
         let (low, high) = (at(0.005), at(0.995));
         let extent = (high - low).max(f64::MIN_POSITIVE);
         let local = (fitted.rotation.conjugate() * direction).abs();

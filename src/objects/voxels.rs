@@ -72,8 +72,8 @@ pub(crate) struct Voxel {
     pub(crate) color_lab: Vec3,
     /// Unit normal of the surface, of either sign; zero where there is no surface.
     pub(crate) normal: Vec3,
-    /// How level its Gaussians lie, 0..=1: mean square of the upward component of their thinnest axes. The two sides of a
-    /// board as thick as a cell have no normal, but each of them is level.
+    /// How level its Gaussians lie, 0..=1: mean square of the upward component of their thinnest axes. The two sides of
+    /// a board as thick as a cell have no normal, but each of them is level.
     pub(crate) level: f32,
 }
 

@@ -1,7 +1,8 @@
 //! The dutch angle: a slanted horizon while some steps last.
 //!
-//! Enters: the segments of a film whose horizon is level. Leaves: the same segments, slanted during the steps that the words
-//! say. Where a level step stands beside a slanted one without a cut, the camera leans over, or back, between them.
+//! Enters: the segments of a film whose horizon is level. Leaves: the same segments, slanted during the steps that the
+//! words say. Where a level step stands beside a slanted one without a cut, the camera leans over, or back, between
+//! them.
 
 use glam::DVec3;
 

@@ -214,7 +214,8 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     Ok(set)
 }
 
-/// The dutch angle that the words ask for, during the step whose words are nearest to them, or throughout where they say so.
+/// The dutch angle that the words ask for, during the step whose words are nearest to them, or throughout where they
+/// say so.
 fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &str) -> Option<Slant> {
     let mention = mentions.iter().find(|mention| mention.call.name == DUTCH && !mention.is_forbidden)?;
     let [start, end] = mention.span;

@@ -9,10 +9,10 @@ pub(super) const NUM_PLACES: usize = 9;
 
 /// Margin of a checked frame over the least PSNR, for the frames between the checks, dB.
 ///
-/// Along slow moves through five scenes the PSNR of `draft` and `standard` fell at most 0.8 dB below the lower one of two
-/// frames that were 20 apart; checks are 8 apart. `draft` cannot be promised from checks: in a film of `bench promises`
-/// through synth:tabletop:1 (192x108, a quarter of the scene in a second) one of its frames was over 5 dB below them, and
-/// `standard` costs less than a check of every frame.
+/// Along slow moves through five scenes the PSNR of `draft` and `standard` fell at most 0.8 dB below the lower one of
+/// two frames that were 20 apart; checks are 8 apart. `draft` cannot be promised from checks: in a film of `bench
+/// promises` through synth:tabletop:1 (192x108, a quarter of the scene in a second) one of its frames was over 5 dB
+/// below them, and `standard` costs less than a check of every frame.
 pub(super) fn margin_db(quality: Quality) -> f64 {
     match quality {
         Quality::Draft => f64::INFINITY,

@@ -17,8 +17,8 @@ use super::{Frame, Limits, Quality, RenderError, RenderSettings, RenderStats, Re
 
 /// Values that one job converts.
 const VALUES_PER_JOB: usize = 1 << 15;
-/// Splat-tile pairs up to which pictures share a projection: 1 GiB of lists. Plain pictures have some millions, at 4K some
-/// ten millions.
+/// Splat-tile pairs up to which pictures share a projection: 1 GiB of lists. Plain pictures have some millions, at 4K
+/// some ten millions.
 const SWEEP_MAX_PAIRS: u64 = 1 << 28;
 
 impl Renderer<'_> {
@@ -65,8 +65,8 @@ impl Renderer<'_> {
     /// Renders an exposure whose pictures share one projection and one depth order: the mean of their light, in the colors
     /// of the scene. Takes less time than [`Renderer::expose_into`], and less still where little of the picture moves.
     /// [`Quality::Reference`] and pictures that are enlarged render each picture of the largest pattern by itself, and so do
-    /// exposures that pass a splat closely, and those whose splats move over so many tiles that sharing costs more than it
-    /// saves. None of this depends on the memory of the machine or on its threads: a sweep that exceeds
+    /// exposures that pass a splat closely, and those whose splats move over so many tiles that sharing costs more than
+    /// it saves. None of this depends on the memory of the machine or on its threads: a sweep that exceeds
     /// [`RenderSettings::limits`] in memory is an error, as a plain picture is.
     ///
     /// # Errors
@@ -109,9 +109,9 @@ impl Renderer<'_> {
         let canvas = Canvas::Light(LightSums { light: rgb, transmittance, weight: 1.0, is_first: true });
         let limits = Limits { max_pairs: settings.limits.max_pairs.min(SWEEP_MAX_PAIRS), ..settings.limits };
         let mut stats = match self.sweep_onto(canvas, &view, &shared, &RenderSettings { limits, ..*settings }) {
-            // Splats that move far are in the lists of many tiles. How many these are follows from scene and cameras alone,
-            // unlike the memory that is left: rendered otherwise for the lack of it, a film would have other bytes on another
-            // machine.
+            // Splats that move far are in the lists of many tiles. How many these are follows from scene and cameras
+            // alone, unlike the memory that is left: rendered otherwise for the lack of it, a film would have other
+            // bytes on another machine.
             Err(RenderError::Cost { .. }) => return self.sum_light(&sweep.subframes(), settings, sums),
             taken => taken?,
         };

@@ -107,8 +107,8 @@ pub struct Intent {
     /// For orbits and arcs a point on the upright axis of the circle, world. With it the path from this key to the next
     /// is a true circle. JSON key `pivot`, an addition to version 1.
     pub pivot: Option<DVec3>,
-    /// What the camera looks at: a key whose position was edited is aimed at it again. JSON key `look_at` of the keyframe,
-    /// an addition to version 1.
+    /// What the camera looks at: a key whose position was edited is aimed at it again. JSON key `look_at` of the
+    /// keyframe, an addition to version 1.
     pub look_at: Option<LookAt>,
 }
 

@@ -269,3 +269,14 @@ fn transforms_in_a_circle_or_with_two_frames_above_are_errors() {
     let error = topic("a.bag", &two, "/tf:a.d").unwrap_err().to_string();
     assert_eq!(error, "the frame c: found it below a, b, expected one frame above it");
 }
+
+#[test]
+fn poses_at_times_that_a_link_is_not_known_at_are_counted() {
+    let bytes = transforms(&[("/tf", "/map", "odom", &[1, 2]), ("/tf", "odom", "cam:0", &[0, 1, 2])]);
+    let read = topic("a.bag", &bytes, "/tf:map.cam:0").unwrap().track;
+    assert_eq!(read.frames.len(), 2);
+    assert!(read.unread[0].starts_with("1 of 3 poses left out: map <- odom is known from "), "{:?}", read.unread);
+    let apart = transforms(&[("/tf", "map", "odom", &[5, 6]), ("/tf", "odom", "camera", &[0, 1, 2])]);
+    let error = topic("a.bag", &apart, "/tf:map.camera").unwrap_err().to_string();
+    assert!(error.starts_with("/tf:map.camera: found 3 of 3 poses left out: map <- odom"), "{error}");
+}

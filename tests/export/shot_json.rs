@@ -325,6 +325,27 @@ fn a_key_that_looks_at_an_object_is_aimed_at_its_center() {
 }
 
 #[test]
+fn a_changed_name_is_not_filmed_at_the_point_of_the_old_one() {
+    let (mug, sofa) = (DVec3::new(1.0, 0.5, 7.0), DVec3::new(-2.0, 0.5, 7.0));
+    let find = |name: &str| match name {
+        "mug" => Ok(mug),
+        "sofa" => Ok(sofa),
+        _ => Err("one of the objects mug, sofa".to_owned()),
+    };
+    let written = shot_json::write(&looking_at(&"mug".into(), &find).unwrap().shot);
+    let edited = |name: &str| {
+        let mut value: Value = serde_json::from_str(&written).unwrap();
+        value["keyframes"][1]["look_at"]["object"] = name.into();
+        value.to_string()
+    };
+    assert!(shot_json::names_objects(&edited("sofa")) && !shot_json::names_objects(&edited("mug")));
+    let key = &shot_json::read_in(&edited("sofa"), &find).unwrap().shot.keyframes[1];
+    assert!(key.pose.forward().dot((sofa - key.pose.position).normalize()) > 1.0 - 1e-12);
+    let error = shot_json::read_in(&edited("lamp"), &find).unwrap_err().to_string();
+    assert_eq!(error, "keyframes[1].look_at.object: found \"lamp\", expected one of the objects mug, sofa");
+}
+
+#[test]
 fn an_object_that_is_not_there_is_an_error_that_names_those_that_are() {
     let find = |_: &str| Err("one of the objects <obj-3> mug".to_owned());
     let error = looking_at(&"lamp".into(), &find).unwrap_err().to_string();
@@ -336,9 +357,9 @@ fn an_object_that_is_not_there_is_an_error_that_names_those_that_are() {
     });
     assert_eq!(
         error.unwrap_err().to_string(),
-        "keyframes[1].look_at.object: found \"lamp\", expected a point (3 finite numbers), because no objects are given"
+        "keyframes[1].look_at.object: found \"lamp\", expected a point (3 finite numbers), because no objects are given (`render` and `map` know them)"
     );
-    let misspelled = serde_json::json!({"object": "lamp", "pont": [0, 0, 9], "point": [0, 0, 9]});
+    let misspelled = serde_json::json!({"object": "lamp", "pont": [0, 0, 9], "point": [0, 0, 9], "point_of": "lamp"});
     let notes = looking_at(&misspelled, &find).unwrap().notes.join("\n");
     assert!(notes.contains("keyframes[1].look_at.pont: unknown key, the nearest known key is point"), "{notes}");
 }

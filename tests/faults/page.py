@@ -160,7 +160,8 @@ commit that it was measured at, a plus for a commit with changes. `make faults` 
 
 ## Load held
 
-Memory is the most that the system counted at one time, of several programs the sum.
+Memory is the most that the system counted at one time; of several programs it is the sum of their peaks, with shared pages counted
+for each.
 
 {table(["load", "tried", "result", "row", "date", "commit"], lines_of(True))}
 
@@ -180,6 +181,7 @@ thread makes.
 
 `make fuzz` (libFuzzer, guided by coverage). Each crash that was found is a small file in `tests/fuzz/seeds`, which the quick tests
 read whole, cut and changed (`every_seed_of_the_fuzz_targets_is_read_without_a_panic`).
+Reading of `.usdc` and of packed recordings was added after these figures were measured.
 
 {table(["target", "executions", "time", "inputs kept", "open crashes", "date", "commit"], fuzz)}
 

@@ -158,7 +158,8 @@ fn a_table_with_a_thick_top_is_apart_from_what_stands_on_it() {
     assert!(mean(&overlaps) > 0.7, "{overlaps:?}");
 }
 
-/// Without a ceiling a room was searched as if it were one cluttered heap, in which what is seen through windows counted.
+/// Without a ceiling a room was searched as if it were one cluttered heap, in which what is seen through windows
+/// counted.
 #[test]
 fn the_things_of_a_room_without_a_ceiling_are_found() {
     let overlaps = overlaps(SynthKind::Room, 6);

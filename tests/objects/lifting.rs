@@ -50,9 +50,14 @@ fn spoiled(mask: &PosedMask, dice: &mut Dice, num_ids: usize) -> PosedMask {
     PosedMask { camera: mask.camera, ids: (0..mask.ids.len()).map(spoil).collect() }
 }
 
+/// The labels that masks give.
+fn lift(scene: &Scene, masks: &[PosedMask]) -> Vec<u16> {
+    objects::lift_masks(scene, masks, &mut |_, _| ()).unwrap().labels
+}
+
 /// Mean overlap of the objects that the masks show in at least 1,500 pixels, and their number.
 fn mean_iou(scene: &Scene, masks: &[PosedMask], perfect: &[PosedMask], truth: &[u16]) -> (f64, usize) {
-    let found = objects::from_labels(scene, objects::lift_masks(scene, masks).unwrap());
+    let found = objects::from_labels(scene, lift(scene, masks));
     let is_shown =
         |id: u32| perfect.iter().flat_map(|mask| &mask.ids).filter(|pixel| u32::from(**pixel) == id).count() >= 1500;
     let agreements = objects::agreements(&scene.gaussians, &found, truth);
@@ -82,8 +87,23 @@ fn a_mask_without_ids_labels_nothing_and_one_of_another_size_is_refused() {
     let scene = super::scene_of(gaussians);
     let camera = cameras(&scene)[0];
     let empty = PosedMask { camera, ids: vec![0; 200 * 150] };
-    assert!(objects::lift_masks(&scene, &[empty]).unwrap().iter().all(|label| *label == 0));
-    assert!(objects::lift_masks(&scene, &[]).unwrap().iter().all(|label| *label == 0));
+    assert!(lift(&scene, &[empty]).iter().all(|label| *label == 0));
+    assert!(lift(&scene, &[]).iter().all(|label| *label == 0));
     let small = PosedMask { camera, ids: vec![1; 10] };
-    assert_eq!(objects::lift_masks(&scene, &[small]).unwrap_err().code(), "OBJ-PICTURE");
+    assert_eq!(objects::lift_masks(&scene, &[small], &mut |_, _| ()).unwrap_err().code(), "OBJ-LIFT");
+}
+
+#[test]
+fn cameras_that_look_away_see_nothing_of_the_scene() {
+    let mut gaussians = cinesplat::scene::Gaussians::default();
+    super::push_box(&mut gaussians, DVec3::ZERO, DVec3::splat(0.5), 0.1, glam::Vec3::splat(0.5));
+    let scene = super::scene_of(gaussians);
+    let intrinsics = Intrinsics::from_fov_y(40, 30, 1.0);
+    let seen = |direction: DVec3| {
+        let pose = Pose::facing(DVec3::new(0.0, 0.0, 4.0), direction, DVec3::Y, None);
+        let mask = PosedMask { camera: Camera { pose, intrinsics }, ids: vec![1; 40 * 30] };
+        objects::lift_masks(&scene, &[mask], &mut |_, _| ()).unwrap().seen_share
+    };
+    assert_eq!(seen(DVec3::Z), 0.0);
+    assert!(seen(-DVec3::Z) > 0.1);
 }

@@ -202,7 +202,8 @@ fn less_memory_or_more_threads_never_change_the_bytes_of_a_sweep() {
     let mut refused = 0;
     for num_threads in [1, 4] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
-        // In steps of 2 %, so that some limits lie between what this picture takes and what each of its samples would take.
+        // In steps of 2 %, so that some limits lie between what this picture takes and what each of its samples would
+        // take.
         let mut bytes = 64e6;
         while bytes > 1e6 {
             bytes *= 0.98;

@@ -35,7 +35,8 @@ pub(super) struct Args {
     scenes: Vec<PathBuf>,
     #[command(flatten)]
     options: SceneOptions,
-    /// True up of the scenes, in their order [default: what file or name states, else the estimate in the file's own pose]
+    /// True up of the scenes, in their order [default: what file or name states, else the estimate in the file's own
+    /// pose]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     truth: Vec<DVec3>,
     /// Random rotations per scene

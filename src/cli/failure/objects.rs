@@ -26,7 +26,12 @@ impl From<ObjectsError> for Failure {
                 (Exit::BadData, "clear `clouds` in the objects file: they are computed anew".to_owned())
             }
             E::BadMask { .. } => {
-                let help = "write ids as gray values: colors of a palette are not ids";
+                let help = "write ids as gray values of 8 or 16 bits: colors of a palette are not ids";
+                (Exit::BadData, help.to_owned())
+            }
+            E::Lift { .. } => {
+                let help =
+                    "give each mask one id per pixel of its camera, and masks of fewer pixels if memory is short";
                 (Exit::BadData, help.to_owned())
             }
             E::Picture { .. } => (Exit::Fault, "leave out --sheet, or report the scene that it fails on".to_owned()),

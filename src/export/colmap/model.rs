@@ -6,8 +6,8 @@ use strum::VariantArray;
 use super::super::ExportError;
 use super::super::lens_losses::LensLosses;
 use super::super::name_order::by_name;
-use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
-use cinesplat_geometry::Pose;
+use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, ImageLens, PoseFrame, PoseTrack, fov_y_or_default};
+use cinesplat_geometry::{Intrinsics, Pose};
 
 /// Relative difference of focal lengths that are rounding of one lens.
 const SAME_FOCAL: f64 = 1e-9;
@@ -117,6 +117,17 @@ impl ModelCamera {
         })
     }
 
+    fn lens(&self) -> ImageLens {
+        ImageLens::Pixels(Intrinsics {
+            width: self.width,
+            height: self.height,
+            fx_px: self.stretch * self.focal_y_px,
+            fy_px: self.focal_y_px,
+            cx_px: f64::from(self.width) / 2.0 + self.off_center_px[0],
+            cy_px: f64::from(self.height) / 2.0 + self.off_center_px[1],
+        })
+    }
+
     /// The parameters of a [`CameraModel::Pinhole`]: focal lengths and principal point, px.
     pub(super) fn pinhole_params(&self) -> [f64; 4] {
         [self.focal_y_px, self.focal_y_px, f64::from(self.width) / 2.0, f64::from(self.height) / 2.0]
@@ -149,6 +160,8 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
             camera_of(image).map(|camera| 2.0 * (f64::from(camera.height) / 2.0 / camera.focal_y_px).atan());
         PoseFrame { fov_y_rad, ..PoseFrame::new(idx as f64 / DEFAULT_FPS, pose) }
     };
+    let lens = |image: &ModelImage| camera_of(image).map_or(ImageLens::Unknown, ModelCamera::lens);
+    let lenses = images.iter().map(lens).collect();
     let frames = images.iter().enumerate().map(frame).collect();
     let mut losses = LensLosses::default();
     for camera in images.iter().filter_map(camera_of) {
@@ -157,8 +170,10 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
         losses.distortion("a parameter", camera.distortion);
         losses.model(camera.model.into());
     }
-    let names = images.into_iter().map(|image| image.name).collect();
-    Ok(PoseTrack { size_px, images: names, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
+    let is_distorted = losses.is_distorted();
+    let images = images.into_iter().map(|image| image.name).collect();
+    let unread = losses.into_lines();
+    Ok(PoseTrack { size_px, images, lenses, is_distorted, unread, ..PoseTrack::untimed(frames) })
 }
 
 /// Cameras and images of a track. A new camera starts wherever the field of view changes; ids count from 1.

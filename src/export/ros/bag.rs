@@ -40,9 +40,11 @@ fn records(
     while !bytes.is_empty() {
         let header = Fields::new(bytes.counted()?)?;
         let data = bytes.counted()?;
+        // Chunks stand in the file itself, behind its first bytes.
+        let offset = MAGIC.len() + bytes.position() - data.len();
         match header.op() {
             Some(CHUNK) if may_hold_chunks => {
-                let chunk = unpacked(&header, data, connections.unpacked_left)?;
+                let chunk = unpacked(&header, (data, offset), connections.unpacked_left)?;
                 connections.unpacked_left = connections.unpacked_left.saturating_sub(chunk.len() as u64);
                 records(&chunk, connections, visit, false)?;
             }
@@ -58,15 +60,19 @@ fn records(
     Ok(())
 }
 
-/// The records of a chunk; packed ones may be of `left` bytes.
-fn unpacked<'a>(header: &Fields<'_>, packed: &'a [u8], left: u64) -> Result<Cow<'a, [u8]>, ExportError> {
+/// The records of a chunk at an offset of the file; packed ones may be of `left` bytes.
+fn unpacked<'a>(
+    header: &Fields<'_>,
+    (packed, offset): (&'a [u8], usize),
+    left: u64,
+) -> Result<Cow<'a, [u8]>, ExportError> {
     let size = header.number("size").map_or(0, u64::from);
     let limit = Limits::DEFAULT.unpacked(packed.len()).min(left);
     match header.get("compression").unwrap_or_default() {
         b"none" => Ok(Cow::Borrowed(packed)),
-        b"lz4" if size <= limit => lz4::unpacked(packed, size, 0).map(Cow::Owned),
+        b"lz4" if size <= limit => lz4::unpacked(packed, size, offset).map(Cow::Owned),
         b"lz4" => Err(ExportError::BadBytes {
-            offset: 0,
+            offset,
             found: format!("a chunk of {size} bytes"),
             expected: format!("at most {limit} for {} packed bytes", packed.len()),
         }),

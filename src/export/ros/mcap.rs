@@ -1,5 +1,5 @@
-//! MCAP: records of a kind, a length and data. Chunks hold schemas, channels and messages, plain or packed with Zstandard or
-//! LZ4.
+//! MCAP: records of a kind, a length and data. Chunks hold schemas, channels and messages, plain or packed with
+//! Zstandard or LZ4.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -10,7 +10,8 @@ mod mcap;
 mod message;
 mod transforms;
 
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 
 use cinesplat_files::Limits;
 use glam::DVec3;
@@ -19,7 +20,7 @@ use super::ExportError;
 use super::pose_lines::unit_pose;
 use super::track::{PoseFrame, PoseTrack};
 use message::{Kind, Stamped, Topic};
-use transforms::{Asked, FRAMES_MARK, Links};
+use transforms::{Asked, FRAMES_MARK, Links, frame_name};
 
 /// Between the name of a recording and a topic.
 const TOPIC_MARK: char = '#';
@@ -45,8 +46,8 @@ struct Found {
 }
 
 /// The poses of a topic; without a name those of the only topic with poses. A topic of transforms is named with two
-/// frames, as `/tf:map.base_link`, and so is one that holds several bodies or frames. The frames of transforms may be any
-/// two that links join, over static ones too.
+/// frames, as `/tf:map.base_link`, and so is one that holds several bodies or frames. The frames of transforms may be
+/// any two that links join, over static ones too.
 ///
 /// # Errors
 /// [`ExportError::WrongFormat`] for a file that is no recording, [`ExportError::BadField`] without such a topic, for a
@@ -54,12 +55,17 @@ struct Found {
 /// [`ExportError::NotReadable`] for packed parts without a reader.
 pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Result<PoseTrack, ExportError> {
     let is_of_topic = |name: &str| topic.is_none_or(|asked| is_asked(asked, name));
-    let mut paths = visit(bytes, &is_of_topic, topic)?.by_name(topic);
+    let is_path = |key: &PathKey| topic.is_none_or(|asked| asked == key.0 || asked == long_name(key));
+    let mut paths = visit(bytes, &is_of_topic, &is_path)?.by_name(topic);
+    let mut unread = Vec::new();
     // Single poses are mounts of sensors, and no path.
     paths.retain(|name, (_, frames)| frames.len() > 1 || topic == Some(name.as_str()));
     let chosen = match topic {
         Some(name) => match paths.remove_entry(name) {
-            None => joined(bytes, name)?,
+            None => joined(bytes, name)?.map(|(path, lines)| {
+                unread = lines;
+                path
+            }),
             found => found,
         },
         None if paths.len() == 1 => paths.pop_first(),
@@ -68,7 +74,8 @@ pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Result<PoseTrack, Expor
     let Some((name, (body, frames))) = chosen else { return Err(no_such_topic(bytes, topic, paths)) };
     let body = body.map_or_else(|| "the body".to_owned(), |name| format!("the body {name}"));
     let note = format!("{name}: the axes of {body} count as those of a camera: x right, y down, z forward");
-    Ok(PoseTrack { timed: true, up: Some(DVec3::Z), unread: vec![note], ..PoseTrack::untimed(frames) })
+    unread.push(note);
+    Ok(PoseTrack { timed: true, up: Some(DVec3::Z), unread, ..PoseTrack::untimed(frames) })
 }
 
 /// The body and the poses of each path, by the name that asks for it.
@@ -77,7 +84,7 @@ type Named = BTreeMap<String, (Option<String>, Vec<PoseFrame>)>;
 /// The error that lists the topics of a recording; `paths` are those of the topic that is asked for.
 fn no_such_topic(bytes: &[u8], topic: Option<&str>, mut paths: Named) -> ExportError {
     if topic.is_some() && paths.is_empty() {
-        paths = match visit(bytes, &|_| true, None) {
+        paths = match visit(bytes, &|_| true, &|_| true) {
             Ok(found) => found.by_name(None),
             Err(error) => return error,
         };
@@ -102,22 +109,46 @@ fn is_asked(asked: &str, topic: &str) -> bool {
 /// A path with its name.
 type NamedPath = (String, (Option<String>, Vec<PoseFrame>));
 
-/// The poses between two frames that several transforms join; `None` without a way.
-fn joined(bytes: &[u8], name: &str) -> Result<Option<NamedPath>, ExportError> {
+/// The poses between two frames that several transforms join, with lines on those left out; `None` without a way. Only
+/// the links on the way are read.
+fn joined(bytes: &[u8], name: &str) -> Result<Option<(NamedPath, Vec<String>)>, ExportError> {
     let Some(asked) = Asked::new(name) else { return Ok(None) };
-    let found = visit(bytes, &|topic| topic == asked.topic || topic == asked.static_topic, None)?;
+    let is_of_topics = |topic: &str| topic == asked.topic || topic == asked.static_topic;
+    let keys = RefCell::new(BTreeSet::new());
+    let note = |key: &PathKey| {
+        if let Some(pair) = frames_of(key) {
+            keys.borrow_mut().insert((pair, key.0 == asked.static_topic));
+        }
+        false
+    };
+    visit(bytes, &is_of_topics, &note)?;
+    let mut all = Links::default();
+    keys.take().into_iter().for_each(|(pair, is_static)| all.add(pair, is_static, Vec::new()));
+    let Some(way) = all.between(asked)? else { return Ok(None) };
+    let on_way: BTreeSet<(&str, &str)> = way.links().collect();
+    let is_on_way =
+        |key: &PathKey| key.2.as_ref().is_some_and(|child| on_way.contains(&(frame_name(&key.1), frame_name(child))));
     let mut links = Links::default();
-    for ((topic, parent, child), (kind, frames)) in found.paths {
-        if let (Kind::Transforms, Some(child)) = (kind, child) {
-            links.add([parent, child], topic == asked.static_topic, frames);
+    for (key, (kind, frames)) in visit(bytes, &is_of_topics, &is_on_way)?.paths {
+        if let (Kind::Transforms, Some(pair)) = (kind, frames_of(&key)) {
+            links.add(pair, key.0 == asked.static_topic, frames);
         }
     }
-    let between = links.between(asked)?.filter(|(_, frames)| !frames.is_empty());
-    Ok(between.map(|(child, frames)| (name.to_owned(), (Some(child), frames))))
+    let Some(way) = links.between(asked)? else { return Ok(None) };
+    let (frames, lines) = way.poses(name)?;
+    Ok(Some(((name.to_owned(), (Some(way.child.to_owned()), frames)), lines)))
 }
 
-/// The paths of the topics that `is_read` chooses; of them that which `asked` names, or all without a name.
-fn visit(bytes: &[u8], is_read: &dyn Fn(&str) -> bool, asked: Option<&str>) -> Result<Found, ExportError> {
+/// The frames of a path with a body: the one above and the one below.
+fn frames_of((_, frame, child): &PathKey) -> Option<[String; 2]> {
+    Some([frame_name(frame).to_owned(), frame_name(child.as_ref()?).to_owned()])
+}
+
+/// Whether a path is read.
+type IsPath<'a> = dyn Fn(&PathKey) -> bool + 'a;
+
+/// The paths of the topics that `is_read` chooses; of them those that `is_path` chooses.
+fn visit(bytes: &[u8], is_read: &dyn Fn(&str) -> bool, is_path: &IsPath<'_>) -> Result<Found, ExportError> {
     let mut found = Found::default();
     let mut take = |topic: &Topic, message: &[u8]| {
         if !is_read(&topic.name) {
@@ -125,7 +156,7 @@ fn visit(bytes: &[u8], is_read: &dyn Fn(&str) -> bool, asked: Option<&str>) -> R
         }
         let in_topic = |error| ExportError::InFile { name: topic.name.clone(), error: Box::new(error) };
         let poses = message::read(topic.kind, topic.encoding, message).map_err(in_topic)?;
-        poses.into_iter().try_for_each(|pose| found.add(topic, pose, asked))
+        poses.into_iter().try_for_each(|pose| found.add(topic, pose, is_path))
     };
     if bytes.starts_with(bag::MAGIC) {
         bag::visit(bytes, &mut take)?;
@@ -140,10 +171,10 @@ fn visit(bytes: &[u8], is_read: &dyn Fn(&str) -> bool, asked: Option<&str>) -> R
 
 impl Found {
     /// Adds a pose. One that is none is an error, unless other frames of its topic are asked for.
-    fn add(&mut self, topic: &Topic, stamped: Stamped, asked: Option<&str>) -> Result<(), ExportError> {
+    fn add(&mut self, topic: &Topic, stamped: Stamped, is_path: &IsPath<'_>) -> Result<(), ExportError> {
         let Stamped { time_secs, frame, child, position, rotation } = stamped;
         let key = (topic.name.clone(), frame, child);
-        if asked.is_some_and(|asked| asked != topic.name && asked != long_name(&key)) {
+        if !is_path(&key) {
             return Ok(());
         }
         let pose = unit_pose(position, rotation).filter(|pose| pose.position.is_finite());

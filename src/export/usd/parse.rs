@@ -2,6 +2,7 @@
 
 use super::super::ExportError;
 use super::super::columns::bad_line;
+use super::curves::SPLINE;
 use super::layer::{MAX_DEPTH, Prim, Value};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -180,13 +181,30 @@ impl Parser {
             }
         }
         if self.take_mark('=') {
-            let value = self.value(depth + 1)?;
+            let is_spline = name.ends_with(SPLINE);
+            let value = if is_spline { self.spline()? } else { self.value(depth + 1)? };
             parent.attributes.push((name, value));
         }
         if self.take_mark('(') {
             self.entries(')', depth + 1)?;
         }
         Ok(())
+    }
+
+    /// Skips a spline, of which only the name counts.
+    fn spline(&mut self) -> Result<Value, ExportError> {
+        self.expect('{')?;
+        let mut open = 1_usize;
+        while open > 0 {
+            match self.peek() {
+                Some(Token::Mark('{')) => open += 1,
+                Some(Token::Mark('}')) => open -= 1,
+                Some(_) => {}
+                None => return Err(self.error("a closing brace")),
+            }
+            self.next += 1;
+        }
+        Ok(Value::List(Vec::new()))
     }
 
     fn value(&mut self, depth: usize) -> Result<Value, ExportError> {

@@ -4,6 +4,7 @@ use super::super::ExportError;
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
 use super::binary;
+use super::curves::{Curves, is_operation, quaternion};
 use super::layer::{Prim, Value};
 use super::package;
 use super::parse::parse;
@@ -14,9 +15,8 @@ use cinesplat_geometry::rotation;
 const DEFAULT_FOCAL: f64 = 50.0;
 const DEFAULT_FILM_HEIGHT: f64 = 15.2908;
 const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
-/// Entries of an order of operations: the start of the name of one that is undone, and that the prims above do not count.
-const INVERSE: &str = "!invert!";
-const RESET: &str = "!resetXformStack!";
+/// What a layer without a camera is told.
+const NO_CAMERA: &str = "no camera in this layer: `usdcat --flatten IN -o out.usda` joins the files that it refers to";
 
 pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let not_readable = |reason: &str| ExportError::NotReadable { format: "usd", reason: reason.to_owned() };
@@ -33,7 +33,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
         parse(std::str::from_utf8(bytes).map_err(|_| not_readable("the text is not UTF-8"))?)?
     };
     let mut above = Vec::new();
-    let camera = find_camera(&layer, &mut above).ok_or(ExportError::NoPoses)?;
+    let camera = find_camera(&layer, &mut above).ok_or_else(|| not_readable(NO_CAMERA))?;
+    let lens = Curves::new(camera)?;
+    let moving = above.iter().map(|prim| Curves::new(prim)).collect::<Result<Vec<_>, _>>()?;
     let meta = |name: &str| layer.meta(name).and_then(Value::number).filter(|v| *v > 0.0);
     let fps = meta("timeCodesPerSecond").or(meta("framesPerSecond")).unwrap_or(DEFAULT_CODES_PER_SECOND);
     let up = layer.meta("customLayerData").and_then(|data| data.get("cinesplat_world_up")?.numbers()?.try_into().ok());
@@ -41,12 +43,12 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let stage_up = if layer.meta("upAxis") == Some(&Value::Text("Z".into())) { DVec3::Z } else { DVec3::Y };
     let world_from_stage = y_up_from_world(up).conjugate();
     let frames = code_list(camera, &above).into_iter().map(|code| {
-        let placed = above.iter().chain([&camera]).try_fold(DAffine3::IDENTITY, |world, prim| {
-            let world = if resets_stack(prim) { DAffine3::IDENTITY } else { world };
+        let placed = moving.iter().chain([&lens]).try_fold(DAffine3::IDENTITY, |world, prim| {
+            let world = if prim.resets_stack { DAffine3::IDENTITY } else { world };
             Some(world * local(prim, code)?)
         });
         let placed = placed.ok_or_else(|| not_readable("an unknown transform operation"))?;
-        frame(camera, code, fps, DAffine3::from_quat(world_from_stage) * placed)
+        frame(&lens, code, fps, DAffine3::from_quat(world_from_stage) * placed)
     });
     let frames = drop_holds(frames.collect::<Result<Vec<_>, _>>()?, fps);
     Ok(PoseTrack {
@@ -75,9 +77,8 @@ fn find_camera<'a>(prim: &'a Prim, above: &mut Vec<&'a Prim>) -> Option<&'a Prim
 
 /// All time codes with a sample of the camera, or of a transform of the prims above it; 0 alone without samples.
 fn code_list(camera: &Prim, above: &[&Prim]) -> Vec<f64> {
-    let is_transform = |name: &str| name.starts_with("xformOp:");
     let own = camera.attributes.iter();
-    let of_above = above.iter().flat_map(|prim| prim.attributes.iter().filter(|(name, _)| is_transform(name)));
+    let of_above = above.iter().flat_map(|prim| prim.attributes.iter().filter(|(name, _)| is_operation(name)));
     let samples = own.chain(of_above).filter(|(name, _)| name.ends_with(".timeSamples"));
     let keys = samples.flat_map(|(_, value)| if let Value::Map(entries) = value { entries.as_slice() } else { &[] });
     let mut codes: Vec<f64> =
@@ -87,52 +88,12 @@ fn code_list(camera: &Prim, above: &[&Prim]) -> Vec<f64> {
     if codes.is_empty() { vec![0.0] } else { codes }
 }
 
-/// An attribute's numbers at a time code, interpolated linearly, or along the shorter arc for quaternions.
-fn numbers_at(prim: &Prim, name: &str, code: f64) -> Option<Vec<f64>> {
-    let Some(Value::Map(entries)) = prim.attribute(&format!("{name}.timeSamples")) else {
-        return prim.attribute(name)?.numbers();
-    };
-    let samples: Option<Vec<(f64, Vec<f64>)>> =
-        entries.iter().map(|(key, value)| Some((key.parse().ok()?, value.numbers()?))).collect();
-    let samples = samples?;
-    let after = samples.partition_point(|(key, _)| *key <= code);
-    let Some(before) = after.checked_sub(1) else { return samples.first().map(|(_, v)| v.clone()) };
-    let (from, a) = &samples[before];
-    let Some((to, b)) = samples.get(after).filter(|_| *from < code) else { return Some(a.clone()) };
-    let t = (code - from) / (to - from);
-    if name.contains(":orient") && a.len() == 4 && b.len() == 4 {
-        return Some(wxyz(rotation::slerp(quaternion(a)?, quaternion(b)?, t)));
-    }
-    Some(a.iter().zip(b).map(|(a, b)| a + (b - a) * t).collect())
-}
-
-fn quaternion(wxyz: &[f64]) -> Option<DQuat> {
-    let [w, x, y, z] = wxyz.try_into().ok()?;
-    Some(DQuat::from_xyzw(x, y, z, w)).filter(|q| q.length() > 1e-6).map(DQuat::normalize)
-}
-
-fn wxyz(rotation: DQuat) -> Vec<f64> {
-    vec![rotation.w, rotation.x, rotation.y, rotation.z]
-}
-
 /// A prim's transform into its parent at a time code; `None` for an unknown operation.
-fn local(prim: &Prim, code: f64) -> Option<DAffine3> {
-    let Some(Value::List(order)) = prim.attribute("xformOpOrder") else { return Some(DAffine3::IDENTITY) };
-    order.iter().filter(|op| !is_reset(op)).try_fold(DAffine3::IDENTITY, |placed, op| {
-        let Value::Text(name) = op else { return None };
-        let (name, is_inverse) = name.strip_prefix(INVERSE).map_or((name.as_str(), false), |name| (name, true));
-        let done = operation(name, &numbers_at(prim, name, code)?)?;
-        Some(placed * if is_inverse { done.inverse() } else { done })
+fn local(prim: &Curves<'_>, code: f64) -> Option<DAffine3> {
+    prim.order.as_ref()?.iter().try_fold(DAffine3::IDENTITY, |placed, (name, is_inverse)| {
+        let done = operation(name, &prim.numbers_at(name, code)?)?;
+        Some(placed * if *is_inverse { done.inverse() } else { done })
     })
-}
-
-fn is_reset(op: &Value) -> bool {
-    matches!(op, Value::Text(name) if name == RESET)
-}
-
-/// Whether the prims above do not move this one.
-fn resets_stack(prim: &Prim) -> bool {
-    matches!(prim.attribute("xformOpOrder"), Some(Value::List(order)) if order.iter().any(is_reset))
 }
 
 fn operation(name: &str, v: &[f64]) -> Option<DAffine3> {
@@ -162,7 +123,7 @@ fn operation(name: &str, v: &[f64]) -> Option<DAffine3> {
     }
 }
 
-fn frame(camera: &Prim, code: f64, fps: f64, placed: DAffine3) -> Result<PoseFrame, ExportError> {
+fn frame(camera: &Curves<'_>, code: f64, fps: f64, placed: DAffine3) -> Result<PoseFrame, ExportError> {
     // A scale above the camera changes its position, not its field of view.
     let axes = placed.matrix3;
     let unit = DMat3::from_cols(
@@ -175,7 +136,7 @@ fn frame(camera: &Prim, code: f64, fps: f64, placed: DAffine3) -> Result<PoseFra
         found: error.to_string(),
         expected: "a rigid pose".into(),
     })?;
-    let number = |name: &str| numbers_at(camera, name, code).and_then(|v| v.first().copied()).filter(|v| *v > 0.0);
+    let number = |name: &str| camera.numbers_at(name, code).and_then(|v| v.first().copied()).filter(|v| *v > 0.0);
     let focal = number("focalLength").unwrap_or(DEFAULT_FOCAL);
     let film_height = number("verticalAperture").unwrap_or(DEFAULT_FILM_HEIGHT);
     let pose = from_opengl_rotation(placed.translation, turn);

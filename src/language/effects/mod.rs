@@ -90,9 +90,9 @@ pub fn is_effect_phrase(prompt: &str, [start, end]: [usize; 2]) -> Result<bool, 
     Ok(inside.peek().is_some() && inside.all(|(word, is_effect)| is_effect || ARTICLES.contains(&word.text.as_str())))
 }
 
-/// The prompt without a dutch angle and the words that lead to it (`with a slight dutch angle`): blanks stand for them, so
-/// that every other byte stays where it is. The slant is no move of its own. A prompt that says nothing else stays as it is,
-/// and so does a camera that leans over (`roll into a dutch angle`).
+/// The prompt without a dutch angle and the words that lead to it (`with a slight dutch angle`): blanks stand for them,
+/// so that every other byte stays where it is. The slant is no move of its own. A prompt that says nothing else stays
+/// as it is, and so does a camera that leans over (`roll into a dutch angle`).
 ///
 /// # Errors
 /// Those of [`effect_mentions`].

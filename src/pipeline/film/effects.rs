@@ -119,8 +119,8 @@ impl<'a> Filmed<'a> {
     }
 
     /// Time of a frame with the effects over that of a plain one, as a mean over the film. Frames are planned at even
-    /// positions. Those with the fewest samples, the most, and the middle one are measured; the others lie between them: samples
-    /// share work, so that time does not grow in proportion.
+    /// positions. Those with the fewest samples, the most, and the middle one are measured; the others lie between
+    /// them: samples share work, so that time does not grow in proportion.
     pub(in crate::pipeline) fn cost_factor(
         &self,
         frames: &Range<usize>,
@@ -178,8 +178,8 @@ impl<'a> Filmed<'a> {
     }
 }
 
-/// The factor of a frame with this many samples, on a line through measured numbers of samples and factors; factors of one
-/// number count as their mean, and beyond the ends the nearest number counts.
+/// The factor of a frame with this many samples, on a line through measured numbers of samples and factors; factors of
+/// one number count as their mean, and beyond the ends the nearest number counts.
 fn between(measured: &[(u32, f64)], samples: u32) -> f64 {
     let mean = |number: u32| {
         let own: Vec<f64> = measured.iter().filter(|point| point.0 == number).map(|point| point.1).collect();

@@ -227,7 +227,7 @@ pub fn choose(forecasts: &[Forecast], requirements: Requirements) -> Result<Qual
     let mut barely = forecasts.iter().filter(is_good).filter(|forecast| is_in_time(forecast, 1.0, Duration::ZERO));
     chosen.or_else(|| barely.next()).map(|forecast| forecast.quality).ok_or_else(|| PipelineError::Unreachable {
         wanted: requirements.sentence(),
-        reachable: forecasts.iter().map(Forecast::sentence).collect::<Vec<_>>().join("; "),
+        reachable: forecasts.iter().map(|forecast| forecast.reach(requirements)).collect::<Vec<_>>().join("; "),
     })
 }
 
@@ -267,6 +267,17 @@ impl Forecast {
             return format!("{name} {secs:.1} s, exact, {gigabytes:.2} GB");
         }
         format!("{name} {secs:.1} s, {:.1} dB (worst {:.1}), {gigabytes:.2} GB", self.psnr_db, self.worst_psnr_db)
+    }
+}
+
+impl Forecast {
+    /// What the quality reaches, in words, with the decibels that it can promise where some are required.
+    fn reach(&self, requirements: Requirements) -> String {
+        let promised_db = self.worst_psnr_db - margin_db(self.quality);
+        match requirements.min_psnr_db {
+            Some(_) if promised_db.is_finite() => format!("{}, {promised_db:.1} dB promised", self.sentence()),
+            _ => self.sentence(),
+        }
     }
 }
 

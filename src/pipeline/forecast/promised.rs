@@ -41,7 +41,9 @@ pub fn promised(
         .budget
         .map_or(TIME_LIMIT_SECS, |budget| TIME_LIMIT_SECS.min(SAMPLED_BUDGET_FRAC * budget.as_secs_f64()));
     let at = |qualities: &[Quality]| forecast_within((renderer, shot), output, settings, qualities, limit_secs);
-    let mut forecasts = at(&[Quality::Draft, Quality::Standard, Quality::Final])?;
+    // No check of some frames shows that all frames of `draft` are good enough.
+    let qualities = [Quality::Draft, Quality::Standard, Quality::Final];
+    let mut forecasts = at(if requirements.min_psnr_db.is_some() { &qualities[1..] } else { &qualities })?;
     if requirements.min_psnr_db.is_some() {
         let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
         let cameras = filmed.moving_cameras(settings.frames.of_film(shot.num_frames())?);

@@ -54,7 +54,7 @@ pub(super) fn evidence(sample: &PatchSample, facets: &[Facet], up: DVec3) -> ([f
         upright,
         light,
         e * light,
-        outward_light(sample, facets, up),
+        outward_light(sample, up),
         flat,
         (flat - 0.3).abs(),
         column.sharpness(),
@@ -198,7 +198,7 @@ fn normal_shares(facets: &[Facet], up: DVec3) -> (f64, f64) {
 }
 
 /// Correlation of luma with how much a flat patch of a convex scene faces up. Light comes from above.
-fn outward_light(sample: &PatchSample, _: &[Facet], up: DVec3) -> f64 {
+fn outward_light(sample: &PatchSample, up: DVec3) -> f64 {
     let stride = sample.patches.len().div_ceil(MAX_PATCHES).max(1);
     let flat = sample.patches.iter().step_by(stride).filter(|patch| patch.normal != DVec3::ZERO);
     correlation(flat.map(|p| (p.normal.dot(up) * p.normal.dot(p.position).signum(), p.luma)))

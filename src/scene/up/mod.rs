@@ -1,10 +1,10 @@
 //! Estimation of world up, for files that do not state it.
 //!
-//! Enters: Gaussians and the prior of the kind of file. Leaves: unit directions with probabilities. The candidates are the
-//! frequent surface normals ([`candidates`]), the directions in which the scene can rest on the ground and its principal
-//! axes ([`resting`]), and, unless the pose is arbitrary, the six coordinate axes. A plane fit levels the floor of a
-//! candidate. The [`evidence`] for each gives its odds by fixed weights ([`weights`]), and the prior ([`UpPrior`])
-//! multiplies them.
+//! Enters: Gaussians and the prior of the kind of file. Leaves: unit directions with probabilities. The candidates are
+//! the frequent surface normals ([`candidates`]), the directions in which the scene can rest on the ground and its
+//! principal axes ([`resting`]), and, unless the pose is arbitrary, the six coordinate axes. A plane fit levels the
+//! floor of a candidate. The [`evidence`] for each gives its odds by fixed weights ([`weights`]), and the prior
+//! ([`UpPrior`]) multiplies them.
 //!
 //! Invariant: the result is deterministic. Of equal scores the first wins: -y, +y, +z, -z, x, -x, then other directions.
 

@@ -1,7 +1,7 @@
 //! Directions in which a thing can stand: opposite to the faces of its convex hull that it can rest on.
 //!
-//! Enters: the sample. Leaves: unit directions. A thing stands on at least three points, so that of all directions nearby
-//! its contact with the ground is widest in that one.
+//! Enters: the sample. Leaves: unit directions. A thing stands on at least three points, so that of all directions
+//! nearby its contact with the ground is widest in that one.
 
 use glam::DVec3;
 
@@ -68,8 +68,8 @@ fn contact_area(points: &[DVec3], up: DVec3, reach: f64) -> f64 {
     spread(points.iter().filter(|p| p.dot(up) < top).map(|p| [p.dot(east), p.dot(north)])).area
 }
 
-/// The direction after the thing tilted onto what it touches: planes through ever thinner contacts. A contact that is not
-/// flat tells nothing about the tilt; then it is the direction nearby with the widest contact.
+/// The direction after the thing tilted onto what it touches: planes through ever thinner contacts. A contact that is
+/// not flat tells nothing about the tilt; then it is the direction nearby with the widest contact.
 fn settled(points: &[DVec3], up: DVec3, size: f64) -> DVec3 {
     let mut settled = up;
     for reach in [3.0, 2.0, 1.5, 1.0, 1.0] {

@@ -34,8 +34,8 @@ pub(super) struct PatchSample {
 }
 
 impl PatchSample {
-    /// Every n-th solid Gaussian, or every n-th of all if less than 5 % are solid, without those far outside. `None` for
-    /// a scene without extent.
+    /// Every n-th solid Gaussian, or every n-th of all if less than 5 % are solid, without those far outside. `None`
+    /// for a scene without extent.
     pub(super) fn of(gaussians: &Gaussians) -> Option<Self> {
         let all = 0..gaussians.len();
         let solid: Vec<usize> = all.clone().filter(|&idx| gaussians.opacities[idx] >= SOLID_OPACITY).collect();

@@ -1,9 +1,9 @@
 //! Weights of the evidence for up, fitted once.
 //!
 //! They maximize the likelihood of the true direction among the candidates (a conditional logit) over rooms, halves of
-//! rooms, single things and things on a disc of ground of 140 generated scenes, with noise and floaters, in random poses,
-//! and over the scans of the development set, each of which weighs an eighth of a kind of generated scene. `bench up`
-//! measures them.
+//! rooms, single things and things on a disc of ground of 140 generated scenes, with noise and floaters, in random
+//! poses, and over the scans of the development set, each of which weighs an eighth of a kind of generated scene.
+//! `bench up` measures them.
 
 use super::evidence::NUM_EVIDENCE;
 

@@ -1,8 +1,8 @@
 //! The binary form of USD (`.usdc`), versions 0.4 to 0.13: tables of tokens, fields, paths and specs, packed with LZ4.
 //!
-//! Enters: the bytes of a layer. Leaves: its cameras and render settings with the prims above them, as from the text form.
-//! Every number of entries is checked against the bytes that are present, and the values that are decoded are counted:
-//! values may share their bytes. Reference: OpenUSD, `pxr/usd/sdf/crateFile.h`.
+//! Enters: the bytes of a layer. Leaves: its cameras and render settings with the prims above them, as from the text
+//! form. Every number of entries is checked against the bytes that are present, and the values that are decoded are
+//! counted: values may share their bytes. Reference: OpenUSD, `pxr/usd/sdf/crateFile.h`.
 
 mod damage;
 mod packing;

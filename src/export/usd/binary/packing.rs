@@ -46,8 +46,8 @@ fn append(out: &mut Vec<u8>, block: &[u8], most: usize, offset: usize) -> Result
     Ok(())
 }
 
-/// `count` whole numbers: the most common difference, two bits per number that say how many bytes its difference has, and
-/// the differences.
+/// `count` whole numbers: the most common difference, two bits per number that say how many bytes its difference has,
+/// and the differences.
 pub(super) fn whole_numbers(bytes: &mut Bytes<'_>, count: usize) -> Result<Vec<u32>, ExportError> {
     let code_bytes = count.div_ceil(4);
     let offset = bytes.position();

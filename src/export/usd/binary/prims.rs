@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::super::curves::SPLINE;
 use super::super::layer::{MAX_DEPTH, Prim, Value};
 use super::damage::damaged;
 use super::tables::{Spec, Tables};
@@ -85,6 +86,11 @@ fn add_attribute(tables: &Tables<'_>, name: &str, spec: Spec, prim: &mut Prim) -
     for (field, bits) in tables.fields(spec)? {
         let name = match field {
             "default" => name.to_owned(),
+            // Only its name counts.
+            "spline" => {
+                prim.attributes.push((format!("{name}{SPLINE}"), Value::List(Vec::new())));
+                continue;
+            }
             "timeSamples" => format!("{name}.timeSamples"),
             _ => continue,
         };

@@ -38,7 +38,8 @@ pub(super) struct Tables<'a> {
     pub(super) bytes: &'a [u8],
     /// The version is 0.`minor`.
     pub(super) minor: u8,
-    token_bytes: Vec<u8>,
+    /// All tokens.
+    text: String,
     /// Where each token ends; a zero follows.
     token_ends: Vec<u32>,
     /// Strings as indices of tokens.
@@ -68,8 +69,11 @@ impl<'a> Tables<'a> {
         let mut tokens = section("TOKENS")?;
         let num_tokens = count(&mut tokens, 1, most)?;
         let length = tokens.u64()?.min(most);
-        let token_bytes = unpacked(&mut tokens, length as usize)?;
-        let ends = token_bytes.iter().zip(0_u32..).filter(|(byte, _)| **byte == 0).map(|(_, at)| at);
+        let offset = tokens.position();
+        // A zero byte stands in no character of several bytes: each token is text where all of them are.
+        let text = String::from_utf8(unpacked(&mut tokens, length as usize)?);
+        let text = text.map_err(|error| damaged(offset, error.to_string(), "names in UTF-8"))?;
+        let ends = text.bytes().zip(0_u32..).filter(|(byte, _)| *byte == 0).map(|(_, at)| at);
         let token_ends = ends.take(num_tokens).collect();
         let mut strings = section("STRINGS")?;
         let strings = (0..count(&mut strings, 4, most)?).map(|_| strings.u32()).collect::<Result<_, _>>()?;
@@ -84,7 +88,7 @@ impl<'a> Tables<'a> {
         Ok(Self {
             bytes,
             minor,
-            token_bytes,
+            text,
             token_ends,
             strings,
             fields: names.into_iter().zip(values).collect(),
@@ -100,9 +104,12 @@ impl<'a> Tables<'a> {
         let idx = idx as usize;
         let text = self.token_ends.get(idx).and_then(|end| {
             let start = idx.checked_sub(1).map_or(0, |before| self.token_ends[before] as usize + 1);
-            std::str::from_utf8(self.token_bytes.get(start..*end as usize)?).ok()
+            self.text.get(start..*end as usize)
         });
-        text.ok_or_else(|| damaged(0, format!("token {idx}"), format!("one of {} texts", self.token_ends.len())))
+        let text =
+            text.ok_or_else(|| damaged(0, format!("token {idx}"), format!("one of {} texts", self.token_ends.len())))?;
+        self.spend(text.len() as u64 / 64)?;
+        Ok(text)
     }
 
     /// The string of an index.
