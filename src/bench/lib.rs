@@ -27,5 +27,5 @@ pub use lens_report::{LENS_CSV_HEADER, lens_csv_line, lens_row_of, lens_svg};
 pub use measure::{BenchPlan, BenchRow, Timing, measure};
 pub use output::RenderOutput;
 pub use pareto::{AccuracyAxis, pareto_svg};
-pub use report::{to_csv, to_table};
+pub use report::{median, to_csv, to_table};
 pub use variants::{KnobKind, Variant, presets, variants};

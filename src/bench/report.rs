@@ -126,7 +126,7 @@ fn dominated(presets: &[&BenchRow]) -> Vec<String> {
 }
 
 /// The median, the upper one of two middle values; 0 for no values.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
+pub fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)

@@ -127,10 +127,9 @@ impl MaskLens {
     fn for_mask(&self, [width, height]: [u32; 2]) -> Result<Intrinsics, (String, &'static str)> {
         match *self {
             Self::Image(ImageLens::Pixels(given)) => {
-                let aspect = |width: u32, height: u32| f64::from(width) / f64::from(height);
-                let ratio = aspect(width, height) / aspect(given.width, given.height);
-                if (ratio - 1.0).abs() <= MAX_ASPECT_DIFFERENCE {
-                    return Ok(resized(given, [width, height]));
+                let resized = given.resized(width, height);
+                if (resized.aspect() / given.aspect() - 1.0).abs() <= MAX_ASPECT_DIFFERENCE {
+                    return Ok(resized);
                 }
                 let found = format!(
                     "the mask has {width} x {height} px, its camera {} x {}: other proportions",
@@ -183,17 +182,4 @@ fn named_cameras(path: &Path) -> Result<BTreeMap<String, ImageCamera>, Failure> 
         cameras.insert(image, ImageCamera { pose: frame.pose, lens });
     }
     Ok(cameras)
-}
-
-/// Intrinsics for a mask of another size than the image.
-fn resized(given: Intrinsics, [width, height]: [u32; 2]) -> Intrinsics {
-    let (x, y) = (f64::from(width) / f64::from(given.width), f64::from(height) / f64::from(given.height));
-    Intrinsics {
-        width,
-        height,
-        fx_px: given.fx_px * x,
-        fy_px: given.fy_px * y,
-        cx_px: given.cx_px * x,
-        cy_px: given.cy_px * y,
-    }
 }

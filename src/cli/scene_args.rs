@@ -10,7 +10,7 @@ use cinesplat::export::cameras_json::FilterChoice;
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline::{self, OpenedScene};
 use cinesplat::render::{ColorClamp, Quality, RenderSettings, SortMode};
-use cinesplat::scene::{Limits, LoadOptions, SURE_PERCENT, Scene, SplatFilter, UpSource};
+use cinesplat::scene::{Limits, LoadOptions, SURE_PERCENT, Scene, SplatFilter, UpSource, up_flag};
 
 /// A scene and the options for reading it.
 #[derive(Debug, Clone, Args)]
@@ -82,19 +82,13 @@ pub(super) fn print_up(scene: &Scene) {
     if let UpSource::Estimated(percent) = scene.up_source
         && percent < SURE_PERCENT
     {
-        let flag = |up: DVec3| {
-            let [x, y, z] = up.to_array().map(|v| (v * 1e3).round() / 1e3 + 0.0);
-            format!("--up {x},{y},{z}")
-        };
         let others =
             scene.up_candidates().into_iter().filter(|c| c.confidence_percent > 0 && c.up.dot(scene.up) < SAME_UP_COS);
         let others = others.take(NUM_OTHERS);
-        let others: Vec<String> = others.map(|c| format!("{} ({} %)", flag(c.up), c.confidence_percent)).collect();
+        let others: Vec<String> = others.map(|c| format!("{} ({} %)", up_flag(c.up), c.confidence_percent)).collect();
         let turn = if others.is_empty() { String::new() } else { format!(", or type {}", others.join(" or ")) };
-        console::note(&format!(
-            "up is a guess: keep it with {}{turn}; `cinesplat objects --sheet` shows them",
-            flag(scene.up)
-        ));
+        let chosen = up_flag(scene.up);
+        console::note(&format!("up is a guess: keep it with {chosen}{turn}; `cinesplat objects --sheet` shows them"));
     }
 }
 

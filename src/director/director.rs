@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use cinesplat_language::{
-    Linked, Mention, NamedObject, check_prompt, is_effect_phrase, link_mentions, without_frame_shape, without_slant,
+    Linked, Mention, NamedObject, are_effect_phrases, check_prompt, link_mentions, without_frame_shape, without_slant,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -92,13 +92,12 @@ impl Director {
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_slant(prompt)?;
         let found = self.names.mentions(prompt, objects)?;
-        let mut mentions: Vec<Mention> = Vec::new();
-        for FoundMention { mention, .. } in &found {
-            // The scene lacks no `bloom`: it is what the lens makes.
-            if !mention.ids.is_empty() || !is_effect_phrase(prompt, mention.bytes)? {
-                mentions.push(mention.clone());
-            }
-        }
+        let parts: Vec<[usize; 2]> = found.iter().map(|found| found.mention.bytes).collect();
+        let are_effects = are_effect_phrases(prompt, &parts)?;
+        // The scene lacks no `bloom`: it is what the lens makes.
+        let is_thing = |(found, is_effect): &(&FoundMention, bool)| !found.mention.ids.is_empty() || !is_effect;
+        let things = found.iter().zip(are_effects).filter(is_thing);
+        let mentions: Vec<Mention> = things.map(|(found, _)| found.mention.clone()).collect();
         let mut linked = link_mentions(prompt, &mentions)?;
         for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
             let words = |found: &&FoundMention| {

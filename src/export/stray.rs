@@ -71,11 +71,10 @@ fn between(curve: &Curve, keys: &PoseTrack, from: usize, time_secs: f64) -> (DVe
     let t = if span > 0.0 { (time_secs - a.time_secs) / span } else { 0.0 };
     let fov = |idx: usize| frames[idx].fov_y_rad.unwrap_or(1.0);
     match curve {
-        Curve::Linear => (
-            a.pose.position.lerp(b.pose.position, t),
-            rotation::slerp(a.pose.rotation, b.pose.rotation, t),
-            fov(from) + (fov(from + 1) - fov(from)) * t,
-        ),
+        Curve::Linear => {
+            let pose = a.pose.between(&b.pose, t);
+            (pose.position, pose.rotation, fov(from) + (fov(from + 1) - fov(from)) * t)
+        }
         Curve::EasedSpline => {
             let t = lichtfeld::eased(a.easing, t);
             let at = |idx: usize| frames[idx.min(frames.len() - 1)].pose.position;

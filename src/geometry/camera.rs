@@ -43,7 +43,12 @@ impl Intrinsics {
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let size = |pixels: u32| ((f64::from(pixels) * factor).round() as u32).max(1);
-        let (width, height) = (size(self.width), size(self.height));
+        self.resized(size(self.width), size(self.height))
+    }
+
+    /// The same picture at another size, in pixels.
+    #[must_use]
+    pub fn resized(&self, width: u32, height: u32) -> Self {
         let (x, y) = (f64::from(width) / f64::from(self.width), f64::from(height) / f64::from(self.height));
         Self {
             width,

@@ -87,6 +87,13 @@ impl Pose {
         }
     }
 
+    /// The pose at a share of the way to another one: the position on a line, the rotation at constant speed along the
+    /// shorter arc.
+    #[must_use]
+    pub fn between(&self, end: &Self, t: f64) -> Self {
+        Self::new(self.position.lerp(end.position, t), rotation::slerp(self.rotation, end.rotation, t))
+    }
+
     /// A world point in camera coordinates.
     pub fn to_camera(&self, point_world: DVec3) -> DVec3 {
         self.rotation.conjugate() * (point_world - self.position)

@@ -132,11 +132,11 @@ fn one_if(condition: bool) -> f32 {
 
 /// The labels, with the unseen Gaussians labeled as most of the seen opacity in their cell of a grid.
 fn with_unseen(scene: &Scene, mut labels: Vec<u16>, is_seen: &[bool]) -> Vec<u16> {
-    let cell = CELL_FRAC * scene.bounds().size();
+    let bounds = scene.bounds();
+    let (cell, center) = (CELL_FRAC * bounds.size(), bounds.center());
     if !(cell > 0.0) {
         return labels;
     }
-    let center = scene.bounds().center();
     let key = |i: usize| -> [i32; 3] {
         let at: IVec3 = ((scene.gaussians.mean_world(i) - center) / cell).floor().as_ivec3();
         at.to_array()

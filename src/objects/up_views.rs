@@ -10,7 +10,7 @@ use super::error::ObjectsError;
 use super::photo::{TILE_BACKGROUND, TILE_FOV_RAD, photo};
 use cinesplat_geometry::{Camera, Intrinsics, Pose};
 use cinesplat_render::{Quality, Renderer};
-use cinesplat_scene::{SURE_PERCENT, Scene, UpEstimate, UpSource};
+use cinesplat_scene::{SURE_PERCENT, Scene, UpEstimate, UpSource, up_flag};
 
 /// Largest number of directions, and the least probability of one.
 const MAX_VIEWS: usize = 5;
@@ -37,8 +37,7 @@ pub struct UpView {
 impl UpView {
     /// Two lines: the probability and the flag to type.
     pub(crate) fn caption(&self) -> [String; 2] {
-        let [x, y, z] = self.up.to_array().map(|v| (v * 1e3).round() / 1e3 + 0.0);
-        [format!("up? {} %", self.percent), format!("--up {x},{y},{z}")]
+        [format!("up? {} %", self.percent), up_flag(self.up)]
     }
 
     /// Draws the picture with its caption below it. `place`: upper left corner.

@@ -5,7 +5,7 @@ use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
-use cinesplat_language::{EffectMention, LanguageError, Linked, NamedObject};
+use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, NamedObject};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
 use cinesplat_operator::{Program, Slant, Solution, SolveLevel, SolveSettings, Step, World};
@@ -14,7 +14,6 @@ use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot};
 
 /// Name of the effect that rolls the camera, and its roll in degrees, in the middle of the 5 to 35 degrees that
 /// storyboards use.
-const DUTCH: &str = "dutch-angle";
 const DUTCH_DEG: f64 = 15.0;
 /// Words beside a dutch angle that give it to every step.
 const THROUGHOUT: [&str; 6] = ["throughout", "whole film", "whole shot", "whole time", "entire", "all the way"];
@@ -217,7 +216,7 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
 /// The dutch angle that the words ask for, during the step whose words are nearest to them, or throughout where they
 /// say so.
 fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &str) -> Option<Slant> {
-    let mention = mentions.iter().find(|mention| mention.call.name == DUTCH && !mention.is_forbidden)?;
+    let mention = mentions.iter().find(|mention| mention.call.name == DUTCH_ANGLE && !mention.is_forbidden)?;
     let [start, end] = mention.span;
     let last = program.steps.len().checked_sub(1)?;
     let around = [prompt.get(..start).unwrap_or_default(), prompt.get(end..).unwrap_or_default()];
@@ -236,7 +235,7 @@ fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &str) -> Opti
 
 /// The effects that the words and the moves of a program call for.
 fn called(mentions: &[EffectMention], program: &Program, settings: &DirectSettings, scene_size: f64) -> Called {
-    let wanted = mentions.iter().filter(|mention| !mention.is_forbidden && mention.call.name != DUTCH);
+    let wanted = mentions.iter().filter(|mention| !mention.is_forbidden && mention.call.name != DUTCH_ANGLE);
     let calls: Vec<Call> = wanted.map(|mention| mention.call.clone()).collect();
     let forbidden = mentions.iter().filter(|mention| mention.is_forbidden);
     let forbidden: Vec<_> =

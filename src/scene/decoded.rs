@@ -2,7 +2,6 @@ use glam::DVec3;
 
 use super::filter::SplatFilter;
 use super::intake::Collected;
-use super::up::UpPrior;
 
 /// A decoded file, before the choice of its up axis.
 pub(super) struct DecodedScene {
@@ -14,8 +13,6 @@ pub(super) struct DecodedScene {
     pub(super) filter: Option<SplatFilter>,
     /// World up that the file states, with the text that states it.
     pub(super) up: Option<(DVec3, String)>,
-    /// Prior probabilities of up axes for this kind of file.
-    pub(super) up_prior: UpPrior,
     /// SHA-256 of each further file that was read, in a fixed order, with its name where the files present decide which is read.
     pub(super) further_sha256: Vec<String>,
 }

@@ -9,7 +9,6 @@ use super::error::SceneError;
 use super::gaussians::NUM_SH_REST;
 use super::intake::{Intake, RawGaussian, SH_C0};
 use super::source_file::SourceFile;
-use super::up::UpPrior;
 
 const HEADER: usize = 4096;
 const SECTION_HEADER: usize = 1024;
@@ -82,7 +81,6 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         collected: intake.finish(source.path)?,
         filter: None,
         up: None,
-        up_prior: UpPrior::PlyFrame,
         further_sha256: Vec::new(),
     })
 }

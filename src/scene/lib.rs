@@ -35,4 +35,4 @@ pub use load::{load, load_bytes};
 pub use options::LoadOptions;
 pub use ply::write_ply;
 pub use scene::{Scene, UpSource};
-pub use up::{SURE_PERCENT, UpEstimate, UpPrior, estimate as estimate_up, estimates as up_estimates};
+pub use up::{SURE_PERCENT, UpEstimate, UpPrior, estimate as estimate_up, estimates as up_estimates, up_flag};

@@ -9,7 +9,8 @@ use super::options::LoadOptions;
 use super::scene::{Scene, UpSource};
 use super::sniff::{self, SceneFormat};
 use super::source_file::{SourceFile, read_file};
-use super::{gltf, ksplat, pcd, ply, sog, splat, spz, up};
+use super::up::{self, UpPrior};
+use super::{gltf, ksplat, pcd, ply, sog, splat, spz};
 
 /// Reads a scene of any supported format: a file, or the folder, `meta.json` or `lod-meta.json` of an
 /// unbundled or streamed SOG.
@@ -84,6 +85,6 @@ fn choose_up(path: &Path, decoded: &DecodedScene, options: &LoadOptions) -> Resu
     if let Some((up, words)) = &decoded.up {
         return Ok((*up, UpSource::File(words.clone())));
     }
-    let estimate = up::estimate(&decoded.collected.gaussians, decoded.up_prior);
+    let estimate = up::estimate(&decoded.collected.gaussians, UpPrior::of_format(&decoded.format));
     Ok((estimate.up, UpSource::Estimated(estimate.confidence_percent)))
 }

@@ -8,7 +8,6 @@ use super::decoded::DecodedScene;
 use super::error::SceneError;
 use super::intake::{Intake, RawGaussian, SH_C0};
 use super::source_file::SourceFile;
-use super::up::UpPrior;
 
 /// Opacity of a point.
 const OPACITY: f64 = 0.95;
@@ -84,7 +83,6 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         collected,
         filter: None,
         up: None,
-        up_prior: UpPrior::PlyFrame,
         further_sha256: Vec::new(),
     })
 }

@@ -64,8 +64,7 @@ impl Scene {
 
     /// The directions that may be up if the file does not state one, at least 15 degrees apart, most likely first.
     pub fn up_candidates(&self) -> Vec<UpEstimate> {
-        let prior = if self.format.starts_with("spz") { UpPrior::Spz } else { UpPrior::PlyFrame };
-        up::estimates(&self.gaussians, prior)
+        up::estimates(&self.gaussians, UpPrior::of_format(&self.format))
     }
 
     /// Number of Gaussians in the file, dropped ones included.

@@ -7,7 +7,6 @@ use super::decoded::DecodedScene;
 use super::error::SceneError;
 use super::intake::{Intake, RawGaussian, SH_C0};
 use super::source_file::SourceFile;
-use super::up::UpPrior;
 
 /// Bytes per record: position 3 x f32, linear scale 3 x f32, rgba 4 x u8, rotation wxyz 4 x u8.
 const RECORD: usize = 32;
@@ -32,7 +31,6 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         collected: intake.finish(source.path)?,
         filter: None,
         up: None,
-        up_prior: UpPrior::PlyFrame,
         further_sha256: Vec::new(),
     })
 }

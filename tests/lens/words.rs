@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat::language::{effect_mentions, is_effect_phrase, link, without_slant};
+use cinesplat::language::{are_effect_phrases, effect_mentions, link, without_slant};
 use cinesplat::lens::Degree::{Medium, Slight, Strong};
 use cinesplat::lens::is_known;
 
@@ -81,8 +81,8 @@ fn a_dutch_angle_is_no_move_and_leaves_every_other_byte_where_it_is() {
     assert_eq!(without(prompt), format!("orbit it {blank} then pull back"));
     assert_eq!(without("dutch angle"), "dutch angle");
     assert_eq!(without("roll into a dutch angle"), "roll into a dutch angle");
-    assert!(is_effect_phrase("push in with bloom", [13, 18]).unwrap());
-    assert!(!is_effect_phrase("push in with Bob", [13, 16]).unwrap());
+    assert!(are_effect_phrases("push in with bloom", &[[13, 18]]).unwrap()[0]);
+    assert!(!are_effect_phrases("push in with Bob", &[[13, 16]]).unwrap()[0]);
 }
 
 #[test]

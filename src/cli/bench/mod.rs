@@ -1,3 +1,4 @@
+mod calibration;
 mod cases;
 mod critic;
 #[cfg(feature = "training")]

@@ -8,18 +8,18 @@ use glam::{DQuat, DVec3};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::calibration::calibration_error;
 use super::scenes::scene_name;
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::outputs::BenchFolder;
 use crate::cli::scene_args::{SceneOptions, parse_vector};
+
 use cinesplat::scene::{Gaussians, UpPrior, up_estimates};
+use cinesplat_bench::median;
 
 /// Largest angle between an estimate that is right and the true direction, degrees.
 const RIGHT_DEG: f64 = 10.0;
-
-/// Number of bins of confidence for the calibration error.
-const NUM_BINS: usize = 10;
 
 /// Measure how well the up axis is estimated from the shape of a scene alone
 #[derive(Debug, clap::Args)]
@@ -124,32 +124,15 @@ fn line(name: &str, num_gaussians: usize, trials: &[Trial]) -> String {
     let count = trials.len().max(1) as f64;
     let right = trials.iter().filter(|trial| trial.is_right()).count() as f64 / count;
     let confidence = trials.iter().map(|trial| trial.confidence).sum::<f64>() / count;
+    let certainty: Vec<(f64, bool)> = trials.iter().map(|trial| (trial.confidence, trial.is_right())).collect();
     let mut text = format!("{name},{num_gaussians},{},{right:.4},", trials.len());
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "{:.2},{confidence:.4},{:.4},{:.4}",
-        median(trials, |trial| trial.error_deg),
-        calibration_error(trials),
-        median(trials, |trial| trial.secs),
+        median(trials.iter().map(|trial| trial.error_deg)),
+        calibration_error(&certainty),
+        median(trials.iter().map(|trial| trial.secs)),
     );
     text
-}
-
-fn median(trials: &[Trial], of: impl Fn(&Trial) -> f64) -> f64 {
-    let mut values: Vec<f64> = trials.iter().map(of).collect();
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
-}
-
-/// Expected calibration error: the mean over the trials of the difference between the share of right ones and the mean
-/// confidence in their bin (Naeini, Cooper and Hauskrecht 2015).
-fn calibration_error(trials: &[Trial]) -> f64 {
-    let mut bins = [(0.0, 0.0); NUM_BINS];
-    for trial in trials {
-        let bin = ((trial.confidence * NUM_BINS as f64) as usize).min(NUM_BINS - 1);
-        bins[bin].0 += f64::from(u8::from(trial.is_right()));
-        bins[bin].1 += trial.confidence;
-    }
-    bins.iter().map(|(right, confidence)| (right - confidence).abs()).sum::<f64>() / trials.len().max(1) as f64
 }

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use cinesplat_geometry::{Pose, rotation};
+use cinesplat_geometry::Pose;
 use glam::{DQuat, DVec3};
 
 use crate::ExportError;
@@ -180,7 +180,6 @@ impl Link {
             return (from.time_secs >= time_secs).then_some(from.pose);
         };
         let t = (time_secs - from.time_secs) / (to.time_secs - from.time_secs);
-        let position = from.pose.position.lerp(to.pose.position, t);
-        Some(Pose::new(position, rotation::slerp(from.pose.rotation, to.pose.rotation, t)))
+        Some(from.pose.between(&to.pose, t))
     }
 }

@@ -12,7 +12,8 @@ use cinesplat_geometry::rotation;
 const MAX_NUMBERS: usize = 17;
 /// Most transform operations of a prim.
 const MAX_OPERATIONS: usize = 64;
-const SAMPLES: &str = ".timeSamples";
+/// Behind the name of an attribute with values over time.
+pub(super) const SAMPLES: &str = ".timeSamples";
 /// Behind the name of an attribute that a spline animates.
 pub(super) const SPLINE: &str = ".spline";
 /// Attributes of cameras that are read over time.

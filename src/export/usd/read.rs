@@ -4,7 +4,7 @@ use super::super::ExportError;
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
 use super::binary;
-use super::curves::{Curves, is_operation, quaternion};
+use super::curves::{Curves, SAMPLES, is_operation, quaternion};
 use super::layer::{Prim, Value};
 use super::package;
 use super::parse::parse;
@@ -79,7 +79,7 @@ fn find_camera<'a>(prim: &'a Prim, above: &mut Vec<&'a Prim>) -> Option<&'a Prim
 fn code_list(camera: &Prim, above: &[&Prim]) -> Vec<f64> {
     let own = camera.attributes.iter();
     let of_above = above.iter().flat_map(|prim| prim.attributes.iter().filter(|(name, _)| is_operation(name)));
-    let samples = own.chain(of_above).filter(|(name, _)| name.ends_with(".timeSamples"));
+    let samples = own.chain(of_above).filter(|(name, _)| name.ends_with(SAMPLES));
     let keys = samples.flat_map(|(_, value)| if let Value::Map(entries) = value { entries.as_slice() } else { &[] });
     let mut codes: Vec<f64> =
         keys.filter_map(|(key, _)| key.parse().ok()).filter(|code: &f64| code.is_finite()).collect();

@@ -23,8 +23,8 @@ use row::Meaning;
 use scope::{degree_of, forbidden};
 use table::Table;
 
-/// Name of the slanted horizon in the table.
-const SLANT: &str = "dutch-angle";
+/// Name of the slanted horizon in the table and in [`EffectMention::call`].
+pub const DUTCH_ANGLE: &str = "dutch-angle";
 const ARTICLES: [&str; 3] = ["a", "an", "the"];
 /// Words that may stand before a dutch angle and say nothing else.
 const LEADS_TO_SLANT: [&str; 8] = ["with", "at", "using", "add", "slight", "subtle", "strong", "heavy"];
@@ -78,16 +78,20 @@ pub(crate) fn effect_words(prompt: &str, words: &[Word]) -> Result<Vec<bool>, La
     Ok(is_effect)
 }
 
-/// Whether some bytes of a prompt hold nothing but a phrase for an effect: `bloom` in `push in with bloom`.
+/// Which of some parts of a prompt, in bytes, hold nothing but a phrase for an effect: `bloom` in `push in with bloom`.
 ///
 /// # Errors
 /// Those of [`effect_mentions`].
-pub fn is_effect_phrase(prompt: &str, [start, end]: [usize; 2]) -> Result<bool, LanguageError> {
+pub fn are_effect_phrases(prompt: &str, parts: &[[usize; 2]]) -> Result<Vec<bool>, LanguageError> {
     let words = tokenize(prompt);
     let is_effect = effect_words(prompt, &words)?;
-    let mut inside =
-        words.iter().zip(is_effect).filter(|(word, _)| start <= word.span[0] && word.span[0] < end).peekable();
-    Ok(inside.peek().is_some() && inside.all(|(word, is_effect)| is_effect || ARTICLES.contains(&word.text.as_str())))
+    let is_phrase = |[start, end]: &[usize; 2]| {
+        let is_inside = |word: &Word| (*start..*end).contains(&word.span[0]);
+        let mut inside = words.iter().zip(&is_effect).filter(|(word, _)| is_inside(word)).peekable();
+        let names_effect = |(word, is_effect): (&Word, &bool)| *is_effect || ARTICLES.contains(&word.text.as_str());
+        inside.peek().is_some() && inside.all(names_effect)
+    };
+    Ok(parts.iter().map(is_phrase).collect())
 }
 
 /// The prompt without a dutch angle and the words that lead to it (`with a slight dutch angle`): blanks stand for them,
@@ -100,7 +104,7 @@ pub fn without_slant(prompt: &str) -> Result<Cow<'_, str>, LanguageError> {
     let words = tokenize(prompt);
     let mut blanked = Cow::Borrowed(prompt);
     for found in
-        phrases_in(prompt, &words, &[])?.iter().filter(|found| found.row.names.iter().any(|name| name == SLANT))
+        phrases_in(prompt, &words, &[])?.iter().filter(|found| found.row.names.iter().any(|name| name == DUTCH_ANGLE))
     {
         let leads =
             |at: usize| LEADS_TO_SLANT.contains(&word_at(&words, at)) || ARTICLES.contains(&word_at(&words, at));

@@ -17,7 +17,6 @@ use crate::error::SceneError;
 use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian};
 use crate::source_file::{SourceFile, collected_bytes, read_file};
-use crate::up::UpPrior;
 use accessor::Numbers;
 use cinesplat_files::{base64, json_excess};
 use nodes::Placed;
@@ -116,7 +115,7 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
     let format = format!("gltf ({num_primitives} primitives{spz})");
     let filter = packed.first().and_then(|primitive| primitive.decoded.filter);
     let up = Some((DVec3::Y, "glTF has +y up".to_owned()));
-    Ok(DecodedScene { format, collected, filter, up, up_prior: UpPrior::PlyFrame, further_sha256 })
+    Ok(DecodedScene { format, collected, filter, up, further_sha256 })
 }
 
 fn damaged(source: &SourceFile, reason: impl Into<String>) -> SceneError {

@@ -11,7 +11,6 @@ use crate::error::SceneError;
 use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian, SH_C0};
 use crate::source_file::SourceFile;
-use crate::up::UpPrior;
 
 /// Number of Gaussians per chunk.
 const CHUNK: usize = 256;
@@ -112,7 +111,6 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
         collected,
         filter: comments::filter(&header.comments),
         up: comments::up(&header.comments),
-        up_prior: UpPrior::PlyFrame,
         further_sha256: Vec::new(),
     })
 }

@@ -11,7 +11,6 @@ use crate::filter::SplatFilter;
 use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian, SH_C0};
 use crate::source_file::SourceFile;
-use crate::up::UpPrior;
 
 /// Names of object-id properties in other programs, the most specific first.
 const ID_NAMES: [&str; 9] =
@@ -86,7 +85,6 @@ pub(super) fn read(source: &SourceFile, header: &Header) -> Result<DecodedScene,
         collected,
         filter,
         up: comments::up(&header.comments),
-        up_prior: UpPrior::PlyFrame,
         further_sha256: Vec::new(),
     })
 }

@@ -8,7 +8,6 @@ use super::pictures::PictureFiles;
 use crate::decoded::DecodedScene;
 use crate::error::SceneError;
 use crate::source_file::SourceFile;
-use crate::up::UpPrior;
 
 /// Gaussians of a bundle, which is a zip archive.
 ///
@@ -44,7 +43,6 @@ fn read(
         collected,
         filter: meta.filter,
         up: None,
-        up_prior: UpPrior::PlyFrame,
         further_sha256: files.into_sha256(),
     })
 }

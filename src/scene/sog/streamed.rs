@@ -14,7 +14,6 @@ use crate::error::{SceneError, shown};
 use crate::gaussians::NUM_SH_REST;
 use crate::intake::{Intake, RawGaussian};
 use crate::source_file::{SourceFile, collected_bytes, read_file};
-use crate::up::UpPrior;
 
 /// Deepest tree.
 const MAX_DEPTH: usize = 64;
@@ -157,7 +156,7 @@ fn assemble(
         std::iter::once(name).chain(scene.decoded.further_sha256)
     };
     let further_sha256 = scenes.into_iter().flat_map(named).collect();
-    Ok(DecodedScene { format, collected, filter, up: None, up_prior: UpPrior::PlyFrame, further_sha256 })
+    Ok(DecodedScene { format, collected, filter, up: None, further_sha256 })
 }
 
 /// A SOG of the tree.

@@ -12,7 +12,6 @@ use super::decoded::DecodedScene;
 use super::error::SceneError;
 use super::filter::SplatFilter;
 use super::source_file::SourceFile;
-use super::up::UpPrior;
 use container::Container;
 use flags::{ANTIALIASED, HAS_EXTENSIONS};
 
@@ -40,7 +39,6 @@ pub(super) fn read(source: &SourceFile) -> Result<DecodedScene, SceneError> {
         // A cleared flag states no filter: writers without antialiasing support leave it cleared.
         filter: (header.flags & ANTIALIASED != 0).then_some(SplatFilter::Mip),
         up: found.up,
-        up_prior: UpPrior::Spz,
         further_sha256: Vec::new(),
     })
 }

@@ -71,7 +71,7 @@ pub(super) fn level(sample: &PatchSample, up: DVec3, height: f64) -> DVec3 {
             break;
         }
         let plane = fit_plane(&points);
-        let turned = plane.normal * plane.normal.dot(up).signum();
+        let turned = plane.normal() * plane.normal().dot(up).signum();
         // Patches that do not form a plane (a pole, a ball) keep `up`.
         if turned.dot(up) < APART_COS {
             return up;

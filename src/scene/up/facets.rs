@@ -41,7 +41,7 @@ fn facet(group: &[([i64; 3], DVec3)], side: f64) -> Facet {
     let points: Vec<DVec3> = group.iter().map(|(_, p)| *p).collect();
     let plane = fit_plane(&points);
     let is_planar = plane.thickness < FLATNESS * plane.width && plane.width > MIN_WIDTH * side;
-    Facet { position: plane.middle, normal: if is_planar { plane.normal } else { DVec3::ZERO } }
+    Facet { position: plane.middle, normal: if is_planar { plane.normal() } else { DVec3::ZERO } }
 }
 
 /// A least-squares plane.
@@ -49,12 +49,19 @@ fn facet(group: &[([i64; 3], DVec3)], side: f64) -> Facet {
 pub(super) struct Plane {
     /// Mean of the points.
     pub(super) middle: DVec3,
-    /// Unit normal of arbitrary sign.
-    pub(super) normal: DVec3,
+    /// Principal axes of arbitrary signs, unit: the normal, then those within the plane, the longest last.
+    pub(super) axes: [DVec3; 3],
     /// Standard deviation along the normal.
     pub(super) thickness: f64,
     /// Smaller standard deviation within the plane.
     pub(super) width: f64,
+}
+
+impl Plane {
+    /// Unit normal of arbitrary sign.
+    pub(super) fn normal(&self) -> DVec3 {
+        self.axes[0]
+    }
 }
 
 /// Fits a plane to points; without points it is z = 0.
@@ -70,7 +77,7 @@ pub(super) fn fit_plane(points: &[DVec3]) -> Plane {
     let deviation = |idx: usize| values[idx].max(0.0).sqrt();
     Plane {
         middle,
-        normal: vectors.col(least).normalize_or(DVec3::Z),
+        axes: order.map(|idx| vectors.col(idx).normalize_or(DVec3::Z)),
         thickness: deviation(least),
         width: deviation(second),
     }

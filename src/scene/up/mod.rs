@@ -37,6 +37,12 @@ pub struct UpEstimate {
     pub confidence_percent: u8,
 }
 
+/// The flag that states an up direction, with three decimals.
+pub fn up_flag(up: DVec3) -> String {
+    let [x, y, z] = up.to_array().map(|v| (v * 1e3).round() / 1e3 + 0.0);
+    format!("--up {x},{y},{z}")
+}
+
 /// Confidence below which an estimate is a guess that a person should look at.
 pub const SURE_PERCENT: u8 = 80;
 

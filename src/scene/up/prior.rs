@@ -20,6 +20,11 @@ const TILT_COST_PER_DEGREE: f64 = 1.0 / 18.0;
 pub(super) const AXES: [DVec3; 6] = [DVec3::NEG_Y, DVec3::Y, DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::NEG_X];
 
 impl UpPrior {
+    /// That of a kind of file, by the name of its format, such as `spz v2`.
+    pub(crate) fn of_format(format: &str) -> Self {
+        if format.starts_with("spz") { Self::Spz } else { Self::PlyFrame }
+    }
+
     /// Logarithm of the odds of a coordinate axis relative to the most likely one.
     pub(super) fn of_axis(self, axis: DVec3) -> f64 {
         if self == Self::Any {

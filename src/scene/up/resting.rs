@@ -79,7 +79,7 @@ fn settled(points: &[DVec3], up: DVec3, size: f64) -> DVec3 {
             return climbed(points, up, size);
         }
         let plane = fit_plane(&touching);
-        let turned = plane.normal * plane.normal.dot(settled).signum();
+        let turned = plane.normal() * plane.normal().dot(settled).signum();
         if turned.dot(up) < APART_COS || plane.thickness > 0.4 * plane.width {
             return climbed(points, up, size);
         }
@@ -106,20 +106,6 @@ fn climbed(points: &[DVec3], up: DVec3, size: f64) -> DVec3 {
 /// The principal axes of the patches and their opposites.
 pub(super) fn principal(sample: &PatchSample) -> [DVec3; 6] {
     let points: Vec<DVec3> = sample.patches.iter().map(|patch| patch.position).collect();
-    let plane = fit_plane(&points);
-    let least = plane.normal;
-    let in_plane: Vec<DVec3> =
-        points.iter().map(|p| *p - plane.middle).map(|p| (p - least * p.dot(least)).cross(least)).collect();
-    // Within the plane the longest axis: the direction with the largest second moment.
-    let east = least.any_orthonormal_vector();
-    let north = least.cross(east);
-    let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
-    for p in &in_plane {
-        let (x, y) = (p.dot(east), p.dot(north));
-        (xx, yy, xy) = (xx + x * x, yy + y * y, xy + x * y);
-    }
-    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-    let longest = east * angle.cos() + north * angle.sin();
-    let middle = least.cross(longest);
-    [least, -least, longest, -longest, middle, -middle]
+    let [least, middle, longest] = fit_plane(&points).axes;
+    [least, -least, middle, -middle, longest, -longest]
 }

@@ -10,13 +10,12 @@ use cinesplat::training::corpus::{self, SentenceKind, Split, Writer};
 use cinesplat::training::{Examination, Mentions, Tally, examine};
 use strum::VariantArray;
 
+use super::calibration::{bins, calibration_error};
 use crate::cli::console;
 use crate::cli::failure::Failure;
 use crate::cli::heading;
 use crate::cli::outputs::Overwrite;
 
-/// Bins of the reliability plot.
-const NUM_BINS: usize = 10;
 /// Quantile of the normal distribution of a 95 % interval.
 const Z_95: f64 = 1.96;
 
@@ -166,23 +165,6 @@ fn interval_95(tally: Tally) -> [f64; 2] {
     let middle = (share + Z_95 * Z_95 / (2.0 * n)) / scale;
     let half = Z_95 * (share * (1.0 - share) / n + Z_95 * Z_95 / (4.0 * n * n)).sqrt() / scale;
     [middle - half, middle + half]
-}
-
-/// Per bin of certainty that is not empty: mean probability, share of right steps, number of steps.
-fn bins(certainty: &[(f64, bool)]) -> Vec<(f64, f64, usize)> {
-    let mut sums = [(0.0, 0.0, 0_usize); NUM_BINS];
-    for (probability, is_right) in certainty {
-        let bin = &mut sums[((probability * NUM_BINS as f64) as usize).min(NUM_BINS - 1)];
-        *bin = (bin.0 + probability, bin.1 + f64::from(u8::from(*is_right)), bin.2 + 1);
-    }
-    let filled = sums.into_iter().filter(|(_, _, count)| *count > 0);
-    filled.map(|(sum, right, count)| (sum / count as f64, right / count as f64, count)).collect()
-}
-
-/// Expected calibration error: the mean distance between probability and share over the bins, weighted by their steps.
-fn calibration_error(certainty: &[(f64, bool)]) -> f64 {
-    let distance = |(mean, share, count): (f64, f64, usize)| (mean - share).abs() * count as f64;
-    bins(certainty).into_iter().map(distance).sum::<f64>() / certainty.len().max(1) as f64
 }
 
 /// Share of right steps against their probability, one chart per model and split, for all sentences with found mentions.

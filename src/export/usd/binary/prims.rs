@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::curves::SPLINE;
+use super::super::curves::{SAMPLES, SPLINE};
 use super::super::layer::{MAX_DEPTH, Prim, Value};
 use super::damage::damaged;
 use super::tables::{Spec, Tables};
@@ -91,7 +91,7 @@ fn add_attribute(tables: &Tables<'_>, name: &str, spec: Spec, prim: &mut Prim) -
                 prim.attributes.push((format!("{name}{SPLINE}"), Value::List(Vec::new())));
                 continue;
             }
-            "timeSamples" => format!("{name}.timeSamples"),
+            "timeSamples" => format!("{name}{SAMPLES}"),
             _ => continue,
         };
         prim.attributes.extend(value(tables, bits)?.map(|value| (name, value)));
