@@ -3,6 +3,7 @@ use std::path::PathBuf;
 
 use cinesplat::director::SceneContext;
 use cinesplat::language::{EffectMention, NamedObject, QuantityKind, program_to_notation};
+use cinesplat::lens::other_means;
 use cinesplat::objects::{self, Object, ObjectSet};
 use cinesplat::operator::Program;
 use cinesplat::pipeline::{self, Reading};
@@ -103,7 +104,8 @@ fn text(prompt: &str, reading: &Reading, objects: &ObjectSet) -> String {
     }
     for effect in &reading.effects {
         let forbidden = if effect.is_forbidden { ", forbidden" } else { "" };
-        let _ = writeln!(text, "effect: {} (\"{}\"){forbidden}", effect.call.name, effect.call.because);
+        let means = other_means(&effect.call.name).map_or_else(String::new, |means| format!(": {means}"));
+        let _ = writeln!(text, "effect: {} (\"{}\"){forbidden}{means}", effect.call.name, effect.call.because);
     }
     for problem in &reading.problems {
         let note = if problem.note.is_empty() { String::new() } else { format!(": {}", problem.note) };

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use cinesplat_language::{
-    Linked, Mention, NamedObject, are_effect_phrases, check_prompt, link_mentions, without_frame_shape, without_slant,
+    Linked, Mention, NamedObject, Word, are_effect_phrases, check_prompt, link_mentions, tokenize,
+    without_camera_settings, without_frame_shape,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -90,12 +91,13 @@ impl Director {
     pub fn link(&self, prompt: &str, objects: &[NamedObject]) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
         let prompt = &*without_frame_shape(prompt, objects);
-        let prompt = &*without_slant(prompt)?;
+        let prompt = &*without_camera_settings(prompt)?;
         let found = self.names.mentions(prompt, objects)?;
         let parts: Vec<[usize; 2]> = found.iter().map(|found| found.mention.bytes).collect();
         let are_effects = are_effect_phrases(prompt, &parts)?;
-        // The scene lacks no `bloom`: it is what the lens makes.
-        let is_thing = |(found, is_effect): &(&FoundMention, bool)| !found.mention.ids.is_empty() || !is_effect;
+        // The scene lacks no `bloom`, and the bike is not meant by it either: it is what the lens makes.
+        let is_thing =
+            |(found, is_effect): &(&FoundMention, bool)| !is_effect || has_word_of_name(prompt, found, objects);
         let things = found.iter().zip(are_effects).filter(is_thing);
         let mentions: Vec<Mention> = things.map(|(found, _)| found.mention.clone()).collect();
         let mut linked = link_mentions(prompt, &mentions)?;
@@ -166,6 +168,14 @@ impl Director {
         direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)
     }
+}
+
+/// Whether a mention and the label of one of its objects have a word in common.
+fn has_word_of_name(prompt: &str, found: &FoundMention, objects: &[NamedObject]) -> bool {
+    let Mention { bytes: [start, end], ids } = &found.mention;
+    let said = tokenize(prompt.get(*start..*end).unwrap_or_default());
+    let is_said = |word: Word| word.is_alphabetic() && said.iter().any(|said| said.stem == word.stem);
+    objects.iter().any(|object| ids.contains(&object.id) && tokenize(&object.label).into_iter().any(is_said))
 }
 
 /// The program and the cameras of decoded keys.

@@ -12,9 +12,9 @@ pub enum VerbForm {
 }
 
 /// Verbs that double their last letter before `-ing`.
-const DOUBLED: [&str; 22] = [
+const DOUBLED: [&str; 24] = [
     "pan", "zip", "whip", "cut", "get", "begin", "stop", "drop", "dip", "spin", "put", "sit", "run", "step", "slip",
-    "snap", "tip", "skim", "jog", "let", "nod", "set",
+    "snap", "tip", "skim", "jog", "let", "nod", "set", "blur", "fog",
 ];
 
 /// Least letters of the base of an inflected word.
@@ -65,6 +65,14 @@ fn gerund(verb: &str) -> String {
         Some(base) if !base.ends_with(['e', 'o', 'y']) && base.len() > 1 => format!("{base}ing"),
         _ => format!("{verb}ing"),
     }
+}
+
+/// A word and the words that its endings make: `blur`, `blurs`, `blurring`, `blurred`, `blurry`.
+pub(crate) fn forms(base: &str) -> Vec<String> {
+    let gerund = gerund(base);
+    let root = gerund.strip_suffix("ing").unwrap_or(base);
+    let ended = ["ed", "y", "ier", "iness"].map(|ending| format!("{root}{ending}"));
+    [base.to_owned(), third_person(base), gerund.clone()].into_iter().chain(ended).collect()
 }
 
 /// The singular of an English noun, by its ending. Equal words always have equal stems; the stem of another word

@@ -104,7 +104,7 @@ mod tokenizer;
 mod unknown;
 
 pub use edit_distance::edit_distance;
-pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_slant};
+pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
 pub use error::LanguageError;
 pub use frame_shape::{FrameShape, frame_shape, without_frame_shape};
 pub use inflection::{VerbForm, inflect, stem};

@@ -60,6 +60,19 @@ pub enum UnmetReason {
     Replaced(&'static str, &'static str),
     /// The request is not an effect of the camera.
     NotAnEffect,
+    /// Something else than an effect does it, in these words.
+    OtherMeans(&'static str),
+}
+
+/// Requests that no effect meets, each with what does.
+const OTHER_MEANS: [(&str, &str); 2] = [
+    ("exr", "the name of the output asks for it: -o frames/%05d.exr"),
+    ("dither", "pictures with soft light are dithered in any case"),
+];
+
+/// What meets a request that is no effect of the camera, such as `exr`.
+pub fn other_means(name: &str) -> Option<&'static str> {
+    OTHER_MEANS.iter().find(|(known, _)| *known == name).map(|(_, means)| *means)
 }
 
 impl Called {
@@ -71,7 +84,8 @@ impl Called {
         }
         called.settle();
         let others = calls.calls.iter().filter(|call| !is_known(&call.name));
-        called.unmet.extend(others.map(|call| Unmet { call: call.clone(), reason: UnmetReason::NotAnEffect }));
+        let reason = |call: &Call| other_means(&call.name).map_or(UnmetReason::NotAnEffect, UnmetReason::OtherMeans);
+        called.unmet.extend(others.map(|call| Unmet { call: call.clone(), reason: reason(call) }));
         called
     }
 
@@ -126,6 +140,7 @@ impl Unmet {
             UnmetReason::Replaced(by, why) => format!("left out, {by} takes its place: {why}"),
             UnmetReason::DoesNothing => "left out, its settings do nothing".to_owned(),
             UnmetReason::NotAnEffect => "not an effect of the camera, rendered without it".to_owned(),
+            UnmetReason::OtherMeans(means) => format!("no effect, {means}"),
         };
         format!("{name} requested by '{because}': {reason}")
     }

@@ -70,7 +70,7 @@ pub use anamorphic::Anamorphic;
 pub use background::Background;
 pub use bloom::Bloom;
 pub use budget::{Budget, Loss, MAX_SAMPLES};
-pub use called::{Called, CalledEffect, Unmet, UnmetReason};
+pub use called::{Called, CalledEffect, Unmet, UnmetReason, other_means};
 pub use calls::{Call, Calls, Degree, Source};
 pub use choice::{EffectChoice, UnknownEffect};
 pub use chromatic_aberration::ChromaticAberration;

@@ -16,31 +16,42 @@ use super::seen::FrameFacts;
 /// two strips below the budget of the quality.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingShutter {
-    /// Time from the first row to the last over the time of a frame.
+    /// Time from the first row to the last over the time of a frame, where no time in seconds is stated.
     pub readout: f64,
+    /// The stated time from the first row to the last.
+    pub readout_secs: Option<f64>,
 }
 
 impl RollingShutter {
+    /// Time from the first row of a frame to the last; a frame is read before the next one begins.
+    fn readout_secs_of(self, moment: &Moment<'_>) -> f64 {
+        self.readout_secs.unwrap_or(self.readout * moment.frame_secs()).min(moment.frame_secs())
+    }
+
     /// When the first row and the last of a moment are exposed, seconds; both on the moment's side of a cut.
     fn read_secs(self, moment: &Moment<'_>) -> [f64; 2] {
-        let half = 0.5 * self.readout * moment.frame_secs();
+        let half = 0.5 * self.readout_secs_of(moment);
         moment.take.optics.uncut(moment.time_secs, [moment.time_secs - half, moment.time_secs + half])
     }
 }
 
 impl EffectKind for RollingShutter {
     const NAME: &'static str = "rolling-shutter";
-    const SETTINGS: &'static [&'static str] = &["readout"];
+    const SETTINGS: &'static [&'static str] = &["readout", "readout_ms"];
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
         let readout = call.setting_or("readout", [0.35, 0.7, 1.0]).clamp(0.0, 1.0);
-        (readout > 0.0).then_some(Self { readout })
+        let readout_secs = call.setting("readout_ms").map(|millis| 1e-3 * millis);
+        (readout_secs.unwrap_or(readout) > 0.0).then_some(Self { readout, readout_secs })
     }
 }
 
 impl Effect for RollingShutter {
     fn settings(&self) -> Vec<(&'static str, f64)> {
-        vec![("readout", self.readout)]
+        match self.readout_secs {
+            Some(secs) => vec![("readout_ms", 1e3 * secs)],
+            None => vec![("readout", self.readout)],
+        }
     }
 
     fn measure(&self) -> (&'static str, &'static str) {
@@ -69,7 +80,7 @@ impl Effect for RollingShutter {
             let [first, end] =
                 [strip, strip + 1].map(|strip| (u64::from(whole.height) * u64::from(strip) / u64::from(strips)) as u32);
             let middle = 0.5 * (f64::from(first) + f64::from(end)) / f64::from(whole.height) - 0.5;
-            let read = moment.time_secs + middle * self.readout * moment.frame_secs();
+            let read = moment.time_secs + middle * self.readout_secs_of(moment);
             let then = moment.at(read.clamp(from, to));
             let own = then.camera.intrinsics;
             let intrinsics = Intrinsics { height: end - first, cy_px: own.cy_px - f64::from(first), ..own };

@@ -60,3 +60,21 @@ fn where_a_thing_is_says_no_way_past_it() {
     let program = director.direct(&linked, &context).unwrap().program;
     assert_eq!((program.steps[0].movement, program.steps[0].via.as_ref()), (Move::PushIn, None));
 }
+
+#[test]
+fn film_grain_is_no_bench() {
+    let director = Director::embedded().unwrap();
+    let linked = |label: &str, prompt: &str| {
+        director.link(prompt, &[NamedObject { id: 1, label: label.to_owned() }]).unwrap().tokens_text
+    };
+    let text = linked("bench", "Truck along the bench with film grain, but no motion blur");
+    assert_eq!(text, "truck along <obj-0> with film grain , but no motion blur");
+    assert!(linked("green screen", "orbit the green screen").contains("<obj-0>"));
+}
+
+#[test]
+fn a_number_of_the_shutter_is_no_amount_of_a_move() {
+    let director = Director::embedded().unwrap();
+    let linked = director.link("orbit the vase with a 180 degree shutter, 35mm film grain", &[]).unwrap();
+    assert_eq!(linked.quantities, []);
+}

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat::language::{are_effect_phrases, effect_mentions, link, without_slant};
+use cinesplat::language::{are_effect_phrases, effect_mentions, link, without_camera_settings};
 use cinesplat::lens::Degree::{Medium, Slight, Strong};
 use cinesplat::lens::is_known;
 
@@ -11,6 +11,10 @@ use cinesplat::lens::is_known;
 const LEAST: f64 = 0.95;
 /// The same of sentences that were written before the table of phrases was last changed, and were not looked at since.
 const LEAST_FRESH: f64 = 0.8;
+
+/// Least share of the sentences of six voices that call for exactly the right set, and of variations on them.
+const LEAST_VOICES: f64 = 0.97;
+const LEAST_VARIATIONS: f64 = 0.95;
 
 type Names = BTreeSet<String>;
 
@@ -45,6 +49,35 @@ fn check(sentences: &str, least: f64) {
     assert!(total >= 60 && right as f64 >= least * total as f64, "{right} of {total}\n{}", missed.join("\n"));
 }
 
+/// Checks lines of a sentence and the effects that it calls for, requests that are none included.
+fn check_table(lines: &str, least: f64) {
+    let (mut right, mut missed) = (0, Vec::new());
+    for line in lines.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        let (prompt, wanted) = line.split_once('\t').unwrap();
+        let wanted: Names = wanted.split(',').filter(|name| !name.is_empty()).map(str::to_owned).collect();
+        let mentions = effect_mentions(prompt, &link(prompt, &[]).unwrap_or_default()).unwrap();
+        let called = mentions.into_iter().filter(|mention| !mention.is_forbidden).map(|mention| mention.call.name);
+        let got: Names = called.collect();
+        if wanted == got { right += 1 } else { missed.push(format!("{prompt}: {wanted:?}, read {got:?}")) }
+    }
+    let total = right + missed.len();
+    assert!(total >= 200 && right as f64 >= least * total as f64, "{right} of {total}\n{}", missed.join("\n"));
+}
+
+#[test]
+fn six_voices_call_for_exactly_the_right_effects() {
+    check_table(include_str!("voices.tsv"), LEAST_VOICES);
+    check_table(include_str!("variations.tsv"), LEAST_VARIATIONS);
+}
+
+#[test]
+fn a_whip_pan_without_blur_stays_without_it_in_any_order() {
+    for prompt in ["no motion blur, whip pan to the door", "whip pan to the door, no motion blur"] {
+        assert_eq!(read(prompt), [Names::new(), Names::from(["motion-blur".to_owned()])], "{prompt}");
+    }
+    assert_eq!(read("whip pan to the door")[0], Names::from(["motion-blur".to_owned()]));
+}
+
 #[test]
 fn words_that_only_look_like_an_effect_call_for_none() {
     for prompt in [
@@ -62,6 +95,13 @@ fn words_that_only_look_like_an_effect_call_for_none() {
         "flowers in full bloom, crane down",
         "the bright lamp on the table",
         "shift our attention to the window",
+        "from the server rack to the desk",
+        "t=3 s pass between the posts",
+        "start at the grainy old wood table",
+        "a smear of paint on the wall, push in",
+        "make the toy train look life size",
+        "blow out the candles",
+        "hold it at the end",
     ] {
         assert_eq!(read(prompt), [Names::new(), Names::new()], "{prompt}");
     }
@@ -74,13 +114,16 @@ fn flares_off_a_window_are_wanted() {
 }
 
 #[test]
-fn a_dutch_angle_is_no_move_and_leaves_every_other_byte_where_it_is() {
-    let without = |prompt: &'static str| without_slant(prompt).unwrap();
+fn what_sets_the_camera_is_no_move_and_leaves_every_other_byte_where_it_is() {
+    let without = |prompt: &'static str| without_camera_settings(prompt).unwrap();
     let prompt = "orbit it with a slight dutch angle, then pull back";
     let blank = " ".repeat("with a slight dutch angle,".len());
     assert_eq!(without(prompt), format!("orbit it {blank} then pull back"));
     assert_eq!(without("dutch angle"), "dutch angle");
     assert_eq!(without("roll into a dutch angle"), "roll into a dutch angle");
+    assert_eq!(without("orbit it with a 180 degree shutter").trim_end(), "orbit it");
+    assert_eq!(without("35mm film grain, push in").trim_start(), ", push in");
+    assert_eq!(without("orbit it 180 degrees on a 35 mm lens"), "orbit it 180 degrees on a 35 mm lens");
     assert!(are_effect_phrases("push in with bloom", &[[13, 18]]).unwrap()[0]);
     assert!(!are_effect_phrases("push in with Bob", &[[13, 16]]).unwrap()[0]);
 }
@@ -95,6 +138,12 @@ fn negations_reach_as_far_as_they_say() {
     assert_eq!(said("crisp, no blur"), ["", "depth-of-field motion-blur"]);
     assert_eq!(said("film grain yes, flares no"), ["film-grain", "lens-flare"]);
     assert_eq!(said("locked off on a tripod"), ["", "handheld"]);
+    assert_eq!(said("lens distortion and vignetting corrected"), ["", "lens-distortion vignette"]);
+    assert_eq!(said("lose the vignette and the lens flares"), ["", "lens-flare vignette"]);
+    assert_eq!(said("motion blur and a bit of vignette but no grain"), ["motion-blur vignette", "film-grain"]);
+    assert_eq!(said("the lens distortion goes on in Nuke"), ["", "lens-distortion"]);
+    assert_eq!(said("no cuts, slow push in with bloom"), ["bloom", ""]);
+    assert_eq!(said("without blur of movement"), ["", "motion-blur"]);
 }
 
 #[test]
@@ -107,6 +156,14 @@ fn phrases_state_settings_and_degrees() {
     assert_eq!(setting("pan right, 180 degree shutter", "shutter_angle_deg"), Some(180.0));
     assert_eq!(setting("two stops under, orbit", "stops"), Some(-2.0));
     assert_eq!(setting("-1 ev, orbit", "stops"), Some(-1.0));
+    assert_eq!(setting("overexpose by a stop and a half", "stops"), Some(1.5));
+    assert_eq!(setting("lift the exposure 0.7 of a stop", "stops"), Some(0.7));
+    assert_eq!(setting("expose half a stop under", "stops"), Some(-0.5));
+    assert_eq!(setting("EV -1, slow pan right", "stops"), Some(-1.0));
+    assert_eq!(setting("dolly in at T1.4", "f_stop"), Some(1.4));
+    assert_eq!(setting("motion blur at 1/15 s", "shutter_speed"), Some(15.0));
+    assert_eq!(setting("jello of a 20 ms sensor readout", "readout_ms"), Some(20.0));
+    assert_eq!(setting("barrel distortion, k1 around -0.1", "k1"), Some(-0.1));
     let degree = |prompt: &str| effect_mentions(prompt, &link(prompt, &[]).unwrap()).unwrap()[0].call.degree;
     assert_eq!(["a bit of fog", "fog", "very thick fog"].map(degree), [Slight, Medium, Strong]);
 }

@@ -3,6 +3,7 @@
 //! Enters: the words of a prompt, and which of them name objects. Leaves: the mentions of effects in order, each with its
 //! degree, its settings and whether it is forbidden. `prompts/effects.txt` holds the phrases.
 
+mod item;
 mod lookalike;
 mod phrase;
 mod row;
@@ -20,14 +21,14 @@ use super::tokenizer::{Word, span_of, tokenize, word_at};
 use lookalike::is_lookalike;
 use phrase::Found;
 use row::Meaning;
-use scope::{degree_of, forbidden};
-use table::Table;
+use scope::{Context, degree_of, forbidden};
+use table::{Table, WordKind};
 
 /// Name of the slanted horizon in the table and in [`EffectMention::call`].
 pub const DUTCH_ANGLE: &str = "dutch-angle";
 const ARTICLES: [&str; 3] = ["a", "an", "the"];
-/// Words that may stand before a dutch angle and say nothing else.
-const LEADS_TO_SLANT: [&str; 8] = ["with", "at", "using", "add", "slight", "subtle", "strong", "heavy"];
+/// Words that may stand before a dutch angle or a number of the camera and say nothing else.
+const LEADS_TO_SETTING: [&str; 8] = ["with", "at", "using", "add", "slight", "subtle", "strong", "heavy"];
 
 /// A mention in a prompt of an effect, or of another request that no camera move can meet.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,17 +54,15 @@ pub fn effect_mentions(prompt: &str, linked: &Linked) -> Result<Vec<EffectMentio
         placeholders.filter(|(word, _)| word.starts_with(OBJECT)).map(|(_, span)| *span).collect();
     let phrases = phrases_in(prompt, &words, &objects)?;
     let mut mentions: Vec<EffectMention> = Vec::new();
-    let is_negated = forbidden(Table::embedded()?, &words, &phrases);
-    for (at, found) in phrases.iter().enumerate() {
+    let is_negated = forbidden(Context { table: Table::embedded()?, words: &words, phrases: &phrases });
+    let (strong, weak): (Vec<_>, Vec<_>) =
+        phrases.iter().enumerate().partition(|(_, found)| found.row.meaning != Meaning::Suggests);
+    for (at, found) in strong.into_iter().chain(weak) {
         for mention in mentions_of(prompt, &words, (found, is_negated[at]), &phrases)? {
-            let known = mentions.iter_mut().find(|known| known.call.name == mention.call.name);
-            match known {
-                Some(known) if known.is_forbidden != mention.is_forbidden => *known = mention,
-                Some(known) => merge(known, mention),
-                None => mentions.push(mention),
-            }
+            add(&mut mentions, mention, found.row.meaning == Meaning::Suggests);
         }
     }
+    mentions.sort_by_key(|mention| mention.span);
     Ok(mentions)
 }
 
@@ -71,55 +70,80 @@ pub fn effect_mentions(prompt: &str, linked: &Linked) -> Result<Vec<EffectMentio
 pub(crate) fn effect_words(prompt: &str, words: &[Word]) -> Result<Vec<bool>, LanguageError> {
     let mut is_effect = vec![false; words.len()];
     for found in phrases_in(prompt, words, &[])? {
-        if matches!(found.row.meaning, Meaning::Calls | Meaning::Forbids | Meaning::ForbidsIfNegated) {
+        if matches!(
+            found.row.meaning,
+            Meaning::Calls | Meaning::Suggests | Meaning::Forbids | Meaning::ForbidsIfNegated
+        ) {
             is_effect[found.start..found.start + found.len].fill(true);
         }
     }
     Ok(is_effect)
 }
 
-/// Which of some parts of a prompt, in bytes, hold nothing but a phrase for an effect: `bloom` in `push in with bloom`.
+/// Which of some parts of a prompt, in bytes, hold nothing but phrases for effects: `bloom` in `push in with bloom`, `a bit of
+/// vignette`.
 ///
 /// # Errors
 /// Those of [`effect_mentions`].
 pub fn are_effect_phrases(prompt: &str, parts: &[[usize; 2]]) -> Result<Vec<bool>, LanguageError> {
     let words = tokenize(prompt);
     let is_effect = effect_words(prompt, &words)?;
+    let table = Table::embedded()?;
+    let says_how_much = |word: &str| [WordKind::Slight, WordKind::Strong].iter().any(|kind| table.lists(*kind, word));
     let is_phrase = |[start, end]: &[usize; 2]| {
         let is_inside = |word: &Word| (*start..*end).contains(&word.span[0]);
         let mut inside = words.iter().zip(&is_effect).filter(|(word, _)| is_inside(word)).peekable();
-        let names_effect = |(word, is_effect): (&Word, &bool)| *is_effect || ARTICLES.contains(&word.text.as_str());
-        inside.peek().is_some() && inside.all(names_effect)
+        let names_effect = |(word, is_effect): (&Word, &bool)| {
+            let word = word.text.as_str();
+            *is_effect
+                || ARTICLES.contains(&word)
+                || matches!(word, "of" | "and" | "or" | "," | "with")
+                || says_how_much(word)
+        };
+        let effect = words.iter().zip(&is_effect).any(|(word, is_effect)| *is_effect && is_inside(word));
+        inside.peek().is_some() && effect && inside.all(names_effect)
     };
     Ok(parts.iter().map(is_phrase).collect())
 }
 
-/// The prompt without a dutch angle and the words that lead to it (`with a slight dutch angle`): blanks stand for them,
-/// so that every other byte stays where it is. The slant is no move of its own. A prompt that says nothing else stays
-/// as it is, and so does a camera that leans over (`roll into a dutch angle`).
+/// The prompt without what only sets the camera: a dutch angle and the words that lead to it (`with a slight dutch angle`),
+/// and the numbers of lens, shutter and film (`with a 180 degree shutter`, `at f/2`, `35 mm film grain`), which are none of a
+/// move. Blanks stand for them, so that every other byte stays where it is. A prompt that says nothing else stays as it is,
+/// and so does a camera that leans over (`roll into a dutch angle`).
 ///
 /// # Errors
 /// Those of [`effect_mentions`].
-pub fn without_slant(prompt: &str) -> Result<Cow<'_, str>, LanguageError> {
+pub fn without_camera_settings(prompt: &str) -> Result<Cow<'_, str>, LanguageError> {
     let words = tokenize(prompt);
     let mut blanked = Cow::Borrowed(prompt);
-    for found in
-        phrases_in(prompt, &words, &[])?.iter().filter(|found| found.row.names.iter().any(|name| name == DUTCH_ANGLE))
-    {
-        let leads =
-            |at: usize| LEADS_TO_SLANT.contains(&word_at(&words, at)) || ARTICLES.contains(&word_at(&words, at));
-        let num_before = (0..found.start).rev().take_while(|at| leads(*at)).count();
-        let first = found.start - num_before;
-        if first.checked_sub(1).is_some_and(|before| matches!(word_at(&words, before), "to" | "into" | "no" | "not")) {
+    for found in phrases_in(prompt, &words, &[])? {
+        let is_slant = found.row.names.iter().any(|name| name == DUTCH_ANGLE);
+        if !is_slant && !states_number(&words, &found) {
             continue;
         }
-        let end = found.start + found.len;
-        let end = end + usize::from(matches!(word_at(&words, end), ":" | ","));
+        let leads =
+            |at: usize| LEADS_TO_SETTING.contains(&word_at(&words, at)) || ARTICLES.contains(&word_at(&words, at));
+        let num_before = (0..found.start).rev().take_while(|at| leads(*at)).count();
+        let first = found.start - num_before;
+        let before = first.checked_sub(1).map_or("", |before| word_at(&words, before));
+        if is_slant && matches!(before, "to" | "into" | "no" | "not") {
+            continue;
+        }
+        let end = found.end() + usize::from(is_slant && matches!(word_at(&words, found.end()), ":" | ","));
         let [start, end] = span_of(&words[first..end]);
         blanked.to_mut().replace_range(start..end, &" ".repeat(end - start));
     }
     let says_more = blanked.contains(char::is_alphanumeric);
     Ok(if says_more { blanked } else { Cow::Borrowed(prompt) })
+}
+
+/// Whether a phrase states a number of the camera that is none of a move.
+fn states_number(words: &[Word], found: &Found<'_>) -> bool {
+    let is_of_camera =
+        matches!(found.row.meaning, Meaning::Calls | Meaning::Suggests | Meaning::Forbids) && !found.spans;
+    let has_digits =
+        || words[found.start..found.end()].iter().any(|word| word.text.starts_with(|c: char| c.is_ascii_digit()));
+    is_of_camera && (found.number.is_some() || has_digits())
 }
 
 /// The phrases of the table in a prompt, without those that only look like an effect.
@@ -132,7 +156,7 @@ fn phrases_in<'a>(prompt: &str, words: &[Word], objects: &[[usize; 2]]) -> Resul
             at += 1;
             continue;
         };
-        at += found.len;
+        at += if found.spans { 1 } else { found.len };
         if found.row.meaning != Meaning::Nothing && !is_lookalike(words, &found, objects, lexicon) {
             phrases.push(found);
         }
@@ -149,9 +173,10 @@ fn mentions_of(
 ) -> Result<Vec<EffectMention>, LanguageError> {
     let is_forbidden = match found.row.meaning {
         Meaning::Calls => is_negated,
+        Meaning::Suggests if !is_negated => false,
         Meaning::Forbids if !is_negated => true,
         Meaning::ForbidsIfNegated if is_negated => true,
-        Meaning::Forbids | Meaning::ForbidsIfNegated | Meaning::Nothing => return Ok(Vec::new()),
+        Meaning::Suggests | Meaning::Forbids | Meaning::ForbidsIfNegated | Meaning::Nothing => return Ok(Vec::new()),
     };
     let span = span_of(&words[found.start..found.start + found.len]);
     let because = prompt.get(span[0]..span[1]).unwrap_or_default().to_lowercase();
@@ -166,6 +191,15 @@ fn mentions_of(
         EffectMention { call, is_forbidden, span }
     });
     Ok(mentions.collect())
+}
+
+/// Adds a mention to those of other phrases; one that only suggests its effect contradicts none.
+fn add(mentions: &mut Vec<EffectMention>, mention: EffectMention, suggests: bool) {
+    match mentions.iter_mut().find(|known| known.call.name == mention.call.name) {
+        Some(known) if !suggests && known.is_forbidden != mention.is_forbidden => *known = mention,
+        Some(known) => merge(known, mention),
+        None => mentions.push(mention),
+    }
 }
 
 /// Adds what a second mention of the same effect says: settings and degree.

@@ -5,6 +5,8 @@
 pub(super) enum Meaning {
     /// It calls for its effects; negated it forbids them.
     Calls,
+    /// It calls for its effects unless other words forbid them.
+    Suggests,
     /// It forbids its effects.
     Forbids,
     /// Negated it forbids its effects.
@@ -23,7 +25,7 @@ pub(super) struct Row {
     pub(super) settings: Vec<(String, Option<f64>, f64)>,
 }
 
-/// The meaning of the part of a line before its colon: `-NAME NAME x=1 y=-#`.
+/// The meaning of the part of a line before its colon: `-NAME -NAME x=1 y=-#`.
 ///
 /// # Errors
 /// A reason for a setting without a number.
@@ -40,6 +42,7 @@ pub(super) fn row_of(head: &str) -> Result<Row, &'static str> {
         }
         let (meaning, name) = match part.split_at(1) {
             ("!", "") => (Meaning::Nothing, ""),
+            ("~", name) => (Meaning::Suggests, name),
             ("-", name) => (Meaning::Forbids, name),
             ("?", name) => (Meaning::ForbidsIfNegated, name),
             _ => (Meaning::Calls, part),

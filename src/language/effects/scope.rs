@@ -8,93 +8,173 @@ use crate::tokenizer::{Word, word_at};
 
 /// Words before a phrase among which its degree is looked for.
 const DEGREE_REACH: usize = 4;
+/// Words between a phrase and the word behind it that forbids it.
+const AFTER_REACH: usize = 6;
+/// Words that a negation covers although no list names them: `no cheesy eighties grain`.
+const MAX_STRANGERS: usize = 2;
 /// Words that join what one negation covers.
 const JOINTS: [&str; 5] = ["or", "nor", "and", ",", "/"];
 
+/// What a negation covers.
+#[derive(Debug, Clone, Copy)]
+struct Scope {
+    /// The word that it began with.
+    start: usize,
+    /// Number of words since then that no list names.
+    strangers: usize,
+}
+
+impl Scope {
+    fn from(start: usize) -> Self {
+        Self { start, strangers: 0 }
+    }
+}
+
+/// The words of a prompt and the phrases in them.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub(super) table: &'a Table,
+    pub(super) words: &'a [Word],
+    pub(super) phrases: &'a [Found<'a>],
+}
+
 /// Whether each phrase is forbidden by the words around it.
-pub(super) fn forbidden(table: &Table, words: &[Word], phrases: &[Found<'_>]) -> Vec<bool> {
+pub(super) fn forbidden(context: Context<'_>) -> Vec<bool> {
+    let Context { words, phrases, .. } = context;
     let mut result = vec![false; phrases.len()];
-    let mut scope: Option<usize> = None;
+    let mut scope: Option<Scope> = None;
     let mut at = 0;
     while at < words.len() {
-        if let Some(idx) = phrases.iter().position(|found| found.start == at) {
-            let end = at + phrases[idx].len;
-            result[idx] = scope.is_some() != is_forbidden_after(words, end);
-            at = end;
-            scope = scope.filter(|start| goes_on(words, (end, *start), phrases));
+        if let Some(idx) = phrases.iter().position(|found| found.start == at && !found.spans) {
+            at = phrases[idx].end();
+            let after = context.is_forbidden_after(at);
+            result[idx] |= scope.is_some() != after;
+            if after && scope.is_none() {
+                context.forbid_list_before(idx, &mut result);
+            }
+            scope = scope.filter(|scope| context.goes_on(at, scope.start));
             continue;
         }
-        scope = next_scope(table, words, at, scope);
+        scope = context.next_scope(at, scope);
         at += 1;
     }
     result
 }
 
-/// The word that a negation began with, if it still covers what follows word `at`.
-fn next_scope(table: &Table, words: &[Word], at: usize, scope: Option<usize>) -> Option<usize> {
-    let word = word_at(words, at);
-    let follows = |k: usize| word_at(words, at + k);
-    match word {
-        // `no, wait`; `not only`; `no more than a touch of`; `not just`.
-        "no" | "not" | "never" if matches!(follows(1), "," | "." | "only" | "just" | "!" | "longer") => None,
-        "no" if follows(1) == "more" && follows(2) == "than" => None,
-        "instead" | "rather" if matches!(follows(1), "of" | "than") => Some(at),
-        "free" if matches!(follows(1), "of" | "from") => Some(at),
-        "turn" | "switch" if follows(1) == "off" => Some(at),
-        "get" if follows(1) == "rid" => Some(at),
-        "of" | "than" | "from" | "off" | "rid" if scope.is_some() => scope,
-        _ if scope.is_some() && table.lists(WordKind::TakesBack, word) => None,
-        _ if scope.is_some() && table.lists(WordKind::Moderates, word) => None,
-        _ if table.lists(WordKind::Negation, word) => Some(at),
-        _ if table.lists(WordKind::Filler, word) || JOINTS.contains(&word) || word.starts_with('\'') || word == "t" => {
-            scope
-        }
-        _ if table.lists(WordKind::Slight, word) || table.lists(WordKind::Strong, word) => scope,
-        _ => None,
+impl Context<'_> {
+    fn word(&self, at: usize) -> &str {
+        word_at(self.words, at)
     }
-}
 
-/// Whether a negation that covered a phrase goes on behind it: `no grain, vignette or flares`, `without fog and haze`.
-fn goes_on(words: &[Word], (end, start): (usize, usize), phrases: &[Found<'_>]) -> bool {
-    let joint = word_at(words, end);
-    let begins = |at: usize| phrases.iter().find(|found| found.start == at);
-    match joint {
-        "or" | "nor" | "/" => true,
-        // `no blur and shallow focus` asks for focus; `without blur and grain` forbids both.
-        "and" => word_at(words, start) != "no" && begins(end + 1).is_some(),
-        "," => {
-            let next =
-                begins(end + 1).or_else(|| begins(end + 2).filter(|_| matches!(word_at(words, end + 1), "or" | "nor")));
-            let after = |found: &Found<'_>| found.start + found.len;
-            // Only a list that ends in `or` is one.
-            next.is_some_and(|found| {
-                found.start == end + 2
-                    || matches!(word_at(words, after(found)), "or" | "nor")
-                    || word_at(words, after(found)) == "," && goes_on(words, (after(found), start), phrases)
-            })
-        }
-        _ => false,
+    fn lists(&self, kind: WordKind, at: usize) -> bool {
+        self.table.lists(kind, self.word(at))
     }
-}
 
-/// Whether the words after a phrase forbid it: `grain off`, `blur-free`, `motion blur: none`.
-fn is_forbidden_after(words: &[Word], end: usize) -> bool {
-    let skip = usize::from(matches!(word_at(words, end), "is" | ":" | "=" | "should" | "must" | "set"));
-    let first = word_at(words, end + skip);
-    let second = word_at(words, end + skip + 1);
-    // `grain yes, flares no`.
-    let ends = !second.starts_with(|c: char| c.is_alphanumeric());
-    if skip == 0 && first == "no" && ends {
-        return true;
+    fn phrase_from(&self, at: usize) -> Option<&Found<'_>> {
+        self.phrases.iter().find(|found| found.start == at)
     }
-    // `flares off the window` come from there.
-    let is_origin =
-        matches!(first, "off" | "free") && matches!(second, "the" | "a" | "an" | "of" | "its" | "that" | "every");
-    !is_origin && matches!(first, "off" | "free" | "disabled" | "removed" | "none" | "zero")
-        || matches!(
-            (first, second),
-            ("turned" | "switched" | "be" | "to", "off" | "zero") | ("not", "wanted" | "needed")
-        )
+
+    /// What covers the words after word `at`.
+    fn next_scope(&self, at: usize, scope: Option<Scope>) -> Option<Scope> {
+        let word = self.word(at);
+        let follows = |k: usize| self.word(at + k);
+        match word {
+            // `no, wait`; `not only`; `no more than a touch of`; `not just`.
+            "no" | "not" | "never" if matches!(follows(1), "," | "." | "only" | "just" | "!" | "longer") => None,
+            "no" if follows(1) == "more" && follows(2) == "than" => None,
+            "zero" if matches!(follows(1), "point" | "s" | "sec" | "second" | "seconds" | "degree" | "degrees") => None,
+            "instead" | "rather" if matches!(follows(1), "of" | "than") => Some(Scope::from(at)),
+            "free" | "clean" | "clear" | "devoid" if matches!(follows(1), "of" | "from") => Some(Scope::from(at)),
+            "turn" | "turned" | "switch" | "leave" | "take" if matches!(follows(1), "off" | "out") => {
+                Some(Scope::from(at))
+            }
+            "get" | "getting" if follows(1) == "rid" => Some(Scope::from(at)),
+            "of" | "than" | "from" | "off" | "out" | "rid" if scope.is_some() => scope,
+            _ if scope.is_some() && self.lists(WordKind::TakesBack, at) => None,
+            _ if scope.is_some() && self.lists(WordKind::Moderates, at) => None,
+            _ if self.lists(WordKind::Negation, at) || word == "'t" && follows(1) != "get" => Some(Scope::from(at)),
+            _ if self.lists(WordKind::Closes, at) => None,
+            _ => self.covered(at, scope?),
+        }
+    }
+
+    /// What goes on behind word `at` of all that a negation covers.
+    fn covered(&self, at: usize, scope: Scope) -> Option<Scope> {
+        let word = self.word(at);
+        let is_degree = self.lists(WordKind::Slight, at) || self.lists(WordKind::Strong, at);
+        if is_degree || word.starts_with('\'') {
+            return Some(scope);
+        }
+        if self.lists(WordKind::Filler, at) || JOINTS.contains(&word) {
+            return (scope.strangers == 0 || !matches!(word, "with" | "for" | "and" | ",")).then_some(scope);
+        }
+        let strangers = scope.strangers + 1;
+        (word.starts_with(char::is_alphanumeric) && strangers <= MAX_STRANGERS).then_some(Scope { strangers, ..scope })
+    }
+
+    /// Whether a negation that covered a phrase goes on behind it: `no grain, vignette or flares`, `without fog and haze`.
+    fn goes_on(&self, end: usize, start: usize) -> bool {
+        match self.word(end) {
+            "or" | "nor" | "/" => true,
+            // `no blur and shallow focus` asks for focus; `without blur and grain` forbids both.
+            "and" => self.word(start) != "no" && self.next_phrase(end + 1).is_some(),
+            "," => self.next_phrase(end + 1).is_some_and(|found| {
+                // Only a list that ends in a joint is one.
+                let is_last = |joint: &str| matches!(joint, "or" | "nor") || joint == "and" && self.word(start) != "no";
+                is_last(self.word(end + 1))
+                    || is_last(self.word(found.end()))
+                    || self.word(found.end()) == "," && self.goes_on(found.end(), start)
+            }),
+            _ => false,
+        }
+    }
+
+    /// The phrase from a word on, after a joint and articles.
+    fn next_phrase(&self, from: usize) -> Option<&Found<'_>> {
+        let is_between = |at: &usize| {
+            matches!(self.word(*at), "or" | "nor" | "and" | "the" | "a" | "an" | "any" | "of" | "no")
+                || self.lists(WordKind::Slight, *at)
+                || self.lists(WordKind::Strong, *at)
+        };
+        let begins = |at: usize| self.phrase_from(at);
+        let num = (from..from + 3).take_while(|at| begins(*at).is_none() && is_between(at)).count();
+        begins(from + num)
+    }
+
+    /// Forbids the phrases of a list whose last one is forbidden: `distortion and vignetting removed`.
+    fn forbid_list_before(&self, last: usize, result: &mut [bool]) {
+        for idx in (0..last).rev() {
+            let between = self.phrases[idx].end()..self.phrases[idx + 1].start;
+            let is_joint = |at: usize| matches!(self.word(at), "and" | "or" | "nor" | "/" | "the" | "any" | ",");
+            let is_comma = between.len() == 1 && self.word(between.start) == ",";
+            if between.is_empty() || !between.clone().all(is_joint) || is_comma && idx + 1 == last {
+                return;
+            }
+            result[idx] = true;
+        }
+    }
+
+    /// Whether the words after a phrase forbid it: `grain off`, `blur-free`, `motion blur: none`, `grain is added in post`.
+    fn is_forbidden_after(&self, end: usize) -> bool {
+        let is_end = |at: usize| !self.word(at).starts_with(|c: char| c.is_alphanumeric());
+        // `grain yes, flares no`.
+        if self.word(end) == "no" && is_end(end + 1) {
+            return true;
+        }
+        let between = (end..end + AFTER_REACH).take_while(|at| self.lists(WordKind::Between, *at)).count();
+        let at = end + between;
+        let (first, second) = (self.word(at), self.word(at + 1));
+        // `flares off the window` come from there.
+        let is_origin =
+            matches!(first, "off" | "free") && matches!(second, "the" | "a" | "an" | "of" | "its" | "that" | "every");
+        let is_done =
+            |at: usize| matches!(self.word(at), "done" | "added" | "add" | "goes" | "applied" | "comes" | "do");
+        let is_delayed = matches!(first, "later" | "afterwards" | "afterward") && (end..at).any(is_done);
+        !is_origin && self.lists(WordKind::ForbidsBefore, at)
+            || first == "not" && matches!(second, "wanted" | "needed" | "necessary" | "allowed" | "desired" | "wished")
+            || self.lists(WordKind::Elsewhere, at) && (end..at).any(|at| self.word(at) == "in")
+            || is_delayed
+    }
 }
 
 /// How much of an effect the words before its phrase, or the first word of it, ask for.

@@ -1,8 +1,9 @@
 //! The table of phrases; `prompts/effects.txt` describes its own format.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
+use super::item::{Lists, Text, ways_of};
 use super::phrase::{Found, Part, first_words, match_at, parts_of};
 use super::row::{Row, row_of};
 use crate::error::LanguageError;
@@ -17,6 +18,8 @@ pub(super) struct Phrase {
     parts: Vec<Part>,
     /// Whether it ends in a stuff (`*`).
     is_stuff: bool,
+    /// Whether other phrases may be among its words.
+    spans: bool,
     row: usize,
 }
 
@@ -31,6 +34,16 @@ pub(super) enum WordKind {
     Strong,
     /// Forbids what follows.
     Negation,
+    /// Ends what a negation covers.
+    Closes,
+    /// Forbids the phrase before it: `grain off`.
+    ForbidsBefore,
+    /// Leaves the phrase before it to others: `grain in post`.
+    Elsewhere,
+    /// May stand between a phrase and what forbids it.
+    Between,
+    /// A `..` may stand for it.
+    Loose,
     /// Takes back the negation before it.
     TakesBack,
     /// Makes the negation before it a matter of degree.
@@ -43,6 +56,9 @@ pub(super) enum WordKind {
 #[derive(Debug, Default)]
 pub(super) struct Table {
     words: BTreeMap<WordKind, BTreeSet<String>>,
+    lists: Lists,
+    /// Names of colors, each with the settings that mean it.
+    colors: Vec<(String, String)>,
     rows: Vec<Row>,
     /// Phrases by their first word; those that begin with a number under an empty one.
     phrases: BTreeMap<String, Vec<Phrase>>,
@@ -77,13 +93,33 @@ impl Table {
             self.words.entry(kind).or_default().extend(phrases.split(',').map(|word| word.trim().to_owned()));
             return Ok(());
         }
+        if let Some(name) = head.strip_prefix('$') {
+            let choices: Vec<&str> = phrases.split(',').map(str::trim).collect();
+            let ways = ways_of(&choices.join("|"), &self.lists)?;
+            self.lists.insert(name.to_owned(), Arc::new(ways));
+            return Ok(());
+        }
+        if let Some(name) = head.strip_prefix('%') {
+            self.colors.push((name.to_owned(), phrases.trim().to_owned()));
+            return Ok(());
+        }
+        if !head.contains("%color") {
+            return self.add_row(head, phrases);
+        }
+        for (name, settings) in self.colors.clone() {
+            self.add_row(&head.replace("%color", &settings), &phrases.replace("%color", &name))?;
+        }
+        Ok(())
+    }
+
+    fn add_row(&mut self, head: &str, phrases: &str) -> Result<(), &'static str> {
         let row = self.rows.len();
         self.rows.push(row_of(head)?);
         for text in phrases.split(',').map(str::trim).filter(|text| !text.is_empty()) {
-            let is_stuff = text.ends_with('*');
-            let parts = parts_of(text.trim_end_matches('*'))?;
+            let parts = parts_of(text.trim_end_matches('*'), &self.lists)?;
+            let spans = parts.iter().any(Part::spans);
             for first in first_words(&parts) {
-                let phrase = Phrase { parts: parts.clone(), is_stuff, row };
+                let phrase = Phrase { parts: parts.clone(), is_stuff: text.ends_with('*'), spans, row };
                 self.phrases.entry(first).or_default().push(phrase);
             }
         }
@@ -100,12 +136,14 @@ impl Table {
         let first = words.get(at)?.text.as_str();
         let own = self.phrases.get(first).into_iter().flatten();
         let numbers = self.phrases.get("").into_iter().flatten();
+        let text = Text { prompt, words, loose: self.words.get(&WordKind::Loose)? };
         let mut best: Option<Found<'a>> = None;
         for phrase in own.chain(numbers) {
-            if let Some((len, number)) = match_at(&phrase.parts, (prompt, words), at)
+            if let Some((len, number)) = match_at(&phrase.parts, text, at)
                 && best.as_ref().is_none_or(|best| len > best.len)
             {
-                best = Some(Found { start: at, len, number, is_stuff: phrase.is_stuff, row: &self.rows[phrase.row] });
+                let Phrase { is_stuff, spans, row, .. } = *phrase;
+                best = Some(Found { start: at, len, number, is_stuff, spans, row: &self.rows[row] });
             }
         }
         best
