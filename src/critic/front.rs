@@ -20,14 +20,17 @@ const SIZE_PX: u32 = 96;
 const SOLID: f32 = 0.3;
 /// Weight of brightness beside detail.
 const BRIGHTNESS: f64 = 0.1;
+/// Area of a side over that of the widest one from which it counts fully.
+const WIDE_FRAC: f64 = 0.6;
 /// Worth of the front over the mean of all sides from which a thing has one.
 const LEAST_CONTRAST: f64 = 1.12;
 
 impl Subjects {
     /// The fronts of the subjects that have one: the id of the object, and the level unit direction from its middle.
     ///
-    /// Every thing is rendered alone from 16 sides. Its front is the side with the most detail (change of luminance from
-    /// pixel to pixel) and light, where it stands out from the others: a guitar has strings, its back is plain wood.
+    /// Every thing is rendered alone from 16 sides. Its front is the side with the most detail (change of luminance
+    /// from pixel to pixel) and light, where it stands out from the others: a guitar has strings, its back is plain
+    /// wood.
     ///
     /// # Errors
     /// Those of [`Renderer::render`].
@@ -43,10 +46,14 @@ impl Subjects {
 fn front(subject: &Subject, frame: &LevelFrame) -> Result<Option<DVec3>, RenderError> {
     let renderer = Renderer::new(&subject.cloud);
     let direction = |side: usize| frame.direction(std::f64::consts::TAU * side as f64 / NUM_SIDES as f64);
-    let mut worths = Vec::with_capacity(NUM_SIDES);
+    let mut seen = Vec::with_capacity(NUM_SIDES);
     for side in 0..NUM_SIDES {
-        worths.push(worth(&renderer, subject, direction(side), frame.up)?);
+        seen.push(seen_from(&renderer, subject, direction(side), frame.up)?);
     }
+    // The edge of a guitar is none of its sides, whatever there is to see on it.
+    let widest = seen.iter().map(|[_, area]| *area).fold(0.0, f64::max);
+    let breadth = |area: f64| (area / (WIDE_FRAC * widest).max(1.0)).min(1.0);
+    let worths: Vec<f64> = seen.iter().map(|[worth, area]| worth * breadth(*area)).collect();
     // A side counts with its neighbors: the front is the middle of what is worth seeing.
     let at = |side: usize, by: usize| worths[(side + NUM_SIDES + by - 1) % NUM_SIDES];
     let smooth: Vec<f64> = (0..NUM_SIDES).map(|i| 0.25 * at(i, 0) + 0.5 * at(i, 1) + 0.25 * at(i, 2)).collect();
@@ -55,17 +62,17 @@ fn front(subject: &Subject, frame: &LevelFrame) -> Result<Option<DVec3>, RenderE
     Ok((mean > 0.0 && smooth[best] > LEAST_CONTRAST * mean).then(|| direction(best)))
 }
 
-/// Detail and light of one side, over the pixels that show the thing.
-fn worth(renderer: &Renderer<'_>, subject: &Subject, toward: DVec3, up: DVec3) -> Result<f64, RenderError> {
+/// Detail and light of one side, over the pixels that show the thing, and the number of these pixels.
+fn seen_from(renderer: &Renderer<'_>, subject: &Subject, toward: DVec3, up: DVec3) -> Result<[f64; 2], RenderError> {
     let distance = DISTANCE * subject.radius;
     let eye = subject.center + (toward + up * RISE).normalize_or_zero() * distance;
-    let Ok(pose) = Pose::look_at(eye, subject.center, up, None) else { return Ok(0.0) };
+    let Ok(pose) = Pose::look_at(eye, subject.center, up, None) else { return Ok([0.0; 2]) };
     let intrinsics = Intrinsics::from_fov_y(SIZE_PX, SIZE_PX, FOV_DEG.to_radians());
     let settings = RenderSettings { quality: Quality::Draft, near: 0.01 * distance, ..RenderSettings::default() };
     Ok(shown(&renderer.render(&Camera { pose, intrinsics }, &settings)?))
 }
 
-fn shown(frame: &Frame) -> f64 {
+fn shown(frame: &Frame) -> [f64; 2] {
     let width = frame.width as usize;
     let luminance = |i: usize| picture::luminance([frame.rgb[3 * i], frame.rgb[3 * i + 1], frame.rgb[3 * i + 2]]);
     let is_solid = |i: usize| frame.transmittance[i] < SOLID;
@@ -78,5 +85,5 @@ fn shown(frame: &Frame) -> f64 {
             light += luminance(i);
         }
     }
-    if num > 0.0 { (change + BRIGHTNESS * light) / num } else { 0.0 }
+    [if num > 0.0 { (change + BRIGHTNESS * light) / num } else { 0.0 }, num]
 }

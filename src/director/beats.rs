@@ -38,14 +38,12 @@ pub(crate) fn direct_beats(
         whole.unmet = introduction.unmet;
     }
     let mut lengths = Vec::with_capacity(timeline.beats.len());
+    let is_by_cuts = timeline.beats.iter().skip(1).all(|beat| beat.cut && beat.length.is_none());
     for beat in &timeline.beats {
-        let part = linked.part(beat.bytes, linked.id_of(&subjects));
-        let mut direction = read(&part)?;
-        if let Some(first) = direction.program.steps.first_mut().filter(|first| first.movement == Move::Follow) {
-            let opening = part.tokens_text.split(' ').find(|word| word.starts_with(char::is_alphabetic));
-            if opening.is_some_and(|word| LANDS.contains(&word)) {
-                first.movement = Move::Static;
-            }
+        let mut direction = read_beat(linked, beat, linked.id_of(&subjects), read)?;
+        // `The camera cuts to the vase` has nothing before its cut.
+        if is_by_cuts && (direction.program.steps.is_empty() || says_nothing(linked, beat)) {
+            return read(linked);
         }
         land(&mut whole.program.steps, &direction.program.steps);
         carry_on(&mut direction, &mut subjects);
@@ -76,7 +74,11 @@ pub(crate) fn direct_beats(
         whole.step_cameras.append(&mut direction.step_cameras);
         whole.certainty.append(&mut direction.certainty);
         whole.unmet.append(&mut direction.unmet);
-        lengths.push((first, stated));
+        let is_of_film = is_by_cuts && states_film_length(linked, beat);
+        if is_of_film {
+            whole.program.duration_secs = whole.program.duration_secs.or(stated);
+        }
+        lengths.push((first, stated.filter(|_| !is_of_film)));
     }
     let total_secs = whole.program.duration_secs;
     let mut all_timed = true;
@@ -93,6 +95,61 @@ pub(crate) fn direct_beats(
         whole.program.duration_secs = None;
     }
     Ok(whole)
+}
+
+/// Reads one part; pronouns stand for `antecedent`.
+fn read_beat(
+    linked: &Linked,
+    beat: &Beat,
+    antecedent: Option<u32>,
+    read: &dyn Fn(&Linked) -> Result<Direction, DirectorError>,
+) -> Result<Direction, DirectorError> {
+    let mut part = linked.part(beat.bytes, antecedent);
+    let mut direction = read(&part)?;
+    // `start rising` is a rise.
+    if let Some(bytes) = without_start(linked, beat.bytes).filter(|_| direction.program.steps.is_empty()) {
+        part = linked.part(bytes, antecedent);
+        direction = read(&part)?;
+    }
+    if let Some(first) = direction.program.steps.first_mut().filter(|first| first.movement == Move::Follow) {
+        let opening = part.tokens_text.split(' ').find(|word| word.starts_with(char::is_alphabetic));
+        if opening.is_some_and(|word| LANDS.contains(&word)) {
+            first.movement = Move::Static;
+        }
+    }
+    Ok(direction)
+}
+
+/// Whether the words of a part are only about the camera or the film.
+fn says_nothing(linked: &Linked, beat: &Beat) -> bool {
+    const EMPTY: [&str; 10] = ["the", "a", "camera", "we", "then", "it", "film", "shot", "video", "clip"];
+    linked
+        .words_in(beat.bytes)
+        .all(|(word, _)| EMPTY.contains(&word) || !word.starts_with(char::is_alphanumeric) && !word.starts_with('<'))
+}
+
+/// Whether a part between cuts states the length of the film, not its own: `10 second film: ..`, `.. Eight seconds.`
+fn states_film_length(linked: &Linked, beat: &Beat) -> bool {
+    const WHOLES: [&str; 10] =
+        ["film", "clip", "video", "reel", "spot", "total", "overall", "altogether", "movie", ":"];
+    const ENDS: [&str; 5] = ["", ".", ";", "!", ":"];
+    let words: Vec<&str> = linked.words_in(beat.bytes).map(|(word, _)| word).collect();
+    let word = |at: usize| words.get(at).copied().unwrap_or_default();
+    let is_film = |at: usize| {
+        let before = at.checked_sub(1).map_or("", word);
+        let opens = words[..at].iter().all(|word| linked.slot_at(word).is_none()) && beat.bytes[0] == 0;
+        let is_sentence = ENDS.contains(&before) && (at > 0 || opens) && ENDS.contains(&word(at + 1));
+        is_sentence || WHOLES.contains(&word(at + 1)) || WHOLES.contains(&before) || opens && word(at + 1) == "."
+    };
+    (0..words.len()).any(|at| linked.is_quantity(words[at]) && is_film(at))
+}
+
+/// The bytes of a part after the word by which it starts: `start rising`. `None` for other parts.
+fn without_start(linked: &Linked, [from, to]: [usize; 2]) -> Option<[usize; 2]> {
+    let mut words = linked.words_in([from, to]);
+    let (first, _) = words.next()?;
+    let starts = matches!(first, "start" | "starts" | "starting" | "begin" | "begins" | "beginning");
+    words.next().filter(|_| starts).map(|(_, span)| [span[0], to])
 }
 
 /// The length of a part. `stated_secs` is what its own words say, `total_secs` the length of the film.
@@ -130,8 +187,8 @@ fn land(before: &mut [Step], part: &[Step]) {
     }
 }
 
-/// Gives steps without a subject that of the step before, where the move has one; `subjects` are those of the part before,
-/// and become those of this part.
+/// Gives steps without a subject that of the step before, where the move has one; `subjects` are those of the part
+/// before, and become those of this part.
 fn carry_on(direction: &mut Direction, subjects: &mut Vec<u32>) {
     let steps = &mut direction.program.steps;
     for step in steps {

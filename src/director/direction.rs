@@ -5,8 +5,8 @@ use cinesplat_operator::{Program, StepCameras};
 /// Certainty of a step of the program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepCertainty {
-    /// Probability that the step is what the prompt requests, 0..=1: the product of the probabilities of all its choices,
-    /// calibrated on sentences that training has not seen.
+    /// Probability that the step is what the prompt requests, 0..=1: the product of the probabilities of all its
+    /// choices, calibrated on sentences that training has not seen.
     pub probability: f64,
     /// The name of the choice of the lowest probability ([`Choice`](crate::Choice)), and that probability.
     pub weakest: (&'static str, f64),
@@ -28,6 +28,12 @@ pub struct Direction {
 }
 
 impl Direction {
+    /// Geometric mean of the certainties of the steps; 0 without a step.
+    pub(crate) fn mean_certainty(&self) -> f64 {
+        let sum: f64 = self.certainty.iter().map(|step| step.probability.max(1e-9).ln()).sum();
+        if self.certainty.is_empty() { 0.0 } else { (sum / self.certainty.len() as f64).exp() }
+    }
+
     /// Removes a step with its cameras and its certainty.
     pub fn remove_step(&mut self, nth: usize) {
         fn remove<T>(list: &mut Vec<T>, nth: usize) {

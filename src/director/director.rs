@@ -16,16 +16,14 @@ use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
+use crate::explained::{absorb_places, point_back};
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
 use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
-use crate::said::{
-    complete_framings, drop_descriptions, merge_repeated, open_unstated_directions, reverse_retraced,
-    take_said_directions, take_said_dolly_zooms,
-};
+use crate::said::take_said;
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -60,8 +58,8 @@ impl Director {
     /// network of names takes the built-in one.
     ///
     /// # Errors
-    /// [`DirectorError::Read`] · [`DirectorError::BadModel`] when a file is damaged, of another version, or does not fit
-    /// the others.
+    /// [`DirectorError::Read`] · [`DirectorError::BadModel`] when a file is damaged, of another version, or does not
+    /// fit the others.
     pub fn load(path: &Path) -> Result<Self, DirectorError> {
         let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
         let has_names = NamesFiles::NAMES.iter().any(|name| folder.join(name).exists());
@@ -82,8 +80,8 @@ impl Director {
         ModelRef { name: self.model.name.clone(), sha256: self.model.weights_sha256.clone() }
     }
 
-    /// The words of a prompt but those about the shape of the frame, with its mentions of objects. A mention of something
-    /// that the scene lacks is a group without members.
+    /// The words of a prompt but those about the shape of the frame, with its mentions of objects. A mention of
+    /// something that the scene lacks is a group without members.
     ///
     /// # Errors
     /// [`DirectorError::Language`] for a prompt that is empty, too long, or names too many objects or a number that no
@@ -92,7 +90,9 @@ impl Director {
         check_prompt(prompt)?;
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
-        let found = self.names.mentions(prompt, objects)?;
+        let mut found = self.names.mentions(prompt, objects)?;
+        absorb_places(prompt, objects, &mut found);
+        point_back(prompt, objects, &mut found);
         let parts: Vec<[usize; 2]> = found.iter().map(|found| found.mention.bytes).collect();
         let are_effects = are_effect_phrases(prompt, &parts)?;
         // The scene lacks no `bloom`, and the bike is not meant by it either: it is what the lens makes.
@@ -127,9 +127,17 @@ impl Director {
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
         match &linked.timeline {
-            Some(timeline) => direct_beats(linked, timeline, &|part| self.direct_part(part, scene)),
-            None => self.direct_part(linked, scene),
+            Some(timeline) => direct_beats(linked, timeline, &|part| self.direct_corrected(part, scene)),
+            None => self.direct_corrected(linked, scene),
         }
+    }
+
+    /// The direction of a prompt, or of what a person who corrects himself in it means, whichever is surer.
+    fn direct_corrected(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
+        let as_said = self.direct_part(linked, scene)?;
+        let Some(corrected) = linked.corrected() else { return Ok(as_said) };
+        let as_meant = self.direct_part(&corrected, scene)?;
+        Ok(if as_meant.mean_certainty() > as_said.mean_certainty() { as_meant } else { as_said })
     }
 
     /// The program and cameras of a prompt that is read as a whole.
@@ -157,13 +165,7 @@ impl Director {
         for certainty in &mut direction.certainty {
             certainty.probability = self.model.calibration.apply(certainty.probability);
         }
-        take_said_directions(linked, &mut direction.program.steps);
-        take_said_dolly_zooms(linked, &mut direction.program.steps);
-        reverse_retraced(linked, &mut direction.program.steps);
-        open_unstated_directions(linked, &senses, &mut direction.program.steps)?;
-        drop_descriptions(linked, &mut direction.program.steps);
-        complete_framings(&mut direction.program.steps);
-        merge_repeated(linked, &senses, &mut direction)?;
+        take_said(linked, &senses, &mut direction)?;
         // What the scene lacks stays a group, so that callers can tell it.
         direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)
@@ -229,8 +231,8 @@ fn level_rotation() -> DQuat {
     DQuat::from_rotation_x(std::f64::consts::PI)
 }
 
-/// Certainty of the step between two keys: the choices that its start key makes for what follows, and the choices that its
-/// end key makes for the arrival.
+/// Certainty of the step between two keys: the choices that its start key makes for what follows, and the choices that
+/// its end key makes for the arrival.
 fn certainty(
     keys: &[KeyCode],
     certainties: &[KeyCertainty],

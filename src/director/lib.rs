@@ -1,9 +1,9 @@
 //! The director: a small network that turns words and objects into a camera program.
 //!
-//! Enters: a linked prompt, and the scene's objects with their sparse clouds. Leaves: a [`Direction`], which is a program
-//! of steps and one camera per key. A Q-former turns each object's cloud into a few tokens. A small causal decoder
-//! attends to text tokens and object tokens, and emits keys one by one until it emits a stop.
-//! The one invariant: for every prompt, the program names only objects of the scene, and all numbers are finite.
+//! Enters: a linked prompt, and the scene's objects with their sparse clouds. Leaves: a [`Direction`], which is a
+//! program of steps and one camera per key. A Q-former turns each object's cloud into a few tokens. A small causal
+//! decoder attends to text tokens and object tokens, and emits keys one by one until it emits a stop. The one
+//! invariant: for every prompt, the program names only objects of the scene, and all numbers are finite.
 //!
 //! [`Director`] runs the network; most callers need nothing else. The other items serve training:
 //! - [`keys`] converts a program into the keys that the network emits, and back;
@@ -22,6 +22,7 @@ mod decoding;
 mod direction;
 mod director;
 mod error;
+mod explained;
 mod frame;
 pub mod inputs;
 pub mod keys;

@@ -1,8 +1,8 @@
 //! File output, `NumPy` arrays, hashes and relative paths for every stage.
 //!
 //! Enters: bytes and paths. Leaves: files that are complete or absent ([`NewFile`], [`write()`]), arrays for `NumPy`
-//! ([`npy`]), base64, hashes, relative paths, warnings of unknown keys, the limits of every reader ([`Limits`]) and those of
-//! a container. The one invariant: no file is replaced unless the caller passes [`Existing::Replace`].
+//! ([`npy`]), base64, hashes, relative paths, warnings of unknown keys, the limits of every reader ([`Limits`]) and
+//! those of a container. The one invariant: no file is replaced unless the caller passes [`Existing::Replace`].
 
 pub mod base64;
 mod disk;
@@ -15,6 +15,7 @@ mod moved;
 mod new_file;
 pub mod npy;
 mod open_files;
+mod past_cache;
 mod paths;
 mod read;
 mod unknown_keys;
@@ -28,6 +29,7 @@ pub use limits::Limits;
 pub use moved::move_file;
 pub use new_file::{Existing, NewFile, check_free, create_folder, holds, write};
 pub use open_files::remove_open_files;
+pub use past_cache::PastCache;
 pub use paths::{beside, folder_of, relative_to};
 pub use read::read;
 pub use unknown_keys::{UnknownKeys, misspelling};

@@ -6,8 +6,9 @@
 //! are only said in other words.
 //!
 //! Before anything else shorthand becomes plain words (`Z/I 24-70` = `zoom in 24 to 70`; `prompts/shorthand.txt`), and
-//! misspelled words of command are mended ([`plain_words`]). After it idioms become the words of the trade (`let the mug slide
-//! past from right to left` = `truck right past the mug`; `prompts/idioms.txt`). A prompt that says part by part what happens when is a
+//! misspelled words of command are mended ([`plain_words`]). After it idioms become the words of the trade (`let the
+//! mug slide past from right to left` = `truck right past the mug`; `prompts/idioms.txt`). A prompt that says part by
+//! part what happens when is a
 //! [`Timeline`], and the director reads it part by part.
 //!
 //! # Notation of programs
@@ -56,12 +57,13 @@
 //! [`SubjectPart`](cinesplat_operator::SubjectPart), [`SubjectSide`](cinesplat_operator::SubjectSide),
 //! [`FramePlace`](cinesplat_operator::FramePlace), [`Pass`](cinesplat_operator::Pass) and
 //! [`Motion`](cinesplat_operator::Motion). What each means in geometry is in their docs and in those of
-//! [`Step`](cinesplat_operator::Step) and [`Framing`](cinesplat_operator::Framing). A `family` is the name
-//! of a move that exists in two directions, without the direction: `pan`, `tilt`, `roll`, `truck`, `pedestal`, `crane`,
-//! `orbit`, `arc`, `zoom`, `dolly-zoom`. A family takes its direction from the step. Without one it gets `right`, `up`,
-//! `in` or `cw` and the step is `either`: both directions are right. `room` means no subject, `!` all subjects wholly in
-//! the frame. `none` is a program without steps: nothing that a camera could do. Amounts are degrees (`deg`), scene units (`u`) or a factor on the distance or focal length (`x`). The flags
-//! `cut` and `returns` mean that the step begins with a cut, or ends where the shot began.
+//! [`Step`](cinesplat_operator::Step) and [`Framing`](cinesplat_operator::Framing). A `family` is the name of a move
+//! that exists in two directions, without the direction: `pan`, `tilt`, `roll`, `truck`, `pedestal`, `crane`, `orbit`,
+//! `arc`, `zoom`, `dolly-zoom`. A family takes its direction from the step. Without one it gets `right`, `up`, `in` or
+//! `cw` and the step is `either`: both directions are right. `room` means no subject, `!` all subjects wholly in the
+//! frame. `none` is a program without steps: nothing that a camera could do. Amounts are degrees (`deg`), scene units
+//! (`u`) or a factor on the distance or focal length (`x`). The flags `cut` and `returns` mean that the step begins
+//! with a cut, or ends where the shot began.
 //!
 //! ```
 //! use cinesplat_language::{program_from_notation, program_to_notation};
@@ -78,6 +80,7 @@
 //! What [`program_to_notation`] prints is also a [`Pattern`] ([`program_pattern`]). Its [`Automaton`] holds a writer to
 //! the notation byte by byte: whatever it lets pass parses.
 
+mod corrections;
 mod edit_distance;
 mod effects;
 mod error;

@@ -36,8 +36,8 @@ pub fn check_prompt(prompt: &str) -> Result<(), LanguageError> {
     Ok(())
 }
 
-/// Replaces the given mentions and the quantities of `prompt` by placeholders. A word belongs to a mention if it begins in
-/// its bytes; mentions do not overlap.
+/// Replaces the given mentions and the quantities of `prompt` by placeholders. A word belongs to a mention if it begins
+/// in its bytes; mentions do not overlap.
 ///
 /// # Errors
 /// - [`LanguageError::TooLong`]: more than [`MAX_PROMPT_BYTES`].
@@ -49,6 +49,11 @@ pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, Langu
     let mention_at = |at: usize| mentions.iter().find(|mention| (mention.bytes[0]..mention.bytes[1]).contains(&at));
     let words = plain_words(prompt, &tokenize(prompt), &|word| mention_at(word.span[0]).is_some())?;
     let mut linked = Linked { timeline: timeline(prompt, &words), ..Linked::default() };
+    // `#2` at the head of the second part of a list is no object.
+    let heads: Vec<[usize; 2]> =
+        linked.timeline.iter().flat_map(|timeline| &timeline.beats).map(|beat| [beat.start, beat.bytes[0]]).collect();
+    let is_head = |at: usize| heads.iter().any(|head| (head[0]..head[1]).contains(&at));
+    let mention_at = |at: usize| mention_at(at).filter(|mention| !is_head(mention.bytes[0]));
     let mut i = 0;
     while i < words.len() {
         let at = span_of(&words[i..=i])[0];
@@ -60,7 +65,7 @@ pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, Langu
             i += len;
             continue;
         }
-        let quantity = quantity_at(&words, i).filter(|_| linked.quantities.len() < MAX_QUANTITIES);
+        let quantity = quantity_at(&words, i).filter(|_| linked.quantities.len() < MAX_QUANTITIES && !is_head(at));
         let len = quantity.map_or(1, |(len, _)| len);
         if let Some((_, quantity)) = quantity {
             linked.append(&format!("<qty-{}>", linked.quantities.len()), &words[i..i + len]);

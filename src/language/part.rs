@@ -6,14 +6,22 @@ use super::linked::{Linked, OBJECT, QUANTITY, slot_of};
 const PRONOUNS: [&str; 5] = ["it", "them", "that", "this", "those"];
 
 impl Linked {
-    /// The words that begin in `bytes`, with their objects and quantities numbered anew. In a part that names no object,
-    /// pronouns stand for `antecedent`, the id of an object or group.
+    /// The words that begin in `bytes`, with their objects and quantities numbered anew. In a part that names no
+    /// object, pronouns stand for `antecedent`, the id of an object or group.
     #[must_use]
     pub fn part(&self, bytes: [usize; 2], antecedent: Option<u32>) -> Self {
         let names_object = self.words_in(bytes).any(|(word, _)| word.starts_with(OBJECT));
-        let antecedent = antecedent.filter(|_| !names_object);
+        self.of_words(self.words_in(bytes), antecedent.filter(|_| !names_object))
+    }
+
+    /// Some of the words, with their objects and quantities numbered anew.
+    pub(crate) fn of_words<'a>(
+        &self,
+        words: impl Iterator<Item = (&'a str, [usize; 2])>,
+        antecedent: Option<u32>,
+    ) -> Self {
         let mut part = Self { groups: self.groups.clone(), unknown: self.unknown.clone(), ..Self::default() };
-        for (word, span) in self.words_in(bytes) {
+        for (word, span) in words {
             let id = match slot_of(word, OBJECT) {
                 Some(slot) => self.slots.get(slot).copied(),
                 None => antecedent.filter(|_| PRONOUNS.contains(&word)),
@@ -46,6 +54,11 @@ impl Linked {
     /// The id that a placeholder of an object stands for.
     pub fn slot_at(&self, word: &str) -> Option<u32> {
         self.slots.get(slot_of(word, OBJECT)?).copied()
+    }
+
+    /// Whether a word is the placeholder of a quantity.
+    pub fn is_quantity(&self, word: &str) -> bool {
+        slot_of(word, QUANTITY).is_some_and(|slot| slot < self.quantities.len())
     }
 
     /// The id that stands for some objects: that of an object, or of a group that the prompt names.

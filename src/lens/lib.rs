@@ -17,17 +17,18 @@
 //!
 //! # Samples
 //!
-//! Lens and shutter take the mean light of several pictures. [`Budget::of`] says how many and why, from the figures of `make
-//! bench-lens` (`renders/lens/lens.csv`): samples are sharp where they stand close, and only where there are gaps between
-//! them the splats of each one are blurred. Sharp samples share one projection ([`cinesplat_render::Sweep`]), and a tile of
-//! the picture takes as many of them as its splats move: none but the middle where nothing moves. A frame that a film has
-//! already, because neither the camera nor the state of an effect has changed, is repeated ([`EffectPlan::repeats`]).
-//! `bench lens --parts auto` compares films with films whose effects run everywhere on every frame.
+//! Lens and shutter take the mean light of several pictures. [`Budget::of`] says how many and why, from the figures of
+//! `make bench-lens` (`renders/lens/lens.csv`): samples are sharp where they stand close, and only where there are gaps
+//! between them the splats of each one are blurred. Sharp samples share one projection ([`cinesplat_render::Sweep`]),
+//! and a tile of the picture takes as many of them as its splats move: none but the middle where nothing moves. A frame
+//! that a film has already, because neither the camera nor the state of an effect has changed, is repeated
+//! ([`EffectPlan::repeats`]). `bench lens --parts auto` compares films with films whose effects run everywhere on every
+//! frame.
 //!
 //! # Adding an effect
 //!
-//! One file with a struct of settings that implements [`Effect`] and [`EffectKind`], and one line in [`KINDS`]: the order of that list is
-//! the order of the layers, outermost first. Its words are a line of `prompts/effects.txt`.
+//! One file with a struct of settings that implements [`Effect`] and [`EffectKind`], and one line in [`KINDS`]: the
+//! order of that list is the order of the layers, outermost first. Its words are a line of `prompts/effects.txt`.
 
 mod anamorphic;
 mod background;

@@ -12,8 +12,8 @@ use super::seen::FrameFacts;
 
 /// A sensor that is read from the first row to the last: each row shows the camera at its own time.
 ///
-/// The frame is made of strips, each with the camera of the time of its middle row. Their number keeps the steps between
-/// two strips below the budget of the quality.
+/// The frame is made of strips, each with the camera of the time of its middle row. Their number keeps the steps
+/// between two strips below the budget of the quality.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingShutter {
     /// Time from the first row to the last over the time of a frame, where no time in seconds is stated.

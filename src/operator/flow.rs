@@ -19,8 +19,8 @@ const MAX_BLEND_SECS: f64 = 1.2;
 const BLEND_FRAC: f64 = 0.6;
 /// A shorter blend is a jolt: the camera stops instead.
 const MIN_BLEND_SECS: f64 = 0.25;
-/// Largest turn to a new aim that a blend takes in, so that the subject of the first move is still in the frame's middle
-/// when that move ends; radians.
+/// Largest turn to a new aim that a blend takes in, so that the subject of the first move is still in the frame's
+/// middle when that move ends; radians.
 const SMALL_TURN_RAD: f64 = 0.17;
 
 /// A film whose moves flow into each other.
@@ -138,9 +138,9 @@ impl Flow {
         flow
     }
 
-    /// Where the words ask for a change of speed, a straight move between cuts, holds or the ends of the film changes it all
-    /// the way: a ramp at one end would not show. A move that flows on keeps its cruise. Whip pans change it all the way
-    /// too, with no jolt.
+    /// Where the words ask for a change of speed, a straight move between cuts, holds or the ends of the film changes
+    /// it all the way: a ramp at one end would not show. A move that flows on keeps its cruise. Whip pans change it all
+    /// the way too, with no jolt.
     fn change_speed_throughout(&mut self) {
         for nth in 0..self.segments.len() {
             let rests = |other: &MotionSegment| other.movement == Move::Static;
@@ -194,6 +194,12 @@ pub(super) fn tightened(joints: &[Joint], into: usize) -> Vec<Joint> {
         (most_secs >= MIN_BLEND_SECS).then_some(Joint { most_secs, ..*joint })
     };
     joints.iter().filter_map(tighter).collect()
+}
+
+/// Whether a blend leaves out a segment.
+pub(super) fn is_left_out(segments: &[MotionSegment], joints: &[Joint], index: usize) -> bool {
+    let spans = |joint: &&Joint| joint.from < index && index < joint.to;
+    joints.iter().find(spans).is_some_and(|joint| blend_secs(segments, joint) > 0.0)
 }
 
 /// Duration of the blend at a joint; 0 where there is no room for one.

@@ -27,6 +27,7 @@ mod forbidden;
 mod framing;
 mod grid;
 mod handles;
+mod inward;
 mod lookout;
 mod lookouts;
 mod measure;

@@ -19,8 +19,8 @@ const NEAR_FRAC: f64 = 0.08;
 const SHALLOW_FRAC: f64 = 0.2;
 /// Void that a picture of a room has at most where another one can be had.
 const MAX_VOID: f64 = 0.25;
-/// Bound of the cost of pictures, which the sum of its terms approaches: less than that of a violated constraint, because
-/// words come first.
+/// Bound of the cost of pictures, which the sum of its terms approaches: less than that of a violated constraint,
+/// because words come first.
 const MAX_COST: f64 = 2.9;
 /// Share of a picture that matter close before the lens fills at most where another one can be had.
 const MAX_BLOCKED: f64 = 0.2;
@@ -64,6 +64,11 @@ pub(super) fn pictures_cost(world: &World, states: &[CameraState]) -> f64 {
         + EXCESS_BLOCKED_COST * excess(blocked, MAX_BLOCKED)
         + shallow;
     MAX_COST * (sum / MAX_COST).tanh()
+}
+
+/// Void of the worst picture of some cameras, as a share of it.
+pub(super) fn worst_void(world: &World, states: impl Iterator<Item = CameraState>) -> f64 {
+    states.map(|state| picture(world, &state, END_RAYS).void).fold(0.0, f64::max)
 }
 
 /// How far a share is above its limit: 0 at or below it, 0.2 just above it, and 1.2 from twice the limit on.

@@ -1,11 +1,14 @@
 //! A program becomes keyframes: search, detours, timing, clearance certificate, report.
 
+use std::collections::BTreeSet;
+
 use super::as_filmed::as_filmed;
 use super::detours;
 use super::dutch;
-use super::flow::{Flow, Joint, joints, tightened, without_stops};
+use super::flow::{Flow, Joint, is_left_out, joints, tightened, without_stops};
 use super::forbidden;
 use super::handles::{MAX_FREE_FILM_SECS, handles, settle};
+use super::inward::turned_inward;
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
 use super::program::{Framing, Program, Step};
@@ -54,8 +57,8 @@ pub fn realize(
     best.swap_remove(0)
 }
 
-/// Solves a program up to `num` times: films that clearly differ in side, height, distance, lens or path, the one of least
-/// cost first. At least one; only one where the level is [`SolveLevel::Off`]. Inputs are those of [`realize()`].
+/// Solves a program up to `num` times: films that clearly differ in side, height, distance, lens or path, the one of
+/// least cost first. At least one; only one where the level is [`SolveLevel::Off`]. Inputs are those of [`realize()`].
 ///
 /// A film that violates more requirements than the best one is left out.
 pub fn finalists(
@@ -86,6 +89,9 @@ fn solution(
 ) -> Solution {
     let cost = candidate.cost();
     let mut segments: Vec<MotionSegment> = candidate.segments.into_iter().flatten().collect();
+    if settings.level != SolveLevel::Off {
+        segments = turned_inward(world, program, segments);
+    }
     settle(&mut segments);
     if let Some(slant) = settings.slant {
         segments = dutch::slanted(segments, slant);
@@ -100,8 +106,7 @@ fn solution(
     without_stops(&mut segments, &joints);
     let handles = handles(program, &segments);
     let wanted_secs = program.duration_secs.or_else(|| too_long(&segments, handles));
-    fit_duration(&mut segments, wanted_secs);
-    let (flow, keys, clearance) = filmed(world, program, &segments, (joints, handles));
+    let (flow, segments, keys, clearance) = filmed(world, program, (segments, wanted_secs), (joints, handles));
     let path = CameraPath::fine(keys.clone(), world.frame);
     let mut report = report::report(world, (program, prompt), (&segments, &flow.spans), &path, settings.level);
     report.extend(detours::clearance_lines(world, (program, prompt), (&segments, &flow.spans), &detours, &clearance));
@@ -112,24 +117,26 @@ fn solution(
     Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance }
 }
 
-/// The film of the segments, its keyframes, and their clearance certificate. A blend that comes too near to matter is
-/// shortened, and left out where that does not help.
+/// The film of the segments in the wanted time, the segments as long as they are in it, its keyframes, and their
+/// clearance certificate. A blend that comes too near to matter is shortened, and left out where that does not help.
 fn filmed(
     world: &World,
     program: &Program,
-    segments: &[MotionSegment],
+    (segments, wanted_secs): (Vec<MotionSegment>, Option<f64>),
     (mut joints, handles): (Vec<Joint>, [f64; 2]),
-) -> (Flow, Vec<Keyframe>, ClearanceProof) {
+) -> (Flow, Vec<MotionSegment>, Vec<Keyframe>, ClearanceProof) {
     let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
     loop {
-        let mut flow = Flow::new(world, segments, &joints);
+        let mut segments = segments.clone();
+        fit_duration(&mut segments, &joints, wanted_secs);
+        let mut flow = Flow::new(world, &segments, &joints);
         flow.add_handles(handles);
         let mut keys = keyframes(&flow.segments, &labels);
         retime(&mut keys, Some(world.frame));
         let proof = detours::proof(world, &keys);
         match proof.failure.and_then(|failure| flow.blend_in(failure.from_secs, failure.to_secs)) {
             Some(blocked) => joints = tightened(&joints, blocked),
-            None => return (flow, keys, proof),
+            None => return (flow, segments, keys, proof),
         }
     }
 }
@@ -142,19 +149,57 @@ fn too_long(segments: &[MotionSegment], handles: [f64; 2]) -> Option<f64> {
     (free && secs > room).then_some(room)
 }
 
-/// Scales the segments of free length so that the film lasts as long as the prompt says. Segments of stated length are
-/// scaled too where the free ones cannot absorb the difference.
-fn fit_duration(segments: &mut [MotionSegment], wanted_secs: Option<f64>) {
+/// Largest share of a step of stated length that the turn to its picture may take.
+const MOST_TURN_FRAC: f64 = 0.4;
+
+/// Scales the segments of free length so that the film lasts as long as the prompt says. Where the lengths of the steps
+/// leave no time for the turns to their pictures (`0-2 s hold on the mug, 2-5 s the jar`), the turns are part of the
+/// steps. Segments of stated length are scaled too where the free ones cannot absorb the difference.
+fn fit_duration(segments: &mut [MotionSegment], joints: &[Joint], wanted_secs: Option<f64>) {
     let Some(wanted) = wanted_secs.filter(|&secs| secs > 0.0) else { return };
+    // What blends leave out takes no time. Shorter segments may leave no room for a blend, so that it counts after all.
+    let natural = segments.to_vec();
+    let mut filmed: BTreeSet<usize> = (0..natural.len()).filter(|i| !is_left_out(&natural, joints, *i)).collect();
+    loop {
+        segments.clone_from_slice(&natural);
+        scale(segments, &filmed.iter().copied().collect::<Vec<_>>(), wanted);
+        let num_filmed = filmed.len();
+        filmed.extend((0..segments.len()).filter(|index| !is_left_out(segments, joints, *index)));
+        if filmed.len() == num_filmed {
+            return;
+        }
+    }
+}
+
+/// Scales the segments that are `filmed` to a length.
+fn scale(segments: &mut [MotionSegment], filmed: &[usize], wanted: f64) {
     let sum = |segments: &[MotionSegment], bound: bool| -> f64 {
-        segments.iter().filter(|segment| segment.secs_bind == bound).map(|segment| segment.secs).sum()
+        filmed.iter().filter(|&&i| segments[i].secs_bind == bound).map(|&i| segments[i].secs).sum()
     };
+    if wanted - sum(segments, true) < MIN_FREE_SECS {
+        turn_within_steps(segments, filmed);
+    }
     let (bound, free) = (sum(segments, true), sum(segments, false));
     let factor = (wanted - bound) / free;
     let all = free <= 0.0 || factor * free < MIN_FREE_SECS;
     let factor = if all { wanted / (bound + free) } else { factor };
-    for segment in segments.iter_mut().filter(|segment| all || !segment.secs_bind) {
-        segment.secs *= factor;
+    for &index in filmed {
+        if all || !segments[index].secs_bind {
+            segments[index].secs *= factor;
+        }
+    }
+}
+
+/// Takes the time of turns between two steps from the steps that they lead to, where those have a stated length.
+fn turn_within_steps(segments: &mut [MotionSegment], filmed: &[usize]) {
+    for pair in filmed.windows(2) {
+        let [turn, step] = [pair[0], pair[1]];
+        let leads = segments[turn].is_join && !segments[turn].secs_bind && segments[step].secs_bind;
+        if leads && segments[turn].step == segments[step].step {
+            let secs = segments[turn].secs.min(MOST_TURN_FRAC * segments[step].secs);
+            segments[turn].secs = secs;
+            segments[step].secs -= secs;
+        }
     }
 }
 

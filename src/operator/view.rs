@@ -32,10 +32,11 @@ pub(super) struct ViewRange {
 
 /// Elevation of an overhead view: straight down to the eye, but with a horizon that the camera's yaw can be told from.
 pub(super) const OVERHEAD_DEG: (f64, f64) = (78.0, 87.0);
-/// The same for a camera that circles its subject or sinks beside it: from nearer to the zenith it would spin in place, or
-/// come down on it.
+/// The same for a camera that circles its subject or sinks beside it: from nearer to the zenith it would spin in place,
+/// or come down on it.
 pub(super) const CIRCLING_OVERHEAD_DEG: (f64, f64) = (52.0, 74.0);
-/// Widest vertical field of view where the room before a subject is short, degrees; and above it, from this elevation on.
+/// Widest vertical field of view where the room before a subject is short, degrees; and above it, from this elevation
+/// on.
 const WIDEST_DEG: f64 = 64.0;
 const WIDEST_STEEP_DEG: f64 = 84.0;
 const STEEP_DEG: f64 = 60.0;
@@ -46,7 +47,7 @@ const LEAST_SPACE: f64 = 1.4;
 fn elevation_band_deg(angle: ShotAngle, range: &ViewRange) -> (f64, f64) {
     match angle {
         ShotAngle::Overhead => range.overhead_deg,
-        ShotAngle::High => (18.0, 38.0),
+        ShotAngle::High => (24.0, 38.0),
         ShotAngle::EyeLevel => (-4.0, 8.0),
         ShotAngle::Low => (-34.0, -11.0),
         ShotAngle::Worm => (-65.0, -42.0),
@@ -156,8 +157,8 @@ fn in_front_of_matter(world: &World, target: &Target, bearing: Bearing, view: Ca
     if fits { with_fov(&moved(&view, away * (free - distance)), 2.0 * tan.atan()) } else { view }
 }
 
-/// The view of a room, raised to the floor where it would lie under it: as low as a camera can lie, nearer for the angle
-/// of the shot, with a wider lens for the same picture.
+/// The view of a room, raised to the floor where it would lie under it: as low as a camera can lie, nearer for the
+/// angle of the shot, with a wider lens for the same picture.
 fn above_floor(world: &World, target: &Target, angle: Option<ShotAngle>, view: CameraState) -> CameraState {
     if !world.is_indoor() || world.sunk_frac(view.pose.position) <= 0.0 {
         return view;

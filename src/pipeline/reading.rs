@@ -92,8 +92,11 @@ impl Reading {
         let has_length = self.direction.program.duration_secs.is_some();
         let is_length = |word: &str| has_length && word.starts_with("<qty-");
         let words = self.linked.tokens_text.split(' ').zip(&self.linked.spans);
-        let spans = words.filter(|(word, span)| !is_length(word) && !is_used(span)).map(|(_, span)| span);
-        spans.filter_map(|span| prompt.get(span[0]..span[1])).filter(|word| carries_request(word)).collect()
+        let mut spans: Vec<&[usize; 2]> =
+            words.filter(|(word, span)| !is_length(word) && !is_used(span)).map(|(_, span)| span).collect();
+        // One word of the prompt may stand for several.
+        spans.dedup();
+        spans.into_iter().filter_map(|span| prompt.get(span[0]..span[1])).filter(|word| carries_request(word)).collect()
     }
 }
 
@@ -101,7 +104,8 @@ impl Reading {
 /// ([`Director::link`](cinesplat_director::Director::link)).
 ///
 /// # Errors
-/// [`PipelineError::Language`] when the embedded lexicon is malformed · [`PipelineError::Director`] when the network fails ·
+/// [`PipelineError::Language`] when the embedded lexicon is malformed · [`PipelineError::Director`] when the network
+/// fails ·
 /// [`PipelineError::Reader`] when the language model fails.
 pub fn read(
     prompt: &str,
@@ -124,7 +128,8 @@ pub fn read(
     Ok(Reading { linked, direction, effects, problems })
 }
 
-/// Makes one static step of two in a row that hold the same picture: `go low and look up at it, then stay there for 5 s`.
+/// Makes one static step of two in a row that hold the same picture: `go low and look up at it, then stay there for 5
+/// s`.
 fn merge_holds(linked: &Linked, direction: &mut Direction) {
     let mut nth = 1;
     while nth < direction.program.steps.len() {
@@ -159,8 +164,8 @@ fn keep_held_pictures(steps: &mut [Step]) {
     }
 }
 
-/// A turn in place from an object begins at its picture: `from the vase look up to the clock`. Where somebody stands at the
-/// object, he says so.
+/// A turn in place from an object begins at its picture: `from the vase look up to the clock`. Where somebody stands at
+/// the object, he says so.
 fn begin_turns(prompt: &str, steps: &mut [Step]) {
     const STANDS: [&str; 10] =
         ["stand", "standing", "beside", "next", "near", "by", "sit", "sitting", "position", "viewpoint"];
@@ -203,8 +208,8 @@ fn problem(prompt: &str, kind: ProblemKind, span: [usize; 2], note: String) -> P
     Problem { kind, words, span, note }
 }
 
-/// Removes what the scene lacks from where a step only passes, looks at, keeps or avoids it. A step about something that the
-/// scene lacks keeps it: callers refuse such a prompt.
+/// Removes what the scene lacks from where a step only passes, looks at, keeps or avoids it. A step about something
+/// that the scene lacks keeps it: callers refuse such a prompt.
 fn missing_aside(linked: &Linked, program: &mut Program) -> Vec<Problem> {
     let mut problems = Vec::new();
     for step in &mut program.steps {
@@ -231,8 +236,8 @@ fn missing_aside(linked: &Linked, program: &mut Program) -> Vec<Problem> {
     problems
 }
 
-/// Steps that contradict themselves or the motions that the film forbids. Of two opposite moves at once the first stays; a
-/// forbidden move stays too, because the prompt names it.
+/// Steps that contradict themselves or the motions that the film forbids. Of two opposite moves at once the first
+/// stays; a forbidden move stays too, because the prompt names it.
 fn contradictions(prompt: &str, program: &mut Program) -> Vec<Problem> {
     let mut problems = Vec::new();
     for step in &mut program.steps {

@@ -42,3 +42,28 @@ fn a_box_with_equal_sides_has_no_front() {
     let frame = LevelFrame::new(DVec3::Y).unwrap();
     assert_eq!(Subjects::new(&scene, &objects, &[7]).fronts(&frame).unwrap(), []);
 }
+
+#[test]
+fn the_edge_of_a_board_is_not_its_front() {
+    let mut scene = Gaussians::default();
+    let steps = || (-12..=12).map(|i| f64::from(i) / 25.0);
+    for (normal, half_depth, half_width) in
+        [(DVec3::X, 0.5, 0.05), (-DVec3::X, 0.5, 0.05), (DVec3::Z, 0.05, 0.5), (-DVec3::Z, 0.05, 0.5)]
+    {
+        let across = DVec3::Y.cross(normal);
+        for (x, y) in steps().flat_map(|x| steps().map(move |y| (x, y))) {
+            // Only the edges have something to see.
+            let is_dark = normal.x != 0.0 && (y * 25.0).rem_euclid(4.0) < 2.0;
+            scene.means.push((half_depth * normal + across * x * 2.0 * half_width + DVec3::Y * y).as_vec3());
+            scene.scales.push(Vec3::new(0.05 * half_width as f32, 0.025, 0.001));
+            scene.rotations.push(Quat::from_rotation_arc(Vec3::Z, normal.as_vec3()));
+            scene.opacities.push(0.99);
+            scene.sh_dc.push((Vec3::splat(if is_dark { 0.1 } else { 0.6 }) - 0.5) / 0.282_094_8);
+        }
+    }
+    let objects = vec![Object::from_box(7, "board", DVec3::ZERO, DVec3::new(0.6, 0.6, 0.1))];
+    let objects = ObjectSet { objects, labels: Vec::new() };
+    let frame = LevelFrame::new(DVec3::Y).unwrap();
+    let fronts = Subjects::new(&scene, &objects, &[7]).fronts(&frame).unwrap();
+    assert!(fronts.iter().all(|(_, front)| front.x.abs() < 0.8), "{fronts:?}");
+}

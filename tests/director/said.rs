@@ -1,10 +1,12 @@
-//! Directions that stand beside the verb.
+//! What the words of a prompt say plainly, over what the network reads into them.
 
 use cinesplat::director::{Director, SceneContext};
 use cinesplat::language::NamedObject;
 use cinesplat::objects::Object;
 use cinesplat::trajectory::Move;
 use glam::DVec3;
+
+use super::beats::program;
 
 fn moves(prompt: &str) -> Vec<(Move, bool)> {
     let object = Object::from_box(1, "microwave", DVec3::new(0.0, 0.5, -1.0), DVec3::new(0.3, 0.5, 0.2));
@@ -59,6 +61,91 @@ fn where_a_thing_is_says_no_way_past_it() {
     let linked = director.link("7 second move in on the cupboard under the television", &names).unwrap();
     let program = director.direct(&linked, &context).unwrap().program;
     assert_eq!((program.steps[0].movement, program.steps[0].via.as_ref()), (Move::PushIn, None));
+}
+
+#[test]
+fn things_that_the_words_join_are_in_one_picture() {
+    for (prompt, expected) in [
+        ("Back away from the armchair untill I can see also the curtain and the sideboard.", "end=4+3+5!"),
+        ("truck right from the vase to the television, then dolly back to a wide with both in frame", "end=1+2:long!"),
+        ("the vase, the armchair and the television must all be visible the whole time while you rise", "keep=1+4+2"),
+    ] {
+        let found = program(prompt);
+        assert!(found.contains(expected), "{prompt}: {found}");
+    }
+}
+
+#[test]
+fn what_is_never_to_be_seen_together_is_not_kept() {
+    let found =
+        program("the vase and the armchair should never be visible at the same time while you push in on the vase");
+    assert!(!found.contains("keep=1+4"), "{found}");
+}
+
+#[test]
+fn a_pair_is_passed_and_not_gone_along() {
+    let found = program("truck right past the vase and the television");
+    assert!(!found.contains("along="), "{found}");
+}
+
+#[test]
+fn what_a_move_goes_on_to_show_is_its_end() {
+    let found = program("Back away from the vase until I can see also the curtain and the television.");
+    assert_eq!(found.matches(" / ").count(), 0, "{found}");
+}
+
+#[test]
+fn sizes_with_an_arrow_are_the_first_and_the_last() {
+    let found = program("slow push, MCU > CU on the vase. straight in");
+    assert!(found.contains("start=1:medium-close-up end=1:close-up"), "{found}");
+}
+
+#[test]
+fn a_look_before_a_whip_is_at_rest() {
+    let director = Director::embedded().unwrap();
+    let named = |id: u32, label: &str| NamedObject { id, label: label.to_owned() };
+    let names = [named(1, "vase"), named(2, "brick wall")];
+    let prompt = "Look at the brick wall outside and then whip round really quick to the vase";
+    let context = SceneContext { objects: &[], up: DVec3::Y, center: DVec3::new(0.0, 1.0, -1.5), size: 7.0 };
+    let steps = director.direct(&director.link(prompt, &names).unwrap(), &context).unwrap().program.steps;
+    assert_eq!(steps.iter().map(|step| step.movement).collect::<Vec<_>>(), [Move::Static, Move::WhipPan]);
+}
+
+#[test]
+fn a_rise_from_the_floor_begins_low() {
+    let found = program("rise up from near the floor till we are higher than the armchair");
+    assert!(found.contains("start=4:low"), "{found}");
+}
+
+#[test]
+fn half_a_meter_of_rise_is_no_height() {
+    let found = program("rise up about half a meter with the vase in frame");
+    assert!(found.contains("amount=0.5u") && !found.contains(":h0.5u"), "{found}");
+    let found = program("lower the camera to 1 meter");
+    assert!(found.contains(":h1u") && !found.contains("amount"), "{found}");
+}
+
+#[test]
+fn a_shorter_name_is_the_thing_named_before() {
+    let director = Director::embedded().unwrap();
+    let named = |id: u32, label: &str| NamedObject { id, label: label.to_owned() };
+    let objects = [named(1, "drawer chest"), named(2, "pink drawers"), named(3, "plates")];
+    let slots = |prompt: &str| director.link(prompt, &objects).unwrap().slots;
+    assert_eq!(slots("tilt down from the plates to the pink drawers, then push in on the drawers"), [3, 2]);
+    assert_eq!(slots("pan from the pink drawers to the drawer chest"), [2, 1]);
+    assert_eq!(slots("push in on <obj-3> on <obj-1>, then pan to <obj-2>"), [3, 1, 2]);
+    let objects = [named(1, "table lamp"), named(2, "wooden table")];
+    assert_eq!(director.link("pan from the table lamp to the table", &objects).unwrap().slots, [1, 2]);
+}
+
+#[test]
+fn a_place_that_tells_which_thing_is_meant_is_no_thing() {
+    let director = Director::embedded().unwrap();
+    let named = |id: u32, label: &str| NamedObject { id, label: label.to_owned() };
+    let objects = [named(1, "teal base cabinet"), named(2, "red teapot"), named(3, "wooden table")];
+    let slots = |prompt: &str| director.link(prompt, &objects).unwrap().slots;
+    assert_eq!(slots("drift towards the teapot on the shelf and finish tight on it"), [2]);
+    assert_eq!(slots("push in on the teapot on the table"), [2, 3]);
 }
 
 #[test]

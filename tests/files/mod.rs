@@ -2,6 +2,7 @@
 
 mod group_memory;
 mod open_files;
+mod past_cache;
 
 use std::fs;
 use std::io::Write;

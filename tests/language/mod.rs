@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use cinesplat::language::Linked;
 use cinesplat::operator::{Amount, Program};
 
+mod corrections;
 mod effects;
 mod exam;
 mod frame_shape;

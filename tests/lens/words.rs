@@ -1,5 +1,5 @@
-//! Sentences that call for effects, forbid them, or have nothing to do with them, written by others than the author of the
-//! words.
+//! Sentences that call for effects, forbid them, or have nothing to do with them, written by others than the author of
+//! the words.
 
 use std::collections::BTreeSet;
 
@@ -102,6 +102,43 @@ fn words_that_only_look_like_an_effect_call_for_none() {
         "make the toy train look life size",
         "blow out the candles",
         "hold it at the end",
+    ] {
+        assert_eq!(read(prompt), [Names::new(), Names::new()], "{prompt}");
+    }
+}
+
+#[test]
+fn a_look_described_without_its_name_calls_for_the_effect() {
+    for (prompt, wanted) in [
+        ("make it look like small toys, push in", "tilt-shift"),
+        ("like seen in a christmas ball, push in", "fisheye"),
+        ("the cup is clear and all the rest stays without sharpness", "depth-of-field"),
+        ("the colors separate at the edges, pan left", "chromatic-aberration"),
+        ("coloured circles in the lens, pan left", "lens-flare"),
+        ("the behind must be transparent, orbit the cup", "background"),
+        ("the candle has a halo, push in", "bloom"),
+        ("smoke in the hall, push in", "fog"),
+        ("poles tilt when we pan", "rolling-shutter"),
+        ("as if a person filmed it, push in", "handheld"),
+        ("texture of old film, push in", "film-grain"),
+        ("take it down a stop, push in", "exposure"),
+        ("the walls bow out at the edges, push in", "lens-distortion"),
+    ] {
+        assert_eq!(read(prompt)[0], Names::from([wanted.to_owned()]), "{prompt}");
+    }
+}
+
+#[test]
+fn what_a_picture_on_the_wall_shows_and_a_turn_of_the_head_call_for_no_effect() {
+    for prompt in [
+        "closer to the framed photo of a foggy harbour",
+        "the dark picture on the wall, push in",
+        "look through the peephole of the door",
+        "turn your head slowly from the door to the window",
+        "point the camera at the lamp and nothing else",
+        "look into the doll's house from the front",
+        "all black behind one pillar, then step out to the left",
+        "turn round that street lamp, as if you were holding it",
     ] {
         assert_eq!(read(prompt), [Names::new(), Names::new()], "{prompt}");
     }

@@ -168,3 +168,32 @@ fn a_change_of_speed_shows_over_the_whole_move() {
         assert!(ends[faster] > 1.3 * ends[1 - faster], "{easing}: {ends:?}");
     }
 }
+
+#[test]
+fn a_film_is_as_long_as_its_parts() {
+    let part = |step: Step, secs: f64| Step { duration_secs: Some(secs), ..step };
+    let steps = vec![
+        part(Step { end: about(1), ..Step::of(Move::Static) }, 2.0),
+        part(Step { end: about(2), ..Step::of(Move::PanLeft) }, 3.0),
+        part(Step { end: about(1), ..Step::of(Move::PushIn) }, 3.0),
+    ];
+    let program = Program { steps, duration_secs: Some(8.0), ..Program::default() };
+    let settings = SolveSettings { level: SolveLevel::Fast, ..SolveSettings::default() };
+    let solution = realize(&world(), &program, "", &[], &settings);
+    assert!((solution.duration_secs - 8.0).abs() < 1e-9, "{}", solution.duration_secs);
+    let moving: Vec<bool> = rates(&solution).iter().map(|[speed, turn]| speed + turn > 1e-3).collect();
+    let at = |secs: f64| moving[(secs / STEP_SECS) as usize];
+    assert!(!at(0.5) && !at(1.5) && at(3.5) && at(6.5), "rest for two seconds, then moves");
+}
+
+#[test]
+fn a_short_film_of_many_moves_is_as_short_as_asked() {
+    let about = |id: u32, movement: Move| Step { end: about(id), ..Step::of(movement) };
+    let steps = vec![about(1, Move::PushIn), about(2, Move::PushIn), about(1, Move::OrbitRight)];
+    for secs in [1.0, 1.5, 4.0] {
+        let program = Program { steps: steps.clone(), duration_secs: Some(secs), ..Program::default() };
+        let settings = SolveSettings { level: SolveLevel::Fast, ..SolveSettings::default() };
+        let solution = realize(&world(), &program, "", &[], &settings);
+        assert!((solution.duration_secs - secs).abs() < 1e-9, "{secs}: {}", solution.duration_secs);
+    }
+}

@@ -1,7 +1,9 @@
 //! Every move follows the definition of `Move`, measured on the film.
 
 use cinesplat::geometry::{LevelFrame, rotation};
-use cinesplat::operator::{Amount, Framing, Program, Slant, SolveLevel, SolveSettings, Step, StepCameras, realize};
+use cinesplat::operator::{
+    Amount, Framing, Look, Pass, Program, Slant, SolveLevel, SolveSettings, Step, StepCameras, Via, realize,
+};
 use cinesplat::trajectory::{CameraState, Move, ShotSize};
 use glam::DVec3;
 
@@ -200,4 +202,30 @@ fn without_a_search_the_move_is_exact_and_starts_from_the_suggested_side() {
         solution.report.iter().any(|line| line.clause == "clear of matter"),
         "the report measures the one candidate"
     );
+}
+
+#[test]
+fn a_way_to_the_only_thing_named_comes_nearer() {
+    let frames = filmed(Step { end: about(1), ..Step::of(Move::Follow) });
+    let distance = |state: &CameraState| state.pose.position.distance(CENTER);
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    assert!(distance(last) < 0.75 * distance(first), "{} to {}", distance(first), distance(last));
+}
+
+#[test]
+fn a_rise_after_a_picture_keeps_its_subject_in_the_frame() {
+    let steps = vec![Step { end: about(1), ..Step::of(Move::Static) }, Step::of(Move::PedestalUp)];
+    for state in film(&solved(&world(), steps)) {
+        let local = state.pose.rotation.inverse() * (CENTER - state.pose.position);
+        let below = local.y / local.z / (2.0 * (state.fov_y_rad / 2.0).tan());
+        assert!(below.abs() < 0.5, "{below} frame heights from the middle");
+    }
+}
+
+#[test]
+fn a_slide_from_thing_to_thing_does_not_go_along_a_third() {
+    let slide = Step { start: about(2), end: about(1), ..Step::of(Move::TruckRight) };
+    let along =
+        Step { via: Some(Via { how: Pass::Along, objects: vec![1] }), look: Some(Look::At(vec![2])), ..slide.clone() };
+    assert_eq!(solved(&world(), vec![along]).keyframes, solved(&world(), vec![slide]).keyframes);
 }

@@ -3,11 +3,39 @@
 mod directions;
 mod dolly_zoom;
 mod open;
+mod openings;
 mod places;
 mod repeats;
+mod together;
+mod until;
 
-pub(crate) use directions::take_said_directions;
-pub(crate) use dolly_zoom::take_said_dolly_zooms;
-pub(crate) use open::{open_unstated_directions, reverse_retraced};
-pub(crate) use places::{complete_framings, drop_descriptions};
-pub(crate) use repeats::merge_repeated;
+use cinesplat_language::{Linked, Senses};
+
+use crate::direction::Direction;
+use crate::error::DirectorError;
+
+/// Corrects a direction by what the words say plainly. `senses` has one entry per word.
+///
+/// # Errors
+/// [`DirectorError::Language`] for a damaged list of senses.
+pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Direction) -> Result<(), DirectorError> {
+    let steps = &mut direction.program.steps;
+    directions::take_said_directions(linked, steps);
+    dolly_zoom::take_said_dolly_zooms(linked, steps);
+    open::reverse_retraced(linked, steps);
+    open::open_unstated_directions(linked, senses, steps)?;
+    places::drop_descriptions(linked, steps);
+    places::pass_pairs(linked, steps);
+    places::complete_framings(steps);
+    repeats::merge_repeated(linked, senses, direction)?;
+    until::join_until(linked, direction);
+    together::complete_lists(linked, &mut direction.program);
+    let steps = &mut direction.program.steps;
+    together::show_both(linked, steps);
+    together::keep_always(linked, steps);
+    openings::take_sizes(linked, steps);
+    openings::rest_on_first_picture(linked, senses, steps)?;
+    openings::rise_from_ground(linked, steps);
+    places::rise_by_lengths(linked, steps);
+    Ok(())
+}

@@ -1,7 +1,7 @@
 //! What the words say of where things are and how they are seen.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Framing, Pass, Step, SubjectPart};
+use cinesplat_operator::{Amount, Framing, Pass, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
 /// Words that say where a thing is, and the way past that the network may read into them.
@@ -42,6 +42,41 @@ pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// A pair is passed, not gone along, where the words say `past`: `truck right past the two easels`.
+pub(crate) fn pass_pairs(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let (Some(via), Some(words)) = (&mut step.via, step.words) else { continue };
+        let says = |wanted: &str| linked.words_in(words).any(|(word, _)| word == wanted);
+        if via.how == Pass::Along && linked.expanded(&via.objects).len() == 2 && says("past") && !says("along") {
+            via.how = Pass::Past;
+        }
+    }
+}
+
+/// Words before a length by which it is a height (`rise to two meters`), and words behind it.
+const TO_HEIGHTS: [&str; 4] = ["to", "at", "of", "until"];
+const HEIGHTS: [&str; 9] = ["above", "over", "off", "high", "height", "altitude", "from", "level", "tall"];
+/// Words that may stand before a length of either kind.
+const ROUGHLY: [&str; 7] = ["about", "around", "roughly", "a", "some", "approximately", "maybe"];
+
+/// Makes a length the way of a rise or a descent where the words beside it do not say that it is a height: `rise about
+/// half a meter`.
+pub(crate) fn rise_by_lengths(linked: &Linked, steps: &mut [Step]) {
+    let moves = |step: &&mut Step| {
+        matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown)
+    };
+    for step in steps.iter_mut().filter(moves).filter(|step| step.amount.is_none() && step.end.height.is_some()) {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let mut lengths = words.iter().enumerate().filter(|(_, word)| linked.is_quantity(word)).map(|(at, _)| at);
+        let (Some(at), None) = (lengths.next(), lengths.next()) else { continue };
+        let before = words[..at].iter().rev().find(|word| !ROUGHLY.contains(word)).copied().unwrap_or_default();
+        let behind = words.get(at + 1).copied().unwrap_or_default();
+        if !TO_HEIGHTS.contains(&before) && !HEIGHTS.contains(&behind) {
+            step.amount = step.end.height.take().map(Amount::Units);
+        }
+    }
+}
+
 /// Whether a move goes to its subject, or stays before it, and so passes nothing else.
 fn stays_before_subject(movement: Move) -> bool {
     let circles_or_nears = matches!(
@@ -61,8 +96,8 @@ fn stays_before_subject(movement: Move) -> bool {
     circles_or_nears || movement.looks_elsewhere()
 }
 
-/// Gives a framing that says how its subjects are seen, but not which, the subjects of the step's other framing, or what
-/// it passes: `tilt from the foot of the lamp post up to its lantern`.
+/// Gives a framing that says how its subjects are seen, but not which, the subjects of the step's other framing, or
+/// what it passes: `tilt from the foot of the lamp post up to its lantern`.
 pub(crate) fn complete_framings(steps: &mut [Step]) {
     for step in steps {
         let passed = step.via.as_ref().map(|via| via.objects.clone()).unwrap_or_default();

@@ -1,7 +1,7 @@
 //! Effects that a prompt calls for or forbids.
 //!
-//! Enters: the words of a prompt, and which of them name objects. Leaves: the mentions of effects in order, each with its
-//! degree, its settings and whether it is forbidden. `prompts/effects.txt` holds the phrases.
+//! Enters: the words of a prompt, and which of them name objects. Leaves: the mentions of effects in order, each with
+//! its degree, its settings and whether it is forbidden. `prompts/effects.txt` holds the phrases.
 
 mod item;
 mod lookalike;
@@ -41,9 +41,9 @@ pub struct EffectMention {
     pub span: [usize; 2],
 }
 
-/// The effects that a prompt mentions, each kind once, in the order of the words: effects of the camera, and requests that
-/// no camera can meet. Of two mentions of one kind that contradict each other the last one counts. A negated mention
-/// (`no motion blur`) is one that forbids; of what is no effect (`without music`) it is omitted.
+/// The effects that a prompt mentions, each kind once, in the order of the words: effects of the camera, and requests
+/// that no camera can meet. Of two mentions of one kind that contradict each other the last one counts. A negated
+/// mention (`no motion blur`) is one that forbids; of what is no effect (`without music`) it is omitted.
 ///
 /// # Errors
 /// [`LanguageError::BadData`] when the embedded lexicon or the table of phrases is malformed.
@@ -80,8 +80,8 @@ pub(crate) fn effect_words(prompt: &str, words: &[Word]) -> Result<Vec<bool>, La
     Ok(is_effect)
 }
 
-/// Which of some parts of a prompt, in bytes, hold nothing but phrases for effects: `bloom` in `push in with bloom`, `a bit of
-/// vignette`.
+/// Which of some parts of a prompt, in bytes, hold nothing but phrases for effects: `bloom` in `push in with bloom`, `a
+/// bit of vignette`.
 ///
 /// # Errors
 /// Those of [`effect_mentions`].
@@ -106,10 +106,10 @@ pub fn are_effect_phrases(prompt: &str, parts: &[[usize; 2]]) -> Result<Vec<bool
     Ok(parts.iter().map(is_phrase).collect())
 }
 
-/// The prompt without what only sets the camera: a dutch angle and the words that lead to it (`with a slight dutch angle`),
-/// and the numbers of lens, shutter and film (`with a 180 degree shutter`, `at f/2`, `35 mm film grain`), which are none of a
-/// move. Blanks stand for them, so that every other byte stays where it is. A prompt that says nothing else stays as it is,
-/// and so does a camera that leans over (`roll into a dutch angle`).
+/// The prompt without what only sets the camera: a dutch angle and the words that lead to it (`with a slight dutch
+/// angle`), and the numbers of lens, shutter and film (`with a 180 degree shutter`, `at f/2`, `35 mm film grain`),
+/// which are none of a move. Blanks stand for them, so that every other byte stays where it is. A prompt that says
+/// nothing else stays as it is, and so does a camera that leans over (`roll into a dutch angle`).
 ///
 /// # Errors
 /// Those of [`effect_mentions`].

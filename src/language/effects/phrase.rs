@@ -53,7 +53,8 @@ impl Part {
 /// The parts of a phrase: `(very) shallow|thin focus`, `[a b|c] d`.
 ///
 /// # Errors
-/// A reason for a bracket that is not closed, for a phrase without words that must be there, and for an item that is none.
+/// A reason for a bracket that is not closed, for a phrase without words that must be there, and for an item that is
+/// none.
 pub(super) fn parts_of(text: &str, lists: &Lists) -> Result<Vec<Part>, &'static str> {
     let mut parts = Vec::new();
     let mut rest = text.trim();

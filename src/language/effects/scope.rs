@@ -4,6 +4,7 @@ use cinesplat_lens::Degree;
 
 use super::phrase::Found;
 use super::table::{Table, WordKind};
+use crate::lexicon::Lexicon;
 use crate::tokenizer::{Word, word_at};
 
 /// Words before a phrase among which its degree is looked for.
@@ -55,6 +56,10 @@ pub(super) fn forbidden(context: Context<'_>) -> Vec<bool> {
             scope = scope.filter(|scope| context.goes_on(at, scope.start));
             continue;
         }
+        // A phrase whose words stand apart begins inside what covers it: `don't let the focus start on A and end on B`.
+        if let Some(idx) = phrases.iter().position(|found| found.start == at && found.spans) {
+            result[idx] |= scope.is_some();
+        }
         scope = context.next_scope(at, scope);
         at += 1;
     }
@@ -85,9 +90,15 @@ impl Context<'_> {
             "zero" if matches!(follows(1), "point" | "s" | "sec" | "second" | "seconds" | "degree" | "degrees") => None,
             "instead" | "rather" if matches!(follows(1), "of" | "than") => Some(Scope::from(at)),
             "free" | "clean" | "clear" | "devoid" if matches!(follows(1), "of" | "from") => Some(Scope::from(at)),
+            // `take off over the sofa` is a start.
+            "take" if follows(1) == "off" && matches!(follows(2), "with" | "from" | "over" | "toward" | "towards") => {
+                None
+            }
             "turn" | "turned" | "switch" | "leave" | "take" if matches!(follows(1), "off" | "out") => {
                 Some(Scope::from(at))
             }
+            // `can't wait to see`, `without a doubt`.
+            "wait" | "doubt" | "help" => None,
             "get" | "getting" if follows(1) == "rid" => Some(Scope::from(at)),
             "of" | "than" | "from" | "off" | "out" | "rid" if scope.is_some() => scope,
             _ if scope.is_some() && self.lists(WordKind::TakesBack, at) => None,
@@ -108,11 +119,16 @@ impl Context<'_> {
         if self.lists(WordKind::Filler, at) || JOINTS.contains(&word) {
             return (scope.strangers == 0 || !matches!(word, "with" | "for" | "and" | ",")).then_some(scope);
         }
+        // `no zoom, motion blur on the pan`: what is ruled out is the move.
+        if names_shot(word) {
+            return None;
+        }
         let strangers = scope.strangers + 1;
         (word.starts_with(char::is_alphanumeric) && strangers <= MAX_STRANGERS).then_some(Scope { strangers, ..scope })
     }
 
-    /// Whether a negation that covered a phrase goes on behind it: `no grain, vignette or flares`, `without fog and haze`.
+    /// Whether a negation that covered a phrase goes on behind it: `no grain, vignette or flares`, `without fog and
+    /// haze`.
     fn goes_on(&self, end: usize, start: usize) -> bool {
         match self.word(end) {
             "or" | "nor" | "/" => true,
@@ -154,7 +170,8 @@ impl Context<'_> {
         }
     }
 
-    /// Whether the words after a phrase forbid it: `grain off`, `blur-free`, `motion blur: none`, `grain is added in post`.
+    /// Whether the words after a phrase forbid it: `grain off`, `blur-free`, `motion blur: none`, `grain is added in
+    /// post`.
     fn is_forbidden_after(&self, end: usize) -> bool {
         let is_end = |at: usize| !self.word(at).starts_with(|c: char| c.is_alphanumeric());
         // `grain yes, flares no`.
@@ -167,14 +184,21 @@ impl Context<'_> {
         // `flares off the window` come from there.
         let is_origin =
             matches!(first, "off" | "free") && matches!(second, "the" | "a" | "an" | "of" | "its" | "that" | "every");
-        let is_done =
-            |at: usize| matches!(self.word(at), "done" | "added" | "add" | "goes" | "applied" | "comes" | "do");
-        let is_delayed = matches!(first, "later" | "afterwards" | "afterward") && (end..at).any(is_done);
+        let is_done = |at: usize| matches!(self.word(at), "done" | "added" | "add" | "applied");
+        // `added later in the shot` is later in the film.
+        let is_delayed = matches!(first, "later" | "afterwards" | "afterward")
+            && !matches!(second, "in" | "on")
+            && (end..at).any(is_done);
         !is_origin && self.lists(WordKind::ForbidsBefore, at)
             || first == "not" && matches!(second, "wanted" | "needed" | "necessary" | "allowed" | "desired" | "wished")
             || self.lists(WordKind::Elsewhere, at) && (end..at).any(|at| self.word(at) == "in")
             || is_delayed
     }
+}
+
+/// Whether a word belongs to the language of shots and moves.
+fn names_shot(word: &str) -> bool {
+    Lexicon::embedded().is_ok_and(|lexicon| lexicon.is_shot_language(word))
 }
 
 /// How much of an effect the words before its phrase, or the first word of it, ask for.

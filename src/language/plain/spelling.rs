@@ -1,13 +1,14 @@
 //! Misspelled words of command: `utnil`, `pnn`, `crain`.
 //!
-//! Only a word that is no English word is mended, only into a word of the language of shots, and only if one such word is
-//! nearest: one edit, or two in words of eight letters and more.
+//! Only a word that is no English word is mended, only into a word of the language of shots, and only if one such word
+//! is nearest: one edit, or two in words of eight letters and more.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use crate::edit_distance::edit_distance;
 use crate::error::LanguageError;
+use crate::inflection::stem;
 use crate::known_words::KnownWords;
 use crate::lexicon::Lexicon;
 use crate::things::Things;
@@ -75,8 +76,8 @@ impl Spelling {
     }
 }
 
-/// The word at most `most` edits from `word`, if no other is as near. Nobody slips at the first letter, unless two change
-/// places.
+/// The word at most `most` edits from `word`, if no other is as near. Nobody slips at the first letter, unless two
+/// change places.
 fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>, most: usize) -> Option<&'a str> {
     let letters = word.len();
     let is_like = |known: &&str| {
@@ -89,8 +90,11 @@ fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>, most: usize) ->
     found.sort_unstable();
     match found[..] {
         [] => None,
-        [(first, known), (second, _), ..] => (first < second).then_some(known),
-        [(_, known)] => Some(known),
+        // `degres` is as near to `degree` as to `degrees`: one word in two forms.
+        [(first, known), ..] => {
+            let mut as_near = found.iter().take_while(|(rank, _)| *rank == first);
+            as_near.all(|(_, other)| stem(other) == stem(known)).then_some(known)
+        }
     }
 }
 

@@ -1,13 +1,14 @@
 //! Timelines: prompts that say part by part what happens when.
 //!
-//! Enters: the words of a prompt. Leaves: its beats, each with its bytes and its length where that is stated: `0-3s wide,
-//! 3-6s the lamp`, `0:00 hold | 0:04 push in`, `T+0 .. T+3 ..`, `3s orbit, 2s hold`, `first third: ..`, `1) .. 2) ..`. A
-//! prompt with fewer than two beats is no timeline. The text before the first beat is the introduction.
+//! Enters: the words of a prompt. Leaves: its beats, each with its bytes and its length where that is stated: `0-3s
+//! wide, 3-6s the lamp`, `0:00 hold | 0:04 push in`, `T+0 .. T+3 ..`, `3s orbit, 2s hold`, `first third: ..`, `1) .. 2)
+//! ..`, `.. cut to ..`. A prompt with fewer than two beats is no timeline. The text before the first beat is the
+//! introduction.
 
 mod stamp;
 
 use super::tokenizer::{Word, span_of, word_at};
-use stamp::{Stamp, StampKind, begins_item, stamp_at};
+use stamp::{Stamp, StampKind, begins_item, cut_at, stamp_at};
 
 /// What a prompt says part by part.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -48,15 +49,14 @@ const ENDINGS: [&str; 12] =
 
 /// The timeline of a prompt, if it is one.
 pub(crate) fn timeline(prompt: &str, words: &[Word]) -> Option<Timeline> {
-    let items = (0..words.len()).filter(|i| begins_item(prompt, words, *i));
-    let all: Vec<Stamp> = items.filter_map(|i| stamp_at(prompt, words, i)).collect();
+    let all = stamps(prompt, words);
     let families: [fn(&StampKind) -> bool; 4] = [
         |kind| matches!(kind, StampKind::Span(..) | StampKind::Point(_)),
         |kind| matches!(kind, StampKind::Share(_)),
         |kind| matches!(kind, StampKind::Length(_)),
         |kind| matches!(kind, StampKind::Number(_)),
     ];
-    families.iter().find_map(|is_member| {
+    let listed = families.iter().find_map(|is_member| {
         let mut stamps: Vec<Stamp> = Vec::new();
         for stamp in all.iter().filter(|stamp| is_member(&stamp.kind)) {
             if stamps.last().is_none_or(|last| last.end <= stamp.at) {
@@ -64,7 +64,49 @@ pub(crate) fn timeline(prompt: &str, words: &[Word]) -> Option<Timeline> {
             }
         }
         is_sequence(words, &stamps).then(|| beats_of(words, &stamps)).flatten()
-    })
+    });
+    listed.or_else(|| beats_of(words, &cuts(words)))
+}
+
+/// Words before a number that make it no number of a list: `pan to chair 2.`, `hold for 2.`.
+const BEFORE_AMOUNTS: [&str; 14] =
+    ["to", "on", "at", "for", "from", "of", "with", "and", "between", "past", "around", "over", "in", "by"];
+
+/// The stamps of all kinds that begin an item. The next number of a list needs no mark before it where no number with
+/// one is there: `1. the mug 2. the jar`.
+fn stamps(prompt: &str, words: &[Word]) -> Vec<Stamp> {
+    let at = |i: usize| stamp_at(prompt, words, i);
+    let begins: Vec<Stamp> = (0..words.len()).filter(|i| begins_item(prompt, words, *i)).filter_map(at).collect();
+    let number_of = |stamp: &Stamp| match stamp.kind {
+        StampKind::Number(number) => Some(number),
+        _ => None,
+    };
+    let numbers: Vec<u32> = begins.iter().filter_map(number_of).collect();
+    let mut all: Vec<Stamp> = Vec::new();
+    let mut last = None;
+    for i in 0..words.len() {
+        let marked = begins.iter().find(|stamp| stamp.at == i || stamp.at + 1 == i && word_at(words, stamp.at) == "#");
+        let is_next = |stamp: &Stamp| {
+            let number = number_of(stamp);
+            let follows = number.is_some() && last == number.and_then(|number| number.checked_sub(1));
+            let before = stamp.at.checked_sub(1).map_or("", |before| word_at(words, before));
+            follows && number.is_some_and(|number| !numbers.contains(&number)) && !BEFORE_AMOUNTS.contains(&before)
+        };
+        let Some(stamp) = marked.copied().or_else(|| at(i).filter(is_next)) else { continue };
+        if all.last() != Some(&stamp) {
+            last = number_of(&stamp).or(last);
+            all.push(stamp);
+        }
+    }
+    all
+}
+
+/// The pictures that a prompt cuts between: the first from its start, the others from the cuts to them. Empty without a
+/// cut.
+fn cuts(words: &[Word]) -> Vec<Stamp> {
+    let cuts: Vec<Stamp> = (0..words.len()).filter_map(|i| cut_at(words, i)).collect();
+    let opening = Stamp { at: 0, end: 0, kind: StampKind::Cut };
+    if cuts.is_empty() || cuts.len() >= MAX_BEATS { Vec::new() } else { [vec![opening], cuts].concat() }
 }
 
 /// Whether stamps of one kind are a timeline: in order, and so that the first begins the list.
@@ -85,7 +127,7 @@ fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
         }
         // `10 s: 3s orbit, ..`: lengths are a list only from its start on.
         StampKind::Length(_) => first.at == 0 || matches!(word_at(words, first.at - 1), ":" | "."),
-        StampKind::Share(_) => in_order,
+        StampKind::Share(_) | StampKind::Cut => in_order,
     }
 }
 
@@ -104,11 +146,11 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
             StampKind::Point(start) => next.map(|next| BeatLength::Secs(next - start)),
             StampKind::Length(secs) => Some(BeatLength::Secs(secs)),
             StampKind::Share(share) => Some(BeatLength::Share(share)),
-            StampKind::Number(_) => None,
+            StampKind::Number(_) | StampKind::Cut => None,
         };
         let is_last = nth + 1 == stamps.len();
         let is_end = is_last
-            && matches!(stamp.kind, StampKind::Point(_))
+            && matches!(stamp.kind, StampKind::Point(_) | StampKind::Cut)
             && words[text[0]..text[1]]
                 .iter()
                 .all(|word| ENDINGS.contains(&word.text.as_str()) || !word.is_alphabetic());
@@ -116,10 +158,12 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
             break;
         }
         let start = words.get(stamp.at).map_or(0, |word| word.span[0]);
-        let (text, cuts) = without_joint(words, *text);
+        let text = if is_last { without_ending(words, *text) } else { *text };
+        let (text, cuts) = without_joint(words, text);
         if text[0] == text[1] {
             return None;
         }
+        cut |= stamp.kind == StampKind::Cut && nth > 0;
         beats.push(Beat { bytes: span_of(&words[text[0]..text[1]]), start, length, cut });
         cut = cuts;
     }
@@ -127,6 +171,15 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
     let before = trimmed(words, 0, first.at);
     let introduction = span_of(&words[before[0]..before[1]]);
     (beats.len() > 1).then_some(Timeline { introduction, beats })
+}
+
+/// The last part without a sentence that only says that the film ends: `push in on the jar. out.`
+fn without_ending(words: &[Word], [start, end]: [usize; 2]) -> [usize; 2] {
+    let is_end = |word: &Word| ENDINGS.contains(&word.text.as_str());
+    let last = words[start..end].iter().rposition(|word| !is_end(word) && word.is_alphabetic()).map_or(0, |at| at + 1);
+    let kept = start + last;
+    let is_sentence = words.get(kept).is_some_and(|word| matches!(word.text.as_str(), "." | ";" | "/"));
+    if last > 0 && is_sentence { [start, kept] } else { [start, end] }
 }
 
 /// A part without the words that lead to the next one, and whether they are a cut: `push in, then`, `push in, cut to`.
@@ -140,10 +193,12 @@ fn without_joint(words: &[Word], [start, end]: [usize; 2]) -> ([usize; 2], bool)
 
 /// The words `start..end` without marks at either end.
 fn trimmed(words: &[Word], start: usize, end: usize) -> [usize; 2] {
-    let is_mark = |word: &Word| matches!(word.text.as_str(), "," | "." | ";" | ":" | "/" | ")" | "(" | ">" | "=");
+    let is_mark =
+        |word: &Word| matches!(word.text.as_str(), "," | "." | ";" | ":" | "/" | ")" | "(" | "]" | "[" | ">" | "=");
     let skipped = words[start..end].iter().take_while(|word| is_mark(word)).count();
     let first = start + skipped;
-    let kept =
-        words[first..end].iter().rposition(|word| !matches!(word.text.as_str(), "," | "." | ";" | ":" | "/" | "("));
+    let kept = words[first..end]
+        .iter()
+        .rposition(|word| !matches!(word.text.as_str(), "," | "." | ";" | ":" | "/" | "(" | "["));
     [first, kept.map_or(first, |last| first + last + 1)]
 }

@@ -27,6 +27,8 @@ pub(super) enum StampKind {
     Share(f64),
     /// Number in a list.
     Number(u32),
+    /// A cut.
+    Cut,
 }
 
 impl StampKind {
@@ -51,7 +53,7 @@ pub(super) fn begins_item(prompt: &str, words: &[Word], i: usize) -> bool {
     };
     stands_out
         || gap.contains(['\n', '|', '\u{2022}', '*'])
-        || before.text == "("
+        || matches!(before.text.as_str(), "(" | "[")
         || before.text == "#" && begins_item(prompt, words, i - 1)
         || matches!(before.text.as_str(), "," | "." | ";" | ":" | "/" | "!" | "?" | ")" | "then" | "and")
             && !is_joined(words, i)
@@ -64,11 +66,12 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
         return stamp(end, StampKind::Share(share));
     }
     if let Some((end, number)) = list_number_at(prompt, words, i) {
-        return stamp(end, StampKind::Number(number));
+        let at = i - usize::from(i > 0 && word_at(words, i - 1) == "#");
+        return Some(Stamp { at, end, kind: StampKind::Number(number) });
     }
     let start = match (word_at(words, i), word_at(words, i + 1)) {
         ("t", "+") => i + 2,
-        ("from" | "at" | "by" | "second" | "sec" | "secs" | "seconds", _) => i + 1,
+        ("from" | "at" | "by" | "second" | "sec" | "secs" | "seconds" | "tc" | "timecode", _) => i + 1,
         _ => i,
     };
     let is_named = start > i;
@@ -85,6 +88,48 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
         }
         _ => None,
     }
+}
+
+/// Words that deny a cut behind them, and how far behind.
+const DENIALS: [&str; 14] = [
+    "no",
+    "not",
+    "never",
+    "without",
+    "avoid",
+    "than",
+    "instead",
+    "don",
+    "dont",
+    "'t",
+    "t",
+    "\u{2019}t",
+    "cannot",
+    "nor",
+];
+const DENIED_WORDS: usize = 6;
+
+/// The cut that begins at word `i`: `cut to`, `then smash cut to`, `cuts back to`, and none that is denied.
+pub(super) fn cut_at(words: &[Word], i: usize) -> Option<Stamp> {
+    let is_mark = |at: &usize| matches!(word_at(words, *at), "," | "." | ";" | ":" | "!" | "?");
+    let mut before = (0..i).rev().take(DENIED_WORDS).take_while(|at| !is_mark(at));
+    let is_cut = matches!(word_at(words, i), "cut" | "cuts")
+        && !before.any(|at| DENIALS.contains(&word_at(words, at)))
+        && !(i > 0 && matches!(word_at(words, i - 1), "a" | "the"));
+    let lingers = matches!(word_at(words, i + 1), "back" | "straight" | "directly" | "right" | "over" | "now");
+    let to = i + 1 + usize::from(lingers);
+    if !is_cut || word_at(words, to) != "to" {
+        return None;
+    }
+    let leads = |at: &usize| {
+        matches!(
+            word_at(words, *at),
+            "then" | "and" | "we" | "hard" | "smash" | "jump" | "match" | "quick" | "straight"
+        )
+    };
+    let at = (0..i).rev().take_while(leads).last().unwrap_or(i);
+    let end = to + 1 + usize::from(word_at(words, to + 1) == ":");
+    Some(Stamp { at, end, kind: StampKind::Cut })
 }
 
 /// A span of time that begins with `first`.
@@ -175,11 +220,14 @@ fn list_number_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, u32)
     let mark = word_at(words, at + 1);
     let is_closed = match mark {
         ")" => true,
+        _ if after_mark && word_at(words, i - 1) == "#" => true,
         ":" | "." | "," | "/" => is_named || after_mark || mark == "." && is_followed_by_space(prompt, words, at + 1),
         _ => false,
     };
     let is_measure = cardinal_at(words, at).is_some_and(|(len, _)| len > 1);
-    (is_closed && !is_measure && number > 0).then_some((at + 2, number))
+    // `#2 pan left` has no mark behind the number.
+    let has_mark = matches!(mark, ")" | ":" | "." | "," | "/");
+    (is_closed && !is_measure && number > 0).then_some((at + 1 + usize::from(has_mark), number))
 }
 
 /// Whether a space follows word `i`.

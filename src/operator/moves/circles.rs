@@ -30,7 +30,8 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     let degrees = deg_to_side(context, &target, frame.azimuth(away), sign).unwrap_or_else(|| orbit_deg(context));
     let (first, squeeze) = squeezed(context, first, degrees);
     let radius = squeeze * frame.horizontal(away).length();
-    // A stated angle is kept; else a closer circle at the same height looks down on its subject from above the furniture.
+    // A stated angle is kept; else a closer circle at the same height looks down on its subject from above the
+    // furniture.
     let is_stated = |framing: &Framing| framing.angle.is_some() || framing.elevation_deg.is_some();
     let keeps_angle = is_stated(&context.step.start) || is_stated(&context.step.end);
     let rise = if keeps_angle { squeeze * frame.height(away) } else { frame.height(away) };
@@ -207,8 +208,8 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
     let start = bearing_of(context.world, target.aim, first.pose.position).elevation_rad.to_degrees();
     let sign = if upward { 1.0 } else { -1.0 };
     let asked = match context.step.end.angle {
-        Some(ShotAngle::Overhead) => lerp((53.0, 70.0), context.parameters[6]),
-        Some(ShotAngle::High) => lerp((16.0, 36.0), context.parameters[6]),
+        Some(ShotAngle::Overhead) => lerp((58.0, 70.0), context.parameters[6]),
+        Some(ShotAngle::High) => lerp((24.0, 38.0), context.parameters[6]),
         Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), context.parameters[6]),
         Some(ShotAngle::Low) => lerp((-30.0, -10.0), context.parameters[6]),
         Some(ShotAngle::Worm) => -45.0,

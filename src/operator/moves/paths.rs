@@ -10,10 +10,10 @@ use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::detours::is_clear;
 use crate::framing::{Bearing, Fill, Target, bearing_of};
 use crate::motion::MotionSegment;
-use crate::program::Motion;
+use crate::program::{Framing, Motion};
 use crate::view::{lerp, moved, stated_fill, view_from};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
-use cinesplat_trajectory::{CameraState, Move, ShotAngle};
+use cinesplat_trajectory::{CameraState, Move, ShotAngle, ShotSize};
 
 /// Moves from the view before, or from a view of the start target, to a view of the end target.
 pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
@@ -23,12 +23,17 @@ pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
     }
     let room = room_target(context.world, context.parameters).filter(|_| context.opens_on_room());
     let start = room.unwrap_or_else(|| context.opening_target());
+    let nears = goes_over(context, &start, &end);
+    let fill = if nears { (0.14, 0.28) } else { (0.4, 0.7) };
     let first = match &context.before {
         Some(before) => *before,
-        None => context.view(&start, &context.opening_framing(), (0.4, 0.7), NORMAL_LENS_DEG),
+        None => context.view(&start, &context.opening_framing(), fill, NORMAL_LENS_DEG),
     };
     let last = end_view(context, &end, &first);
     let mut segment = glide(context, &first, &last);
+    if nears {
+        segment = segment.requiring(Scope::All, ConstraintKind::DistanceRatio(end.aim, (0.0, 0.7)));
+    }
     segment = context
         .constrained_at_end(context.constrained_at_start(segment))
         .requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.15));
@@ -36,6 +41,15 @@ pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
         segment = require_visible(segment, &start, Scope::Start);
     }
     vec![require_visible(segment, &end, Scope::End)]
+}
+
+/// Whether the film begins with a way to the one thing that it names: `go over to the skull` sets out from farther
+/// away.
+fn goes_over(context: &StepContext, start: &Target, end: &Target) -> bool {
+    let [opening, closing] = [&context.step.start, &context.step.end];
+    let is_open = *opening == Framing { subjects: opening.subjects.clone(), ..Framing::default() };
+    let is_wide = matches!(closing.size, Some(ShotSize::MediumLong | ShotSize::Long | ShotSize::ExtremeLong));
+    context.before.is_none() && !end.ids.is_empty() && start.ids == end.ids && is_open && !is_wide && !closing.whole
 }
 
 /// Share of the way to what it looks at that a camera walks into a room where the prompt names no goal.
@@ -61,7 +75,11 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     let spread = |parameter: f64| (parameter * 2.0 - 1.0) * (parameter * 2.0 - 1.0).abs();
     let band = context.step.end.angle.map(|angle| {
         let (low, high) = pitch_band_deg(angle);
-        if angle == ShotAngle::Overhead { (64.0, 84.0) } else { (-high.min(34.0), -low.max(-70.0)) }
+        match angle {
+            ShotAngle::Overhead => (64.0, 84.0),
+            ShotAngle::High => (24.0, 38.0),
+            _ => (-high.min(34.0), -low.max(-70.0)),
+        }
     });
     let elevation_deg = if let Some(band) = band {
         lerp(band, parameters[7])
@@ -99,8 +117,8 @@ fn nearest(angles_rad: &[f64], from_rad: f64) -> f64 {
     angles_rad.iter().min_by(|a, b| turn(a).total_cmp(&turn(b))).copied().unwrap_or(from_rad)
 }
 
-/// A path from one view to another: straight where that is clear of matter; else bent sideways or up, so that the search
-/// can avoid obstacles.
+/// A path from one view to another: straight where that is clear of matter; else bent sideways or up, so that the
+/// search can avoid obstacles.
 fn glide(context: &StepContext, first: &CameraState, last: &CameraState) -> MotionSegment {
     let straight = context.segment(vec![*first, *last]);
     if is_clear(context.world, &straight) {

@@ -243,6 +243,10 @@ fn slide(
     let way = match (&context.end, travels) {
         _ if rise.is_some() => rise.unwrap_or_default(),
         (Some(end), true) => way_to(context, end, &first).unwrap_or(0.0),
+        _ if keeps_picture(context, direction, &target) => {
+            let half_height = (first.fov_y_rad / 2.0).tan() * distance;
+            lerp((0.55, 0.75), context.parameters[6]) * half_height
+        }
         _ => free_slide_length(context, &target, &first, &along, distance),
     };
     if !placed && !travels && rise.is_none() {
@@ -256,7 +260,8 @@ fn slide(
     first = through_gate(context, &first, along(&first) * way);
     let last = moved(&first, along(&first) * way);
     let mut segment = context.segment(vec![first, last]);
-    let slight = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_)));
+    let slight = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_)))
+        || !travels && keeps_picture(context, direction, &target);
     segment =
         segment.requiring(Scope::All, ConstraintKind::Travel(direction, target.aim, if slight { 0.02 } else { 0.24 }));
     if travels {
@@ -273,13 +278,28 @@ fn slide(
             .requiring(scope, ConstraintKind::InFrame(ids.clone(), share))
             .requiring(Scope::Any, ConstraintKind::InFrame(ids, 0.8));
         segment = require_visible(segment, &target, Scope::All);
+    } else if keeps_picture(context, direction, &target) {
+        segment = segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), PICTURE_EDGE));
     }
     segments.push(context.constrained_at_end(context.constrained_at_start(segment)));
     segments
 }
 
-/// The first camera of a descent that would end in the floor of a room: raised so that it ends above it, and aimed at its
-/// target again.
+/// Distance from the frame's middle up to which a thing is in the picture, in frame heights or widths.
+const PICTURE_EDGE: f64 = 0.4;
+
+/// Whether a rise or a descent keeps the thing in the picture that the step before shows: nothing says how far it goes.
+fn keeps_picture(context: &StepContext, direction: TravelDirection, target: &Target) -> bool {
+    direction.is_vertical()
+        && context.before.is_some()
+        && context.step.amount.is_none()
+        && context.step.end == Framing::default()
+        && context.step.via.is_none()
+        && !target.ids.is_empty()
+}
+
+/// The first camera of a descent that would end in the floor of a room: raised so that it ends above it, and aimed at
+/// its target again.
 fn off_the_floor(context: &StepContext, first: &CameraState, (target, way): (&Target, DVec3)) -> CameraState {
     let world = context.world;
     let lowest = world.height_above_floor(first.pose.position + way);

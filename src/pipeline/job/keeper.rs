@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use cinesplat_files::{Existing, FileError, NewFile, check_free, checksum};
+use cinesplat_files::{Existing, FileError, NewFile, PastCache, check_free, checksum};
 use cinesplat_video::encode_png;
 
 use super::cleanup::FRAMES;
@@ -21,6 +21,7 @@ pub(crate) struct Keeper {
     temporary: PathBuf,
     files: FrameFiles,
     log: DoneLog,
+    past_cache: PastCache,
     flusher: Flusher,
     /// Of the right to write.
     sign: Arc<Sign>,
@@ -30,7 +31,7 @@ impl Keeper {
     pub(super) fn open(folder: &Path, files: FrameFiles, sign: Arc<Sign>) -> Result<Self, JobError> {
         let log = DoneLog::open(folder)?;
         let flusher = Flusher::start(log.path().to_owned());
-        Ok(Self { temporary: folder.join(FRAMES), files, log, flusher, sign })
+        Ok(Self { temporary: folder.join(FRAMES), files, log, past_cache: PastCache::default(), flusher, sign })
     }
 
     /// Refuses a sequence that would replace pictures of somebody else.
@@ -60,8 +61,8 @@ impl Keeper {
         }
     }
 
-    /// Keeps the picture of frame `frame_idx - 1` once more, as frame `frame_idx`, without another copy on the disk where
-    /// that is possible.
+    /// Keeps the picture of frame `frame_idx - 1` once more, as frame `frame_idx`, without another copy on the disk
+    /// where that is possible.
     ///
     /// # Errors
     /// [`JobError::File`], [`JobError::Lost`].
@@ -119,7 +120,11 @@ impl Keeper {
             _ => Existing::Replace,
         };
         let new = NewFile::create_in(&self.temporary, &path, existing)?;
-        let written = parts.iter().try_for_each(|part| new.file().write_all(part));
+        // The frames of a film are read once, if ever; pictures of a sequence are looked at.
+        let written = match &self.files {
+            FrameFiles::Pictures { .. } => parts.iter().try_for_each(|part| new.file().write_all(part)),
+            _ => self.past_cache.write(new.file(), parts),
+        };
         written.map_err(|source| FileError::Write { path: path.clone(), source })?;
         self.log.append(frame_idx, checksum(parts))?;
         new.commit_unflushed()?;

@@ -42,7 +42,15 @@ impl Args {
         for case in &cases {
             let shot = match &self.shots {
                 Some(folder) => shot_args::read_file(&file(folder, case, "shot.json"), &[])?,
-                None => self.planned(case, &mut director)?,
+                None => match self.planned(case, &mut director) {
+                    Ok(shot) => shot,
+                    // A prompt that is refused has no film; the others do.
+                    Err(failure) => {
+                        console::note(&format!("{}: no film", case.id));
+                        console::error(&failure);
+                        continue;
+                    }
+                },
             };
             let facts = FlowFacts::of(&shot, director.scene_of(case)?.objects())?;
             console::data(&facts.csv_line(&case.id))?;

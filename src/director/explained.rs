@@ -1,0 +1,91 @@
+//! Names that other names explain: of things named before (`the pink drawers .. push in on the drawers`), and of places
+//! that only say which thing is meant (`the teapot on the shelf`).
+
+use std::collections::BTreeSet;
+
+use cinesplat_language::{NamedObject, stem, tokenize};
+
+use crate::names::FoundMention;
+
+/// Points mentions of one thing at the thing that an earlier mention named by the same words and more, as `the drawers`
+/// after `the pink drawers`, though the scene has a `drawer chest` too. A name that is exactly another thing's stays.
+pub(crate) fn point_back(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {
+    for nth in 1..found.len() {
+        let (before, rest) = found.split_at_mut(nth);
+        let later = &mut rest[0].mention;
+        let [id] = later.ids[..] else { continue };
+        let name = prompt.get(later.bytes[0]..later.bytes[1]).unwrap_or_default();
+        let words = content(name);
+        let label = |id: u32| objects.iter().find(|object| object.id == id).map(|object| content(&object.label));
+        if words.is_empty() || is_number(name) || label(id).as_ref() == Some(&words) {
+            continue;
+        }
+        let mut earlier = before.iter().rev().filter_map(|found| match found.mention.ids[..] {
+            [id] => Some((id, &found.mention)),
+            _ => None,
+        });
+        let names_more = |(earlier_id, mention): &(u32, &cinesplat_language::Mention)| {
+            let is_part = |whole: &str| {
+                let all = content(whole);
+                words.is_subset(&all) && words != all && head(whole) == head(name)
+            };
+            let label = objects.iter().find(|object| object.id == *earlier_id);
+            prompt.get(mention.bytes[0]..mention.bytes[1]).is_some_and(is_part)
+                || label.is_some_and(|object| is_part(&object.label))
+        };
+        if let Some((earlier_id, _)) = earlier.find(names_more) {
+            later.ids = vec![earlier_id];
+        }
+    }
+}
+
+/// Words that say where a thing is, and words that may stand beside them.
+const WHERE: [&str; 11] =
+    ["on", "in", "at", "under", "below", "beneath", "underneath", "near", "above", "inside", "atop"];
+const BESIDE: [&str; 14] =
+    ["the", "a", "an", "that", "which", "is", "are", "sits", "sitting", "standing", "stands", "hanging", "lying", "up"];
+
+/// Makes one mention of a thing and of the place that tells which one it is, where the place is called by no word of
+/// the object that it was taken for: `the shelf` on which the teapot stands, in a scene of cabinets.
+pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>) {
+    let mut nth = 1;
+    while nth < found.len() {
+        let [thing, place] = [&found[nth - 1].mention, &found[nth].mention];
+        let between = tokenize(prompt.get(thing.bytes[1]..place.bytes[0]).unwrap_or_default());
+        let says_where = between.iter().any(|word| WHERE.contains(&word.text.as_str()))
+            && between.iter().all(|word| [&WHERE[..], &BESIDE[..]].concat().contains(&word.text.as_str()));
+        let is_loose = match (&thing.ids[..], &place.ids[..]) {
+            ([_, ..], [id]) => {
+                let words = prompt.get(place.bytes[0]..place.bytes[1]).unwrap_or_default();
+                let label = objects.iter().find(|object| object.id == *id).map(|object| content(&object.label));
+                let is_other = label.is_some_and(|label| !label.is_empty() && label.is_disjoint(&content(words)));
+                is_other && !is_number(words) && thing.ids != place.ids
+            }
+            _ => false,
+        };
+        if says_where && is_loose {
+            found[nth - 1].mention.bytes[1] = place.bytes[1];
+            found.remove(nth);
+        } else {
+            nth += 1;
+        }
+    }
+}
+
+/// The stem of the thing that a name names: its last word.
+fn head(name: &str) -> Option<String> {
+    tokenize(name).into_iter().rev().find(cinesplat_language::Word::is_alphabetic).map(|word| stem(&word.text))
+}
+
+/// Whether a mention is a number: `<obj-3>`, `object 3`.
+fn is_number(words: &str) -> bool {
+    words.contains(|letter: char| letter.is_ascii_digit())
+}
+
+/// The stems of the words of a name but articles and pointing words.
+fn content(name: &str) -> BTreeSet<String> {
+    let points =
+        |word: &str| matches!(word, "the" | "a" | "an" | "this" | "that" | "these" | "those" | "same" | "said");
+    let words = tokenize(name).into_iter().filter(|word| word.is_alphabetic() && !points(&word.text));
+    words.map(|word| stem(&word.text)).collect()
+}

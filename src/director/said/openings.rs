@@ -1,0 +1,117 @@
+//! What the words say of the first picture.
+
+use cinesplat_language::{LanguageError, Linked, Senses};
+use cinesplat_operator::{Framing, Step};
+use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
+
+/// Abbreviations of shot sizes.
+const SIZES: [(&str, ShotSize); 14] = [
+    ("ecu", ShotSize::ExtremeCloseUp),
+    ("xcu", ShotSize::ExtremeCloseUp),
+    ("bcu", ShotSize::ExtremeCloseUp),
+    ("cu", ShotSize::CloseUp),
+    ("mcu", ShotSize::MediumCloseUp),
+    ("ms", ShotSize::Medium),
+    ("mls", ShotSize::MediumLong),
+    ("mws", ShotSize::MediumLong),
+    ("ls", ShotSize::Long),
+    ("ws", ShotSize::Long),
+    ("fs", ShotSize::Long),
+    ("els", ShotSize::ExtremeLong),
+    ("ews", ShotSize::ExtremeLong),
+    ("vws", ShotSize::ExtremeLong),
+];
+
+/// Opens and ends a travel or a zoom on the sizes that an arrow between them says: `MCU > CU on the cup`.
+pub(crate) fn take_sizes(linked: &Linked, steps: &mut [Step]) {
+    let changes_size = |step: &&mut Step| {
+        matches!(step.movement, Move::PushIn | Move::PullOut | Move::ZoomIn | Move::ZoomOut | Move::Follow)
+    };
+    let size = |word: &str| SIZES.iter().find(|(name, _)| *name == word).map(|(_, size)| *size);
+    for step in steps.iter_mut().filter(changes_size).filter(|step| step.start.size.is_none()) {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let is_arrow = |word: &&&str| matches!(**word, "to" | "into" | "-" | ">" | "\u{2192}" | "\u{2013}");
+        let sizes = words.iter().enumerate().filter_map(|(at, word)| Some((at, size(word)?)));
+        let pairs = sizes.filter_map(|(at, first)| {
+            let arrows = words[at + 1..].iter().take(3).take_while(is_arrow).count();
+            let second = words.get(at + 1 + arrows).and_then(|word| size(word)).filter(|_| arrows > 0)?;
+            Some([first, second])
+        });
+        let nears = matches!(step.movement, Move::PushIn | Move::ZoomIn);
+        let leaves = matches!(step.movement, Move::PullOut | Move::ZoomOut);
+        // Sizes are listed from the closest to the widest.
+        let fits = |[first, second]: &[ShotSize; 2]| !(nears && second > first || leaves && second < first);
+        if let [[first, second]] = pairs.filter(fits).collect::<Vec<_>>()[..] {
+            (step.start.size, step.end.size) = (Some(first), Some(second));
+            if step.start.subjects.is_empty() {
+                step.start.subjects.clone_from(&step.end.subjects);
+            }
+        }
+    }
+}
+
+/// What lies below everything.
+const GROUND: [&str; 5] = ["floor", "ground", "carpet", "rug", "grass"];
+/// Words that may stand between `from` and the ground.
+const NEARBY: [&str; 11] = ["near", "close", "to", "right", "at", "just", "by", "the", "down", "on", "next"];
+
+/// Shows the first picture at rest where the network has read the second step's turn into it, and its words say none:
+/// `have a look at the wall and then whip round to the television`. `senses` has one entry per word.
+///
+/// # Errors
+/// [`LanguageError::BadData`] for a damaged list of senses.
+pub(crate) fn rest_on_first_picture(
+    linked: &Linked,
+    senses: &[Senses],
+    steps: &mut [Step],
+) -> Result<(), LanguageError> {
+    let [first, second, ..] = steps else { return Ok(()) };
+    let Some(own) = senses_of_turn(first.movement) else { return Ok(()) };
+    let (own, any) = (Senses::named(own)?, Senses::named(&["turn", "left", "right", "whip", "nod"])?);
+    let says = |step: &Step, turns: Senses| {
+        let [from, to] = step.words.unwrap_or_default();
+        let is_said = |span: &[usize; 2]| (from..to).contains(&span[0]);
+        linked.spans.iter().zip(senses).any(|(span, senses)| is_said(span) && senses.overlaps(turns))
+    };
+    let is_opening = first.start == Framing::default() && !first.end.subjects.is_empty();
+    if is_opening
+        && first.movement == second.movement
+        && first.words != second.words
+        && !says(first, own)
+        && !says(first, any)
+        && says(second, own)
+    {
+        (first.movement, first.either_way, first.amount) = (Move::Static, false, None);
+        first.with.clear();
+    }
+    Ok(())
+}
+
+/// The senses of words that ask for a turn on the spot; `None` for other moves.
+fn senses_of_turn(movement: Move) -> Option<&'static [&'static str]> {
+    match movement {
+        Move::PanLeft | Move::PanRight => Some(&["turn", "left", "right", "whip"]),
+        Move::WhipPan => Some(&["turn", "left", "right", "whip", "fast"]),
+        Move::TiltUp => Some(&["nod", "up", "lift"]),
+        Move::TiltDown => Some(&["nod", "down"]),
+        _ => None,
+    }
+}
+
+/// Begins a rise low where the words say so: `rise up from near the floor until we look over it`.
+pub(crate) fn rise_from_ground(linked: &Linked, steps: &mut [Step]) {
+    let rises = |step: &&mut Step| matches!(step.movement, Move::CraneUp | Move::PedestalUp);
+    for step in steps.iter_mut().filter(rises) {
+        let Some(bytes) = step.words else { continue };
+        let words: Vec<&str> = linked.words_in(bytes).map(|(word, _)| word).collect();
+        let froms = words.iter().enumerate().filter(|(_, word)| **word == "from").map(|(at, _)| at + 1);
+        let mut ends = froms.map(|at| words[at..].iter().find(|word| !NEARBY.contains(word)));
+        let is_open = step.start.angle.is_none() && step.start.height.is_none() && step.start.elevation_deg.is_none();
+        if is_open && ends.any(|word| word.is_some_and(|word| GROUND.contains(word))) {
+            step.start.angle = Some(ShotAngle::Low);
+            if step.start.subjects.is_empty() {
+                step.start.subjects.clone_from(&step.end.subjects);
+            }
+        }
+    }
+}

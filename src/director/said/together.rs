@@ -1,0 +1,154 @@
+//! Things that the words put into one picture: `the chair, the lamp and the door`, `both of them in frame`.
+//!
+//! The network sometimes keeps one thing of several. Where the words join a thing that no step uses to one that a
+//! framing shows, the framing shows both. What is to be seen all the time stays in view.
+
+use std::collections::BTreeSet;
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Program, Step};
+
+/// Words that join things, besides commas.
+const JOINTS: [&str; 5] = ["and", "&", "+", "plus", "n"];
+/// Words that may stand between things that are joined.
+const BETWEEN: [&str; 7] = ["the", "a", "an", "also", "both", "that", "my"];
+/// Words after `both` that are parts or ways, not things: `both sides`.
+const PARTS: [&str; 14] = [
+    "side",
+    "sides",
+    "end",
+    "ends",
+    "hand",
+    "hands",
+    "way",
+    "ways",
+    "edge",
+    "edges",
+    "times",
+    "directions",
+    "axes",
+    "cases",
+];
+/// Words near `both` that say where both are to be seen.
+const SEEN: [&str; 13] =
+    ["frame", "shot", "view", "picture", "visible", "screen", "in", "seen", "see", "fully", "show", "shown", "image"];
+
+/// Words that say that things are seen, and words that say that they always are.
+const VISIBLE: [&str; 9] = ["visible", "frame", "shot", "view", "seen", "screen", "picture", "image", "sight"];
+const ALWAYS: [&str; 7] = ["whole", "entire", "throughout", "always", "all", "every", "constantly"];
+const WHILES: [&str; 8] = ["time", "times", "way", "throughout", "always", "while", "move", "film"];
+/// Words that turn it around: `never visible`, `out of view`.
+const DENIALS: [&str; 9] = ["no", "not", "never", "'t", "longer", "out", "gone", "without", "lose"];
+/// Words after joined things that may say so.
+const NUM_AFTER: usize = 12;
+
+/// Keeps things in view that the words join and that are to be seen all the time: `the chair, the tv and the vase must
+/// all be visible the whole time while you rise`.
+pub(crate) fn keep_always(linked: &Linked, steps: &mut [Step]) {
+    for things in joined_things(linked) {
+        let Some((first, last)) = things.first().zip(things.last()) else { continue };
+        let after: Vec<&str> = linked.words_in([last.1[1], usize::MAX]).map(|(word, _)| word).take(NUM_AFTER).collect();
+        let has = |list: &[&str]| after.iter().any(|word| list.contains(word));
+        if !(has(&VISIBLE) && has(&ALWAYS) && has(&WHILES)) {
+            continue;
+        }
+        let ids: Vec<u32> = things.iter().map(|(id, _)| *id).collect();
+        let about = |step: &&mut Step| step.words.is_some_and(|[from, to]| (from..to).contains(&first.1[0]));
+        for step in steps.iter_mut().filter(about) {
+            for framing in [&mut step.start, &mut step.end] {
+                if framing.subjects.iter().any(|id| ids.contains(id)) {
+                    framing.subjects.clone_from(&ids);
+                    framing.whole = true;
+                }
+            }
+            step.keep.extend(ids.iter().filter(|id| !step.keep.contains(id)).copied().collect::<Vec<_>>());
+        }
+    }
+}
+
+/// Adds things that no step uses to the framings that show what the words join them to.
+pub(crate) fn complete_lists(linked: &Linked, program: &mut Program) {
+    let used: BTreeSet<u32> = linked.expanded(&program.object_ids()).into_iter().collect();
+    let is_lost = |id: u32| linked.missing(id).is_none() && linked.expanded(&[id]).iter().all(|id| !used.contains(id));
+    for things in joined_things(linked) {
+        let lost: Vec<u32> = things.iter().map(|(id, _)| *id).filter(|id| is_lost(*id)).collect();
+        let Some((first, last)) = things.first().zip(things.last()).filter(|_| !lost.is_empty()) else { continue };
+        let bytes = [first.1[0], last.1[1]];
+        let about = |step: &&mut Step| step.words.is_some_and(|words| words[0] <= bytes[0] && bytes[1] <= words[1]);
+        let mut steps = program.steps.iter_mut().filter(about);
+        // Which of several steps is meant is not said.
+        let (Some(step), None) = (steps.next(), steps.next()) else { continue };
+        if let Some(ids) = list_with(step, &things) {
+            ids.extend(lost.iter().filter(|id| !ids.contains(id)).copied().collect::<Vec<_>>());
+        }
+    }
+}
+
+/// The list of a step's ids that has one of the things: of its end, its start, or what stays in view.
+fn list_with<'a>(step: &'a mut Step, things: &[(u32, [usize; 2])]) -> Option<&'a mut Vec<u32>> {
+    let has = |ids: &Vec<u32>| things.iter().any(|(id, _)| ids.contains(id));
+    [&mut step.end.subjects, &mut step.start.subjects, &mut step.keep].into_iter().find(|ids| has(ids))
+}
+
+/// Runs of things that the words join, each thing with its bytes of the prompt: two or more, with an `and` among them.
+fn joined_things(linked: &Linked) -> Vec<Vec<(u32, [usize; 2])>> {
+    let mut runs = Vec::new();
+    let (mut run, mut is_joined, mut links) = (Vec::new(), false, true);
+    for (word, span) in linked.words_in([0, usize::MAX]) {
+        if let Some(id) = linked.slot_at(word) {
+            if !links {
+                runs.push((std::mem::take(&mut run), is_joined));
+                is_joined = false;
+            }
+            run.push((id, span));
+            links = false;
+        } else if word == "," || JOINTS.contains(&word) {
+            links = true;
+            is_joined |= word != "," && !run.is_empty();
+        } else if !BETWEEN.contains(&word) {
+            runs.push((std::mem::take(&mut run), is_joined));
+            (is_joined, links) = (false, true);
+        }
+    }
+    runs.push((run, is_joined));
+    runs.into_iter().filter(|(run, is_joined)| *is_joined && run.len() > 1).map(|(run, _)| run).collect()
+}
+
+/// Makes framings show both things where the words say so after two things were named: `pull back with both in frame`.
+pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
+    for (at, (_, span)) in words.iter().enumerate().filter(|(_, (word, _))| *word == "both") {
+        let near = &words[at + 1..words.len().min(at + 7)];
+        let next = near.first().map_or("", |(word, _)| word);
+        let has = |list: &[&str]| near.iter().any(|(word, _)| list.contains(word));
+        let is_seen = has(&SEEN) && !has(&DENIALS);
+        if PARTS.contains(&next) || linked.slot_at(next).is_some() || next == "the" || !is_seen {
+            continue;
+        }
+        let named = named_before(linked, &words[..at]);
+        let holds = |step: &&mut Step| step.words.is_some_and(|[from, to]| (from..to).contains(&span[0]));
+        let [.., first, second] = named[..] else { continue };
+        for step in steps.iter_mut().filter(holds) {
+            let framing = if step.end.subjects.is_empty() { &mut step.start } else { &mut step.end };
+            show_pair(framing, [first, second]);
+        }
+    }
+}
+
+/// Single things that the words name, each once, the last named last.
+fn named_before(linked: &Linked, words: &[(&str, [usize; 2])]) -> Vec<u32> {
+    let mut named: Vec<u32> = Vec::new();
+    for id in words.iter().filter_map(|(word, _)| linked.slot_at(word)).filter(|id| linked.expanded(&[*id]).len() == 1)
+    {
+        named.retain(|other| *other != id);
+        named.push(id);
+    }
+    named
+}
+
+fn show_pair(framing: &mut Framing, pair: [u32; 2]) {
+    if matches!(framing.subjects[..], [only] if pair.contains(&only)) {
+        framing.subjects = pair.to_vec();
+        framing.whole = true;
+    }
+}

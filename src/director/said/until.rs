@@ -1,0 +1,48 @@
+//! Moves that go on until something is seen: `pull back until the plates come into frame`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Step};
+use cinesplat_trajectory::Move;
+
+use crate::direction::Direction;
+
+/// Words that begin what a move leads to.
+const UNTIL: [&str; 5] = ["until", "untill", "till", "til", "'til"];
+
+/// Makes one step of a move and of what it goes on to show, which the network sometimes reads as a second step.
+pub(crate) fn join_until(linked: &Linked, direction: &mut Direction) {
+    let mut nth = 1;
+    while nth < direction.program.steps.len() {
+        let steps = &mut direction.program.steps;
+        let (before, after) = (&steps[nth - 1], &steps[nth]);
+        let Some(one) = follows_until(linked, before, after).then(|| joined(before, after)) else {
+            nth += 1;
+            continue;
+        };
+        if let Some(certainty) = direction.certainty.get_mut(nth - 1) {
+            certainty.words = one.words;
+        }
+        direction.program.steps[nth - 1] = one;
+        direction.remove_step(nth);
+    }
+}
+
+/// Whether the second step is only what the first one leads to.
+fn follows_until(linked: &Linked, before: &Step, after: &Step) -> bool {
+    let moves = before.movement.opposite().is_some() && before.end.size.is_none() && !before.end.whole;
+    let shows = matches!(after.movement, Move::Follow | Move::Static)
+        && !after.cut
+        && !after.returns
+        && after.duration_secs.is_none()
+        && after.end.subjects != before.end.subjects
+        && !after.end.subjects.is_empty();
+    let (Some(first), Some(second)) = (before.words, after.words) else { return false };
+    let leads = linked.words_in([first[0], second[1]]).filter(|(_, span)| span[0] >= first[1].min(second[0]));
+    moves && shows && first[0] < second[0] && leads.take(2).any(|(word, _)| UNTIL.contains(&word))
+}
+
+/// The first step, which ends as the second one does.
+fn joined(before: &Step, after: &Step) -> Step {
+    let start = if before.start == Framing::default() { before.end.clone() } else { before.start.clone() };
+    Step { start, end: after.end.clone(), words: before.joint_words(after), ..before.clone() }
+}

@@ -1,0 +1,103 @@
+//! Prompts of people who correct themselves: `finish close on the jar, no wait, medium on the skull`.
+//!
+//! What follows the correction replaces the words before it that are built alike: a thing a thing, a direction a
+//! direction, a size with its thing a size with its thing. The rest of the sentence stays.
+
+use super::linked::{Linked, OBJECT, QUANTITY};
+
+/// What people say when they correct themselves, longest first. Commas do not count.
+const CORRECTIONS: [&[&str]; 17] = [
+    &["no", "wait", "scratch", "that"],
+    &["wait", "no", "scratch", "that"],
+    &["no", "wait", "sorry"],
+    &["no", "scratch", "that"],
+    &["no", "make", "that"],
+    &["wait", "make", "that"],
+    &["sorry", "i", "mean"],
+    &["no", "i", "mean"],
+    &["no", "wait"],
+    &["wait", "no"],
+    &["no", "sorry"],
+    &["sorry", "no"],
+    &["scratch", "that"],
+    &["strike", "that"],
+    &["i", "mean"],
+    &["er", "no"],
+    &["actually", "no"],
+];
+/// Marks that may stand among the words of a correction and around them.
+const MARKS: [&str; 8] = [",", ".", "-", ":", ";", "\u{2026}", "\u{2013}", "\u{2014}"];
+/// Words that say nothing about how a phrase is built.
+const FILLERS: [&str; 8] = ["the", "a", "an", "to", "of", "just", "rather", "it"];
+/// Words of a size.
+const SIZES: [&str; 16] =
+    ["ecu", "xcu", "bcu", "cu", "mcu", "ms", "mls", "mws", "ls", "ws", "fs", "els", "ews", "close", "wide", "medium"];
+const DIRECTIONS: [&str; 7] = ["left", "right", "up", "down", "clockwise", "counterclockwise", "anticlockwise"];
+const PREPOSITIONS: [&str; 10] = ["on", "at", "from", "toward", "towards", "past", "over", "around", "round", "behind"];
+
+/// How a word builds a phrase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Thing,
+    Quantity,
+    Size,
+    Direction,
+    Preposition,
+}
+
+fn kind(word: &str) -> Option<Kind> {
+    match word {
+        _ if word.starts_with(OBJECT) => Some(Kind::Thing),
+        _ if word.starts_with(QUANTITY) => Some(Kind::Quantity),
+        _ if SIZES.contains(&word) => Some(Kind::Size),
+        _ if DIRECTIONS.contains(&word) => Some(Kind::Direction),
+        _ if PREPOSITIONS.contains(&word) => Some(Kind::Preposition),
+        _ => None,
+    }
+}
+
+impl Linked {
+    /// The words as they stand after the last correction: what it replaces and the words of the correction left out.
+    /// `None` for prompts without one, or whose correction replaces nothing that is built alike.
+    #[must_use]
+    pub fn corrected(&self) -> Option<Self> {
+        let words: Vec<(&str, [usize; 2])> = self.words_in([0, usize::MAX]).collect();
+        let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let [from, to] = (0..texts.len()).rev().find_map(|at| correction_at(&texts, at))?;
+        let start = replaced(&texts[..from], &texts[to..])?;
+        let kept = (0..start).chain(to..words.len()).map(|at| words[at]);
+        let corrected = self.of_words(kept, None);
+        // Nobody corrects away all that he talks about.
+        (self.slots.is_empty() || !corrected.slots.is_empty()).then_some(corrected)
+    }
+}
+
+/// The words of the correction that begins at word `at`, with the marks around it.
+fn correction_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
+    let is_mark = |at: &usize| words.get(*at).is_some_and(|word| MARKS.contains(word));
+    let end_of = |phrase: &&[&str]| {
+        phrase.iter().try_fold(at, |next, wanted| {
+            let next = next + if next > at { (next..words.len()).take_while(is_mark).count() } else { 0 };
+            (words.get(next) == Some(wanted)).then_some(next + 1)
+        })
+    };
+    let end = CORRECTIONS.iter().find_map(end_of)?;
+    let end = end + (end..words.len()).take_while(is_mark).count();
+    let before = (0..at).rev().take_while(is_mark).count();
+    Some([at - before, end])
+}
+
+/// The word before the correction from which on the words behind it replace what stands there: the last one that begins
+/// a phrase of the same kinds of words, up to two.
+fn replaced(before: &[&str], behind: &[&str]) -> Option<usize> {
+    let kinds_from = |words: &[&str]| -> Vec<Option<Kind>> {
+        words.iter().filter(|word| !FILLERS.contains(word)).take(2).map(|word| kind(word)).collect()
+    };
+    let wanted = kinds_from(behind);
+    let first = wanted.first().copied().flatten()?;
+    let num = if first == Kind::Size || first == Kind::Preposition { 2 } else { 1 };
+    let wanted = wanted.get(..num)?;
+    (0..before.len()).rev().find(|&at| {
+        !FILLERS.contains(&before[at]) && kinds_from(&before[at..]).get(..num).is_some_and(|found| found == wanted)
+    })
+}
