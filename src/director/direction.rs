@@ -1,6 +1,6 @@
 //! What the director makes of a prompt.
 
-use cinesplat_operator::{Program, StepCameras};
+use cinesplat_operator::{Program, Step, StepCameras};
 
 /// Certainty of a step of the program.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +32,15 @@ impl Direction {
     pub(crate) fn mean_certainty(&self) -> f64 {
         let sum: f64 = self.certainty.iter().map(|step| step.probability.max(1e-9).ln()).sum();
         if self.certainty.is_empty() { 0.0 } else { (sum / self.certainty.len() as f64).exp() }
+    }
+
+    /// Puts one step in the place of two: step `nth` and the one before it.
+    pub(crate) fn join_steps(&mut self, nth: usize, one: Step) {
+        if let Some(certainty) = self.certainty.get_mut(nth - 1) {
+            certainty.words = one.words;
+        }
+        self.program.steps[nth - 1] = one;
+        self.remove_step(nth);
     }
 
     /// Removes a step with its cameras and its certainty.

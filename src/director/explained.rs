@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::{NamedObject, stem, tokenize};
+use cinesplat_language::{Mention, NamedObject, Word, stem, tokenize};
 
 use crate::names::FoundMention;
 
@@ -14,24 +14,21 @@ pub(crate) fn point_back(prompt: &str, objects: &[NamedObject], found: &mut [Fou
         let (before, rest) = found.split_at_mut(nth);
         let later = &mut rest[0].mention;
         let [id] = later.ids[..] else { continue };
-        let name = prompt.get(later.bytes[0]..later.bytes[1]).unwrap_or_default();
+        let name = said(prompt, later);
         let words = content(name);
-        let label = |id: u32| objects.iter().find(|object| object.id == id).map(|object| content(&object.label));
-        if words.is_empty() || is_number(name) || label(id).as_ref() == Some(&words) {
+        if words.is_empty() || is_number(name) || label(objects, id).is_some_and(|label| content(label) == words) {
             continue;
         }
         let mut earlier = before.iter().rev().filter_map(|found| match found.mention.ids[..] {
             [id] => Some((id, &found.mention)),
             _ => None,
         });
-        let names_more = |(earlier_id, mention): &(u32, &cinesplat_language::Mention)| {
+        let names_more = |(earlier_id, mention): &(u32, &Mention)| {
             let is_part = |whole: &str| {
                 let all = content(whole);
                 words.is_subset(&all) && words != all && head(whole) == head(name)
             };
-            let label = objects.iter().find(|object| object.id == *earlier_id);
-            prompt.get(mention.bytes[0]..mention.bytes[1]).is_some_and(is_part)
-                || label.is_some_and(|object| is_part(&object.label))
+            is_part(said(prompt, mention)) || label(objects, *earlier_id).is_some_and(is_part)
         };
         if let Some((earlier_id, _)) = earlier.find(names_more) {
             later.ids = vec![earlier_id];
@@ -52,12 +49,13 @@ pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut V
     while nth < found.len() {
         let [thing, place] = [&found[nth - 1].mention, &found[nth].mention];
         let between = tokenize(prompt.get(thing.bytes[1]..place.bytes[0]).unwrap_or_default());
-        let says_where = between.iter().any(|word| WHERE.contains(&word.text.as_str()))
-            && between.iter().all(|word| [&WHERE[..], &BESIDE[..]].concat().contains(&word.text.as_str()));
+        let is_where = |word: &Word| WHERE.contains(&word.text.as_str());
+        let is_beside = |word: &Word| BESIDE.contains(&word.text.as_str());
+        let says_where = between.iter().any(is_where) && between.iter().all(|word| is_where(word) || is_beside(word));
         let is_loose = match (&thing.ids[..], &place.ids[..]) {
             ([_, ..], [id]) => {
-                let words = prompt.get(place.bytes[0]..place.bytes[1]).unwrap_or_default();
-                let label = objects.iter().find(|object| object.id == *id).map(|object| content(&object.label));
+                let words = said(prompt, place);
+                let label = label(objects, *id).map(content);
                 let is_other = label.is_some_and(|label| !label.is_empty() && label.is_disjoint(&content(words)));
                 is_other && !is_number(words) && thing.ids != place.ids
             }
@@ -72,9 +70,19 @@ pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut V
     }
 }
 
+/// The words of a mention.
+fn said<'a>(prompt: &'a str, mention: &Mention) -> &'a str {
+    prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default()
+}
+
+/// The label of an object.
+fn label(objects: &[NamedObject], id: u32) -> Option<&str> {
+    objects.iter().find(|object| object.id == id).map(|object| object.label.as_str())
+}
+
 /// The stem of the thing that a name names: its last word.
 fn head(name: &str) -> Option<String> {
-    tokenize(name).into_iter().rev().find(cinesplat_language::Word::is_alphabetic).map(|word| stem(&word.text))
+    tokenize(name).into_iter().rev().find(Word::is_alphabetic).map(|word| stem(&word.text))
 }
 
 /// Whether a mention is a number: `<obj-3>`, `object 3`.

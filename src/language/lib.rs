@@ -8,8 +8,7 @@
 //! Before anything else shorthand becomes plain words (`Z/I 24-70` = `zoom in 24 to 70`; `prompts/shorthand.txt`), and
 //! misspelled words of command are mended ([`plain_words`]). After it idioms become the words of the trade (`let the
 //! mug slide past from right to left` = `truck right past the mug`; `prompts/idioms.txt`). A prompt that says part by
-//! part what happens when is a
-//! [`Timeline`], and the director reads it part by part.
+//! part what happens when is a [`Timeline`], and the director reads it part by part.
 //!
 //! # Notation of programs
 //!

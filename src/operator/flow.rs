@@ -113,11 +113,10 @@ impl Flow {
             joints.iter().map(|joint| (*joint, blend_secs(segments, joint))).filter(|(_, secs)| *secs > 0.0).collect();
         let into = |index: usize| blends.iter().find(|(joint, _)| joint.to == index).map(|(_, secs)| *secs);
         let out_of = |index: usize| blends.iter().find(|(joint, _)| joint.from == index).map(|(_, secs)| *secs);
-        let skipped = |index: usize| blends.iter().any(|(joint, _)| joint.from < index && index < joint.to);
         let mut flow = Self { segments: Vec::new(), spans: Vec::new(), blends: Vec::new() };
         let mut at = 0.0;
         for (index, segment) in segments.iter().enumerate() {
-            if skipped(index) {
+            if is_left_out(segments, joints, index) {
                 flow.spans.push([at, at]);
                 continue;
             }

@@ -40,11 +40,14 @@ pub(super) fn turned_inward(world: &World, program: &Program, segments: Vec<Moti
     let states = || segments.iter().flat_map(|segment| &segment.states);
     let pitch = |state: &CameraState| world.frame.angles(state.pose.rotation).pitch_rad;
     let is_steep = states().any(|state| pitch(state).abs() > MAX_PITCH_RAD);
-    let ends = |segments: &[MotionSegment]| -> Vec<CameraState> {
-        segments.iter().flat_map(|segment| [segment.states[0], segment.last()]).collect()
+    if !world.is_indoor() || is_steep {
+        return segments;
+    }
+    let void = |segments: &[MotionSegment]| {
+        worst_void(world, segments.iter().flat_map(|segment| [segment.states[0], segment.last()]))
     };
-    let void = |segments: &[MotionSegment]| worst_void(world, ends(segments).into_iter());
-    if !world.is_indoor() || is_steep || void(&segments) < LEAST_VOID {
+    let planned_void = void(&segments);
+    if planned_void < LEAST_VOID {
         return segments;
     }
     let narrowest = states().map(|state| state.fov_y_rad).fold(f64::INFINITY, f64::min);
@@ -56,13 +59,12 @@ pub(super) fn turned_inward(world: &World, program: &Program, segments: Vec<Moti
     let allowed = |[across, down]: &&[f64; 2]| (may_across || *across == 0.0) && (may_down || *down == 0.0);
     let turned = TURNS.iter().filter(allowed).map(|[across, down]| {
         let angles = [(across * 2.0 * half * world.aspect).atan(), (down * 2.0 * half).atan()];
-        let turned: Vec<MotionSegment> = segments.iter().map(|segment| turned_by(world, segment, angles)).collect();
-        turned
+        segments.iter().map(|segment| turned_by(world, segment, angles)).collect::<Vec<_>>()
     });
     let whole = turned.filter(|turned| !loses_subject(world, program, &segments, turned));
     let turned = whole.map(|turned| (total(&turned), turned));
     match turned.min_by(|a, b| a.0.total_cmp(&b.0)) {
-        Some((cost, turned)) if cost < as_planned - LEAST_GAIN && void(&turned) < void(&segments) => turned,
+        Some((cost, turned)) if cost < as_planned - LEAST_GAIN && void(&turned) < planned_void => turned,
         _ => segments,
     }
 }
@@ -74,8 +76,8 @@ const MOST_LOST: f64 = 0.02;
 fn loses_subject(world: &World, program: &Program, before: &[MotionSegment], after: &[MotionSegment]) -> bool {
     before.iter().zip(after).any(|(before, after)| {
         let Some(step) = program.steps.get(before.step) else { return false };
-        let subjects = step.start.subjects.iter().chain(&step.end.subjects).filter_map(|id| world.subject(*id));
-        subjects.into_iter().any(|subject| {
+        let mut subjects = step.start.subjects.iter().chain(&step.end.subjects).filter_map(|id| world.subject(*id));
+        subjects.any(|subject| {
             let shown = |state: &CameraState| in_frame_frac(world, state, &subject.points, 0.0);
             let ends = [(before.states[0], after.states[0]), (before.last(), after.last())];
             ends.iter().any(|(before, after)| shown(before) - shown(after) > MOST_LOST)

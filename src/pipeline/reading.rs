@@ -105,8 +105,7 @@ impl Reading {
 ///
 /// # Errors
 /// [`PipelineError::Language`] when the embedded lexicon is malformed · [`PipelineError::Director`] when the network
-/// fails ·
-/// [`PipelineError::Reader`] when the language model fails.
+/// fails · [`PipelineError::Reader`] when the language model fails.
 pub fn read(
     prompt: &str,
     linked: Linked,
@@ -128,8 +127,8 @@ pub fn read(
     Ok(Reading { linked, direction, effects, problems })
 }
 
-/// Makes one static step of two in a row that hold the same picture: `go low and look up at it, then stay there for 5
-/// s`.
+/// Makes one static step of two in a row that hold the same picture: `go low and look up at it, then stay there for
+/// 5 s`.
 fn merge_holds(linked: &Linked, direction: &mut Direction) {
     let mut nth = 1;
     while nth < direction.program.steps.len() {

@@ -4,6 +4,8 @@ use cinesplat_language::{LanguageError, Linked, Senses};
 use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
+use super::says;
+
 /// Abbreviations of shot sizes.
 const SIZES: [(&str, ShotSize); 14] = [
     ("ecu", ShotSize::ExtremeCloseUp),
@@ -68,11 +70,7 @@ pub(crate) fn rest_on_first_picture(
     let [first, second, ..] = steps else { return Ok(()) };
     let Some(own) = senses_of_turn(first.movement) else { return Ok(()) };
     let (own, any) = (Senses::named(own)?, Senses::named(&["turn", "left", "right", "whip", "nod"])?);
-    let says = |step: &Step, turns: Senses| {
-        let [from, to] = step.words.unwrap_or_default();
-        let is_said = |span: &[usize; 2]| (from..to).contains(&span[0]);
-        linked.spans.iter().zip(senses).any(|(span, senses)| is_said(span) && senses.overlaps(turns))
-    };
+    let says = |step: &Step, turns: Senses| says(linked, senses, step, turns);
     let is_opening = first.start == Framing::default() && !first.end.subjects.is_empty();
     if is_opening
         && first.movement == second.movement

@@ -8,6 +8,7 @@ use cinesplat_operator::{Amount, Framing, Speed, Step};
 use cinesplat_trajectory::Move;
 
 use super::open::as_orbit;
+use super::says;
 use crate::direction::Direction;
 
 /// Senses of words that make a second move of it: `again`, `back`, `the other way`, `twice`, `then`.
@@ -23,22 +24,11 @@ pub(crate) fn merge_repeated(
     direction: &mut Direction,
 ) -> Result<(), LanguageError> {
     let repeats = Senses::named(&REPEATS)?;
-    let says_so = |step: &Step| {
-        let [from, to] = step.words.unwrap_or_default();
-        let is_said = |span: &[usize; 2]| (from..to).contains(&span[0]);
-        linked.spans.iter().zip(senses).any(|(span, senses)| is_said(span) && senses.overlaps(repeats))
-    };
     let mut nth = 1;
     while nth < direction.program.steps.len() {
-        let steps = &mut direction.program.steps;
-        match merged(linked, &steps[nth - 1], &steps[nth]).filter(|_| !says_so(&steps[nth])) {
-            Some(one) => {
-                if let Some(certainty) = direction.certainty.get_mut(nth - 1) {
-                    certainty.words = one.words;
-                }
-                steps[nth - 1] = one;
-                direction.remove_step(nth);
-            }
+        let (first, second) = (&direction.program.steps[nth - 1], &direction.program.steps[nth]);
+        match merged(linked, first, second).filter(|_| !says(linked, senses, second, repeats)) {
+            Some(one) => direction.join_steps(nth, one),
             None => nth += 1,
         }
     }

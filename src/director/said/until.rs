@@ -13,17 +13,11 @@ const UNTIL: [&str; 5] = ["until", "untill", "till", "til", "'til"];
 pub(crate) fn join_until(linked: &Linked, direction: &mut Direction) {
     let mut nth = 1;
     while nth < direction.program.steps.len() {
-        let steps = &mut direction.program.steps;
-        let (before, after) = (&steps[nth - 1], &steps[nth]);
-        let Some(one) = follows_until(linked, before, after).then(|| joined(before, after)) else {
-            nth += 1;
-            continue;
-        };
-        if let Some(certainty) = direction.certainty.get_mut(nth - 1) {
-            certainty.words = one.words;
+        let (before, after) = (&direction.program.steps[nth - 1], &direction.program.steps[nth]);
+        match follows_until(linked, before, after).then(|| joined(before, after)) {
+            Some(one) => direction.join_steps(nth, one),
+            None => nth += 1,
         }
-        direction.program.steps[nth - 1] = one;
-        direction.remove_step(nth);
     }
 }
 

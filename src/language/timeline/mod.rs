@@ -75,30 +75,25 @@ const BEFORE_AMOUNTS: [&str; 14] =
 /// The stamps of all kinds that begin an item. The next number of a list needs no mark before it where no number with
 /// one is there: `1. the mug 2. the jar`.
 fn stamps(prompt: &str, words: &[Word]) -> Vec<Stamp> {
-    let at = |i: usize| stamp_at(prompt, words, i);
-    let begins: Vec<Stamp> = (0..words.len()).filter(|i| begins_item(prompt, words, *i)).filter_map(at).collect();
+    let stamp_of = |i: usize| Some((stamp_at(prompt, words, i)?, begins_item(prompt, words, i)));
+    let found: Vec<(Stamp, bool)> = (0..words.len()).filter_map(stamp_of).collect();
     let number_of = |stamp: &Stamp| match stamp.kind {
         StampKind::Number(number) => Some(number),
         _ => None,
     };
-    let numbers: Vec<u32> = begins.iter().filter_map(number_of).collect();
-    let mut all: Vec<Stamp> = Vec::new();
+    let marked: Vec<u32> = found.iter().filter(|(_, begins)| *begins).filter_map(|(at, _)| number_of(at)).collect();
     let mut last = None;
-    for i in 0..words.len() {
-        let marked = begins.iter().find(|stamp| stamp.at == i || stamp.at + 1 == i && word_at(words, stamp.at) == "#");
-        let is_next = |stamp: &Stamp| {
-            let number = number_of(stamp);
-            let follows = number.is_some() && last == number.and_then(|number| number.checked_sub(1));
-            let before = stamp.at.checked_sub(1).map_or("", |before| word_at(words, before));
-            follows && number.is_some_and(|number| !numbers.contains(&number)) && !BEFORE_AMOUNTS.contains(&before)
-        };
-        let Some(stamp) = marked.copied().or_else(|| at(i).filter(is_next)) else { continue };
-        if all.last() != Some(&stamp) {
-            last = number_of(&stamp).or(last);
-            all.push(stamp);
+    let is_member = |(stamp, begins): &(Stamp, bool)| {
+        let number = number_of(stamp);
+        let is_next = number.is_some_and(|number| last == number.checked_sub(1) && !marked.contains(&number));
+        let before = stamp.at.checked_sub(1).map_or("", |before| word_at(words, before));
+        let counts = *begins || is_next && !BEFORE_AMOUNTS.contains(&before);
+        if counts {
+            last = number.or(last);
         }
-    }
-    all
+        counts
+    };
+    found.into_iter().filter(is_member).map(|(stamp, _)| stamp).collect()
 }
 
 /// The pictures that a prompt cuts between: the first from its start, the others from the cuts to them. Empty without a
