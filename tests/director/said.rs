@@ -77,9 +77,19 @@ fn things_that_the_words_join_are_in_one_picture() {
 
 #[test]
 fn what_is_never_to_be_seen_together_is_not_kept() {
-    let found =
-        program("the vase and the armchair should never be visible at the same time while you push in on the vase");
-    assert!(!found.contains("keep=1+4"), "{found}");
+    for prompt in [
+        "the vase and the armchair should never be visible at the same time while you push in on the vase",
+        "the vase and the armchair must never be visible during the whole move, push in on the television",
+    ] {
+        let found = program(prompt);
+        assert!(!found.contains("keep=1+4") && !found.contains("1+4:"), "{prompt}: {found}");
+    }
+}
+
+#[test]
+fn both_moves_are_not_both_things() {
+    let found = program("push in on the vase, then pan to the armchair, do both in slow motion");
+    assert!(!found.contains("1+4"), "{found}");
 }
 
 #[test]

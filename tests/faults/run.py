@@ -355,7 +355,7 @@ def small_disk(program):
 def panics(program):
     """A panic in every thread of a film that has work: `program` is built with the feature `panic-points`."""
     bench, row = Bench(program, 20), Row("Panic in each thread of a film", "")
-    places = ["render:7", "worker:7", "encode:7", "flush:0"]
+    places = ["render:7", "worker:7", "keep:7", "encode:7", "flush:0"]
     for place in places:
         first = bench.run(env={**os.environ, "CINESPLAT_PANIC_AT": place, "TMPDIR": str(bench.folder)})
         reports = list(bench.folder.glob("cinesplat-fault-*.txt"))

@@ -6,11 +6,11 @@ mod open;
 mod openings;
 mod places;
 mod repeats;
+mod senses;
 mod together;
 mod until;
 
 use cinesplat_language::{Linked, Senses};
-use cinesplat_operator::Step;
 
 use crate::direction::Direction;
 use crate::error::DirectorError;
@@ -39,11 +39,4 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::rise_from_ground(linked, steps);
     places::rise_by_lengths(linked, steps);
     Ok(())
-}
-
-/// Whether a word of a step has one of these senses. `senses` has one entry per word of the prompt.
-fn says(linked: &Linked, senses: &[Senses], step: &Step, wanted: Senses) -> bool {
-    let [from, to] = step.words.unwrap_or_default();
-    let is_said = |span: &[usize; 2]| (from..to).contains(&span[0]);
-    linked.spans.iter().zip(senses).any(|(span, senses)| is_said(span) && senses.overlaps(wanted))
 }

@@ -4,7 +4,7 @@ use cinesplat_language::{LanguageError, Linked, Senses};
 use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
-use super::says;
+use super::senses::says;
 
 /// Abbreviations of shot sizes.
 const SIZES: [(&str, ShotSize); 14] = [

@@ -8,7 +8,7 @@ use cinesplat_operator::{Amount, Framing, Speed, Step};
 use cinesplat_trajectory::Move;
 
 use super::open::as_orbit;
-use super::says;
+use super::senses::says;
 use crate::direction::Direction;
 
 /// Senses of words that make a second move of it: `again`, `back`, `the other way`, `twice`, `then`.

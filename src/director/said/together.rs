@@ -30,8 +30,7 @@ const PARTS: [&str; 14] = [
     "cases",
 ];
 /// Words near `both` that say where both are to be seen.
-const SEEN: [&str; 13] =
-    ["frame", "shot", "view", "picture", "visible", "screen", "in", "seen", "see", "fully", "show", "shown", "image"];
+const SEEN: [&str; 9] = ["frame", "shot", "view", "picture", "visible", "screen", "seen", "fully", "image"];
 
 /// Words that say that things are seen, and words that say that they always are.
 const VISIBLE: [&str; 9] = ["visible", "frame", "shot", "view", "seen", "screen", "picture", "image", "sight"];
@@ -39,6 +38,8 @@ const ALWAYS: [&str; 7] = ["whole", "entire", "throughout", "always", "all", "ev
 const WHILES: [&str; 8] = ["time", "times", "way", "throughout", "always", "while", "move", "film"];
 /// Words that turn it around: `never visible`, `out of view`.
 const DENIALS: [&str; 9] = ["no", "not", "never", "'t", "longer", "out", "gone", "without", "lose"];
+/// What ends the words about joined things.
+const CLAUSE_ENDS: [&str; 4] = [",", ".", ";", "!"];
 /// Words after joined things that may say so.
 const NUM_AFTER: usize = 12;
 
@@ -47,9 +48,11 @@ const NUM_AFTER: usize = 12;
 pub(crate) fn keep_always(linked: &Linked, steps: &mut [Step]) {
     for things in joined_things(linked) {
         let Some((first, last)) = things.first().zip(things.last()) else { continue };
-        let after: Vec<&str> = linked.words_in([last.1[1], usize::MAX]).map(|(word, _)| word).take(NUM_AFTER).collect();
+        let words = linked.words_in([last.1[1], usize::MAX]).map(|(word, _)| word);
+        let after: Vec<&str> = words.take_while(|word| !CLAUSE_ENDS.contains(word)).take(NUM_AFTER).collect();
         let has = |list: &[&str]| after.iter().any(|word| list.contains(word));
-        if !(has(&VISIBLE) && has(&ALWAYS) && has(&WHILES)) {
+        let is_denied = after.iter().take_while(|word| !VISIBLE.contains(word)).any(|word| DENIALS.contains(word));
+        if is_denied || !(has(&VISIBLE) && has(&ALWAYS) && has(&WHILES)) {
             continue;
         }
         let ids: Vec<u32> = things.iter().map(|(id, _)| *id).collect();

@@ -10,7 +10,7 @@ use super::form::Form;
 use super::report::FilmReport;
 use super::watch::QualityWatch;
 use crate::pipeline::error::PipelineError;
-use crate::pipeline::job::{Keeper, Kept, Picture};
+use crate::pipeline::job::{Kept, Picture};
 use crate::pipeline::panic_point::panic_point;
 use crate::pipeline::promise::rank;
 use cinesplat_geometry::Camera;
@@ -28,7 +28,6 @@ pub(super) struct FrameMaker<'a> {
     /// Pictures whose memory is free.
     used: Receiver<Arc<Picture>>,
     kept: Option<Kept>,
-    keeper: Option<&'a mut Keeper>,
     /// Places in the output that the contact sheet shows.
     sheet: BTreeSet<usize>,
     /// The last frame with its picture and its camera.
@@ -37,7 +36,6 @@ pub(super) struct FrameMaker<'a> {
     num_kept: usize,
     num_damaged: usize,
     render_time: Duration,
-    keep_time: Duration,
     /// Decides the quality of every frame; `None` = that of the settings.
     watch: Option<QualityWatch<'a>>,
     qualities: Vec<(usize, Quality)>,
@@ -51,6 +49,8 @@ pub(super) struct Made {
     pub(super) picture: Option<Arc<Picture>>,
     /// Whether the job folder holds it.
     pub(super) is_kept: bool,
+    /// Whether it is the picture of the frame before.
+    pub(super) is_repeated: bool,
 }
 
 impl<'a> FrameMaker<'a> {
@@ -58,7 +58,7 @@ impl<'a> FrameMaker<'a> {
         (renderer, filmed, effects): (&'a Renderer<'a>, &'a Filmed<'a>, &'a EffectPlan),
         settings: &'a RenderSettings,
         (form, used): (Form, Receiver<Arc<Picture>>),
-        (kept, keeper): (Option<Kept>, Option<&'a mut Keeper>),
+        kept: Option<Kept>,
     ) -> Self {
         Self {
             renderer,
@@ -68,14 +68,12 @@ impl<'a> FrameMaker<'a> {
             form,
             used,
             kept,
-            keeper,
             sheet: BTreeSet::new(),
             last: None,
             rendered: Rgb8Frame::default(),
             num_kept: 0,
             num_damaged: 0,
             render_time: Duration::ZERO,
-            keep_time: Duration::ZERO,
             watch: None,
             qualities: Vec::new(),
             plans: BTreeMap::new(),
@@ -113,19 +111,14 @@ impl<'a> FrameMaker<'a> {
         let repeated = self.last.take().filter(is_same).map(|(_, picture, _)| picture);
         let is_repeated = repeated.is_some();
         let picture = repeated.map_or_else(|| self.render(frame_idx), Ok)?;
-        let start = Instant::now();
-        if let Some(keeper) = &mut self.keeper {
-            if is_repeated { keeper.keep_again(frame_idx, &picture)? } else { keeper.keep(frame_idx, &picture)? }
-        }
-        self.keep_time += start.elapsed();
         self.last = Some((frame_idx, Arc::clone(&picture), camera));
-        Ok(Made { picture: Some(picture), is_kept: false })
+        Ok(Made { picture: Some(picture), is_kept: false, is_repeated })
     }
 
     /// Adds what was done to a report.
     pub(super) fn report_to(&self, report: &mut FilmReport) {
         (report.num_kept, report.num_damaged) = (self.num_kept, self.num_damaged);
-        (report.render_time, report.keep_time) = (self.render_time, self.keep_time);
+        report.render_time = self.render_time;
         report.qualities.clone_from(&self.qualities);
     }
 
@@ -139,7 +132,7 @@ impl<'a> FrameMaker<'a> {
             return None;
         }
         self.last = picture.clone().map(|picture| (frame_idx, picture, camera));
-        Some(Made { picture, is_kept: true })
+        Some(Made { picture, is_kept: true, is_repeated: false })
     }
 
     fn render(&mut self, frame_idx: usize) -> Result<Arc<Picture>, PipelineError> {

@@ -1,4 +1,4 @@
-//! A shot becomes a film: one thread renders frames in order while another one encodes them.
+//! A shot becomes a film: one thread renders frames in order while others keep and encode them.
 //!
 //! Enters: a renderer, a shot, settings. Leaves: a film or a picture sequence under its final name, complete. With a job
 //! folder ([`super::job`]) every finished frame is kept until then, and a later run goes on from there: its film has the
@@ -8,6 +8,7 @@ mod cameras;
 mod effects;
 mod encoding;
 mod form;
+mod keeping;
 mod making;
 mod part;
 mod report;

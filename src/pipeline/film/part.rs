@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::effects::Filmed;
 use super::form::Form;
+use super::keeping::{Finished, Keeping};
 use super::making::FrameMaker;
 use super::report::{FilmProgress, FilmReport};
 use super::settings::FilmSettings;
@@ -44,7 +45,7 @@ pub fn film_part(
         (renderer, &filmed, &effects),
         &settings.render,
         (Form::of(&VideoFormat::from_path(output)?, &settings.video_for(shot, &frames)), used),
-        (None, None),
+        None,
     );
     let mut report = FilmReport::new(output, part.len());
     let num_kept = job.parts().0.num_listed(&part);
@@ -52,7 +53,10 @@ pub fn film_part(
         if let Some(_claim) = job.claim(frame_idx)? {
             let made = maker.make(frame_idx, idx)?;
             if let Some(picture) = made.picture {
-                job.parts().1.keep(frame_idx, &picture)?;
+                let mut keeping = Keeping { keeper: job.parts().1, busy: report.keep_time };
+                // The frame before may be of another program.
+                keeping.keep(&Finished { frame_idx, picture, is_repeated: false })?;
+                report.keep_time = keeping.busy;
             }
         }
         report.num_frames += 1;

@@ -33,7 +33,7 @@ pub struct FilmReport {
     pub num_removed: usize,
     /// Time spent rendering.
     pub render_time: Duration,
-    /// Time spent keeping frames in the job folder.
+    /// Time spent keeping frames in the job folder, most of it parallel to rendering.
     pub keep_time: Duration,
     /// Time spent encoding and writing, most of it parallel to rendering.
     pub encode_time: Duration,

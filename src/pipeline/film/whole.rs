@@ -1,5 +1,6 @@
 use std::ops::{ControlFlow, Range};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::mpsc::{channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -7,6 +8,7 @@ use std::time::{Duration, Instant};
 use super::effects::Filmed;
 use super::encoding::{Encoder, Shown, Sink};
 use super::form::Form;
+use super::keeping::{Finished, Keeping};
 use super::making::{FrameMaker, Made};
 use super::report::{FilmProgress, FilmReport};
 use super::settings::FilmSettings;
@@ -113,7 +115,7 @@ fn render_and_encode(
     let target = job.as_ref().map_or_else(|| output.to_owned(), |job| job.film_path());
     let writer = if is_film || job.is_none() { Some(VideoWriter::create(&target, &video)?) } else { None };
     let (kept, keeper) = job.as_mut().map(|job| job.parts()).unzip();
-    // The thread that makes a frame in its final form keeps it: a picture of a sequence is final when it is encoded.
+    // A picture of a sequence is final when it is encoded: the encoder keeps it.
     let (own_keeper, sink) = match (writer, keeper) {
         (Some(writer), keeper) => (keeper, Sink::Writer(Box::new(writer))),
         (None, keeper) => (None, Sink::Keeper(keeper)),
@@ -126,7 +128,7 @@ fn render_and_encode(
         (renderer, filmed, effects),
         &settings.render,
         (Form::of(&VideoFormat::from_path(output)?, &video), used),
-        (kept, own_keeper),
+        kept,
     )
     .watched_by(
         settings
@@ -139,12 +141,20 @@ fn render_and_encode(
     }
     let num_kept = maker.num_listed(frames);
 
-    let (rendered, encoded) = thread::scope(|scope| {
+    let (rendered, encoded, kept) = thread::scope(|scope| {
         let encoding = scope.spawn(move || encoder.run(&receiver));
+        // No frame waits here: a program that is killed loses the frame that it renders and the one that it keeps.
+        let (keep_sender, finished) = sync_channel::<Finished>(0);
+        let keeping =
+            own_keeper.map(|keeper| scope.spawn(move || Keeping { keeper, busy: Duration::ZERO }.run(&finished)));
         let rendered = frames.clone().enumerate().try_for_each(|(idx, frame_idx)| {
-            let Made { picture, is_kept } = maker.make(frame_idx, idx)?;
+            let Made { picture, is_kept, is_repeated } = maker.make(frame_idx, idx)?;
             if let Some(picture) = picture {
-                // The encoder closes the channel when it fails; it returns its error itself.
+                // The threads close their channels when they fail; they return their errors themselves.
+                if keeping.is_some() && !is_kept {
+                    let finished = Finished { frame_idx, picture: Arc::clone(&picture), is_repeated };
+                    keep_sender.send(finished).map_err(|_| Interruption::Stopped)?;
+                }
                 sender.send(Shown { idx, frame_idx, picture, is_kept }).map_err(|_| Interruption::Stopped)?;
             }
             report.num_frames += 1;
@@ -153,9 +163,11 @@ fn render_and_encode(
                 ControlFlow::Break(()) => Err(Interruption::Stopped),
             }
         });
-        drop(sender);
-        (rendered, encoding.join())
+        drop((sender, keep_sender));
+        (rendered, encoding.join(), keeping.map(|keeping| keeping.join()))
     });
+    report.keep_time =
+        kept.transpose().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).transpose()?.unwrap_or_default();
     let encoder = encoded.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
     if let Err(Interruption::Failed(error)) = rendered {
         return Err(*error);

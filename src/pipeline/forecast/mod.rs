@@ -351,12 +351,13 @@ impl Encoding {
     fn held_bytes(&self) -> u64 {
         let frame_bytes = self.video.frame_bytes();
         if self.video.has_alpha {
-            // Four planes of 16 bits; the frame that is being made has four floats per pixel besides.
+            // Four planes of 16 bits, of the frame that is being kept two copies more; the frame that is being made has
+            // four floats per pixel besides.
             let num_pixels = frame_bytes / 3;
-            return (num_pixels * (8 * (film::QUEUE_FRAMES + 2 + self.num_ahead + HELD_FRAMES) + 16)) as u64;
+            return (num_pixels * (8 * (film::QUEUE_FRAMES + 5 + self.num_ahead + HELD_FRAMES) + 16)) as u64;
         }
-        // One frame is being rendered, one encoded; the others wait.
-        let between = frame_bytes * (film::QUEUE_FRAMES + 2);
+        // One frame is being rendered, one encoded, one kept, of which there is a copy; the others wait.
+        let between = frame_bytes * (film::QUEUE_FRAMES + 4);
         let inside = frame_bytes / 3 * HELD_BYTES * (self.num_ahead + HELD_FRAMES);
         (between + inside) as u64
     }
