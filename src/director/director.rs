@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use cinesplat_language::{
-    Linked, Mention, NamedObject, Word, are_effect_phrases, check_prompt, link_mentions, tokenize,
+    Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, link_mentions, scenery, tokenize,
     without_camera_settings, without_frame_shape,
 };
 use cinesplat_objects::Object;
@@ -91,6 +91,11 @@ impl Director {
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
         let mut found = self.names.mentions(prompt, objects)?;
+        let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
+        let scenery = scenery(prompt, &mentions)?;
+        let prompt = &*blanked(prompt, &scenery);
+        let is_blank = |at: usize| scenery.iter().any(|[start, end]| (*start..*end).contains(&at));
+        found.retain(|found| !is_blank(found.mention.bytes[0]));
         absorb_places(prompt, objects, &mut found);
         point_back(prompt, objects, &mut found);
         let parts: Vec<[usize; 2]> = found.iter().map(|found| found.mention.bytes).collect();
@@ -100,7 +105,7 @@ impl Director {
             |(found, is_effect): &(&FoundMention, bool)| !is_effect || has_word_of_name(prompt, found, objects);
         let things = found.iter().zip(are_effects).filter(is_thing);
         let mentions: Vec<Mention> = things.map(|(found, _)| found.mention.clone()).collect();
-        let mut linked = link_mentions(prompt, &mentions)?;
+        let mut linked = Linked { scenery, ..link_mentions(prompt, &mentions)? };
         for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
             let words = |found: &&FoundMention| {
                 let [start, end] = found.mention.bytes;

@@ -39,8 +39,36 @@ pub(crate) fn point_back(prompt: &str, objects: &[NamedObject], found: &mut [Fou
 /// Words that say where a thing is, and words that may stand beside them.
 const WHERE: [&str; 11] =
     ["on", "in", "at", "under", "below", "beneath", "underneath", "near", "above", "inside", "atop"];
-const BESIDE: [&str; 14] =
-    ["the", "a", "an", "that", "which", "is", "are", "sits", "sitting", "standing", "stands", "hanging", "lying", "up"];
+const BESIDE: [&str; 28] = [
+    "the",
+    "a",
+    "an",
+    "that",
+    "which",
+    "is",
+    "are",
+    "sits",
+    "sitting",
+    "standing",
+    "stands",
+    "hanging",
+    "lying",
+    "up",
+    "there",
+    "stacked",
+    "piled",
+    "kept",
+    "placed",
+    "displayed",
+    "hung",
+    "resting",
+    "sat",
+    "over",
+    "out",
+    "here",
+    "all",
+    "right",
+];
 
 /// Makes one mention of a thing and of the place that tells which one it is, where the place is called by no word of
 /// the object that it was taken for: `the shelf` on which the teapot stands, in a scene of cabinets.
@@ -61,7 +89,13 @@ pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut V
             }
             _ => false,
         };
-        if says_where && is_loose {
+        // `The chest of drawers, <obj-8>, ..` names one thing twice.
+        let is_again = thing.ids == place.ids
+            && !thing.ids.is_empty()
+            && is_number(said(prompt, place))
+            && between.len() == 1
+            && between[0].text == ",";
+        if is_again || says_where && is_loose {
             found[nth - 1].mention.bytes[1] = place.bytes[1];
             found.remove(nth);
         } else {

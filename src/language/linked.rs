@@ -37,6 +37,8 @@ pub struct Linked {
     pub unknown: Vec<UnknownName>,
     /// The parts of a prompt that says part by part what happens when.
     pub timeline: Option<Timeline>,
+    /// Bytes of clauses about light, weather and mood, which are no words of the list.
+    pub scenery: Vec<[usize; 2]>,
     /// Messages for the user about mentions that fit several objects or are misspelled.
     pub warnings: Vec<String>,
 }

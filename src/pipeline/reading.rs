@@ -1,7 +1,7 @@
 //! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
 
 use cinesplat_director::{Direction, SceneContext};
-use cinesplat_language::{EffectMention, Linked, effect_mentions};
+use cinesplat_language::{EffectMention, Linked, effect_mentions, tokenize};
 use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
@@ -86,14 +86,22 @@ impl Reading {
         let of_steps = self.direction.program.steps.iter().filter_map(|step| step.words);
         let of_effects = self.effects.iter().map(|effect| effect.span);
         let of_problems = self.problems.iter().map(|problem| problem.span);
-        let used: Vec<[usize; 2]> = of_steps.chain(of_effects).chain(of_problems).collect();
-        let is_used = |span: &[usize; 2]| used.iter().any(|used| used[0] <= span[0] && span[1] <= used[1]);
+        let others: Vec<[usize; 2]> = of_effects.chain(of_problems).collect();
+        let used: Vec<[usize; 2]> = of_steps.chain(others.iter().copied()).collect();
+        let lies_in =
+            |span: &[usize; 2], used: &[[usize; 2]]| used.iter().any(|used| used[0] <= span[0] && span[1] <= used[1]);
         // A number that no step uses is the length of the film, if that is stated.
         let has_length = self.direction.program.duration_secs.is_some();
         let is_length = |word: &str| has_length && word.starts_with("<qty-");
         let words = self.linked.tokens_text.split(' ').zip(&self.linked.spans);
-        let mut spans: Vec<&[usize; 2]> =
-            words.filter(|(word, span)| !is_length(word) && !is_used(span)).map(|(_, span)| span).collect();
+        let mut spans: Vec<[usize; 2]> =
+            words.filter(|(word, span)| !is_length(word) && !lies_in(span, &used)).map(|(_, span)| *span).collect();
+        let scenery = self.linked.scenery.iter().flat_map(|&[start, end]| {
+            let words = tokenize(prompt.get(start..end).unwrap_or_default());
+            words.into_iter().map(move |word| word.span.map(|at| start + at))
+        });
+        spans.extend(scenery.filter(|span| !lies_in(span, &others)));
+        spans.sort_unstable();
         // One word of the prompt may stand for several.
         spans.dedup();
         spans.into_iter().filter_map(|span| prompt.get(span[0]..span[1])).filter(|word| carries_request(word)).collect()

@@ -175,3 +175,47 @@ fn a_number_of_the_shutter_is_no_amount_of_a_move() {
     let linked = director.link("orbit the vase with a 180 degree shutter, 35mm film grain", &[]).unwrap();
     assert_eq!(linked.quantities, []);
 }
+
+#[test]
+fn what_stands_still_neither_shakes_nor_walks() {
+    let found = program("pan right from the armchair to the television, tripod");
+    assert!(!found.contains("handheld"), "{found}");
+    let found = program("He stays where he is. Only his gaze wanders from the curtain over to the armchair.");
+    assert!(found.starts_with("pan") && found.contains("either"), "{found}");
+    let found = program("dutch-angle close-up of the vase, horizon tipped, camera frozen");
+    assert!(found.starts_with("static") && !found.contains("roll"), "{found}");
+}
+
+#[test]
+fn a_spiral_goes_around() {
+    for prompt in [
+        "look down on the vase, leaves like fireworks, then the camera spirals down around it until it is level with it",
+        "spiral up around the armchair",
+    ] {
+        let found = program(prompt);
+        assert!(found.contains("orbit") && found.contains("crane") && found.contains("with="), "{prompt}: {found}");
+    }
+}
+
+#[test]
+fn a_length_behind_all_moves_is_that_of_the_film() {
+    let found = program("truck right past the curtain, then a slow zoom in on the vase, airy loft, 12 seconds");
+    assert!(found.ends_with("total=12s"), "{found}");
+    let found = program("push in on the vase, then hold on it, 2 seconds");
+    assert!(!found.contains("total"), "{found}");
+}
+
+#[test]
+fn a_close_view_is_no_extreme_one() {
+    let found = program("We begin at the vase, quite near, then we drift backwards away from it");
+    assert!(!found.contains("extreme"), "{found}");
+    let found = program("extreme close-up of the vase, then pull back");
+    assert!(found.contains("extreme-close-up"), "{found}");
+}
+
+#[test]
+fn light_and_mood_are_no_steps() {
+    let found = program("circle the armchair a quarter turn. Powdery dawn, 8 seconds, sunlight sliding slowly upward.");
+    assert_eq!(found.matches(" / ").count(), 0, "{found}");
+    assert!(found.contains("orbit") && !found.contains("pedestal"), "{found}");
+}

@@ -19,6 +19,7 @@ mod notation;
 mod plain;
 mod prompt_sampler;
 mod quantity;
+mod scenery;
 mod senses;
 mod timeline;
 

@@ -90,3 +90,20 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn labels_with_a_time_begin_beats() {
+    assert_eq!(
+        beats("Shot 1, 0:00-0:04: static wide of the room. CUT at 0:04. Shot 2, 0:04-0:08: close-up of the mug"),
+        ["static wide of the room (4 s)", "close-up of the mug (4 s)"]
+    );
+    assert_eq!(
+        beats("Shot list. A, 3 s: medium of the mug. B, 5 s: dolly back. C, 2 s: hold that frame."),
+        ["[Shot list]", "medium of the mug (3 s)", "dolly back (5 s)", "hold that frame (2 s)"]
+    );
+    assert_eq!(
+        beats("Panel 1 (0-3 s): static. Panel 2 (3-9 s): the camera descends. Step 3 (9-11 s): hold"),
+        ["static (3 s)", "the camera descends (6 s)", "hold (2 s)"]
+    );
+    assert_eq!(beats("push in on a, 3 s later pan to b"), ["no timeline"]);
+}

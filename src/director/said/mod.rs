@@ -2,11 +2,13 @@
 
 mod directions;
 mod dolly_zoom;
+mod lengths;
 mod open;
 mod openings;
 mod places;
 mod repeats;
 mod senses;
+mod stillness;
 mod together;
 mod until;
 
@@ -37,6 +39,12 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::take_sizes(linked, steps);
     openings::rest_on_first_picture(linked, senses, steps)?;
     openings::rise_from_ground(linked, steps);
+    openings::temper_closeness(linked, senses, steps)?;
+    stillness::drop_unsaid_shake(linked, senses, steps)?;
+    stillness::turn_gazes(linked, steps);
+    stillness::hold_slants(linked, steps);
+    stillness::circle_spirals(linked, steps);
     places::rise_by_lengths(linked, steps);
+    lengths::take_film_length(linked, &mut direction.program);
     Ok(())
 }

@@ -113,3 +113,47 @@ pub(crate) fn rise_from_ground(linked: &Linked, steps: &mut [Step]) {
         }
     }
 }
+
+/// Words by which a close-up is an extreme one.
+const EXTREMES: [&str; 18] = [
+    "extreme",
+    "extremely",
+    "very",
+    "super",
+    "ultra",
+    "really",
+    "macro",
+    "ecu",
+    "xcu",
+    "bcu",
+    "inch",
+    "inches",
+    "big",
+    "so",
+    "as",
+    "right",
+    "touching",
+    "nearly",
+];
+
+/// Makes a close-up of an extreme one that nobody asked for: `begin at the vase, quite near`. `senses` has one entry per
+/// word.
+///
+/// # Errors
+/// [`LanguageError::BadData`] for a damaged list of senses.
+pub(crate) fn temper_closeness(linked: &Linked, senses: &[Senses], steps: &mut [Step]) -> Result<(), LanguageError> {
+    let details = Senses::named(&["detail", "fill"])?;
+    for step in steps {
+        let words = step.words.unwrap_or_default();
+        let is_extreme = linked.words_in(words).any(|(word, _)| EXTREMES.contains(&word));
+        if is_extreme || says(linked, senses, step, details) {
+            continue;
+        }
+        for framing in [&mut step.start, &mut step.end] {
+            if framing.size == Some(ShotSize::ExtremeCloseUp) {
+                framing.size = Some(ShotSize::CloseUp);
+            }
+        }
+    }
+    Ok(())
+}

@@ -25,6 +25,12 @@ pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
         let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
         let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
         let id_at = |at: usize| linked.slot_at(words.get(at)?);
+        // `Push in on the doors under the counter`: nothing is passed on the way to itself.
+        let nears = matches!(step.movement, Move::PushIn | Move::ZoomIn | Move::Static);
+        if nears && via.objects == step.end.subjects {
+            step.via = None;
+            continue;
+        }
         let is_subject = |id: &u32| step.end.subjects.contains(id) || step.start.subjects.contains(id);
         let describes = |at: usize, placing: &[&str]| {
             let is_place = |id: &u32| via.objects == [*id];

@@ -11,6 +11,7 @@ pub use set::Senses;
 
 use crate::error::LanguageError;
 use crate::linked::Linked;
+use crate::tokenizer::Word;
 use table::Table;
 
 /// The names of all senses, in the order of their indices.
@@ -31,6 +32,12 @@ impl Senses {
         let indices = sense_names()?.iter().enumerate().filter(is_named).map(|(index, _)| index);
         Ok(indices.fold(Self::default(), Self::with))
     }
+}
+
+/// The senses of each word. A phrase of the list counts before its words.
+pub(crate) fn senses_of(words: &[Word]) -> Result<Vec<Senses>, LanguageError> {
+    let words: Vec<&str> = words.iter().map(|word| word.text.as_str()).collect();
+    Ok(Table::embedded()?.senses(&words))
 }
 
 impl Linked {

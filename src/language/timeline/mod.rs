@@ -154,7 +154,7 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
         }
         let start = words.get(stamp.at).map_or(0, |word| word.span[0]);
         let text = if is_last { without_ending(words, *text) } else { *text };
-        let (text, cuts) = without_joint(words, text);
+        let (text, cuts) = without_cut(words, text).map_or_else(|| without_joint(words, text), |text| (text, true));
         if text[0] == text[1] {
             return None;
         }
@@ -175,6 +175,17 @@ fn without_ending(words: &[Word], [start, end]: [usize; 2]) -> [usize; 2] {
     let kept = start + last;
     let is_sentence = words.get(kept).is_some_and(|word| matches!(word.text.as_str(), "." | ";" | "/"));
     if last > 0 && is_sentence { [start, kept] } else { [start, end] }
+}
+
+/// A part without the sentence that says when it is cut: `static on the vase. CUT at 0:04.` `None` without one.
+fn without_cut(words: &[Word], [start, end]: [usize; 2]) -> Option<[usize; 2]> {
+    let is_time = |word: &Word| {
+        let is_number = word.text.starts_with(|c: char| c.is_ascii_digit());
+        is_number || matches!(word.text.as_str(), "at" | "on" | ":" | "s" | "sec" | "seconds" | "hard" | "." | "-")
+    };
+    let at = start + words[start..end].iter().rposition(|word| matches!(word.text.as_str(), "cut" | "cuts"))?;
+    let begins = at > start && matches!(word_at(words, at - 1), "." | ";" | "," | "hard");
+    (begins && words[at + 1..end].iter().all(is_time)).then(|| trimmed(words, start, at))
 }
 
 /// A part without the words that lead to the next one, and whether they are a cut: `push in, then`, `push in, cut to`.

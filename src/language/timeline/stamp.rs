@@ -65,6 +65,9 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
     if let Some((end, share)) = share_at(words, i) {
         return stamp(end, StampKind::Share(share));
     }
+    if let Some((end, kind)) = labelled_time_at(prompt, words, i) {
+        return stamp(end, kind);
+    }
     if let Some((end, number)) = list_number_at(prompt, words, i) {
         let at = i - usize::from(i > 0 && word_at(words, i - 1) == "#");
         return Some(Stamp { at, end, kind: StampKind::Number(number) });
@@ -205,10 +208,47 @@ fn share_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
     (is_ordinal && matches!(word_at(words, i + 2), ":" | "," | "is")).then_some((i + 3, share))
 }
 
+/// What the parts of a list are called.
+const LABELS: [&str; 15] = [
+    "shot", "beat", "step", "part", "move", "frame", "pos", "position", "panel", "scene", "segment", "phase",
+    "section", "clip", "setup",
+];
+
+/// `shot 1, 0:00-0:04:`, `step 2 (4 s):`, `A, 3 s:`: the word after it, and the time of the part.
+fn labelled_time_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, StampKind)> {
+    let is_number = |at: usize| {
+        let word = word_at(words, at);
+        let is_word = || (1..=20).any(|number| number_word(number) == Some(word));
+        word.len() <= 2 && word.parse::<u32>().is_ok() || is_word()
+    };
+    let is_letter = |at: usize| matches!(word_at(words, at), "a" | "b" | "c" | "d" | "e" | "f" | "g" | "h");
+    let is_capital = || {
+        let text = words.get(i).and_then(|word| prompt.get(word.span[0]..word.span[1])).unwrap_or_default();
+        text.chars().all(char::is_uppercase)
+    };
+    let label = if LABELS.contains(&word_at(words, i)) && (is_number(i + 1) || is_letter(i + 1)) {
+        2
+    } else {
+        usize::from(is_letter(i) && is_capital())
+    };
+    let mark = word_at(words, i + label);
+    if label == 0 || !matches!(mark, "," | "(" | "[" | ":") {
+        return None;
+    }
+    let start = i + label + 1;
+    let first = instant_at(words, start)?;
+    let (end, kind) = span_from(words, start, first).or_else(|| {
+        let is_length = first.form == InstantForm::Measure && first.secs > 0.0;
+        is_length.then_some((first.end, StampKind::Length(first.secs)))
+    })?;
+    let closed = end + usize::from(matches!(word_at(words, end), ")" | "]"));
+    let is_head = closed > end || matches!(word_at(words, closed), ":" | "," | ".");
+    is_head.then_some((closed + usize::from(word_at(words, closed) == ":"), kind))
+}
+
 /// `1)`, `2.`, `#3`, `shot 4:`, `beat two:`: the word after it, and the number.
 fn list_number_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, u32)> {
-    let is_named =
-        matches!(word_at(words, i), "shot" | "beat" | "step" | "part" | "move" | "frame" | "pos" | "position");
+    let is_named = LABELS.contains(&word_at(words, i));
     let after_mark = i > 0 && matches!(word_at(words, i - 1), "#" | "(");
     let at = i + usize::from(is_named);
     let word = words.get(at)?;

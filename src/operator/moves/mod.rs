@@ -85,6 +85,12 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         }
         Move::PushIn | Move::PullOut => straight::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
+        Move::PedestalUp | Move::PedestalDown if leads_aside(context) => {
+            let up = context.step.movement == Move::PedestalUp;
+            let movement = if up { Move::CraneUp } else { Move::CraneDown };
+            let step = Step { movement, ..context.step.clone() };
+            circles::crane(&StepContext { step: &step, ..context.clone() })
+        }
         Move::PedestalUp | Move::PedestalDown => straight::pedestal(context),
         Move::CraneUp | Move::CraneDown if keeps_its_view(context) => {
             let up = context.step.movement == Move::CraneUp;
@@ -102,6 +108,19 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::Reveal => paths::reveal(context),
     }
 }
+
+/// Whether a rise or a descent leads from one subject to another that is neither above nor below it: without a turn and a
+/// travel aside the camera would not see it.
+fn leads_aside(context: &StepContext) -> bool {
+    let (Some(start), Some(end)) = (&context.start, &context.end) else { return false };
+    let apart = end.aim - start.aim;
+    let height = context.world.frame.height(apart).abs();
+    let aside = (apart.length_squared() - height * height).max(0.0).sqrt();
+    start.ids.first() != end.ids.first() && aside > LEAST_ASIDE * height
+}
+
+/// Distance aside over the height from which on a rise between two subjects is a crane.
+const LEAST_ASIDE: f64 = 0.25;
 
 /// Whether a crane rises or sinks over its own subject, as in `crane up over the sofa`: it then passes nothing.
 fn rises_over_subject(context: &StepContext) -> bool {

@@ -1,0 +1,288 @@
+//! Clauses about light, weather and mood: `dust motes drifting upward`, `sunlight sliding over the wall`, `melancholy,
+//! lo-fi`. They are about the picture and say nothing to whoever moves the camera, however much they move themselves.
+
+use std::borrow::Cow;
+
+use super::error::LanguageError;
+use super::known_words::KnownWords;
+use super::mention::Mention;
+use super::senses::{Senses, sense_names, senses_of};
+use super::tokenizer::{Word, span_of, tokenize, word_at};
+
+/// What light, weather and mood consist of.
+const SCENERY: [&str; 100] = [
+    "light",
+    "lights",
+    "sunlight",
+    "moonlight",
+    "daylight",
+    "candlelight",
+    "lamplight",
+    "firelight",
+    "starlight",
+    "sun",
+    "moon",
+    "sunbeam",
+    "sunbeams",
+    "sunset",
+    "sunrise",
+    "dawn",
+    "dusk",
+    "twilight",
+    "rays",
+    "beams",
+    "shaft",
+    "shafts",
+    "glow",
+    "shimmer",
+    "glare",
+    "glint",
+    "glints",
+    "reflection",
+    "reflections",
+    "shadow",
+    "shadows",
+    "dust",
+    "motes",
+    "mote",
+    "particles",
+    "pollen",
+    "smoke",
+    "steam",
+    "vapor",
+    "vapour",
+    "haze",
+    "mist",
+    "fog",
+    "rain",
+    "raindrops",
+    "drizzle",
+    "snow",
+    "snowflakes",
+    "wind",
+    "breeze",
+    "draft",
+    "air",
+    "sky",
+    "clouds",
+    "cloud",
+    "storm",
+    "thunder",
+    "lightning",
+    "embers",
+    "ember",
+    "sparks",
+    "ash",
+    "ashes",
+    "flame",
+    "flames",
+    "candlelights",
+    "petals",
+    "bubbles",
+    "confetti",
+    "glitter",
+    "music",
+    "silence",
+    "sound",
+    "sounds",
+    "birdsong",
+    "mood",
+    "atmosphere",
+    "ambience",
+    "ambiance",
+    "vibe",
+    "vibes",
+    "tone",
+    "tones",
+    "palette",
+    "color",
+    "colors",
+    "colour",
+    "colours",
+    "contrast",
+    "texture",
+    "textures",
+    "bokeh",
+    "grain",
+    "grade",
+    "grading",
+    "highlights",
+    "hue",
+    "hues",
+    "warmth",
+    "fireflies",
+];
+/// Words before the name of such a thing that do not belong to another.
+const MAX_BEFORE: usize = 5;
+/// Words that begin a clause beside a comma.
+const OPENERS: [&str; 3] = ["while", "as", "with"];
+/// Words that end such a clause: what follows is about something else.
+const CLOSERS: [&str; 9] = ["as", "while", "when", "then", "until", "before", "after", "so", "but"];
+/// Words after which the thing is only where something is, or a thing to film: `the light on the left`.
+const PREPOSITIONS: [&str; 18] = [
+    "on", "in", "at", "by", "near", "behind", "above", "below", "under", "beside", "over", "to", "from", "and", "or",
+    "is", "with", "between",
+];
+/// Who films, and what a film is made of: a clause with one of them is about the camera.
+const CAMERA: [&str; 21] = [
+    "camera",
+    "cam",
+    "we",
+    "i",
+    "you",
+    "drone",
+    "lens",
+    "frame",
+    "shot",
+    "view",
+    "viewer",
+    "move",
+    "movement",
+    "speed",
+    "motion",
+    "follow",
+    "follows",
+    "following",
+    "pan",
+    "push",
+    "pull",
+];
+/// Senses of words that tell an operator how it looks and not where to go.
+const LOOKS: [&str; 2] = ["effect", "like"];
+/// Endings of words of command.
+const COMMAND_FORMS: [&str; 4] = ["ing", "wards", "ed", "ly"];
+/// Senses that a word of looks may have besides: `moody` is slow, too.
+const SHADES: [&str; 8] = ["slow", "fast", "smooth", "big", "small", "little", "much", "detail"];
+
+/// The bytes of the clauses of a prompt that are about light, weather and mood alone, each with the comma before it. A
+/// clause that mentions an object is none of them, unless light falls on it. Nothing of a prompt that says nothing else.
+///
+/// # Errors
+/// [`LanguageError::BadData`] for a damaged list of senses.
+pub fn scenery(prompt: &str, mentions: &[Mention]) -> Result<Vec<[usize; 2]>, LanguageError> {
+    let words = tokenize(prompt);
+    let meaning = Meaning::of(&words)?;
+    let is_scenery = |clause: &[usize; 2]| {
+        is_about_scenery(&words, mentions, *clause) || is_tag(&words, &meaning, mentions, *clause)
+    };
+    let (out, kept): (Vec<[usize; 2]>, Vec<[usize; 2]>) = clauses(prompt, &words).into_iter().partition(is_scenery);
+    if !kept.iter().any(|clause| (clause[0]..clause[1]).any(|at| meaning.tells(at))) {
+        return Ok(Vec::new());
+    }
+    let bytes_of = |[from, to]: [usize; 2]| {
+        let [start, end] = span_of(&words[from..to]);
+        let comma = from.checked_sub(1).filter(|before| word_at(&words, *before) == ",");
+        [comma.map_or(start, |comma| words[comma].span[0]), end]
+    };
+    Ok(out.into_iter().map(bytes_of).collect())
+}
+
+/// The prompt with blanks in place of some of its bytes, so that every other byte stays where it is.
+pub fn blanked<'a>(prompt: &'a str, ranges: &[[usize; 2]]) -> Cow<'a, str> {
+    let mut blanked = Cow::Borrowed(prompt);
+    for &[start, end] in ranges {
+        blanked.to_mut().replace_range(start..end, &" ".repeat(end - start));
+    }
+    blanked
+}
+
+/// What the words of a prompt tell an operator.
+struct Meaning {
+    senses: Vec<Senses>,
+    looks: Senses,
+    hard: Senses,
+}
+
+impl Meaning {
+    fn of(words: &[Word]) -> Result<Self, LanguageError> {
+        let is_hard = |name: &&str| !LOOKS.contains(name) && !SHADES.contains(name);
+        let hard: Vec<&str> = sense_names()?.iter().map(String::as_str).filter(is_hard).collect();
+        Ok(Self { senses: senses_of(words)?, looks: Senses::named(&LOOKS)?, hard: Senses::named(&hard)? })
+    }
+
+    /// Whether a word has a sense that is not one of looks.
+    fn tells(&self, at: usize) -> bool {
+        let senses = self.senses[at];
+        if senses.overlaps(self.looks) { senses.overlaps(self.hard) } else { !senses.is_empty() }
+    }
+}
+
+/// The clauses of a prompt: first word and the word after the last. Marks and words that join clauses end them.
+fn clauses(prompt: &str, words: &[Word]) -> Vec<[usize; 2]> {
+    let mut clauses = Vec::new();
+    let mut start = 0;
+    for at in 0..=words.len() {
+        let is_line =
+            at > 0 && words.get(at).is_some_and(|word| prompt[words[at - 1].span[1]..word.span[0]].contains('\n'));
+        let is_mark =
+            words.get(at).is_none_or(|word| !word.text.starts_with(char::is_alphanumeric) && !is_inner(&word.text));
+        let joins = words
+            .get(at)
+            .is_some_and(|word| OPENERS.contains(&word.text.as_str()) || CLOSERS.contains(&word.text.as_str()));
+        if !(is_line || is_mark || joins) {
+            continue;
+        }
+        if at > start {
+            clauses.push([start, at]);
+        }
+        start = if is_mark { at + 1 } else { at };
+    }
+    clauses
+}
+
+/// Whether a mark stands inside clauses: those of placeholders, numbers and words.
+fn is_inner(mark: &str) -> bool {
+    matches!(mark, "<" | ">" | "-" | "'" | "\u{2019}" | "#" | "%" | "\u{b0}" | "&" | "+") || mark.starts_with('\'')
+}
+
+/// Whether the subject of a clause is scenery: `golden hour light spilling through the window`.
+fn is_about_scenery(words: &[Word], mentions: &[Mention], [from, to]: [usize; 2]) -> bool {
+    let named = |at: usize| mention_at(words, mentions, at).is_some_and(|mention| !mention.ids.is_empty());
+    let is_head = |at: &usize| SCENERY.contains(&word_at(words, *at)) && !named(*at);
+    let from = from + usize::from(OPENERS.contains(&word_at(words, from)));
+    let Some(head) = (from..to.min(from + MAX_BEFORE + 1)).find(is_head) else { return false };
+    let head = (head..to).take_while(is_head).last().unwrap_or(head);
+    let next = if head + 1 < to { word_at(words, head + 1) } else { "" };
+    let is_of_camera = (from..to).any(|at| CAMERA.contains(&word_at(words, at)));
+    let has_number = (from..to).any(|at| word_at(words, at).starts_with(|c: char| c.is_ascii_digit()));
+    let num_named = (from..to).filter(|at| named(*at) && (*at == from || !named(at - 1))).count();
+    let names_before = (from..head).any(named);
+    !(is_of_camera || has_number || names_before || PREPOSITIONS.contains(&next) || num_named > 1)
+        && (num_named == 0 || next.ends_with("ing") || next.ends_with('s') || next.ends_with("ed"))
+        && !starts_with_command(words, from, head)
+}
+
+/// Whether the words before the name of scenery say what to do with it: `push in on the light`, `show the shadows`.
+fn starts_with_command(words: &[Word], from: usize, head: usize) -> bool {
+    const BEFORE: [&str; 17] = [
+        "the", "a", "an", "some", "of", "and", "in", "on", "to", "into", "towards", "toward", "at", "through", "past",
+        "until", "follow",
+    ];
+    let is_article = |at: usize| BEFORE[..6].contains(&word_at(words, at));
+    (from..head).any(|at| BEFORE[6..].contains(&word_at(words, at)) && !is_article(at))
+}
+
+/// Whether a clause only says how it looks: none of its words tells an operator anything.
+fn is_tag(words: &[Word], meaning: &Meaning, mentions: &[Mention], [from, to]: [usize; 2]) -> bool {
+    let looks = (from..to).any(|at| meaning.senses[at].overlaps(meaning.looks));
+    // A word alone may be one that the list of senses lacks: `unhurried`, `centred`.
+    let is_command = |word: &str| {
+        KnownWords::embedded().contains(word)
+            || COMMAND_FORMS.iter().any(|ending| word.ends_with(ending))
+            || word.starts_with("un")
+    };
+    (looks || to - from > 1 || !is_command(word_at(words, from)))
+        && (from..to).all(|at| {
+            let word = &words[at].text;
+            // Single letters are shorthand: `R to L`.
+            let is_letter = word.len() == 1 && word != "a";
+            let has_digit = word.contains(|c: char| c.is_ascii_digit());
+            !(meaning.tells(at) || is_letter || has_digit) && mention_at(words, mentions, at).is_none()
+        })
+}
+
+/// The mention that a word belongs to.
+fn mention_at<'a>(words: &[Word], mentions: &'a [Mention], at: usize) -> Option<&'a Mention> {
+    let start = words[at].span[0];
+    mentions.iter().find(|mention| (mention.bytes[0]..mention.bytes[1]).contains(&start))
+}
