@@ -5,10 +5,12 @@
 
 use glam::Vec3;
 
+use super::absorbing::absorb_backs;
 use super::background::structure;
 use super::flats::flats;
 use super::floating::join_floating;
 use super::groups::VoxelGroup;
+use super::patches::{add_patches, take_patches};
 use super::pieces::{attach, contacts, diagonal, split};
 use super::planes::ScenePlane;
 use super::segmentation::components;
@@ -16,6 +18,7 @@ use super::settings::FindSettings;
 use super::standing::{self, owners};
 use super::tops::{Top, tops};
 use super::voxels::VoxelGrid;
+use super::windows::windows;
 
 /// Least share of a body's voxels that touch a flat thing for the body to be its relief: a handle, a frame.
 const RELIEF_FRAC: f64 = 0.4;
@@ -26,6 +29,9 @@ const BACKGROUND_FRAC: f64 = 0.55;
 /// Diagonal of a body, over the room's, above which it is split.
 const SPLIT_FRAC: f64 = 0.42;
 
+/// Least number of voxels of a thing on a top.
+const MIN_ON_TOP: usize = 8;
+
 /// Share of a group inside the box of another group from which it is a part of that group.
 const INSIDE_FRAC: f64 = 0.85;
 
@@ -34,26 +40,46 @@ const CRUMB_FRAC: f64 = 0.01;
 
 /// Groups the voxels of a closed room.
 pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSettings) -> Vec<VoxelGroup> {
-    let is_structure = structure(grid, planes, settings);
-    let mut is_free: Vec<bool> = is_structure.iter().map(|structure| !structure).collect();
-    let tops = tops(grid, &is_free);
+    let mut is_structure = structure(grid, planes, settings);
+    let windows = windows(grid, planes);
+    let mut is_window = vec![false; grid.voxels.len()];
+    windows.iter().flatten().for_each(|&voxel| is_window[voxel] = true);
+    let mut is_free: Vec<bool> =
+        is_structure.iter().zip(&is_window).map(|(structure, window)| !structure && !window).collect();
+    is_structure.iter_mut().zip(&is_window).for_each(|(structure, window)| *structure &= !window);
+    let mut tops = tops(grid, &is_free);
     tops.iter().flat_map(|top| &top.voxels).for_each(|&voxel| is_free[voxel] = false);
     let free: Vec<usize> = (0..is_free.len()).filter(|&voxel| is_free[voxel]).collect();
+    let patches = take_patches(grid, &mut tops);
     let flats = flats(grid, planes, &is_structure);
-    let (flats, bodies) = with_reliefs(grid, flats, bodies(grid, &free, &tops, settings));
+    let (flats, mut bodies) = with_reliefs(grid, flats, bodies(grid, &free, &tops, settings));
+    add_patches(grid, patches, &mut bodies);
     let max_diagonal = BACKGROUND_FRAC * settings.resolution;
-    let bodies = join_floating(grid, &bodies, &tops, &is_structure);
+    let bodies = join_floating(grid, &bodies, &tops, (&is_structure, planes));
     let things = standing::join(grid, &bodies, &tops, max_diagonal);
     let things = things.voxels.into_iter().zip(things.is_surface);
     let mut groups: Vec<VoxelGroup> =
         things.map(|(voxels, is_surface)| VoxelGroup::whole(voxels, is_surface)).collect();
+    let on_top = owners(grid, &tops.iter().map(|top| top.voxels.clone()).collect::<Vec<_>>());
     groups.retain(|group| {
-        group.voxels.len() >= settings.min_voxels
+        let least = if is_on_top(grid, &group.voxels, &on_top) { MIN_ON_TOP } else { settings.min_voxels };
+        group.voxels.len() >= least
             && (group.is_surface || diagonal(grid, group.voxels.iter().copied()) <= max_diagonal)
     });
+    let flats = absorb_backs(grid, flats, &mut groups);
     nest(grid, &mut groups, SPLIT_FRAC * settings.resolution);
-    groups.extend(flats.into_iter().map(|voxels| VoxelGroup::whole(voxels, false)));
+    groups.extend(windows.into_iter().chain(flats).map(|voxels| VoxelGroup::whole(voxels, false)));
     groups
+}
+
+/// Whether a small group stands on a top: what stands somewhere is no floater.
+fn is_on_top(grid: &VoxelGrid, voxels: &[usize], on_top: &[usize]) -> bool {
+    let touches = |&&v: &&usize| {
+        let level = grid.voxels[v].key[1];
+        grid.neighbors(v, 1).any(|other| on_top[other] != usize::MAX && grid.voxels[other].key[1] < level)
+    };
+    let num_touching = voxels.iter().filter(touches).count();
+    num_touching >= 3 || num_touching * 3 >= voxels.len()
 }
 
 /// Makes groups inside the box of another group that they touch its parts: the books of a shelf, the cushions of a sofa.

@@ -32,7 +32,33 @@ const MIN_CELLS: usize = 60;
 const MIN_FILL: f32 = 0.55;
 
 /// Largest share of a plane's cells that one thing covers.
-const MAX_SHARE: f32 = 0.3;
+const MAX_SHARE: f32 = 0.45;
+
+/// Least width of a thing, cells, and largest length over its width: what is longer is a skirting board, a cornice or the
+/// shade in a corner.
+const STRIP_CELLS: f32 = 4.0;
+const STRIP_RATIO: f32 = 9.0;
+
+/// Least number of cells of a rim around a thing, over those around its rectangle.
+const MIN_RIM: f32 = 0.6;
+
+/// Height over the floor up to which a thing on a wall stands on it, cells.
+const FOOT_CELLS: i32 = 5;
+
+/// Share of a thing's cells that stand out from the wall, under which it must differ in hue.
+const MIN_RAISED: f32 = 0.3;
+
+/// Least cosine between the normals of parallel walls, least distance between them, cells, and least share of the front
+/// one's length before the other one.
+const PARALLEL: f32 = 0.95;
+const APART_CELLS: f32 = 5.0;
+const SHARED_FRAC: f32 = 0.5;
+
+/// Largest share of a rug at the border of its floor.
+const MAX_OUTER: f32 = 0.45;
+
+/// The first and the last cell along both axes.
+pub(crate) type Rectangle = ([i32; 2], [i32; 2]);
 
 /// Limit on the things of one plane: a pattern of tiles has more.
 const MAX_THINGS: usize = 14;
@@ -41,7 +67,10 @@ const MAX_THINGS: usize = 14;
 pub(crate) fn flats(grid: &VoxelGrid, planes: &[ScenePlane], is_structure: &[bool]) -> Vec<Vec<usize>> {
     let mut taken = vec![false; grid.voxels.len()];
     let mut flats = Vec::new();
-    for plane in planes.iter().filter(|plane| matches!(plane.kind, PlaneKind::Floor | PlaneKind::Wall)) {
+    let has_things = |plane: &&ScenePlane| {
+        plane.kind == PlaneKind::Floor || (plane.kind == PlaneKind::Wall && is_seen(planes, plane, grid.cell))
+    };
+    for plane in planes.iter().filter(has_things) {
         let near = |&v: &usize| {
             let p = grid.voxels[v].position;
             is_structure[v] && !taken[v] && plane.height(p).abs() < 2.0 * grid.cell && plane.spans(p)
@@ -54,77 +83,188 @@ pub(crate) fn flats(grid: &VoxelGrid, planes: &[ScenePlane], is_structure: &[boo
     flats
 }
 
-/// A cell of a plane: the voxels in it, and whether their color differs from the plane's.
-struct Cell {
-    voxels: Vec<usize>,
-    differs: bool,
+/// Whether no other wall stands before a wall.
+pub(crate) fn is_seen(planes: &[ScenePlane], wall: &ScenePlane, cell: f32) -> bool {
+    planes.iter().all(|other| !is_before(other, wall, cell))
+}
+
+/// Whether one wall stands before another one, which is the view through its windows.
+fn is_before(wall: &ScenePlane, other: &ScenePlane, cell: f32) -> bool {
+    let is_parallel = wall.kind == PlaneKind::Wall && wall.normal.dot(other.normal) > PARALLEL;
+    let ((a, b), (c, d)) = (wall.extent[0], other.extent[0]);
+    is_parallel && wall.offset > other.offset + APART_CELLS * cell && b.min(d) - a.max(c) > SHARED_FRAC * (b - a)
+}
+
+/// The cells of a plane by their position in it.
+struct PlaneCells<'a> {
+    grid: &'a VoxelGrid,
+    plane: &'a ScenePlane,
+    color_lab: Vec3,
+    cells: BTreeMap<[i32; 2], Vec<usize>>,
+    /// Cells whose color differs from the plane's, or that stand out from it.
+    differing: BTreeSet<[i32; 2]>,
+    /// Cells that stand out from a wall.
+    raised: BTreeSet<[i32; 2]>,
+}
+
+impl<'a> PlaneCells<'a> {
+    /// `None` for a plane without voxels.
+    fn new(grid: &'a VoxelGrid, plane: &'a ScenePlane, voxels: &[usize], regions: &[Vec<usize>]) -> Option<Self> {
+        // A rug may cover most of a floor, but not its border.
+        let is_plane = |v: usize| plane.kind == PlaneKind::Wall || plane.is_border(grid.voxels[v].position);
+        let of_plane = voxels.iter().filter(|&&v| is_plane(v));
+        let color_lab = most_frequent(&of_plane.map(|&v| grid.voxels[v].color_lab).collect::<Vec<Vec3>>())?;
+        let mut heights: Vec<f32> = voxels.iter().map(|&v| plane.height(grid.voxels[v].position)).collect();
+        let middle = heights.len() / 2;
+        let level = *heights.select_nth_unstable_by(middle, f32::total_cmp).1;
+        let is_proud = |v: usize| plane.height(grid.voxels[v].position) - level > RELIEF_CELLS * grid.cell;
+        let (cells, differing, raised) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
+        let mut all = Self { grid, plane, color_lab, cells, differing, raised };
+        for region in regions {
+            let differs = differs(mean_color(grid, region) - color_lab);
+            for &v in region {
+                let key = all.key(v);
+                let is_raised = all.is_wall() && is_proud(v);
+                all.cells.entry(key).or_default().push(v);
+                if is_raised {
+                    all.raised.insert(key);
+                }
+                if differs || is_raised {
+                    all.differing.insert(key);
+                }
+            }
+        }
+        Some(all)
+    }
+
+    fn is_wall(&self) -> bool {
+        self.plane.kind == PlaneKind::Wall
+    }
+
+    fn key(&self, voxel: usize) -> [i32; 2] {
+        let (along, across) =
+            if self.is_wall() { (Vec3::Y.cross(self.plane.normal), Vec3::Y) } else { (Vec3::X, Vec3::Z) };
+        let p = self.grid.voxels[voxel].position / self.grid.cell;
+        [along.dot(p).floor() as i32, across.dot(p).floor() as i32]
+    }
+
+    /// The outline of a region where it is one of a thing: `is_relief` where its cells stand out from the wall.
+    fn outline_of_thing(&self, keys: &[[i32; 2]], is_relief: bool) -> Option<Vec<[i32; 2]>> {
+        let bounds = rectangle(keys);
+        if is_strip(bounds) || area(bounds) > MAX_SHARE * self.cells.len() as f32 {
+            return None;
+        }
+        let lowest = self.cells.keys().map(|key| key[1]).min().unwrap_or(0);
+        let stands = self.is_wall() && is_relief && bounds.0[1] <= lowest + FOOT_CELLS;
+        let mut outline = outline(keys, bounds, stands);
+        outline.retain(|key| self.cells.contains_key(key));
+        if outline.len() < MIN_CELLS || (outline.len() as f32) < MIN_FILL * area(bounds) {
+            return None;
+        }
+        let share = |of: &BTreeSet<[i32; 2]>| {
+            outline.iter().filter(|key| of.contains(*key)).count() as f32 / outline.len() as f32
+        };
+        let differs = self.differing.contains(&keys[0]);
+        let is_apart = differs && share(&self.differing) >= MIN_FILL;
+        let is_thing = if self.is_wall() {
+            // The glass of a mirror may have the color of the wall around it: its rim differs.
+            let is_rim = differs && keys.len() as f32 >= MIN_RIM * rim(bounds);
+            is_rim || (is_apart && (share(&self.raised) >= MIN_RAISED || self.has_hue(&outline)))
+        } else {
+            is_apart && !self.is_border(&outline)
+        };
+        is_thing.then_some(outline)
+    }
+
+    /// Whether much of a region lies at the border of its floor: a part of a floor of two colors, not a rug.
+    fn is_border(&self, outline: &[[i32; 2]]) -> bool {
+        let position = |key: &[i32; 2]| Some(self.grid.voxels[*self.cells.get(key)?.first()?].position);
+        let num_outer = outline.iter().filter_map(position).filter(|&p| self.plane.is_border(p)).count();
+        num_outer as f32 > MAX_OUTER * outline.len() as f32
+    }
+
+    /// Whether the cells differ from the plane in hue and chroma: shadows differ in lightness alone.
+    fn has_hue(&self, outline: &[[i32; 2]]) -> bool {
+        let voxels: Vec<usize> = outline.iter().filter_map(|key| self.cells.get(key)).flatten().copied().collect();
+        let step = mean_color(self.grid, &voxels) - self.color_lab;
+        step.y.hypot(step.z) > CHROMA_DIFFERENCE
+    }
 }
 
 fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let along = if plane.kind == PlaneKind::Wall { Vec3::Y.cross(plane.normal) } else { Vec3::X };
-    let across = if plane.kind == PlaneKind::Wall { Vec3::Y } else { Vec3::Z };
-    let at = |v: usize| {
-        let p = grid.voxels[v].position / grid.cell;
-        [along.dot(p).floor() as i32, across.dot(p).floor() as i32]
-    };
-    let colors: Vec<Vec3> = voxels.iter().map(|&v| grid.voxels[v].color_lab).collect();
-    let Some(plane_color) = most_frequent(&colors) else { return Vec::new() };
-    let mut heights: Vec<f32> = voxels.iter().map(|&v| plane.height(grid.voxels[v].position)).collect();
-    let middle = heights.len() / 2;
-    let level = *heights.select_nth_unstable_by(middle, f32::total_cmp).1;
-    let is_proud = |v: usize| plane.height(grid.voxels[v].position) - level > RELIEF_CELLS * grid.cell;
-    let mut raised: BTreeSet<[i32; 2]> = BTreeSet::new();
-    let mut cells: BTreeMap<[i32; 2], Cell> = BTreeMap::new();
-    for region in regions {
-        let step = mean_color(grid, region) - plane_color;
-        let differs = step.y.hypot(step.z) > CHROMA_DIFFERENCE || step.x.abs() > LIGHTNESS_DIFFERENCE;
-        for &v in region {
-            let cell = cells.entry(at(v)).or_insert(Cell { voxels: Vec::new(), differs: false });
-            cell.voxels.push(v);
-            let is_raised = plane.kind == PlaneKind::Wall && is_proud(v);
-            cell.differs |= differs || is_raised;
-            if is_raised {
-                raised.insert(at(v));
-            }
-        }
-    }
-    let differing: BTreeSet<[i32; 2]> = cells.iter().filter(|(_, cell)| cell.differs).map(|(key, _)| *key).collect();
-    let mut rectangles: Vec<([i32; 2], [i32; 2])> = Vec::new();
+    let Some(mut all) = PlaneCells::new(grid, plane, voxels, regions) else { return Vec::new() };
     // A rug has several colors; what hangs on a wall is one region of color, or stands out from it.
-    let regions: Vec<Vec<[i32; 2]>> = if plane.kind == PlaneKind::Wall {
-        let regions = regions.iter().map(|region| region.iter().map(|&v| at(v)).collect());
-        regions.chain(components(raised)).collect()
+    let regions: Vec<(Vec<[i32; 2]>, bool)> = if all.is_wall() {
+        let regions = regions.iter().map(|region| (region.iter().map(|&v| all.key(v)).collect(), false));
+        regions.chain(components(all.raised.clone()).into_iter().map(|keys| (keys, true))).collect()
     } else {
-        components(differing.clone())
+        components(all.differing.clone()).into_iter().map(|keys| (keys, false)).collect()
     };
-    for keys in regions.into_iter().filter(|keys| keys.len() >= MIN_CELLS) {
-        let (low, high) = rectangle(&keys);
-        let area = ((high[0] - low[0] + 1) * (high[1] - low[1] + 1)) as f32;
-        let num_differing = differing.iter().filter(|key| is_in(**key, (low, high))).count() as f32;
-        if differing.contains(&keys[0]) && num_differing >= MIN_FILL * area && area <= MAX_SHARE * cells.len() as f32 {
-            rectangles.push((low, high));
-        }
-    }
-    let area = |(low, high): &([i32; 2], [i32; 2])| (high[0] - low[0] + 1) * (high[1] - low[1] + 1);
-    rectangles.sort_by_key(|rectangle| (std::cmp::Reverse(area(rectangle)), *rectangle));
+    let large = regions.iter().filter(|(keys, _)| keys.len() >= MIN_CELLS / 2);
+    let mut outlines: Vec<Vec<[i32; 2]>> =
+        large.filter_map(|(keys, is_relief)| all.outline_of_thing(keys, *is_relief)).collect();
+    outlines.sort_by_key(|outline| (std::cmp::Reverse(outline.len()), outline.first().copied()));
     let mut things = Vec::new();
-    for rectangle in rectangles {
-        let filled: Vec<[i32; 2]> = cells.keys().copied().filter(|key| is_in(*key, rectangle)).collect();
-        let voxels: Vec<usize> =
-            filled.iter().filter_map(|key| cells.remove(key)).flat_map(|cell| cell.voxels).collect();
-        if voxels.len() >= MIN_CELLS && voxels.len() as f32 >= MIN_FILL * area(&rectangle) as f32 {
+    for outline in outlines {
+        let voxels: Vec<usize> = outline.iter().filter_map(|key| all.cells.remove(key)).flatten().collect();
+        if voxels.len() >= MIN_CELLS && voxels.len() as f32 >= MIN_FILL * outline.len() as f32 {
             things.push(voxels);
         }
     }
     if things.len() > MAX_THINGS { Vec::new() } else { things }
 }
 
-fn is_in(key: [i32; 2], (low, high): ([i32; 2], [i32; 2])) -> bool {
+/// Whether a color step (CIE Lab) is that between two things.
+pub(crate) fn differs(step: Vec3) -> bool {
+    step.y.hypot(step.z) > CHROMA_DIFFERENCE || step.x.abs() > LIGHTNESS_DIFFERENCE
+}
+
+pub(crate) fn sides((low, high): Rectangle) -> [f32; 2] {
+    [0, 1].map(|axis| (high[axis] - low[axis] + 1) as f32)
+}
+
+pub(crate) fn area(rectangle: Rectangle) -> f32 {
+    sides(rectangle).iter().product()
+}
+
+/// Number of cells around the inside of a rectangle.
+fn rim(rectangle: Rectangle) -> f32 {
+    2.0 * sides(rectangle).iter().sum::<f32>()
+}
+
+/// Whether a rectangle is a skirting board, a cornice, or the shade in a corner.
+fn is_strip(rectangle: Rectangle) -> bool {
+    let [a, b] = sides(rectangle);
+    a.min(b) < STRIP_CELLS || a.max(b) > STRIP_RATIO * a.min(b)
+}
+
+/// The cells in a rectangle that lie between others of their row and between others of their column: a ring becomes a
+/// disc. The rim of a thing that stands on the floor is open below.
+pub(crate) fn outline(keys: &[[i32; 2]], rectangle: Rectangle, stands: bool) -> Vec<[i32; 2]> {
+    let spans = |axis: usize| {
+        let mut spans: BTreeMap<i32, (i32, i32)> = BTreeMap::new();
+        for key in keys.iter().filter(|key| is_in(**key, rectangle)) {
+            let span = spans.entry(key[axis]).or_insert((key[1 - axis], key[1 - axis]));
+            *span = (span.0.min(key[1 - axis]), span.1.max(key[1 - axis]));
+        }
+        spans
+    };
+    let (mut columns, rows) = (spans(0), spans(1));
+    if stands {
+        columns.values_mut().for_each(|span| span.0 = rectangle.0[1]);
+    }
+    let holds = |span: Option<&(i32, i32)>, value: i32| span.is_some_and(|span| (span.0..=span.1).contains(&value));
+    let (low, high) = rectangle;
+    let all = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
+    all.filter(|&[x, y]| holds(columns.get(&x), y) && holds(rows.get(&y), x)).collect()
+}
+
+fn is_in(key: [i32; 2], (low, high): Rectangle) -> bool {
     (0..2).all(|axis| (low[axis]..=high[axis]).contains(&key[axis]))
 }
 
 /// The mean of the fullest bin of colors (10 units of CIE Lab) and its neighbors.
-fn most_frequent(colors: &[Vec3]) -> Option<Vec3> {
+pub(crate) fn most_frequent(colors: &[Vec3]) -> Option<Vec3> {
     let bin = |color: &Vec3| (*color / 12.0).round().as_ivec3().to_array();
     let mut bins: BTreeMap<[i32; 3], usize> = BTreeMap::new();
     colors.iter().for_each(|color| *bins.entry(bin(color)).or_default() += 1);
@@ -135,14 +275,20 @@ fn most_frequent(colors: &[Vec3]) -> Option<Vec3> {
 }
 
 /// The connected components of some cells.
-fn components(mut open: BTreeSet<[i32; 2]>) -> Vec<Vec<[i32; 2]>> {
+fn components(open: BTreeSet<[i32; 2]>) -> Vec<Vec<[i32; 2]>> {
+    components_within(open, 1)
+}
+
+/// The components of some cells; those of one component are at most `reach` cells apart along both axes.
+pub(crate) fn components_within(mut open: BTreeSet<[i32; 2]>, reach: i32) -> Vec<Vec<[i32; 2]>> {
     let mut components = Vec::new();
     while let Some(start) = open.pop_first() {
         let mut component = vec![start];
         let mut at = 0;
         while at < component.len() {
             let [x, y] = component[at];
-            let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+            let steps = || -reach..=reach;
+            let around = steps().flat_map(|dx| steps().map(move |dy| [x + dx, y + dy]));
             component.extend(around.filter(|key| open.remove(key)).collect::<Vec<_>>());
             at += 1;
         }
@@ -152,7 +298,7 @@ fn components(mut open: BTreeSet<[i32; 2]>) -> Vec<Vec<[i32; 2]>> {
 }
 
 /// The rectangle of some cells without their outermost 2 % on every side.
-fn rectangle(keys: &[[i32; 2]]) -> ([i32; 2], [i32; 2]) {
+pub(crate) fn rectangle(keys: &[[i32; 2]]) -> Rectangle {
     let ends = |axis: usize| {
         let mut values: Vec<i32> = keys.iter().map(|key| key[axis]).collect();
         values.sort_unstable();

@@ -4,8 +4,10 @@
 
 use std::collections::BTreeMap;
 
+use glam::Vec3;
 use rayon::prelude::*;
 
+use super::planes::{PlaneKind, ScenePlane};
 use super::segmentation::DisjointSets;
 use super::standing::{extent, lowest, owners};
 use super::tops::Top;
@@ -17,23 +19,41 @@ const FOOT_FRAC: f32 = 0.3;
 /// Distances, cells, over which a body that touches nothing else is joined with the body below it.
 const GAPS: [i32; 2] = [3, 6];
 
-/// Owner of a voxel of the structure or of a top.
-const ON_TOP: usize = usize::MAX - 1;
+/// Owner of a voxel of a floor, a ceiling or a top, and of a wall.
+const FIXED: usize = usize::MAX - 1;
+const WALL: usize = usize::MAX - 2;
+
+/// Share of a body's voxels near a wall from which it hangs on the wall: leaves only brush it.
+const HUNG_FRAC: f32 = 0.25;
+
+/// Distance from a wall at which a body hangs on it, and from a ceiling, cells.
+const HUNG_CELLS: i32 = 2;
 
 /// Joins every body that rests on nothing but one other body with it: the shade of a lamp with its pole, a crown with
-/// its pot. What stands on tops, touches structure or is the lower one stays alone.
+/// its pot. What stands on tops or the floor, hangs on a wall or from the ceiling, or is the lower one stays alone.
 pub(crate) fn join_floating(
     grid: &VoxelGrid,
     bodies: &[Vec<usize>],
     tops: &[Top],
-    is_structure: &[bool],
+    (is_structure, planes): (&[bool], &[ScenePlane]),
 ) -> Vec<Vec<usize>> {
     let mut owner = owners(grid, bodies);
-    tops.iter().flat_map(|top| &top.voxels).for_each(|&voxel| owner[voxel] = ON_TOP);
-    (0..owner.len()).filter(|&voxel| is_structure[voxel]).for_each(|voxel| owner[voxel] = ON_TOP);
+    tops.iter().flat_map(|top| &top.voxels).for_each(|&voxel| owner[voxel] = FIXED);
+    let is_level = |voxel: usize| {
+        let p = grid.voxels[voxel].position;
+        let level = |plane: &&ScenePlane| matches!(plane.kind, PlaneKind::Floor | PlaneKind::Ceiling);
+        planes.iter().filter(level).any(|plane| plane.height(p) < LEVEL_CELLS * grid.cell)
+    };
+    for voxel in (0..owner.len()).filter(|&voxel| is_structure[voxel]) {
+        owner[voxel] = if is_level(voxel) { FIXED } else { WALL };
+    }
     let lowest: Vec<f32> = bodies.iter().map(|body| lowest(grid, body)).collect();
-    let carrier =
-        |body: usize| carrier(grid, &bodies[body], (body, &owner)).filter(|&carrier| lowest[carrier] < lowest[body]);
+    let extents: Vec<(Vec3, Vec3)> = bodies.iter().map(|body| extent(grid, body)).collect();
+    let carrier = |body: usize| match hold(grid, &bodies[body], (body, &owner)) {
+        Hold::Body(carrier) => Some(carrier).filter(|&carrier| lowest[carrier] < lowest[body]),
+        Hold::Nothing => foot_below(grid, &extents, body).or_else(|| beside(grid, &bodies[body], (body, &owner))),
+        Hold::Fixed => None,
+    };
     let carriers: Vec<Option<usize>> = (0..bodies.len()).into_par_iter().map(carrier).collect();
     let mut sets = DisjointSets::new(bodies.len());
     for (body, carrier) in carriers.iter().enumerate() {
@@ -46,26 +66,94 @@ pub(crate) fn join_floating(
     sets.groups(&all).into_iter().map(union).collect()
 }
 
-/// The other body that the lower part of a body touches most; `None` where it touches a top or the structure, or
-/// nothing. A body's voxels have its index as their owner.
-fn carrier(grid: &VoxelGrid, voxels: &[usize], (body, owner): (usize, &[usize])) -> Option<usize> {
+/// Height over a floor, or depth under a ceiling, up to which the structure is level, cells.
+const LEVEL_CELLS: f32 = 1.5;
+
+/// What holds a body.
+enum Hold {
+    /// A top or the structure.
+    Fixed,
+    /// The other body that its lower part touches most.
+    Body(usize),
+    /// Its lower part touches nothing.
+    Nothing,
+}
+
+/// What holds a body, whose voxels have its index as their owner.
+fn hold(grid: &VoxelGrid, voxels: &[usize], (body, owner): (usize, &[usize])) -> Hold {
     let (low, high) = extent(grid, voxels);
     let end = low.y + FOOT_FRAC * (high.y - low.y);
+    if is_hung(grid, voxels, owner) {
+        return Hold::Fixed;
+    }
     let foot: Vec<usize> = voxels.iter().copied().filter(|&v| grid.voxels[v].position.y <= end).collect();
     for reach in GAPS {
-        let mut touched: BTreeMap<usize, usize> = BTreeMap::new();
-        for other in foot.iter().flat_map(|&v| grid.neighbors(v, reach)).map(|other| owner[other]) {
-            if other == ON_TOP {
-                return None;
-            }
-            if other != body && other != usize::MAX {
-                *touched.entry(other).or_default() += 1;
-            }
+        let touched = touched(grid, &foot, (body, owner), reach);
+        if touched.contains_key(&FIXED) {
+            return Hold::Fixed;
         }
-        let most = touched.iter().max_by_key(|&(&other, &count)| (count, std::cmp::Reverse(other)));
-        if let Some((&other, _)) = most {
-            return Some(other);
+        if let Some(other) = most(&touched) {
+            return Hold::Body(other);
         }
     }
-    None
+    Hold::Nothing
+}
+
+/// The other body that all of a body touches most.
+fn beside(grid: &VoxelGrid, voxels: &[usize], own: (usize, &[usize])) -> Option<usize> {
+    let touched = touched(grid, voxels, own, GAPS[1]);
+    most(&touched).filter(|_| !touched.contains_key(&FIXED))
+}
+
+/// The number of contacts with every other owner but walls.
+fn touched(grid: &VoxelGrid, part: &[usize], (body, owner): (usize, &[usize]), reach: i32) -> BTreeMap<usize, usize> {
+    let mut touched: BTreeMap<usize, usize> = BTreeMap::new();
+    let owners = part.iter().flat_map(|&v| grid.neighbors(v, reach)).map(|other| owner[other]);
+    for other in owners.filter(|&other| other != body && other != usize::MAX && other != WALL) {
+        *touched.entry(other).or_default() += 1;
+    }
+    touched
+}
+
+fn most(touched: &BTreeMap<usize, usize>) -> Option<usize> {
+    let bodies = touched.iter().filter(|(other, _)| **other != FIXED);
+    bodies.max_by_key(|&(&other, &count)| (count, std::cmp::Reverse(other))).map(|(&other, _)| other)
+}
+
+/// Largest distance between the middles of a body and of its foot, seen from above, over the size of the body there.
+const ALIGNED_FRAC: f32 = 0.15;
+
+/// Largest gap between a body and its foot, over the height of the body: what hangs over a table is farther from it.
+const MAX_GAP: f32 = 1.5;
+
+/// The body under a body that touches nothing, on the same upright axis: the foot of a lamp whose pole was not captured.
+fn foot_below(grid: &VoxelGrid, extents: &[(Vec3, Vec3)], body: usize) -> Option<usize> {
+    let level = |v: Vec3| Vec3::new(v.x, 0.0, v.z);
+    let (low, high) = extents[body];
+    let width = level(high - low).length();
+    let is_foot = |&other: &usize| {
+        let (bottom, top) = extents[other];
+        let apart = level(low + high - bottom - top).length() / 2.0;
+        let is_narrow = level(top - bottom).length() <= 1.2 * width;
+        let is_near = low.y - top.y <= MAX_GAP * (high.y - low.y);
+        other != body && top.y < low.y && is_near && is_narrow && apart <= ALIGNED_FRAC * width + grid.cell
+    };
+    (0..extents.len()).filter(is_foot).max_by(|&a, &b| extents[a].1.y.total_cmp(&extents[b].1.y).then(b.cmp(&a)))
+}
+
+/// Whether a body hangs on a wall, or from what is level above it.
+fn is_hung(grid: &VoxelGrid, voxels: &[usize], owner: &[usize]) -> bool {
+    let mut num_near = 0;
+    for &voxel in voxels {
+        let y = grid.voxels[voxel].key[1];
+        let mut is_near = false;
+        for other in grid.neighbors(voxel, HUNG_CELLS) {
+            if owner[other] == FIXED && grid.voxels[other].key[1] > y {
+                return true;
+            }
+            is_near |= owner[other] == WALL;
+        }
+        num_near += usize::from(is_near);
+    }
+    num_near as f32 >= HUNG_FRAC * voxels.len() as f32
 }

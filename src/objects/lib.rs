@@ -5,6 +5,7 @@
 //! [`fill_clouds`] computes the clouds that the director takes as input, and [`sheet()`] draws a contact sheet of all
 //! objects.
 
+mod absorbing;
 mod agreement;
 pub mod alpha_shape;
 mod background;
@@ -33,6 +34,7 @@ mod object;
 mod open_background;
 mod open_room;
 mod parts;
+mod patches;
 mod photo;
 mod pieces;
 mod planes;
@@ -46,11 +48,13 @@ mod sheet_html;
 mod silhouettes;
 mod standing;
 mod structure;
+mod tidying;
 mod tops;
 mod up_views;
 mod viewpoints;
 mod views;
 mod voxels;
+mod windows;
 
 pub use agreement::{Agreement, agreements};
 pub use by_name::named;

@@ -10,6 +10,7 @@ use super::planes::ScenePlane;
 use super::segmentation::components;
 use super::settings::FindSettings;
 use super::standing::owners;
+use super::tidying::tidy;
 use super::voxels::VoxelGrid;
 
 /// Least share of the voxels under a table top that belong to one body, for the top and the body to be one object.
@@ -38,7 +39,7 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
             add_top(grid, top, &mut groups, settings.min_voxels);
         }
     }
-    groups
+    tidy(grid, planes, groups)
 }
 
 /// Adds a level piece to the body below it. A piece above several bodies or none becomes an object where it is large

@@ -52,6 +52,14 @@ impl ScenePlane {
         self.normal.y.abs() > 0.5
     }
 
+    /// Whether a local position lies in the outer part of a level plane's extent.
+    pub(crate) fn is_border(&self, local: Vec3) -> bool {
+        let is_outer = |range: (f32, f32), value: f32| {
+            (value - f32::midpoint(range.0, range.1)).abs() > (0.5 - BORDER_FRAC) * length(range)
+        };
+        is_outer(self.extent[0], local.x) || is_outer(self.extent[1], local.z)
+    }
+
     /// Whether the projection of a local position onto the plane lies in the plane's extent.
     pub(crate) fn spans(&self, local: Vec3) -> bool {
         let along = if self.is_level() { Vec3::X } else { Vec3::Y.cross(self.normal) };
@@ -59,6 +67,9 @@ impl ScenePlane {
         holds(self.extent[0], along.dot(local)) && (!self.is_level() || holds(self.extent[1], local.z))
     }
 }
+
+/// Width of a level plane's border over its extent.
+const BORDER_FRAC: f32 = 0.12;
 
 /// An unbounded range.
 const UNBOUNDED: (f32, f32) = (f32::NEG_INFINITY, f32::INFINITY);
@@ -205,7 +216,19 @@ fn classify(grid: &VoxelGrid, planes: Vec<ScenePlane>) -> Vec<ScenePlane> {
 /// The walls of a room with a floor and a ceiling.
 fn walls_of_room(grid: &VoxelGrid, upright: &[ScenePlane], room: (Vec3, Vec3)) -> Vec<ScenePlane> {
     let walls = upright.iter().filter_map(|plane| as_wall(grid, plane.clone(), room, BEYOND_SIDE_FRAC));
-    walls.filter(|wall| is_at_side(wall, room)).collect()
+    let walls: Vec<ScenePlane> = walls.filter(|wall| is_at_side(wall, room)).collect();
+    walls.iter().filter(|wall| walls.iter().all(|other| !hangs_before(wall, other, room))).cloned().collect()
+}
+
+/// Largest distance of curtains from their wall, over the room's extent, and least size of the wall over theirs.
+const HANGING_FRAC: f32 = 0.1;
+const LARGER: usize = 2;
+
+/// Whether an upright plane is that of curtains or wardrobes just before a wall.
+fn hangs_before(plane: &ScenePlane, wall: &ScenePlane, (low, high): (Vec3, Vec3)) -> bool {
+    let gap = plane.offset - wall.offset;
+    let is_near = gap > 0.0 && gap < HANGING_FRAC * plane.normal.abs().dot(high - low);
+    is_near && plane.normal.dot(wall.normal) > 0.95 && wall.voxels.len() >= LARGER * plane.voxels.len()
 }
 
 /// Least number of sides with walls of a room whose ceiling was not captured.
@@ -280,11 +303,14 @@ fn share_behind(grid: &VoxelGrid, plane: &ScenePlane) -> f32 {
     behind as f32 / heights().count().max(1) as f32
 }
 
-/// A level plane is a floor below the scene's middle, or a ceiling above it, where few voxels lie beyond it and it
-/// covers a seventh of the scene's footprint.
+/// A level plane is a floor with most of the scene over it, or a ceiling with most of it below, where few voxels lie beyond
+/// it and it covers a seventh of the scene's footprint.
 fn level_kind(grid: &VoxelGrid, plane: &ScenePlane, footprint: f32) -> PlaneKind {
     let wide = plane.voxels.len() as f32 > footprint / 7.0;
-    let is_low = plane.offset < 0.0;
+    let off = |v: &Voxel| plane.height(v.position) / grid.cell;
+    let num_over = grid.voxels.iter().filter(|v| off(v) > ON_PLANE_CELLS).count();
+    let num_under = grid.voxels.iter().filter(|v| off(v) < -ON_PLANE_CELLS).count();
+    let is_low = num_over >= num_under;
     if wide && is_low && share_behind(grid, plane) < BEYOND_FRAC {
         PlaneKind::Floor
     } else if wide && !is_low && share_behind(grid, &plane.flipped()) < BEYOND_FRAC {

@@ -25,7 +25,7 @@ impl Default for FindSettings {
         Self {
             resolution: 220.0,
             min_voxels: 24,
-            max_objects: 60,
+            max_objects: 100,
             split_frac: 0.3,
             split_scale: 140.0,
             detail: 1,

@@ -16,6 +16,9 @@ const LEVEL_SHARE: f32 = 0.8;
 /// Largest distance of a voxel from the mean height of its top, cells.
 const FLAT_CELLS: f32 = 0.9;
 
+/// Largest standard deviation of the heights of a top, cells: a large leaf is bent.
+const MAX_ROUGHNESS: f32 = 0.35;
+
 /// Least number of voxels of a top: about the top of a bedside table in a room.
 const MIN_VOXELS: usize = 60;
 
@@ -65,7 +68,7 @@ pub(crate) fn tops(grid: &VoxelGrid, is_free: &[bool]) -> Vec<Top> {
             }
             at += 1;
         }
-        if voxels.len() >= MIN_VOXELS {
+        if voxels.len() >= MIN_VOXELS && roughness(grid, &voxels) <= MAX_ROUGHNESS * grid.cell {
             let height = sum / voxels.len() as f32;
             tops.push(Top { voxels, height });
         } else {
@@ -77,6 +80,13 @@ pub(crate) fn tops(grid: &VoxelGrid, is_free: &[bool]) -> Vec<Top> {
         grow(grid, top, &mut taken);
     }
     tops
+}
+
+/// Standard deviation of the heights of some voxels.
+fn roughness(grid: &VoxelGrid, voxels: &[usize]) -> f32 {
+    let heights = || voxels.iter().map(|&v| grid.voxels[v].position.y);
+    let mean = heights().sum::<f32>() / voxels.len().max(1) as f32;
+    (heights().map(|y| (y - mean).powi(2)).sum::<f32>() / voxels.len().max(1) as f32).sqrt()
 }
 
 fn grow(grid: &VoxelGrid, top: &mut Top, taken: &mut [bool]) {

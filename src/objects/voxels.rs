@@ -75,6 +75,10 @@ pub(crate) struct Voxel {
     /// How level its Gaussians lie, 0..=1: mean square of the upward component of their thinnest axes. The two sides of
     /// a board as thick as a cell have no normal, but each of them is level.
     pub(crate) level: f32,
+    /// Opacity-weighted mean of the largest standard deviations of its Gaussians, scene units.
+    pub(crate) sigma: f32,
+    /// Number of Gaussians whose means lie in the cell.
+    pub(crate) num_centers: f32,
 }
 
 /// The voxels of a scene.
@@ -97,6 +101,8 @@ struct Moments {
     square: Mat3,
     color_lab: Vec3,
     level: f32,
+    sigma: f32,
+    num_centers: f32,
 }
 
 impl VoxelGrid {
@@ -121,6 +127,8 @@ impl VoxelGrid {
             color_lab: moments.color_lab / moments.mass,
             normal: surface_normal(*key, empty.cell, &cells, &index),
             level: moments.level / moments.mass,
+            sigma: moments.sigma / moments.mass,
+            num_centers: moments.num_centers,
         });
         let voxels = voxels.collect();
         Self { voxels, index, ..empty }
@@ -168,10 +176,21 @@ impl VoxelGrid {
             let mass = gaussians.opacities[i];
             let color_lab = color::lab(gaussians.base_color(i)) * mass;
             let level = levelness(turn * gaussians.rotations[i], gaussians.scales[i]) * mass;
+            let sigma = gaussians.scales[i].max_element() * mass;
+            let center = self.key_at(self.to_local(gaussians.mean_world(i)));
             self.fill(gaussians, i, turn, &mut filled);
             for &(key, position) in &filled {
                 let p = position - self.middle(key);
-                let sample = Moments { mass, offset: p * mass, square: outer(p, p) * mass, color_lab, level };
+                let num_centers = f32::from(u8::from(key == center));
+                let sample = Moments {
+                    mass,
+                    offset: p * mass,
+                    square: outer(p, p) * mass,
+                    color_lab,
+                    level,
+                    sigma,
+                    num_centers,
+                };
                 let cell = *index.entry(key).or_insert(cells.len() as u32) as usize;
                 match cells.get_mut(cell) {
                     Some((_, moments)) => moments.add(&sample),
@@ -211,7 +230,15 @@ impl VoxelGrid {
 
 impl Moments {
     /// No samples. Not `Default`, because glam's default matrix is the identity.
-    const EMPTY: Self = Self { mass: 0.0, offset: Vec3::ZERO, square: Mat3::ZERO, color_lab: Vec3::ZERO, level: 0.0 };
+    const EMPTY: Self = Self {
+        mass: 0.0,
+        offset: Vec3::ZERO,
+        square: Mat3::ZERO,
+        color_lab: Vec3::ZERO,
+        level: 0.0,
+        sigma: 0.0,
+        num_centers: 0.0,
+    };
 
     fn add(&mut self, other: &Self) {
         self.mass += other.mass;
@@ -219,6 +246,8 @@ impl Moments {
         self.square += other.square;
         self.color_lab += other.color_lab;
         self.level += other.level;
+        self.sigma += other.sigma;
+        self.num_centers += other.num_centers;
     }
 
     /// The sums relative to the middle of another cell; this cell's middle is at `step` from it.

@@ -1,0 +1,46 @@
+//! Flat regions that belong to a thing before them: the back of a shelf, the contact shade of a plant.
+//!
+//! Enters: the flat things of floor and walls, and the groups of a room. Leaves: the flat things that are things of their
+//! own.
+
+use super::groups::VoxelGroup;
+use super::pieces::contacts;
+use super::standing::{extent, owners};
+use super::voxels::VoxelGrid;
+
+/// Least share of a flat thing inside the box of the thing before it.
+const INSIDE_FRAC: f32 = 0.85;
+
+/// Least share of a flat thing's voxels that touch the thing before it.
+const TOUCHING_FRAC: f32 = 0.2;
+
+/// Adds every flat thing that lies inside the box of a group, and touches it, to the group; returns the others.
+pub(crate) fn absorb_backs(grid: &VoxelGrid, flats: Vec<Vec<usize>>, groups: &mut [VoxelGroup]) -> Vec<Vec<usize>> {
+    let voxels: Vec<Vec<usize>> = groups.iter().map(|group| group.voxels.clone()).collect();
+    let owner = owners(grid, &voxels);
+    let mut others = Vec::new();
+    for flat in flats {
+        let least = TOUCHING_FRAC * flat.len() as f32;
+        let around = contacts(grid, &flat, &owner, 2);
+        let mut order: Vec<(usize, usize)> = around.into_iter().collect();
+        order.sort_by_key(|&(group, count)| (std::cmp::Reverse(count), group));
+        let holds = |&(group, _): &(usize, usize)| {
+            let touching = |&&v: &&usize| grid.neighbors(v, 2).any(|other| owner[other] == group);
+            flat.iter().filter(touching).count() as f32 >= least
+                && inside_frac(grid, &flat, &voxels[group]) >= INSIDE_FRAC
+        };
+        match order.into_iter().find(holds) {
+            Some((group, _)) => groups[group].voxels.extend(flat),
+            None => others.push(flat),
+        }
+    }
+    others
+}
+
+/// Share of some voxels inside the box of others.
+fn inside_frac(grid: &VoxelGrid, voxels: &[usize], whole: &[usize]) -> f32 {
+    let (low, high) = extent(grid, whole);
+    let (low, high) = (low - 2.0 * grid.cell, high + 2.0 * grid.cell);
+    let is_inside = |p: glam::Vec3| p.cmpge(low).all() && p.cmple(high).all();
+    voxels.iter().filter(|&&v| is_inside(grid.voxels[v].position)).count() as f32 / voxels.len().max(1) as f32
+}
