@@ -5,7 +5,7 @@
 use super::background::structure;
 use super::groups::VoxelGroup;
 use super::parts::divide;
-use super::pieces::isolated_objects;
+use super::pieces::{drop_lumps, isolated_objects};
 use super::planes::{PlaneKind, ScenePlane, room_box};
 use super::settings::FindSettings;
 use super::voxels::VoxelGrid;
@@ -23,7 +23,9 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     }
     let is_structure = structure(grid, planes, settings);
     let free: Vec<usize> = (0..is_structure.len()).filter(|&voxel| !is_structure[voxel]).collect();
-    let wholes = isolated_objects(grid, &free).into_iter().map(|voxels| VoxelGroup::whole(voxels, false)).collect();
+    let mut objects = isolated_objects(grid, &free);
+    drop_lumps(grid, planes, &mut objects);
+    let wholes = objects.into_iter().map(|voxels| VoxelGroup::whole(voxels, false)).collect();
     to_detail(grid, wholes, settings, 1)
 }
 

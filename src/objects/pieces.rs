@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
+use super::color;
+use super::planes::{PlaneKind, ScenePlane};
 use super::segmentation::{components, split_by_color};
 use super::settings::FindSettings;
-use super::standing::owners;
+use super::standing::{extent, mean_color, owners};
 use super::voxels::VoxelGrid;
 
 /// Share of a piece's neighbors that must belong to one other piece for the two to be joined.
@@ -27,15 +29,51 @@ pub(crate) fn split(
     rejoin(grid, pieces, max_diagonal)
 }
 
+/// Margin around a thing in which a loose piece belongs to it, over the thing's diagonal.
+const LOOSE_MARGIN: f32 = 0.1;
+
 /// The connected components of a capture without walls. Components of at most a twentieth of the largest one's voxels
-/// are loose pieces of it, such as a leaf or the inside of a shell: they join it.
+/// are loose pieces, such as a leaf or the inside of a shell: they join the thing around them, or disappear.
 pub(crate) fn isolated_objects(grid: &VoxelGrid, voxels: &[usize]) -> Vec<Vec<usize>> {
     let mut objects = components(grid, voxels, 2);
     objects.sort_by_key(|object| std::cmp::Reverse(object.len()));
     let Some(least) = objects.first().map(|largest| largest.len() / 20) else { return objects };
     let pieces = objects.split_off(objects.partition_point(|object| object.len() > least));
-    objects[0].extend(pieces.into_iter().flatten());
+    let around = |object: &Vec<usize>| {
+        let (low, high) = extent(grid, object);
+        let margin = LOOSE_MARGIN * (high - low).length();
+        (low - margin, high + margin)
+    };
+    let boxes: Vec<(Vec3, Vec3)> = objects.iter().map(around).collect();
+    for piece in pieces {
+        let (low, high) = extent(grid, &piece);
+        let holds = |&i: &usize| boxes[i].0.cmple(low).all() && boxes[i].1.cmpge(high).all();
+        if let Some(object) = (0..objects.len()).find(holds) {
+            objects[object].extend(piece);
+        }
+    }
     objects
+}
+
+/// Height of a lump of the ground over its longer side, and largest color difference from the ground.
+const LUMP_RATIO: f32 = 0.25;
+const LUMP_DIFFERENCE: f32 = 12.0;
+
+/// Drops lumps of the ground: flat, on it, and of its color. The largest object stays.
+pub(crate) fn drop_lumps(grid: &VoxelGrid, planes: &[ScenePlane], objects: &mut Vec<Vec<usize>>) {
+    let floors: Vec<&ScenePlane> = planes.iter().filter(|plane| plane.kind == PlaneKind::Floor).collect();
+    let largest = objects.iter().map(Vec::len).max().unwrap_or(0);
+    let is_lump = |object: &Vec<usize>| {
+        let (low, high) = extent(grid, object);
+        let sides = high - low;
+        let own = mean_color(grid, object);
+        let is_on = |floor: &&ScenePlane| {
+            floor.height(low) < 3.0 * grid.cell
+                && color::difference(own, mean_color(grid, &floor.voxels)) < LUMP_DIFFERENCE
+        };
+        object.len() < largest && sides.y <= LUMP_RATIO * sides.x.max(sides.z) && floors.iter().any(is_on)
+    };
+    objects.retain(|object| !is_lump(object));
 }
 
 /// Joins the pieces of an object of several colors. A piece joins the neighbor that holds most of its contacts, unless
