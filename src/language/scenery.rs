@@ -151,6 +151,8 @@ const CAMERA: [&str; 21] = [
 const LOOKS: [&str; 2] = ["effect", "like"];
 /// Endings of words of command.
 const COMMAND_FORMS: [&str; 4] = ["ing", "wards", "ed", "ly"];
+/// Senses of words that say how fast a move is.
+const PACES: [&str; 2] = ["slow", "fast"];
 /// Senses that a word of looks may have besides: `moody` is slow, too.
 const SHADES: [&str; 8] = ["slow", "fast", "smooth", "big", "small", "little", "much", "detail"];
 
@@ -163,9 +165,10 @@ pub fn scenery(prompt: &str, mentions: &[Mention]) -> Result<Vec<[usize; 2]>, La
     let words = tokenize(prompt);
     let meaning = Meaning::of(&words)?;
     let is_scenery = |clause: &[usize; 2]| {
-        is_about_scenery(&words, mentions, *clause) || is_tag(&words, &meaning, mentions, *clause)
+        is_about_scenery(&words, &meaning, mentions, *clause) || is_tag(&words, &meaning, mentions, *clause)
     };
-    let (out, kept): (Vec<[usize; 2]>, Vec<[usize; 2]>) = clauses(prompt, &words).into_iter().partition(is_scenery);
+    let (out, kept): (Vec<[usize; 2]>, Vec<[usize; 2]>) =
+        clauses(prompt, &words, &meaning).into_iter().partition(is_scenery);
     if !kept.iter().any(|clause| (clause[0]..clause[1]).any(|at| meaning.tells(at))) {
         return Ok(Vec::new());
     }
@@ -191,13 +194,24 @@ struct Meaning {
     senses: Vec<Senses>,
     looks: Senses,
     hard: Senses,
+    pace: Senses,
 }
 
 impl Meaning {
     fn of(words: &[Word]) -> Result<Self, LanguageError> {
         let is_hard = |name: &&str| !LOOKS.contains(name) && !SHADES.contains(name);
         let hard: Vec<&str> = sense_names()?.iter().map(String::as_str).filter(is_hard).collect();
-        Ok(Self { senses: senses_of(words)?, looks: Senses::named(&LOOKS)?, hard: Senses::named(&hard)? })
+        Ok(Self {
+            senses: senses_of(words)?,
+            looks: Senses::named(&LOOKS)?,
+            hard: Senses::named(&hard)?,
+            pace: Senses::named(&PACES)?,
+        })
+    }
+
+    /// Whether a word says how fast: `slow moody tone`.
+    fn is_paced(&self, at: usize) -> bool {
+        !self.senses[at].overlaps(self.looks) && self.senses[at].overlaps(self.pace)
     }
 
     /// Whether a word has a sense that is not one of looks.
@@ -208,7 +222,7 @@ impl Meaning {
 }
 
 /// The clauses of a prompt: first word and the word after the last. Marks and words that join clauses end them.
-fn clauses(prompt: &str, words: &[Word]) -> Vec<[usize; 2]> {
+fn clauses(prompt: &str, words: &[Word], meaning: &Meaning) -> Vec<[usize; 2]> {
     let mut clauses = Vec::new();
     let mut start = 0;
     for at in 0..=words.len() {
@@ -219,7 +233,11 @@ fn clauses(prompt: &str, words: &[Word]) -> Vec<[usize; 2]> {
         let joins = words
             .get(at)
             .is_some_and(|word| OPENERS.contains(&word.text.as_str()) || CLOSERS.contains(&word.text.as_str()));
-        if !(is_line || is_mark || joins) {
+        // `Steam rises and tilt up slowly`: what follows is a command.
+        let and = matches!(word_at(words, at), "and" | "&" | "+");
+        let is_next = |next: usize| next < words.len() && meaning.tells(next);
+        let commands = and && (is_next(at + 1) || word_at(words, at + 1).ends_with("ly") && is_next(at + 2));
+        if !(is_line || is_mark || joins || commands) {
             continue;
         }
         if at > start {
@@ -236,30 +254,25 @@ fn is_inner(mark: &str) -> bool {
 }
 
 /// Whether the subject of a clause is scenery: `golden hour light spilling through the window`.
-fn is_about_scenery(words: &[Word], mentions: &[Mention], [from, to]: [usize; 2]) -> bool {
+fn is_about_scenery(words: &[Word], meaning: &Meaning, mentions: &[Mention], [from, to]: [usize; 2]) -> bool {
     let named = |at: usize| mention_at(words, mentions, at).is_some_and(|mention| !mention.ids.is_empty());
     let is_head = |at: &usize| SCENERY.contains(&word_at(words, *at)) && !named(*at);
+    // What is the whole of a part of a list is its picture.
+    let is_part = from > 0 && matches!(word_at(words, from - 1), ":" | "|");
     let from = from + usize::from(OPENERS.contains(&word_at(words, from)));
-    let Some(head) = (from..to.min(from + MAX_BEFORE + 1)).find(is_head) else { return false };
+    let Some(head) = (from..to.min(from + MAX_BEFORE + 1)).find(is_head).filter(|_| !is_part) else { return false };
     let head = (head..to).take_while(is_head).last().unwrap_or(head);
+    // Of the words before it none asks for anything: `rise above the haze`, `low-angle mood`, `fast tone`.
+    let asks = |at: usize| meaning.tells(at) || meaning.is_paced(at) || named(at);
     let next = if head + 1 < to { word_at(words, head + 1) } else { "" };
+    let is_verb = ["ing", "s", "ed"].iter().any(|ending| next.ends_with(ending));
+    // `Light tilt up`, `wind-blown drift`: the light is one of a move.
+    let is_of_move = !next.is_empty() && !is_verb && (head + 1..to).any(|at| meaning.tells(at));
     let is_of_camera = (from..to).any(|at| CAMERA.contains(&word_at(words, at)));
     let has_number = (from..to).any(|at| word_at(words, at).starts_with(|c: char| c.is_ascii_digit()));
     let num_named = (from..to).filter(|at| named(*at) && (*at == from || !named(at - 1))).count();
-    let names_before = (from..head).any(named);
-    !(is_of_camera || has_number || names_before || PREPOSITIONS.contains(&next) || num_named > 1)
-        && (num_named == 0 || next.ends_with("ing") || next.ends_with('s') || next.ends_with("ed"))
-        && !starts_with_command(words, from, head)
-}
-
-/// Whether the words before the name of scenery say what to do with it: `push in on the light`, `show the shadows`.
-fn starts_with_command(words: &[Word], from: usize, head: usize) -> bool {
-    const BEFORE: [&str; 17] = [
-        "the", "a", "an", "some", "of", "and", "in", "on", "to", "into", "towards", "toward", "at", "through", "past",
-        "until", "follow",
-    ];
-    let is_article = |at: usize| BEFORE[..6].contains(&word_at(words, at));
-    (from..head).any(|at| BEFORE[6..].contains(&word_at(words, at)) && !is_article(at))
+    !((from..head).any(asks) || is_of_move || is_of_camera || has_number || PREPOSITIONS.contains(&next))
+        && (num_named == 0 || num_named == 1 && is_verb)
 }
 
 /// Whether a clause only says how it looks: none of its words tells an operator anything.

@@ -1,29 +1,38 @@
 //! How long the film is, where its words end with that.
 
-use cinesplat_language::Linked;
-use cinesplat_operator::Program;
+use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_operator::{Program, Speed};
 use cinesplat_trajectory::Move;
 
 /// Marks that end a clause.
 const MARKS: [&str; 5] = [",", ".", ";", "!", ":"];
 /// Words that may stand beside the length of a film.
-const BESIDE: [&str; 12] =
-    ["total", "long", "in", "all", "about", "roughly", "around", "approx", "or", "so", "overall", "altogether"];
+const BESIDE: [&str; 11] =
+    ["total", "long", "all", "about", "roughly", "around", "approx", "or", "so", "overall", "altogether"];
+
+/// Least time of a step of a film whose whole length is stated.
+const LEAST_STEP_SECS: f64 = 1.5;
+
+/// Whether a word is this time.
+fn is_length_word(linked: &Linked, word: &str, secs: f64) -> bool {
+    linked.quantity_at(word).is_some_and(|quantity| quantity.kind == QuantityKind::Seconds && quantity.value == secs)
+}
 
 /// Gives the film a length that stands alone in a clause behind all moves: `.., then a slow zoom in on the vase, airy
 /// loft, 12 seconds`. Where a step has a length of its own, or the last one holds, it is the last step's.
 pub(crate) fn take_film_length(linked: &Linked, program: &mut Program) {
     let Some((last, others)) = program.steps.split_last_mut() else { return };
     let is_open = program.duration_secs.is_none() && others.iter().all(|step| step.duration_secs.is_none());
-    let Some(secs) = last.duration_secs.filter(|_| is_open && !others.is_empty() && last.movement != Move::Static)
-    else {
+    let is_own = matches!(last.movement, Move::Static | Move::WhipPan) || last.speed != Speed::default();
+    let fits = |secs: &f64| *secs >= LEAST_STEP_SECS * (others.len() + 1) as f64;
+    let Some(secs) = last.duration_secs.filter(|_| is_open && !others.is_empty() && !is_own).filter(fits) else {
         return;
     };
     let words: Vec<&str> = linked.words_in([0, usize::MAX]).map(|(word, _)| word).collect();
     let mut clauses = words.split(|word| MARKS.contains(word)).filter(|clause| !clause.is_empty()).rev();
     // What is behind it says nothing of a move: `12 seconds, seamless`.
     let is_length = |clause: &[&str]| {
-        clause.iter().filter(|word| linked.is_quantity(word)).count() == 1
+        clause.iter().filter(|word| is_length_word(linked, word, secs)).count() == 1
             && clause.iter().all(|word| linked.is_quantity(word) || BESIDE.contains(word))
     };
     if clauses.next().is_some_and(is_length) {

@@ -129,11 +129,11 @@ const EXTREMES: [&str; 18] = [
     "inch",
     "inches",
     "big",
-    "so",
-    "as",
-    "right",
+    "x",
     "touching",
     "nearly",
+    "hair",
+    "closest",
 ];
 
 /// Makes a close-up of an extreme one that nobody asked for: `begin at the vase, quite near`. `senses` has one entry per

@@ -2,7 +2,7 @@
 //! not walk, a spiral goes around.
 
 use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::Step;
+use cinesplat_operator::{Amount, Step};
 use cinesplat_trajectory::Move;
 
 use super::senses::says;
@@ -24,21 +24,44 @@ pub(crate) fn drop_unsaid_shake(linked: &Linked, senses: &[Senses], steps: &mut 
 
 /// What wanders while its owner stays.
 const GAZES: [&str; 7] = ["gaze", "gazes", "glance", "glances", "eyes", "stare", "eye"];
-/// Words after an eye that make it a height, and words before it that make it one of the camera's places.
-const HEIGHTS: [&str; 5] = ["level", "height", "line", "contact", "high"];
-/// Words by which the owner of a gaze goes somewhere, too.
-const GOES: [&str; 8] = ["walk", "walks", "walking", "camera", "drone", "fly", "travel", "follow"];
+/// Words before it that say whose it is.
+const OWNERS: [&str; 12] = ["his", "her", "our", "my", "your", "their", "the", "its", "only", "a", "let", "just"];
+/// How it goes.
+const WANDERS: [&str; 22] = [
+    "wander",
+    "wanders",
+    "wandering",
+    "drift",
+    "drifts",
+    "drifting",
+    "move",
+    "moves",
+    "moving",
+    "slide",
+    "slides",
+    "glide",
+    "glides",
+    "shift",
+    "shifts",
+    "sweep",
+    "sweeps",
+    "roam",
+    "roams",
+    "stray",
+    "strays",
+    "jumps",
+];
 
 /// Turns a way from one thing to another that only a gaze goes into a turn on the spot: `his gaze wanders from the wall
 /// over to the chair`.
 pub(crate) fn turn_gazes(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.movement == Move::Follow && step.via.is_none()) {
         let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
-        let mut gazes = words.iter().enumerate().filter(|(_, word)| GAZES.contains(word));
-        let is_gaze = gazes.any(|(at, _)| words.get(at + 1).is_none_or(|next| !HEIGHTS.contains(next)));
+        let is_owned = |at: &usize| GAZES.contains(&words[*at]) && *at > 0 && OWNERS.contains(&words[at - 1]);
+        let wanders = |at: usize| words[at + 1..].iter().take(2).any(|word| WANDERS.contains(word));
+        let is_gaze = (0..words.len()).filter(is_owned).any(wanders);
         let leads = !step.start.subjects.is_empty() && step.start.subjects != step.end.subjects;
-        let goes = words.iter().any(|word| GOES.contains(word));
-        if is_gaze && leads && !goes {
+        if is_gaze && leads {
             (step.movement, step.either_way) = (Move::PanRight, true);
         }
     }
@@ -48,18 +71,27 @@ pub(crate) fn turn_gazes(linked: &Linked, steps: &mut [Step]) {
 const STILL: [&str; 9] =
     ["frozen", "still", "static", "motionless", "locked", "fixed", "immobile", "unmoving", "stationary"];
 
+/// Words of a picture that is slanted, and words of a camera that rolls.
+const SLANTS: [&str; 9] = ["dutch", "canted", "cant", "tilted", "slanted", "tipped", "crooked", "askew", "lopsided"];
+const ROLLS: [&str; 11] =
+    ["roll", "rolls", "rolling", "rotate", "rotates", "rotating", "spin", "spins", "turn", "twist", "clockwise"];
+
 /// Holds a slanted picture that stands still: `dutch-angle close-up of the skull, camera frozen`. The slant is an effect.
 pub(crate) fn hold_slants(linked: &Linked, steps: &mut [Step]) {
     let rolls = |movement: &Move| matches!(movement, Move::RollCw | Move::RollCcw);
     for step in steps.iter_mut().filter(|step| rolls(&step.movement)) {
-        let is_still = linked.words_in(step.words.unwrap_or_default()).any(|(word, _)| STILL.contains(&word));
-        if is_still && step.with.iter().all(rolls) {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
+        let is_open = matches!(step.amount, None | Some(Amount::Slight)) && step.with.iter().all(rolls);
+        if is_open && has(&STILL) && has(&SLANTS) && !has(&ROLLS) {
             (step.movement, step.either_way, step.amount) = (Move::Static, false, None);
             step.with.clear();
         }
     }
 }
 
+/// Words that deny what follows.
+const DENIALS: [&str; 5] = ["no", "not", "never", "'t", "without"];
 /// Lines that go around while they rise or sink.
 const SPIRALS: [&str; 12] = [
     "spiral",
@@ -85,7 +117,12 @@ pub(crate) fn circle_spirals(linked: &Linked, steps: &mut [Step]) {
             _ => continue,
         };
         let lifts = step.with.iter().all(|with| *with == step.movement || *with == lift);
-        if lifts && linked.words_in(step.words.unwrap_or_default()).any(|(word, _)| SPIRALS.contains(&word)) {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let is_said = |at: usize| {
+            let before = &words[at.saturating_sub(3)..at];
+            SPIRALS.contains(&words[at]) && !before.iter().any(|word| DENIALS.contains(word))
+        };
+        if lifts && (0..words.len()).any(is_said) {
             // A rise to a stated angle is a crane first, because an orbit keeps its angle.
             if step.end.angle.is_some() {
                 (step.movement, step.with) = (lift, vec![Move::OrbitRight]);

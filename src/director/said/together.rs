@@ -30,7 +30,7 @@ const PARTS: [&str; 14] = [
     "cases",
 ];
 /// Words near `both` that say where both are to be seen.
-const SEEN: [&str; 9] = ["frame", "shot", "view", "picture", "visible", "screen", "seen", "fully", "image"];
+const SEEN: [&str; 10] = ["frame", "shot", "view", "picture", "visible", "screen", "seen", "fully", "image", "shown"];
 
 /// Words that say that things are seen, and words that say that they always are.
 const VISIBLE: [&str; 9] = ["visible", "frame", "shot", "view", "seen", "screen", "picture", "image", "sight"];
@@ -38,8 +38,12 @@ const ALWAYS: [&str; 7] = ["whole", "entire", "throughout", "always", "all", "ev
 const WHILES: [&str; 8] = ["time", "times", "way", "throughout", "always", "while", "move", "film"];
 /// Words that turn it around: `never visible`, `out of view`.
 const DENIALS: [&str; 9] = ["no", "not", "never", "'t", "longer", "out", "gone", "without", "lose"];
+/// Words that deny, and words that turn the sight of something around.
+const NEGATIONS: [&str; 6] = ["no", "not", "never", "'t", "without", "nor"];
+const LEAVINGS: [&str; 12] =
+    ["leave", "leaves", "leaving", "drop", "drops", "exit", "exits", "lose", "loses", "out", "gone", "longer"];
 /// What ends the words about joined things.
-const CLAUSE_ENDS: [&str; 4] = [",", ".", ";", "!"];
+const CLAUSE_ENDS: [&str; 3] = [".", ";", "!"];
 /// Words after joined things that may say so.
 const NUM_AFTER: usize = 12;
 
@@ -51,7 +55,10 @@ pub(crate) fn keep_always(linked: &Linked, steps: &mut [Step]) {
         let words = linked.words_in([last.1[1], usize::MAX]).map(|(word, _)| word);
         let after: Vec<&str> = words.take_while(|word| !CLAUSE_ENDS.contains(word)).take(NUM_AFTER).collect();
         let has = |list: &[&str]| after.iter().any(|word| list.contains(word));
-        let is_denied = after.iter().take_while(|word| !VISIBLE.contains(word)).any(|word| DENIALS.contains(word));
+        // `Never visible` and `out of view` deny it, `never leave the frame` does not.
+        let says =
+            |list: &[&str]| after.iter().take_while(|word| !VISIBLE.contains(word)).any(|word| list.contains(word));
+        let is_denied = says(&NEGATIONS) != says(&LEAVINGS);
         if is_denied || !(has(&VISIBLE) && has(&ALWAYS) && has(&WHILES)) {
             continue;
         }

@@ -184,8 +184,11 @@ fn without_cut(words: &[Word], [start, end]: [usize; 2]) -> Option<[usize; 2]> {
         is_number || matches!(word.text.as_str(), "at" | "on" | ":" | "s" | "sec" | "seconds" | "hard" | "." | "-")
     };
     let at = start + words[start..end].iter().rposition(|word| matches!(word.text.as_str(), "cut" | "cuts"))?;
-    let begins = at > start && matches!(word_at(words, at - 1), "." | ";" | "," | "hard");
-    (begins && words[at + 1..end].iter().all(is_time)).then(|| trimmed(words, start, at))
+    // `Hard cut` is one thing.
+    let at = at - usize::from(at > start && matches!(word_at(words, at - 1), "hard" | "smash" | "jump" | "straight"));
+    let begins = at > start && matches!(word_at(words, at - 1), "." | ";" | ",");
+    let mut rest = words[at..end].iter().skip_while(|word| !matches!(word.text.as_str(), "cut" | "cuts")).skip(1);
+    (begins && rest.all(is_time)).then(|| trimmed(words, start, at))
 }
 
 /// A part without the words that lead to the next one, and whether they are a cut: `push in, then`, `push in, cut to`.

@@ -85,7 +85,7 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         }
         Move::PushIn | Move::PullOut => straight::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
-        Move::PedestalUp | Move::PedestalDown if leads_aside(context) => {
+        Move::PedestalUp | Move::PedestalDown if leads_aside(context) && !keeps_its_view(context) => {
             let up = context.step.movement == Move::PedestalUp;
             let movement = if up { Move::CraneUp } else { Move::CraneDown };
             let step = Step { movement, ..context.step.clone() };
@@ -113,10 +113,14 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
 /// travel aside the camera would not see it.
 fn leads_aside(context: &StepContext) -> bool {
     let (Some(start), Some(end)) = (&context.start, &context.end) else { return false };
+    // A stated way or height is one of a pedestal.
+    if context.step.amount.is_some() || context.step.end.height.is_some() {
+        return false;
+    }
     let apart = end.aim - start.aim;
     let height = context.world.frame.height(apart).abs();
     let aside = (apart.length_squared() - height * height).max(0.0).sqrt();
-    start.ids.first() != end.ids.first() && aside > LEAST_ASIDE * height
+    start.ids.iter().all(|id| !end.ids.contains(id)) && aside > LEAST_ASIDE * height
 }
 
 /// Distance aside over the height from which on a rise between two subjects is a crane.

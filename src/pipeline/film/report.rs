@@ -8,7 +8,7 @@ use cinesplat_video::VideoFormat;
 /// Progress of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FilmProgress {
-    /// Frames that are finished.
+    /// Frames that are finished; the last of them may be on its way to the job folder.
     pub done: usize,
     /// Frames of the film.
     pub total: usize,

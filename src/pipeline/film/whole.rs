@@ -164,11 +164,12 @@ fn render_and_encode(
             }
         });
         drop((sender, keep_sender));
-        (rendered, encoding.join(), keeping.map(|keeping| keeping.join()))
+        (rendered, encoding.join(), keeping.map(thread::ScopedJoinHandle::join))
     });
+    let encoded = encoded.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
     report.keep_time =
         kept.transpose().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).transpose()?.unwrap_or_default();
-    let encoder = encoded.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    let encoder = encoded?;
     if let Err(Interruption::Failed(error)) = rendered {
         return Err(*error);
     }
