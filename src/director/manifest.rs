@@ -2,12 +2,13 @@
 
 use cinesplat_files::sha256_hex;
 use cinesplat_language::sense_names;
-use cinesplat_operator::{FramePlace, Motion, Pass, Speed, SubjectPart, SubjectSide};
+use cinesplat_operator::{FramePlace, Pass, Speed, SubjectPart, SubjectSide};
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 use serde::{Deserialize, Serialize};
 use strum::VariantArray;
 
 use crate::calibration::Calibration;
+use crate::codes::read_motions;
 use crate::error::DirectorError;
 use crate::network::ModelConfig;
 
@@ -104,7 +105,7 @@ fn choices() -> Vec<String> {
     let speeds = Speed::VARIANTS.iter().map(|choice| format!("{choice:?}"));
     let places = FramePlace::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
     let sides = SubjectSide::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
-    let motions = Motion::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let motions = read_motions().map(|motion| motion.as_ref().to_owned());
     let of_moves = moves.chain(sizes).chain(angles).chain(easings).chain(parts).chain(passes).chain(speeds);
     of_moves.chain(places).chain(sides).chain(motions).collect()
 }

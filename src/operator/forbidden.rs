@@ -56,6 +56,7 @@ fn wanted(motion: Motion, most: f64) -> String {
         Motion::Roll => format!("roll constant within {most:.1} degrees"),
         Motion::Turn => format!("yaw, pitch and roll constant within {most:.1} degrees"),
         Motion::Travel => format!("position constant within {most:.4} scene units"),
+        Motion::Rise => format!("height constant within {most:.4} scene units"),
         Motion::Shake => "number of handheld steps 0".to_owned(),
         Motion::Cut => "number of cuts 0".to_owned(),
     }

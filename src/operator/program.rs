@@ -36,6 +36,23 @@ pub enum Motion {
     Shake,
     /// A cut.
     Cut,
+    /// A rise or a descent: the height stays constant within 0.1 % of the scene size between two cuts.
+    Rise,
+}
+
+impl Motion {
+    /// The motion that a prompt rules out when it rules out a move.
+    pub fn of(movement: Move) -> Option<Self> {
+        match movement {
+            Move::ZoomIn | Move::ZoomOut | Move::DollyZoomIn | Move::DollyZoomOut => Some(Self::Zoom),
+            Move::PanLeft | Move::PanRight | Move::WhipPan => Some(Self::Pan),
+            Move::TiltUp | Move::TiltDown => Some(Self::Tilt),
+            Move::RollCw | Move::RollCcw => Some(Self::Roll),
+            Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown => Some(Self::Rise),
+            Move::Handheld => Some(Self::Shake),
+            _ => None,
+        }
+    }
 }
 
 impl Program {

@@ -17,6 +17,7 @@ const STILL_FRAC: f64 = 0.001;
 ///
 /// - `Zoom`: largest over least tangent of half the field of view, minus 1.
 /// - `Pan`, `Tilt`, `Roll`: range of the yaw, pitch, roll, degrees; `Turn`: the largest of the three.
+/// - `Rise`: range of the height, scene units.
 /// - `Travel`: largest distance from the first position, scene units.
 pub(super) fn excess(world: &World, motion: Motion, states: &[CameraState]) -> (f64, f64, f64) {
     let frame = &world.frame;
@@ -33,6 +34,11 @@ pub(super) fn excess(world: &World, motion: Motion, states: &[CameraState]) -> (
         Motion::Travel => {
             let travel = states.iter().map(|s| s.pose.position.distance(states[0].pose.position)).fold(0.0, f64::max);
             (travel, STILL_FRAC * world.bounds.size(), 0.2 * world.bounds.size())
+        }
+        Motion::Rise => {
+            let heights = || states.iter().map(|s| frame.height(s.pose.position));
+            let range = heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min);
+            (range, STILL_FRAC * world.bounds.size(), 0.05 * world.bounds.size())
         }
         Motion::Shake | Motion::Cut => (0.0, 0.5, 1.0),
     }

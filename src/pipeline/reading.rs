@@ -259,25 +259,13 @@ fn contradictions(prompt: &str, program: &mut Program) -> Vec<Problem> {
             is_possible
         });
         let moves = std::iter::once(&movement).chain(&step.with);
-        let forbidden = moves.filter_map(|movement| Some((movement, motion_of(*movement)?)));
+        let forbidden = moves.filter_map(|movement| Some((movement, Motion::of(*movement)?)));
         for (movement, motion) in forbidden.filter(|(_, motion)| program.forbidden.contains(motion)) {
             let note = format!("{movement}, although the prompt rules out \"{motion}\"");
             problems.push(problem(prompt, ProblemKind::Contradiction, span, note));
         }
     }
     problems
-}
-
-/// The motion that a prompt rules out when it rules out this move.
-fn motion_of(movement: Move) -> Option<Motion> {
-    match movement {
-        Move::ZoomIn | Move::ZoomOut | Move::DollyZoomIn | Move::DollyZoomOut => Some(Motion::Zoom),
-        Move::PanLeft | Move::PanRight | Move::WhipPan => Some(Motion::Pan),
-        Move::TiltUp | Move::TiltDown => Some(Motion::Tilt),
-        Move::RollCw | Move::RollCcw => Some(Motion::Roll),
-        Move::Handheld => Some(Motion::Shake),
-        _ => None,
-    }
 }
 
 /// Removes the steps that are too unlikely, unless they are all; tells of them and of doubtful ones.

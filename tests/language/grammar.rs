@@ -38,7 +38,7 @@ fn every_printed_program_of_the_corpus_is_accepted() {
 
 #[test]
 fn a_program_with_every_token_is_accepted() {
-    let text = "orbit-left with=crane-up+zoom-in start=3+5:long:40%:low:-30.5deg:h1.6u:d0.5u:35mm:top:from-back:at-upper-left! end=room:close-up:wide-lens:hidden between=1+2 look=4 keep=6+7 avoid=8 amount=45deg dur=2.5s slow ease=ease-in cut returns either / static look=ahead amount=large | total=8s no=zoom+roll";
+    let text = "orbit-left with=crane-up+zoom-in start=3+5:long:40%:low:-30.5deg:h1.6u:d0.5u:35mm:top:from-back:at-upper-left! end=room:close-up:wide-lens:hidden between=1+2 look=4 keep=6+7 avoid=8 amount=45deg dur=2.5s slow ease=ease-in cut returns either / static look=ahead amount=large | total=8s no=zoom+roll+rise";
     assert_eq!(program_to_notation(&program_from_notation(text).unwrap()), text);
     let automaton = notation(&[1, 2, 3, 4, 5, 6, 7, 8]);
     assert!(automaton.accepts(text));

@@ -6,7 +6,7 @@ use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 #[test]
 fn every_token_of_a_step_is_parsed_and_printed() {
-    let text = "orbit-left with=crane-up+zoom-in start=3+5:long:40%:low:30deg:h1.6u:d0.5u:35mm:from-back:at-upper-left! end=3:close-up:wide-lens:top:hidden between=1+2 look=4 keep=6+7 avoid=8 amount=45deg dur=2.5s slow ease=ease-in cut returns either | total=8s no=zoom+roll";
+    let text = "orbit-left with=crane-up+zoom-in start=3+5:long:40%:low:30deg:h1.6u:d0.5u:35mm:from-back:at-upper-left! end=3:close-up:wide-lens:top:hidden between=1+2 look=4 keep=6+7 avoid=8 amount=45deg dur=2.5s slow ease=ease-in cut returns either | total=8s no=zoom+roll+rise";
     let step = Step {
         with: vec![Move::CraneUp, Move::ZoomIn],
         either_way: true,
@@ -45,7 +45,7 @@ fn every_token_of_a_step_is_parsed_and_printed() {
         returns: true,
         ..Step::of(Move::OrbitLeft)
     };
-    let forbidden = vec![Motion::Zoom, Motion::Roll];
+    let forbidden = vec![Motion::Zoom, Motion::Roll, Motion::Rise];
     let program = Program { steps: vec![step], duration_secs: Some(8.0), forbidden };
     assert_eq!(program_from_notation(text).unwrap(), program);
     assert_eq!(program_to_notation(&program), text);

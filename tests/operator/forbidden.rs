@@ -73,3 +73,23 @@ fn a_follow_without_turns_only_travels() {
     assert!(frames[0].pose.position.distance(frames[frames.len() - 1].pose.position) > 0.2);
     assert!(line(&solution, "no turn").met && line(&solution, "no zoom").met);
 }
+
+#[test]
+fn a_push_in_that_looks_down_keeps_a_constant_height() {
+    let from_above = Framing { elevation_deg: Some(30.0), ..about(1) };
+    for step in [
+        Step { start: from_above.clone(), end: about(1), ..Step::of(Move::PushIn) },
+        Step { start: about(2), end: about(1), ..Step::of(Move::Follow) },
+    ] {
+        let free = solved(vec![step.clone()], &[]);
+        let level = solved(vec![step], &[Motion::Rise]);
+        let range = |solution: &Solution| {
+            let heights: Vec<f64> = film(solution).iter().map(|state| state.pose.position.y).collect();
+            heights.iter().copied().fold(f64::MIN, f64::max) - heights.iter().copied().fold(f64::MAX, f64::min)
+        };
+        assert!(range(&free) > 0.05 && range(&level) < 1e-6, "{} {}", range(&free), range(&level));
+        assert!(line(&level, "no rise").met, "{:?}", line(&level, "no rise"));
+        // The camera still travels, and looks at its subject.
+        assert!(level.report.iter().filter(|line| line.clause != "no rise").all(|line| line.met), "{:?}", level.report);
+    }
+}

@@ -29,6 +29,11 @@ pub fn forbidden_of(code: &KeyCode) -> Vec<Motion> {
     FORBIDDEN.iter().filter(|(field, _)| code.class(*field) == 1).map(|(_, motion)| *motion).collect()
 }
 
+/// Motions that the network reads bans of, in the order of its fields. Bans of others are read from the words.
+pub(crate) fn read_motions() -> impl Iterator<Item = Motion> {
+    FORBIDDEN.iter().map(|(_, motion)| *motion)
+}
+
 fn framing(code: &KeyCode, end: &FramingEnd, grounding: &Grounding) -> Framing {
     let [size, angle, part, whole, lens_kind, side, place, hidden] = end.fields.map(|field| code.class(field));
     let values = end.roles.map(|role| code.quantity(role).and_then(|idx| grounding.value(idx)));

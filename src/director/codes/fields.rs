@@ -139,7 +139,7 @@ pub enum Field {
     NoCut,
 }
 
-/// Fields of the motions that a film forbids, in the order of [`Motion`].
+/// Fields of the motions that the network reads as forbidden. Their order is that of its classes.
 pub(super) const FORBIDDEN: [(Field, Motion); 8] = [
     (Field::NoZoom, Motion::Zoom),
     (Field::NoPan, Motion::Pan),

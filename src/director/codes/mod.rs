@@ -7,6 +7,7 @@ mod framing_end;
 mod key_code;
 mod pose_code;
 
+pub(crate) use decoding::read_motions;
 pub use decoding::{decode_key, forbidden_of};
 pub use encoding::encode_key;
 pub use fields::{Field, NUM_FIELDS};

@@ -8,6 +8,7 @@ mod circles;
 mod compose;
 mod context;
 mod lens;
+mod level;
 mod look;
 mod overlook;
 mod passes;
@@ -45,6 +46,7 @@ fn built(context: &StepContext) -> Vec<MotionSegment> {
         look::look(context, &mut segments);
         compose::rejoin(context, &mut segments);
     }
+    level::keep_height(context, &mut segments);
     requirements::require(context, &mut segments);
     if let Some(first) = segments.first_mut() {
         first.cut = context.step.cut;
