@@ -9,22 +9,25 @@ use cinesplat_trajectory::{Move, ShotSize};
 
 use crate::direction::Direction;
 use crate::error::DirectorError;
+use crate::said::asks_for;
 
 /// Words that begin a part that holds where the part before arrives.
 const LANDS: [&str; 6] = ["land", "lands", "settle", "settles", "rest", "rests"];
 
-/// Reads the parts of `linked`, which is a timeline, each with `read`.
+/// Reads the parts of `linked`, which is a timeline, each with `read`. The first part is about `subjects`, unless it or
+/// the introduction names others.
 ///
 /// # Errors
 /// Those of `read`.
 pub(crate) fn direct_beats(
     linked: &Linked,
     timeline: &Timeline,
+    subjects: &[u32],
     read: &dyn Fn(&Linked) -> Result<Direction, DirectorError>,
 ) -> Result<Direction, DirectorError> {
     let mut whole =
         Direction { program: Program::default(), step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
-    let (mut subjects, mut opening) = (Vec::new(), Framing::default());
+    let (mut subjects, mut opening) = (subjects.to_vec(), Framing::default());
     if linked.words_in(timeline.introduction).any(|(word, _)| word.starts_with(char::is_alphabetic)) {
         let introduction = read(&linked.part(timeline.introduction, None))?;
         let steps = &introduction.program.steps;
@@ -33,11 +36,14 @@ pub(crate) fn direct_beats(
             return read(linked);
         }
         opening = steps.last().map(|step| step.end.clone()).filter(|end| end.size.is_some()).unwrap_or_default();
-        subjects = steps.last().map(|step| step.end.subjects.clone()).unwrap_or_default();
+        if let Some(shown) = steps.last().map(|step| &step.end.subjects).filter(|shown| !shown.is_empty()) {
+            subjects.clone_from(shown);
+        }
         whole.program = Program { steps: Vec::new(), ..introduction.program };
         whole.unmet = introduction.unmet;
     }
     let mut lengths = Vec::with_capacity(timeline.beats.len());
+    let mut bans = Vec::new();
     let is_by_cuts = timeline.beats.iter().skip(1).all(|beat| beat.cut && beat.length.is_none());
     for beat in &timeline.beats {
         let mut direction = read_beat(linked, beat, linked.id_of(&subjects), read)?;
@@ -66,11 +72,7 @@ pub(crate) fn direct_beats(
             step.words = Some([beat.start, beat.bytes[1]]);
         }
         whole.program.steps.append(&mut direction.program.steps);
-        for motion in direction.program.forbidden {
-            if !whole.program.forbidden.contains(&motion) {
-                whole.program.forbidden.push(motion);
-            }
-        }
+        bans.extend(direction.program.forbidden.into_iter().map(|motion| (motion, lengths.len())));
         whole.step_cameras.append(&mut direction.step_cameras);
         whole.certainty.append(&mut direction.certainty);
         whole.unmet.append(&mut direction.unmet);
@@ -79,6 +81,15 @@ pub(crate) fn direct_beats(
             whole.program.duration_secs = whole.program.duration_secs.or(stated);
         }
         lengths.push((first, stated.filter(|_| !is_of_film)));
+    }
+    for (motion, beat) in bans {
+        let is_of_beat = |nth: usize| nth >= lengths[beat].0 && lengths.get(beat + 1).is_none_or(|next| nth < next.0);
+        let mut steps = whole.program.steps.iter().enumerate();
+        // A ban holds where it is said: another part may ask for that very motion.
+        let is_asked = steps.any(|(nth, step)| !is_of_beat(nth) && asks_for(step, motion));
+        if !is_asked && !whole.program.forbidden.contains(&motion) {
+            whole.program.forbidden.push(motion);
+        }
     }
     let total_secs = whole.program.duration_secs;
     let mut all_timed = true;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, link_mentions, scenery, tokenize,
-    without_camera_settings, without_frame_shape,
+    without_camera_settings, without_frame_shape, without_tolerances,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -13,6 +13,7 @@ use glam::{DQuat, DVec3, Vec3};
 
 use crate::beats::direct_beats;
 use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
+use crate::compositions::direct_composed;
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
@@ -90,6 +91,7 @@ impl Director {
         check_prompt(prompt)?;
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
+        let prompt = &*without_tolerances(prompt);
         let mut found = self.names.mentions(prompt, objects)?;
         let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
         let scenery = scenery(prompt, &mentions)?;
@@ -131,10 +133,10 @@ impl Director {
     /// [`DirectorError::NotFinite`] when the network outputs a position that is not finite ·
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
-        match &linked.timeline {
-            Some(timeline) => direct_beats(linked, timeline, &|part| self.direct_corrected(part, scene)),
+        direct_composed(linked, &|linked, subjects| match &linked.timeline {
+            Some(timeline) => direct_beats(linked, timeline, subjects, &|part| self.direct_corrected(part, scene)),
             None => self.direct_corrected(linked, scene),
-        }
+        })
     }
 
     /// The direction of a prompt, or of what a person who corrects himself in it means, whichever is surer.

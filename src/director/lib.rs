@@ -18,6 +18,7 @@
 mod beats;
 mod calibration;
 pub mod codes;
+mod compositions;
 mod decoding;
 mod direction;
 mod director;

@@ -104,6 +104,7 @@ mod senses;
 mod things;
 mod timeline;
 mod tokenizer;
+mod tolerances;
 mod unknown;
 
 pub use edit_distance::edit_distance;
@@ -130,4 +131,5 @@ pub use senses::{Senses, sense_names};
 pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
 pub use timeline::{Beat, BeatLength, Timeline};
 pub use tokenizer::{Word, tokenize};
+pub use tolerances::without_tolerances;
 pub use unknown::UnknownName;

@@ -33,6 +33,8 @@ pub struct Linked {
     pub groups: Vec<Group>,
     /// The quantities, in order.
     pub quantities: Vec<Quantity>,
+    /// Bytes of the mentions that say all of a thing: `the whole curtain`, `all of the sideboard`.
+    pub wholes: Vec<[usize; 2]>,
     /// Names that match no object.
     pub unknown: Vec<UnknownName>,
     /// The parts of a prompt that says part by part what happens when.

@@ -86,6 +86,8 @@ const PARTS: &str = "top tops bottom bottoms foot feet base head tip tips crown 
 /// Fractions of a thing, after a word that says which: `the upper half`.
 const FRACTIONS: &str = "half halves third";
 const WHICH: &str = "top bottom left right upper lower middle front back";
+/// Words of a mention that say all of the thing.
+const WHOLES: &str = "whole entire all complete";
 /// First words of what a mention chooses from: `the middle of the three`.
 const CHOICES: &str = "them these those all both two three four five six seven eight nine ten";
 
@@ -135,6 +137,9 @@ impl Linked {
         let (part, rest) = words.split_at(before);
         let (thing, part_of_thing) = rest.split_at(rest.len() - behind);
         part.iter().for_each(|word| self.append(&word.text, std::slice::from_ref(word)));
+        if is_one && thing.len() > 1 && thing.iter().any(|word| is_in(WHOLES, word)) {
+            self.wholes.push(span_of(thing));
+        }
         self.append(&format!("<obj-{slot}>"), thing);
         part_of_thing.iter().for_each(|word| self.append(&word.text, std::slice::from_ref(word)));
     }

@@ -1,6 +1,7 @@
 //! A part of a linked prompt as a prompt of its own.
 
 use super::linked::{Linked, OBJECT, QUANTITY, slot_of};
+use super::quantity::Quantity;
 
 /// Pronouns that stand for the subject of the part before.
 const PRONOUNS: [&str; 5] = ["it", "them", "that", "this", "those"];
@@ -14,13 +15,28 @@ impl Linked {
         self.of_words(self.words_in(bytes), antecedent.filter(|_| !names_object))
     }
 
+    /// All words but those that begin in some bytes, with their objects and quantities numbered anew; the parts stay. In
+    /// what names no object, pronouns stand for `antecedent`.
+    #[must_use]
+    pub fn without(&self, bytes: &[[usize; 2]], antecedent: Option<u32>) -> Self {
+        let is_left = |span: &[usize; 2]| !bytes.iter().any(|[from, to]| (*from..*to).contains(&span[0]));
+        let left = || self.words_in([0, usize::MAX]).filter(|(_, span)| is_left(span));
+        let names_object = left().any(|(word, _)| word.starts_with(OBJECT));
+        Self { timeline: self.timeline.clone(), ..self.of_words(left(), antecedent.filter(|_| !names_object)) }
+    }
+
     /// Some of the words, with their objects and quantities numbered anew.
     pub(crate) fn of_words<'a>(
         &self,
         words: impl Iterator<Item = (&'a str, [usize; 2])>,
         antecedent: Option<u32>,
     ) -> Self {
-        let mut part = Self { groups: self.groups.clone(), unknown: self.unknown.clone(), ..Self::default() };
+        let mut part = Self {
+            groups: self.groups.clone(),
+            wholes: self.wholes.clone(),
+            unknown: self.unknown.clone(),
+            ..Self::default()
+        };
         for (word, span) in words {
             let id = match slot_of(word, OBJECT) {
                 Some(slot) => self.slots.get(slot).copied(),
@@ -59,6 +75,11 @@ impl Linked {
     /// Whether a word is the placeholder of a quantity.
     pub fn is_quantity(&self, word: &str) -> bool {
         slot_of(word, QUANTITY).is_some_and(|slot| slot < self.quantities.len())
+    }
+
+    /// The quantity that a placeholder stands for.
+    pub fn quantity_at(&self, word: &str) -> Option<Quantity> {
+        self.quantities.get(slot_of(word, QUANTITY)?).copied()
     }
 
     /// The id that stands for some objects: that of an object, or of a group that the prompt names.

@@ -3,6 +3,7 @@
 mod beats;
 mod calibration;
 mod codes;
+mod compositions;
 mod direction;
 mod frame;
 mod hostile;

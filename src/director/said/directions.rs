@@ -112,7 +112,7 @@ fn said_at(words: &[&str], at: usize) -> Option<(Move, &'static str)> {
 }
 
 /// Whether a word is a form of a verb: `pan`, `pans`, `panning`.
-pub(super) fn is_form(word: &str, verb: &str) -> bool {
+pub(crate) fn is_form(word: &str, verb: &str) -> bool {
     let stem = verb.strip_suffix('e').unwrap_or(verb);
     let ending = word.strip_prefix(stem);
     let doubled = ending.and_then(|ending| ending.strip_prefix(&stem[stem.len() - 1..]));

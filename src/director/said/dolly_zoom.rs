@@ -59,6 +59,24 @@ pub(crate) fn take_said_dolly_zooms(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Makes a dolly zoom a plain way where its words keep the lens and name no zoom: `dolly back on the same lens`.
+pub(crate) fn keep_said_lens(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let keeps = words.windows(2).any(|pair| matches!(pair, ["same" | "fixed" | "constant" | "prime", "lens"]));
+        let zooms = words.iter().any(|word| {
+            is_form(word, "zoom") || matches!(*word, "vertigo" | "hitchcock" | "background" | "backdrop" | "size")
+        });
+        if keeps && !zooms {
+            step.movement = match step.movement {
+                Move::DollyZoomIn => Move::PushIn,
+                Move::DollyZoomOut => Move::PullOut,
+                movement => movement,
+            };
+        }
+    }
+}
+
 /// Whether a verb of the camera is followed by one of the ways: `tracks slowly backwards`, `pulling away`, but not `the
 /// background pulls away`.
 fn says_travel(words: &[&str], ways: &[&str]) -> bool {

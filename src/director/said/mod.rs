@@ -1,11 +1,14 @@
 //! What the words of a step say plainly, over what the network read into them.
 
+mod bans;
 mod directions;
 mod dolly_zoom;
+mod heights;
 mod lengths;
 mod open;
 mod openings;
 mod places;
+mod ranges;
 mod repeats;
 mod senses;
 mod stillness;
@@ -13,6 +16,9 @@ mod together;
 mod until;
 
 use cinesplat_language::{Linked, Senses};
+
+pub(crate) use bans::asks_for;
+pub(crate) use directions::is_form;
 
 use crate::direction::Direction;
 use crate::error::DirectorError;
@@ -25,9 +31,11 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     directions::take_said_directions(linked, steps);
     dolly_zoom::take_said_dolly_zooms(linked, steps);
+    dolly_zoom::keep_said_lens(linked, steps);
     open::reverse_retraced(linked, steps);
     open::open_unstated_directions(linked, senses, steps)?;
     places::drop_descriptions(linked, steps);
+    places::begin_at_source(linked, steps);
     places::pass_pairs(linked, steps);
     places::complete_framings(steps);
     repeats::merge_repeated(linked, senses, direction)?;
@@ -45,6 +53,10 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     stillness::hold_slants(linked, steps);
     stillness::circle_spirals(linked, steps);
     places::rise_by_lengths(linked, steps);
+    ranges::take_ranges(linked, steps);
     lengths::take_film_length(linked, &mut direction.program);
+    bans::drop_misplaced_bans(linked, &mut direction.program);
+    bans::rule_out_turns(linked, &mut direction.program);
+    heights::hold_height(linked, direction);
     Ok(())
 }

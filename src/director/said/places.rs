@@ -1,7 +1,7 @@
 //! What the words say of where things are and how they are seen.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Amount, Framing, Pass, Step, SubjectPart};
+use cinesplat_operator::{Amount, Framing, Motion, Pass, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
 /// Words that say where a thing is, and the way past that the network may read into them.
@@ -44,6 +44,25 @@ pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
             if step.movement == Move::FlyThrough {
                 step.movement = Move::PushIn;
             }
+        }
+    }
+}
+
+/// Begins a turn or a slide at what the words lead from, where the network reads that it is passed: `tilt down 30° from
+/// the plates`.
+pub(crate) fn begin_at_source(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
+        let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
+        let leads_from = |at: usize| {
+            let id = words.get(at + 1).and_then(|word| linked.slot_at(word));
+            words[at] == "from" && id.is_some_and(|id| via.objects == [id])
+        };
+        let leaves = step.movement.looks_elsewhere() || Motion::of(step.movement) == Some(Motion::Rise);
+        let is_open = via.how == Pass::Past && step.start.subjects.is_empty() && step.end.subjects.is_empty();
+        if leaves && is_open && !words.contains(&"past") && (0..words.len()).any(leads_from) {
+            step.start.subjects.clone_from(&via.objects);
+            step.via = None;
         }
     }
 }

@@ -55,6 +55,8 @@ fn span_at(words: &[Word], i: usize) -> Option<Found> {
     let link = link_at(words, i, start)?;
     let end = instant_at(words, start.end + link)?;
     let is_span = match (start.form, end.form) {
+        // `50 degrees at 0:00 to 25 degrees at 0:06` spans two angles.
+        (InstantForm::Clock, InstantForm::Bare) => !has_other_unit(words, end.end),
         (InstantForm::Clock, _) | (_, InstantForm::Clock) => true,
         (InstantForm::Measure, _) => word_at(words, start.end) != "or",
         (InstantForm::Bare, InstantForm::Measure) => is_certain(words, i, start, end),
@@ -79,10 +81,16 @@ fn is_span_without_unit(words: &[Word], i: usize, start: Instant, end: Instant) 
     let after = word_at(words, end.end);
     let is_hyphen = words.get(start.end).is_some_and(|word| word.after_hyphen);
     let is_list_item = begins_clause(words, i) && is_hyphen && (start.secs == 0.0 || after == ":");
-    let other_unit =
-        matches!(after, "%" | "x" | "mm" | "m" | "cm" | "deg" | "degrees" | "\u{B0}" | "k" | "fps" | "percent" | "/");
     let is_time = is_list_item || matches!(word_before(words, i, 1), "t") || continues(words, i, start);
-    is_time && end.secs <= MAX_BARE_SECS && !other_unit && !is_counted(words, end.end)
+    is_time && end.secs <= MAX_BARE_SECS && !has_other_unit(words, end.end) && !is_counted(words, end.end)
+}
+
+/// Whether the word behind a number is the unit of another thing than a time.
+fn has_other_unit(words: &[Word], i: usize) -> bool {
+    matches!(
+        word_at(words, i),
+        "%" | "x" | "mm" | "m" | "cm" | "deg" | "degrees" | "\u{B0}" | "k" | "fps" | "percent" | "/"
+    )
 }
 
 /// Whether a span or a time code before word `i` ends where this one starts.

@@ -12,7 +12,11 @@ pub(super) fn measure_at(words: &[Word], i: usize) -> Option<Found> {
     if let Some(half_more) = one_and_a_half_at(words, i) {
         return Some(half_more);
     }
-    let number = mean_of_range(words, i, number_at(words, i)?);
+    let number = number_at(words, i)?;
+    if let Some(first) = first_lens_angle(words, i, number) {
+        return Some(first);
+    }
+    let number = mean_of_range(words, i, number);
     let unit_idx = i + number.len + modifier_at(words, i + number.len);
     let (unit_len, kind, scale) = unit_at(words, unit_idx)?;
     let end = unit_idx + unit_len;
@@ -30,6 +34,18 @@ pub(super) fn measure_at(words: &[Word], i: usize) -> Option<Found> {
         }
         _ => Some(found(end + len - i, kind, value)),
     }
+}
+
+/// The first of two angles between which a lens or an elevation changes: the 50 of `from 50 to 25 degrees FOV`.
+fn first_lens_angle(words: &[Word], i: usize, first: Numeral) -> Option<Found> {
+    let next = i + first.len;
+    let (len, _) = cardinal_at(words, next + 1).filter(|_| word_at(words, next) == "to")?;
+    let (unit_len, kind, scale) = unit_at(words, next + 1 + len)?;
+    let end = next + 1 + len + unit_len;
+    let is_angle = |word: &str| matches!(word, "fov" | "vfov" | "hfov" | "elevation" | "view");
+    let is_about = (1..=4).any(|k| is_angle(word_before(words, i, k)))
+        || (0..4).map_while(|k| Some(word_at(words, end + k)).filter(|word| *word != ".")).any(is_angle);
+    (kind == QuantityKind::Degrees && is_about).then(|| found(first.len, kind, first.value * scale))
 }
 
 /// `sec and a half`, `a second and a half` without a number.
@@ -98,7 +114,8 @@ fn is_and_half_of_unit(words: &[Word], i: usize) -> bool {
 
 /// The mean of `5 to 6` or `5 - 6` before a unit; `first` itself where no range begins.
 fn mean_of_range(words: &[Word], i: usize, first: Numeral) -> Numeral {
-    if first.form != NumeralForm::Number {
+    let is_of_clock = word_before(words, i, 1) == ":" && is_joined(words, i);
+    if first.form != NumeralForm::Number || is_of_clock {
         return first;
     }
     let next = i + first.len;

@@ -32,6 +32,16 @@ pub struct Beat {
     pub cut: bool,
 }
 
+impl Beat {
+    /// Its length in seconds, where it is stated so.
+    pub fn secs(&self) -> Option<f64> {
+        match self.length {
+            Some(BeatLength::Secs(secs)) => Some(secs),
+            _ => None,
+        }
+    }
+}
+
 /// Length of a beat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BeatLength {

@@ -1,0 +1,125 @@
+//! Values at the start and at the end of a move: `vertical FOV 50° at 0:00 to 25° at 0:06`, `back away, 1.6 m -> 2.4 m`,
+//! `elevation 25° .. 0°`.
+
+use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_operator::{Amount, Framing, Lens, Step};
+use cinesplat_trajectory::Move;
+
+/// Words between the two values besides `to` and arrows.
+const BETWEEN: [&str; 11] = ["at", "down", "up", "all", "the", "way", "vertical", "\u{B0}", "degrees", ":", "00"];
+/// Words about lenses and about where a subject is seen from, and how far from the values they stand.
+const LENSES: [&str; 4] = ["fov", "vfov", "hfov", "field"];
+const ELEVATIONS: [&str; 2] = ["elevation", "elevated"];
+const REACH: [usize; 2] = [5, 3];
+/// Words beside two lengths that are heights.
+const HEIGHTS: [&str; 8] = ["height", "high", "altitude", "floor", "ground", "above", "up", "down"];
+
+/// Two values of one kind in a row.
+struct Range {
+    kind: QuantityKind,
+    values: [f64; 2],
+    /// Positions of their words.
+    at: [usize; 2],
+}
+
+/// Writes ranges of the words into the starts and ends of the steps that they stand in.
+pub(crate) fn take_ranges(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    for range in (0..words.len()).filter_map(|at| range_at(linked, &words, at)) {
+        let near = &words[range.at[0].saturating_sub(REACH[0])..words.len().min(range.at[1] + 1 + REACH[1])];
+        let says = |list: &[&str]| near.iter().any(|word| list.contains(word));
+        let byte = linked.spans.get(range.at[0]).map_or(0, |span| span[0]);
+        let Some(step) = step_at(steps, byte) else { continue };
+        match range.kind {
+            QuantityKind::Degrees if says(&LENSES) => take_lenses(step, range.values.map(Lens::FovDeg), range.values),
+            QuantityKind::Millimeters => {
+                take_lenses(step, range.values.map(Lens::FocalMm), range.values.map(|mm| -mm));
+            }
+            QuantityKind::Degrees if says(&ELEVATIONS) => take_elevations(step, range.values),
+            QuantityKind::Units if !says(&HEIGHTS) => take_distances(step, range.values),
+            _ => {}
+        }
+    }
+}
+
+/// The step whose words hold a byte, or the only step.
+fn step_at(steps: &mut [Step], byte: usize) -> Option<&mut Step> {
+    let is_alone = steps.len() == 1;
+    steps.iter_mut().find(|step| is_alone || step.words.is_some_and(|[from, to]| (from..to).contains(&byte)))
+}
+
+/// The range that begins at word `at`. The second angle may be 0, which is no quantity.
+fn range_at(linked: &Linked, words: &[&str], at: usize) -> Option<Range> {
+    let first = linked.quantity_at(words[at])?;
+    let is_time = |word: &str| linked.quantity_at(word).is_some_and(|other| other.kind == QuantityKind::Seconds);
+    let links =
+        |word: &&&str| matches!(**word, "to" | ">" | "." | "\u{2192}") || BETWEEN.contains(*word) || is_time(word);
+    let num_between = words[at + 1..].iter().take(6).take_while(links).count();
+    let between = &words[at + 1..at + 1 + num_between];
+    let dots = between.iter().filter(|word| **word == ".").count();
+    if dots == 1 || dots == 0 && !between.iter().any(|word| matches!(*word, "to" | ">" | "\u{2192}")) {
+        return None;
+    }
+    let end = at + 1 + num_between;
+    let second = words.get(end)?;
+    let is_zero = *second == "0" && matches!(words.get(end + 1), Some(&("\u{B0}" | "degrees" | "deg")));
+    let value = match linked.quantity_at(second) {
+        Some(quantity) if quantity.kind == first.kind => quantity.value,
+        _ if is_zero && first.kind == QuantityKind::Degrees => 0.0,
+        _ => return None,
+    };
+    Some(Range { kind: first.kind, values: [first.value, value], at: [at, end] })
+}
+
+/// Lenses at both ends; `widths` grow with the field of view. What only holds its picture zooms.
+fn take_lenses(step: &mut Step, [first, last]: [Lens; 2], widths: [f64; 2]) {
+    let zoom = if widths[1] < widths[0] { Move::ZoomIn } else { Move::ZoomOut };
+    if matches!(step.movement, Move::Static | Move::Follow | Move::ZoomIn | Move::ZoomOut) {
+        (step.movement, step.either_way, step.amount) = (zoom, false, None);
+        step.with.retain(|movement| !matches!(movement, Move::ZoomIn | Move::ZoomOut));
+    } else if !matches!(step.movement, Move::DollyZoomIn | Move::DollyZoomOut) && !step.with.contains(&zoom) {
+        return;
+    }
+    (step.start.lens, step.end.lens) = (Some(first), Some(last));
+    if step.start.subjects.is_empty() {
+        step.start.subjects.clone_from(&step.end.subjects);
+    }
+    // The first value is none of a turn or of a height in the frame.
+    step.start.elevation_deg = None;
+    step.end.elevation_deg = None;
+}
+
+fn take_elevations(step: &mut Step, [first, last]: [f64; 2]) {
+    (step.start.elevation_deg, step.end.elevation_deg) = (Some(first), Some(last));
+    if step.start.subjects.is_empty() {
+        step.start.subjects.clone_from(&step.end.subjects);
+    }
+    if matches!(step.movement, Move::Static | Move::Follow) {
+        step.movement = if last > first { Move::CraneUp } else { Move::CraneDown };
+        step.either_way = false;
+    }
+}
+
+/// Distances at both ends of a way toward the subject or away from it.
+fn take_distances(step: &mut Step, [first, last]: [f64; 2]) {
+    let fits = match step.movement {
+        Move::PushIn | Move::DollyZoomIn => last < first,
+        Move::PullOut | Move::DollyZoomOut => last > first,
+        _ => false,
+    };
+    if !fits {
+        return;
+    }
+    let is_value = |units: f64| [first, last].iter().any(|value| value.to_bits() == units.to_bits());
+    for framing in [&mut step.start, &mut step.end] {
+        framing.height = framing.height.filter(|height| !is_value(*height));
+    }
+    step.amount = step.amount.filter(|amount| !matches!(amount, Amount::Units(units) if is_value(*units)));
+    (step.start.distance, step.end.distance) = (Some(first), Some(last));
+    let missing = |framing: &Framing| framing.subjects.is_empty();
+    if missing(&step.start) {
+        step.start.subjects.clone_from(&step.end.subjects);
+    } else if missing(&step.end) {
+        step.end.subjects.clone_from(&step.start.subjects);
+    }
+}
