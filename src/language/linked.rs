@@ -75,11 +75,6 @@ pub(crate) fn without_article(name: &str) -> &str {
 }
 
 impl Linked {
-    /// The quantity that a word stands for.
-    pub fn quantity_at(&self, word: &str) -> Option<&Quantity> {
-        self.quantities.get(slot_of(word, QUANTITY)?)
-    }
-
     /// The words that begin in these bytes of the prompt, each with its own.
     pub fn words_in(&self, bytes: [usize; 2]) -> impl Iterator<Item = (&str, [usize; 2])> {
         let words = self.tokens_text.split(' ').zip(self.spans.iter().copied());

@@ -151,8 +151,17 @@ const CAMERA: [&str; 21] = [
 const LOOKS: [&str; 2] = ["effect", "like"];
 /// Endings of words of command.
 const COMMAND_FORMS: [&str; 4] = ["ing", "wards", "ed", "ly"];
-/// Senses of words that say how fast a move is.
-const PACES: [&str; 2] = ["slow", "fast"];
+/// Words that say how fast a move is.
+const PACES: [&str; 5] = ["slow", "slowly", "fast", "quick", "rapid"];
+/// Words that begin the name of a thing, or the way to it.
+const BEFORE_NOUNS: [&str; 12] =
+    ["the", "a", "an", "this", "that", "its", "to", "into", "through", "towards", "above", "past"];
+/// Senses of words that say where to go, or how near or from where to look.
+const COMMANDS: [&str; 36] = [
+    "in", "out", "left", "right", "up", "down", "around", "past", "through", "over", "under", "go", "turn", "nod",
+    "bank", "lens", "sideways", "lift", "circle", "curve", "vertigo", "whip", "follow", "look", "show", "hide", "hold",
+    "shake", "visit", "close", "wide", "medium", "high", "low", "topdown", "eyelevel",
+];
 /// Senses that a word of looks may have besides: `moody` is slow, too.
 const SHADES: [&str; 8] = ["slow", "fast", "smooth", "big", "small", "little", "much", "detail"];
 
@@ -194,7 +203,7 @@ struct Meaning {
     senses: Vec<Senses>,
     looks: Senses,
     hard: Senses,
-    pace: Senses,
+    commands: Senses,
 }
 
 impl Meaning {
@@ -205,13 +214,13 @@ impl Meaning {
             senses: senses_of(words)?,
             looks: Senses::named(&LOOKS)?,
             hard: Senses::named(&hard)?,
-            pace: Senses::named(&PACES)?,
+            commands: Senses::named(&COMMANDS)?,
         })
     }
 
-    /// Whether a word says how fast: `slow moody tone`.
-    fn is_paced(&self, at: usize) -> bool {
-        !self.senses[at].overlaps(self.looks) && self.senses[at].overlaps(self.pace)
+    /// Whether a word says where to go, or how near or from where to look.
+    fn commands(&self, at: usize) -> bool {
+        self.senses[at].overlaps(self.commands)
     }
 
     /// Whether a word has a sense that is not one of looks.
@@ -263,7 +272,11 @@ fn is_about_scenery(words: &[Word], meaning: &Meaning, mentions: &[Mention], [fr
     let Some(head) = (from..to.min(from + MAX_BEFORE + 1)).find(is_head).filter(|_| !is_part) else { return false };
     let head = (head..to).take_while(is_head).last().unwrap_or(head);
     // Of the words before it none asks for anything: `rise above the haze`, `low-angle mood`, `fast tone`.
-    let asks = |at: usize| meaning.tells(at) || meaning.is_paced(at) || named(at);
+    let asks = |at: usize| {
+        // `Floating dust` is no float, `chasing the sunlight` a chase.
+        let is_attribute = word_at(words, at).ends_with("ing") && !BEFORE_NOUNS.contains(&word_at(words, at + 1));
+        named(at) || !is_attribute && (meaning.commands(at) || PACES.contains(&word_at(words, at)))
+    };
     let next = if head + 1 < to { word_at(words, head + 1) } else { "" };
     let is_verb = ["ing", "s", "ed"].iter().any(|ending| next.ends_with(ending));
     // `Light tilt up`, `wind-blown drift`: the light is one of a move.

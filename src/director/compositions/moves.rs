@@ -83,10 +83,16 @@ pub(super) fn names_move(linked: &Linked) -> bool {
         let before = words[..at].iter().rev().take(BAN_REACH).take_while(|word| !matches!(**word, "." | ";" | ":"));
         before.into_iter().any(|word| BANS.contains(word))
     };
+    let leads = |at: usize| {
+        let next = words[at + 1..].iter().take(2);
+        next.into_iter().any(|word| matches!(*word, "in" | "close" | "closer" | "near" | "nearer" | "away" | "back"))
+    };
     let names = |at: usize| match words[at] {
         // `the lower third`, `the back wall`.
         "lower" => false,
         "back" => matches!(words.get(at + 1), Some(&("away" | "off" | "up" | "out"))),
+        // `Get in close on the vase`.
+        "get" | "come" | "go" | "move" if leads(at) => true,
         word => is_move_word(word),
     };
     (0..words.len()).any(|at| names(at) && !is_banned(at))

@@ -15,7 +15,9 @@ const LEAST_STEP_SECS: f64 = 1.5;
 
 /// Whether a word is this time.
 fn is_length_word(linked: &Linked, word: &str, secs: f64) -> bool {
-    linked.quantity_at(word).is_some_and(|quantity| quantity.kind == QuantityKind::Seconds && quantity.value == secs)
+    linked
+        .quantity_at(word)
+        .is_some_and(|quantity| quantity.kind == QuantityKind::Seconds && (quantity.value - secs).abs() < 1e-9)
 }
 
 /// Gives the film a length that stands alone in a clause behind all moves: `.., then a slow zoom in on the vase, airy
@@ -23,7 +25,7 @@ fn is_length_word(linked: &Linked, word: &str, secs: f64) -> bool {
 pub(crate) fn take_film_length(linked: &Linked, program: &mut Program) {
     let Some((last, others)) = program.steps.split_last_mut() else { return };
     let is_open = program.duration_secs.is_none() && others.iter().all(|step| step.duration_secs.is_none());
-    let is_own = matches!(last.movement, Move::Static | Move::WhipPan) || last.speed != Speed::default();
+    let is_own = matches!(last.movement, Move::Static | Move::WhipPan) || last.speed == Speed::Fast;
     let fits = |secs: &f64| *secs >= LEAST_STEP_SECS * (others.len() + 1) as f64;
     let Some(secs) = last.duration_secs.filter(|_| is_open && !others.is_empty() && !is_own).filter(fits) else {
         return;

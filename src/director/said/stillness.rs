@@ -55,8 +55,15 @@ const WANDERS: [&str; 22] = [
 /// Turns a way from one thing to another that only a gaze goes into a turn on the spot: `his gaze wanders from the wall
 /// over to the chair`.
 pub(crate) fn turn_gazes(linked: &Linked, steps: &mut [Step]) {
-    for step in steps.iter_mut().filter(|step| step.movement == Move::Follow && step.via.is_none()) {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+    let mut before = 0;
+    for step in steps {
+        let [_, end] = step.words.unwrap_or_default();
+        // The words between two steps belong to neither: `only his gaze wanders: ..`.
+        let words: Vec<&str> = linked.words_in([before, end]).map(|(word, _)| word).collect();
+        before = before.max(end);
+        if step.movement != Move::Follow || step.via.is_some() {
+            continue;
+        }
         let is_owned = |at: &usize| GAZES.contains(&words[*at]) && *at > 0 && OWNERS.contains(&words[at - 1]);
         let wanders = |at: usize| words[at + 1..].iter().take(2).any(|word| WANDERS.contains(word));
         let is_gaze = (0..words.len()).filter(is_owned).any(wanders);
