@@ -22,15 +22,15 @@ const SOLID: f32 = 0.3;
 const BRIGHTNESS: f64 = 0.1;
 /// Area of a side over that of the widest one from which it counts fully.
 const WIDE_FRAC: f64 = 0.6;
-/// Worth of the front over the mean of all sides from which a thing has one.
+/// Worth of the best side over the mean of all sides from which a thing has a front.
 const LEAST_CONTRAST: f64 = 1.12;
 
 impl Subjects {
     /// The fronts of the subjects that have one: the id of the object, and the level unit direction from its middle.
     ///
-    /// Every thing is rendered alone from 16 sides. Its front is the side with the most detail (change of luminance
-    /// from pixel to pixel) and light, where it stands out from the others: a guitar has strings, its back is plain
-    /// wood.
+    /// Every thing is rendered alone from 16 sides. Its front is the middle of the sides with the most detail (change of
+    /// luminance from pixel to pixel), light and area, where they stand out from the others: a guitar has strings, its
+    /// back is plain wood.
     ///
     /// # Errors
     /// Those of [`Renderer::render`].
@@ -54,12 +54,12 @@ fn front(subject: &Subject, frame: &LevelFrame) -> Result<Option<DVec3>, RenderE
     let widest = seen.iter().map(|[_, area]| *area).fold(0.0, f64::max);
     let breadth = |area: f64| (area / (WIDE_FRAC * widest).max(1.0)).min(1.0);
     let worths: Vec<f64> = seen.iter().map(|[worth, area]| worth * breadth(*area)).collect();
-    // A side counts with its neighbors: the front is the middle of what is worth seeing.
-    let at = |side: usize, by: usize| worths[(side + NUM_SIDES + by - 1) % NUM_SIDES];
-    let smooth: Vec<f64> = (0..NUM_SIDES).map(|i| 0.25 * at(i, 0) + 0.5 * at(i, 1) + 0.25 * at(i, 2)).collect();
-    let mean = smooth.iter().sum::<f64>() / NUM_SIDES as f64;
-    let best = (0..NUM_SIDES).max_by(|a, b| smooth[*a].total_cmp(&smooth[*b])).unwrap_or(0);
-    Ok((mean > 0.0 && smooth[best] > LEAST_CONTRAST * mean).then(|| direction(best)))
+    let mean = worths.iter().sum::<f64>() / NUM_SIDES as f64;
+    let best = worths.iter().copied().fold(0.0, f64::max);
+    // A face is seen from several sides: the front is the middle of those that show more than others.
+    let excess = |side: usize| (worths[side] - mean).max(0.0).powi(2);
+    let toward = (0..NUM_SIDES).map(|side| direction(side) * excess(side)).sum::<DVec3>();
+    Ok(toward.try_normalize().filter(|_| best > LEAST_CONTRAST * mean))
 }
 
 /// Detail and light of one side, over the pixels that show the thing, and the number of these pixels.

@@ -15,6 +15,8 @@ use cinesplat_scene::Bounds;
 
 /// Share of all directions in which the best viewpoint must see matter for the scene to count as indoor.
 const INDOOR_HIT_FRAC: f64 = 0.5;
+/// Points on surfaces by which it is told how much of the scene a place sees.
+const NUM_SAMPLES: usize = 72;
 /// Viewpoints per scene.
 const NUM_VIEWPOINTS: usize = 24;
 /// Share of the viewpoints that must see a point of the region. A few viewpoints see through a window or a hole in a
@@ -34,6 +36,10 @@ pub(super) struct CaptureRegion {
     pub(super) viewpoints: Vec<DVec3>,
     /// Whether the scene surrounds the camera.
     pub(super) indoor: bool,
+    /// Points on the scene's surfaces.
+    samples: Vec<DVec3>,
+    /// Largest share of them that a viewpoint sees.
+    most_seen: f64,
 }
 
 impl CaptureRegion {
@@ -55,7 +61,16 @@ impl CaptureRegion {
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
         let grounded = mean(viewpoints.iter().map(|&eye| grounded_frac(matter, eye, up, size, 96)).collect());
         let least_grounded = if indoor { GROUNDED_OF_VIEWPOINTS_FRAC * grounded } else { 0.0 };
-        Self { least_grounded, up, size, viewpoints, indoor }
+        let samples = surface_samples(matter, &viewpoints, size);
+        let most_seen = viewpoints.iter().map(|&eye| seen_frac(matter, &samples, eye)).fold(0.0, f64::max);
+        Self { least_grounded, up, size, viewpoints, indoor, samples, most_seen }
+    }
+
+    /// Share of the scene's surfaces that a point sees, over what the best viewpoint sees, 0..=1: a capture was made from
+    /// where much of it is in sight, not from behind a curtain.
+    pub(super) fn seen_of_best_frac(&self, matter: &OpacityGrid, point: DVec3) -> f64 {
+        let seen = seen_frac(matter, &self.samples, point);
+        if self.most_seen > 0.0 { (seen / self.most_seen).min(1.0) } else { 1.0 }
     }
 
     /// Whether a point sees surfaces from the captured side: the floor in front of them was captured too.
@@ -76,6 +91,29 @@ impl CaptureRegion {
         }
         seen >= needed
     }
+}
+
+/// Points on surfaces: where rays from the viewpoints end.
+fn surface_samples(matter: &OpacityGrid, viewpoints: &[DVec3], size: f64) -> Vec<DVec3> {
+    let each = NUM_SAMPLES.div_ceil(viewpoints.len().max(1));
+    let from = |(i, &eye): (usize, &DVec3)| {
+        // Every viewpoint takes other directions of the same spiral.
+        let rays = sphere_directions(each * viewpoints.len()).into_iter().skip(i).step_by(viewpoints.len());
+        rays.filter_map(|ray| Some(eye + ray * matter.hit_distance(eye, ray, size)?)).collect::<Vec<_>>()
+    };
+    viewpoints.iter().enumerate().flat_map(from).collect()
+}
+
+/// Share of some points on surfaces that a point sees.
+fn seen_frac(matter: &OpacityGrid, samples: &[DVec3], point: DVec3) -> f64 {
+    let sees = |sample: &&DVec3| {
+        let to = **sample - point;
+        let reach = to.length();
+        let stop = reach - 2.0 * matter.grid.cell;
+        let Some(ray) = to.try_normalize() else { return true };
+        matter.hit_distance(point, ray, reach).is_none_or(|distance| distance >= stop)
+    };
+    samples.iter().filter(sees).count() as f64 / samples.len().max(1) as f64
 }
 
 /// The viewpoints of a scene, and whether it is indoor.

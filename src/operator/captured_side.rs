@@ -13,13 +13,36 @@ const LEAST_FRONT: f64 = 0.3;
 /// Cost of a subject whose captured side faces away altogether: less than that of a violated constraint.
 const BACK_COST: f64 = 2.0;
 
-/// Angle from the middle of the front up to which a side of a lone thing costs nothing.
-const FRONT_RAD: f64 = 0.9;
-/// Cost of the back of a lone thing.
-const OFF_FRONT_COST: f64 = 1.0;
+/// Angle from the middle of the front up to which a side of a lone thing costs nothing: a three-quarter view.
+const FRONT_RAD: f64 = 0.5;
+/// Cost of the back of a lone thing: more than all that pictures cost together, and less than a violated constraint.
+const OFF_FRONT_COST: f64 = 2.8;
+
+/// Cost of the sides from which cameras see the subjects that have to be visible.
+pub(super) fn side_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
+    [back_cost, edge_cost, off_front_cost].map(|cost| cost(world, constraints, states)).into_iter().sum()
+}
+
+/// Breadth of a subject below which it is seen edge-on, and the cost of seeing nothing but its edge.
+const LEAST_BREADTH: f64 = 0.55;
+const EDGE_COST: f64 = 1.6;
+
+/// Cost of cameras that see a flat subject edge-on, where it has to be visible: a picture on a wall from beside it.
+fn edge_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
+    let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
+    let edge_of = |constraint: &Constraint| {
+        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
+        let Some(subject) = world.subject(id) else { return 0.0 };
+        let picked = constraint.scope.of(&ends);
+        let breadth = |state: &CameraState| subject.facets.breadth(subject.center, state.pose.position, world.frame.up);
+        let lack = picked.iter().filter_map(breadth).map(|breadth| (1.0 - breadth / LEAST_BREADTH).max(0.0));
+        lack.sum::<f64>() / picked.len().max(1) as f64
+    };
+    EDGE_COST * constraints.iter().map(edge_of).fold(0.0, f64::max)
+}
 
 /// Cost of cameras that see a subject, where it has to be visible, from the side that was not captured.
-pub(super) fn back_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
+fn back_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
     let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
     let front_of = |constraint: &Constraint| {
         let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 1.0 };
@@ -32,7 +55,7 @@ pub(super) fn back_cost(world: &World, constraints: &[Constraint], states: &[Cam
 }
 
 /// Cost of showing a thing that has a front from elsewhere: nothing else tells which side to show.
-pub(super) fn off_front_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
+fn off_front_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
     let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
     let front = constraints.iter().find_map(|constraint| match constraint.kind {
         ConstraintKind::Unoccluded(id, _) => {

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::captured_side::{back_cost, off_front_cost};
+use super::captured_side::side_cost;
 use super::clearance::{ClearanceQuery, least_clearance};
 use super::constraint::{Constraint, ConstraintKind};
+use super::framing_cost::framing_cost;
 use super::measure::{SEARCH_POINTS, measure};
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pictures::{pictures_cost, under_furniture_cost};
@@ -44,7 +45,8 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
         HIDDEN_COST * (1.0 - measured.value).clamp(0.0, 1.0)
     };
     total += expensive.into_iter().map(charge_hidden).sum::<f64>();
-    total += back_cost(world, &segment.constraints, &states) + off_front_cost(world, &segment.constraints, &states);
+    total += side_cost(world, &segment.constraints, &states);
+    total += aside_cost(world, &states) + framing_cost(world, segment, &states);
     total + pictures_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
 }
 
@@ -102,14 +104,32 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
     let wrong = ends.iter().filter(|s| !world.sees_front_faces(position(s))).count();
     let outside = most(World::outside_frac);
-    3.0 * wrong as f64 + if world.is_indoor() { (8.0 * outside).min(2.0) } else { (8.0 * sunk).min(2.0) }
+    let far = if world.is_indoor() { outside - OUTSIDE_FRAC } else { sunk };
+    3.0 * wrong as f64 + (8.0 * far).clamp(0.0, 2.0)
 }
 
+/// Distance from the core box of a room, over the scene size, from which a camera in the captured region is far outside:
+/// one wall of a room is captured from before it.
+const OUTSIDE_FRAC: f64 = 0.25;
 /// Cost of a segment that leaves the captured region of a room, under its floor or behind its walls: more than that of two
 /// violated constraints, because nobody keeps a film of the backs of walls.
 const LEFT_ROOM_COST: f64 = 24.0;
 /// Cost of an end of a segment outside the captured region of a room.
 const OUTSIDE_COST: f64 = 12.0;
+
+/// Share of the scene's surfaces, over what the best place sees, below which a camera stands aside; cost of seeing none.
+const LEAST_SEEN_FRAC: f64 = 0.6;
+const ASIDE_COST: f64 = 2.0;
+
+/// Cost of ends of a segment in a room from which little of it is in sight: behind a curtain or outside a window the
+/// capture shows the backs of things.
+fn aside_cost(world: &World, states: &[CameraState]) -> f64 {
+    if !world.is_indoor() {
+        return 0.0;
+    }
+    let lack = |state: &CameraState| (1.0 - world.seen_of_best_frac(state.pose.position) / LEAST_SEEN_FRAC).max(0.0);
+    ASIDE_COST * lack(&states[0]).max(lack(&states[states.len() - 1]))
+}
 
 /// Cost of the ends of a segment outside the captured region of a room, from where its walls are seen from behind: where
 /// no camera meets all the words, the film still stays in the room.
@@ -141,5 +161,5 @@ pub(super) fn captured_frac(world: &World, states: &[CameraState]) -> f64 {
 fn deviation(world: &World, state: &CameraState, proposed: &CameraState) -> f64 {
     let apart = state.pose.position.distance(proposed.pose.position) / world.bounds.size();
     let turned = state.pose.forward().angle_between(proposed.pose.forward());
-    0.5 * apart.min(1.0) + 0.25 * turned
+    0.2 * apart.min(1.0) + 0.1 * turned
 }

@@ -25,6 +25,7 @@ mod facets;
 mod flow;
 mod forbidden;
 mod framing;
+mod framing_cost;
 mod grid;
 mod handles;
 mod inward;

@@ -2,7 +2,7 @@
 //!
 //! A film is as good as its worst picture: an end in black is not made good by a fine start.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::constraint::{Constraint, ConstraintKind};
 use super::program::Pass;
@@ -69,6 +69,58 @@ pub(super) fn pictures_cost(world: &World, states: &[CameraState]) -> f64 {
 /// Void of the worst picture of some cameras, as a share of it.
 pub(super) fn worst_void(world: &World, states: impl Iterator<Item = CameraState>) -> f64 {
     states.map(|state| picture(world, &state, END_RAYS).void).fold(0.0, f64::max)
+}
+
+/// Which directions around a picture meet no matter: a grid of cells over the frame and a margin around it.
+pub(super) struct VoidMap {
+    /// Half the width and height of the frame on the plane at depth 1.
+    half: DVec2,
+    is_void: Vec<bool>,
+}
+
+impl VoidMap {
+    /// Columns and rows of the frame.
+    const CELLS: [i32; 2] = [14, 8];
+    /// Columns and rows of the margin on each side: turns go up to it.
+    pub(super) const MARGIN: [i32; 2] = [4, 2];
+    /// The same as numbers.
+    pub(super) const MARGIN_CELLS: DVec2 = DVec2::new(4.0, 2.0);
+
+    /// Share of void in the frame that is moved by some cells to the right and down.
+    pub(super) fn void(&self, [right, down]: [i32; 2]) -> f64 {
+        let ([columns, rows], [side, top]) = (Self::CELLS, Self::MARGIN);
+        let stride = columns + 2 * side;
+        let is_void = |column: i32, row: i32| {
+            let index = (row + top + down) * stride + column + side + right;
+            usize::try_from(index).ok().and_then(|index| self.is_void.get(index)).copied().unwrap_or(true)
+        };
+        let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let count = cells.filter(|&(column, row)| is_void(column, row)).count();
+        count as f64 / f64::from(columns * rows)
+    }
+
+    /// Direction of the middle of the frame that is moved by some cells, world.
+    pub(super) fn direction(&self, state: &CameraState, [right, down]: [i32; 2]) -> DVec3 {
+        let at = 2.0 * self.half * DVec2::new(f64::from(right), f64::from(down))
+            / DVec2::new(f64::from(Self::CELLS[0]), f64::from(Self::CELLS[1]));
+        state.pose.rotation * at.extend(1.0).normalize()
+    }
+}
+
+/// The void around the picture of a camera.
+pub(super) fn void_map(world: &World, state: &CameraState) -> VoidMap {
+    let tan = (state.fov_y_rad / 2.0).tan();
+    let mut map = VoidMap { half: DVec2::new(tan * world.aspect, tan), is_void: Vec::new() };
+    let ([columns, rows], [side, top]) = (VoidMap::CELLS, VoidMap::MARGIN);
+    let middle = |at: i32, count: i32| (f64::from(at) + 0.5) / f64::from(count) * 2.0 - 1.0;
+    for row in -top..rows + top {
+        for column in -side..columns + side {
+            let at = map.half * DVec2::new(middle(column, columns), middle(row, rows));
+            let ray = state.pose.rotation * at.extend(1.0).normalize();
+            map.is_void.push(world.hit_distance(state.pose.position, ray).is_none());
+        }
+    }
+    map
 }
 
 /// How far a share is above its limit: 0 at or below it, 0.2 just above it, and 1.2 from twice the limit on.

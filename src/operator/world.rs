@@ -129,7 +129,8 @@ impl World {
 
     /// Azimuth of the front of the subject with this middle, where it is known.
     pub(super) fn known_front(&self, center: DVec3) -> Option<f64> {
-        self.subjects.values().find(|subject| subject.center == center)?.front_rad
+        let tolerance = 1e-6 * self.bounds.size();
+        self.subjects.values().find(|subject| subject.center.distance(center) <= tolerance)?.front_rad
     }
 
     /// Distance from a world point to the nearest matter, scene units; 0 inside. At most a little more than twice the
@@ -147,6 +148,11 @@ impl World {
     /// Whether a world point lies in the region from which the scene was captured, as estimated from the matter.
     pub fn in_capture_region(&self, point: DVec3) -> bool {
         self.region.contains(&self.matter, point)
+    }
+
+    /// Share of the scene's surfaces that a world point sees, over what the best place sees, 0..=1.
+    pub(super) fn seen_of_best_frac(&self, point: DVec3) -> f64 {
+        self.region.seen_of_best_frac(&self.matter, point)
     }
 
     /// Whether a camera at a world point sees surfaces from the side that was captured.
@@ -234,7 +240,7 @@ impl Subject {
         } else {
             corners.clone()
         };
-        let facets = Facets::of(gaussians, &solid, object.center);
+        let facets = Facets::of(gaussians, &solid, object.center, object.radius());
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !near[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
         let half = object.half_extents;

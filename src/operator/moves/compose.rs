@@ -159,7 +159,8 @@ fn turn(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
     }
 }
 
-fn turned_by(context: &StepContext, state: &CameraState, (yaw_rad, pitch_rad): (f64, f64)) -> CameraState {
+/// The camera turned in place by a yaw and a pitch.
+pub(super) fn turned_by(context: &StepContext, state: &CameraState, (yaw_rad, pitch_rad): (f64, f64)) -> CameraState {
     let frame = &context.world.frame;
     let angles = frame.angles(state.pose.rotation);
     let angles = LevelAngles { yaw_rad: angles.yaw_rad + yaw_rad, pitch_rad: angles.pitch_rad + pitch_rad, ..angles };

@@ -193,7 +193,10 @@ impl<'a> StepContext<'a> {
             return view;
         }
         let mut azimuths_rad = self.azimuths_rad.clone();
-        azimuths_rad.extend(broadside_azimuths(&self.world.frame, &target.corners));
+        match self.world.known_front(target.center) {
+            Some(front) => azimuths_rad.push(front),
+            None => azimuths_rad.extend(broadside_azimuths(&self.world.frame, &target.corners)),
+        }
         let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
         let close = height.is_some_and(|height| height >= 0.8);
         // Close views use a long lens, so that the camera does not have to stand inside its subject.

@@ -15,6 +15,7 @@ mod passes;
 mod paths;
 mod requirements;
 mod room_view;
+mod scanned;
 mod standing;
 mod standing_view;
 mod straight;
@@ -46,6 +47,7 @@ fn built(context: &StepContext) -> Vec<MotionSegment> {
         look::look(context, &mut segments);
         compose::rejoin(context, &mut segments);
     }
+    scanned::fill_frame(context, &mut segments);
     level::keep_height(context, &mut segments);
     requirements::require(context, &mut segments);
     if let Some(first) = segments.first_mut() {

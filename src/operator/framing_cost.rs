@@ -1,0 +1,78 @@
+//! What the framing of a segment's ends is worth: subjects that the edge of the frame cuts, and turns that hardly show.
+
+use super::constraint::{Constraint, ConstraintKind, Scope};
+use super::framing::in_frame_frac;
+use super::motion::MotionSegment;
+use super::world::World;
+use cinesplat_trajectory::{CameraState, Move};
+
+/// Cost of a subject that is wholly out of the frame at an end, over what of it is cut.
+const CUT_COST: f64 = 1.4;
+/// Height in the frame from which a stated size cuts its subject: that of a medium close-up.
+const CUTTING_HEIGHT: f64 = 0.8;
+/// Radius of a subject over the scene size from which it is part of the room, and no picture has to hold it.
+const LARGE_FRAC: f64 = 0.22;
+/// Margin of the frame, over its size, within which a subject touches the edge.
+const EDGE: f64 = 0.01;
+/// Cost of a turn from one subject to another that does not change the picture.
+const SHORT_TURN_COST: f64 = 0.9;
+/// Angle of such a turn over the field of view from which on it costs nothing.
+const LEAST_TURN: f64 = 0.55;
+
+/// Cost of the framing at the ends of a segment.
+pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    cut_cost(world, segment, states) + short_turn_cost(world, segment, states)
+}
+
+/// Cost of a subject that is cut by the edge of the frame at an end for which the words state no size that cuts it.
+fn cut_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let along = matches!(segment.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
+    let ends = [(Scope::Start, &states[0]), (Scope::End, &states[states.len() - 1])];
+    let cut_at = |constraint: &Constraint| {
+        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
+        let Some(subject) = world.subject(id).filter(|_| !along) else { return 0.0 };
+        if world.is_indoor() && subject.radius > LARGE_FRAC * world.bounds.size() {
+            return 0.0;
+        }
+        let holds = |(scope, _): &&(Scope, &CameraState)| {
+            let applies = constraint.scope == *scope || constraint.scope == Scope::All;
+            applies && !is_to_be_cut(&segment.constraints, id, *scope)
+        };
+        let cut = |(_, state): &(Scope, &CameraState)| 1.0 - in_frame_frac(world, state, &subject.points, EDGE);
+        ends.iter().filter(holds).map(cut).fold(0.0, f64::max)
+    };
+    CUT_COST * segment.constraints.iter().map(cut_at).fold(0.0, f64::max)
+}
+
+/// Whether the words ask for a picture that a subject does not fit in.
+fn is_to_be_cut(constraints: &[Constraint], id: u32, scope: Scope) -> bool {
+    let cuts = |constraint: &Constraint| match &constraint.kind {
+        ConstraintKind::Height(target, (low, _)) => target.ids.contains(&id) && *low >= CUTTING_HEIGHT,
+        ConstraintKind::NotWhole(ids, _) => ids.contains(&id),
+        ConstraintKind::Distance(target, _) => target.ids.contains(&id),
+        _ => false,
+    };
+    constraints
+        .iter()
+        .any(|constraint| (constraint.scope == scope || constraint.scope == Scope::All) && cuts(constraint))
+}
+
+/// Cost of a pan between two subjects that are in the frame together from its start to its end.
+fn short_turn_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    if !matches!(segment.movement, Move::PanLeft | Move::PanRight | Move::WhipPan) {
+        return 0.0;
+    }
+    let seen_at = |wanted: Scope| {
+        segment.constraints.iter().find_map(move |constraint| match constraint.kind {
+            ConstraintKind::Unoccluded(id, _) if constraint.scope == wanted => Some(id),
+            _ => None,
+        })
+    };
+    if seen_at(Scope::Start).is_none() || seen_at(Scope::Start) == seen_at(Scope::End) {
+        return 0.0;
+    }
+    let (first, last) = (&states[0], &states[states.len() - 1]);
+    let turn_rad = first.pose.forward().angle_between(last.pose.forward());
+    let field_rad = 2.0 * ((first.fov_y_rad / 2.0).tan() * world.aspect.max(1.0)).atan();
+    SHORT_TURN_COST * (1.0 - turn_rad / (LEAST_TURN * field_rad)).max(0.0)
+}

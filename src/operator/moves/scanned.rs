@@ -1,0 +1,197 @@
+//! Composition at the edge of a capture: where a room ends in void on one side, the camera turns towards what was
+//! captured, and the subject stands off the middle on the side of the void.
+//!
+//! Enters: the segments of a move, aimed at the middle of their subjects. Leaves: the same segments, turned by a few
+//! degrees where that takes void out of the frame. Scenes without void, stated places and stated turns stay as they are.
+
+use glam::DVec2;
+
+use super::compose::{rejoin, turned_by};
+use super::context::StepContext;
+use crate::constraint::ConstraintKind;
+use crate::framing::{Target, in_frame_frac, off_center};
+use crate::motion::MotionSegment;
+use crate::pictures::{VoidMap, void_map};
+use crate::view::{aimed, lerp};
+use cinesplat_geometry::rotation;
+use cinesplat_trajectory::{CameraState, Move};
+
+/// Void of a picture from which on another composition is looked for.
+const LEAST_VOID: f64 = 0.05;
+/// Largest distance of a subject from the frame's middle, over the frame's width and height: where the words want it in
+/// the middle it still counts as there.
+const MOST_OFF: f64 = 0.13;
+/// The same for a subject on a third, with the least distance.
+const THIRD_BAND: (f64, f64) = (0.135, 0.195);
+/// Cost of the largest turn, as a share of void: less void than this is not worth it.
+const TURN_COST: f64 = 0.04;
+
+/// Turns the step's own motion, its last segment, away from void, and lets its join end where that motion then begins.
+pub(super) fn fill_frame(context: &StepContext, segments: &mut Vec<MotionSegment>) {
+    let Some(way) = way_of(context.step.movement) else { return };
+    let stated = [&context.step.start, &context.step.end].iter().any(|framing| framing.place.is_some());
+    if !context.world.is_indoor() || stated || context.step.look.is_some() || !context.forbidden.is_empty() {
+        return;
+    }
+    let Some(segment) = segments.last_mut().filter(|segment| !segment.is_join) else { return };
+    let last = segment.states.len() - 1;
+    let continues = context.before.is_some_and(|before| is_same_camera(&before, &segment.states[0]));
+    let third = segment.constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::OnThird(_)));
+    let first = Picture::of(context, &segment.states[0], context.opening_target(), third);
+    let end = Picture::of(context, &segment.states[last], context.main_target(), third);
+    let Some((from, to)) = turns(context, way, continues, &first, &end) else { return };
+    if from == (0.0, 0.0) && to == (0.0, 0.0) {
+        return;
+    }
+    for (i, state) in segment.states.iter_mut().enumerate() {
+        let share = i as f64 / last as f64;
+        *state = turned_by(context, state, (lerp((from.0, to.0), share), lerp((from.1, to.1), share)));
+    }
+    rejoin(context, segments);
+    segments.retain(|segment| !(segment.is_join && is_same_camera(&segment.states[0], &segment.last())));
+}
+
+/// How the turn of a move may differ between its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// The camera keeps its direction: one turn for the whole move.
+    Same,
+    /// A pan keeps its pitch.
+    SamePitch,
+    /// A tilt keeps its yaw.
+    SameYaw,
+    /// Both ends for themselves.
+    Free,
+}
+
+fn way_of(movement: Move) -> Option<Way> {
+    match movement {
+        Move::PanLeft | Move::PanRight | Move::WhipPan => Some(Way::SamePitch),
+        Move::TiltUp | Move::TiltDown => Some(Way::SameYaw),
+        Move::OrbitLeft
+        | Move::OrbitRight
+        | Move::ArcLeft
+        | Move::ArcRight
+        | Move::CraneUp
+        | Move::CraneDown
+        | Move::Follow
+        | Move::Reveal => Some(Way::Free),
+        Move::RollCw | Move::RollCcw | Move::FlyThrough | Move::RackFocus | Move::Handheld => None,
+        _ => Some(Way::Same),
+    }
+}
+
+/// The turns, yaw and pitch, of the first and of the last camera. `None` where there is too little void.
+fn turns(
+    context: &StepContext,
+    way: Way,
+    continues: bool,
+    first: &Picture,
+    last: &Picture,
+) -> Option<((f64, f64), (f64, f64))> {
+    if first.void().max(last.void()) < LEAST_VOID {
+        return None;
+    }
+    let none = (0.0, 0.0);
+    match way {
+        Way::Same if continues => None,
+        Way::Same => {
+            let both = |at: [i32; 2]| Some((first.cost(context, at)?.max(last.cost(context, at)?), at));
+            let (_, at) = Picture::places().filter_map(both).min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let by = first.turn_to_before(context).unwrap_or_else(|| first.turn(context, at));
+            Some((by, by))
+        }
+        _ => {
+            let from =
+                if continues { none } else { first.turn_to_before(context).unwrap_or_else(|| first.best(context)) };
+            let to = last.best(context);
+            Some(match way {
+                Way::SamePitch => ((from.0, 0.0), (to.0, 0.0)),
+                Way::SameYaw => ((0.0, from.1), (0.0, to.1)),
+                _ => (from, to),
+            })
+        }
+    }
+}
+
+/// One end of a move: its camera, its target, and where its surroundings are void.
+struct Picture {
+    state: CameraState,
+    target: Target,
+    /// The subject stands on a third of the frame.
+    is_on_third: bool,
+    map: VoidMap,
+}
+
+impl Picture {
+    fn of(context: &StepContext, state: &CameraState, target: Target, is_on_third: bool) -> Self {
+        Self { state: *state, target, is_on_third, map: void_map(context.world, state) }
+    }
+
+    fn void(&self) -> f64 {
+        self.map.void([0, 0])
+    }
+
+    /// Turns by whole cells of the map, the unturned picture first.
+    fn places() -> impl Iterator<Item = [i32; 2]> {
+        let [columns, rows] = VoidMap::MARGIN;
+        std::iter::once([0, 0]).chain((-columns..=columns).flat_map(move |x| (-rows..=rows).map(move |y| [x, y])))
+    }
+
+    /// Void of the picture turned by some cells, with the cost of the turn. `None` where its subject would leave the
+    /// middle or the frame.
+    fn cost(&self, context: &StepContext, at: [i32; 2]) -> Option<f64> {
+        let share = DVec2::new(f64::from(at[0]), f64::from(at[1])) / VoidMap::MARGIN_CELLS;
+        let cost = self.map.void(at) + TURN_COST * share.length();
+        let stays = at == [0, 0] || self.keeps_subject(context, &self.turned(context, at));
+        stays.then_some(cost)
+    }
+
+    /// Whether the subject stays near the middle and as whole as it is, seen from a turned camera.
+    fn keeps_subject(&self, context: &StepContext, turned: &CameraState) -> bool {
+        let (world, target) = (context.world, &self.target);
+        let off = off_center(world, turned, target.aim).max(off_center(world, turned, target.center));
+        let framed = |state: &CameraState| in_frame_frac(world, state, &target.corners, 0.02);
+        let (least, most) = if self.is_on_third { THIRD_BAND } else { (0.0, MOST_OFF) };
+        target.ids.is_empty() || ((least..=most).contains(&off) && framed(turned) >= framed(&self.state))
+    }
+
+    fn best(&self, context: &StepContext) -> (f64, f64) {
+        let priced = Self::places().filter_map(|at| Some((self.cost(context, at)?, at)));
+        let best = priced.min_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or((0.0, 0.0), |(_, at)| self.turn(context, at))
+    }
+
+    /// The turn back to the camera before, where it stands at the same place and its picture has no more void.
+    fn turn_to_before(&self, context: &StepContext) -> Option<(f64, f64)> {
+        let before = context.before.filter(|before| is_same_place(before, &self.state))?;
+        let kept = self.keeps_subject(context, &before);
+        let is_as_good = kept && void_map(context.world, &before).void([0, 0]) <= self.void();
+        is_as_good.then(|| turn_between(context, &self.state, &before))
+    }
+
+    fn turned(&self, context: &StepContext, at: [i32; 2]) -> CameraState {
+        let ahead = self.state.pose.position + self.map.direction(&self.state, at);
+        aimed(context.world, &self.state, ahead)
+    }
+
+    fn turn(&self, context: &StepContext, at: [i32; 2]) -> (f64, f64) {
+        turn_between(context, &self.state, &self.turned(context, at))
+    }
+}
+
+/// Yaw and pitch between two cameras.
+fn turn_between(context: &StepContext, from: &CameraState, to: &CameraState) -> (f64, f64) {
+    let frame = &context.world.frame;
+    let (from, to) = (frame.angles(from.pose.rotation), frame.angles(to.pose.rotation));
+    (rotation::short_turn(to.yaw_rad - from.yaw_rad), to.pitch_rad - from.pitch_rad)
+}
+
+/// Whether two cameras stand at the same place with the same lens.
+fn is_same_place(a: &CameraState, b: &CameraState) -> bool {
+    a.pose.position.distance(b.pose.position) < 1e-9 && (a.fov_y_rad - b.fov_y_rad).abs() < 1e-9
+}
+
+fn is_same_camera(a: &CameraState, b: &CameraState) -> bool {
+    is_same_place(a, b) && rotation::angle_between(a.pose.rotation, b.pose.rotation) < 1e-6
+}
