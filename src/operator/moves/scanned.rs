@@ -105,11 +105,15 @@ fn turns(
             let from =
                 if continues { none } else { first.turn_to_before(context).unwrap_or_else(|| first.best(context)) };
             let to = last.best(context);
-            Some(match way {
+            let (from, to) = match way {
                 Way::SamePitch => ((from.0, 0.0), (to.0, 0.0)),
                 Way::SameYaw => ((0.0, from.1), (0.0, to.1)),
                 _ => (from, to),
-            })
+            };
+            // A pan or a tilt is a turn: it is not made smaller.
+            let own = turn_between(context, &first.state, &last.state);
+            let shrinks = (own.0 * (to.0 - from.0)).min(own.1 * (to.1 - from.1)) < 0.0;
+            (way == Way::Free || !shrinks).then_some((from, to))
         }
     }
 }
