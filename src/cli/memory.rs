@@ -24,8 +24,11 @@ const SPARE_BYTES: u64 = 48 << 20;
 pub(super) fn set_max(bytes: u64) {
     let bounds = [in_group(group_memory_max), bytes_in("/proc/meminfo", "MemTotal:")];
     let bytes = bounds.into_iter().flatten().fold(bytes, u64::min);
-    // What the program holds before its first command is in the bound too.
-    allocator::set_cap(bytes.saturating_sub(status_bytes("VmRSS:").unwrap_or(0)));
+    // What the program holds before its first command is in the bound too, and so is what of its own file is not read yet.
+    let held = status_bytes("VmRSS:").unwrap_or(0);
+    let own_file = std::env::current_exe().and_then(fs::metadata).map_or(0, |file| file.len());
+    let unread = own_file.saturating_sub(status_bytes("RssFile:").unwrap_or(0));
+    allocator::set_cap(bytes.saturating_sub(held + unread));
 }
 
 /// Bytes that may still be taken; `None` where nothing bounds them, or the system does not say.

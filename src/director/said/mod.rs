@@ -1,6 +1,7 @@
 //! What the words of a step say plainly, over what the network read into them.
 
 mod bans;
+mod circles;
 mod directions;
 mod dolly_zoom;
 mod heights;
@@ -53,6 +54,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     stillness::hold_slants(linked, steps);
     stillness::circle_spirals(linked, steps);
     places::rise_by_lengths(linked, steps);
+    circles::turn_all_round(linked, steps);
     ranges::take_ranges(linked, steps);
     lengths::take_film_length(linked, &mut direction.program);
     bans::drop_misplaced_bans(linked, &mut direction.program);

@@ -190,6 +190,7 @@ fn turn(
     let open_rad = lerp(open_deg, context.parameters[6]).to_radians();
     let stated_rad = match context.step.amount {
         Some(Amount::Degrees(degrees)) => Some(degrees.to_radians()),
+        Some(Amount::Factor(turns)) if !tilts => Some(turns * std::f64::consts::TAU),
         Some(Amount::Slight) => Some(14.0_f64.to_radians()),
         Some(Amount::Large) => Some(75.0_f64.to_radians()),
         _ => None,
@@ -207,7 +208,16 @@ fn turn(
     };
     let is_pinned = context.before.is_some() || !segments.is_empty() || stated_rad.is_some();
     let (first, last) = if tilts { (first, last) } else { leveled(context, [first, last], is_pinned) };
-    let mut segment = context.segment(vec![first, last]);
+    // Half a turn and more is no shortest way from the first camera to the last.
+    let wide_rad = stated_rad.filter(|angle_rad| !tilts && *angle_rad > WIDE_TURN_RAD);
+    let states = match wide_rad {
+        Some(angle_rad) => {
+            let count = (angle_rad / WIDE_TURN_RAD).ceil().max(1.0);
+            (0..=count as usize).map(|i| by(&first, angle_rad * i as f64 / count)).collect()
+        }
+        None => vec![first, last],
+    };
+    let mut segment = context.segment(states);
     // A whip goes to its goal, whichever way that is, unless the words name one.
     let names_way = context.step.with.iter().any(|other| matches!(other, Move::PanLeft | Move::PanRight));
     let is_open = whip && (context.step.either_way || (context.end.is_some() && !names_way));
@@ -215,7 +225,7 @@ fn turn(
         // Between two subjects a stated angle is one to look for a place for.
         let sought = match context.step.amount {
             Some(Amount::Degrees(degrees)) if is_between(context) => Some(degrees),
-            _ => None,
+            _ => wide_rad.map(f64::to_degrees),
         };
         let (least, most) = sought.map_or(if tilts { TILT_RANGE_DEG } else { PAN_RANGE_DEG }, |degrees| {
             ((1.0 - ANGLE_TOLERANCE) * degrees, (1.0 + ANGLE_TOLERANCE) * degrees)
@@ -237,6 +247,8 @@ fn turn(
     segments
 }
 
+/// Angle of a pan from which on it passes through cameras between its ends.
+const WIDE_TURN_RAD: f64 = 2.0;
 /// Least and largest turn of a pan and of a tilt, degrees.
 const PAN_RANGE_DEG: (f64, f64) = (13.0, 178.0);
 const TILT_RANGE_DEG: (f64, f64) = (10.0, 120.0);
