@@ -15,6 +15,8 @@ use cinesplat_scene::Bounds;
 
 /// Share of all directions in which the best viewpoint must see matter for the scene to count as indoor.
 const INDOOR_HIT_FRAC: f64 = 0.5;
+/// Least sine of the angle below the horizon of rays that look for the floor.
+const STEEP_SIN: f64 = 0.8;
 /// Points on surfaces by which it is told how much of the scene a place sees.
 const NUM_SAMPLES: usize = 72;
 /// Viewpoints per scene.
@@ -64,6 +66,19 @@ impl CaptureRegion {
         let samples = surface_samples(matter, &viewpoints, size);
         let most_seen = viewpoints.iter().map(|&eye| seen_frac(matter, &samples, eye)).fold(0.0, f64::max);
         Self { least_grounded, up, size, viewpoints, indoor, samples, most_seen }
+    }
+
+    /// Height along up of the floor: of what lies below the viewpoints, a quarter is no higher. Things stand on the floor,
+    /// and through windows one sees the ground outside. `None` where nothing lies below them.
+    pub(super) fn floor_height(&self, matter: &OpacityGrid) -> Option<f64> {
+        let below = sphere_directions(NUM_SAMPLES).into_iter().filter(|ray| ray.dot(self.up) < -STEEP_SIN);
+        let rays: Vec<DVec3> = below.collect();
+        let hit =
+            |(eye, ray): (DVec3, DVec3)| Some((eye + ray * matter.hit_distance(eye, ray, self.size)?).dot(self.up));
+        let pairs = self.viewpoints.iter().flat_map(|&eye| rays.iter().map(move |&ray| (eye, ray)));
+        let mut heights: Vec<f64> = pairs.filter_map(hit).collect();
+        heights.sort_by(f64::total_cmp);
+        heights.get(heights.len() / 4).copied()
     }
 
     /// Share of the scene's surfaces that a point sees, over what the best viewpoint sees, 0..=1: a capture was made from

@@ -19,9 +19,20 @@ const SHORT_TURN_COST: f64 = 0.9;
 /// Angle of such a turn over the field of view from which on it costs nothing.
 const LEAST_TURN: f64 = 0.55;
 
+/// Cost of a pull-out whose lens widens at all: nearly that of a violated constraint.
+const WIDENED_COST: f64 = 2.5;
+
 /// Cost of the framing at the ends of a segment.
 pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
-    cut_cost(world, segment, states) + short_turn_cost(world, segment, states)
+    cut_cost(world, segment, states) + short_turn_cost(world, segment, states) + widened_cost(segment)
+}
+
+/// Cost of a pull-out that widens its lens because the room ends behind the camera: as one that stays in the room by
+/// itself is better.
+fn widened_cost(segment: &MotionSegment) -> f64 {
+    let tan = |state: &CameraState| (state.fov_y_rad / 2.0).tan();
+    let widened = (tan(&segment.last()) / tan(&segment.states[0])).ln().abs();
+    if segment.movement == Move::PullOut && widened > 0.01 { WIDENED_COST + widened } else { 0.0 }
 }
 
 /// Cost of a subject that is cut by the edge of the frame at an end for which the words state no size that cuts it.

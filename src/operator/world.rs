@@ -48,6 +48,8 @@ pub struct World {
     matter: OpacityGrid,
     clearance: ClearanceIndex,
     region: CaptureRegion,
+    /// Height along up of the floor, or of the bottom of the scene's core box.
+    floor_height: f64,
     /// All objects of the scene.
     pub(super) things: Vec<Thing>,
     /// Places where people stand in a room, with what they look at. [`lookouts`](super::lookouts::lookouts) finds them
@@ -99,9 +101,13 @@ impl World {
         let camera_radius = default_camera_radius(&bounds);
         let things =
             objects.objects.iter().map(|object| Thing { center: object.center, radius: object.radius() }).collect();
+        let bottom = frame.height(bounds.core_min).min(frame.height(bounds.core_max));
+        let floor_height =
+            region.floor_height(&matter).filter(|_| region.indoor).map_or(bottom, |floor| floor.max(bottom));
         Ok(Self {
             frame,
             bounds,
+            floor_height,
             aspect: DEFAULT_ASPECT,
             camera_radius,
             subjects,
@@ -161,8 +167,8 @@ impl World {
     }
 
     /// Height along up of the bottom of the scene's core box: the floor of a room, or the foot of an object.
-    fn floor_height(&self) -> f64 {
-        self.frame.height(self.bounds.core_min).min(self.frame.height(self.bounds.core_max))
+    pub(super) fn floor_height(&self) -> f64 {
+        self.floor_height
     }
 
     /// Height of a standing person's eyes above the floor.
@@ -170,7 +176,7 @@ impl World {
         EYE_FRAC * self.bounds.size()
     }
 
-    /// Height of a point above the bottom of the scene's core box.
+    /// Height of a point above the floor of a room, or above the bottom of the core box of an object.
     pub(super) fn height_above_floor(&self, point: DVec3) -> f64 {
         self.frame.height(point) - self.floor_height()
     }

@@ -100,7 +100,7 @@ pub(super) fn gate(context: &StepContext, via: &Via) -> Option<DVec3> {
     match (via.how, subject(1)) {
         (Pass::Between, Some(second)) => {
             let at = first.center.lerp(second.center, lerp((0.3, 0.7), context.parameters[0]));
-            let floor = frame.height(world.bounds.core_min).min(frame.height(world.bounds.core_max));
+            let floor = world.floor_height();
             let high = top(&first.corners).max(top(&second.corners));
             let height = lerp((0.35, 1.05), context.parameters[1]) * (high - floor) + floor;
             Some(frame.horizontal(at) + frame.up * height)

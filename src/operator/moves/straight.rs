@@ -8,8 +8,8 @@ use super::standing_view::stands;
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
 use crate::framing::{Fill, Target, bearing_of, distance_for, frame_position, in_frame_frac};
 use crate::motion::MotionSegment;
-use crate::program::{Amount, Framing, Pass, SubjectPart};
-use crate::view::{LYING_RADII, aimed, distance_along, lerp, moved, stated_fill};
+use crate::program::{Amount, Framing, Motion, Pass, SubjectPart};
+use crate::view::{LYING_RADII, aimed, distance_along, lerp, moved, stated_fill, with_fov};
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Moves along the line to the subject, toward it or away from it.
@@ -31,6 +31,7 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let first = if backs_into_view(context, &target, inward) { nearer(&first, &target, ratio) } else { first };
     let distance = first.pose.position.distance(target.aim);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
+    let last = if inward { last } else { within_room(context, &first, distance, last) };
     let segment = context.segment(vec![first, last]);
     let wanted = if inward { (0.0, 0.76) } else { (1.32, f64::INFINITY) };
     let subtle = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_) | Amount::Factor(_)));
@@ -62,6 +63,30 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
 fn backs_into_view(context: &StepContext, target: &Target, inward: bool) -> bool {
     !inward && target.ids.is_empty() && context.before.is_none() && context.world.is_indoor()
 }
+
+/// The end of a pull-out that goes on from another step and is to hold more: before the wall behind the camera where the way
+/// is much longer than the room, with a wider lens instead.
+fn within_room(context: &StepContext, first: &CameraState, distance: f64, last: CameraState) -> CameraState {
+    let world = context.world;
+    let is_open = context.before.is_some() && (context.step.end.whole || context.step.end.size.is_some());
+    let may_zoom = !context.forbidden.contains(&Motion::Zoom) && context.step.end.lens.is_none();
+    let way = last.pose.position.distance(first.pose.position);
+    let free = world.hit_distance(first.pose.position, -first.pose.forward()).unwrap_or(f64::INFINITY);
+    let free = (free - WALL_RADII * world.camera_radius).max(0.0);
+    let leaves = free < way && way > LONG_WAY * distance && !world.in_capture_region(last.pose.position);
+    if !world.is_indoor() || !is_open || !may_zoom || context.step.amount.is_some() || !leaves {
+        return last;
+    }
+    let tan = (first.fov_y_rad / 2.0).tan() * (distance + way) / (distance + free);
+    let tan = tan.min((WIDEST_DEG / 2.0).to_radians().tan()).max((first.fov_y_rad / 2.0).tan());
+    with_fov(&moved(first, -first.pose.forward() * free), 2.0 * tan.atan())
+}
+
+/// Way of a pull-out over its first distance from which on it is a flight out of the house.
+const LONG_WAY: f64 = 4.0;
+/// Distance of a camera from the wall behind it, over its radius, and the widest lens of a pull-out that ends there.
+const WALL_RADII: f64 = 3.0;
+const WIDEST_DEG: f64 = 78.0;
 
 /// The camera before a pull-out of a ratio that ends at `last`.
 fn nearer(last: &CameraState, target: &Target, ratio: f64) -> CameraState {
