@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use cinesplat_language::{
-    Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, link_mentions, scenery, tokenize,
-    without_camera_settings, without_frame_shape, without_tolerances,
+    Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_mentions, scenery,
+    tokenize, without_camera_settings, without_frame_shape, without_tolerances,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -93,6 +93,7 @@ impl Director {
         let prompt = &*without_camera_settings(prompt)?;
         let prompt = &*without_tolerances(prompt);
         let mut found = self.names.mentions(prompt, objects)?;
+        found.retain(|found| !is_no_thing(prompt, &found.mention, objects));
         let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
         let scenery = scenery(prompt, &mentions)?;
         let prompt = &*blanked(prompt, &scenery);
@@ -141,10 +142,18 @@ impl Director {
 
     /// The direction of a prompt, or of what a person who corrects himself in it means, whichever is surer.
     fn direct_corrected(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
+        let without_denied = linked.without_denied();
+        let linked = without_denied.as_ref().unwrap_or(linked);
         let as_said = self.direct_part(linked, scene)?;
         let Some(corrected) = linked.corrected() else { return Ok(as_said) };
         let as_meant = self.direct_part(&corrected, scene)?;
-        Ok(if as_meant.mean_certainty() > as_said.mean_certainty() { as_meant } else { as_said })
+        // What somebody takes back is in no step.
+        let is_back = |id: &u32| !linked.expanded(&corrected.slots).contains(id);
+        let keeps_back = as_said.program.object_ids().iter().any(is_back)
+            && !as_meant.program.steps.is_empty()
+            && !as_meant.program.object_ids().is_empty();
+        let is_surer = as_meant.mean_certainty() > as_said.mean_certainty();
+        Ok(if keeps_back || is_surer { as_meant } else { as_said })
     }
 
     /// The program and cameras of a prompt that is read as a whole.

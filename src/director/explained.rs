@@ -70,6 +70,17 @@ const BESIDE: [&str; 28] = [
     "right",
 ];
 
+/// Words of how a thing is where it is, besides adverbs and forms in `ing`: `waits quietly on the shelf`.
+const STATES: &str = "waits rests hangs lies lives glows gleams sleeps leans perched alone still tucked set left";
+/// Words in `ing` that are moves of the camera, whatever is beside them.
+const MOVES: &str = "moving drifting going rising gliding sliding flying tilting panning pushing zooming craning orbiting pulling stopping \
+    ending finishing starting landing settling looking booming turning coming heading holding arriving hovering";
+
+fn describes(word: &str) -> bool {
+    let is_in = |list: &str| list.split_ascii_whitespace().any(|known| known == word);
+    is_in(STATES) || word.ends_with("ing") && !is_in(MOVES) || word.ends_with("ly") && word.len() > 4
+}
+
 /// Makes one mention of a thing and of the place that tells which one it is, where the place is called by no word of
 /// the object that it was taken for: `the shelf` on which the teapot stands, in a scene of cabinets.
 pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>) {
@@ -78,7 +89,7 @@ pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut V
         let [thing, place] = [&found[nth - 1].mention, &found[nth].mention];
         let between = tokenize(prompt.get(thing.bytes[1]..place.bytes[0]).unwrap_or_default());
         let is_where = |word: &Word| WHERE.contains(&word.text.as_str());
-        let is_beside = |word: &Word| BESIDE.contains(&word.text.as_str());
+        let is_beside = |word: &Word| BESIDE.contains(&word.text.as_str()) || describes(&word.text);
         let says_where = between.iter().any(is_where) && between.iter().all(|word| is_where(word) || is_beside(word));
         let is_loose = match (&thing.ids[..], &place.ids[..]) {
             ([_, ..], [id]) => {

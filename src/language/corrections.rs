@@ -25,6 +25,8 @@ const CORRECTIONS: [&[&str]; 17] = [
     &["er", "no"],
     &["actually", "no"],
 ];
+/// Most words of a denial in brackets.
+const MAX_DENIED: usize = 6;
 /// Marks that may stand among the words of a correction and around them.
 const MARKS: [&str; 8] = [",", ".", "-", ":", ";", "\u{2026}", "\u{2013}", "\u{2014}"];
 /// Words that say nothing about how a phrase is built.
@@ -57,6 +59,17 @@ fn kind(word: &str) -> Option<Kind> {
 }
 
 impl Linked {
+    /// The words without things that are denied beside the thing that is meant: `on the vase (not the sideboard!)`, `not the
+    /// plates, the teapot I mean`. `None` for prompts without one.
+    #[must_use]
+    pub fn without_denied(&self) -> Option<Self> {
+        let words: Vec<(&str, [usize; 2])> = self.words_in([0, usize::MAX]).collect();
+        let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let [from, to] = (0..texts.len()).find_map(|at| denied_at(&texts, at))?;
+        let kept = (0..from).chain(to..words.len()).map(|at| words[at]);
+        Some(Self { timeline: self.timeline.clone(), ..self.of_words(kept, None) })
+    }
+
     /// The words as they stand after the last correction: what it replaces and the words of the correction left out.
     /// `None` for prompts without one, or whose correction replaces nothing that is built alike.
     #[must_use]
@@ -70,6 +83,24 @@ impl Linked {
         // Nobody corrects away all that he talks about.
         (self.slots.is_empty() || !corrected.slots.is_empty()).then_some(corrected)
     }
+}
+
+/// The words of the denial of a thing that begins at word `at`, in brackets or before `.. I mean`.
+fn denied_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
+    let word = |at: usize| words.get(at).copied().unwrap_or_default();
+    let is_thing = |at: &usize| word(*at).starts_with(OBJECT);
+    if word(at) == "(" && word(at + 1) == "not" {
+        let close = (at + 2..words.len()).take(MAX_DENIED).find(|at| word(*at) == ")")?;
+        let others = (at + 2..close).filter(|at| !is_thing(at) && !FILLERS.contains(&word(*at)) && word(*at) != "!");
+        let is_only = others.into_iter().all(|at| PREPOSITIONS.contains(&word(at)));
+        return ((at + 2..close).any(|at| is_thing(&at)) && is_only).then_some([at, close + 1]);
+    }
+    let begins = at == 0 || MARKS.contains(&word(at - 1)) || matches!(word(at - 1), "no" | "and" | "but");
+    let first = (at + 1..words.len()).find(|at| !FILLERS.contains(&word(*at)))?;
+    let second = (first + 2..words.len()).find(|at| !FILLERS.contains(&word(*at)))?;
+    let is_meant = matches!((word(second + 1), word(second + 2)), ("i", "mean" | "meant") | ("instead", _));
+    let is_pair = is_thing(&first) && word(first + 1) == "," && is_thing(&second);
+    (word(at) == "not" && begins && is_pair && is_meant).then_some([at, first + 2])
 }
 
 /// The words of the correction that begins at word `at`, with the marks around it.

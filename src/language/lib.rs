@@ -93,6 +93,7 @@ mod linked;
 mod list_lines;
 mod mention;
 mod names;
+mod not_things;
 mod notation;
 mod numbered;
 mod numerals;
@@ -118,6 +119,7 @@ pub use link::link;
 pub use linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
 pub use mention::{Mention, check_prompt, link_mentions};
 pub use names::{NamedObject, nearest_names};
+pub use not_things::is_no_thing;
 pub use notation::{
     Automaton, MAX_LISTED, MAX_STEPS, NotationError, Pattern, States, program_from_notation, program_pattern,
     program_to_notation, step_from_notation,

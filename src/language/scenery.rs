@@ -112,6 +112,14 @@ const SCENERY: [&str; 100] = [
     "warmth",
     "fireflies",
 ];
+/// Weather, and light as a thing in the air: it is no place and no target, wherever it is.
+const WEATHER: &str = "rain raindrops drizzle snow snowflakes dust motes mote pollen smoke steam vapor vapour haze mist fog \
+    wind thunder lightning sunlight moonlight daylight rays shafts embers sparks confetti glitter fireflies \
+    particles glow";
+/// What such things and others do by themselves: `flour floating upwards`.
+const DRIFTS: &str = "floating drifting swirling rising falling curling dancing spilling settling glowing shimmering \
+    flickering fluttering swaying sparkling twinkling streaming pouring billowing melting dripping humming crackling \
+    breathing rustling wafting hovering";
 /// Words before the name of such a thing that do not belong to another.
 const MAX_BEFORE: usize = 5;
 /// Words that begin a clause beside a comma.
@@ -174,7 +182,9 @@ pub fn scenery(prompt: &str, mentions: &[Mention]) -> Result<Vec<[usize; 2]>, La
     let words = tokenize(prompt);
     let meaning = Meaning::of(&words)?;
     let is_scenery = |clause: &[usize; 2]| {
-        is_about_scenery(&words, &meaning, mentions, *clause) || is_tag(&words, &meaning, mentions, *clause)
+        is_about_scenery(&words, &meaning, mentions, *clause)
+            || is_drifting(&words, &meaning, mentions, *clause)
+            || is_tag(&words, &meaning, mentions, *clause)
     };
     let (out, kept): (Vec<[usize; 2]>, Vec<[usize; 2]>) =
         clauses(prompt, &words, &meaning).into_iter().partition(is_scenery);
@@ -265,9 +275,17 @@ fn is_inner(mark: &str) -> bool {
 /// Whether the subject of a clause is scenery: `golden hour light spilling through the window`.
 fn is_about_scenery(words: &[Word], meaning: &Meaning, mentions: &[Mention], [from, to]: [usize; 2]) -> bool {
     let named = |at: usize| mention_at(words, mentions, at).is_some_and(|mention| !mention.ids.is_empty());
-    let is_head = |at: &usize| SCENERY.contains(&word_at(words, *at)) && !named(*at);
+    // `Golden hour` is light.
+    let is_hour = |at: usize| {
+        word_at(words, at) == "hour" && at > 0 && matches!(word_at(words, at - 1), "golden" | "blue" | "magic")
+    };
+    let is_head = |at: &usize| (SCENERY.contains(&word_at(words, *at)) || is_hour(*at)) && !named(*at);
     // What is the whole of a part of a list is its picture.
     let is_part = from > 0 && matches!(word_at(words, from - 1), ":" | "|");
+    // `Then dust on the shelf` is a part of a list.
+    if matches!(word_at(words, from), "then" | "next" | "finally") {
+        return false;
+    }
     let from = from + usize::from(OPENERS.contains(&word_at(words, from)));
     let Some(head) = (from..to.min(from + MAX_BEFORE + 1)).find(is_head).filter(|_| !is_part) else { return false };
     let head = (head..to).take_while(is_head).last().unwrap_or(head);
@@ -280,12 +298,34 @@ fn is_about_scenery(words: &[Word], meaning: &Meaning, mentions: &[Mention], [fr
     let next = if head + 1 < to { word_at(words, head + 1) } else { "" };
     let is_verb = ["ing", "s", "ed"].iter().any(|ending| next.ends_with(ending));
     // `Light tilt up`, `wind-blown drift`: the light is one of a move.
-    let is_of_move = !next.is_empty() && !is_verb && (head + 1..to).any(|at| meaning.tells(at));
+    let is_weather = WEATHER.split_ascii_whitespace().any(|weather| weather == word_at(words, head));
+    let is_placed = PREPOSITIONS.contains(&next);
+    let is_free = next.is_empty() || is_verb || is_weather && is_placed;
+    let is_of_move = !is_free && (head + 1..to).any(|at| meaning.tells(at));
     let is_of_camera = (from..to).any(|at| CAMERA.contains(&word_at(words, at)));
     let has_number = (from..to).any(|at| word_at(words, at).starts_with(|c: char| c.is_ascii_digit()));
     let num_named = (from..to).filter(|at| named(*at) && (*at == from || !named(at - 1))).count();
-    !((from..head).any(asks) || is_of_move || is_of_camera || has_number || PREPOSITIONS.contains(&next))
-        && (num_named == 0 || num_named == 1 && is_verb)
+    // `Rain on the glass` beside what is filmed.
+    let names_elsewhere = || {
+        let inside = |mention: &&Mention| (from..to).any(|at| words[at].span[0] == mention.bytes[0]);
+        mentions.iter().filter(|mention| !mention.ids.is_empty()).any(|mention| !inside(&mention))
+    };
+    !((from..head).any(asks) || is_of_move || is_of_camera || has_number || is_placed && !is_weather)
+        && (num_named == 0 || num_named == 1 && (is_verb || is_weather && is_placed && names_elsewhere()))
+}
+
+/// Whether a clause is about something that drifts by itself: `flour floating upwards`, `ribbons swaying in the breeze`.
+fn is_drifting(words: &[Word], meaning: &Meaning, mentions: &[Mention], [from, to]: [usize; 2]) -> bool {
+    let lists = |at: usize| DRIFTS.split_ascii_whitespace().any(|verb| verb == word_at(words, at));
+    let Some(verb) = (from + 1..to.min(from + 4)).find(|at| lists(*at)) else { return false };
+    // What drifts has a name that no command has.
+    let is_plain = |at: usize| {
+        let word = word_at(words, at);
+        meaning.senses[at].is_empty() && !word.ends_with("ly") && !KnownWords::embedded().contains(word)
+    };
+    let is_of_camera = (from..to).any(|at| CAMERA.contains(&word_at(words, at)));
+    let is_named = (from..to).any(|at| mention_at(words, mentions, at).is_some_and(|mention| !mention.ids.is_empty()));
+    is_plain(verb - 1) && !(from..verb).any(|at| meaning.commands(at)) && !is_of_camera && !is_named
 }
 
 /// Whether a clause only says how it looks: none of its words tells an operator anything.

@@ -10,7 +10,9 @@ use super::tokenizer::{Word, tokenize, word_at};
 /// Words behind a tolerance that say what it is a share of.
 const OF_FRAME: [&str; 9] = ["of", "the", "frame", "image", "picture", "either", "way", "tolerance", "distance"];
 /// Words before `within` that make the number behind it a tolerance, and such behind the number.
-const EXACT: [&str; 12] = [
+const EXACT: [&str; 14] = [
+    "size",
+    "scale",
     "constant",
     "centered",
     "centred",
@@ -53,6 +55,13 @@ fn tolerance_at(prompt: &str, words: &[Word], i: usize) -> Option<usize> {
         "within" if is_about_exactness(words, i) => i + 1,
         "plus" if word_at(words, i + 1) == "minus" => i + 2,
         "plus" if word_at(words, i + 1) == "or" && word_at(words, i + 2) == "minus" => i + 3,
+        "error" | "deviation" | "jitter"
+            if matches!(word_at(words, i + 1), "under" | "below" | "within" | "max" | "<" | "of") =>
+        {
+            i + 2
+        }
+        // A drift of 30 cm is a move.
+        "drift" if matches!(word_at(words, i + 1), "under" | "max" | "<") => i + 2,
         _ if is_signed => i,
         _ => return None,
     };

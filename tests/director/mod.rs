@@ -2,6 +2,7 @@
 
 mod beats;
 mod calibration;
+mod circles;
 mod codes;
 mod compositions;
 mod direction;

@@ -219,3 +219,89 @@ fn light_and_mood_are_no_steps() {
     assert_eq!(found.matches(" / ").count(), 0, "{found}");
     assert!(found.contains("orbit") && !found.contains("pedestal"), "{found}");
 }
+
+#[test]
+fn the_colors_of_a_look_are_no_things() {
+    for prompt in [
+        "push in on the television, moody gold and black palette",
+        "rain on the window, dust swirling, push in on the television",
+        "flour floating upwards, push in on the television, god rays from above",
+    ] {
+        let found = program(prompt);
+        assert!(found.starts_with("push-in") && !found.contains(" / ") && found.contains("end=2"), "{prompt}: {found}");
+    }
+}
+
+#[test]
+fn a_field_of_view_is_no_angle_from_above() {
+    let found = program("Dolly in 0.8 m toward the armchair, no pan, no tilt. Vertical FOV fixed at 40°.");
+    assert!(found.contains("40fov") && !found.contains("40deg"), "{found}");
+}
+
+#[test]
+fn a_fixed_position_rules_travel_out_beside_described_pictures() {
+    let found = program(
+        "Start frame: television centered at 20 % of frame height. End frame: television centered at 60 %. Camera position \
+         locked.",
+    );
+    assert!(found.starts_with("zoom-in") && found.contains("no=travel"), "{found}");
+    let found = program("The camera stays put. Go from the curtain over to the television and then down to the vase.");
+    assert!(found.contains("tilt-down") && found.contains("no=travel") && !found.contains("crane"), "{found}");
+}
+
+#[test]
+fn what_is_taken_back_is_in_no_step() {
+    let found = program("Dolly in on the vase, strike that, on the armchair");
+    assert!(found.contains("end=4") && !found.contains("end=1"), "{found}");
+    let found = program("Start on the vase (not the sideboard!) and end on the armchair.");
+    assert!(!found.contains('3') && found.contains("end=4"), "{found}");
+    let found = program("Crane up while orbiting the vase; actually leave out the orbit.");
+    assert!(found.contains("crane-up") && !found.contains("orbit"), "{found}");
+}
+
+#[test]
+fn a_gaze_that_goes_on_does_not_walk() {
+    let found = program("your eyes travel from the curtain over to the television and finally settle on the vase");
+    assert_eq!(found.matches("pan-").count(), 2, "{found}");
+    let found = program("With your eyes follow the line from the curtain to the armchair, feet still");
+    assert!(found.starts_with("pan-"), "{found}");
+}
+
+#[test]
+fn a_zoom_back_to_the_first_lens_ends_where_it_began() {
+    let found = program(
+        "zoom in on the vase, hold 2 s, then zoom out to the original framing, back to the initial focal length",
+    );
+    assert!(found.contains("returns"), "{found}");
+}
+
+#[test]
+fn a_range_from_far_to_near_is_a_distance() {
+    let found =
+        program("Approach to the armchair: from 1.5 m down to 0.6 m range, error under 8% of the frame, 9 seconds");
+    assert!(found.contains("d1.5u") && found.contains("d0.6u") && !found.contains("8%"), "{found}");
+}
+
+#[test]
+fn a_tripod_does_not_tremble_with_the_curtain() {
+    let found = program("locked tripod, curtain breathing in the wind, nothing moves");
+    assert!(!found.contains("handheld"), "{found}");
+}
+
+#[test]
+fn still_at_first_is_at_rest() {
+    let found = program("Camera: static at first, then a slow push toward the television.");
+    assert!(found.starts_with("static") && found.contains("push-in"), "{found}");
+}
+
+#[test]
+fn a_nod_goes_down_and_comes_back() {
+    let found = program("please pretend to nod yes at the vase");
+    assert!(found.starts_with("tilt-down") && found.contains("returns"), "{found}");
+}
+
+#[test]
+fn half_way_around_is_half_a_circle() {
+    let found = program("can u go round the vase like half way and then stop");
+    assert!(found.contains("amount=180deg"), "{found}");
+}

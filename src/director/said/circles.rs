@@ -18,6 +18,9 @@ const ALL_ROUND: [&[&str]; 10] = [
     &["round", "the", "whole", "room"],
 ];
 
+/// Words of a turn that does not come round.
+const SHORT: [&str; 7] = ["not", "'t", "n't", "without", "almost", "nearly", "half"];
+
 /// Gives a pan without a goal and without an angle a full turn, where its words lead all the way round.
 pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
@@ -25,7 +28,8 @@ pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
         let is_open = !matches!(step.amount, Some(Amount::Degrees(_) | Amount::Factor(_)));
         let Some(span) = step.words.filter(|_| turns && is_open) else { continue };
         let words: Vec<&str> = linked.words_in(span).map(|(word, _)| word).collect();
-        if ALL_ROUND.iter().any(|said| words.windows(said.len()).any(|window| window == *said)) {
+        let is_short = words.iter().any(|word| SHORT.contains(word));
+        if !is_short && ALL_ROUND.iter().any(|said| words.windows(said.len()).any(|window| window == *said)) {
             step.amount = Some(Amount::Degrees(360.0));
         }
     }

@@ -111,6 +111,27 @@ fn said_at(words: &[&str], at: usize) -> Option<(Move, &'static str)> {
     Some((family[nth].1, family[1 - nth].0))
 }
 
+/// Verbs of a camera that rises or sinks, which `go up to` and `walk up to` are not.
+const RISES: [&str; 6] = ["drift", "float", "rise", "climb", "ascend", "lift"];
+/// Words of a way toward a thing.
+const NEARS: [&str; 8] = ["in", "into", "closer", "toward", "towards", "forward", "push", "close"];
+
+/// Makes a rise of a way that goes up to a thing: `drift up to the ladles`.
+pub(crate) fn rise_to_things(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.with.is_empty() && step.via.is_none() && !step.returns) {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let rises = words.windows(3).any(|three| {
+            RISES.iter().any(|verb| is_form(three[0], verb))
+                && three[1] == "up"
+                && matches!(three[2], "to" | "toward" | "onto" | "until")
+        });
+        let is_way = matches!(step.movement, Move::PushIn | Move::Follow) && step.end.size.is_none();
+        if is_way && rises && !words.iter().any(|word| NEARS.contains(word)) {
+            (step.movement, step.either_way) = (Move::CraneUp, false);
+        }
+    }
+}
+
 /// Whether a word is a form of a verb: `pan`, `pans`, `panning`.
 pub(crate) fn is_form(word: &str, verb: &str) -> bool {
     let stem = verb.strip_suffix('e').unwrap_or(verb);

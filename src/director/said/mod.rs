@@ -4,6 +4,7 @@ mod bans;
 mod circles;
 mod directions;
 mod dolly_zoom;
+mod fixed;
 mod heights;
 mod lengths;
 mod open;
@@ -13,6 +14,7 @@ mod ranges;
 mod repeats;
 mod senses;
 mod stillness;
+mod taken_back;
 mod together;
 mod until;
 
@@ -29,6 +31,7 @@ use crate::error::DirectorError;
 /// # Errors
 /// [`DirectorError::Language`] for a damaged list of senses.
 pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Direction) -> Result<(), DirectorError> {
+    taken_back::drop_taken_back(linked, direction);
     let steps = &mut direction.program.steps;
     directions::take_said_directions(linked, steps);
     dolly_zoom::take_said_dolly_zooms(linked, steps);
@@ -50,15 +53,27 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::rise_from_ground(linked, steps);
     openings::temper_closeness(linked, senses, steps)?;
     stillness::drop_unsaid_shake(linked, senses, steps)?;
+    stillness::hold_tripods(linked, &mut direction.program);
+    let steps = &mut direction.program.steps;
     stillness::turn_gazes(linked, steps);
     stillness::hold_slants(linked, steps);
     stillness::circle_spirals(linked, steps);
+    // What the rules above read from the words may be taken back too.
+    taken_back::drop_taken_back(linked, direction);
+    let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);
     circles::turn_all_round(linked, steps);
     ranges::take_ranges(linked, steps);
+    ranges::take_field_of_view(linked, steps);
+    open::return_to_first(linked, steps);
+    open::turn_by_parts(linked, steps);
+    openings::level_frontal_views(linked, steps);
+    openings::hide_at_first(linked, steps);
+    directions::rise_to_things(linked, steps);
     lengths::take_film_length(linked, &mut direction.program);
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
+    fixed::stay_put(linked, &mut direction.program);
     heights::hold_height(linked, direction);
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Directions that follow from other words, or from none: ways back, and directions that the prompt leaves open.
 
 use cinesplat_language::{Linked, Senses};
-use cinesplat_operator::Step;
+use cinesplat_operator::{Amount, Step};
 use cinesplat_trajectory::Move;
 
 use super::directions::CORRECTIONS;
@@ -98,6 +98,57 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         step.returns |= is_open;
         step.movement = if is_open { movement } else { back };
         step.amount = step.amount.or(amount);
+    }
+}
+
+/// Makes a part of a circle of a factor: `go round the teapot like half way`.
+pub(crate) fn turn_by_parts(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let is_around = words.iter().any(|word| matches!(*word, "around" | "round" | "about"));
+        let nears = words.iter().any(|word| matches!(*word, "closer" | "distance" | "close" | "radius" | "nearer"));
+        let circles = as_orbit(step.movement) == Move::OrbitLeft || as_orbit(step.movement) == Move::OrbitRight;
+        if let Some(Amount::Factor(factor)) = step.amount.filter(|_| circles && is_around && !nears)
+            && factor < 1.0
+        {
+            step.amount = Some(Amount::Degrees(360.0 * factor));
+        }
+    }
+}
+
+/// Words of what is as it was at first, and of what that is.
+const FIRSTS: [&str; 5] = ["initial", "original", "starting", "opening", "first"];
+const STATES: [&str; 19] = [
+    "focal",
+    "lens",
+    "frame",
+    "framing",
+    "pose",
+    "position",
+    "view",
+    "viewpoint",
+    "height",
+    "size",
+    "composition",
+    "spot",
+    "place",
+    "point",
+    "zoom",
+    "setting",
+    "shot",
+    "picture",
+    "distance",
+];
+
+/// Ends a step where the film began where its words say so: `zoom back out to the initial focal length`.
+pub(crate) fn return_to_first(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().skip(1).filter(|step| !step.returns && !step.cut) {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let is_back = words.windows(3).any(|three| {
+            matches!(three[0], "the" | "its" | "our" | "to") && FIRSTS.contains(&three[1]) && STATES.contains(&three[2])
+        });
+        let leads = words.iter().any(|word| matches!(*word, "back" | "return" | "returns" | "returning"));
+        step.returns |= is_back && leads && step.movement != Move::Static;
     }
 }
 

@@ -52,6 +52,52 @@ pub(crate) fn take_sizes(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words of an angle that looks up.
+const FROM_BELOW: [&str; 11] =
+    ["low", "below", "under", "worm", "beneath", "ground", "up", "upward", "upwards", "knee", "waist"];
+
+/// Takes an angle back that `hero shot` was read as, where the words look straight at the subject: `hero shot, head-on`.
+pub(crate) fn level_frontal_views(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let is_frontal = words.windows(2).any(|pair| matches!(pair, ["head" | "straight" | "face" | "square", "on"]));
+        if !is_frontal || !words.contains(&"hero") || words.iter().any(|word| FROM_BELOW.contains(word)) {
+            continue;
+        }
+        for framing in [&mut step.start, &mut step.end] {
+            framing.angle = framing.angle.filter(|angle| *angle != ShotAngle::Low);
+        }
+    }
+}
+
+/// Words by which a thing that is not to go out of view stays in it.
+const STAYS: [&str; 7] = ["leaving", "leaves", "leave", "losing", "lose", "out", "ever"];
+
+/// Hides what the first picture lacks by its words and a slide shows at its end: `only the curtain, no chair in sight. Then
+/// we slide to the right and the armchair enters`.
+pub(crate) fn hide_at_first(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let gone = (0..words.len()).filter_map(|at| {
+        let is_gone = matches!(words[at], "no" | "without" | "hidden");
+        let id = words[at + 1..].iter().take(2).find_map(|word| linked.slot_at(word))?;
+        let behind = words[at + 1..].iter().take(6);
+        let is_seen = behind.into_iter().any(|word| matches!(*word, "sight" | "view" | "yet" | "visible" | "seen"));
+        let stays = words[at + 1..].iter().take(6).any(|word| STAYS.contains(word));
+        (is_gone && is_seen && !stays).then_some(id)
+    });
+    let gone = linked.expanded(&gone.collect::<Vec<_>>());
+    let shows = |step: &&mut Step| {
+        matches!(step.movement, Move::TruckLeft | Move::TruckRight)
+            && step.via.is_none()
+            && !step.either_way
+            && step.end.subjects.iter().any(|id| gone.contains(id))
+            && !step.start.subjects.iter().any(|id| gone.contains(id))
+    };
+    if let Some(step) = steps.iter_mut().find(shows) {
+        (step.movement, step.with) = (Move::Reveal, vec![step.movement]);
+    }
+}
+
 /// What lies below everything.
 const GROUND: [&str; 5] = ["floor", "ground", "carpet", "rug", "grass"];
 /// Words that may stand between `from` and the ground.

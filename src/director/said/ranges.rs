@@ -11,8 +11,26 @@ const BETWEEN: [&str; 11] = ["at", "down", "up", "all", "the", "way", "vertical"
 const LENSES: [&str; 4] = ["fov", "vfov", "hfov", "field"];
 const ELEVATIONS: [&str; 2] = ["elevation", "elevated"];
 const REACH: [usize; 2] = [5, 3];
+/// Words between a field of view and its value.
+const LENS_LINKS: [&str; 15] = [
+    "fixed",
+    "constant",
+    "at",
+    "of",
+    "is",
+    "=",
+    ":",
+    "vertical",
+    "horizontal",
+    "locked",
+    "to",
+    "set",
+    "held",
+    "stays",
+    "kept",
+];
 /// Words beside two lengths that are heights.
-const HEIGHTS: [&str; 8] = ["height", "high", "altitude", "floor", "ground", "above", "up", "down"];
+const HEIGHTS: [&str; 6] = ["height", "high", "altitude", "floor", "ground", "above"];
 
 /// Two values of one kind in a row.
 struct Range {
@@ -69,6 +87,59 @@ fn range_at(linked: &Linked, words: &[&str], at: usize) -> Option<Range> {
         _ => return None,
     };
     Some(Range { kind: first.kind, values: [first.value, value], at: [at, end] })
+}
+
+/// Gives the first picture the field of view that the words state for the whole film: `vertical FOV fixed at 40°`. It is no
+/// angle from which anything is seen.
+pub(crate) fn take_field_of_view(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let degrees = |at: &usize| {
+        words.get(*at).and_then(|word| linked.quantity_at(word)).filter(|q| q.kind == QuantityKind::Degrees)
+    };
+    let is_link = |at: &usize| words.get(*at).is_some_and(|word| LENS_LINKS.contains(word));
+    let stated = (0..words.len()).filter(|at| LENSES[..3].contains(&words[*at]) || is_field_of_view(&words, *at));
+    let mut values = stated.filter_map(|at| {
+        let behind = at + 1 + (at + 1..words.len()).take_while(is_link).count();
+        let begin = if is_field_of_view(&words, at) { at.saturating_sub(2) } else { at };
+        let is_kind = begin > 0 && matches!(words[begin - 1], "vertical" | "horizontal");
+        let before = begin.checked_sub(1 + usize::from(is_kind));
+        degrees(&behind).or_else(|| before.as_ref().and_then(degrees)).map(|quantity| quantity.value)
+    });
+    let (Some(value), None) = (values.next(), values.next()) else { return };
+    let has_lens = |step: &Step| step.start.lens.is_some() || step.end.lens.is_some();
+    if steps.iter().any(has_lens) {
+        return;
+    }
+    let is_value = |degrees: f64| (degrees - value).abs() < 1e-9;
+    let is_once = linked.quantities.iter().filter(|quantity| is_value(quantity.value)).count() == 1;
+    for step in steps.iter_mut().filter(|_| is_once) {
+        for framing in [&mut step.start, &mut step.end] {
+            framing.elevation_deg = framing.elevation_deg.filter(|degrees| !is_value(*degrees));
+        }
+        step.amount = step.amount.filter(|amount| !matches!(amount, Amount::Degrees(degrees) if is_value(*degrees)));
+    }
+    if let Some(step) = steps.first_mut() {
+        let leads = matches!(
+            step.movement,
+            Move::Static
+                | Move::PanLeft
+                | Move::PanRight
+                | Move::TiltUp
+                | Move::TiltDown
+                | Move::WhipPan
+                | Move::Follow
+        );
+        if step.start.subjects.is_empty() && !leads {
+            step.start.subjects.clone_from(&step.end.subjects);
+        }
+        let framing = if step.movement == Move::Static { &mut step.end } else { &mut step.start };
+        framing.lens = Some(Lens::FovDeg(value));
+    }
+}
+
+/// `field of view`, at its last word.
+fn is_field_of_view(words: &[&str], at: usize) -> bool {
+    at > 1 && words[at - 2..=at] == ["field", "of", "view"]
 }
 
 /// Lenses at both ends; `widths` grow with the field of view. What only holds its picture zooms.

@@ -2,9 +2,10 @@
 //! not walk, a spiral goes around.
 
 use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::{Amount, Step};
+use cinesplat_operator::{Amount, Motion, Pass, Program, Step};
 use cinesplat_trajectory::Move;
 
+use super::directions::is_form;
 use super::senses::says;
 
 /// Takes a shake away that the words do not say: `pan from the armchair to the television, tripod`. `senses` has one entry
@@ -22,12 +23,38 @@ pub(crate) fn drop_unsaid_shake(linked: &Linked, senses: &[Senses], steps: &mut 
     Ok(())
 }
 
+/// Holds a camera still that the words put on a tripod and that only the thing's own trembling shakes: `locked tripod,
+/// curtain breathing in the wind`.
+pub(crate) fn hold_tripods(linked: &Linked, program: &mut Program) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
+    let stands = has(&["tripod", "locked", "sticks", "static"]) && program.forbidden.contains(&Motion::Shake);
+    if !stands || has(&["handheld", "shaky", "shake", "wobble", "jitter"]) {
+        return;
+    }
+    for step in program.steps.iter_mut().filter(|step| step.movement == Move::Handheld) {
+        step.movement = Move::Static;
+    }
+}
+
 /// What wanders while its owner stays.
 const GAZES: [&str; 7] = ["gaze", "gazes", "glance", "glances", "eyes", "stare", "eye"];
 /// Words before it that say whose it is.
 const OWNERS: [&str; 12] = ["his", "her", "our", "my", "your", "their", "the", "its", "only", "a", "let", "just"];
 /// How it goes.
-const WANDERS: [&str; 22] = [
+const WANDERS: [&str; 34] = [
+    "goes",
+    "go",
+    "travel",
+    "travels",
+    "run",
+    "runs",
+    "follow",
+    "follows",
+    "leave",
+    "leaves",
+    "shifting",
+    "sweeping",
     "wander",
     "wanders",
     "wandering",
@@ -52,24 +79,51 @@ const WANDERS: [&str; 22] = [
     "jumps",
 ];
 
+/// Whether a word is a way that no gaze goes.
+fn is_travel(word: &str) -> bool {
+    ["walk", "fly", "step", "run", "dolly", "push", "truck", "crane", "orbit", "circle"]
+        .iter()
+        .any(|verb| is_form(word, verb))
+}
+
 /// Turns a way from one thing to another that only a gaze goes into a turn on the spot: `his gaze wanders from the wall
 /// over to the chair`.
 pub(crate) fn turn_gazes(linked: &Linked, steps: &mut [Step]) {
-    let mut before = 0;
+    let (mut before, mut was_gaze) = (0, false);
     for step in steps {
         let [_, end] = step.words.unwrap_or_default();
         // The words between two steps belong to neither: `only his gaze wanders: ..`.
         let words: Vec<&str> = linked.words_in([before, end]).map(|(word, _)| word).collect();
         before = before.max(end);
-        if step.movement != Move::Follow || step.via.is_some() {
-            continue;
-        }
+        let by_eye =
+            words.windows(3).any(|three| matches!(three, ["with", "your" | "our" | "the" | "my", "eyes" | "gaze"]));
         let is_owned = |at: &usize| GAZES.contains(&words[*at]) && *at > 0 && OWNERS.contains(&words[at - 1]);
         let wanders = |at: usize| words[at + 1..].iter().take(2).any(|word| WANDERS.contains(word));
-        let is_gaze = (0..words.len()).filter(is_owned).any(wanders);
-        let leads = !step.start.subjects.is_empty() && step.start.subjects != step.end.subjects;
-        if is_gaze && leads {
-            (step.movement, step.either_way) = (Move::PanRight, true);
+        // The gaze goes on in the same sentence.
+        let is_gaze = (0..words.len()).filter(is_owned).any(wanders)
+            || by_eye
+            || was_gaze && !words.iter().any(|word| matches!(*word, "camera" | "we" | "you") || is_travel(word));
+        let goes_on = was_gaze;
+        was_gaze = is_gaze && !words.last().is_some_and(|word| matches!(*word, "." | ";"));
+        let leads = (goes_on || !step.start.subjects.is_empty()) && step.start.subjects != step.end.subjects;
+        match &step.via {
+            None if is_gaze && leads && step.movement == Move::Follow => {
+                (step.movement, step.either_way) = (Move::PanRight, true);
+                step.end.angle = None;
+            }
+            // `From the chair across the cabinet ..`
+            Some(via)
+                if is_gaze
+                    && matches!(step.movement, Move::Static | Move::Follow)
+                    && via.how == Pass::Past
+                    && !step.start.subjects.is_empty() =>
+            {
+                if step.end.subjects.is_empty() {
+                    step.end.subjects.clone_from(&via.objects);
+                }
+                (step.movement, step.either_way, step.via) = (Move::PanRight, true, None);
+            }
+            _ => {}
         }
     }
 }
@@ -100,7 +154,7 @@ pub(crate) fn hold_slants(linked: &Linked, steps: &mut [Step]) {
 /// Words that deny what follows.
 const DENIALS: [&str; 5] = ["no", "not", "never", "'t", "without"];
 /// Lines that go around while they rise or sink.
-const SPIRALS: [&str; 12] = [
+const SPIRALS: [&str; 15] = [
     "spiral",
     "spirals",
     "spiraling",
@@ -113,6 +167,9 @@ const SPIRALS: [&str; 12] = [
     "coil",
     "coils",
     "coiling",
+    "circling",
+    "encircling",
+    "orbiting",
 ];
 
 /// Makes a rise or a descent go around its subject where the words say so: `spirals down around it`.

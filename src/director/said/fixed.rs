@@ -1,0 +1,112 @@
+//! Cameras that stay where they are: `camera position fixed`, `position locked`, `the camera stays put, it just looks`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Motion, Program, Step};
+use cinesplat_trajectory::Move;
+
+use super::directions::is_form;
+
+/// What is fixed, and how.
+const PLACES: [&str; 3] = ["position", "location", "viewpoint"];
+const FIXED: [&str; 8] = ["fixed", "locked", "constant", "unchanged", "static", "frozen", "unchanging", "stationary"];
+/// Words between them.
+const BETWEEN: [&str; 6] = ["is", "stays", "remains", "kept", "held", "be"];
+/// Phrases of the same meaning.
+const PHRASES: [&[&str]; 6] = [
+    &["stays", "put"],
+    &["stay", "put"],
+    &["stays", "where", "it", "is"],
+    &["no", "translation"],
+    &["zero", "translation"],
+    &["without", "translation"],
+];
+/// Verbs by which a rise or a way is one whatever else is said.
+const TRAVELS: [&str; 13] = [
+    "crane", "pedestal", "boom", "jib", "dolly", "truck", "travel", "walk", "fly", "orbit", "slide", "rise", "descend",
+];
+/// Words after which the camera stays for a while only.
+const AFTERWARDS: [&str; 6] = ["then", "until", "for", "before", "while", "first"];
+/// Whose place it is where it is not the camera's.
+const OTHERS: [&str; 8] = ["its", "their", "screen", "same", "'s", "subject", "subjects", "they"];
+
+/// Rules a travel out where the words say so, and turns what would travel only to show another thing: nobody who says
+/// that the camera stays put asks for a way by `go down to the vase`.
+pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let is_of_thing = |at: usize| at > 0 && linked.slot_at(words[at - 1]).is_some();
+    let is_travel = |word: &&str| TRAVELS.iter().any(|verb| is_form(word, verb));
+    if !(0..words.len()).any(|at| is_fixed(&words, at) && !is_of_thing(at)) || words.iter().any(is_travel) {
+        return;
+    }
+    for step in &mut program.steps {
+        turn_instead(step);
+    }
+    if !program.steps.iter().any(travels) && !program.forbidden.contains(&Motion::Travel) {
+        program.forbidden.push(Motion::Travel);
+        program.forbidden.sort_unstable();
+    }
+}
+
+/// Whether the words from word `at` on say that the camera stays where it is.
+fn is_fixed(words: &[&str], at: usize) -> bool {
+    let between = words[at + 1..].iter().take(2).take_while(|word| BETWEEN.contains(word)).count();
+    if at > 0 && OTHERS.contains(&words[at - 1]) {
+        return false;
+    }
+    let phrase = PHRASES.iter().find(|phrase| words[at..].starts_with(phrase));
+    let stated = PLACES.contains(&words[at]) && words.get(at + 1 + between).is_some_and(|word| FIXED.contains(word));
+    let end = phrase.map_or(at + 2 + between, |phrase| at + phrase.len());
+    let goes_on = words.iter().skip(end).take(2).any(|word| AFTERWARDS.contains(word));
+    (stated || phrase.is_some()) && !goes_on
+}
+
+fn turn_instead(step: &mut Step) {
+    let leads = !step.end.subjects.is_empty() && step.via.is_none() && step.with.is_empty() && !step.returns;
+    let turn = match step.movement {
+        Move::Follow => (Move::PanRight, true),
+        Move::CraneUp | Move::PedestalUp => (Move::TiltUp, false),
+        Move::CraneDown | Move::PedestalDown => (Move::TiltDown, false),
+        _ => return,
+    };
+    if leads && step.end.height.is_none() && step.amount.is_none() {
+        (step.movement, step.either_way) = turn;
+    }
+}
+
+/// Whether a step moves the camera from its place.
+fn travels(step: &Step) -> bool {
+    let stays = |movement: &Move| {
+        movement.looks_elsewhere()
+            || matches!(
+                movement,
+                Move::Static
+                    | Move::ZoomIn
+                    | Move::ZoomOut
+                    | Move::RollCw
+                    | Move::RollCcw
+                    | Move::WhipPan
+                    | Move::RackFocus
+            )
+    };
+    !std::iter::once(&step.movement).chain(&step.with).all(stays) || step.via.is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_position_that_is_fixed_is_told_from_one_that_is_not() {
+        let says = |text: &str| {
+            let words: Vec<&str> = text.split(' ').collect();
+            (0..words.len()).any(|at| is_fixed(&words, at))
+        };
+        assert!(says("tripod , position locked"));
+        assert!(says("camera position is fixed"));
+        assert!(says("the camera stays put , it just looks"));
+        assert!(!says("keep its position fixed in the frame"));
+        assert!(!says("move to a fixed position"));
+        assert!(!says("the camera stays put for two seconds , then rises up to the shelf"));
+        assert!(!says("the subject stays put"));
+    }
+}

@@ -1,0 +1,100 @@
+//! Words that look like the name of a thing and name none: colors of a look (`teal and orange grade`), terms of the trade
+//! (`reference plate`, `the objective`, `none of the axes`), the `that` of `scratch that`.
+
+use super::mention::Mention;
+use super::names::NamedObject;
+use super::tokenizer::{Word, tokenize, word_at};
+
+/// Colors and what they are mixed with.
+const COLORS: &str = "teal orange gold golden yellow butter blue red green black white pink purple magenta cyan amber \
+    sepia cream ivory silver copper bronze rose violet brown beige grey gray turquoise crimson honey peach mint lavender \
+    pastel neon warm cool cold pale deep soft dark light bright muted dusty faded rich moody and & to with";
+/// What has colors without being a thing.
+const LOOKS: &str = "grade grading graded palette palettes tone tones hue hues tint tints tinted color colors colour colours \
+    glow light lighting contrast highlights shadows wash haze bokeh accents hour lut look scheme split";
+/// Terms of cameras and robots, of which objects are hardly ever the bearers of the name.
+const TERMS: &str = "axis axes objective constraint constraints sensor gimbal goal goals waypoint waypoints target targets \
+    pose poses item items element elements position trajectory centroid standoff heading";
+/// Words beside such a term.
+const BESIDE: &str = "the a an its each every all any none of both this that next last first no optical";
+/// What comes before `plate` where it is a piece of film.
+const PLATES: &str = "reference background clean back empty bg vfx still";
+
+/// Verbs of somebody who corrects himself, before `that`.
+const TAKEN_BACK: &str = "scratch strike forget cancel delete undo scrap ignore make";
+
+fn is_in(list: &str, word: &str) -> bool {
+    list.split_ascii_whitespace().any(|known| known == word)
+}
+
+/// Whether a mention names no thing: its words are the colors of a look or a term of the trade.
+pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> bool {
+    let words = tokenize(prompt);
+    let [from, to] = mention.bytes;
+    let Some(first) = words.iter().position(|word| (from..to).contains(&word.span[0])) else { return false };
+    let end = words.iter().rposition(|word| (from..to).contains(&word.span[0])).map_or(first, |last| last + 1);
+    let is_phrase = || word_at(&words, first) == "that" && end == first + 1;
+    let is_taken_back = first > 0 && is_in(TAKEN_BACK, word_at(&words, first - 1)) && is_phrase();
+    is_taken_back
+        || is_color_of_look(&words, [first, end])
+        || is_plate(&words, [first, end])
+        || is_term(&words[first..end], objects)
+}
+
+/// `gold and black palette`, `teal & orange grade`: colors alone, and what has them behind.
+fn is_color_of_look(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let is_color = |at: &usize| is_in(COLORS, word_at(words, *at));
+    if first == end || !(first..end).all(|at| is_color(&at) || is_in(LOOKS, word_at(words, at)) && at > first) {
+        return false;
+    }
+    let behind = (end..words.len()).take_while(is_color).count();
+    (first + 1..end).any(|at| is_in(LOOKS, word_at(words, at)))
+        || words.get(end + behind).is_some_and(|word| is_in(LOOKS, &word.text))
+}
+
+/// `reference plate`: a piece of film.
+fn is_plate(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let is_pair = |at: usize| word_at(words, at) == "plate" && at > 0 && is_in(PLATES, word_at(words, at - 1));
+    (first..end).any(is_pair) && (first..end).all(|at| is_pair(at) || is_in(PLATES, word_at(words, at)))
+}
+
+/// A term alone, where no object of the scene is called so.
+fn is_term(words: &[Word], objects: &[NamedObject]) -> bool {
+    let is_label =
+        |word: &Word| objects.iter().any(|object| tokenize(&object.label).iter().any(|w| w.stem == word.stem));
+    words.iter().any(|word| is_in(TERMS, &word.text))
+        && words.iter().all(|word| (is_in(TERMS, &word.text) || is_in(BESIDE, &word.text)) && !is_label(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_none(prompt: &str, name: &str) -> bool {
+        let objects = [(5, "stack of teal plates"), (9, "golden skull"), (15, "yellow jar")]
+            .map(|(id, label)| NamedObject { id, label: label.to_owned() });
+        let start = prompt.find(name).unwrap();
+        is_no_thing(prompt, &Mention { bytes: [start, start + name.len()], ids: vec![5] }, &objects)
+    }
+
+    #[test]
+    fn colors_of_a_look_are_no_things() {
+        assert!(is_none("high contrast, gold and black palette", "gold"));
+        assert!(is_none("moody teal and orange grade", "teal and orange"));
+        assert!(is_none("butter yellow light", "butter yellow"));
+        assert!(!is_none("push in on the gold skull", "gold skull"));
+        assert!(!is_none("pan from the teal one to the light", "teal one"));
+        assert!(!is_none("the yellow, then the light", "yellow"));
+    }
+
+    #[test]
+    fn terms_of_the_trade_are_no_things() {
+        assert!(is_none("Reference plate, locked off", "Reference plate"));
+        assert!(is_none("none of the axes may translate", "none of the axes"));
+        assert!(is_none("dwell 1 s at each target", "each target"));
+        assert!(is_none("on the mug, scratch that, on the jar", "that"));
+        assert!(!is_none("look at the skull, then circle that", "that"));
+        assert!(!is_none("hold on the plate", "plate"));
+        assert!(!is_none("the skull is the target", "the skull"));
+    }
+}
