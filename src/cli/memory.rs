@@ -17,6 +17,8 @@ use cinesplat::scene::Limits;
 
 /// Share of what is left that a renderer may hold for one picture; the rest is for encoder and frames.
 const RENDER_SHARE: f64 = 0.6;
+/// Largest part of the program's own file that is read as it runs: what a debugger needs besides is not.
+const MAX_FILE_BYTES: u64 = 96 << 20;
 /// Memory that threads and libraries take beyond estimates, bytes.
 const SPARE_BYTES: u64 = 48 << 20;
 
@@ -26,7 +28,7 @@ pub(super) fn set_max(bytes: u64) {
     let bytes = bounds.into_iter().flatten().fold(bytes, u64::min);
     // What the program holds before its first command is in the bound too, and so is what of its own file is not read yet.
     let held = status_bytes("VmRSS:").unwrap_or(0);
-    let own_file = std::env::current_exe().and_then(fs::metadata).map_or(0, |file| file.len());
+    let own_file = std::env::current_exe().and_then(fs::metadata).map_or(0, |file| file.len().min(MAX_FILE_BYTES));
     let unread = own_file.saturating_sub(status_bytes("RssFile:").unwrap_or(0));
     allocator::set_cap(bytes.saturating_sub(held + unread));
 }

@@ -52,7 +52,7 @@ fn front(subject: &Subject, frame: &LevelFrame) -> Result<Option<DVec3>, RenderE
     }
     // The edge of a guitar is none of its sides, whatever there is to see on it.
     let widest = seen.iter().map(|[_, area]| *area).fold(0.0, f64::max);
-    let breadth = |area: f64| (area / (WIDE_FRAC * widest).max(1.0)).min(1.0);
+    let breadth = |area: f64| (area / (WIDE_FRAC * widest).max(1.0)).min(1.0).powi(2);
     let worths: Vec<f64> = seen.iter().map(|[worth, area]| worth * breadth(*area)).collect();
     let mean = worths.iter().sum::<f64>() / NUM_SIDES as f64;
     let best = worths.iter().copied().fold(0.0, f64::max);

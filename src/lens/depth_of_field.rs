@@ -20,6 +20,12 @@ const POINT_SETTINGS: [&str; 4] = ["focus_x", "focus_y", "focus_z", "focus_neare
 /// Share of the frame, about its middle, that the camera focuses on where nothing else is said.
 const MIDDLE: f64 = 0.2;
 
+/// Diameter of the circle of confusion at twice the focus distance, over the frame's height, for words of each degree.
+const BLUR_BY_DEGREE: [f64; 3] = [0.008, 0.018, 0.04];
+/// Largest circle infinitely far away where the aperture is chosen for two subjects, over the frame's height: two subjects
+/// at nearly the same depth would dissolve everything else.
+const MOST_BLUR: f64 = 0.16;
+
 /// What the lens is focused on, where no keyframe has a focus distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Focus {
@@ -63,11 +69,12 @@ pub struct DepthOfField {
 }
 
 impl DepthOfField {
-    /// The depth of field that a call asks for; `None` for a closed aperture.
-    pub(super) fn of_call(call: &Call) -> Option<Self> {
+    /// The depth of field that a call asks for; `None` for a closed aperture. Where the call states no blur, it is that of
+    /// the call's degree.
+    pub(super) fn of_call(call: &Call, blur_by_degree: [f64; 3]) -> Option<Self> {
         let opening = match call.setting("f_stop") {
             Some(f_stop) => Opening::FStop(f_stop),
-            None => Opening::BackgroundBlur(call.setting_or("background_blur", [0.008, 0.018, 0.04]).min(1.0)),
+            None => Opening::BackgroundBlur(call.setting_or("background_blur", blur_by_degree).min(1.0)),
         };
         let is_open = matches!(opening, Opening::FStop(amount) | Opening::BackgroundBlur(amount) if amount > 0.0);
         let focus = match POINT_SETTINGS.map(|name| call.setting(name)) {
@@ -102,6 +109,22 @@ impl DepthOfField {
         let aperture = Aperture { f_stop, meters_per_unit: self.meters_per_unit };
         let Camera { intrinsics, .. } = (moment.take.camera_at)(moment.time_secs);
         Some(aperture.lens(&intrinsics, self.focus_distance(moment)?))
+    }
+
+    /// The effect as a focus puller needs it: the blur that the words promise is that of the subject which is not in
+    /// focus. Unchanged where the keyframes have no two focus distances.
+    pub(super) fn opened_between(&self, first: &FrameFacts<'_>) -> Self {
+        let Opening::BackgroundBlur(frac) = self.opening else { return *self };
+        let Some([near, far]) = first.moment.take.optics.focus_range().filter(|[near, far]| near < far) else {
+            return *self;
+        };
+        let Camera { intrinsics, .. } = first.moment.camera;
+        let unit = Aperture { f_stop: 1.0, meters_per_unit: self.meters_per_unit }.lens(&intrinsics, near);
+        let of_unit = |depth: f64| unit.circle_px(intrinsics.fx_px, depth);
+        let height_px = f64::from(intrinsics.height);
+        let f_stop = (of_unit(far) / (frac * height_px)).max(of_unit(f64::INFINITY) / (MOST_BLUR * height_px));
+        let circle_px = of_unit(f64::INFINITY) / f_stop;
+        Self { opening: Opening::Chosen { f_stop, circle_px }, ..*self }
     }
 
     /// The effect with a focus and an f-stop.
@@ -166,7 +189,7 @@ impl EffectKind for DepthOfField {
     }
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
-        Self::of_call(call)
+        Self::of_call(call, BLUR_BY_DEGREE)
     }
 }
 

@@ -180,6 +180,13 @@ impl OpticsTrack {
         self.mixed(2, time_secs, pulled)
     }
 
+    /// The least and the largest focus distance of the keyframes, scene units; `None` if no keyframe has one.
+    pub fn focus_range(&self) -> Option<[f64; 2]> {
+        let mut distances = self.keys.iter().filter_map(|(.., fields)| fields[2]);
+        let first = distances.next()?;
+        Some(distances.fold([first; 2], |[near, far], distance| [near.min(distance), far.max(distance)]))
+    }
+
     /// Times that cut an interval about `time_secs` short: the last cut at or before it and the first one after it.
     pub fn uncut(&self, time_secs: f64, [from, to]: [f64; 2]) -> [f64; 2] {
         let cuts = || self.keys.iter().filter(|(_, cut, _)| *cut).map(|(time, ..)| *time);

@@ -12,6 +12,10 @@ use super::light::Picture;
 use super::moment::Moment;
 use super::seen::FrameFacts;
 
+/// Diameter of the circle of confusion of the subject that is not in focus, over the frame's height, for words of each
+/// degree: at 3.5 % its edges dissolve and everybody sees where the focus is.
+const BLUR_BY_DEGREE: [f64; 3] = [0.015, 0.035, 0.06];
+
 /// The focus moves from one subject to another. The keyframes have the distances
 /// ([`super::OpticsTrack::focus_distance`]); the rest is depth of field.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +34,7 @@ impl EffectKind for RackFocus {
         let aperture = calls.named(DepthOfField::NAME);
         let more = aperture.map(|aperture| aperture.settings.clone()).unwrap_or_default();
         let settings = call.settings.iter().cloned().chain(more).collect();
-        DepthOfField::of_call(&Call { settings, ..call.clone() }).map(Self)
+        DepthOfField::of_call(&Call { settings, ..call.clone() }, BLUR_BY_DEGREE).map(Self)
     }
 }
 
@@ -52,7 +56,7 @@ impl Effect for RackFocus {
     }
 
     fn measured(&self, first: &FrameFacts<'_>) -> Result<Option<Arc<dyn Effect>>, RenderError> {
-        Ok(Some(Arc::new(Self(self.0.settled(first)?))))
+        Ok(Some(Arc::new(Self(self.0.opened_between(first).settled(first)?))))
     }
 
     fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {

@@ -38,7 +38,9 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
         return total + REJECT_COST / 2.0;
     }
     let charge_hidden = |constraint: &Constraint| {
-        let measured = measure(world, constraint, &states, SEARCH_POINTS);
+        // Of what must not be seen a few percent count.
+        let finely = if matches!(constraint.kind, ConstraintKind::Unseen(..)) { 3 } else { 1 };
+        let measured = measure(world, constraint, &states, finely * SEARCH_POINTS);
         if measured.violation > 0.0 || !matches!(constraint.kind, ConstraintKind::Unoccluded(..)) {
             return charge_of(measured.violation);
         }
@@ -103,13 +105,16 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
     }
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
     let wrong = ends.iter().filter(|s| !world.sees_front_faces(position(s))).count();
-    let outside = most(World::outside_frac);
-    let far = if world.is_indoor() { outside - OUTSIDE_FRAC } else { sunk };
+    let outside = most(|world, point| {
+        let [level, upright] = world.outside_fracs(point);
+        upright.max(level - OUTSIDE_FRAC)
+    });
+    let far = if world.is_indoor() { outside } else { sunk };
     3.0 * wrong as f64 + (8.0 * far).clamp(0.0, 2.0)
 }
 
-/// Distance from the core box of a room, over the scene size, from which a camera in the captured region is far outside:
-/// one wall of a room is captured from before it.
+/// Level distance from the core box of a room, over the scene size, from which a camera in the captured region is far
+/// outside: one wall of a room is captured from before it.
 const OUTSIDE_FRAC: f64 = 0.25;
 /// Cost of a segment that leaves the captured region of a room, under its floor or behind its walls: more than that of two
 /// violated constraints, because nobody keeps a film of the backs of walls.

@@ -31,8 +31,10 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
 /// itself is better.
 fn widened_cost(segment: &MotionSegment) -> f64 {
     let tan = |state: &CameraState| (state.fov_y_rad / 2.0).tan();
-    let widened = (tan(&segment.last()) / tan(&segment.states[0])).ln().abs();
-    if segment.movement == Move::PullOut && widened > 0.01 { WIDENED_COST + widened } else { 0.0 }
+    let widened = (tan(&segment.last()) / tan(&segment.states[0])).ln();
+    let is_stated =
+        segment.constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::FieldOfView(_)));
+    if !is_stated && segment.movement == Move::PullOut && widened > 0.01 { WIDENED_COST + widened } else { 0.0 }
 }
 
 /// Cost of a subject that is cut by the edge of the frame at an end for which the words state no size that cuts it.

@@ -31,7 +31,7 @@ pub(super) struct ViewRange {
 }
 
 /// Elevation of an overhead view: straight down to the eye, but with a horizon that the camera's yaw can be told from.
-pub(super) const OVERHEAD_DEG: (f64, f64) = (78.0, 87.0);
+pub(super) const OVERHEAD_DEG: (f64, f64) = (84.0, 88.5);
 /// The same for a camera that circles its subject or sinks beside it: from nearer to the zenith it would spin in place,
 /// or come down on it.
 pub(super) const CIRCLING_OVERHEAD_DEG: (f64, f64) = (52.0, 74.0);
@@ -52,6 +52,18 @@ fn elevation_band_deg(angle: ShotAngle, range: &ViewRange) -> (f64, f64) {
         ShotAngle::Low => (-34.0, -11.0),
         ShotAngle::Worm => (-65.0, -42.0),
     }
+}
+
+/// Elevation of a high angle on a thing that stands low in a room, degrees: what lies on a table is seen from 33 degrees on,
+/// and 40 is the steepest pitch of a high angle.
+const HIGH_OVER_LOW_DEG: (f64, f64) = (33.0, 39.5);
+/// Height of the top of such a thing, over that of a standing person's eyes.
+const LOW_TOP: f64 = 0.6;
+
+/// Whether a target in a room ends well below the eyes of a standing person.
+fn lies_low(world: &World, target: &Target) -> bool {
+    let top = target.corners.iter().map(|c| world.height_above_floor(*c)).fold(f64::NEG_INFINITY, f64::max);
+    world.is_indoor() && !target.ids.is_empty() && top < LOW_TOP * world.eye_height()
 }
 
 /// Elevation of the camera where the words state none: as a person would see the target. Parameter 1 chooses it; its
@@ -97,6 +109,7 @@ pub(super) fn opening_view(
         None => azimuth(range, proposed, parameters),
     };
     let elevation_deg = match framing.angle {
+        Some(ShotAngle::High) if lies_low(world, target) => lerp(HIGH_OVER_LOW_DEG, parameters[1]),
         Some(angle) => lerp(elevation_band_deg(angle, range), parameters[1]),
         None => free_elevation_deg(world, target, parameters[1], proposed),
     };

@@ -50,6 +50,8 @@ pub struct World {
     region: CaptureRegion,
     /// Height along up of the floor, or of the bottom of the scene's core box.
     floor_height: f64,
+    /// Height along up of the bottom of the scene's core box.
+    bottom: f64,
     /// All objects of the scene.
     pub(super) things: Vec<Thing>,
     /// Places where people stand in a room, with what they look at. [`lookouts`](super::lookouts::lookouts) finds them
@@ -108,6 +110,7 @@ impl World {
             frame,
             bounds,
             floor_height,
+            bottom,
             aspect: DEFAULT_ASPECT,
             camera_radius,
             subjects,
@@ -171,9 +174,11 @@ impl World {
         self.floor_height
     }
 
-    /// Height of a standing person's eyes above the floor.
+    /// Height of a standing person's eyes above the floor. A scene with ground outside reaches farther down, and is larger for
+    /// it.
     pub(super) fn eye_height(&self) -> f64 {
-        EYE_FRAC * self.bounds.size()
+        let eye = EYE_FRAC * self.bounds.size();
+        (eye - (self.floor_height - self.bottom)).max(0.5 * eye)
     }
 
     /// Height of a point above the floor of a room, or above the bottom of the core box of an object.
@@ -185,6 +190,12 @@ impl World {
     /// height.
     pub(super) fn sunk_frac(&self, point: DVec3) -> f64 {
         (self.floor_height() + self.camera_radius - self.frame.height(point)).max(0.0) / self.bounds.size()
+    }
+
+    /// Level and upright distance from a point to the scene's core box over the scene size; 0 inside.
+    pub(super) fn outside_fracs(&self, point: DVec3) -> [f64; 2] {
+        let away = point - point.clamp(self.bounds.core_min, self.bounds.core_max);
+        [self.frame.horizontal(away).length(), self.frame.height(away).abs()].map(|part| part / self.bounds.size())
     }
 
     /// Distance from a point to the scene's core box (of the middle 96 % of the solid Gaussians) over the scene size; 0

@@ -10,6 +10,7 @@ mod clearance;
 mod direct;
 mod error;
 mod film;
+mod film_pictures;
 mod focus;
 mod forecast;
 mod frames;
@@ -32,6 +33,7 @@ pub use film::{
     FilmProgress, FilmReport, FilmSettings, called_effects, camera_at, complete_effects, film, film_part, film_planned,
     plan_effects, suited_preset, video_of,
 };
+pub use film_pictures::film_pictures;
 pub use forecast::{
     FilmCost, Forecast, Promised, Requirements, TimeCost, checked_psnr_db, choose, forecast, num_cores, promised,
 };

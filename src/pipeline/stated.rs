@@ -38,7 +38,8 @@ fn states_direction(movement: Move, words: &str) -> bool {
         [&["left"], &["right"]],
         [&["up", "upward", "upwards"], &["down", "downward", "downwards"]],
     ];
-    let words = words.to_lowercase();
+    // `Right here` is no direction.
+    let words = words.to_lowercase().replace("right where", "").replace("right here", "").replace("right there", "");
     let has = |list: &[&str]| words.split(|c: char| !c.is_alphanumeric()).any(|word| list.contains(&word));
     let (axis, end) = match movement {
         Move::PushIn | Move::ZoomIn | Move::DollyZoomIn => (0, 0),

@@ -1,10 +1,10 @@
-use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{RenderSettings, Renderer};
 use cinesplat_scene::Scene;
-use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_trajectory::Shot;
 use cinesplat_video::TakesSheet;
 
 use super::error::PipelineError;
+use super::film_pictures::film_pictures;
 
 /// Frames per take.
 const NUM_FRAMES: usize = 5;
@@ -22,13 +22,8 @@ pub fn takes_sheet(scene: &Scene, renderer: &Renderer<'_>, takes: &[Shot]) -> Re
     let size_px = [width, height].map(|side| ((side * shrink).round() as u32).max(1));
     let mut sheet = TakesSheet::new(size_px, takes.len(), NUM_FRAMES);
     for (film, shot) in takes.iter().enumerate() {
-        let path = CameraPath::new(shot)?;
-        for idx in 0..NUM_FRAMES {
-            let state = path.sample(shot.duration_secs * idx as f64 / (NUM_FRAMES - 1) as f64);
-            let intrinsics = Intrinsics::from_fov_y(size_px[0], size_px[1], state.fov_y_rad);
-            let frame = renderer.render(&Camera { pose: state.pose, intrinsics }, &settings)?;
-            sheet.put(film, idx, &frame.to_rgb8());
-        }
+        let pictures = film_pictures((renderer, &settings), shot, size_px, NUM_FRAMES)?;
+        pictures.iter().enumerate().for_each(|(idx, picture)| sheet.put(film, idx, picture));
     }
     Ok(sheet)
 }

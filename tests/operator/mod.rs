@@ -2,6 +2,7 @@
 
 mod clearance;
 mod composition;
+mod edges;
 mod finalists;
 mod flow;
 mod forbidden;

@@ -4,7 +4,7 @@ use cinesplat::geometry::{LevelFrame, rotation};
 use cinesplat::operator::{
     Amount, Framing, Look, Pass, Program, Slant, SolveLevel, SolveSettings, Step, StepCameras, Via, realize,
 };
-use cinesplat::trajectory::{CameraState, Move, ShotSize};
+use cinesplat::trajectory::{CameraState, Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
 use super::{film, solved, world};
@@ -228,4 +228,48 @@ fn a_slide_from_thing_to_thing_does_not_go_along_a_third() {
     let along =
         Step { via: Some(Via { how: Pass::Along, objects: vec![1] }), look: Some(Look::At(vec![2])), ..slide.clone() };
     assert_eq!(solved(&world(), vec![along]).keyframes, solved(&world(), vec![slide]).keyframes);
+}
+
+#[test]
+fn a_rack_focus_has_one_subject_near_and_the_other_far_behind_it() {
+    let frames = filmed(Step { start: about(2), end: about(1), ..Step::of(Move::RackFocus) });
+    let state = &frames[0];
+    let depths = [CENTER, DVec3::new(-1.2, 0.5, 0.8)].map(|center| {
+        let at = state.pose.to_camera(center);
+        let half = (state.fov_y_rad / 2.0).tan() * at.z;
+        assert!(at.z > 0.0 && at.y.abs() < half && at.x.abs() < half * 16.0 / 9.0, "in the frame: {at}");
+        at.z
+    });
+    let ratio = depths[0].max(depths[1]) / depths[0].min(depths[1]);
+    assert!(ratio > 1.25 && state.fov_y_rad.to_degrees() < 28.0, "depths {depths:?}");
+}
+
+#[test]
+fn a_descent_from_above_that_circles_keeps_its_distance() {
+    let angle = |angle| Framing { angle: Some(angle), ..about(1) };
+    let frames = filmed(Step {
+        start: angle(ShotAngle::Overhead),
+        end: angle(ShotAngle::EyeLevel),
+        with: vec![Move::OrbitRight],
+        ..Step::of(Move::CraneDown)
+    });
+    let away = |state: &CameraState| state.pose.position - CENTER;
+    let nearest = frames.iter().map(|state| away(state).length()).fold(f64::INFINITY, f64::min);
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    assert!(nearest > 0.85 * away(first).length(), "comes no nearer: {nearest}");
+    assert!(first.pose.forward().y < -0.98 && last.pose.forward().y.abs() < 0.3, "from above to its level");
+    let swept: f64 = frames
+        .windows(2)
+        .map(|pair| away(&pair[0]).with_y(0.0).angle_between(away(&pair[1]).with_y(0.0)).to_degrees())
+        .sum();
+    assert!(swept > 120.0, "circles by {swept} degrees");
+}
+
+#[test]
+fn a_flight_between_two_things_is_level_with_their_middles() {
+    let via = Some(Via { how: Pass::Between, objects: vec![1, 2] });
+    let frames = filmed(Step { via, ..Step::of(Move::FlyThrough) });
+    let heights = frames.iter().map(|state| state.pose.position.y);
+    let (low, high) = heights.fold((f64::INFINITY, 0.0_f64), |(low, high), y| (low.min(y), high.max(y)));
+    assert!(high - low < 0.05 && (0.3..1.0).contains(&low), "flies from {low} to {high}");
 }

@@ -24,6 +24,26 @@ fn a_top_view_looks_straight_down() {
 }
 
 #[test]
+fn a_turn_above_a_thing_is_plumb_and_shows_another_side_of_it() {
+    let frames = film(&solved(&world(), vec![Step { end: overhead(1), ..Step::of(Move::RollCw) }]));
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    let down = (-first.pose.forward().y).asin().to_degrees();
+    assert!(down > 83.0, "looks down by {down} degrees");
+    let turned = first.pose.right().angle_between(last.pose.right()).to_degrees();
+    assert!((45.0..95.0).contains(&turned), "turns by {turned} degrees");
+}
+
+#[test]
+fn a_high_angle_on_a_low_thing_looks_down_on_it() {
+    let framing = Framing { angle: Some(ShotAngle::High), subjects: vec![2], ..Framing::default() };
+    let center = DVec3::new(-1.2, 0.5, 0.8);
+    let away =
+        film(&solved(&world(), vec![Step { end: framing, ..Step::of(Move::ArcRight) }]))[0].pose.position - center;
+    let elevation = away.y.atan2(away.with_y(0.0).length()).to_degrees();
+    assert!(elevation > 32.0, "from {elevation} degrees above");
+}
+
+#[test]
 fn a_top_view_below_a_ceiling_stays_in_the_room_with_a_wider_lens() {
     let (mut gaussians, objects) = room();
     wall(&mut gaussians, DVec3::new(-3.0, ROOM.y, -3.0), DVec3::X * 6.0, DVec3::Z * 6.0);

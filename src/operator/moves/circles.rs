@@ -6,10 +6,10 @@ use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::paths::end_view;
 use crate::composition::side_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
-use crate::framing::{Bearing, Target, bearing_of, view_at};
+use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
-use crate::view::{aimed, lerp, moved, with_fov};
+use crate::view::{aimed, lerp, moved, stated_fill, with_fov};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
@@ -126,12 +126,14 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
     } else {
         context.opened_on(&target, (0.42, 0.68))
     };
-    let last = raised(context, &first, &target, upward);
-    let middle = CameraState {
-        pose: Pose { position: first.pose.position.lerp(last.pose.position, 0.5), ..first.pose },
-        ..first
+    let states = if swoops(context, &first, &target, upward) {
+        swoop(context, &first, &target)
+    } else {
+        let last = raised(context, &first, &target, upward);
+        let position = first.pose.position.lerp(last.pose.position, 0.5);
+        let middle = CameraState { pose: Pose { position, ..first.pose }, ..first };
+        vec![first, aimed(context.world, &middle, target.aim), last]
     };
-    let states = vec![first, aimed(context.world, &middle, target.aim), last];
     let mut segment = context.segment(states).about(target.aim);
     let end_angle = context.step.end.angle;
     let band = match (end_angle, upward) {
@@ -148,6 +150,52 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
         .requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.14));
     segments.push(require_visible(segment, &target, Scope::All));
     segments
+}
+
+/// Elevation of the camera from which on a descent is a swoop, degrees: straight down it would come down on its subject.
+const SWOOP_FROM_DEG: f64 = 50.0;
+/// Intervals between the keyframes of a swoop.
+const SWOOP_KEYS: u32 = 8;
+/// Largest size of the subject at the end of a swoop, where the words state none.
+const SWOOP_FILL: f64 = 0.72;
+
+/// Whether a descent begins above its subject and leads to a side of it.
+fn swoops(context: &StepContext, first: &CameraState, target: &Target, upward: bool) -> bool {
+    let end = &context.step.end;
+    let start = bearing_of(context.world, target.aim, first.pose.position).elevation_rad.to_degrees();
+    let is_stated = end.height.is_some() || context.step.amount.is_some();
+    !upward && start > SWOOP_FROM_DEG && !is_stated && end.angle != Some(ShotAngle::Overhead)
+}
+
+/// Sinks on an arc about the subject, from above it to the elevation of the end, at a distance that keeps its size.
+fn swoop(context: &StepContext, first: &CameraState, target: &Target) -> Vec<CameraState> {
+    let world = context.world;
+    let start = bearing_of(world, target.aim, first.pose.position);
+    let stated = context.step.end.elevation_deg;
+    let to_deg = stated.unwrap_or_else(|| end_elevation_deg(context, lerp((4.0, 24.0), context.parameters[6])));
+    let from = first.pose.position.distance(target.aim);
+    let bearing =
+        |share: f64| Bearing { elevation_rad: lerp((start.elevation_rad, to_deg.to_radians()), share), ..start };
+    let fill = stated_fill(&context.step.end, context.parameters[7]);
+    let whole = distance_for(world, target, bearing(1.0), fill.unwrap_or(Fill::Fit(SWOOP_FILL)), first.fov_y_rad);
+    let to = if fill.is_some() { whole } else { whole.max(from) };
+    let at = |i: u32| {
+        let share = f64::from(i) / f64::from(SWOOP_KEYS);
+        view_at(world, target.aim, bearing(share), lerp((from, to), share), first.fov_y_rad)
+    };
+    std::iter::once(*first).chain((1..=SWOOP_KEYS).map(at)).collect()
+}
+
+/// Elevation at the end of a crane whose end has an angle; `free_deg` without one.
+fn end_elevation_deg(context: &StepContext, free_deg: f64) -> f64 {
+    match context.step.end.angle {
+        Some(ShotAngle::Overhead) => lerp((58.0, 70.0), context.parameters[6]),
+        Some(ShotAngle::High) => lerp((24.0, 38.0), context.parameters[6]),
+        Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), context.parameters[6]),
+        Some(ShotAngle::Low) => lerp((-30.0, -10.0), context.parameters[6]),
+        Some(ShotAngle::Worm) => -45.0,
+        None => free_deg,
+    }
 }
 
 /// Rises or sinks from a view of one subject to a view of another.
@@ -207,14 +255,7 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
     let distance = away.length();
     let start = bearing_of(context.world, target.aim, first.pose.position).elevation_rad.to_degrees();
     let sign = if upward { 1.0 } else { -1.0 };
-    let asked = match context.step.end.angle {
-        Some(ShotAngle::Overhead) => lerp((58.0, 70.0), context.parameters[6]),
-        Some(ShotAngle::High) => lerp((24.0, 38.0), context.parameters[6]),
-        Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), context.parameters[6]),
-        Some(ShotAngle::Low) => lerp((-30.0, -10.0), context.parameters[6]),
-        Some(ShotAngle::Worm) => -45.0,
-        None => start + sign * lerp((22.0, 42.0), context.parameters[6]),
-    };
+    let asked = end_elevation_deg(context, start + sign * lerp((22.0, 42.0), context.parameters[6]));
     let asked = context.step.end.elevation_deg.unwrap_or(asked);
     // For every end angle a crane must rise or sink visibly.
     let least = start + sign * MIN_CRANE_DEG;

@@ -209,12 +209,13 @@ impl<'a> StepContext<'a> {
         opening_view(self.world, target, framing, &range, self.suggestion, self.parameters)
     }
 
-    /// Whether the step takes the camera around its subject or down to it, alone or with another move.
+    /// Whether the step takes the camera around its subject without a descent, or up to the zenith: a descent swoops down
+    /// from straight above.
     fn leaves_zenith(&self) -> bool {
         use Move::{ArcLeft, ArcRight, CraneDown, CraneUp, OrbitLeft, OrbitRight};
-        let leaves =
-            |movement: &Move| matches!(movement, OrbitLeft | OrbitRight | ArcLeft | ArcRight | CraneDown | CraneUp);
-        leaves(&self.step.movement) || self.step.with.iter().any(leaves)
+        let moves = || std::iter::once(&self.step.movement).chain(&self.step.with);
+        let leaves = |movement: &Move| matches!(movement, OrbitLeft | OrbitRight | ArcLeft | ArcRight | CraneUp);
+        moves().any(leaves) && self.step.movement != CraneDown
     }
 
     /// Whether the prompt opens on the room as a whole: a wide size without subjects.

@@ -1,4 +1,4 @@
-//! Moves of the lens: zoom, dolly zoom, rack focus.
+//! Moves of the lens: zoom, dolly zoom.
 
 use super::context::{StepContext, require_visible};
 use crate::composition::lens_fov_deg;
@@ -131,20 +131,5 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     // Where the prompt leaves the direction open, the keyframes record the one that was taken.
     segment.movement = if inward { Move::DollyZoomIn } else { Move::DollyZoomOut };
     segments.push(require_visible(segment, &target, Scope::All));
-    segments
-}
-
-/// Moves the focus from one subject to another; the camera stays in place.
-pub(super) fn rack_focus(context: &StepContext) -> Vec<MotionSegment> {
-    let (from, to) = (context.opening_target(), context.main_target());
-    let (mut segments, view) = match &context.before {
-        Some(before) => (Vec::new(), *before),
-        None => context.opened_on(&from, (0.36, 0.62)),
-    };
-    let depth = |target: &Target| view.pose.to_camera(target.aim).z.max(1e-3 * context.world.bounds.size());
-    let focused = |target: &Target| CameraState { focus_distance: Some(depth(target)), ..view };
-    let segment = context.lasting(vec![focused(&from), focused(&to)], 2.5);
-    let segment = segment.requiring(Scope::All, ConstraintKind::InFrame(to.ids.iter().take(1).copied().collect(), 0.8));
-    segments.push(require_visible(segment, &to, Scope::All));
     segments
 }

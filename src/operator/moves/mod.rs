@@ -13,6 +13,7 @@ mod look;
 mod overlook;
 mod passes;
 mod paths;
+mod rack_focus;
 mod requirements;
 mod room_view;
 mod scanned;
@@ -106,7 +107,7 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => circles::orbit(context),
         Move::ZoomIn | Move::ZoomOut => lens::zoom(context),
         Move::DollyZoomIn | Move::DollyZoomOut => lens::dolly_zoom(context),
-        Move::RackFocus => lens::rack_focus(context),
+        Move::RackFocus => rack_focus::rack_focus(context),
         Move::Follow | Move::FlyThrough => paths::follow(context),
         Move::Reveal if matches!(how, Some(Pass::Under | Pass::Through)) => passes::passing(context),
         Move::Reveal => paths::reveal(context),

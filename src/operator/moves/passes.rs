@@ -31,7 +31,7 @@ pub(super) fn passing(context: &StepContext) -> Vec<MotionSegment> {
             let stop = stop + frame.up * lerp((-0.1, 0.25), context.parameters[7]) * along;
             aimed(context.world, &moved(&first, stop - first.pose.position), goal.aim)
         }
-        None => moved(&first, (gate - first.pose.position) * 2.0),
+        None => beyond_gate(context, &first, gate),
     };
     let aim = goal.as_ref().map_or(gate + (gate - first.pose.position) * 4.0, |goal| goal.aim);
     let middle = aimed(context.world, &moved(&first, gate - first.pose.position), aim);
@@ -100,10 +100,11 @@ pub(super) fn gate(context: &StepContext, via: &Via) -> Option<DVec3> {
     match (via.how, subject(1)) {
         (Pass::Between, Some(second)) => {
             let at = first.center.lerp(second.center, lerp((0.3, 0.7), context.parameters[0]));
-            let floor = world.floor_height();
-            let high = top(&first.corners).max(top(&second.corners));
-            let height = lerp((0.35, 1.05), context.parameters[1]) * (high - floor) + floor;
-            Some(frame.horizontal(at) + frame.up * height)
+            // At about half the height of both, so that they leave the frame on either side and not below it.
+            let [low, high] = [first, second].map(|subject| frame.height(subject.center));
+            let reach = first.reach(frame.up).min(second.reach(frame.up));
+            let band = (low.min(high) - 0.2 * reach, low.max(high) + 0.7 * reach);
+            Some(frame.horizontal(at) + frame.up * lerp(band, context.parameters[1]))
         }
         (Pass::Over, _) => {
             let rise = top(&first.corners) - frame.height(first.center);
@@ -149,14 +150,55 @@ fn before_gate(context: &StepContext, gate: DVec3, goal: Option<&Target>) -> Cam
     let size = world.bounds.size();
     let heading = match goal {
         Some(goal) => frame.azimuth(goal.aim - gate),
-        None => context.parameters[2] * std::f64::consts::TAU,
+        None => across_pair(context).unwrap_or(context.parameters[2] * std::f64::consts::TAU),
     };
     let heading = way_through(context, goal).unwrap_or(heading + (context.parameters[2] - 0.5) * 1.2);
     let back = lerp((0.08, 0.4), context.parameters[3]) * size;
-    let rise = (context.parameters[4] - 0.4) * 0.15 * size;
+    // Between two things, without a goal behind them, the flight is level.
+    let is_level = goal.is_none() && across_pair(context).is_some();
+    let rise = if is_level { 0.0 } else { (context.parameters[4] - 0.4) * 0.15 * size };
     let position = gate - frame.direction(heading) * back + frame.up * rise;
     let fov_y_rad = lerp((40.0, 58.0), context.parameters[5]).to_radians();
     let state =
         CameraState { pose: Pose { position, rotation: glam::DQuat::IDENTITY }, fov_y_rad, focus_distance: None };
     aimed(world, &state, goal.map_or(gate, |goal| goal.aim))
+}
+
+/// Azimuth of the way between two objects, across the line from one to the other; parameter 4 chooses the side. `None`
+/// where the step passes no two.
+fn across_pair(context: &StepContext) -> Option<f64> {
+    let via = context.step.via.as_ref().filter(|via| via.how == Pass::Between)?;
+    let [first, second] = [0, 1].map(|i| via.objects.get(i).and_then(|&id| context.world.subject(id)));
+    let line = context.world.frame.horizontal(second?.center - first?.center).try_normalize()?;
+    let way = line.cross(context.world.frame.up);
+    Some(context.world.frame.azimuth(if context.parameters[4] < 0.5 { way } else { -way }))
+}
+
+/// Largest angle between the flight and what the camera looks at behind the gate, and between that and the horizon,
+/// radians.
+const AHEAD_RAD: f64 = 0.6;
+const AHEAD_PITCH_RAD: f64 = 0.25;
+
+/// The camera beyond a gate that nothing is said to lie behind: it looks ahead, at what fills most of the picture there.
+fn beyond_gate(context: &StepContext, first: &CameraState, gate: DVec3) -> CameraState {
+    let world = context.world;
+    let way = gate - first.pose.position;
+    let onward = lerp((0.5, 1.1), context.parameters[6]);
+    let last = moved(first, way * (1.0 + onward));
+    let eye = last.pose.position;
+    let is_ahead = |center: DVec3| {
+        let to = center - eye;
+        let level = world.frame.horizontal(to);
+        level.angle_between(way) < AHEAD_RAD && world.frame.height(to).atan2(level.length()).abs() < AHEAD_PITCH_RAD
+    };
+    let size = |center: DVec3, radius: f64| (radius / center.distance(eye)).min(0.4);
+    let passed = context.step.via.as_ref().map(|via| via.objects.clone()).unwrap_or_default();
+    let is_passed = |center: DVec3| passed.iter().any(|&id| world.subject(id).is_some_and(|s| s.center == center));
+    let things = world.things.iter().filter(|thing| is_ahead(thing.center) && !is_passed(thing.center));
+    let seen = things.filter(|thing| {
+        let to = thing.center - eye;
+        world.hit_distance(eye, to.normalize_or_zero()).is_some_and(|hit| hit > to.length() - 1.3 * thing.radius)
+    });
+    let best = seen.max_by(|a, b| size(a.center, a.radius).total_cmp(&size(b.center, b.radius)));
+    best.map_or(last, |thing| aimed(world, &last, thing.center))
 }

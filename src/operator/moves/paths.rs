@@ -90,14 +90,50 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     let framing = &context.step.end;
     let azimuth_rad = match framing.side {
         Some(side) => nearest(&side_azimuths(world, end.center, side), near.azimuth_rad) + spread(parameters[5]) * 0.35,
-        None => near.azimuth_rad + spread(parameters[5]) * 2.4,
+        None => match wall_front(context, end) {
+            // What hangs on a wall or is part of it is looked at from its front.
+            Some(front_rad) => front_rad + spread(parameters[5]) * 0.5,
+            None => near.azimuth_rad + spread(parameters[5]) * 2.4,
+        },
     };
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = unturned(context, first, Bearing { azimuth_rad, elevation_rad });
     let fill = stated_fill(framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.45, 0.78), parameters[6])));
     let loose = framing.whole && framing.height_frac.is_none();
     let fill = if loose { Fill::Fit(lerp((0.5, 0.85), parameters[6])) } else { fill };
-    view_from(world, (end, framing), bearing, fill, context.end_fov_rad(first))
+    let view = view_from(world, (end, framing), bearing, fill, context.end_fov_rad(first));
+    if stated_fill(framing, parameters[6]).is_some() || framing.distance.is_some() || !world.is_indoor() {
+        return view;
+    }
+    // Somebody who walks up to a wall stops an arm's length and more before it.
+    let short = match wall_front(context, end) {
+        Some(_) => LEAST_WALL_EYES * world.eye_height() - view.pose.position.distance(end.aim),
+        None => 0.0,
+    };
+    moved(&view, -view.pose.forward() * short.max(0.0))
+}
+
+/// Distance at which a walk up to a thing on a wall ends at least, over the height of a standing person's eyes.
+const LEAST_WALL_EYES: f64 = 0.7;
+/// Thickness of a thing on a wall over its width and its height.
+const WALL_THIN: f64 = 0.3;
+
+/// Azimuth of the free side of a thing on a wall, such as a window or a picture; `None` of any other thing.
+fn wall_front(context: &StepContext, target: &Target) -> Option<f64> {
+    let world = context.world;
+    let subject = world.subject(*target.ids.first()?).filter(|_| world.is_indoor())?;
+    let [wide, thin] = subject.level_axes(world.frame.up);
+    let is_thin = thin.length() < WALL_THIN * wide.length().min(subject.reach(world.frame.up));
+    let normal = thin.try_normalize().filter(|_| is_thin)?;
+    let free = |way: DVec3| {
+        let from = subject.center + way * (thin.length() + 2.0 * world.camera_radius);
+        world.hit_distance(from, way).unwrap_or(0.0)
+    };
+    let (there, back) = (free(normal), free(-normal));
+    let least = world.eye_height();
+    // Free on both sides it stands in the room, such as a guitar or a screen.
+    let is_on_wall = there.min(back) < LEAST_WALL_EYES * least && there.max(back) > least;
+    is_on_wall.then(|| world.frame.azimuth(if there > back { normal } else { -normal }))
 }
 
 /// The bearing from which a camera sees the end target without the turns that the prompt forbids.

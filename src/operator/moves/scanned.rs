@@ -33,6 +33,10 @@ pub(super) fn fill_frame(context: &StepContext, segments: &mut Vec<MotionSegment
     if !context.world.is_indoor() || stated || context.step.look.is_some() || !context.forbidden.is_empty() {
         return;
     }
+    // A stated turn is exact.
+    if matches!(way, Way::SamePitch | Way::SameYaw) && context.step.amount.is_some() {
+        return;
+    }
     let Some(segment) = segments.last_mut().filter(|segment| !segment.is_join) else { return };
     let last = segment.states.len() - 1;
     let continues = context.before.is_some_and(|before| is_same_camera(&before, &segment.states[0]));

@@ -11,9 +11,9 @@ use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Target, extent_frac, frame_position, off_center};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing, SubjectPart};
-use crate::view::{aimed, aimed_at_side, lerp};
+use crate::view::{aimed, aimed_at_side, lerp, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
-use cinesplat_trajectory::{CameraState, Easing, Move};
+use cinesplat_trajectory::{CameraState, Easing, Move, ShotAngle};
 
 /// Range of the turn of a pan with a free end, and of a tilt, degrees.
 const OPEN_PAN_DEG: (f64, f64) = (38.0, 66.0);
@@ -209,7 +209,7 @@ fn turn(
     let is_pinned = context.before.is_some() || !segments.is_empty() || stated_rad.is_some();
     let (first, last) = if tilts { (first, last) } else { leveled(context, [first, last], is_pinned) };
     // Half a turn and more is no shortest way from the first camera to the last.
-    let wide_rad = stated_rad.filter(|angle_rad| !tilts && *angle_rad > WIDE_TURN_RAD);
+    let wide_rad = stated_rad.filter(|angle_rad| !tilts && !is_between(context) && *angle_rad > WIDE_TURN_RAD);
     let states = match wide_rad {
         Some(angle_rad) => {
             let count = (angle_rad / WIDE_TURN_RAD).ceil().max(1.0);
@@ -345,14 +345,18 @@ fn is_stated(framing: &Framing) -> bool {
 
 /// Turns about the view axis.
 pub(super) fn roll(context: &StepContext) -> Vec<MotionSegment> {
+    let overhead = context.step.start.angle.or(context.step.end.angle) == Some(ShotAngle::Overhead);
     let (mut segments, first) = match (&context.before, &context.start, &context.end) {
         (Some(before), None, None) => (Vec::new(), *before),
-        _ => context.opened_on(&context.main_target(), (0.4, 0.7)),
+        _ => context.opened_on(&context.main_target(), if overhead { OVERHEAD_FILL } else { (0.4, 0.7) }),
     };
+    let first = if overhead && context.before.is_none() { holding_turned(context, first) } else { first };
     let degrees = match context.step.amount {
         Some(Amount::Degrees(degrees)) => degrees,
         Some(Amount::Slight) => 8.0,
+        Some(Amount::Large) if overhead => 120.0,
         Some(Amount::Large) => 45.0,
+        _ if overhead => lerp(OVERHEAD_ROLL_DEG, context.parameters[6]),
         _ => 20.0,
     };
     let sign = context.sign(if context.step.movement == Move::RollCw { 1.0 } else { -1.0 });
@@ -366,4 +370,31 @@ pub(super) fn roll(context: &StepContext) -> Vec<MotionSegment> {
     let segment = context.segment((0..=count).map(rolled).collect());
     segments.push(require_visible(segment, &context.main_target(), Scope::Start));
     segments
+}
+
+/// Size of the subject below a camera that turns above it, before the lens is widened: near views are below the lamps.
+const OVERHEAD_FILL: (f64, f64) = (0.45, 1.5);
+/// Angle of a turn above a subject with a free end, degrees: what lies there is seen from another side.
+const OVERHEAD_ROLL_DEG: (f64, f64) = (50.0, 90.0);
+/// Widest vertical field of view above a subject, degrees, and the share of the frame's height that the subject takes.
+const OVERHEAD_WIDEST_DEG: f64 = 84.0;
+const OVERHEAD_HELD: f64 = 0.94;
+
+/// The camera with a lens that holds the whole subject at every turn about the view axis, unless the words state its size.
+fn holding_turned(context: &StepContext, view: CameraState) -> CameraState {
+    let [start, end] = [&context.step.start, &context.step.end];
+    if [start, end]
+        .iter()
+        .any(|framing| framing.size.is_some() || framing.lens.is_some() || framing.height_frac.is_some())
+    {
+        return view;
+    }
+    let off_axis = |corner: &DVec3| {
+        let at = view.pose.to_camera(*corner);
+        at.x.hypot(at.y) / at.z.max(1e-9)
+    };
+    let target = context.main_target();
+    let reach = target.corners.iter().map(off_axis).fold(0.0, f64::max) / OVERHEAD_HELD;
+    let widest = OVERHEAD_WIDEST_DEG.to_radians();
+    with_fov(&view, (2.0 * reach.atan()).clamp(view.fov_y_rad.min(widest), widest))
 }

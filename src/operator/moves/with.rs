@@ -171,6 +171,17 @@ impl Extent {
     }
 }
 
+/// Angle about the subject of a circle beside another move, degrees. Somebody who circles a thing while rising or sinking
+/// goes around it, on a spiral.
+fn beside_deg(context: &StepContext, second: Move) -> f64 {
+    let circles = matches!(second, Move::OrbitLeft | Move::OrbitRight);
+    if circles && matches!(context.step.movement, Move::CraneUp | Move::CraneDown) { SPIRAL_DEG } else { ASIDE_DEG }
+}
+
+/// The angle of such a spiral, and of a circle beside any other move, degrees.
+const SPIRAL_DEG: f64 = 150.0;
+const ASIDE_DEG: f64 = 40.0;
+
 /// A state with `share` of the second move added: by the stated amount, or else the move's default.
 fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, share: f64) -> CameraState {
     let frame = &context.world.frame;
@@ -194,7 +205,7 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
     };
     let lens = |ratio: f64| with_fov(state, 2.0 * ((state.fov_y_rad / 2.0).tan() * ratio.powf(share)).atan());
     let around = |sign: f64| {
-        let azimuth = frame.azimuth(away) + (sign * degrees(40.0) * share).to_radians();
+        let azimuth = frame.azimuth(away) + (sign * degrees(beside_deg(context, second)) * share).to_radians();
         let place = aim + frame.direction(azimuth) * frame.horizontal(away).length() + frame.up * frame.height(away);
         aimed(context.world, &moved(state, place - state.pose.position), aim)
     };
