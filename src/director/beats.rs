@@ -144,7 +144,7 @@ fn states_film_length(linked: &Linked, beat: &Beat) -> bool {
     const WHOLES: [&str; 10] =
         ["film", "clip", "video", "reel", "spot", "total", "overall", "altogether", "movie", ":"];
     const ENDS: [&str; 5] = ["", ".", ";", "!", ":"];
-    let words: Vec<&str> = linked.words_in(beat.bytes).map(|(word, _)| word).collect();
+    let words = linked.texts_in(beat.bytes);
     let word = |at: usize| words.get(at).copied().unwrap_or_default();
     let is_film = |at: usize| {
         let before = at.checked_sub(1).map_or("", word);

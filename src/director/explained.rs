@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::{Mention, NamedObject, Word, stem, tokenize};
+use cinesplat_language::{Mention, NamedObject, Word, is_listed, stem, tokenize};
 
 use crate::names::FoundMention;
 
@@ -77,8 +77,9 @@ const MOVES: &str = "moving drifting going rising gliding sliding flying tilting
     ending finishing starting landing settling looking booming turning coming heading holding arriving hovering";
 
 fn describes(word: &str) -> bool {
-    let is_in = |list: &str| list.split_ascii_whitespace().any(|known| known == word);
-    is_in(STATES) || word.ends_with("ing") && !is_in(MOVES) || word.ends_with("ly") && word.len() > 4
+    is_listed(STATES, word)
+        || word.ends_with("ing") && !is_listed(MOVES, word)
+        || word.ends_with("ly") && word.len() > 4
 }
 
 /// Makes one mention of a thing and of the place that tells which one it is, where the place is called by no word of

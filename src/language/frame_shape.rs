@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
+use super::blanks::{blank, unless_empty};
 use super::names::NamedObject;
 use super::tokenizer::{Word, span_of, tokenize};
 
@@ -62,10 +63,9 @@ pub fn without_frame_shape<'a>(prompt: &'a str, objects: &[NamedObject]) -> Cow<
         let end = end + usize::from(blanked[end..].starts_with([':', ',']));
         let before = blanked[..start].trim_end();
         let start = PREPOSITIONS.iter().find_map(|word| before.strip_suffix(word)).map_or(start, str::len);
-        blanked.to_mut().replace_range(start..end, &" ".repeat(end - start));
+        blank(&mut blanked, [start, end]);
     }
-    let says_more = blanked.contains(char::is_alphanumeric);
-    if says_more { blanked } else { Cow::Borrowed(prompt) }
+    unless_empty(blanked, prompt)
 }
 
 impl FrameShape {

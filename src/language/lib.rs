@@ -79,6 +79,7 @@
 //! What [`program_to_notation`] prints is also a [`Pattern`] ([`program_pattern`]). Its [`Automaton`] holds a writer to
 //! the notation byte by byte: whatever it lets pass parses.
 
+mod blanks;
 mod corrections;
 mod edit_distance;
 mod effects;
@@ -108,6 +109,7 @@ mod tokenizer;
 mod tolerances;
 mod unknown;
 
+pub use blanks::blanked;
 pub use edit_distance::edit_distance;
 pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
 pub use error::LanguageError;
@@ -128,10 +130,10 @@ pub use numbered::{NumberedMention, numbered_mention_at};
 pub use numerals::number_word;
 pub use plain::{mend_names, plain_words};
 pub use quantity::{Quantity, QuantityKind};
-pub use scenery::{blanked, scenery};
+pub use scenery::scenery;
 pub use senses::{Senses, sense_names};
 pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
 pub use timeline::{Beat, BeatLength, Timeline};
-pub use tokenizer::{Word, tokenize};
+pub use tokenizer::{Word, is_listed, tokenize};
 pub use tolerances::without_tolerances;
 pub use unknown::UnknownName;

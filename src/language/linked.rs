@@ -81,6 +81,11 @@ impl Linked {
         words.filter(move |(_, span)| (bytes[0]..bytes[1]).contains(&span[0]))
     }
 
+    /// The words that begin in these bytes of the prompt.
+    pub fn texts_in(&self, bytes: [usize; 2]) -> Vec<&str> {
+        self.words_in(bytes).map(|(word, _)| word).collect()
+    }
+
     /// `ids` with each group replaced by its members, each once. A group without members stays.
     pub fn expanded(&self, ids: &[u32]) -> Vec<u32> {
         let mut out: Vec<u32> = Vec::new();

@@ -8,7 +8,7 @@ use super::linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, 
 use super::plain::plain_words;
 use super::quantity::quantity_at;
 use super::timeline::timeline;
-use super::tokenizer::{Word, span_of, tokenize, word_at};
+use super::tokenizer::{Word, is_listed, span_of, tokenize, word_at};
 
 /// Least id of a group. Objects have ids up to 65,535.
 const FIRST_GROUP: u32 = 1 << 20;
@@ -91,24 +91,20 @@ const WHOLES: &str = "whole entire all complete";
 /// First words of what a mention chooses from: `the middle of the three`.
 const CHOICES: &str = "them these those all both two three four five six seven eight nine ten";
 
-fn is_in(list: &str, word: &Word) -> bool {
-    list.split_ascii_whitespace().any(|known| known == word.text)
-}
-
 /// Number of words with which a mention of one thing names a part of it: 3 in `the top of the pipes`, 0 in others.
 fn part_before(words: &[Word]) -> usize {
     let Some(of) = words.iter().take(4).position(|word| word.text == "of").filter(|of| *of > 0) else { return 0 };
-    let is_fraction = is_in(FRACTIONS, &words[of - 1]) && of > 1 && is_in(WHICH, &words[of - 2]);
+    let is_fraction = is_listed(FRACTIONS, &words[of - 1].text) && of > 1 && is_listed(WHICH, &words[of - 2].text);
     let whole: Vec<&Word> = words[of + 1..].iter().skip_while(|word| word.text == "the").collect();
-    let chooses = |word: &&Word| is_in(CHOICES, word) || !word.is_alphabetic();
-    let names_part = is_fraction || is_in(PARTS, &words[of - 1]);
+    let chooses = |word: &&Word| is_listed(CHOICES, &word.text) || !word.is_alphabetic();
+    let names_part = is_fraction || is_listed(PARTS, &words[of - 1].text);
     if names_part && whole.first().is_some_and(|word| !chooses(word)) { of + 1 } else { 0 }
 }
 
 /// Number of words with which a mention of one thing ends in a part of it: 2 in `the chair's back`, 0 in others.
 fn part_behind(words: &[Word]) -> usize {
     match words {
-        [_, .., mark, part] if mark.text == "'s" && is_in(PARTS, part) => 2,
+        [_, .., mark, part] if mark.text == "'s" && is_listed(PARTS, &part.text) => 2,
         _ => 0,
     }
 }
@@ -137,7 +133,7 @@ impl Linked {
         let (part, rest) = words.split_at(before);
         let (thing, part_of_thing) = rest.split_at(rest.len() - behind);
         part.iter().for_each(|word| self.append(&word.text, std::slice::from_ref(word)));
-        if is_one && thing.len() > 1 && thing.iter().any(|word| is_in(WHOLES, word)) {
+        if is_one && thing.len() > 1 && thing.iter().any(|word| is_listed(WHOLES, &word.text)) {
             self.wholes.push(span_of(thing));
         }
         self.append(&format!("<obj-{slot}>"), thing);

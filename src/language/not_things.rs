@@ -3,7 +3,7 @@
 
 use super::mention::Mention;
 use super::names::NamedObject;
-use super::tokenizer::{Word, tokenize, word_at};
+use super::tokenizer::{Word, is_listed, tokenize, word_at};
 
 /// Colors and what they are mixed with.
 const COLORS: &str = "teal orange gold golden yellow butter blue red green black white pink purple magenta cyan amber \
@@ -23,10 +23,6 @@ const PLATES: &str = "reference background clean back empty bg vfx still";
 /// Verbs of somebody who corrects himself, before `that`.
 const TAKEN_BACK: &str = "scratch strike forget cancel delete undo scrap ignore make";
 
-fn is_in(list: &str, word: &str) -> bool {
-    list.split_ascii_whitespace().any(|known| known == word)
-}
-
 /// Whether a mention names no thing: its words are the colors of a look or a term of the trade.
 pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> bool {
     let words = tokenize(prompt);
@@ -34,7 +30,7 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
     let Some(first) = words.iter().position(|word| (from..to).contains(&word.span[0])) else { return false };
     let end = words.iter().rposition(|word| (from..to).contains(&word.span[0])).map_or(first, |last| last + 1);
     let is_phrase = || word_at(&words, first) == "that" && end == first + 1;
-    let is_taken_back = first > 0 && is_in(TAKEN_BACK, word_at(&words, first - 1)) && is_phrase();
+    let is_taken_back = first > 0 && is_listed(TAKEN_BACK, word_at(&words, first - 1)) && is_phrase();
     is_taken_back
         || is_color_of_look(&words, [first, end])
         || is_plate(&words, [first, end])
@@ -43,27 +39,27 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
 
 /// `gold and black palette`, `teal & orange grade`: colors alone, and what has them behind.
 fn is_color_of_look(words: &[Word], [first, end]: [usize; 2]) -> bool {
-    let is_color = |at: &usize| is_in(COLORS, word_at(words, *at));
-    if first == end || !(first..end).all(|at| is_color(&at) || is_in(LOOKS, word_at(words, at)) && at > first) {
+    let is_color = |at: &usize| is_listed(COLORS, word_at(words, *at));
+    if first == end || !(first..end).all(|at| is_color(&at) || is_listed(LOOKS, word_at(words, at)) && at > first) {
         return false;
     }
     let behind = (end..words.len()).take_while(is_color).count();
-    (first + 1..end).any(|at| is_in(LOOKS, word_at(words, at)))
-        || words.get(end + behind).is_some_and(|word| is_in(LOOKS, &word.text))
+    (first + 1..end).any(|at| is_listed(LOOKS, word_at(words, at)))
+        || words.get(end + behind).is_some_and(|word| is_listed(LOOKS, &word.text))
 }
 
 /// `reference plate`: a piece of film.
 fn is_plate(words: &[Word], [first, end]: [usize; 2]) -> bool {
-    let is_pair = |at: usize| word_at(words, at) == "plate" && at > 0 && is_in(PLATES, word_at(words, at - 1));
-    (first..end).any(is_pair) && (first..end).all(|at| is_pair(at) || is_in(PLATES, word_at(words, at)))
+    let is_pair = |at: usize| word_at(words, at) == "plate" && at > 0 && is_listed(PLATES, word_at(words, at - 1));
+    (first..end).any(is_pair) && (first..end).all(|at| is_pair(at) || is_listed(PLATES, word_at(words, at)))
 }
 
 /// A term alone, where no object of the scene is called so.
 fn is_term(words: &[Word], objects: &[NamedObject]) -> bool {
     let is_label =
         |word: &Word| objects.iter().any(|object| tokenize(&object.label).iter().any(|w| w.stem == word.stem));
-    words.iter().any(|word| is_in(TERMS, &word.text))
-        && words.iter().all(|word| (is_in(TERMS, &word.text) || is_in(BESIDE, &word.text)) && !is_label(word))
+    words.iter().any(|word| is_listed(TERMS, &word.text))
+        && words.iter().all(|word| (is_listed(TERMS, &word.text) || is_listed(BESIDE, &word.text)) && !is_label(word))
 }
 
 #[cfg(test)]

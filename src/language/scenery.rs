@@ -1,13 +1,11 @@
 //! Clauses about light, weather and mood: `dust motes drifting upward`, `sunlight sliding over the wall`, `melancholy,
 //! lo-fi`. They are about the picture and say nothing to whoever moves the camera, however much they move themselves.
 
-use std::borrow::Cow;
-
 use super::error::LanguageError;
 use super::known_words::KnownWords;
 use super::mention::Mention;
 use super::senses::{Senses, sense_names, senses_of};
-use super::tokenizer::{Word, span_of, tokenize, word_at};
+use super::tokenizer::{Word, is_listed, span_of, tokenize, word_at};
 
 /// What light, weather and mood consist of.
 const SCENERY: [&str; 100] = [
@@ -199,15 +197,6 @@ pub fn scenery(prompt: &str, mentions: &[Mention]) -> Result<Vec<[usize; 2]>, La
     Ok(out.into_iter().map(bytes_of).collect())
 }
 
-/// The prompt with blanks in place of some of its bytes, so that every other byte stays where it is.
-pub fn blanked<'a>(prompt: &'a str, ranges: &[[usize; 2]]) -> Cow<'a, str> {
-    let mut blanked = Cow::Borrowed(prompt);
-    for &[start, end] in ranges {
-        blanked.to_mut().replace_range(start..end, &" ".repeat(end - start));
-    }
-    blanked
-}
-
 /// What the words of a prompt tell an operator.
 struct Meaning {
     senses: Vec<Senses>,
@@ -298,7 +287,7 @@ fn is_about_scenery(words: &[Word], meaning: &Meaning, mentions: &[Mention], [fr
     let next = if head + 1 < to { word_at(words, head + 1) } else { "" };
     let is_verb = ["ing", "s", "ed"].iter().any(|ending| next.ends_with(ending));
     // `Light tilt up`, `wind-blown drift`: the light is one of a move.
-    let is_weather = WEATHER.split_ascii_whitespace().any(|weather| weather == word_at(words, head));
+    let is_weather = is_listed(WEATHER, word_at(words, head));
     let is_placed = PREPOSITIONS.contains(&next);
     let is_free = next.is_empty() || is_verb || is_weather && is_placed;
     let is_of_move = !is_free && (head + 1..to).any(|at| meaning.tells(at));
@@ -316,8 +305,9 @@ fn is_about_scenery(words: &[Word], meaning: &Meaning, mentions: &[Mention], [fr
 
 /// Whether a clause is about something that drifts by itself: `flour floating upwards`, `ribbons swaying in the breeze`.
 fn is_drifting(words: &[Word], meaning: &Meaning, mentions: &[Mention], [from, to]: [usize; 2]) -> bool {
-    let lists = |at: usize| DRIFTS.split_ascii_whitespace().any(|verb| verb == word_at(words, at));
-    let Some(verb) = (from + 1..to.min(from + 4)).find(|at| lists(*at)) else { return false };
+    let Some(verb) = (from + 1..to.min(from + 4)).find(|at| is_listed(DRIFTS, word_at(words, *at))) else {
+        return false;
+    };
     // What drifts has a name that no command has.
     let is_plain = |at: usize| {
         let word = word_at(words, at);

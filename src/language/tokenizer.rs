@@ -32,6 +32,11 @@ pub(crate) fn word_at(words: &[Word], i: usize) -> &str {
     words.get(i).map_or("", |word| word.text.as_str())
 }
 
+/// Whether a list of words between spaces has a word.
+pub fn is_listed(list: &str, word: &str) -> bool {
+    list.split_ascii_whitespace().any(|known| known == word)
+}
+
 /// The bytes from the first to the last of some words; `[0, 0]` without words.
 pub(crate) fn span_of(words: &[Word]) -> [usize; 2] {
     [words.first().map_or(0, |word| word.span[0]), words.last().map_or(0, |word| word.span[1])]

@@ -4,6 +4,7 @@
 
 use std::borrow::Cow;
 
+use super::blanks::{blank, unless_empty};
 use super::quantity::{QuantityKind, quantity_at};
 use super::tokenizer::{Word, tokenize, word_at};
 
@@ -41,10 +42,10 @@ pub fn without_tolerances(prompt: &str) -> Cow<'_, str> {
         let leads = at > 0 && word_at(&words, at) == "within" && word_at(&words, at - 1) == "to";
         let first = signed_from(prompt, words[at - usize::from(leads)].span[0]);
         let (from, to) = in_brackets(prompt, first, words[end - 1].span[1]);
-        blanked.to_mut().replace_range(from..to, &" ".repeat(to - from));
+        blank(&mut blanked, [from, to]);
         at = end;
     }
-    if blanked.contains(char::is_alphanumeric) { blanked } else { Cow::Borrowed(prompt) }
+    unless_empty(blanked, prompt)
 }
 
 /// The word behind the tolerance that begins at word `i`.

@@ -3,6 +3,8 @@
 //! Enters: the flat things of floor and walls, and the groups of a room. Leaves: the flat things that are things of their
 //! own.
 
+use glam::Vec3;
+
 use super::groups::VoxelGroup;
 use super::pieces::contacts;
 use super::standing::{extent, owners};
@@ -16,8 +18,9 @@ const TOUCHING_FRAC: f32 = 0.2;
 
 /// Adds every flat thing that lies inside the box of a group, and touches it, to the group; returns the others.
 pub(crate) fn absorb_backs(grid: &VoxelGrid, flats: Vec<Vec<usize>>, groups: &mut [VoxelGroup]) -> Vec<Vec<usize>> {
-    let voxels: Vec<Vec<usize>> = groups.iter().map(|group| group.voxels.clone()).collect();
-    let owner = owners(grid, &voxels);
+    let owner = owners(grid, groups.iter().map(|group| &group.voxels));
+    // What joins a group does not make its box larger.
+    let boxes: Vec<(Vec3, Vec3)> = groups.iter().map(|group| extent(grid, &group.voxels)).collect();
     let mut others = Vec::new();
     for flat in flats {
         let least = TOUCHING_FRAC * flat.len() as f32;
@@ -27,7 +30,7 @@ pub(crate) fn absorb_backs(grid: &VoxelGrid, flats: Vec<Vec<usize>>, groups: &mu
         let holds = |&(group, _): &(usize, usize)| {
             let touching = |&&v: &&usize| grid.neighbors(v, 2).any(|other| owner[other] == group);
             flat.iter().filter(touching).count() as f32 >= least
-                && inside_frac(grid, &flat, &voxels[group]) >= INSIDE_FRAC
+                && inside_frac(grid, &flat, boxes[group]) >= INSIDE_FRAC
         };
         match order.into_iter().find(holds) {
             Some((group, _)) => groups[group].voxels.extend(flat),
@@ -37,10 +40,9 @@ pub(crate) fn absorb_backs(grid: &VoxelGrid, flats: Vec<Vec<usize>>, groups: &mu
     others
 }
 
-/// Share of some voxels inside the box of others.
-fn inside_frac(grid: &VoxelGrid, voxels: &[usize], whole: &[usize]) -> f32 {
-    let (low, high) = extent(grid, whole);
+/// Share of some voxels inside a box.
+fn inside_frac(grid: &VoxelGrid, voxels: &[usize], (low, high): (Vec3, Vec3)) -> f32 {
     let (low, high) = (low - 2.0 * grid.cell, high + 2.0 * grid.cell);
-    let is_inside = |p: glam::Vec3| p.cmpge(low).all() && p.cmple(high).all();
+    let is_inside = |p: Vec3| p.cmpge(low).all() && p.cmple(high).all();
     voxels.iter().filter(|&&v| is_inside(grid.voxels[v].position)).count() as f32 / voxels.len().max(1) as f32
 }

@@ -60,7 +60,7 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     let things = things.voxels.into_iter().zip(things.is_surface);
     let mut groups: Vec<VoxelGroup> =
         things.map(|(voxels, is_surface)| VoxelGroup::whole(voxels, is_surface)).collect();
-    let on_top = owners(grid, &tops.iter().map(|top| top.voxels.clone()).collect::<Vec<_>>());
+    let on_top = owners(grid, tops.iter().map(|top| &top.voxels));
     groups.retain(|group| {
         let least = if is_on_top(grid, &group.voxels, &on_top) { MIN_ON_TOP } else { settings.min_voxels };
         group.voxels.len() >= least

@@ -259,7 +259,8 @@ pub(crate) fn outline(keys: &[[i32; 2]], rectangle: Rectangle, stands: bool) -> 
     all.filter(|&[x, y]| holds(columns.get(&x), y) && holds(rows.get(&y), x)).collect()
 }
 
-fn is_in(key: [i32; 2], (low, high): Rectangle) -> bool {
+/// Whether a cell lies in a rectangle.
+pub(crate) fn is_in(key: [i32; 2], (low, high): Rectangle) -> bool {
     (0..2).all(|axis| (low[axis]..=high[axis]).contains(&key[axis]))
 }
 

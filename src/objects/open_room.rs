@@ -45,7 +45,7 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
 /// Adds a level piece to the body below it. A piece above several bodies or none becomes an object where it is large
 /// enough.
 fn add_top(grid: &VoxelGrid, top: Vec<usize>, groups: &mut Vec<VoxelGroup>, min_voxels: usize) {
-    let owner = owners(grid, &groups.iter().map(|group| group.voxels.clone()).collect::<Vec<_>>());
+    let owner = owners(grid, groups.iter().map(|group| &group.voxels));
     let mut contacts = vec![0_usize; groups.len()];
     for &voxel in &top {
         let level = grid.voxels[voxel].key[1];

@@ -81,7 +81,7 @@ fn is_compact(bounds: Rectangle, num_cells: usize) -> bool {
 
 /// Adds every patch to the body that stands on most of it; the others become bodies with what lies inside their outlines.
 pub(crate) fn add_patches(grid: &VoxelGrid, patches: Vec<Vec<usize>>, bodies: &mut Vec<Vec<usize>>) {
-    let owner = owners(grid, bodies);
+    let owner = owners(grid, &*bodies);
     let mut boxes: Vec<(Vec3, Vec3)> = bodies.iter().map(|body| extent(grid, body)).collect();
     for patch in patches {
         let mut above: BTreeMap<usize, usize> = BTreeMap::new();

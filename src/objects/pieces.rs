@@ -61,15 +61,15 @@ const LUMP_DIFFERENCE: f32 = 12.0;
 
 /// Drops lumps of the ground: flat, on it, and of its color. The largest object stays.
 pub(crate) fn drop_lumps(grid: &VoxelGrid, planes: &[ScenePlane], objects: &mut Vec<Vec<usize>>) {
-    let floors: Vec<&ScenePlane> = planes.iter().filter(|plane| plane.kind == PlaneKind::Floor).collect();
+    let floors = planes.iter().filter(|plane| plane.kind == PlaneKind::Floor);
+    let floors: Vec<(&ScenePlane, Vec3)> = floors.map(|floor| (floor, mean_color(grid, &floor.voxels))).collect();
     let largest = objects.iter().map(Vec::len).max().unwrap_or(0);
     let is_lump = |object: &Vec<usize>| {
         let (low, high) = extent(grid, object);
         let sides = high - low;
         let own = mean_color(grid, object);
-        let is_on = |floor: &&ScenePlane| {
-            floor.height(low) < 3.0 * grid.cell
-                && color::difference(own, mean_color(grid, &floor.voxels)) < LUMP_DIFFERENCE
+        let is_on = |(floor, color): &(&ScenePlane, Vec3)| {
+            floor.height(low) < 3.0 * grid.cell && color::difference(own, *color) < LUMP_DIFFERENCE
         };
         object.len() < largest && sides.y <= LUMP_RATIO * sides.x.max(sides.z) && floors.iter().any(is_on)
     };
@@ -113,7 +113,7 @@ fn rejoin(grid: &VoxelGrid, mut pieces: Vec<Vec<usize>>, max_diagonal: f64) -> V
 
 /// Adds every fragment to the body with which it has the most contacts. Fragments without contact are dropped.
 pub(crate) fn attach(grid: &VoxelGrid, fragments: Vec<Vec<usize>>, bodies: &mut [Vec<usize>]) {
-    let owner = owners(grid, bodies);
+    let owner = owners(grid, &*bodies);
     for fragment in fragments {
         let contacts = contacts(grid, &fragment, &owner, 2);
         if let Some((&body, _)) = contacts.iter().max_by_key(|&(&i, &count)| (count, std::cmp::Reverse(i))) {

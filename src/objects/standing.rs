@@ -243,9 +243,9 @@ pub(crate) fn mean_color(grid: &VoxelGrid, voxels: &[usize]) -> Vec3 {
 }
 
 /// For each voxel the index of its group; `usize::MAX` where it is in none.
-pub(crate) fn owners(grid: &VoxelGrid, groups: &[Vec<usize>]) -> Vec<usize> {
+pub(crate) fn owners<'a>(grid: &VoxelGrid, groups: impl IntoIterator<Item = &'a Vec<usize>>) -> Vec<usize> {
     let mut owner = vec![usize::MAX; grid.voxels.len()];
-    for (i, group) in groups.iter().enumerate() {
+    for (i, group) in groups.into_iter().enumerate() {
         group.iter().for_each(|&voxel| owner[voxel] = i);
     }
     owner

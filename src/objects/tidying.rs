@@ -10,7 +10,7 @@ use glam::Vec3;
 use super::color;
 use super::groups::VoxelGroup;
 use super::planes::{PlaneKind, ScenePlane};
-use super::standing::{extent, mean_color};
+use super::standing::{extent, mean_color, owners};
 use super::voxels::{Voxel, VoxelGrid};
 
 /// Distance of voxels that touch, and of the folds of one curtain, cells.
@@ -140,7 +140,7 @@ fn join_folds(grid: &VoxelGrid, pieces: &mut Vec<Piece>, room: (Vec3, Vec3)) {
             && sides.y >= FOLD_HEIGHT * (room.1.y - room.0.y)
     };
     let folds: Vec<bool> = pieces.iter().map(is_fold).collect();
-    let mut owner = owners(grid, pieces);
+    let mut owner = owners(grid, pieces.iter().map(|piece| &piece.group.voxels));
     for from in 0..pieces.len() {
         if !folds[from] {
             continue;
@@ -158,7 +158,7 @@ fn join_folds(grid: &VoxelGrid, pieces: &mut Vec<Piece>, room: (Vec3, Vec3)) {
 
 /// Joins every fragment with the thing that it belongs to, smallest first; whether there was one.
 fn join_fragments(grid: &VoxelGrid, pieces: &mut Vec<Piece>) -> bool {
-    let mut owner = owners(grid, pieces);
+    let mut owner = owners(grid, pieces.iter().map(|piece| &piece.group.voxels));
     let mut order: Vec<usize> = (0..pieces.len()).collect();
     order.sort_by_key(|&i| (pieces[i].len(), i));
     let mut has_joined = false;
@@ -250,12 +250,4 @@ fn is_blurred(grid: &VoxelGrid, piece: &Piece, density: f32) -> bool {
 fn mean(grid: &VoxelGrid, voxels: impl ExactSizeIterator<Item = usize>, value: impl Fn(&Voxel) -> f32) -> f32 {
     let count = voxels.len().max(1) as f32;
     voxels.map(|v| value(&grid.voxels[v])).sum::<f32>() / count
-}
-
-fn owners(grid: &VoxelGrid, pieces: &[Piece]) -> Vec<usize> {
-    let mut owner = vec![usize::MAX; grid.voxels.len()];
-    for (i, piece) in pieces.iter().enumerate() {
-        piece.group.voxels.iter().for_each(|&voxel| owner[voxel] = i);
-    }
-    owner
 }

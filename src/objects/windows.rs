@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3;
 
-use super::flats::{Rectangle, area, components_within, is_seen, rectangle, sides};
+use super::flats::{Rectangle, area, components_within, is_in, is_seen, rectangle, sides};
 use super::planes::{PlaneKind, ScenePlane};
 use super::voxels::VoxelGrid;
 
@@ -102,10 +102,8 @@ fn window(
     }
     let grown = |by: i32| (low.map(|v| v - by), high.map(|v| v + by));
     let (outer, inner) = (grown(FRAME_CELLS), bounds);
-    let is_in =
-        |key: &[i32; 2], (low, high): Rectangle| (0..2).all(|axis| (low[axis]..=high[axis]).contains(&key[axis]));
-    let members = cells.near.iter().filter(|(key, _)| is_in(key, outer)).flat_map(|(key, voxels)| {
-        let is_glass = is_in(key, inner);
+    let members = cells.near.iter().filter(|(key, _)| is_in(**key, outer)).flat_map(|(key, voxels)| {
+        let is_glass = is_in(*key, inner);
         voxels
             .iter()
             .copied()

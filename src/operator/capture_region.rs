@@ -63,7 +63,8 @@ impl CaptureRegion {
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
         let grounded = mean(viewpoints.iter().map(|&eye| grounded_frac(matter, eye, up, size, 96)).collect());
         let least_grounded = if indoor { GROUNDED_OF_VIEWPOINTS_FRAC * grounded } else { 0.0 };
-        let samples = surface_samples(matter, &viewpoints, size);
+        // Outdoors nobody stands behind a curtain.
+        let samples = if indoor { surface_samples(matter, &viewpoints, size) } else { Vec::new() };
         let most_seen = viewpoints.iter().map(|&eye| seen_frac(matter, &samples, eye)).fold(0.0, f64::max);
         Self { least_grounded, up, size, viewpoints, indoor, samples, most_seen }
     }
@@ -111,10 +112,11 @@ impl CaptureRegion {
 /// Points on surfaces: where rays from the viewpoints end.
 fn surface_samples(matter: &OpacityGrid, viewpoints: &[DVec3], size: f64) -> Vec<DVec3> {
     let each = NUM_SAMPLES.div_ceil(viewpoints.len().max(1));
+    let rays = sphere_directions(each * viewpoints.len());
     let from = |(i, &eye): (usize, &DVec3)| {
         // Every viewpoint takes other directions of the same spiral.
-        let rays = sphere_directions(each * viewpoints.len()).into_iter().skip(i).step_by(viewpoints.len());
-        rays.filter_map(|ray| Some(eye + ray * matter.hit_distance(eye, ray, size)?)).collect::<Vec<_>>()
+        let own = rays.iter().skip(i).step_by(viewpoints.len());
+        own.filter_map(|&ray| Some(eye + ray * matter.hit_distance(eye, ray, size)?)).collect::<Vec<_>>()
     };
     viewpoints.iter().enumerate().flat_map(from).collect()
 }

@@ -20,7 +20,8 @@ const OFF_FRONT_COST: f64 = 2.8;
 
 /// Cost of the sides from which cameras see the subjects that have to be visible.
 pub(super) fn side_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
-    [back_cost, edge_cost, off_front_cost].map(|cost| cost(world, constraints, states)).into_iter().sum()
+    let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
+    [back_cost, edge_cost, off_front_cost].map(|cost| cost(world, constraints, &ends)).into_iter().sum()
 }
 
 /// Breadth of a subject below which it is seen edge-on, and the cost of seeing nothing but its edge.
@@ -28,12 +29,11 @@ const LEAST_BREADTH: f64 = 0.55;
 const EDGE_COST: f64 = 1.6;
 
 /// Cost of cameras that see a flat subject edge-on, where it has to be visible: a picture on a wall from beside it.
-fn edge_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
-    let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
+fn edge_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let edge_of = |constraint: &Constraint| {
         let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
         let Some(subject) = world.subject(id) else { return 0.0 };
-        let picked = constraint.scope.of(&ends);
+        let picked = constraint.scope.of(ends);
         let breadth = |state: &CameraState| subject.facets.breadth(subject.center, state.pose.position, world.frame.up);
         let lack = picked.iter().filter_map(breadth).map(|breadth| (1.0 - breadth / LEAST_BREADTH).max(0.0));
         lack.sum::<f64>() / picked.len().max(1) as f64
@@ -42,12 +42,11 @@ fn edge_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) 
 }
 
 /// Cost of cameras that see a subject, where it has to be visible, from the side that was not captured.
-fn back_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
-    let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
+fn back_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let front_of = |constraint: &Constraint| {
         let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 1.0 };
         let Some(subject) = world.subject(id) else { return 1.0 };
-        let picked = constraint.scope.of(&ends).iter();
+        let picked = constraint.scope.of(ends).iter();
         picked.filter_map(|state| subject.facets.front_frac(state.pose.position)).fold(1.0, f64::min)
     };
     let front = constraints.iter().map(front_of).fold(1.0, f64::min);
@@ -55,8 +54,7 @@ fn back_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) 
 }
 
 /// Cost of showing a thing that has a front from elsewhere: nothing else tells which side to show.
-fn off_front_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
-    let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
+fn off_front_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let front = constraints.iter().find_map(|constraint| match constraint.kind {
         ConstraintKind::Unoccluded(id, _) => {
             world.subject(id).and_then(|subject| Some((subject.center, subject.front_rad?)))

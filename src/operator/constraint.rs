@@ -29,6 +29,11 @@ pub(super) enum Scope {
 }
 
 impl Scope {
+    /// Whether it means the frame at an end.
+    pub(super) fn covers(self, end: Self) -> bool {
+        self == end || self == Self::All
+    }
+
     /// The states that it means, of at least one.
     pub(super) fn of<T>(self, states: &[T]) -> &[T] {
         match self {

@@ -132,8 +132,10 @@ fn aside_cost(world: &World, states: &[CameraState]) -> f64 {
     if !world.is_indoor() {
         return 0.0;
     }
-    let lack = |state: &CameraState| (1.0 - world.seen_of_best_frac(state.pose.position) / LEAST_SEEN_FRAC).max(0.0);
-    ASIDE_COST * lack(&states[0]).max(lack(&states[states.len() - 1]))
+    let lack = |point: DVec3| (1.0 - world.seen_of_best_frac(point) / LEAST_SEEN_FRAC).max(0.0);
+    let [first, last] = [&states[0], &states[states.len() - 1]].map(|state| state.pose.position);
+    // Many moves only turn.
+    ASIDE_COST * if first == last { lack(first) } else { lack(first).max(lack(last)) }
 }
 
 /// Cost of the ends of a segment outside the captured region of a room, from where its walls are seen from behind: where

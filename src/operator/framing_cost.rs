@@ -18,7 +18,6 @@ const EDGE: f64 = 0.01;
 const SHORT_TURN_COST: f64 = 0.9;
 /// Angle of such a turn over the field of view from which on it costs nothing.
 const LEAST_TURN: f64 = 0.55;
-
 /// Cost of a pull-out whose lens widens at all: nearly that of a violated constraint.
 const WIDENED_COST: f64 = 2.5;
 
@@ -39,17 +38,19 @@ fn widened_cost(segment: &MotionSegment) -> f64 {
 
 /// Cost of a subject that is cut by the edge of the frame at an end for which the words state no size that cuts it.
 fn cut_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
-    let along = matches!(segment.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
+    // A tilt and a rise go along what does not fit the picture.
+    if matches!(segment.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown) {
+        return 0.0;
+    }
     let ends = [(Scope::Start, &states[0]), (Scope::End, &states[states.len() - 1])];
     let cut_at = |constraint: &Constraint| {
         let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
-        let Some(subject) = world.subject(id).filter(|_| !along) else { return 0.0 };
+        let Some(subject) = world.subject(id) else { return 0.0 };
         if world.is_indoor() && subject.radius > LARGE_FRAC * world.bounds.size() {
             return 0.0;
         }
         let holds = |(scope, _): &&(Scope, &CameraState)| {
-            let applies = constraint.scope == *scope || constraint.scope == Scope::All;
-            applies && !is_to_be_cut(&segment.constraints, id, *scope)
+            constraint.scope.covers(*scope) && !is_to_be_cut(&segment.constraints, id, *scope)
         };
         let cut = |(_, state): &(Scope, &CameraState)| 1.0 - in_frame_frac(world, state, &subject.points, EDGE);
         ends.iter().filter(holds).map(cut).fold(0.0, f64::max)
@@ -65,9 +66,7 @@ fn is_to_be_cut(constraints: &[Constraint], id: u32, scope: Scope) -> bool {
         ConstraintKind::Distance(target, _) => target.ids.contains(&id),
         _ => false,
     };
-    constraints
-        .iter()
-        .any(|constraint| (constraint.scope == scope || constraint.scope == Scope::All) && cuts(constraint))
+    constraints.iter().any(|constraint| constraint.scope.covers(scope) && cuts(constraint))
 }
 
 /// Cost of a pan between two subjects that are in the frame together from its start to its end.

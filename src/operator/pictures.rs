@@ -2,7 +2,7 @@
 //!
 //! A film is as good as its worst picture: an end in black is not made good by a fine start.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, IVec2};
 
 use super::constraint::{Constraint, ConstraintKind};
 use super::program::Pass;
@@ -80,47 +80,58 @@ pub(super) struct VoidMap {
 
 impl VoidMap {
     /// Columns and rows of the frame.
-    const CELLS: [i32; 2] = [14, 8];
+    const CELLS: IVec2 = IVec2::new(14, 8);
     /// Columns and rows of the margin on each side: turns go up to it.
-    pub(super) const MARGIN: [i32; 2] = [4, 2];
-    /// The same as numbers.
-    pub(super) const MARGIN_CELLS: DVec2 = DVec2::new(4.0, 2.0);
+    pub(super) const MARGIN: IVec2 = IVec2::new(4, 2);
 
-    /// Share of void in the frame that is moved by some cells to the right and down.
-    pub(super) fn void(&self, [right, down]: [i32; 2]) -> f64 {
-        let ([columns, rows], [side, top]) = (Self::CELLS, Self::MARGIN);
-        let stride = columns + 2 * side;
+    /// The void around the picture of a camera.
+    pub(super) fn around(world: &World, state: &CameraState) -> Self {
+        Self { half: half_frame(world, state), is_void: void_cells(world, state, Self::MARGIN) }
+    }
+
+    /// Share of void in the frame that is moved by some cells, within the margin, to the right and down.
+    pub(super) fn void(&self, by: IVec2) -> f64 {
+        let stride = Self::CELLS.x + 2 * Self::MARGIN.x;
+        let first = Self::MARGIN + by;
         let is_void = |column: i32, row: i32| {
-            let index = (row + top + down) * stride + column + side + right;
+            let index = (row + first.y) * stride + column + first.x;
             usize::try_from(index).ok().and_then(|index| self.is_void.get(index)).copied().unwrap_or(true)
         };
-        let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let cells = (0..Self::CELLS.y).flat_map(|row| (0..Self::CELLS.x).map(move |column| (column, row)));
         let count = cells.filter(|&(column, row)| is_void(column, row)).count();
-        count as f64 / f64::from(columns * rows)
+        count as f64 / f64::from(Self::CELLS.element_product())
     }
 
     /// Direction of the middle of the frame that is moved by some cells, world.
-    pub(super) fn direction(&self, state: &CameraState, [right, down]: [i32; 2]) -> DVec3 {
-        let at = 2.0 * self.half * DVec2::new(f64::from(right), f64::from(down))
-            / DVec2::new(f64::from(Self::CELLS[0]), f64::from(Self::CELLS[1]));
+    pub(super) fn direction(&self, state: &CameraState, by: IVec2) -> DVec3 {
+        let at = 2.0 * self.half * by.as_dvec2() / Self::CELLS.as_dvec2();
         state.pose.rotation * at.extend(1.0).normalize()
     }
 }
 
-/// The void around the picture of a camera.
-pub(super) fn void_map(world: &World, state: &CameraState) -> VoidMap {
+/// Share of void in the picture of a camera, on the cells of [`VoidMap`].
+pub(super) fn void_frac(world: &World, state: &CameraState) -> f64 {
+    let cells = void_cells(world, state, IVec2::ZERO);
+    cells.iter().filter(|is_void| **is_void).count() as f64 / cells.len() as f64
+}
+
+/// Half the width and height of the frame on the plane at depth 1.
+fn half_frame(world: &World, state: &CameraState) -> DVec2 {
     let tan = (state.fov_y_rad / 2.0).tan();
-    let mut map = VoidMap { half: DVec2::new(tan * world.aspect, tan), is_void: Vec::new() };
-    let ([columns, rows], [side, top]) = (VoidMap::CELLS, VoidMap::MARGIN);
+    DVec2::new(tan * world.aspect, tan)
+}
+
+/// Whether the rays through the cells of the frame and of a margin around it meet no matter, row by row.
+fn void_cells(world: &World, state: &CameraState, margin: IVec2) -> Vec<bool> {
+    let (half, cells) = (half_frame(world, state), VoidMap::CELLS);
     let middle = |at: i32, count: i32| (f64::from(at) + 0.5) / f64::from(count) * 2.0 - 1.0;
-    for row in -top..rows + top {
-        for column in -side..columns + side {
-            let at = map.half * DVec2::new(middle(column, columns), middle(row, rows));
-            let ray = state.pose.rotation * at.extend(1.0).normalize();
-            map.is_void.push(world.hit_distance(state.pose.position, ray).is_none());
-        }
-    }
-    map
+    let is_void = |(column, row): (i32, i32)| {
+        let at = half * DVec2::new(middle(column, cells.x), middle(row, cells.y));
+        let ray = state.pose.rotation * at.extend(1.0).normalize();
+        world.hit_distance(state.pose.position, ray).is_none()
+    };
+    let rows = -margin.y..cells.y + margin.y;
+    rows.flat_map(|row| (-margin.x..cells.x + margin.x).map(move |column| (column, row))).map(is_void).collect()
 }
 
 /// How far a share is above its limit: 0 at or below it, 0.2 just above it, and 1.2 from twice the limit on.

@@ -104,8 +104,8 @@ impl World {
         let things =
             objects.objects.iter().map(|object| Thing { center: object.center, radius: object.radius() }).collect();
         let bottom = frame.height(bounds.core_min).min(frame.height(bounds.core_max));
-        let floor_height =
-            region.floor_height(&matter).filter(|_| region.indoor).map_or(bottom, |floor| floor.max(bottom));
+        let floor = if region.indoor { region.floor_height(&matter) } else { None };
+        let floor_height = floor.map_or(bottom, |floor| floor.max(bottom));
         Ok(Self {
             frame,
             bounds,
@@ -169,7 +169,7 @@ impl World {
         self.region.sees_front_faces(&self.matter, point)
     }
 
-    /// Height along up of the bottom of the scene's core box: the floor of a room, or the foot of an object.
+    /// Height along up of the floor of a room, or of the foot of an object: the bottom of the scene's core box.
     pub(super) fn floor_height(&self) -> f64 {
         self.floor_height
     }
@@ -192,17 +192,20 @@ impl World {
         (self.floor_height() + self.camera_radius - self.frame.height(point)).max(0.0) / self.bounds.size()
     }
 
+    /// The way to a point from the nearest one of the scene's core box (of the middle 96 % of the solid Gaussians).
+    fn away_from_core(&self, point: DVec3) -> DVec3 {
+        point - point.clamp(self.bounds.core_min, self.bounds.core_max)
+    }
+
     /// Level and upright distance from a point to the scene's core box over the scene size; 0 inside.
     pub(super) fn outside_fracs(&self, point: DVec3) -> [f64; 2] {
-        let away = point - point.clamp(self.bounds.core_min, self.bounds.core_max);
+        let away = self.away_from_core(point);
         [self.frame.horizontal(away).length(), self.frame.height(away).abs()].map(|part| part / self.bounds.size())
     }
 
-    /// Distance from a point to the scene's core box (of the middle 96 % of the solid Gaussians) over the scene size; 0
-    /// inside.
+    /// Distance from a point to the scene's core box over the scene size; 0 inside.
     pub(super) fn outside_frac(&self, point: DVec3) -> f64 {
-        let inside = point.clamp(self.bounds.core_min, self.bounds.core_max);
-        inside.distance(point) / self.bounds.size()
+        self.away_from_core(point).length() / self.bounds.size()
     }
 
     /// How far a point lies outside the scene's core box along both horizontal axes at once: the smaller distance over

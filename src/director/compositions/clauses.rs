@@ -119,13 +119,15 @@ fn of_sentence(linked: &Linked, words: &[&str], [from, to]: [usize; 2]) -> Vec<C
             _ => {}
         }
     }
-    let states = |clause: &Clause| {
-        let is_in = |at: usize| matches!(words[at], "shot" | "view") && at > 0 && words[at - 1] == "in";
-        let is_stated = |at: &usize| STATED.contains(&words[*at]) || linked.is_quantity(words[*at]) || is_in(*at);
-        clause.words.iter().any(is_stated)
-    };
-    clauses.retain(|clause| !clause.words.is_empty() && (!clause.is_verb || states(clause)));
+    clauses.retain(|clause| !clause.words.is_empty() && (!clause.is_verb || states_picture(linked, words, clause)));
     clauses
+}
+
+/// Whether a clause has a word that only a picture has.
+fn states_picture(linked: &Linked, words: &[&str], clause: &Clause) -> bool {
+    let is_in = |at: usize| matches!(words[at], "shot" | "view") && at > 0 && words[at - 1] == "in";
+    let is_stated = |at: &usize| STATED.contains(&words[*at]) || linked.is_quantity(words[*at]) || is_in(*at);
+    clause.words.iter().any(is_stated)
 }
 
 /// The pieces of a sentence. Each has the words of at most one moment.

@@ -115,7 +115,7 @@ fn described(linked: &Linked) -> Vec<Described> {
 
 /// The thing that the sentence of a clause names last before it: `the skull never leaves the frame and ends up centred`.
 fn named_before(linked: &Linked, clause: &Clause) -> Option<Vec<u32>> {
-    let before: Vec<&str> = linked.words_in([0, clause.bytes[0]]).map(|(word, _)| word).collect();
+    let before = linked.texts_in([0, clause.bytes[0]]);
     let mut sentence = before.iter().rev().take_while(|word| !matches!(**word, "." | ";" | "!" | "?"));
     sentence.find_map(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]))
 }

@@ -28,6 +28,13 @@ pub(super) struct Mark {
     pub(super) end_secs: Option<f64>,
 }
 
+impl Mark {
+    /// A mark within a description.
+    const fn of(len: usize, moment: Moment) -> Self {
+        Self { len, moment, heads: false, is_verb: false, end_secs: None }
+    }
+}
+
 const FIRST: [&str; 7] = ["start", "starting", "opening", "first", "initial", "beginning", "begin"];
 const LAST: [&str; 7] = ["end", "ending", "closing", "last", "final", "finishing", "finish"];
 /// What is seen at one moment.
@@ -69,13 +76,7 @@ pub(super) fn mark_at(linked: &Linked, words: &[&str], i: usize) -> Option<Mark>
         .or_else(|| time_at(linked, words, i))
         .or_else(|| {
             let found = PHRASES.iter().find(|(phrase, _)| words[i..].starts_with(phrase));
-            found.map(|(phrase, moment)| Mark {
-                len: phrase.len(),
-                moment: *moment,
-                heads: false,
-                is_verb: false,
-                end_secs: None,
-            })
+            found.map(|(phrase, moment)| Mark::of(phrase.len(), *moment))
         })
         .or_else(|| verb_at(words, i))
 }
@@ -93,7 +94,7 @@ fn frame_at(words: &[&str], i: usize) -> Option<Mark> {
     if !(is_frame || is_label) || word(end) == "of" {
         return None;
     }
-    Some(Mark { len: end - i + usize::from(heads), moment, heads: heads && is_frame, is_verb: false, end_secs: None })
+    Some(Mark { heads: heads && is_frame, ..Mark::of(end - i + usize::from(heads), moment) })
 }
 
 fn moment_of(word: &str) -> Option<Moment> {
@@ -114,13 +115,8 @@ fn time_at(linked: &Linked, words: &[&str], i: usize) -> Option<Mark> {
     let total: f64 = beats.filter_map(Beat::secs).sum();
     let is_last = words.iter().filter_map(|word| secs(word)).all(|other| other <= time) && time >= total - 1e-6;
     // A time alone may be that of a move: `at 4 s pan left`.
-    (is_last && (names_time || total > 0.0)).then_some(Mark {
-        len: at + 1 - i,
-        moment: Moment::End,
-        heads: false,
-        is_verb: false,
-        end_secs: Some(time),
-    })
+    let mark = Mark { end_secs: Some(time), ..Mark::of(at + 1 - i, Moment::End) };
+    (is_last && (names_time || total > 0.0)).then_some(mark)
 }
 
 /// `begins on ..`, `finish with ..`, `ends up ..`.
@@ -131,11 +127,5 @@ fn verb_at(words: &[&str], i: usize) -> Option<Mark> {
         () => return None,
     };
     let with = words.get(i + 1).filter(|word| WITHS.contains(word))?;
-    (*with != "up" || moment == Moment::End).then_some(Mark {
-        len: 2,
-        moment,
-        heads: false,
-        is_verb: true,
-        end_secs: None,
-    })
+    (*with != "up" || moment == Moment::End).then_some(Mark { is_verb: true, ..Mark::of(2, moment) })
 }

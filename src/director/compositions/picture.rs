@@ -1,11 +1,11 @@
 //! What a clause says of a picture: its subjects, how much of each is seen, place, height, lens, and where the camera is.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_operator::{Framing, Lens, Step};
 use cinesplat_trajectory::Move;
 
 use super::clauses::Clause;
-use super::words::{OUT, ROOM, SEEN, WHOLE, angle, has_opposite_places, lists, place, size};
+use super::words::{OUT, ROOM, SEEN, WHOLE, angle, has_opposite_places, place, size};
 
 /// A described picture.
 #[derive(Debug, Clone, Default)]
@@ -26,7 +26,7 @@ impl Picture {
     pub(super) fn of(linked: &Linked, clause: &Clause, before: Option<&Self>) -> Option<Self> {
         let all: Vec<&str> = linked.tokens_text.split(' ').collect();
         let words: Vec<&str> = clause.words.iter().map(|at| all[*at]).collect();
-        let says = |list: &str| words.iter().any(|word| lists(list, word));
+        let says = |list: &str| words.iter().any(|word| is_listed(list, word));
         let mut picture = Self::default();
         picture.take_subjects(linked, clause, &all);
         let framing = &mut picture.framing;
@@ -69,11 +69,11 @@ impl Picture {
                 }
                 group.push(id);
                 whole |= linked.wholes.contains(&linked.spans[at]);
-            } else if lists(WHOLE, word) {
+            } else if is_listed(WHOLE, word) {
                 whole = true;
-            } else if lists(OUT, word) {
+            } else if is_listed(OUT, word) {
                 (is_told, is_gone) = (!group.is_empty(), true);
-            } else if word == "in" || lists(SEEN, word) || linked.is_quantity(word) {
+            } else if word == "in" || is_listed(SEEN, word) || linked.is_quantity(word) {
                 is_told |= !group.is_empty();
             }
         }
@@ -135,7 +135,7 @@ impl Picture {
 
 /// Takes what numbers state. A bare angle after an elevation is one.
 fn take_quantities(linked: &Linked, words: &[&str], before: Option<&Framing>, framing: &mut Framing) {
-    let says = |list: &str| words.iter().any(|word| lists(list, word));
+    let says = |list: &str| words.iter().any(|word| is_listed(list, word));
     let is_elevation =
         says("elevation") || before.is_some_and(|before| before.elevation_deg.is_some()) && !says("fov lens");
     for (nth, word) in words.iter().enumerate() {

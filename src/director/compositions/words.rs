@@ -1,6 +1,6 @@
 //! The words of descriptions of pictures.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_operator::FramePlace;
 use cinesplat_trajectory::{ShotAngle, ShotSize};
 
@@ -26,23 +26,18 @@ const STANDS: &str =
 const SIZED: &str = "close closeup medium wide long extreme cu mcu ecu ms";
 const ANGLED: &str = "low angle level overhead";
 
-/// Whether a list has a word.
-pub(super) fn lists(list: &str, word: &str) -> bool {
-    list.split_ascii_whitespace().any(|known| known == word)
-}
-
 /// Whether a word may be part of a clause that only describes a picture.
 pub(super) fn is_picture_word(linked: &Linked, word: &str) -> bool {
     const LISTS: [&str; 13] = [PLAIN, ROOM, WHOLE, SEEN, OUT, CENTER, LEFT, RIGHT, UPPER, LOWER, STANDS, SIZED, ANGLED];
     let is_shown = linked
         .quantity_at(word)
         .is_some_and(|quantity| !matches!(quantity.kind, QuantityKind::Seconds | QuantityKind::Factor));
-    linked.slot_at(word).is_some() || is_shown || LISTS.iter().any(|list| lists(list, word))
+    linked.slot_at(word).is_some() || is_shown || LISTS.iter().any(|list| is_listed(list, word))
 }
 
 /// The stated place in the frame.
 pub(super) fn place(words: &[&str]) -> Option<FramePlace> {
-    let says = |list: &str| words.iter().any(|word| lists(list, word));
+    let says = |list: &str| words.iter().any(|word| is_listed(list, word));
     let sides = [says(LEFT), says(RIGHT), says(UPPER), says(LOWER)];
     match sides {
         [true, false, false, false] => Some(FramePlace::AtLeft),
@@ -60,7 +55,7 @@ pub(super) fn place(words: &[&str]) -> Option<FramePlace> {
 
 /// Whether the words name both sides of an axis of the frame.
 pub(super) fn has_opposite_places(words: &[&str]) -> bool {
-    let says = |list: &str| words.iter().any(|word| lists(list, word));
+    let says = |list: &str| words.iter().any(|word| is_listed(list, word));
     says(UPPER) && says(LOWER) || says(LEFT) && says(RIGHT)
 }
 

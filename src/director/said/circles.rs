@@ -27,7 +27,7 @@ pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
         let turns = matches!(step.movement, Move::PanLeft | Move::PanRight) && step.end.subjects.is_empty();
         let is_open = !matches!(step.amount, Some(Amount::Degrees(_) | Amount::Factor(_)));
         let Some(span) = step.words.filter(|_| turns && is_open) else { continue };
-        let words: Vec<&str> = linked.words_in(span).map(|(word, _)| word).collect();
+        let words = linked.texts_in(span);
         let is_short = words.iter().any(|word| SHORT.contains(word));
         if !is_short && ALL_ROUND.iter().any(|said| words.windows(said.len()).any(|window| window == *said)) {
             step.amount = Some(Amount::Degrees(360.0));

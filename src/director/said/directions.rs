@@ -70,7 +70,7 @@ fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {
     if linked.words_in(words).chain(behind).any(|(word, _)| CORRECTIONS.contains(&word)) {
         return;
     }
-    let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
+    let words = linked.texts_in(words);
     for (movement, opposite) in (0..words.len()).filter_map(|at| said_at(&words, at)) {
         if words.contains(&opposite) {
             continue;
@@ -119,7 +119,7 @@ const NEARS: [&str; 8] = ["in", "into", "closer", "toward", "towards", "forward"
 /// Makes a rise of a way that goes up to a thing: `drift up to the ladles`.
 pub(crate) fn rise_to_things(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.with.is_empty() && step.via.is_none() && !step.returns) {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let rises = words.windows(3).any(|three| {
             RISES.iter().any(|verb| is_form(three[0], verb))
                 && three[1] == "up"

@@ -40,7 +40,7 @@ const NUM_BEFORE: usize = 3;
 pub(crate) fn take_said_dolly_zooms(linked: &Linked, steps: &mut [Step]) {
     for nth in 0..steps.len() {
         let Some(span) = own_words(steps, nth) else { continue };
-        let words: Vec<&str> = linked.words_in(span).map(|(word, _)| word).collect();
+        let words = linked.texts_in(span);
         let said = match (says_travel(&words, &BACK), says_travel(&words, &FORWARD)) {
             (true, false) => Move::DollyZoomOut,
             (false, true) => Move::DollyZoomIn,
@@ -62,7 +62,7 @@ pub(crate) fn take_said_dolly_zooms(linked: &Linked, steps: &mut [Step]) {
 /// Makes a dolly zoom a plain way where its words keep the lens and name no zoom: `dolly back on the same lens`.
 pub(crate) fn keep_said_lens(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let keeps = words.windows(2).any(|pair| matches!(pair, ["same" | "fixed" | "constant" | "prime", "lens"]));
         let zooms = words.iter().any(|word| {
             is_form(word, "zoom") || matches!(*word, "vertigo" | "hitchcock" | "background" | "backdrop" | "size")

@@ -30,7 +30,7 @@ pub(crate) fn take_film_length(linked: &Linked, program: &mut Program) {
     let Some(secs) = last.duration_secs.filter(|_| is_open && !others.is_empty() && !is_own).filter(fits) else {
         return;
     };
-    let words: Vec<&str> = linked.words_in([0, usize::MAX]).map(|(word, _)| word).collect();
+    let words = linked.texts_in([0, usize::MAX]);
     let mut clauses = words.split(|word| MARKS.contains(word)).filter(|clause| !clause.is_empty()).rev();
     // What is behind it says nothing of a move: `12 seconds, seamless`.
     let is_length = |clause: &[&str]| {

@@ -31,7 +31,6 @@ use crate::error::DirectorError;
 /// # Errors
 /// [`DirectorError::Language`] for a damaged list of senses.
 pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Direction) -> Result<(), DirectorError> {
-    taken_back::drop_taken_back(linked, direction);
     let steps = &mut direction.program.steps;
     directions::take_said_directions(linked, steps);
     dolly_zoom::take_said_dolly_zooms(linked, steps);
@@ -58,7 +57,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     stillness::turn_gazes(linked, steps);
     stillness::hold_slants(linked, steps);
     stillness::circle_spirals(linked, steps);
-    // What the rules above read from the words may be taken back too.
+    // What the rules above read from the words is taken back with the rest.
     taken_back::drop_taken_back(linked, direction);
     let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);

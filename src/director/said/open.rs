@@ -104,7 +104,7 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
 /// Makes a part of a circle of a factor: `go round the teapot like half way`.
 pub(crate) fn turn_by_parts(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let is_around = words.iter().any(|word| matches!(*word, "around" | "round" | "about"));
         let nears = words.iter().any(|word| matches!(*word, "closer" | "distance" | "close" | "radius" | "nearer"));
         let circles = as_orbit(step.movement) == Move::OrbitLeft || as_orbit(step.movement) == Move::OrbitRight;
@@ -143,7 +143,7 @@ const STATES: [&str; 19] = [
 /// Ends a step where the film began where its words say so: `zoom back out to the initial focal length`.
 pub(crate) fn return_to_first(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().skip(1).filter(|step| !step.returns && !step.cut) {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let is_back = words.windows(3).any(|three| {
             matches!(three[0], "the" | "its" | "our" | "to") && FIRSTS.contains(&three[1]) && STATES.contains(&three[2])
         });
@@ -153,7 +153,7 @@ pub(crate) fn return_to_first(linked: &Linked, steps: &mut [Step]) {
 }
 
 fn says_retrace(linked: &Linked, bytes: [usize; 2]) -> bool {
-    let words: Vec<&str> = linked.words_in(bytes).map(|(word, _)| word).collect();
+    let words = linked.texts_in(bytes);
     let says_otherwise = |word: &&str| {
         CORRECTIONS.contains(word) || may_say_direction(word) || matches!(*word, "up" | "down" | "in" | "out")
     };

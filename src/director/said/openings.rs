@@ -31,7 +31,7 @@ pub(crate) fn take_sizes(linked: &Linked, steps: &mut [Step]) {
     };
     let size = |word: &str| SIZES.iter().find(|(name, _)| *name == word).map(|(_, size)| *size);
     for step in steps.iter_mut().filter(changes_size).filter(|step| step.start.size.is_none()) {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let is_arrow = |word: &&&str| matches!(**word, "to" | "into" | "-" | ">" | "\u{2192}" | "\u{2013}");
         let sizes = words.iter().enumerate().filter_map(|(at, word)| Some((at, size(word)?)));
         let pairs = sizes.filter_map(|(at, first)| {
@@ -59,7 +59,7 @@ const FROM_BELOW: [&str; 11] =
 /// Takes an angle back that `hero shot` was read as, where the words look straight at the subject: `hero shot, head-on`.
 pub(crate) fn level_frontal_views(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let is_frontal = words.windows(2).any(|pair| matches!(pair, ["head" | "straight" | "face" | "square", "on"]));
         if !is_frontal || !words.contains(&"hero") || words.iter().any(|word| FROM_BELOW.contains(word)) {
             continue;
@@ -147,7 +147,7 @@ pub(crate) fn rise_from_ground(linked: &Linked, steps: &mut [Step]) {
     let rises = |step: &&mut Step| matches!(step.movement, Move::CraneUp | Move::PedestalUp);
     for step in steps.iter_mut().filter(rises) {
         let Some(bytes) = step.words else { continue };
-        let words: Vec<&str> = linked.words_in(bytes).map(|(word, _)| word).collect();
+        let words = linked.texts_in(bytes);
         let froms = words.iter().enumerate().filter(|(_, word)| **word == "from").map(|(at, _)| at + 1);
         let mut ends = froms.map(|at| words[at..].iter().find(|word| !NEARBY.contains(word)));
         let is_open = step.start.angle.is_none() && step.start.height.is_none() && step.start.elevation_deg.is_none();

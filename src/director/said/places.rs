@@ -23,7 +23,7 @@ pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
     let may_pass = |step: &&mut Step| stays_before_subject(step.movement) || step.movement == Move::FlyThrough;
     for step in steps.iter_mut().filter(may_pass) {
         let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
-        let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
+        let words = linked.texts_in(words);
         let id_at = |at: usize| linked.slot_at(words.get(at)?);
         // `Push in on the doors under the counter`: nothing is passed on the way to itself.
         let nears = matches!(step.movement, Move::PushIn | Move::ZoomIn | Move::Static);
@@ -53,7 +53,7 @@ pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
 pub(crate) fn begin_at_source(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
-        let words: Vec<&str> = linked.words_in(words).map(|(word, _)| word).collect();
+        let words = linked.texts_in(words);
         let leads_from = |at: usize| {
             let id = words.get(at + 1).and_then(|word| linked.slot_at(word));
             words[at] == "from" && id.is_some_and(|id| via.objects == [id])
@@ -91,7 +91,7 @@ pub(crate) fn rise_by_lengths(linked: &Linked, steps: &mut [Step]) {
         matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown)
     };
     for step in steps.iter_mut().filter(moves).filter(|step| step.amount.is_none() && step.end.height.is_some()) {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let mut lengths = words.iter().enumerate().filter(|(_, word)| linked.is_quantity(word)).map(|(at, _)| at);
         let (Some(at), None) = (lengths.next(), lengths.next()) else { continue };
         let before = words[..at].iter().rev().find(|word| !ROUGHLY.contains(word)).copied().unwrap_or_default();

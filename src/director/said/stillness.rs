@@ -93,7 +93,7 @@ pub(crate) fn turn_gazes(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let [_, end] = step.words.unwrap_or_default();
         // The words between two steps belong to neither: `only his gaze wanders: ..`.
-        let words: Vec<&str> = linked.words_in([before, end]).map(|(word, _)| word).collect();
+        let words = linked.texts_in([before, end]);
         before = before.max(end);
         let by_eye =
             words.windows(3).any(|three| matches!(three, ["with", "your" | "our" | "the" | "my", "eyes" | "gaze"]));
@@ -141,7 +141,7 @@ const ROLLS: [&str; 11] =
 pub(crate) fn hold_slants(linked: &Linked, steps: &mut [Step]) {
     let rolls = |movement: &Move| matches!(movement, Move::RollCw | Move::RollCcw);
     for step in steps.iter_mut().filter(|step| rolls(&step.movement)) {
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
         let is_open = matches!(step.amount, None | Some(Amount::Slight)) && step.with.iter().all(rolls);
         if is_open && has(&STILL) && has(&SLANTS) && !has(&ROLLS) {
@@ -181,7 +181,7 @@ pub(crate) fn circle_spirals(linked: &Linked, steps: &mut [Step]) {
             _ => continue,
         };
         let lifts = step.with.iter().all(|with| *with == step.movement || *with == lift);
-        let words: Vec<&str> = linked.words_in(step.words.unwrap_or_default()).map(|(word, _)| word).collect();
+        let words = linked.texts_in(step.words.unwrap_or_default());
         let is_said = |at: usize| {
             let before = &words[at.saturating_sub(3)..at];
             SPIRALS.contains(&words[at]) && !before.iter().any(|word| DENIALS.contains(word))

@@ -14,6 +14,7 @@ use std::borrow::Cow;
 
 use cinesplat_lens::{Call, Source};
 
+use super::blanks::{blank, unless_empty};
 use super::error::LanguageError;
 use super::lexicon::Lexicon;
 use super::linked::{Linked, OBJECT};
@@ -130,11 +131,9 @@ pub fn without_camera_settings(prompt: &str) -> Result<Cow<'_, str>, LanguageErr
             continue;
         }
         let end = found.end() + usize::from(is_slant && matches!(word_at(&words, found.end()), ":" | ","));
-        let [start, end] = span_of(&words[first..end]);
-        blanked.to_mut().replace_range(start..end, &" ".repeat(end - start));
+        blank(&mut blanked, span_of(&words[first..end]));
     }
-    let says_more = blanked.contains(char::is_alphanumeric);
-    Ok(if says_more { blanked } else { Cow::Borrowed(prompt) })
+    Ok(unless_empty(blanked, prompt))
 }
 
 /// Whether a phrase states a number of the camera that is none of a move.

@@ -141,15 +141,9 @@ fn follow_subject(context: &StepContext, places: &Places, segment: &mut MotionSe
 
 /// Turns both ends; the turns of the states between them change evenly.
 fn turn(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
-    let frame = &context.world.frame;
     let last = segment.states.len() - 1;
     let turned = |state: &CameraState, target: &Target, at: Option<DVec2>| {
-        let Some(at) = at else { return (0.0, 0.0) };
-        let (now, then) = (
-            frame.angles(state.pose.rotation),
-            frame.angles(placed(context.world, state, target.aim, at).pose.rotation),
-        );
-        (rotation::short_turn(then.yaw_rad - now.yaw_rad), then.pitch_rad - now.pitch_rad)
+        at.map_or((0.0, 0.0), |at| turn_between(context, state, &placed(context.world, state, target.aim, at)))
     };
     let from = turned(&segment.states[0], &places.from, places.start);
     let to = turned(&segment.states[last], &places.to, places.end);
@@ -157,6 +151,13 @@ fn turn(context: &StepContext, places: &Places, segment: &mut MotionSegment) {
         let by = (lerp((from.0, to.0), share), lerp((from.1, to.1), share));
         segment.states[i] = turned_by(context, &segment.states[i], by);
     }
+}
+
+/// Yaw and pitch between two cameras.
+pub(super) fn turn_between(context: &StepContext, from: &CameraState, to: &CameraState) -> (f64, f64) {
+    let frame = &context.world.frame;
+    let (from, to) = (frame.angles(from.pose.rotation), frame.angles(to.pose.rotation));
+    (rotation::short_turn(to.yaw_rad - from.yaw_rad), to.pitch_rad - from.pitch_rad)
 }
 
 /// The camera turned in place by a yaw and a pitch.
@@ -237,10 +238,17 @@ pub(super) fn rejoin(context: &StepContext, segments: &mut Vec<MotionSegment>) {
         join.states[end] = first;
         return;
     }
-    let angle_deg = rotation::angle_between(before.pose.rotation, first.pose.rotation).to_degrees();
-    let same_lens = (before.fov_y_rad - first.fov_y_rad).abs() < 1e-9;
-    let same_place = before.pose.position.distance(first.pose.position) < 1e-9;
-    if angle_deg > 1e-6 || !same_lens || !same_place {
+    if !is_same_camera(&before, &first) {
         segments.insert(0, context.join(before, first));
     }
+}
+
+/// Whether two cameras stand at the same place with the same lens.
+pub(super) fn is_same_place(a: &CameraState, b: &CameraState) -> bool {
+    a.pose.position.distance(b.pose.position) < 1e-9 && (a.fov_y_rad - b.fov_y_rad).abs() < 1e-9
+}
+
+/// Whether two cameras stand at the same place with the same lens and look the same way.
+pub(super) fn is_same_camera(a: &CameraState, b: &CameraState) -> bool {
+    is_same_place(a, b) && rotation::angle_between(a.pose.rotation, b.pose.rotation).to_degrees() <= 1e-6
 }

@@ -209,8 +209,8 @@ impl<'a> StepContext<'a> {
         opening_view(self.world, target, framing, &range, self.suggestion, self.parameters)
     }
 
-    /// Whether the step takes the camera around its subject without a descent, or up to the zenith: a descent swoops down
-    /// from straight above.
+    /// Whether an overhead view of the step is oblique: a camera that circles its subject, or rises beside it, would spin in
+    /// place straight above it. A descent is none of these: it swoops down from there.
     fn leaves_zenith(&self) -> bool {
         use Move::{ArcLeft, ArcRight, CraneDown, CraneUp, OrbitLeft, OrbitRight};
         let moves = || std::iter::once(&self.step.movement).chain(&self.step.with);
@@ -337,6 +337,11 @@ fn kept(movement: Move) -> &'static [Quantity] {
 
 fn is_lens_move(movement: Move) -> bool {
     matches!(movement, Move::ZoomIn | Move::ZoomOut | Move::DollyZoomIn | Move::DollyZoomOut)
+}
+
+/// Whether a framing states more than its subjects.
+pub(super) fn is_stated(framing: &Framing) -> bool {
+    *framing != Framing { subjects: framing.subjects.clone(), ..Framing::default() }
 }
 
 /// Whether a framing states more than subjects, size, angle, part and whole.

@@ -90,19 +90,15 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         }
         Move::PushIn | Move::PullOut => straight::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
-        Move::PedestalUp | Move::PedestalDown if leads_aside(context) && !keeps_its_view(context) => {
-            let up = context.step.movement == Move::PedestalUp;
-            let movement = if up { Move::CraneUp } else { Move::CraneDown };
-            let step = Step { movement, ..context.step.clone() };
-            circles::crane(&StepContext { step: &step, ..context.clone() })
+        Move::PedestalUp if leads_aside(context) && !keeps_its_view(context) => {
+            made_as(context, Move::CraneUp, circles::crane)
+        }
+        Move::PedestalDown if leads_aside(context) && !keeps_its_view(context) => {
+            made_as(context, Move::CraneDown, circles::crane)
         }
         Move::PedestalUp | Move::PedestalDown => straight::pedestal(context),
-        Move::CraneUp | Move::CraneDown if keeps_its_view(context) => {
-            let up = context.step.movement == Move::CraneUp;
-            let movement = if up { Move::PedestalUp } else { Move::PedestalDown };
-            let step = Step { movement, ..context.step.clone() };
-            straight::pedestal(&StepContext { step: &step, ..context.clone() })
-        }
+        Move::CraneUp if keeps_its_view(context) => made_as(context, Move::PedestalUp, straight::pedestal),
+        Move::CraneDown if keeps_its_view(context) => made_as(context, Move::PedestalDown, straight::pedestal),
         Move::CraneUp | Move::CraneDown => circles::crane(context),
         Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => circles::orbit(context),
         Move::ZoomIn | Move::ZoomOut => lens::zoom(context),
@@ -114,6 +110,12 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
     }
 }
 
+/// The segments of a step whose move is carried out as another one.
+fn made_as(context: &StepContext, movement: Move, make: fn(&StepContext) -> Vec<MotionSegment>) -> Vec<MotionSegment> {
+    let step = Step { movement, ..context.step.clone() };
+    make(&StepContext { step: &step, ..context.clone() })
+}
+
 /// Whether a rise or a descent leads from one subject to another that is neither above nor below it: without a turn and a
 /// travel aside the camera would not see it.
 fn leads_aside(context: &StepContext) -> bool {
@@ -123,9 +125,9 @@ fn leads_aside(context: &StepContext) -> bool {
         return false;
     }
     let apart = end.aim - start.aim;
-    let height = context.world.frame.height(apart).abs();
-    let aside = (apart.length_squared() - height * height).max(0.0).sqrt();
-    start.ids.iter().all(|id| !end.ids.contains(id)) && aside > LEAST_ASIDE * height
+    let frame = &context.world.frame;
+    let aside = frame.horizontal(apart).length();
+    start.ids.iter().all(|id| !end.ids.contains(id)) && aside > LEAST_ASIDE * frame.height(apart).abs()
 }
 
 /// Distance aside over the height from which on a rise between two subjects is a crane.

@@ -88,9 +88,10 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
         near.elevation_rad.to_degrees().midpoint(lerp((low, high), parameters[7])).clamp(low, high + 8.0)
     };
     let framing = &context.step.end;
+    let wall_front_rad = wall_front(context, end);
     let azimuth_rad = match framing.side {
         Some(side) => nearest(&side_azimuths(world, end.center, side), near.azimuth_rad) + spread(parameters[5]) * 0.35,
-        None => match wall_front(context, end) {
+        None => match wall_front_rad {
             // What hangs on a wall or is part of it is looked at from its front.
             Some(front_rad) => front_rad + spread(parameters[5]) * 0.5,
             None => near.azimuth_rad + spread(parameters[5]) * 2.4,
@@ -106,10 +107,8 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
         return view;
     }
     // Somebody who walks up to a wall stops an arm's length and more before it.
-    let short = match wall_front(context, end) {
-        Some(_) => LEAST_WALL_EYES * world.eye_height() - view.pose.position.distance(end.aim),
-        None => 0.0,
-    };
+    let least = if wall_front_rad.is_some() { LEAST_WALL_EYES * world.eye_height() } else { 0.0 };
+    let short = least - view.pose.position.distance(end.aim);
     moved(&view, -view.pose.forward() * short.max(0.0))
 }
 

@@ -3,11 +3,10 @@
 //! A blur shows where one subject is near and the other far behind it, under a long lens. The camera therefore stands on
 //! the line through both, a little aside of it so that neither hides the other.
 
-use super::context::{StepContext, require_visible};
+use super::context::{StepContext, is_stated, require_visible};
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Bearing, Fill, Target, distance_for, view_at};
 use crate::motion::MotionSegment;
-use crate::program::Framing;
 use crate::view::{aimed, lerp};
 use cinesplat_trajectory::CameraState;
 
@@ -58,9 +57,11 @@ pub(super) fn rack_focus(context: &StepContext) -> Vec<MotionSegment> {
 /// elevation, 2 the size and 3 the lens.
 fn lined_up(context: &StepContext, from: &Target, to: &Target) -> Option<CameraState> {
     let (world, parameters) = (context.world, context.parameters);
-    let is_free = |framing: &Framing| *framing == Framing { subjects: framing.subjects.clone(), ..Framing::default() };
-    let free = is_free(&context.step.start) && is_free(&context.step.end) && context.step.via.is_none();
-    if !free || from.ids.is_empty() || to.ids.is_empty() || from.ids.first() == to.ids.first() {
+    let step = context.step;
+    if is_stated(&step.start) || is_stated(&step.end) || step.via.is_some() {
+        return None;
+    }
+    if from.ids.is_empty() || to.ids.is_empty() || from.ids.first() == to.ids.first() {
         return None;
     }
     let [near, far] = if parameters[4] < 0.5 { [from, to] } else { [to, from] };

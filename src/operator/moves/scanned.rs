@@ -4,16 +4,15 @@
 //! Enters: the segments of a move, aimed at the middle of their subjects. Leaves: the same segments, turned by a few
 //! degrees where that takes void out of the frame. Scenes without void, stated places and stated turns stay as they are.
 
-use glam::DVec2;
+use glam::IVec2;
 
-use super::compose::{rejoin, turned_by};
+use super::compose::{is_same_camera, is_same_place, rejoin, turn_between, turned_by};
 use super::context::StepContext;
 use crate::constraint::ConstraintKind;
 use crate::framing::{Target, in_frame_frac, off_center};
 use crate::motion::MotionSegment;
-use crate::pictures::{VoidMap, void_map};
+use crate::pictures::{VoidMap, void_frac};
 use crate::view::{aimed, lerp};
-use cinesplat_geometry::rotation;
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Void of a picture from which on another composition is looked for.
@@ -39,10 +38,18 @@ pub(super) fn fill_frame(context: &StepContext, segments: &mut Vec<MotionSegment
     }
     let Some(segment) = segments.last_mut().filter(|segment| !segment.is_join) else { return };
     let last = segment.states.len() - 1;
-    let continues = context.before.is_some_and(|before| is_same_camera(&before, &segment.states[0]));
+    let (first, end) = (segment.states[0], segment.states[last]);
+    let continues = context.before.is_some_and(|before| is_same_camera(&before, &first));
+    if way == Way::Same && continues {
+        return;
+    }
+    let is_full = |state: &CameraState| void_frac(context.world, state) < LEAST_VOID;
+    if is_full(&first) && (first == end || is_full(&end)) {
+        return;
+    }
     let third = segment.constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::OnThird(_)));
-    let first = Picture::of(context, &segment.states[0], context.opening_target(), third);
-    let end = Picture::of(context, &segment.states[last], context.main_target(), third);
+    let first = Picture::of(context, &first, context.opening_target(), third);
+    let end = Picture::of(context, &end, context.main_target(), third);
     let Some((from, to)) = turns(context, way, continues, &first, &end) else { return };
     if from == (0.0, 0.0) && to == (0.0, 0.0) {
         return;
@@ -85,7 +92,7 @@ fn way_of(movement: Move) -> Option<Way> {
     }
 }
 
-/// The turns, yaw and pitch, of the first and of the last camera. `None` where there is too little void.
+/// The turns, yaw and pitch, of the first and of the last camera. `None` where they would make a pan or a tilt smaller.
 fn turns(
     context: &StepContext,
     way: Way,
@@ -93,33 +100,23 @@ fn turns(
     first: &Picture,
     last: &Picture,
 ) -> Option<((f64, f64), (f64, f64))> {
-    if first.void().max(last.void()) < LEAST_VOID {
-        return None;
+    if way == Way::Same {
+        let both = |at: IVec2| Some((first.cost(context, at)?.max(last.cost(context, at)?), at));
+        let (_, at) = Picture::places().filter_map(both).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let by = first.turn_to_before(context).unwrap_or_else(|| first.turn(context, at));
+        return Some((by, by));
     }
-    let none = (0.0, 0.0);
-    match way {
-        Way::Same if continues => None,
-        Way::Same => {
-            let both = |at: [i32; 2]| Some((first.cost(context, at)?.max(last.cost(context, at)?), at));
-            let (_, at) = Picture::places().filter_map(both).min_by(|a, b| a.0.total_cmp(&b.0))?;
-            let by = first.turn_to_before(context).unwrap_or_else(|| first.turn(context, at));
-            Some((by, by))
-        }
-        _ => {
-            let from =
-                if continues { none } else { first.turn_to_before(context).unwrap_or_else(|| first.best(context)) };
-            let to = last.best(context);
-            let (from, to) = match way {
-                Way::SamePitch => ((from.0, 0.0), (to.0, 0.0)),
-                Way::SameYaw => ((0.0, from.1), (0.0, to.1)),
-                _ => (from, to),
-            };
-            // A pan or a tilt is a turn: it is not made smaller.
-            let own = turn_between(context, &first.state, &last.state);
-            let shrinks = (own.0 * (to.0 - from.0)).min(own.1 * (to.1 - from.1)) < 0.0;
-            (way == Way::Free || !shrinks).then_some((from, to))
-        }
-    }
+    let opening = || first.turn_to_before(context).unwrap_or_else(|| first.best(context));
+    let (from, to) = (if continues { (0.0, 0.0) } else { opening() }, last.best(context));
+    let (from, to) = match way {
+        Way::SamePitch => ((from.0, 0.0), (to.0, 0.0)),
+        Way::SameYaw => ((0.0, from.1), (0.0, to.1)),
+        _ => (from, to),
+    };
+    // A pan or a tilt is a turn: it is not made smaller.
+    let own = turn_between(context, &first.state, &last.state);
+    let shrinks = (own.0 * (to.0 - from.0)).min(own.1 * (to.1 - from.1)) < 0.0;
+    (way == Way::Free || !shrinks).then_some((from, to))
 }
 
 /// One end of a move: its camera, its target, and where its surroundings are void.
@@ -133,25 +130,26 @@ struct Picture {
 
 impl Picture {
     fn of(context: &StepContext, state: &CameraState, target: Target, is_on_third: bool) -> Self {
-        Self { state: *state, target, is_on_third, map: void_map(context.world, state) }
+        Self { state: *state, target, is_on_third, map: VoidMap::around(context.world, state) }
     }
 
     fn void(&self) -> f64 {
-        self.map.void([0, 0])
+        self.map.void(IVec2::ZERO)
     }
 
     /// Turns by whole cells of the map, the unturned picture first.
-    fn places() -> impl Iterator<Item = [i32; 2]> {
-        let [columns, rows] = VoidMap::MARGIN;
-        std::iter::once([0, 0]).chain((-columns..=columns).flat_map(move |x| (-rows..=rows).map(move |y| [x, y])))
+    fn places() -> impl Iterator<Item = IVec2> {
+        let most = VoidMap::MARGIN;
+        let all = (-most.x..=most.x).flat_map(move |x| (-most.y..=most.y).map(move |y| IVec2::new(x, y)));
+        std::iter::once(IVec2::ZERO).chain(all)
     }
 
     /// Void of the picture turned by some cells, with the cost of the turn. `None` where its subject would leave the
     /// middle or the frame.
-    fn cost(&self, context: &StepContext, at: [i32; 2]) -> Option<f64> {
-        let share = DVec2::new(f64::from(at[0]), f64::from(at[1])) / VoidMap::MARGIN_CELLS;
+    fn cost(&self, context: &StepContext, at: IVec2) -> Option<f64> {
+        let share = at.as_dvec2() / VoidMap::MARGIN.as_dvec2();
         let cost = self.map.void(at) + TURN_COST * share.length();
-        let stays = at == [0, 0] || self.keeps_subject(context, &self.turned(context, at));
+        let stays = at == IVec2::ZERO || self.keeps_subject(context, &self.turned(context, at));
         stays.then_some(cost)
     }
 
@@ -174,32 +172,16 @@ impl Picture {
     fn turn_to_before(&self, context: &StepContext) -> Option<(f64, f64)> {
         let before = context.before.filter(|before| is_same_place(before, &self.state))?;
         let kept = self.keeps_subject(context, &before);
-        let is_as_good = kept && void_map(context.world, &before).void([0, 0]) <= self.void();
+        let is_as_good = kept && void_frac(context.world, &before) <= self.void();
         is_as_good.then(|| turn_between(context, &self.state, &before))
     }
 
-    fn turned(&self, context: &StepContext, at: [i32; 2]) -> CameraState {
+    fn turned(&self, context: &StepContext, at: IVec2) -> CameraState {
         let ahead = self.state.pose.position + self.map.direction(&self.state, at);
         aimed(context.world, &self.state, ahead)
     }
 
-    fn turn(&self, context: &StepContext, at: [i32; 2]) -> (f64, f64) {
+    fn turn(&self, context: &StepContext, at: IVec2) -> (f64, f64) {
         turn_between(context, &self.state, &self.turned(context, at))
     }
-}
-
-/// Yaw and pitch between two cameras.
-fn turn_between(context: &StepContext, from: &CameraState, to: &CameraState) -> (f64, f64) {
-    let frame = &context.world.frame;
-    let (from, to) = (frame.angles(from.pose.rotation), frame.angles(to.pose.rotation));
-    (rotation::short_turn(to.yaw_rad - from.yaw_rad), to.pitch_rad - from.pitch_rad)
-}
-
-/// Whether two cameras stand at the same place with the same lens.
-fn is_same_place(a: &CameraState, b: &CameraState) -> bool {
-    a.pose.position.distance(b.pose.position) < 1e-9 && (a.fov_y_rad - b.fov_y_rad).abs() < 1e-9
-}
-
-fn is_same_camera(a: &CameraState, b: &CameraState) -> bool {
-    is_same_place(a, b) && rotation::angle_between(a.pose.rotation, b.pose.rotation) < 1e-6
 }

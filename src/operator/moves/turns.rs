@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::overlook::overlook;
 use super::standing_view::stands;
 use super::sway::{num_sways, swayed};
@@ -212,7 +212,7 @@ fn turn(
     let wide_rad = stated_rad.filter(|angle_rad| !tilts && !is_between(context) && *angle_rad > WIDE_TURN_RAD);
     let states = match wide_rad {
         Some(angle_rad) => {
-            let count = (angle_rad / WIDE_TURN_RAD).ceil().max(1.0);
+            let count = (angle_rad / WIDE_TURN_RAD).ceil();
             (0..=count as usize).map(|i| by(&first, angle_rad * i as f64 / count)).collect()
         }
         None => vec![first, last],
@@ -336,11 +336,6 @@ fn is_along(context: &StepContext) -> bool {
     let (start, end) = (&context.step.start, &context.step.end);
     let free = start.size.is_none() && end.size.is_none() && !start.whole && !end.whole;
     free && start.part != end.part && start.part != SubjectPart::Middle && end.part != SubjectPart::Middle
-}
-
-/// Whether a framing states more than its subjects.
-fn is_stated(framing: &Framing) -> bool {
-    *framing != Framing { subjects: framing.subjects.clone(), ..Framing::default() }
 }
 
 /// Turns about the view axis.
