@@ -43,6 +43,21 @@ impl Direction {
         self.remove_step(nth);
     }
 
+    /// Inserts a step that rests where step `nth` begins, with its certainty.
+    pub(crate) fn insert_rest(&mut self, nth: usize, rest: Step) {
+        if let Some(cameras) = self.step_cameras.get(nth) {
+            let camera = cameras.start;
+            self.step_cameras.insert(nth, StepCameras { start: camera, end: camera, secs: 1.0 });
+        } else if let Some(cameras) = self.step_cameras.last().filter(|_| nth == self.program.steps.len()) {
+            let camera = cameras.end;
+            self.step_cameras.push(StepCameras { start: camera, end: camera, secs: 1.0 });
+        }
+        if let Some(certainty) = self.certainty.get(nth).or(self.certainty.last()).cloned() {
+            self.certainty.insert(nth.min(self.certainty.len()), certainty);
+        }
+        self.program.steps.insert(nth, rest);
+    }
+
     /// Removes a step with its cameras and its certainty.
     pub fn remove_step(&mut self, nth: usize) {
         fn remove<T>(list: &mut Vec<T>, nth: usize) {

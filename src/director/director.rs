@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use cinesplat_language::{
-    Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_mentions, scenery,
-    tokenize, without_camera_settings, without_frame_shape, without_tolerances,
+    Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, end_of, is_no_thing, link_parts,
+    scenery, tokenize, without_camera_settings, without_frame_shape, without_tolerances,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -17,7 +17,7 @@ use crate::compositions::direct_composed;
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
-use crate::explained::{absorb_places, point_back};
+use crate::explained::{absorb_places, own_parts, point_back, point_ones};
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
@@ -101,6 +101,8 @@ impl Director {
         found.retain(|found| !is_blank(found.mention.bytes[0]));
         absorb_places(prompt, objects, &mut found);
         point_back(prompt, objects, &mut found);
+        point_ones(prompt, objects, &mut found);
+        own_parts(prompt, objects, &mut found);
         let parts: Vec<[usize; 2]> = found.iter().map(|found| found.mention.bytes).collect();
         let are_effects = are_effect_phrases(prompt, &parts)?;
         // The scene lacks no `bloom`, and the bike is not meant by it either: it is what the lens makes.
@@ -108,7 +110,12 @@ impl Director {
             |(found, is_effect): &(&FoundMention, bool)| !is_effect || has_word_of_name(prompt, found, objects);
         let things = found.iter().zip(are_effects).filter(is_thing);
         let mentions: Vec<Mention> = things.map(|(found, _)| found.mention.clone()).collect();
-        let mut linked = Linked { scenery, ..link_mentions(prompt, &mentions)? };
+        let end = |mention: &Mention| {
+            let [id] = mention.ids[..] else { return None };
+            let label = objects.iter().find(|object| object.id == id).map(|object| object.label.as_str())?;
+            end_of(prompt.get(mention.bytes[0]..mention.bytes[1])?, label)
+        };
+        let mut linked = Linked { scenery, ..link_parts(prompt, &mentions, &end)? };
         for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
             let words = |found: &&FoundMention| {
                 let [start, end] = found.mention.bytes;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::{Mention, NamedObject, Word, is_listed, stem, tokenize};
+use cinesplat_language::{Mention, NamedObject, Word, end_of, is_listed, stem, tokenize};
 
 use crate::names::FoundMention;
 
@@ -32,6 +32,54 @@ pub(crate) fn point_back(prompt: &str, objects: &[NamedObject], found: &mut [Fou
         };
         if let Some((earlier_id, _)) = earlier.find(names_more) {
             later.ids = vec![earlier_id];
+        }
+    }
+}
+
+/// Points `the green one` at the one thing of that color whose kind the mention before names, as after `three vases`.
+pub(crate) fn point_ones(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {
+    for nth in 1..found.len() {
+        let (before, rest) = found.split_at_mut(nth);
+        let later = &mut rest[0].mention;
+        let words = tokenize(said(prompt, later));
+        let Some((_, told)) = words.split_last().filter(|(last, _)| matches!(last.text.as_str(), "one" | "ones"))
+        else {
+            continue;
+        };
+        let told: Vec<&str> = told.iter().map(|word| word.text.as_str()).filter(|word| *word != "the").collect();
+        // Places (`the left one`) and numbers are not in labels.
+        let fits = |id: &u32| {
+            label(objects, *id).is_some_and(|label| {
+                let has = |word: &&str| tokenize(label).iter().any(|part| part.text == **word);
+                !told.is_empty() && told.iter().all(|word| has(&word))
+            })
+        };
+        let kinds = before.iter().rev().flat_map(|found| content(said(prompt, &found.mention)));
+        let of_kind = |kind: &String| {
+            let is_kind = |object: &&NamedObject| tokenize(&object.label).iter().any(|word| stem(&word.text) == *kind);
+            let ids: Vec<u32> = objects.iter().filter(is_kind).map(|object| object.id).filter(fits).collect();
+            matches!(ids[..], [_]).then_some(ids)
+        };
+        if let Some(ids) = kinds.filter_map(|kind| of_kind(&kind)).next() {
+            later.ids = ids;
+        }
+    }
+}
+
+/// Takes a part that the scene lacks for one of the only thing that there is, or that the prompt names: `the two sockets`
+/// of the skull.
+pub(crate) fn own_parts(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {
+    let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
+    named.dedup();
+    let only = match (&named[..], objects) {
+        ([id], _) => *id,
+        ([], [object]) => object.id,
+        _ => return,
+    };
+    let Some(whole) = label(objects, only).map(str::to_owned) else { return };
+    for part in found.iter_mut().filter(|found| found.mention.ids.is_empty()) {
+        if end_of(said(prompt, &part.mention), &whole).is_some() {
+            part.mention.ids = vec![only];
         }
     }
 }

@@ -45,6 +45,19 @@ pub fn check_prompt(prompt: &str) -> Result<(), LanguageError> {
 /// - [`LanguageError::TooManyObjects`]: more than [`MAX_SLOTS`].
 /// - [`LanguageError::BadData`]: an embedded list is malformed.
 pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, LanguageError> {
+    link_parts(prompt, mentions, &|_| None)
+}
+
+/// [`link_mentions`], where some mentions name an end or side of their one object by a word of its own (`the headstock`):
+/// `end_of` gives `top`, `bottom`, `front` or `back` for them, and the words are `the top of <obj-0>`.
+///
+/// # Errors
+/// Those of [`link_mentions`].
+pub fn link_parts(
+    prompt: &str,
+    mentions: &[Mention],
+    end_of: &dyn Fn(&Mention) -> Option<&'static str>,
+) -> Result<Linked, LanguageError> {
     check_prompt(prompt)?;
     let mention_at = |at: usize| mentions.iter().find(|mention| (mention.bytes[0]..mention.bytes[1]).contains(&at));
     let words = plain_words(prompt, &tokenize(prompt), &|word| mention_at(word.span[0]).is_some())?;
@@ -61,12 +74,19 @@ pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, Langu
             let inside = |word: &&Word| span_of(std::slice::from_ref(*word))[0] < mention.bytes[1];
             let len = words[i..].iter().take_while(inside).count().max(1);
             let slot = linked.slot_of(mention, prompt)?;
-            linked.append_mention(slot, &words[i..i + len], mention.ids.len() == 1);
+            if let Some(end) = end_of(mention) {
+                ["the", end, "of"].iter().for_each(|word| linked.append(word, &words[i..i + len]));
+                linked.append(&format!("<obj-{slot}>"), &words[i..i + len]);
+            } else {
+                linked.append_mention(slot, &words[i..i + len], mention.ids.len() == 1);
+            }
             i += len;
             continue;
         }
         let quantity = quantity_at(&words, i).filter(|_| linked.quantities.len() < MAX_QUANTITIES && !is_head(at));
-        let len = quantity.map_or(1, |(len, _)| len);
+        // `Quarter orbit` states the angle of an orbit.
+        let states_orbit = |len: &usize| *len > 1 && matches!(word_at(&words, i + len - 1), "orbit" | "orbits");
+        let len = quantity.map_or(1, |(len, _)| len - usize::from(states_orbit(&len)));
         if let Some((_, quantity)) = quantity {
             linked.append(&format!("<qty-{}>", linked.quantities.len()), &words[i..i + len]);
             linked.quantities.push(quantity);
@@ -76,6 +96,7 @@ pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, Langu
         i += len;
     }
     linked.rewrite_idioms()?;
+    linked.drop_last_commas();
     Ok(linked)
 }
 
@@ -151,6 +172,14 @@ impl Linked {
         let id = FIRST_GROUP + self.groups.len() as u32;
         self.groups.push(Group { id, members: mention.ids.clone(), name: name.to_owned(), nearest: Vec::new() });
         id
+    }
+
+    /// Removes commas behind the last word: what followed them was no part of a move.
+    fn drop_last_commas(&mut self) {
+        while let Some(rest) = self.tokens_text.strip_suffix(" ,") {
+            self.tokens_text.truncate(rest.len());
+            self.spans.pop();
+        }
     }
 
     /// Appends `text`, which stands for `words`.

@@ -11,5 +11,6 @@ mod hostile;
 mod keys;
 mod model_files;
 mod names;
+mod plain_words;
 mod said;
 mod vocabulary;

@@ -172,7 +172,7 @@ fn times_as_people_type_them() {
             ("be there at second 6", 6.0),
             ("at 0:05 be there", 5.0),
             ("at 00:04", 4.0),
-            ("until the last second", 1.0),
+            ("in the last second", 1.0),
             ("sixteen counts", 16.0),
         ],
     );

@@ -35,8 +35,8 @@ impl Mark {
     }
 }
 
-const FIRST: [&str; 7] = ["start", "starting", "opening", "first", "initial", "beginning", "begin"];
-const LAST: [&str; 7] = ["end", "ending", "closing", "last", "final", "finishing", "finish"];
+const FIRST: [&str; 8] = ["start", "starting", "opening", "first", "initial", "beginning", "begin", "t0"];
+const LAST: [&str; 8] = ["end", "ending", "closing", "last", "final", "finishing", "finish", "tend"];
 /// What is seen at one moment.
 const FRAMES: [&str; 7] = ["frame", "composition", "picture", "image", "framing", "keyframe", "pose"];
 

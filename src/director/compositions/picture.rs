@@ -42,7 +42,8 @@ impl Picture {
         picture.is_room = named.subjects.is_empty() && says(ROOM);
         take_quantities(linked, &words, before.map(|before| &before.framing), framing);
         let is_bare = *framing == named && !named.subjects.is_empty() && !says("in on with") && !says(SEEN);
-        if let Some(before) = before.filter(|_| is_bare) {
+        let is_like = |before: &&Self| is_bare && (before.framing.whole || !named.whole || named.subjects.len() > 1);
+        if let Some(before) = before.filter(is_like) {
             let whole = named.whole || before.framing.whole;
             *framing = Framing { subjects: named.subjects, whole, ..before.framing.clone() };
         }

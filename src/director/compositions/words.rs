@@ -60,12 +60,13 @@ pub(super) fn has_opposite_places(words: &[&str]) -> bool {
 }
 
 pub(super) fn size(words: &[&str]) -> Option<ShotSize> {
-    const SIZES: [(&[&str], ShotSize); 17] = [
+    const SIZES: [(&[&str], ShotSize); 18] = [
         (&["extreme", "close"], ShotSize::ExtremeCloseUp),
         (&["ecu"], ShotSize::ExtremeCloseUp),
         (&["medium", "close"], ShotSize::MediumCloseUp),
         (&["mcu"], ShotSize::MediumCloseUp),
         (&["close", "up"], ShotSize::CloseUp),
+        (&["up", "close"], ShotSize::CloseUp),
         (&["closeup"], ShotSize::CloseUp),
         (&["cu"], ShotSize::CloseUp),
         (&["close", "on"], ShotSize::CloseUp),

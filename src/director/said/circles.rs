@@ -1,8 +1,12 @@
 //! Turns all the way round: `spin all the way around on the spot`, `look right round the whole room`.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Amount, Step};
+use cinesplat_operator::{Amount, Framing, Step};
 use cinesplat_trajectory::Move;
+
+use super::directions::is_form;
+use super::open::as_orbit;
+use crate::direction::Direction;
 
 /// Words of a turn back to where it began, one after the other.
 const ALL_ROUND: [&[&str]; 10] = [
@@ -31,6 +35,28 @@ pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
         let is_short = words.iter().any(|word| SHORT.contains(word));
         if !is_short && ALL_ROUND.iter().any(|said| words.windows(said.len()).any(|window| window == *said)) {
             step.amount = Some(Amount::Degrees(360.0));
+        }
+    }
+}
+
+/// Makes a full circle of a circle whose end another step tells: `circle him, and come home where you began`.
+pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [first, second] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
+        let turns = matches!(as_orbit(first.movement), Move::OrbitLeft | Move::OrbitRight);
+        let is_open = !matches!(first.amount, Some(Amount::Degrees(_) | Amount::Factor(_)));
+        let (a, b) = (as_orbit(first.movement), as_orbit(second.movement));
+        let goes_on = a == b || first.either_way && a.opposite() == Some(b);
+        let words = linked.texts_in(second.words.unwrap_or_default());
+        let circles = ["orbit", "circle", "arc", "go", "travel", "retrace", "reverse", "spin", "round", "around"];
+        let is_told = words.iter().any(|word| circles.iter().any(|verb| is_form(word, verb)));
+        let is_plain = second.amount.is_none() && second.with.is_empty() && second.duration_secs.is_none();
+        let keeps = second.end == Framing::default() || second.end.subjects == first.end.subjects;
+        if turns && is_open && goes_on && second.returns && is_plain && keeps && !is_told && first.words != second.words
+        {
+            let words = first.joint_words(second);
+            let one = Step { amount: Some(Amount::Degrees(360.0)), returns: false, words, ..first.clone() };
+            direction.join_steps(nth, one);
         }
     }
 }

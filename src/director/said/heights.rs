@@ -2,8 +2,10 @@
 
 use cinesplat_language::{Linked, QuantityKind};
 use cinesplat_operator::{Amount, Motion, Step};
+use cinesplat_trajectory::Move;
 
 use super::bans::asks_for;
+use super::directions::is_form;
 use crate::direction::Direction;
 
 const HEIGHTS: [&str; 2] = ["height", "altitude"];
@@ -40,6 +42,47 @@ pub(crate) fn hold_height(linked: &Linked, direction: &mut Direction) {
     for step in &mut program.steps {
         step.amount =
             step.amount.filter(|amount| !matches!(amount, Amount::Units(units) if units.to_bits() == height.to_bits()));
+    }
+}
+
+/// Words before a height at which a camera is, and words of the ground behind it.
+const AT: [&str; 6] = ["at", "around", "about", "only", "roughly", "just"];
+const GROUND: [&str; 4] = ["floor", "ground", "carpet", "deck"];
+
+/// Verbs of ways without a goal.
+const WANDERS: [&str; 9] = ["wander", "walk", "explore", "roam", "drift", "move", "fly", "float", "glide"];
+/// Words of a rise or a descent.
+const RISES: [&str; 14] = [
+    "rise", "rises", "up", "down", "lower", "lift", "climb", "descend", "sink", "drop", "crane", "pedestal", "boom",
+    "raise",
+];
+
+/// Begins at the height at which the words say the camera is, which is no way up: `camera around 60 cm off the floor, wander
+/// a bit`.
+pub(crate) fn begin_at_height(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement != Move::Static) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        if asks_for(step, Motion::Rise) && words.iter().any(|word| RISES.contains(word)) {
+            continue;
+        }
+        let is_camera = |at: usize| {
+            let before = words[..at].iter().rev().find(|word| !AT.contains(*word) && **word != "is");
+            before.is_some_and(|word| CAMERAS.contains(word))
+        };
+        let is_over = |at: usize| words[at + 1..].iter().take(3).any(|word| GROUND.contains(word));
+        let heights = words.iter().enumerate().filter_map(|(at, word)| Some((at, linked.quantity_at(word)?)));
+        let mut held = heights.filter(|(at, q)| q.kind == QuantityKind::Units && is_camera(*at) && is_over(*at));
+        let Some((_, height)) = held.next() else { continue };
+        let is_height = |units: f64| (units - height.value).abs() < 1e-9;
+        let is_way = matches!(step.amount, Some(Amount::Units(units)) if is_height(units));
+        if is_way && asks_for(step, Motion::Rise) && step.with.is_empty() {
+            let wanders = words.iter().any(|word| WANDERS.iter().any(|verb| is_form(word, verb)));
+            step.movement = if wanders { Move::FlyThrough } else { Move::Static };
+            (step.amount, step.end.height) = (None, Some(height.value));
+        }
+        if step.end.height.is_some_and(is_height) && step.start.height.is_none() && step.movement != Move::Static {
+            step.start.height = Some(height.value);
+        }
     }
 }
 

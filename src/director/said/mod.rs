@@ -1,5 +1,6 @@
 //! What the words of a step say plainly, over what the network read into them.
 
+mod amounts;
 mod bans;
 mod circles;
 mod directions;
@@ -7,12 +8,15 @@ mod dolly_zoom;
 mod fixed;
 mod heights;
 mod lengths;
+mod moods;
 mod open;
 mod openings;
 mod places;
 mod ranges;
 mod repeats;
+mod rests;
 mod senses;
+mod sides;
 mod stillness;
 mod taken_back;
 mod together;
@@ -41,7 +45,10 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     places::begin_at_source(linked, steps);
     places::pass_pairs(linked, steps);
     places::complete_framings(steps);
+    moods::drop_statements(linked, direction);
     repeats::merge_repeated(linked, senses, direction)?;
+    amounts::leave_to_owner(linked, &mut direction.program.steps);
+    repeats::pass_one_after_another(linked, direction);
     until::join_until(linked, direction);
     together::complete_lists(linked, &mut direction.program);
     let steps = &mut direction.program.steps;
@@ -56,12 +63,20 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     stillness::turn_gazes(linked, steps);
     stillness::hold_slants(linked, steps);
+    stillness::turn_tripods(linked, steps);
+    stillness::move_without_focus(linked, steps);
+    stillness::travel_ways(linked, steps);
+    stillness::hold_arrivals(linked, steps);
     stillness::circle_spirals(linked, steps);
     // What the rules above read from the words is taken back with the rest.
     taken_back::drop_taken_back(linked, direction);
     let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);
+    rests::rest_on_each(linked, direction);
+    circles::close_circles(linked, direction);
+    let steps = &mut direction.program.steps;
     circles::turn_all_round(linked, steps);
+    sides::go_round_to_sides(linked, steps);
     ranges::take_ranges(linked, steps);
     ranges::take_field_of_view(linked, steps);
     open::return_to_first(linked, steps);
@@ -73,6 +88,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
     fixed::stay_put(linked, &mut direction.program);
+    heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
     Ok(())
 }

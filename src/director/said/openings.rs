@@ -43,8 +43,11 @@ pub(crate) fn take_sizes(linked: &Linked, steps: &mut [Step]) {
         let leaves = matches!(step.movement, Move::PullOut | Move::ZoomOut);
         // Sizes are listed from the closest to the widest.
         let fits = |[first, second]: &[ShotSize; 2]| !(nears && second > first || leaves && second < first);
-        if let [[first, second]] = pairs.filter(fits).collect::<Vec<_>>()[..] {
-            (step.start.size, step.end.size) = (Some(first), Some(second));
+        // `ECU > MCU > WS` ends on the last one.
+        let pairs: Vec<[ShotSize; 2]> = pairs.filter(fits).collect();
+        let is_chain = pairs.windows(2).all(|two| two[0][1] == two[1][0]);
+        if let Some((first, last)) = pairs.first().zip(pairs.last()).filter(|_| is_chain) {
+            (step.start.size, step.end.size) = (Some(first[0]), Some(last[1]));
             if step.start.subjects.is_empty() {
                 step.start.subjects.clone_from(&step.end.subjects);
             }
@@ -134,6 +137,9 @@ pub(crate) fn rest_on_first_picture(
 /// The senses of words that ask for a turn on the spot; `None` for other moves.
 fn senses_of_turn(movement: Move) -> Option<&'static [&'static str]> {
     match movement {
+        Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => {
+            Some(&["around", "turn", "left", "right", "full", "half", "quarter"])
+        }
         Move::PanLeft | Move::PanRight => Some(&["turn", "left", "right", "whip"]),
         Move::WhipPan => Some(&["turn", "left", "right", "whip", "fast"]),
         Move::TiltUp => Some(&["nod", "up", "lift"]),

@@ -1,7 +1,7 @@
 //! Values at the start and at the end of a move: `vertical FOV 50° at 0:00 to 25° at 0:06`, `back away, 1.6 m -> 2.4 m`,
 //! `elevation 25° .. 0°`.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, Quantity, QuantityKind};
 use cinesplat_operator::{Amount, Framing, Lens, Step};
 use cinesplat_trajectory::Move;
 
@@ -68,7 +68,10 @@ fn step_at(steps: &mut [Step], byte: usize) -> Option<&mut Step> {
 
 /// The range that begins at word `at`. The second angle may be 0, which is no quantity.
 fn range_at(linked: &Linked, words: &[&str], at: usize) -> Option<Range> {
-    let first = linked.quantity_at(words[at])?;
+    let is_zero =
+        |at: usize| words.get(at) == Some(&"0") && matches!(words.get(at + 1), Some(&("\u{B0}" | "degrees" | "deg")));
+    let zero = Quantity { kind: QuantityKind::Degrees, value: 0.0 };
+    let first = linked.quantity_at(words[at]).or_else(|| is_zero(at).then_some(zero))?;
     let is_time = |word: &str| linked.quantity_at(word).is_some_and(|other| other.kind == QuantityKind::Seconds);
     let links =
         |word: &&&str| matches!(**word, "to" | ">" | "." | "\u{2192}") || BETWEEN.contains(*word) || is_time(word);
@@ -80,10 +83,9 @@ fn range_at(linked: &Linked, words: &[&str], at: usize) -> Option<Range> {
     }
     let end = at + 1 + num_between;
     let second = words.get(end)?;
-    let is_zero = *second == "0" && matches!(words.get(end + 1), Some(&("\u{B0}" | "degrees" | "deg")));
     let value = match linked.quantity_at(second) {
         Some(quantity) if quantity.kind == first.kind => quantity.value,
-        _ if is_zero && first.kind == QuantityKind::Degrees => 0.0,
+        _ if is_zero(end) && first.kind == QuantityKind::Degrees => 0.0,
         _ => return None,
     };
     Some(Range { kind: first.kind, values: [first.value, value], at: [at, end] })

@@ -4,7 +4,7 @@
 //! kind. Such a step is one with the step before, unless the words repeat the move.
 
 use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::{Amount, Framing, Speed, Step};
+use cinesplat_operator::{Amount, Framing, Pass, Speed, Step};
 use cinesplat_trajectory::Move;
 
 use super::open::as_orbit;
@@ -69,6 +69,45 @@ fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
         ..first.clone()
     };
     (with_all_of(&one, second) == one).then_some(one)
+}
+
+/// Words between things that are passed one after the other.
+const NEXT: [&str; 16] =
+    ["then", "the", "and", ",", "past", "next", "after", "that", "finally", ".", "lastly", ";", "on", "by", "a", "to"];
+
+/// Makes one way of steps that only name what is passed next: `track past the knives, then the plates, then the ladles`.
+pub(crate) fn pass_one_after_another(linked: &Linked, direction: &mut Direction) {
+    let mut nth = 1;
+    while nth < direction.program.steps.len() {
+        let (first, second) = (&direction.program.steps[nth - 1], &direction.program.steps[nth]);
+        match passing_both(linked, first, second) {
+            Some(one) => direction.join_steps(nth, one),
+            None => nth += 1,
+        }
+    }
+}
+
+/// One way past what two steps pass, where the second one's words only name it.
+fn passing_both(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
+    let shown = Framing { subjects: second.end.subjects.clone(), ..Framing::default() };
+    let is_plain = second.start == Framing::default()
+        && second.end == shown
+        && first.end == Framing::default()
+        && second.amount.is_none()
+        && second.duration_secs.is_none()
+        && !second.cut
+        && !second.returns;
+    let words = linked.texts_in(second.words?);
+    let only_names = words.iter().all(|word| NEXT.contains(word) || linked.slot_at(word).is_some());
+    if !is_plain || !only_names || !is_same_move(first, second) || first.words == second.words {
+        return None;
+    }
+    let mut via = first.via.clone().filter(|via| matches!(via.how, Pass::Past | Pass::Along))?;
+    let next = second.via.as_ref().map_or(&second.end.subjects, |next| &next.objects);
+    via.how = Pass::Past;
+    let new: Vec<u32> = next.iter().filter(|id| !via.objects.contains(id)).copied().collect();
+    via.objects.extend(new);
+    Some(Step { via: Some(via), words: first.joint_words(second), ..first.clone() })
 }
 
 /// Whether both steps make one move in one direction, which one of them may leave open; a circle and an arc are one.

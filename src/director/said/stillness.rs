@@ -2,7 +2,7 @@
 //! not walk, a spiral goes around.
 
 use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::{Amount, Motion, Pass, Program, Step};
+use cinesplat_operator::{Amount, Framing, Motion, Pass, Program, Step};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
@@ -148,6 +148,98 @@ pub(crate) fn hold_slants(linked: &Linked, steps: &mut [Step]) {
             (step.movement, step.either_way, step.amount) = (Move::Static, false, None);
             step.with.clear();
         }
+    }
+}
+
+/// Turns a camera up or down that the network holds still: `tilt from the bottom shelf up to the top one; the tripod doesn't
+/// budge`, `stop, look up`.
+pub(crate) fn turn_tripods(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static && step.with.is_empty()) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let looks = |at: usize| {
+            // `Look up at the lamp` may be an angle.
+            matches!(words[at], "look" | "looks" | "looking")
+                && words.get(at + 1).is_some_and(|word| matches!(*word, "up" | "down"))
+                && words.get(at + 2).is_none_or(|word| matches!(*word, "." | "," | ";" | "!"))
+        };
+        let is_verb = |at: &usize| matches!(words[*at], "tilt" | "tilts" | "tilting") || looks(*at);
+        let Some(at) = (0..words.len()).find(is_verb) else { continue };
+        let before = &words[at.saturating_sub(3)..at];
+        let behind = || words[at + 1..].iter().take_while(|word| !matches!(**word, "." | ";"));
+        let says = |list: &[&str]| behind().any(|word| list.contains(word));
+        let (up, down) = (says(&["up", "upward", "upwards"]), says(&["down", "downward", "downwards"]));
+        let is_banned = before.iter().any(|word| DENIALS.contains(word) || SLANTS.contains(word));
+        if up != down && !is_banned && step.duration_secs.is_none() {
+            step.movement = if up { Move::TiltUp } else { Move::TiltDown };
+        }
+    }
+}
+
+/// Flies where the words lead on a way that the network holds still: `a mouse running under the table to the sofa`.
+pub(crate) fn travel_ways(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static && step.with.is_empty()) {
+        let leads = step.via.as_ref().is_some_and(|via| matches!(via.how, Pass::Under | Pass::Over | Pass::Between));
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let runs = |word: &&str| {
+            is_travel(word)
+                || ["crawl", "slip", "dart", "scurry", "creep", "zip", "race"].iter().any(|v| is_form(word, v))
+        };
+        if leads && !step.end.subjects.is_empty() && words.iter().any(runs) {
+            step.movement = Move::FlyThrough;
+        }
+    }
+}
+
+/// Words that name nothing and may stand in for a thing.
+const PRONOUNS: [&str; 12] =
+    ["it", "them", "both", "that", "this", "those", "everything", "all", "one", "him", "her", "there"];
+
+/// Holds what the move before arrives at where the words of a hold name nothing: `then just hold`.
+pub(crate) fn hold_arrivals(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let (before, step) = (&steps[nth - 1], &steps[nth]);
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let names = words.iter().any(|word| linked.slot_at(word).is_some() || PRONOUNS.contains(word));
+        let shown = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
+        let is_plain = step.movement == Move::Static
+            && step.start == Framing::default()
+            && step.end == shown
+            && step.via.is_none()
+            && step.with.is_empty()
+            && !step.cut;
+        let arrives = before.movement != Move::Static
+            && before.words != step.words
+            && !before.end.subjects.is_empty()
+            && before.end.subjects != step.end.subjects;
+        if is_plain && arrives && !names && !words.is_empty() {
+            steps[nth].end = Framing::default();
+        }
+    }
+}
+
+/// Words of a pull of focus.
+const FOCUSES: [&str; 14] = [
+    "focus",
+    "focuses",
+    "focusing",
+    "focussing",
+    "refocus",
+    "rack",
+    "racks",
+    "racking",
+    "blur",
+    "blurred",
+    "sharp",
+    "sharpness",
+    "pull",
+    "focal",
+];
+
+/// Makes a way of a pull of focus that nobody asked for: `slow glide, sofa to plant`.
+pub(crate) fn move_without_focus(linked: &Linked, steps: &mut [Step]) {
+    let is_said = linked.tokens_text.split(' ').any(|word| FOCUSES.contains(&word));
+    for step in steps.iter_mut().filter(|step| step.movement == Move::RackFocus && !is_said) {
+        (step.movement, step.either_way) = (Move::Follow, false);
     }
 }
 

@@ -20,7 +20,8 @@ pub(super) fn ellipsis_at(words: &[Word], i: usize) -> Option<Found> {
     if is_turn {
         return None;
     }
-    let (kind, scale) = unit_after(words, i, end).or_else(|| unit_before(words, i, end))?;
+    let shared = || unit_after(words, i, end).or_else(|| unit_before(words, i, end));
+    let (kind, scale) = corrected_unit(words, i, end).or_else(shared)?;
     Some(found(end - i, kind, value * scale))
 }
 
@@ -48,6 +49,18 @@ fn unit_before(words: &[Word], i: usize, end: usize) -> Option<(QuantityKind, f6
     let is_measure = at.checked_sub(1).is_some_and(|number| measure_at(words, number).is_some());
     let is_near = !in_list || i - at <= 4;
     (is_measure && is_near && is_shared(kind)).then_some((kind, scale))
+}
+
+/// The unit of the measure that a number puts right: `over 5 seconds, make that 7`.
+fn corrected_unit(words: &[Word], i: usize, end: usize) -> Option<(QuantityKind, f64)> {
+    let is_that = matches!(word_before(words, i, 1), "that" | "it") && word_before(words, i, 2) == "make";
+    let is_word = matches!(word_before(words, i, 1), "no" | "rather" | "actually" | "sorry" | "say");
+    if !(is_that || is_word) || !ends_phrase(words, end) {
+        return None;
+    }
+    let first = i.saturating_sub(6);
+    let (at, found) = (first..i).rev().find_map(|at| Some((at, unit(word_at(words, at))?)))?;
+    at.checked_sub(1).is_some_and(|number| measure_at(words, number).is_some()).then_some(found)
 }
 
 /// Whether a number may go without this unit.

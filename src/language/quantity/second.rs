@@ -28,7 +28,9 @@ fn ordinal_second_at(words: &[Word], i: usize) -> Option<Found> {
         return (duration > 0.0 && (after_preposition || is_clause))
             .then(|| found(end - i, QuantityKind::Seconds, duration));
     }
-    let is_last = matches!(before, "last" | "final" | "first" | "opening" | "closing");
+    // `Until the last second` is until the end.
+    let leads = (2..=4).any(|back| matches!(word_before(words, i, back), "until" | "till" | "til"));
+    let is_last = matches!(before, "last" | "final" | "first" | "opening" | "closing") && !leads;
     is_last.then(|| found(1, QuantityKind::Seconds, 1.0))
 }
 

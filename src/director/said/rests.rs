@@ -1,0 +1,101 @@
+//! Rests on each of several things: `turn from the wall to the chair and then to the lamp, dwelling on each for a second`.
+
+use cinesplat_language::{Linked, MAX_STEPS, QuantityKind};
+use cinesplat_operator::{Framing, Step};
+use cinesplat_trajectory::Move;
+
+use super::directions::is_form;
+use crate::direction::Direction;
+
+const RESTS: [&str; 10] = ["hold", "pause", "stop", "rest", "dwell", "linger", "wait", "settle", "stay", "halt"];
+const EACH: [&str; 3] = ["each", "every", "all"];
+/// Words between the two.
+const BETWEEN: [&str; 14] =
+    ["on", "upon", "at", "for", "with", "a", "of", "in", "front", "there", "briefly", "shortly", "about", "the"];
+/// How long a rest is that has no length.
+const REST_SECS: f64 = 1.0;
+
+/// Rests on what each step arrives at, and on what the first one leaves, where the words ask for a rest on each.
+pub(crate) fn rest_on_each(linked: &Linked, direction: &mut Direction) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let Some((at, stated)) = (0..words.len()).find_map(|at| Some((at, rest_at(linked, &words, at)?))) else { return };
+    let secs = stated.unwrap_or(REST_SECS);
+    let byte = linked.spans.get(at).map_or(0, |span| span[0]);
+    let steps = &mut direction.program.steps;
+    let arrives = |step: &Step| step.movement != Move::Static && !step.end.subjects.is_empty() && !step.returns;
+    let places = steps.iter().filter(|step| arrives(step)).count()
+        + usize::from(steps.first().is_some_and(|step| arrives(step) && !step.start.subjects.is_empty()));
+    if places < 2 {
+        return;
+    }
+    for step in steps.iter_mut() {
+        let is_secs = step.duration_secs.is_some_and(|own| stated.is_some() && (own - secs).abs() < 1e-9);
+        if is_secs && step.movement != Move::Static {
+            step.duration_secs = None;
+        } else if step.movement == Move::Static && step.duration_secs.is_none() {
+            step.duration_secs = stated;
+        }
+    }
+    let rest = |framing: &Framing, words| Step {
+        end: framing.clone(),
+        duration_secs: Some(secs),
+        words,
+        ..Step::of(Move::Static)
+    };
+    let first = steps.first().filter(|step| arrives(step) && !step.start.subjects.is_empty());
+    if let Some(opening) = first.map(|step| rest(&step.start, step.words)) {
+        direction.insert_rest(0, opening);
+    }
+    for nth in (0..direction.program.steps.len()).rev() {
+        let steps = &direction.program.steps;
+        let rests = steps.get(nth + 1).is_some_and(|next| next.movement == Move::Static && !next.cut);
+        let is_before = steps[nth].words.is_none_or(|[from, _]| from <= byte);
+        if arrives(&steps[nth]) && !rests && is_before && steps.len() < MAX_STEPS {
+            let held = rest(&steps[nth].end, steps[nth].words);
+            direction.insert_rest(nth + 1, held);
+        }
+    }
+}
+
+/// How long a rest on each thing is that the words at word `at` ask for, where they state that.
+fn rest_at(linked: &Linked, words: &[&str], at: usize) -> Option<Option<f64>> {
+    if !EACH.contains(&words[at]) {
+        return None;
+    }
+    let before = words[..at].iter().rev().find(|word| !BETWEEN.contains(word) && !linked.is_quantity(word))?;
+    let secs = |word: &&str| {
+        linked
+            .quantity_at(word)
+            .filter(|quantity| quantity.kind == QuantityKind::Seconds)
+            .map(|quantity| quantity.value)
+    };
+    let stated = words[at + 1..]
+        .iter()
+        .take(8)
+        .take_while(|word| !matches!(**word, "." | ";"))
+        .chain(words[..at].iter().rev().take(3))
+        .find_map(secs);
+    // `All the way`, `every time`.
+    let is_else =
+        words.get(at + 1).is_some_and(|word| matches!(*word, "the" | "time" | "along" | "over" | "of" | "around"));
+    let rests = RESTS.iter().any(|verb| is_form(before, verb));
+    (rests && !(is_else && words[at] != "each")).then_some(stated)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rest_on_each_is_told_from_others() {
+        let rests = |text: &str| {
+            let words: Vec<&str> = text.split(' ').collect();
+            (0..words.len()).any(|at| rest_at(&Linked::default(), &words, at).is_some())
+        };
+        assert!(rests("turn to <obj-0> then to <obj-1> , dwelling upon each item for no less than a second"));
+        assert!(rests("a pause at each stage"));
+        assert!(rests("stop briefly at every one"));
+        assert!(!rests("hold all the way"));
+        assert!(!rests("show each of them"));
+    }
+}

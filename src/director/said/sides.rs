@@ -1,0 +1,69 @@
+//! Ways round a subject, from one side of it to another: `in profile, drift round to the front`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Step, SubjectSide};
+use cinesplat_trajectory::Move;
+
+use super::open::as_orbit;
+
+/// Words that lead around.
+const AROUND: [&str; 5] = ["round", "around", "over", "across", "about"];
+/// Words between them and the side.
+const BETWEEN: [&str; 6] = ["to", "the", "its", "his", "her", "their"];
+/// Sides by their words.
+const SIDES: [(&[&str], SubjectSide); 3] = [
+    (&["front", "face"], SubjectSide::FromFront),
+    (&["back", "rear"], SubjectSide::FromBack),
+    (&["profile"], SubjectSide::FromSide),
+];
+
+/// Ends a way round its subject at the side that the words lead to, and goes round where a picture that rests would be seen
+/// from two sides.
+pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_own = |word: &str| linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == step.end.subjects);
+        let circles = matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight);
+        if let Some(side) = side_of_end(&words, &is_own).filter(|_| circles && step.amount.is_none()) {
+            step.end.side = Some(side);
+        }
+        let is_turned = step.start.side.is_some() && step.end.side.is_some() && step.start.side != step.end.side;
+        if step.movement == Move::Static && step.with.is_empty() && is_turned {
+            (step.movement, step.either_way) = (Move::OrbitRight, true);
+        }
+        if step.movement != Move::Static && step.start.side.is_some() && step.start.subjects.is_empty() {
+            step.start.subjects.clone_from(&step.end.subjects);
+        }
+    }
+}
+
+/// The side that the words go round to; `None` where they name none or several. `is_own` tells the subject.
+fn side_of_end(words: &[&str], is_own: &dyn Fn(&str) -> bool) -> Option<SubjectSide> {
+    let mut sides = (0..words.len()).filter(|at| AROUND.contains(&words[*at])).filter_map(|at| {
+        let links = words[at + 1..].iter().take(3).take_while(|word| BETWEEN.contains(word)).count();
+        let leads = words[at + 1..at + 1 + links].contains(&"to");
+        let name = words.get(at + 1 + links)?;
+        // `To the front of the room` is a place.
+        let of = words.get(at + 2 + links).is_some_and(|word| *word == "of");
+        let is_place = of && !words[at + 3 + links..].iter().take(2).any(|word| is_own(word));
+        let side = SIDES.iter().find(|(names, _)| names.contains(name)).map(|(_, side)| *side)?;
+        (leads && !is_place).then_some(side)
+    });
+    sides.next().filter(|_| sides.next().is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_round_ends_at_the_side_that_is_named() {
+        let side = |text: &str| side_of_end(&text.split(' ').collect::<Vec<_>>(), &|word| word == "<obj-0>");
+        assert_eq!(side("drift round to the front over <qty-0>"), Some(SubjectSide::FromFront));
+        assert_eq!(side("circle around to its back"), Some(SubjectSide::FromBack));
+        assert_eq!(side("round to the front of <obj-0>"), Some(SubjectSide::FromFront));
+        assert_eq!(side("go round the front"), None);
+        assert_eq!(side("go around to the front of <obj-1>"), None);
+        assert_eq!(side("round to the front then round to the back"), None);
+    }
+}
