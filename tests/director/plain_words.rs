@@ -139,3 +139,21 @@ fn a_thing_that_is_not_to_be_hit_may_be_seen() {
     let found = program("fly over to the armchair, don't clip the vase");
     assert!(!found.contains("avoid=1"), "{found}");
 }
+
+#[test]
+fn a_stated_speed_is_a_length() {
+    for (prompt, expected) in [
+        ("pan right 90 degrees at 15 deg/s", "amount=90deg dur=6s"),
+        ("dolly in 1.2 m at 0.3 m/s toward the vase", "amount=1.2u dur=4s"),
+        ("rise at 10 cm per second for 5 seconds", "amount=0.5u"),
+    ] {
+        let found = program(prompt);
+        assert!(found.contains(expected), "{prompt}: {found}");
+    }
+}
+
+#[test]
+fn a_second_move_is_the_one_that_is_said() {
+    let found = program("push in on the vase while tilting down a little");
+    assert!(found.starts_with("push-in") && found.contains("with=tilt-down"), "{found}");
+}

@@ -81,6 +81,11 @@ fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {
             step.either_way = false;
         }
         step.with.iter_mut().filter(|other| is_opposite(other)).for_each(|other| *other = movement);
+        // A second move that is the first one again is what the words say beside it: `push in while tilting down`.
+        let (main, twice) = (step.movement, step.with.iter().position(|other| *other == step.movement));
+        if let Some(twice) = twice.filter(|_| movement != main && movement.opposite() != Some(main)) {
+            step.with[twice] = movement;
+        }
         add_lost_move(step, movement);
     }
 }

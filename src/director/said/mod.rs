@@ -13,6 +13,7 @@ mod open;
 mod openings;
 mod places;
 mod ranges;
+mod rates;
 mod repeats;
 mod rests;
 mod senses;
@@ -85,6 +86,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::hide_at_first(linked, steps);
     directions::rise_to_things(linked, steps);
     lengths::take_film_length(linked, &mut direction.program);
+    rates::take_rates(linked, direction);
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
     fixed::stay_put(linked, &mut direction.program);

@@ -38,6 +38,9 @@ pub(crate) fn merge_repeated(
 /// The first of two steps with the details that only the second one states: its length, a stated angle, its speed profile.
 /// `None` where the second states anything else, no detail, or an extent of its own.
 fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
+    if arrives_again(linked, first, second) {
+        return Some(Step { words: first.joint_words(second), ..first.clone() });
+    }
     if first.movement == Move::Static || second.cut || second.returns || !is_same_move(first, second) {
         return None;
     }
@@ -108,6 +111,32 @@ fn passing_both(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
     let new: Vec<u32> = next.iter().filter(|id| !via.objects.contains(id)).copied().collect();
     via.objects.extend(new);
     Some(Step { via: Some(via), words: first.joint_words(second), ..first.clone() })
+}
+
+/// Whether the second step turns to what the first one has just turned to, and says nothing else: `look at the lamp, then
+/// the vase, then ..`.
+fn arrives_again(linked: &Linked, first: &Step, second: &Step) -> bool {
+    let plain = Step {
+        end: second.end.clone(),
+        words: second.words,
+        either_way: second.either_way,
+        ..Step::of(second.movement)
+    };
+    let names_once = |id: &u32| {
+        let words = linked.texts_in([0, usize::MAX]);
+        words
+            .iter()
+            .filter(|word| linked.slot_at(word).is_some_and(|slot| linked.expanded(&[slot]).contains(id)))
+            .count()
+            < 2
+    };
+    matches!(second.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown)
+        && *second == plain
+        && is_same_move(first, second)
+        && !first.start.subjects.is_empty()
+        && first.end == second.end
+        && !second.end.subjects.is_empty()
+        && second.end.subjects.iter().all(names_once)
 }
 
 /// Whether both steps make one move in one direction, which one of them may leave open; a circle and an arc are one.
