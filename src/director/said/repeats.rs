@@ -78,16 +78,35 @@ fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
 const NEXT: [&str; 16] =
     ["then", "the", "and", ",", "past", "next", "after", "that", "finally", ".", "lastly", ";", "on", "by", "a", "to"];
 
-/// Makes one way of steps that only name what is passed next: `track past the knives, then the plates, then the ladles`.
+/// Makes one way of steps that only name what is passed next: `track past the knives, then the plates, then the ladles`
+/// leads from the first of them to the last.
 pub(crate) fn pass_one_after_another(linked: &Linked, direction: &mut Direction) {
-    let mut nth = 1;
-    while nth < direction.program.steps.len() {
-        let (first, second) = (&direction.program.steps[nth - 1], &direction.program.steps[nth]);
-        match passing_both(linked, first, second) {
-            Some(one) => direction.join_steps(nth, one),
-            None => nth += 1,
+    let (mut nth, mut is_chain) = (1, false);
+    while nth <= direction.program.steps.len() {
+        let steps = &mut direction.program.steps;
+        let one = steps.get(nth).and_then(|second| passing_both(linked, &steps[nth - 1], second));
+        if let Some(one) = one {
+            direction.join_steps(nth, one);
+            is_chain = true;
+            continue;
         }
+        if std::mem::take(&mut is_chain) {
+            lead_along(&mut steps[nth - 1]);
+        }
+        nth += 1;
     }
+}
+
+/// Begins a way at the first thing that it passes and ends it at the last one.
+fn lead_along(step: &mut Step) {
+    let Some(mut via) = step.via.take() else { return };
+    if let Some(last) = via.objects.pop() {
+        step.end.subjects = vec![last];
+    }
+    if step.start.subjects.is_empty() && !via.objects.is_empty() {
+        step.start.subjects = vec![via.objects.remove(0)];
+    }
+    step.via = Some(via).filter(|via| !via.objects.is_empty());
 }
 
 /// One way past what two steps pass, where the second one's words only name it.
