@@ -147,13 +147,17 @@ check-shots: build
 
 # Opens exports in the programs that they are for, and compares `eval --like-evo` with evo on the data of evo's repository.
 # Prints the tables of tests/exchange/README.md. Needs PyPI and GitHub; takes half an hour.
+EXCHANGE_PROMPT := slowly push in on the sofa, then orbit it to the right while zooming in
 EVO_DATA := target/exchange/evo/test/data
 check-exchange: build
 	test -x target/exchange/venv/bin/python || python3 -m venv target/exchange/venv
 	target/exchange/venv/bin/pip install -q evo==1.38.1 pycolmap usd-core pygltflib rosbags
+	test -x target/exchange/blender/bin/python || python3 -m venv target/exchange/blender
+	target/exchange/blender/bin/pip install -q bpy==5.0.1
 	test -d target/exchange/evo || git clone -q --depth 1 https://github.com/MichaelGrupp/evo target/exchange/evo
-	$(BIN) plan $(DEMO_SCENE) -p "$(DEMO_PROMPT)" -o target/exchange/demo.shot.json --overwrite
-	target/exchange/venv/bin/python tests/exchange/open_exports.py $(BIN) target/exchange/demo.shot.json
+	$(BIN) plan $(DEMO_SCENE) -p "$(EXCHANGE_PROMPT)" -o target/exchange/demo.shot.json --overwrite
+	target/exchange/venv/bin/python tests/exchange/open_exports.py $(BIN) target/exchange/demo.shot.json \
+		target/exchange/blender/bin/python
 	target/exchange/venv/bin/python tests/exchange/other_files.py $(BIN)
 	target/exchange/venv/bin/python tests/exchange/evo_figures.py $(BIN) $(EVO_DATA)
 

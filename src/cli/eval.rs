@@ -9,7 +9,7 @@ use super::failure::{Exit, Failure};
 use super::{console, eval_folders, eval_paths, figures, heading, outputs};
 use cinesplat::evaluation::{
     Align, BatchRow, Convention, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, MotionFilter,
-    PairSettings, Reduction, Relation, SubjectSphere, Trajectory, error_figure, evaluate, motion_text, path_figure,
+    PairSettings, Reduction, Relation, SubjectSphere, Trajectory, compared_figure, error_figure, evaluate, motion_text,
     result_latex, result_markdown, summary_csv, summary_json, summary_text,
 };
 use cinesplat::export::Format;
@@ -191,15 +191,12 @@ impl Args {
     fn draw(&self, rows: &[BatchRow]) -> Result<(), Failure> {
         let compared: Vec<(&str, &Evaluation)> =
             rows.iter().filter_map(|row| Some((row.name.as_str(), row.outcome.as_ref().ok()?))).collect();
-        let (Some((_, first)), reference_name) = (compared.first(), short_name(&self.reference)) else {
+        if compared.is_empty() {
             return Ok(());
-        };
+        }
+        let reference_name = short_name(&self.reference);
         if let Some(figure) = &self.plot {
-            let title = if compared.len() == 1 { first.title() } else { first.method() };
-            let estimates = compared.iter().map(|(name, found)| (*name, &found.matches.estimate));
-            let paths: Vec<(&str, &Trajectory)> =
-                std::iter::once((reference_name.as_str(), &first.matches.reference)).chain(estimates).collect();
-            figures::write(figure, &path_figure(&title, &paths, &[]), "the paths", self.overwrite)?;
+            figures::write(figure, &compared_figure(&reference_name, &compared), "the paths", self.overwrite)?;
         }
         if let Some(figure) = &self.plot_errors {
             figures::write(figure, &error_figure(&reference_name, &compared), "the errors", self.overwrite)?;

@@ -86,10 +86,12 @@ pub fn summary_csv(rows: &[BatchRow]) -> String {
     out
 }
 
-/// The comparisons as aligned text, with a summary line.
+/// The comparisons as aligned text, under a line that says what is measured and in which unit, with a summary line.
 pub fn summary_text(rows: &[BatchRow]) -> String {
     let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max(6);
-    let mut out = format!("{:<width$} {:>7}", "name", "pairs");
+    let first = rows.iter().find_map(|row| row.outcome.as_ref().ok());
+    let mut out = first.map_or_else(String::new, |found| found.measure() + "\n");
+    let _ = write!(out, "{:<width$} {:>7}", "name", "pairs");
     for name in ["rmse", "mean", "median", "std", "min", "max"] {
         let _ = write!(out, " {name:>12}");
     }
@@ -128,6 +130,14 @@ pub fn summary_json(rows: &[BatchRow]) -> String {
             let mut fields =
                 vec![("name".to_owned(), row.name.as_str().into()), ("pairs".to_owned(), result.errors.len().into())];
             fields.extend(result.statistics.named().map(|(name, value)| (name.to_owned(), value.into())));
+            fields.extend(result.settings_json());
+            let counts = [
+                ("matched", result.matches.reference.len()),
+                ("dropped_reference", result.matches.dropped_reference),
+                ("dropped_estimate", result.matches.dropped_estimate),
+            ];
+            fields.extend(counts.map(|(name, count)| (name.to_owned(), count.into())));
+            fields.push(("notes".to_owned(), Json::list(result.notes.iter().map(String::as_str))));
             Json::Object(fields)
         }
         Err(error) => object([("name", row.name.as_str().into()), ("error", error.to_string().as_str().into())]),

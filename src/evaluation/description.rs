@@ -6,6 +6,7 @@ use glam::DQuat;
 use strum::VariantArray;
 
 use super::describe::{DescribedMove, describe};
+use super::named_move::zoom_factor;
 use super::{SubjectSphere, Trajectory};
 use cinesplat_export::json_write::{Json, object};
 use cinesplat_geometry::LevelFrame;
@@ -18,6 +19,8 @@ const DIGITS: usize = 3;
 const NAMED_FRAC: f64 = 0.25;
 /// Smallest net turn that words name, rad.
 const NAMED_TURN_RAD: f64 = 0.035;
+/// Smallest factor of the focal length that words name beside another move.
+const NAMED_ZOOM: f64 = 1.05;
 
 /// What a camera does: its moves, and the size of a subject where one is named.
 #[derive(Debug, Clone, PartialEq)]
@@ -171,8 +174,25 @@ fn is_turn(name: Move) -> bool {
     circles.contains(&name) || turns.contains(&name)
 }
 
-/// A move in words.
+/// A move in words, with the zoom beside it.
 fn words(found: &DescribedMove) -> String {
+    let (moves, zoom) = (move_words(found), zoom_factor(&found.path));
+    let has_zoom = found.movement.is_some_and(|movement| {
+        use Move as M;
+        matches!(movement.name, M::ZoomIn | M::ZoomOut | M::DollyZoomIn | M::DollyZoomOut | M::Static)
+    });
+    let way = match zoom {
+        _ if has_zoom => return moves,
+        zoom if zoom > NAMED_ZOOM => "in",
+        zoom if zoom < 1.0 / NAMED_ZOOM => "out",
+        _ => return moves,
+    };
+    let joined = if moves.contains(" while ") { "and" } else { "while" };
+    format!("{moves} {joined} zooming {way}")
+}
+
+/// A move in words.
+fn move_words(found: &DescribedMove) -> String {
     let Some(movement) = found.movement else { return several(&found.path) };
     let degrees = || format!("{:.0} degrees", movement.amount.to_degrees());
     match movement.name {

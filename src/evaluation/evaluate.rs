@@ -149,16 +149,35 @@ impl Evaluation {
         format!("{}, {} errors", self.method(), self.errors.len())
     }
 
-    /// How it was compared: metric, relation, alignment. Comparisons with the same settings have the same text.
+    /// How it was compared: metric, for relative errors over which distance, relation, alignment. Comparisons with the
+    /// same settings have the same text.
     pub fn method(&self) -> String {
         let settings = &self.settings;
-        let metric = match settings.metric {
-            Metric::Ape => "absolute pose error",
-            Metric::Rpe { .. } => "relative pose error",
+        let metric = match &settings.metric {
+            Metric::Ape => "absolute pose error".to_owned(),
+            Metric::Rpe { pairs, pairs_from_reference } => {
+                let (delta, unit) = pairs.delta.named();
+                let of = if *pairs_from_reference { " of the reference" } else { "" };
+                let all = if pairs.all_pairs { ", all pairs" } else { "" };
+                format!("relative pose error over {delta} {}{of}{all}", singular(unit, delta))
+            }
         };
         let (relation, align) = (settings.relation.as_ref(), settings.align.as_ref());
         format!("{metric}, {relation}, align {align}")
     }
+
+    /// How it was compared, and the unit of the errors.
+    pub(super) fn measure(&self) -> String {
+        match self.settings.relation.unit() {
+            "" => self.method(),
+            unit => format!("{}, in {unit}", self.method()),
+        }
+    }
+}
+
+/// The name of a unit behind a number: `1 frame`, `5 frames`.
+fn singular(unit: &str, number: f64) -> &str {
+    if number == 1.0 { unit.strip_suffix('s').unwrap_or(unit) } else { unit }
 }
 
 fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {

@@ -66,7 +66,7 @@ fn signed(amount: f64, positive: Move, negative: Move) -> NamedMove {
 }
 
 /// Last focal length over the first; 1 if unknown.
-fn zoom_factor(path: &Trajectory) -> f64 {
+pub(super) fn zoom_factor(path: &Trajectory) -> f64 {
     let focal = |fov: Option<&Option<f64>>| fov.copied().flatten().map(|fov| 1.0 / (fov / 2.0).tan());
     focal(path.fov_y_rad.last()).zip(focal(path.fov_y_rad.first())).map_or(1.0, |(last, first)| last / first)
 }
@@ -124,12 +124,13 @@ fn travelling(moved_camera: DVec3, rise: f64, zoom: f64) -> Option<NamedMove> {
         upward,
         (moved_camera.z, Move::PushIn, Move::PullOut),
     ])?;
-    // A dolly zoom widens the field of view on the way in, or narrows it on the way out.
-    match found.name {
-        Move::PushIn if zoom < 1.0 / ZOOM_FACTOR => Some(named(Move::DollyZoomIn, found.amount)),
-        Move::PullOut if zoom > ZOOM_FACTOR => Some(named(Move::DollyZoomOut, found.amount)),
-        _ => (zoom < ZOOM_FACTOR && zoom > 1.0 / ZOOM_FACTOR).then_some(found),
-    }
+    // A dolly zoom widens the field of view on the way in, or narrows it on the way out. Beside other moves a zoom is
+    // one of its own, which has no name here.
+    Some(match found.name {
+        Move::PushIn if zoom < 1.0 / ZOOM_FACTOR => named(Move::DollyZoomIn, found.amount),
+        Move::PullOut if zoom > ZOOM_FACTOR => named(Move::DollyZoomOut, found.amount),
+        _ => found,
+    })
 }
 
 /// The point with the least sum of squared distances to all view axes; `None` for parallel axes.

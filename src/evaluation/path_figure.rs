@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::table::table_relative_to;
-use super::{TableRow, Trajectory};
+use super::{Evaluation, Matches, TableRow, Trajectory};
 use cinesplat_geometry::LevelFrame;
 use cinesplat_plot::drawing::Drawing;
 use cinesplat_plot::{Axis, COLORS, Chart, Figure, LegendEntry, LegendSymbol, Marker, Series};
@@ -30,6 +30,43 @@ pub fn path_figure(title: &str, paths: &[(&str, &Trajectory)], key_times_secs: &
     }
     time_charts(&mut figure, &tables, reference.times_secs.is_some(), key_times_secs);
     figure.into_drawing()
+}
+
+/// The figure of the matched paths of estimates that were compared with one reference, with the same settings.
+///
+/// Every path stands at the times of the reference, also where a file has no times or another clock. The reference has
+/// every pose that some estimate is matched with.
+pub fn compared_figure(reference_name: &str, estimates: &[(&str, &Evaluation)]) -> Drawing {
+    let method = match estimates {
+        [(_, only)] => only.title(),
+        _ => estimates.first().map_or_else(String::new, |(_, first)| first.method()),
+    };
+    let matches: Vec<&Matches> = estimates.iter().map(|(_, found)| &found.matches).collect();
+    let reference = whole_reference(&matches);
+    let shown: Vec<Trajectory> = matches.iter().map(|found| on_clock_of_reference(found)).collect();
+    let estimates = estimates.iter().zip(&shown).map(|((name, _), path)| (*name, path));
+    let paths: Vec<(&str, &Trajectory)> = std::iter::once((reference_name, &reference)).chain(estimates).collect();
+    path_figure(&format!("{method}, against {reference_name}"), &paths, &[])
+}
+
+/// The poses of the reference that are matched with a pose of any estimate, in order of time.
+fn whole_reference(matches: &[&Matches]) -> Trajectory {
+    let references: Vec<Trajectory> = matches.iter().map(|found| found.reference.clone()).collect();
+    // Poses without times are matched from the first on, so that the longest match has those of the others.
+    let Ok(merged) = Trajectory::merged(&references) else {
+        return references.into_iter().max_by_key(Trajectory::len).unwrap_or_default();
+    };
+    let times = merged.times_or_indices();
+    let is_new = |idx: &usize| idx.checked_sub(1).is_none_or(|before| times[before] < times[*idx]);
+    merged.select(&(0..times.len()).filter(is_new).collect::<Vec<_>>())
+}
+
+/// The matched estimate at the times of the reference, if one of both has no times.
+fn on_clock_of_reference(matches: &Matches) -> Trajectory {
+    let Matches { reference, estimate, .. } = matches;
+    let have_times = reference.times_secs.is_some() && estimate.times_secs.is_some();
+    let times_secs = if have_times { estimate.times_secs.clone() } else { reference.times_secs.clone() };
+    Trajectory { times_secs, ..estimate.clone() }
 }
 
 /// Turns yaws and rolls by whole turns: the middle of the reference's range comes next to 0, and every other path next to
@@ -88,13 +125,12 @@ fn views(figure: &mut Figure, level: &LevelFrame, paths: &[(&str, &Trajectory)],
         let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         high - low
     };
-    let (side, side_name) = if reach(level.east) > reach(level.north) {
-        (level.east, "right of the first view")
-    } else {
-        (level.north, "ahead of the first view")
-    };
-    let above = ("seen from above", level.east, "right of the first view", level.north, "ahead of the first view");
-    let sideways = ("seen from the side", side, side_name, level.up, "height");
+    const RIGHT: &str = "right of the first view, scene units";
+    const AHEAD: &str = "ahead of the first view, scene units";
+    let (side, side_name) =
+        if reach(level.east) > reach(level.north) { (level.east, RIGHT) } else { (level.north, AHEAD) };
+    let above = ("seen from above", level.east, RIGHT, level.north, AHEAD);
+    let sideways = ("seen from the side", side, side_name, level.up, "height, scene units");
     for (idx, (title, across, across_name, up, up_name)) in [above, sideways].into_iter().enumerate() {
         let x = MARGIN + idx as f64 * (width + GAP);
         let mut chart = Chart::new(title, Axis::linear(across_name), Axis::linear(up_name));

@@ -22,21 +22,17 @@ impl Evaluation {
     }
 
     fn fields(&self) -> Vec<(String, Json)> {
-        let settings = &self.settings;
         let mut fields: Vec<(String, Json)> = Vec::new();
         let mut put = |name: &str, value: Json| fields.push((name.to_owned(), value));
         for (name, value) in self.statistics.named() {
             put(name, value.into());
         }
         put("pairs", self.errors.len().into());
-        put("relation", settings.relation.as_ref().into());
-        put("unit", settings.relation.unit().into());
-        put("align", settings.align.as_ref().into());
-        put("scale", self.alignment.scale.into());
+        fields.extend(self.settings_json());
+        let mut put = |name: &str, value: Json| fields.push((name.to_owned(), value));
         let rotation = self.alignment.rotation.transpose();
         put("rotation", Json::list([rotation.x_axis, rotation.y_axis, rotation.z_axis]));
         put("translation", self.alignment.translation.into());
-        put("metric", self.metric_json());
         put("matched", self.matches.reference.len().into());
         put("dropped_reference", self.matches.dropped_reference.into());
         put("dropped_estimate", self.matches.dropped_estimate.into());
@@ -63,6 +59,19 @@ impl Evaluation {
         put("at_secs", Json::list(self.at_secs.iter().copied()));
         put("errors", Json::list(self.errors.iter().copied()));
         fields
+    }
+
+    /// What was measured, with its unit, and the scale of the alignment.
+    pub(super) fn settings_json(&self) -> Vec<(String, Json)> {
+        let settings = &self.settings;
+        let named = [
+            ("relation", settings.relation.as_ref().into()),
+            ("unit", settings.relation.unit().into()),
+            ("metric", self.metric_json()),
+            ("align", settings.align.as_ref().into()),
+            ("scale", self.alignment.scale.into()),
+        ];
+        named.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     fn metric_json(&self) -> Json {

@@ -25,7 +25,8 @@ fn best(rows: &[BatchRow]) -> Option<usize> {
 
 /// What the table measures and in which unit: the first successful comparison says it.
 fn caption(rows: &[BatchRow]) -> String {
-    rows.iter().find_map(|row| row.outcome.as_ref().ok()).map(super::Evaluation::title).unwrap_or_default()
+    let first = rows.iter().find_map(|row| row.outcome.as_ref().ok());
+    first.map_or_else(String::new, super::Evaluation::measure)
 }
 
 /// A Markdown table under a line that says what is measured; the best row is bold.

@@ -1,5 +1,6 @@
 //! A Python script that creates the camera in Blender, with one keyframe per frame on location, rotation and lens,
-//! linear interpolation between them and a jump at cuts.
+//! linear interpolation between them and a jump at cuts. Between the keyframes of a shot it draws Bezier curves whose
+//! handles have the slopes of the film.
 //!
 //! Blender's world has +z up, so the script rotates the scene's world by `z_up_from_world`; a splat imported into
 //! Blender needs the same rotation. All numbers are in one block that is also valid JSON, from which the path is read
@@ -7,7 +8,8 @@
 
 use super::ExportError;
 use super::json_read::{self, Node};
-use super::json_write::Json;
+use super::json_write::{Json, object};
+use super::key_slopes::{CameraValues, KeySlopes};
 use super::opengl::{from_opengl_rotation, opengl_rotation};
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::frames::z_up_from_world;
@@ -18,7 +20,7 @@ const DATA_END: &str = "# end of DATA";
 
 const SCRIPT_HEAD: &str = r"# Camera path for Blender: open in the Scripting tab and run, or `blender -b FILE.blend --python THIS.py`.
 # Positions are in the splat scene's own world; z_up_from_world rotates it, and any splat in it, to Blender's.
-from math import tan
+from math import sin, tan
 
 import bpy
 from mathutils import Quaternion, Vector
@@ -50,11 +52,13 @@ def curves(holder):
 
 before = None
 held = set()
+slopes = {"location": [], "rotation_quaternion": [], "lens": [], "dof.focus_distance": []}
 frames = DATA["frames"]
 for index, key in enumerate(frames):
     number = 1 + key["time_secs"] * DATA["fps"]
     rotation = turn @ Quaternion(key["opengl_rotation_wxyz"])
-    if before is not None and before.dot(rotation) < 0:
+    sign = -1 if before is not None and before.dot(rotation) < 0 else 1
+    if sign < 0:
         rotation.negate()
     before = rotation
     if index + 1 < len(frames) and frames[index + 1].get("cut", 0):
@@ -68,14 +72,31 @@ for index, key in enumerate(frames):
     if "focus_distance" in key:
         lens.dof.focus_distance = key["focus_distance"]
         lens.keyframe_insert("dof.focus_distance", frame=number)
+    # What changes per second before and after the key.
+    for side in key.get("slopes", []):
+        stretch = -lens.sensor_height / 4 / sin(key["fov_y_rad"] / 2) ** 2
+        slopes["location"].append(turn @ Vector(side["position"]))
+        slopes["rotation_quaternion"].append([sign * part for part in turn @ Quaternion(side["rotation_wxyz"])])
+        slopes["lens"].append([stretch * side["fov_y_rad"]])
+        slopes["dof.focus_distance"].append([side["focus_distance"]])
 for curve in curves(camera) + curves(lens):
-    for point in curve.keyframe_points:
-        point.interpolation = "CONSTANT" if round(point.co[0], 2) in held else "LINEAR"
+    points, sides = curve.keyframe_points, slopes[curve.data_path]
+    joined = "BEZIER" if len(sides) == 2 * len(points) else "LINEAR"
+    for index, point in enumerate(points):
+        point.interpolation = "CONSTANT" if round(point.co[0], 2) in held else joined
+        if joined == "BEZIER":
+            point.handle_left_type = point.handle_right_type = "FREE"
+            for name, neighbor, side in (("handle_left", index - 1, 0), ("handle_right", index + 1, 1)):
+                if 0 <= neighbor < len(points):
+                    third = (points[neighbor].co[0] - point.co[0]) / 3
+                    rise = third / DATA["fps"] * sides[2 * index + side][curve.array_index]
+                    setattr(point, name, (point.co[0] + third, point.co[1] + rise))
 scene.frame_start = 1
 scene.frame_end = max(1, round(DATA["duration_secs"] * DATA["fps"]))
 "#;
 
-pub(super) fn write(track: &PoseTrack) -> String {
+/// The script. `slopes` are those of the frames where these are the keyframes of a shot, else there are none.
+pub(super) fn write(track: &PoseTrack, slopes: &[KeySlopes]) -> String {
     let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
     let turn = track.up.map_or(glam::DQuat::IDENTITY, z_up_from_world);
     let mut fields = vec![
@@ -86,7 +107,12 @@ pub(super) fn write(track: &PoseTrack) -> String {
         ("z_up_from_world_wxyz", wxyz(turn)),
     ];
     fields.extend(track.up.map(|up| ("up", up.into())));
-    fields.push(("frames", Json::list(track.since_start().map(|(secs, frame)| frame_json(secs, frame)))));
+    fields.push((
+        "frames",
+        Json::list(
+            track.since_start().enumerate().map(|(idx, (secs, frame))| frame_json(secs, frame, slopes.get(idx))),
+        ),
+    ));
     let data = Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()).pretty();
     format!("{SCRIPT_HEAD}{DATA_START}{data}{DATA_END}\n{SCRIPT_BODY}")
 }
@@ -97,7 +123,7 @@ fn wxyz(rotation: glam::DQuat) -> Json {
 }
 
 /// The JSON of a frame, without `null` and `true`, which are not valid Python.
-fn frame_json(time_secs: f64, frame: &PoseFrame) -> Json {
+fn frame_json(time_secs: f64, frame: &PoseFrame, slopes: Option<&KeySlopes>) -> Json {
     let mut fields = vec![
         ("time_secs", time_secs.into()),
         ("position", frame.pose.position.into()),
@@ -106,8 +132,19 @@ fn frame_json(time_secs: f64, frame: &PoseFrame) -> Json {
     ];
     fields.extend(frame.focus_distance.map(|distance| ("focus_distance", distance.into())));
     fields.extend(frame.cut.then(|| ("cut", 1_u32.into())));
+    fields
+        .extend(slopes.map(|found| ("slopes", Json::list([found.before, found.after].map(|side| slope_json(&side))))));
     fields.extend((frame.easing != Easing::Linear).then(|| ("easing", frame.easing.as_ref().into())));
     Json::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+}
+
+fn slope_json([x, y, z, qx, qy, qz, qw, fov, focus]: &CameraValues) -> Json {
+    object([
+        ("position", Json::list([*x, *y, *z])),
+        ("rotation_wxyz", Json::list([*qw, *qx, *qy, *qz])),
+        ("fov_y_rad", (*fov).into()),
+        ("focus_distance", (*focus).into()),
+    ])
 }
 
 pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {

@@ -6,6 +6,7 @@ use cinesplat_files::{Existing, FileError};
 use strum::VariantArray;
 
 use super::imported_shot::{ImportSettings, shot_of};
+use super::key_slopes::key_slopes;
 use super::losses::losses;
 use super::stray;
 use super::{
@@ -87,7 +88,12 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
     if format == Format::Shot && content == Content::Keyframes {
         return Ok(Encoded { files: EncodedFiles::Single(shot_json::write(shot).into_bytes()), losses: Vec::new() });
     }
-    let mut encoded = encode_poses(format, shot, &track, settings.layout)?;
+    let mut encoded = if format == Format::Blender && content == Content::Keyframes {
+        let script = blender::write(&track, &key_slopes(shot)?);
+        Encoded { files: EncodedFiles::Single(script.into_bytes()), losses: losses(format, &track) }
+    } else {
+        encode_poses(format, shot, &track, settings.layout)?
+    };
     if content == Content::Keyframes && shot.keyframes.len() > 1 {
         encoded.losses.extend(stray::line(format, shot)?);
     }
@@ -158,7 +164,7 @@ fn encode_poses(format: Format, shot: &Shot, track: &PoseTrack, layout: Layout) 
         Format::Lichtfeld => lichtfeld::write(track),
         Format::Gltf => gltf::write_text(track),
         Format::Usd => usd::write(track),
-        Format::Blender => blender::write(track),
+        Format::Blender => blender::write(track, &[]),
         Format::Csv => csv::write(track),
         Format::Log => redwood_log::write(track),
         Format::Cameras => cameras_json::write(shot, track),

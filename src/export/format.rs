@@ -222,8 +222,12 @@ pub struct Doubt {
 impl Doubt {
     /// The doubt about a layout; `None` for one that is certain and the format's own.
     pub(super) fn new(format: Format, found: &FoundLayout) -> Option<Self> {
-        let FoundLayout { layout, num_columns, shown_unit, is_unit_certain, is_order_certain } = *found;
-        let own = if format == Format::Tum { LineLayout::TUM } else { LineLayout::EUROC };
+        let FoundLayout { layout, num_columns, shown_unit, is_unit_certain, is_order_certain, .. } = *found;
+        let own = match format {
+            Format::Tum => LineLayout::TUM,
+            Format::Dpvo => LineLayout::DPVO,
+            _ => LineLayout::EUROC,
+        };
         if is_unit_certain && is_order_certain && layout == own {
             return None;
         }
@@ -307,7 +311,12 @@ fn detect_columns(text: &str) -> Option<(Format, Option<FoundLayout>)> {
         None => (numbers.len() == 12 && columns.len() == 12).then_some((Format::Kitti, None)),
         Some(found) => {
             let is_euroc = found.layout.unit == StampUnit::Nanoseconds || found.num_columns == EUROC_COLUMNS;
-            Some((if is_euroc { Format::Euroc } else { Format::Tum }, Some(found)))
+            let format = match found.layout {
+                LineLayout::DPVO if found.has_floating_stamps => Format::Dpvo,
+                _ if is_euroc => Format::Euroc,
+                _ => Format::Tum,
+            };
+            Some((format, Some(found)))
         }
     }
 }

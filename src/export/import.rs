@@ -81,7 +81,8 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
 
 /// The camera path in a file, or in a folder that holds a COLMAP, EuRoC, nerfstudio or 7-Scenes capture.
 ///
-/// Without a format, the content of the file determines it. `RECORDING#TOPIC` names a topic of a recording of ROS.
+/// Without a format, the content of the file determines it. `FILE#NAME` names a topic of a recording of ROS, or a camera
+/// of a file of several.
 ///
 /// # Errors
 /// [`ExportError::File`] and [`ExportError::TooLarge`] for the file, [`ExportError::WrongFormat`] for content that is
@@ -101,11 +102,16 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
         Some(format) => (format, None),
         None => format::detect_with_layout(&bytes).ok_or_else(|| unknown_content(&bytes))?,
     };
+    let camera = camera.as_deref().or(topic);
+    if let Some(camera) = camera.filter(|_| !holds_several(format)) {
+        let found = format!("{}, the name of a camera, for {format}", quoted(camera));
+        return Err(ExportError::WrongFormat { found, expected: "a name for gltf, usd, recammaster or ros".into() });
+    }
     let (mut shot, mut notes) = (None, Vec::new());
     let track = match format {
-        Format::Gltf => gltf::read(&bytes, &|name| read_beside(path, name)),
-        Format::Usd => usd::read(&bytes),
-        Format::Ros => ros::read(&bytes, topic.or(camera.as_deref())),
+        Format::Gltf => gltf::read(&bytes, camera, &|name| read_beside(path, name)),
+        Format::Usd => usd::read(&bytes, camera),
+        Format::Ros => ros::read(&bytes, camera),
         Format::Colmap => read_colmap(path, &bytes),
         Format::Supersplat if bytes.starts_with(b"PK") => supersplat::read(&supersplat::document_in_project(&bytes)?),
         _ => {
@@ -123,7 +129,7 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
                 Format::Re10k => re10k::read(text),
                 Format::Aria => aria::read(text),
                 Format::MotionCtrl => motionctrl::read(text),
-                Format::ReCamMaster => recammaster::read(text, camera.as_deref()),
+                Format::ReCamMaster => recammaster::read(text, camera),
                 Format::SevenScenes => seven_scenes::read_file(path),
                 Format::Nerfstudio => nerfstudio::read(text),
                 Format::Transforms => transforms::read(text),
@@ -158,6 +164,11 @@ fn imported(format: Format, track: PoseTrack) -> Result<Imported, ExportError> {
         return Err(ExportError::BadField { place, found: num_frames.to_string(), expected });
     }
     Ok(Imported { format, track, shot: None, doubt: None, notes: Vec::new() })
+}
+
+/// Whether a file may hold several paths, of which a name chooses one.
+fn holds_several(format: Format) -> bool {
+    matches!(format, Format::Gltf | Format::Usd | Format::ReCamMaster | Format::Ros)
 }
 
 /// A path and the topic behind it, unless the whole path is a file.

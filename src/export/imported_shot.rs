@@ -12,6 +12,10 @@ use cinesplat_trajectory::{Easing, Keyframe, SceneRef, Shot};
 const EVEN_SECS: f64 = 1e-3;
 /// Largest distance of an even stamp from its place, in steps.
 const EVEN_STEPS: f64 = 0.05;
+/// Largest distance of a time from a frame of the film that is rounding: six decimals, or 32 bits up to 10 s.
+const ROUNDING_SECS: f64 = 1e-6;
+/// The same for later times of 32 bits, over the time.
+const ROUNDING_FRAC: f64 = 1e-7;
 /// Lowest frame rate of a film, frames per second. Even stamps further apart are keyframes.
 const MIN_INFERRED_FPS: f64 = 4.0;
 
@@ -61,7 +65,7 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     let times = |idx: usize, frame: &PoseFrame| match rate.own.filter(|_| !track.timed) {
         Some(own) if track.is_numbered => ((frame.time_secs - first.time_secs) * DEFAULT_FPS).round() / own,
         Some(own) => idx as f64 / own,
-        None => frame.time_secs - first.time_secs,
+        None => on_frame(frame.time_secs - first.time_secs, fps),
     };
     let keyframe = |(idx, frame): (usize, &PoseFrame)| Keyframe {
         time_secs: times(idx, frame),
@@ -102,6 +106,14 @@ fn in_order(track: &PoseTrack) -> (Cow<'_, PoseTrack>, Vec<String>) {
         lines.push(format!("poses that are repeated with their times are taken once (repetitions: {num_repeated})"));
     }
     (Cow::Owned(ordered), lines)
+}
+
+/// A time that is that of a frame but for rounding becomes exactly that: at a cut that is a hair late the frame would
+/// show what is before the cut.
+fn on_frame(time_secs: f64, fps: f64) -> f64 {
+    let frame_secs = (time_secs * fps).round() / fps;
+    let is_rounded = (frame_secs - time_secs).abs() <= ROUNDING_SECS.max(ROUNDING_FRAC * time_secs);
+    if is_rounded { frame_secs } else { time_secs }
 }
 
 /// The vertical field of view in an image of a size, from that in the default size with the same field of view along the

@@ -25,6 +25,7 @@ mod imported_shot;
 mod inria;
 mod json_read;
 pub mod json_write;
+mod key_slopes;
 mod kitti;
 mod lens_losses;
 mod lichtfeld;
@@ -50,6 +51,7 @@ mod track;
 mod transforms;
 mod tum;
 mod usd;
+mod which_camera;
 
 pub use encode::{Content, Encoded, EncodedFiles, ExportSettings, Layout, check_output, encode, output_files, write};
 pub use error::ExportError;

@@ -3,7 +3,9 @@
 //! Enters: text with one pose per line. Leaves: the unit of the times and the order of the quaternion, with the
 //! evidence. The order of a quaternion cannot be found from its numbers: both orders have the same length and the same
 //! angles from pose to pose. A header that names the columns decides it, else the unit of the times, because EuRoC
-//! counts nanoseconds and writes w first, and TUM counts seconds and writes w last. A format that is named decides the
+//! counts nanoseconds and writes w first, and TUM counts seconds and writes w last. EuRoC's nanoseconds are whole numbers
+//! without a point; those of programs that write TUM's lines at EuRoC's times (ORB-SLAM3, evo's writer in DPVO) are
+//! numbers of floating point (`1403636579763555584.000000`, `1.403636579763555584e+18`). A format that is named decides the
 //! order, and the text still decides the unit where it shows one: a header that names it, unless the stamps are of no
 //! time in that unit, and else the size of the stamps and of their steps.
 
@@ -62,6 +64,8 @@ pub(super) struct FoundLayout {
     pub(super) is_unit_certain: bool,
     /// Whether the order did not have to be assumed.
     pub(super) is_order_certain: bool,
+    /// Whether the times between spaces are numbers of floating point.
+    pub(super) has_floating_stamps: bool,
 }
 
 /// The layout of a text; `None` if its first line is not a time, a position and a quaternion.
@@ -86,9 +90,10 @@ pub(super) fn find(text: &str) -> Option<FoundLayout> {
     let (shown_unit, is_unit_certain) = (evidence.unit(), evidence.is_certain());
     let unit = shown_unit.unwrap_or(usual_unit);
     let named_order = order_in_header(&header);
+    let has_floating_stamps = !looks_like_euroc && are_stamps_floating(text);
     let usual_order = match unit {
         _ if num_columns == EUROC_COLUMNS => QuaternionOrder::Wxyz,
-        StampUnit::Nanoseconds => QuaternionOrder::Wxyz,
+        StampUnit::Nanoseconds if !has_floating_stamps => QuaternionOrder::Wxyz,
         _ => QuaternionOrder::Xyzw,
     };
     // A camera that never turns is rarely turned by half a circle about its own x.
@@ -100,7 +105,13 @@ pub(super) fn find(text: &str) -> Option<FoundLayout> {
             StampUnit::Milliseconds | StampUnit::Microseconds => false,
         };
     let layout = LineLayout { unit, order: named_order.unwrap_or(usual_order) };
-    Some(FoundLayout { layout, num_columns, shown_unit, is_unit_certain, is_order_certain })
+    Some(FoundLayout { layout, num_columns, shown_unit, is_unit_certain, is_order_certain, has_floating_stamps })
+}
+
+/// Whether every time is written as a number of floating point, with a point or an exponent.
+fn are_stamps_floating(text: &str) -> bool {
+    let lines = data_lines(text).map(|(_, line)| line).filter(|line| !is_names(line)).take(MAX_LINES);
+    lines.map(cells).all(|cells| cells.first().is_some_and(|stamp| stamp.contains(['.', 'e', 'E'])))
 }
 
 /// The order of four neighboring names that differ in the last letter: `qw qx qy qz`, `q_RS_x, q_RS_y, ..`.

@@ -7,6 +7,7 @@ use glam::{DMat3, DMat4, DVec3};
 use super::ExportError;
 use super::json_read::{self, Node};
 use super::track::{DEFAULT_FPS, PoseFrame, PoseTrack};
+use super::which_camera::which;
 use cinesplat_geometry::Pose;
 
 /// The poses of a camera; without a name, of the first.
@@ -22,19 +23,14 @@ pub(super) fn read(text: &str, wanted: Option<&str>) -> Result<PoseTrack, Export
     let Some((_, first)) = frames.first() else { return Err(ExportError::NoPoses) };
     let mut names: Vec<&str> = first.fields().into_iter().map(|(name, _)| name).collect();
     names.sort_unstable();
-    let Some(name) = wanted.or(names.first().copied()) else { return Err(ExportError::NoPoses) };
-    if !names.contains(&name) {
-        let found = json_read::quoted(name);
-        return Err(ExportError::WrongFormat { found, expected: format!("one of the cameras {}", names.join(", ")) });
-    }
+    let (camera, others) = which(&names, wanted)?;
+    let name = names[camera];
     let frame = |(idx, (_, node)): (usize, &(usize, Node))| {
         let rows = node.field(name, "4 rows of 4 numbers")?;
         Ok(PoseFrame::new(idx as f64 / DEFAULT_FPS, pose(&rows)?))
     };
     let poses = frames.iter().enumerate().map(frame).collect::<Result<Vec<_>, ExportError>>()?;
-    let others = format!("the file holds {} cameras: {name} is read, of {}", names.len(), names.join(", "));
-    let unread = if names.len() > 1 && wanted.is_none() { vec![others] } else { Vec::new() };
-    Ok(PoseTrack { up: Some(DVec3::Z), unread, ..PoseTrack::untimed(poses) })
+    Ok(PoseTrack { up: Some(DVec3::Z), unread: others.into_iter().collect(), ..PoseTrack::untimed(poses) })
 }
 
 fn pose(node: &Node) -> Result<Pose, ExportError> {

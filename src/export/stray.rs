@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::key_slopes::{CameraValues, KeySlopes, key_slopes, values};
+use super::opengl::from_opengl_rotation;
 use super::{ExportError, Format, PoseTrack, lichtfeld};
 use cinesplat_geometry::rotation;
 use cinesplat_trajectory::Shot;
@@ -13,18 +15,22 @@ enum Curve {
     /// A cubic spline through the keys whose slope at a key is that between its neighbors; of rotations the same, by
     /// components.
     Spline,
+    /// Cubic curves with the slopes of the film at the keys; of rotations the same, by components; of lenses the focal
+    /// lengths.
+    Bezier(Vec<KeySlopes>),
     /// Positions by that spline with a key's easing, keys counting as evenly spaced; rotations and lens straight.
     EasedSpline,
 }
 
-fn curve_of(format: Format) -> Option<Curve> {
-    match format {
+fn curve_of(format: Format, shot: &Shot) -> Result<Option<Curve>, ExportError> {
+    Ok(match format {
         Format::Gltf | Format::Usd => Some(Curve::Linear),
         Format::Nerfstudio | Format::Supersplat => Some(Curve::Spline),
         Format::Lichtfeld => Some(Curve::EasedSpline),
-        // The script for Blender sets the curves itself, the rest holds poses alone.
+        Format::Blender => Some(Curve::Bezier(key_slopes(shot)?)),
+        // The rest holds poses alone.
         _ => None,
-    }
+    })
 }
 
 /// A line about the largest difference between the film and the curve of a format's program through the keys alone; `None`
@@ -33,7 +39,7 @@ fn curve_of(format: Format) -> Option<Curve> {
 /// # Errors
 /// [`ExportError::BadShot`] if the shot is not usable.
 pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, ExportError> {
-    let Some(curve) = curve_of(format) else { return Ok(None) };
+    let Some(curve) = curve_of(format, shot)? else { return Ok(None) };
     let film = PoseTrack::sampled(shot, None)?;
     let keys = PoseTrack::keyframes(shot);
     let (mut moved, mut turned, mut zoomed, mut worst_secs) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
@@ -54,6 +60,7 @@ pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, Export
     let what = match curve {
         Curve::Linear => "lines",
         Curve::Spline | Curve::EasedSpline => "its own spline",
+        Curve::Bezier(_) => "Bezier curves of the film's slopes",
     };
     Ok(Some(format!(
         "{format} joins keyframes with {what}: up to {moved:.4} scene units (at {worst_secs:.2} s), {:.2} degrees and a \
@@ -74,6 +81,14 @@ fn between(curve: &Curve, keys: &PoseTrack, from: usize, time_secs: f64) -> (DVe
         Curve::Linear => {
             let pose = a.pose.between(&b.pose, t);
             (pose.position, pose.rotation, fov(from) + (fov(from + 1) - fov(from)) * t)
+        }
+        Curve::Bezier(slopes) => {
+            let [low, high] = [(from, slopes[from].after), (from + 1, slopes[from + 1].before)]
+                .map(|(idx, slope)| with_focal(&values(&frames[idx]), &slope));
+            let v = cubic(low, high, span, t);
+            let turn = glam::DQuat::from_xyzw(v[3], v[4], v[5], v[6]).normalize();
+            let pose = from_opengl_rotation(DVec3::new(v[0], v[1], v[2]), turn);
+            (pose.position, pose.rotation, 2.0 * (1.0 / v[7]).atan())
         }
         Curve::EasedSpline => {
             let t = lichtfeld::eased(a.easing, t);
@@ -100,6 +115,32 @@ fn between(curve: &Curve, keys: &PoseTrack, from: usize, time_secs: f64) -> (DVe
             (DVec3::new(v[0], v[1], v[2]), glam::DQuat::from_xyzw(v[3], v[4], v[5], v[6]).normalize(), v[7])
         }
     }
+}
+
+/// Numbers of a camera and their slopes, with focal lengths over half the frame's height in place of fields of view.
+fn with_focal(values: &CameraValues, slopes: &CameraValues) -> (CameraValues, CameraValues) {
+    let (mut values, mut slopes, half) = (*values, *slopes, values[7] / 2.0);
+    slopes[7] *= -0.5 / half.sin().powi(2);
+    values[7] = 1.0 / half.tan();
+    (values, slopes)
+}
+
+/// The cubic curve between two keys, of which the values and their slopes per second are known, at a fraction of its time.
+fn cubic(low: (CameraValues, CameraValues), high: (CameraValues, CameraValues), secs: f64, t: f64) -> CameraValues {
+    let ((a, da), (mut b, mut db)) = (low, high);
+    // The script turns the sign of a rotation to that of the one before.
+    if (3..7).map(|k| a[k] * b[k]).sum::<f64>() < 0.0 {
+        for k in 3..7 {
+            (b[k], db[k]) = (-b[k], -db[k]);
+        }
+    }
+    let (t2, t3) = (t * t, t * t * t);
+    std::array::from_fn(|k| {
+        a[k] * (2.0 * t3 - 3.0 * t2 + 1.0)
+            + secs * da[k] * (t3 - 2.0 * t2 + t)
+            + b[k] * (3.0 * t2 - 2.0 * t3)
+            + secs * db[k] * (t3 - t2)
+    })
 }
 
 /// The cubic Hermite curve from key `from` to the next, with slopes between neighbors, at a fraction `t`.

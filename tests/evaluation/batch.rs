@@ -32,6 +32,11 @@ fn the_json_sums_up() {
     assert_eq!((over_all["compared"].as_u64(), over_all["failed"].as_u64()), (Some(2), Some(1)));
     assert_eq!((over_all["mean_rmse"].as_f64(), over_all["worst_rmse"].as_f64()), (Some(2.0), Some(3.0)));
     assert_eq!(json["pairs"].as_array().unwrap().len(), 3);
+    // What was measured and how the estimate was scaled used to be in the JSON of one estimate alone.
+    let first = &json["pairs"][0];
+    assert_eq!((first["relation"].as_str(), first["unit"].as_str()), (Some("trans"), Some("scene units")));
+    assert_eq!((first["metric"]["name"].as_str(), first["scale"].as_f64()), (Some("ape"), Some(1.0)));
+    assert_eq!((first["matched"].as_u64(), first["notes"].as_array().map(Vec::len)), (Some(10), Some(0)));
 }
 
 #[test]

@@ -145,6 +145,25 @@ fn several_moves_at_once_are_told_by_their_directions() {
     assert_eq!(sentence, "move forward and right while turning right for 3 seconds");
 }
 
+/// An orbit with a zoom was told as an orbit, and a truck with one as `move right`.
+#[test]
+fn a_zoom_beside_another_move_is_told() {
+    let zoomed = |walk: Walk, factor: f64| {
+        let mut path = walk.path();
+        let last = path.fov_y_rad.len() - 1;
+        for (k, fov) in path.fov_y_rad.iter_mut().enumerate() {
+            let grown = factor.powf(k as f64 / last as f64);
+            *fov = fov.map(|fov| 2.0 * ((fov / 2.0).tan() / grown).atan());
+        }
+        Description::new(&path, &[], None).sentence()
+    };
+    let orbit = || Walk::new().orbit(4.0, 2.5, 60.0);
+    assert_eq!(zoomed(orbit(), 1.3), "arc to the right by 60 degrees while zooming in for 4 seconds");
+    assert_eq!(zoomed(orbit(), 1.0), "arc to the right by 60 degrees for 4 seconds");
+    let truck = Walk::new().travel(3.0, DVec3::X * 1.5);
+    assert_eq!(zoomed(truck, 0.75), "truck right while zooming out for 3 seconds");
+}
+
 #[test]
 fn the_size_of_a_subject_and_the_height_of_view_are_told() {
     let path = Walk::new().travel(2.0, DVec3::Z * 2.0).path();

@@ -1,6 +1,6 @@
 use cinesplat::evaluation::{
-    Align, BatchRow, EvalSettings, EvaluationError, Trajectory, error_figure, evaluate, path_figure, result_latex,
-    result_markdown,
+    Align, BatchRow, Delta, EvalSettings, EvaluationError, Metric, PairSettings, Trajectory, compared_figure,
+    error_figure, evaluate, path_figure, result_latex, result_markdown,
 };
 use glam::{DQuat, DVec3};
 
@@ -80,6 +80,67 @@ fn yaw_of_an_estimate_stays_beside_the_references() {
     assert!(!svg.contains(">-400<") && !svg.contains(">-300<"), "{labels}");
 }
 
+/// KITTI's ground truth has a file of times beside it, an estimate has none: the estimate was drawn over the numbers of its
+/// frames, ten times as long, and its yaw turned to that of another moment.
+#[test]
+fn an_estimate_without_times_is_drawn_at_the_times_of_the_reference() {
+    let circle = |times_secs: Option<Vec<f64>>| {
+        let pose = |k: i32| {
+            let turn = DQuat::from_rotation_y(f64::from(k) * 0.02);
+            cinesplat::geometry::Pose::new(turn * DVec3::Z * 5.0, turn)
+        };
+        Trajectory {
+            up: Some(DVec3::NEG_Y),
+            ..Trajectory::from_poses(times_secs, &(0..600).map(pose).collect::<Vec<_>>())
+        }
+    };
+    let timed = circle(Some((0..600).map(|k| f64::from(k) * 0.1).collect()));
+    for (reference, estimate, axis) in [(&timed, &circle(None), "time, s"), (&circle(None), &timed, "frame")] {
+        let found = evaluate(reference, estimate, &EvalSettings::default()).unwrap();
+        let svg = compared_figure("truth.txt", &[("slam.txt", &found)]).to_svg();
+        let points = |color: &str| {
+            let lines = svg.lines().filter(|line| line.starts_with("<polyline") && line.contains(color));
+            lines
+                .map(|line| line.split("points=\"").nth(1).unwrap().split('"').next().unwrap().to_owned())
+                .collect::<Vec<_>>()
+        };
+        // The first line of each is that of the legend.
+        assert!(points("#888888").len() == 9 && points("#888888")[1..] == points("#d55e00")[1..], "{axis}");
+        assert!(svg.contains(axis) && svg.contains("against truth.txt") && svg.contains("height, scene units"));
+    }
+}
+
+/// The reference was drawn where the first estimate has poses, however far the others went.
+#[test]
+fn the_reference_is_drawn_as_far_as_any_estimate_goes() {
+    let path = |range: std::ops::Range<i32>| {
+        let poses: Vec<_> =
+            range.clone().map(|k| cinesplat::geometry::Pose::new(DVec3::X * f64::from(k), DQuat::IDENTITY)).collect();
+        Trajectory::from_poses(Some(range.map(f64::from).collect()), &poses)
+    };
+    let whole = path(0..100);
+    let [lost_early, late] =
+        [0..10, 5..100].map(|range| evaluate(&whole, &path(range), &EvalSettings::default()).unwrap());
+    let svg = compared_figure("truth.txt", &[("lost.txt", &lost_early), ("late.txt", &late)]).to_svg();
+    assert!(svg.contains("truth.txt (100 poses)"), "{svg}");
+}
+
+/// Figures and tables of relative errors did not say over which distance.
+#[test]
+fn relative_errors_say_over_which_distance() {
+    let path = through((0..50).map(|k| DVec3::X * f64::from(k)), DQuat::IDENTITY);
+    let title = |delta: Delta, all_pairs: bool, pairs_from_reference: bool| {
+        let pairs = PairSettings { delta, all_pairs, ..PairSettings::default() };
+        let metric = Metric::Rpe { pairs, pairs_from_reference };
+        evaluate(&path, &path, &EvalSettings { metric, ..EvalSettings::default() }).unwrap().method()
+    };
+    assert_eq!(title(Delta::Frames(1), false, false), "relative pose error over 1 frame, trans, align none");
+    assert_eq!(
+        title(Delta::Distance(2.0), true, true),
+        "relative pose error over 2 scene units of the reference, all pairs, trans, align none"
+    );
+}
+
 fn compared(noise: f64) -> cinesplat::evaluation::Evaluation {
     let wave = |scale: f64| {
         let at = move |k: i32| {
@@ -137,7 +198,7 @@ fn tables_for_a_text_mark_the_best_row() {
     let rows = [("a_b", Ok(compared(0.1))), ("c|d", Ok(compared(0.01))), ("e", Err(failed))]
         .map(|(name, outcome)| BatchRow { name: name.to_owned(), outcome });
     insta::assert_snapshot!(result_markdown(&rows), @r"
-    absolute pose error, trans, align se3, 300 errors
+    absolute pose error, trans, align se3, in scene units
 
     | estimate | pairs | rmse | mean | median | std | min | max |
     |---|---:|---:|---:|---:|---:|---:|---:|
@@ -146,7 +207,7 @@ fn tables_for_a_text_mark_the_best_row() {
     | e | | the estimate has no poses, expected at least one | | | | | |
     ");
     insta::assert_snapshot!(result_latex(&rows), @r"
-    % absolute pose error, trans, align se3, 300 errors
+    % absolute pose error, trans, align se3, in scene units
     \begin{tabular}{lrrrrrrr}
     \toprule
     estimate & pairs & rmse & mean & median & std & min & max \\

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Opens exports of a shot in the programs that they are for, and prints a table of what those programs read.
 
-    python3 tests/exchange/open_exports.py target/release/cinesplat SHOT.JSON
+    python3 tests/exchange/open_exports.py target/release/cinesplat SHOT.JSON PYTHON
 
-Needs evo, pycolmap, usd-core and pygltflib from PyPI. The truth is the shot's own CSV export: positions and quaternions
-`world_from_camera` with OpenCV camera axes. Exits with 1 if a position is off by more than 1e-5 or a rotation by more than
+Needs evo, pycolmap, usd-core and pygltflib from PyPI, and bpy (Blender as a module) for PYTHON, the interpreter of another
+environment. The truth is the shot's own CSV export: positions and quaternions `world_from_camera` with OpenCV camera axes.
+Where a program moves the camera between the frames, half frames are compared too: with lines of glTF as its specification
+says, else by the program itself. Exits with 1 if at a frame a position is off by more than 1e-5 or a rotation by more than
 1e-4 degrees.
 """
 
@@ -44,6 +46,14 @@ def truth(path):
     )
 
 
+def slerp(a, b, t):
+    a, b = np.array(a), np.array(b)
+    b = b if a @ b >= 0 else -b
+    angle = math.acos(min(1.0, a @ b))
+    mixed = a + (b - a) * t if angle < 1e-6 else math.sin((1 - t) * angle) * a + math.sin(t * angle) * b
+    return mixed / np.linalg.norm(mixed)
+
+
 def read_evo(kind, path):
     from evo.tools import file_interface as files
 
@@ -53,7 +63,7 @@ def read_evo(kind, path):
         "euroc": files.read_euroc_csv_trajectory,
     }
     poses = readers[kind](str(path)).poses_se3
-    return [pose[:3, :3] for pose in poses], [pose[:3, 3] for pose in poses], None
+    return [pose[:3, :3] for pose in poses], [pose[:3, 3] for pose in poses], None, None
 
 
 def read_colmap(path):
@@ -65,7 +75,7 @@ def read_colmap(path):
     world = [pose.inverse().matrix() for pose in inverse]
     lenses = [model.cameras[image.camera_id] for image in images]
     fovs = [math.degrees(2 * math.atan(lens.height / 2 / lens.params[1])) for lens in lenses]
-    return [pose[:, :3] for pose in world], [pose[:, 3] for pose in world], fovs
+    return [pose[:, :3] for pose in world], [pose[:, 3] for pose in world], fovs, None
 
 
 def read_usd(path):
@@ -76,14 +86,18 @@ def read_usd(path):
     codes = np.arange(stage.GetStartTimeCode(), stage.GetEndTimeCode() + 0.5)
     up = Gf.Vec3d(*stage.GetRootLayer().customLayerData["cinesplat_world_up"])
     back = np.array(Gf.Matrix3d(Gf.Rotation(up, Gf.Vec3d(0, 1, 0)))).reshape(3, 3)
-    turns, positions, fovs = [], [], []
-    for code in codes:
-        pose = camera.GetCamera(code)
-        matrix = np.array(pose.transform).reshape(4, 4).T
-        turns.append(back @ matrix[:3, :3] @ FLIP)
-        positions.append(back @ matrix[:3, 3])
-        fovs.append(pose.GetFieldOfView(Gf.Camera.FOVVertical))
-    return turns, positions, fovs
+
+    def at(codes):
+        turns, positions, fovs = [], [], []
+        for code in codes:
+            pose = camera.GetCamera(code)
+            matrix = np.array(pose.transform).reshape(4, 4).T
+            turns.append(back @ matrix[:3, :3] @ FLIP)
+            positions.append(back @ matrix[:3, 3])
+            fovs.append(pose.GetFieldOfView(Gf.Camera.FOVVertical))
+        return turns, positions, fovs
+
+    return *at(codes), at(codes[:-1] + 0.5)
 
 
 def read_gltf(path):
@@ -102,13 +116,27 @@ def read_gltf(path):
     found = {}
     for channel in file.animations[0].channels:
         found[channel.target.path] = values(file.animations[0].samplers[channel.sampler].output)
-    return [rotation(*q) @ FLIP for q in found["rotation"]], list(found["translation"]), None
+    fov = math.degrees(file.cameras[0].perspective.yfov)
+    turned, moved = found["rotation"], found["translation"]
+    fovs = [math.degrees(value[0]) for value in found["pointer"]] if "pointer" in found else [fov] * len(moved)
+    middle = lambda values: [(a + b) / 2 for a, b in zip(values, values[1:])]
+    halves = [rotation(*slerp(a, b, 0.5)) @ FLIP for a, b in zip(turned, turned[1:])], middle(moved), middle(fovs)
+    return [rotation(*q) @ FLIP for q in turned], list(moved), fovs, halves
+
+
+def read_blender(path, python):
+    script = Path(__file__).with_name("in_blender.py")
+    said = subprocess.run([python, script, path], check=True, capture_output=True, text=True).stdout
+    rows = json.loads(said.splitlines()[-1])
+    poses = [np.array(pose) for pose, _ in rows]
+    columns = [p[:3, :3] @ FLIP for p in poses], [p[:3, 3] for p in poses], [fov for _, fov in rows]
+    return *(column[::2] for column in columns), tuple(column[1::2] for column in columns)
 
 
 def read_nerfstudio(path):
     file = json.loads(path.read_text())
     poses = [np.array(frame["camera_to_world"]).reshape(4, 4) for frame in file["camera_path"]]
-    return [p[:3, :3] @ FLIP for p in poses], [p[:3, 3] for p in poses], [f["fov"] for f in file["camera_path"]]
+    return [p[:3, :3] @ FLIP for p in poses], [p[:3, 3] for p in poses], [f["fov"] for f in file["camera_path"]], None
 
 
 ROWS = [
@@ -123,8 +151,20 @@ ROWS = [
 ]
 
 
+def off(truth, found):
+    """Largest differences of positions, rotations (degrees) and fields of view (degrees, "-" without)."""
+    moved = max(np.linalg.norm(a - b) for a, b in zip(truth[1], found[1]))
+    turned = max(
+        math.degrees(2 * math.asin(min(1.0, np.linalg.norm(a - b) / math.sqrt(8)))) for a, b in zip(truth[0], found[0])
+    )
+    zoomed = "-" if found[2] is None else f"{max(abs(a - b) for a, b in zip(truth[2], found[2])):.0e}"
+    return moved, turned, zoomed
+
+
 def main():
-    program, shot = sys.argv[1], sys.argv[2]
+    program, shot, blender = sys.argv[1:4]
+    rows = [*ROWS, ("blender", "a.py", "bpy", lambda path: read_blender(path, blender))]
+    version_of_bpy = [blender, "-c", "from importlib.metadata import version; print(version('bpy'))"]
     failed = False
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
@@ -132,26 +172,28 @@ def main():
             [program, "export", shot, *flags], check=True, capture_output=True, text=True
         )
         run("-o", str(folder / "truth.csv"))
-        turns, positions, fovs = truth(folder / "truth.csv")
-        print("| format | opened in | frames | position off | rotation off, deg | lens off, deg | said to be lost |")
-        print("|---|---|---:|---:|---:|---:|---|")
-        for kind, name, package, reader in ROWS:
+        frames = truth(folder / "truth.csv")
+        double = 2 * json.loads(Path(shot).read_text())["fps"]
+        run("-o", str(folder / "halves.csv"), "--fps", str(double))
+        halves = [column[1::2] for column in truth(folder / "halves.csv")]
+        print("| format | opened in | frames | off at frames: position, rotation, lens | between frames | said to be lost |")
+        print("|---|---|---:|---|---|---|")
+        for kind, name, package, reader in rows:
             path = folder / name
             if "/" in name:
                 path.parent.mkdir()
             said = run("--to", kind, "-o", str(path)).stderr
             lost = [line.split(": ", 1)[1] for line in said.splitlines() if line.startswith("warning: ")]
-            found = reader(path)
-            moved = max(np.linalg.norm(a - b) for a, b in zip(positions, found[1]))
-            turned = max(
-                math.degrees(2 * math.asin(min(1.0, np.linalg.norm(a - b) / math.sqrt(8))))
-                for a, b in zip(turns, found[0])
-            )
-            zoomed = "-" if found[2] is None else f"{max(abs(a - b) for a, b in zip(fovs, found[2])):.1e}"
-            failed |= len(found[0]) != len(turns) or not (moved < MAX_MOVED and turned < MAX_TURNED_DEG)
-            version = importlib.metadata.version(package)
+            *found, between = reader(path)
+            moved, turned, zoomed = off(frames, found)
+            failed |= len(found[0]) != len(frames[0]) or not (moved < MAX_MOVED and turned < MAX_TURNED_DEG)
+            in_between = "-" if between is None else "{:.0e}, {:.0e}, {}".format(*off(halves, between))
+            if package == "bpy":
+                version = subprocess.run(version_of_bpy, check=True, capture_output=True, text=True).stdout.strip()
+            else:
+                version = importlib.metadata.version(package)
             print(
-                f"| {kind} | {package} {version} | {len(found[0])} | {moved:.1e} | {turned:.1e} | {zoomed} |"
+                f"| {kind} | {package} {version} | {len(found[0])} | {moved:.0e}, {turned:.0e}, {zoomed} | {in_between} |"
                 f" {'; '.join(lost) or '-'} |"
             )
     sys.exit(failed)

@@ -130,6 +130,20 @@ fn euroc_with_spaces_is_not_read_as_tum() {
     assert_eq!(read_as(&Layout { head, tail: ",\r\n", ..spaces }), "euroc");
 }
 
+/// ORB-SLAM3 writes its paths on EuRoC as nanoseconds with six decimals and w last, DPVO in exponents: both were read as
+/// EuRoC's own ground truth, with permuted quaternions.
+#[test]
+fn nanoseconds_of_orb_slam3_and_dpvo_keep_w_last() {
+    let doubt = "dpvo (8 columns, nanoseconds, quaternion x y z w), or euroc (nanoseconds, quaternion w x y z)";
+    let orb_slam3 = ["1403636579750000128.000000", "1403636579800000000.000000", "1403636579850000128.000000"];
+    assert_eq!(read_as(&Layout { times: orb_slam3, ..TUM }), doubt);
+    let dpvo = ["1.403636579750000128e+18", "1.403636579800000000e+18", "1.403636579850000128e+18"];
+    assert_eq!(read_as(&Layout { times: dpvo, ..TUM }), doubt);
+    // A header that names the columns is more.
+    let named = Layout { head: "# t x y z qw qx qy qz\n", turn: W_FIRST, times: orb_slam3, ..TUM };
+    assert!(read_as(&named).starts_with("euroc"), "{}", read_as(&named));
+}
+
 #[test]
 fn a_header_decides_the_order_of_the_quaternion() {
     let seconds_w_first = Layout { head: "# t x y z qw qx qy qz\n", turn: W_FIRST, ..TUM };

@@ -15,6 +15,7 @@ mod read_only_formats;
 mod ros;
 mod round_trips;
 mod sample_shot;
+mod several_cameras;
 mod shot_json;
 mod supersplat;
 mod tum_kitti;

@@ -1,6 +1,6 @@
 //! Random shots read back from every format, to the precision of the format.
 
-use cinesplat::export::{Content, Format, ImportSettings, PoseTrack};
+use cinesplat::export::{Content, EncodedFiles, ExportSettings, Format, ImportSettings, PoseTrack, encode};
 use cinesplat::geometry::{Pose, rotation};
 use cinesplat::trajectory::{Easing, Keyframe, ReportLine, SceneRef, Shot};
 use glam::{DQuat, DVec3};
@@ -156,6 +156,59 @@ fn cuts_read_back_from_formats_that_hold_them() {
         let (imported, _, _folder) = there_and_back(&with_cut(), format, name, Content::Sampled);
         assert_eq!(cuts(&imported.track), cuts(&wanted), "{name}");
     }
+}
+
+/// glTF holds times with 32 bits: a cut that came back a hair late showed one more frame of what was before it.
+#[test]
+fn the_frame_at_a_cut_is_behind_the_cut_in_every_format_that_holds_cuts() {
+    for fps in [24.0, 25.0, 30_000.0 / 1001.0, 120.0] {
+        let mut cut = with_cut();
+        cut.fps = fps;
+        cut.keyframes[2].time_secs = (1.58 * fps).round() / fps;
+        let wanted = PoseTrack::sampled(&cut, None).unwrap().frames;
+        for (name, content) in ["a.gltf", "a.glb", "a.usda", "a.py", "a.csv"]
+            .into_iter()
+            .flat_map(|name| [Content::Sampled, Content::Keyframes].map(|content| (name, content)))
+        {
+            let format = Format::from_path(name.as_ref()).unwrap();
+            let (imported, _, _folder) = there_and_back(&cut, format, name, content);
+            let settings = ImportSettings { fps: Some(fps), ..ImportSettings::default() };
+            let (back, _) = imported.into_shot(&settings).unwrap();
+            let got = PoseTrack::sampled(&back, None).unwrap().frames;
+            let at = wanted.iter().position(|frame| frame.cut).unwrap();
+            assert!(
+                got[at].pose.position.distance(wanted[at].pose.position) < 1e-5,
+                "{name} at {fps}: {} instead of {}",
+                got[at].pose.position,
+                wanted[at].pose.position
+            );
+        }
+    }
+}
+
+/// Blender joined keyframes with lines, without a word on how far these are from the film.
+#[test]
+fn keyframes_in_blender_are_joined_by_curves_with_the_slopes_of_the_film() {
+    let mut eased = with_cut();
+    eased.keyframes[0].easing = Easing::Smooth;
+    let settings = ExportSettings { content: Content::Keyframes, ..ExportSettings::default() };
+    let encoded = encode(Format::Blender, &eased, &settings).unwrap();
+    let EncodedFiles::Single(bytes) = encoded.files else { panic!("one file") };
+    let text = String::from_utf8(bytes).unwrap();
+    let data = text.split_once("DATA = ").unwrap().1.split_once("# end of DATA").unwrap().0;
+    let data: serde_json::Value = serde_json::from_str(data).unwrap();
+    let slope = |key: usize, side: usize| {
+        let of = &data["frames"][key]["slopes"][side]["position"];
+        DVec3::from_array([0, 1, 2].map(|k| of[k].as_f64().unwrap()))
+    };
+    // The first key rests, and nothing passes through a cut. The last piece is a line of one second.
+    assert!(slope(0, 1).length() < 1e-2 && slope(1, 1) == DVec3::ZERO && slope(2, 0) == DVec3::ZERO);
+    let way = eased.keyframes[3].pose.position - eased.keyframes[2].pose.position;
+    let path = cinesplat::trajectory::CameraPath::new(&eased).unwrap();
+    let passed = |secs: f64| (path.sample(secs + 1e-6).pose.position - path.sample(secs).pose.position) / 1e-6;
+    assert!((slope(2, 1) - passed(2.0)).length() < 1e-3 * way.length(), "{} {}", slope(2, 1), passed(2.0));
+    let strays = encoded.losses.iter().find(|line| line.contains("blender joins keyframes with Bezier curves"));
+    assert!(strays.is_some(), "{:?}", encoded.losses);
 }
 
 #[test]

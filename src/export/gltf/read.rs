@@ -4,6 +4,7 @@ use super::super::ExportError;
 use super::super::json_read::{self, Node};
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
+use super::super::which_camera::which;
 use super::accessor::{item, size, values};
 use super::constants::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER};
 use super::nodes::{Moved, NodeTransform, chain_to, scene_up};
@@ -11,9 +12,11 @@ use super::rigid::{Bend, Rigid};
 use cinesplat_files::{Limits, base64};
 use cinesplat_geometry::rotation;
 
-/// The track of the first camera in a `.gltf` or `.glb`. `resolve` reads a file in the same folder.
+/// The track of the camera with a name, or of the first one, in a `.gltf` or `.glb`. `resolve` reads a file in the same
+/// folder.
 pub(crate) fn read(
     bytes: &[u8],
+    wanted: Option<&str>,
     resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>,
 ) -> Result<PoseTrack, ExportError> {
     let (text, binary) = if bytes.starts_with(GLB_MAGIC) { chunks(bytes)? } else { (bytes, None) };
@@ -22,7 +25,7 @@ pub(crate) fn read(
     let root = Node::root(&value);
     let buffers = buffers(&root, binary, resolve)?;
     let nodes = root.field("nodes", "a list of nodes")?.items()?;
-    let camera_node = nodes.iter().position(|node| node.optional("camera").is_some()).ok_or(ExportError::NoPoses)?;
+    let (camera_node, others) = camera_node(&root, &nodes, wanted)?;
     let camera_idx = size(&nodes[camera_node], "camera", None)?;
     let camera = item(&root, "cameras", camera_idx)?;
     let lens = camera.field("perspective", "a perspective camera")?;
@@ -36,12 +39,36 @@ pub(crate) fn read(
     };
     let up = scene_up.unwrap_or(DVec3::Y);
     let (frames, bend) = frames(&channels, &still).ok_or_else(|| nodes[camera_node].error("a scale that is not 0"))?;
-    let mut unread = bend.lines();
+    let mut unread: Vec<String> = others.into_iter().chain(bend.lines()).collect();
+    if channels.num_further > 0 {
+        let num = channels.num_further;
+        unread.push(format!("only the first animation of a property is read (further ones of this camera: {num})"));
+    }
     if channels.is_cubic() {
         unread.push("the tangents of cubic splines are not read: the keys are".to_owned());
     }
     let aspect = lens.optional("aspectRatio").map(|aspect| aspect.number()).transpose()?.filter(|aspect| *aspect > 0.0);
     Ok(PoseTrack { stated_aspect: aspect, up: Some(up), timed: true, unread, ..PoseTrack::untimed(frames) })
+}
+
+/// The node of the camera with a name (its own or that of its lens), or of the first one, and a line about the others.
+fn camera_node(root: &Node, nodes: &[Node], wanted: Option<&str>) -> Result<(usize, Option<String>), ExportError> {
+    let cameras: Vec<usize> = (0..nodes.len()).filter(|idx| nodes[*idx].optional("camera").is_some()).collect();
+    let name_of = |node: &Node| node.optional("name").and_then(|name| Some(name.text().ok()?.to_owned()));
+    let name = |idx: &usize| name_of(&nodes[*idx]).unwrap_or_else(|| format!("node {idx}"));
+    let has_lens_named = |idx: &usize| {
+        let lens = size(&nodes[*idx], "camera", None).and_then(|lens| item(root, "cameras", lens));
+        lens.ok().and_then(|lens| name_of(&lens)).as_deref() == wanted
+    };
+    let names: Vec<String> = cameras.iter().map(name).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let by_lens =
+        wanted.filter(|wanted| !names.contains(wanted)).and_then(|_| cameras.iter().find(|idx| has_lens_named(idx)));
+    if let Some(idx) = by_lens {
+        return Ok((*idx, None));
+    }
+    let (place, others) = which(&names, wanted)?;
+    Ok((cameras[place], others))
 }
 
 /// The JSON and the binary chunk of a `.glb`.
@@ -136,6 +163,8 @@ struct Channels {
     /// Those of each node from the root to the camera's.
     nodes: Vec<NodeChannels>,
     fov: Option<Channel>,
+    /// Number of channels of properties that an earlier channel animates.
+    num_further: usize,
 }
 
 impl Channels {
@@ -150,7 +179,8 @@ impl Channels {
 
 /// The first channel of each property of the camera and of the nodes above it.
 fn channels(root: &Node, buffers: &[Vec<u8>], chain: &[usize], camera: usize) -> Result<Channels, ExportError> {
-    let mut found = Channels { nodes: chain.iter().map(|_| NodeChannels::default()).collect(), fov: None };
+    let mut found =
+        Channels { nodes: chain.iter().map(|_| NodeChannels::default()).collect(), fov: None, num_further: 0 };
     let Some(animations) = root.optional("animations") else { return Ok(found) };
     let pointer = format!("/cameras/{camera}/perspective/yfov");
     for animation in animations.items()? {
@@ -171,13 +201,15 @@ fn channels(root: &Node, buffers: &[Vec<u8>], chain: &[usize], camera: usize) ->
                 }
                 _ => continue,
             };
-            if slot.is_none() {
-                let idx = size(&channel, "sampler", None)?;
-                let sampler = samplers.get(idx).ok_or_else(|| channel.error("a sampler that exists"))?;
-                let keys = read_sampler(root, buffers, sampler)?;
-                keys.check(path, sampler)?;
-                *slot = Some(keys);
+            if slot.is_some() {
+                found.num_further += 1;
+                continue;
             }
+            let idx = size(&channel, "sampler", None)?;
+            let sampler = samplers.get(idx).ok_or_else(|| channel.error("a sampler that exists"))?;
+            let keys = read_sampler(root, buffers, sampler)?;
+            keys.check(path, sampler)?;
+            *slot = Some(keys);
         }
     }
     Ok(found)

@@ -17,7 +17,14 @@ pub(super) const SAMPLES: &str = ".timeSamples";
 /// Behind the name of an attribute that a spline animates.
 pub(super) const SPLINE: &str = ".spline";
 /// Attributes of cameras that are read over time.
-const LENS: [&str; 3] = ["focalLength", "verticalAperture", "focusDistance"];
+const LENS: [&str; 6] = [
+    "focalLength",
+    "horizontalAperture",
+    "verticalAperture",
+    "horizontalApertureOffset",
+    "verticalApertureOffset",
+    "focusDistance",
+];
 /// Entries of an order of operations: the start of the name of one that is undone, and that the prims above do not
 /// count.
 const INVERSE: &str = "!invert!";

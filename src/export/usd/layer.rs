@@ -35,6 +35,7 @@ impl Value {
 /// A prim, or the layer (with an empty kind).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Prim {
+    pub(super) name: String,
     pub(super) kind: String,
     pub(super) metadata: Vec<(String, Value)>,
     /// Values by name; time samples have the name `name.timeSamples`.

@@ -134,9 +134,8 @@ impl Parser {
 
     fn prim(&mut self, parent: &mut Prim, depth: usize) -> Result<(), ExportError> {
         let mut prim = Prim { kind: self.word().unwrap_or_default(), ..Prim::default() };
-        if !matches!(self.peek(), Some(Token::Text(_))) {
-            return Err(self.error("the name of a prim"));
-        }
+        let Some(Token::Text(name)) = self.peek() else { return Err(self.error("the name of a prim")) };
+        prim.name.clone_from(name);
         self.next += 1;
         if self.take_mark('(') {
             prim.metadata = self.entries(')', depth + 1)?;

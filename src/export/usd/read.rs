@@ -3,6 +3,7 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use super::super::ExportError;
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
+use super::super::which_camera::which;
 use super::binary;
 use super::curves::{Curves, SAMPLES, is_operation, quaternion};
 use super::layer::{Prim, Value};
@@ -13,12 +14,14 @@ use cinesplat_geometry::rotation;
 
 /// USD's defaults for a camera, tenths of a scene unit.
 const DEFAULT_FOCAL: f64 = 50.0;
+const DEFAULT_FILM_WIDTH: f64 = 20.955;
 const DEFAULT_FILM_HEIGHT: f64 = 15.2908;
 const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
 /// What a layer without a camera is told.
 const NO_CAMERA: &str = "no camera in this layer: `usdcat --flatten IN -o out.usda` joins the files that it refers to";
 
-pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
+/// The track of the camera with a name or a path, or of the first one.
+pub(crate) fn read(bytes: &[u8], wanted: Option<&str>) -> Result<PoseTrack, ExportError> {
     let not_readable = |reason: &str| ExportError::NotReadable { format: "usd", reason: reason.to_owned() };
     let unpacked;
     let bytes = if bytes.starts_with(b"PK") {
@@ -32,8 +35,13 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     } else {
         parse(std::str::from_utf8(bytes).map_err(|_| not_readable("the text is not UTF-8"))?)?
     };
-    let mut above = Vec::new();
-    let camera = find_camera(&layer, &mut above).ok_or_else(|| not_readable(NO_CAMERA))?;
+    let mut cameras = Vec::new();
+    find_cameras(&layer, &[], &mut cameras);
+    if cameras.is_empty() {
+        return Err(not_readable(NO_CAMERA));
+    }
+    let (place, others) = which_of(&cameras, wanted)?;
+    let (above, camera) = cameras.swap_remove(place);
     let lens = Curves::new(camera)?;
     let moving = above.iter().map(|prim| Curves::new(prim)).collect::<Result<Vec<_>, _>>()?;
     let meta = |name: &str| layer.meta(name).and_then(Value::number).filter(|v| *v > 0.0);
@@ -42,7 +50,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let up = up.map(DVec3::from_array).and_then(DVec3::try_normalize);
     let stage_up = if layer.meta("upAxis") == Some(&Value::Text("Z".into())) { DVec3::Z } else { DVec3::Y };
     let world_from_stage = y_up_from_world(up).conjugate();
-    let frames = code_list(camera, &above).into_iter().map(|code| {
+    let codes = code_list(camera, &above);
+    let frames = codes.iter().map(|code| {
+        let code = *code;
         let placed = moving.iter().chain([&lens]).try_fold(DAffine3::IDENTITY, |world, prim| {
             let world = if prim.resets_stack { DAffine3::IDENTITY } else { world };
             Some(world * local(prim, code)?)
@@ -53,26 +63,70 @@ pub(crate) fn read(bytes: &[u8]) -> Result<PoseTrack, ExportError> {
     let frames = drop_holds(frames.collect::<Result<Vec<_>, _>>()?, fps);
     Ok(PoseTrack {
         size_px: resolution(&layer),
+        stated_aspect: codes.first().and_then(|code| film_aspect(&lens, *code)),
         fps: Some(fps),
         up: up.or(Some(stage_up)),
         timed: true,
+        unread: others.into_iter().chain(lens_losses(camera, &lens, &codes)).collect(),
         ..PoseTrack::untimed(frames)
     })
 }
 
-/// The first camera, depth first. `above` then holds the prims above it.
-fn find_camera<'a>(prim: &'a Prim, above: &mut Vec<&'a Prim>) -> Option<&'a Prim> {
+/// All cameras, depth first, each with the prims above it.
+fn find_cameras<'a>(prim: &'a Prim, above: &[&'a Prim], found: &mut Vec<(Vec<&'a Prim>, &'a Prim)>) {
     for child in &prim.children {
         if child.kind == "Camera" {
-            return Some(child);
+            found.push((above.to_vec(), child));
         }
-        above.push(child);
-        if let Some(camera) = find_camera(child, above) {
-            return Some(camera);
-        }
-        above.pop();
+        find_cameras(child, &[above, &[child]].concat(), found);
     }
-    None
+}
+
+/// The place of the camera with a name or a path in the layer, or 0, and a line about the others.
+fn which_of(cameras: &[(Vec<&Prim>, &Prim)], wanted: Option<&str>) -> Result<(usize, Option<String>), ExportError> {
+    let path = |(above, camera): &(Vec<&Prim>, &Prim)| {
+        above.iter().chain([camera]).fold(String::new(), |path, prim| path + "/" + &prim.name)
+    };
+    let paths: Vec<String> = cameras.iter().map(path).collect();
+    let by_name = cameras.iter().position(|(_, camera)| Some(camera.name.as_str()) == wanted);
+    match by_name {
+        Some(place) => Ok((place, None)),
+        None => which(&paths.iter().map(String::as_str).collect::<Vec<_>>(), wanted),
+    }
+}
+
+/// Width over height of the film at a time code, if the camera states either.
+fn film_aspect(lens: &Curves<'_>, code: f64) -> Option<f64> {
+    let number = |name: &str| lens.numbers_at(name, code).and_then(|v| v.first().copied()).filter(|v| *v > 0.0);
+    let (width, height) = (number("horizontalAperture"), number("verticalAperture"));
+    let is_stated = width.is_some() || height.is_some();
+    is_stated.then(|| width.unwrap_or(DEFAULT_FILM_WIDTH) / height.unwrap_or(DEFAULT_FILM_HEIGHT))
+}
+
+/// What a film with a perspective lens does not have of a camera: shifts of the lens, and a lens without perspective.
+fn lens_losses(camera: &Prim, lens: &Curves<'_>, codes: &[f64]) -> Vec<String> {
+    let shift = |(name, film, default): (&str, &str, f64)| {
+        let at = |code: &f64| {
+            let number = |name: &str| lens.numbers_at(name, *code).and_then(|v| v.first().copied());
+            number(name).unwrap_or(0.0).abs() / number(film).filter(|v| *v > 0.0).unwrap_or(default)
+        };
+        codes.iter().map(at).fold(0.0, f64::max)
+    };
+    let most = [
+        ("horizontalApertureOffset", "horizontalAperture", DEFAULT_FILM_WIDTH),
+        ("verticalApertureOffset", "verticalAperture", DEFAULT_FILM_HEIGHT),
+    ]
+    .map(shift)
+    .into_iter()
+    .fold(0.0, f64::max);
+    let mut lines = Vec::new();
+    if most > 1e-6 {
+        lines.push(format!("the shift of the lens, up to {:.2} % of the film, is not read", 100.0 * most));
+    }
+    if camera.attribute("projection") == Some(&Value::Text("orthographic".into())) {
+        lines.push("the camera is orthographic: its path is read, with a perspective lens".to_owned());
+    }
+    lines
 }
 
 /// All time codes with a sample of the camera, or of a transform of the prims above it; 0 alone without samples.

@@ -12,7 +12,17 @@ use crate::ExportError;
 /// Types of the prims that are kept.
 const KEPT: [&str; 2] = ["Camera", "RenderSettings"];
 /// Attributes that are kept, besides operations of transforms.
-const ATTRIBUTES: [&str; 5] = ["xformOpOrder", "focalLength", "verticalAperture", "focusDistance", "resolution"];
+const ATTRIBUTES: [&str; 9] = [
+    "xformOpOrder",
+    "focalLength",
+    "horizontalAperture",
+    "verticalAperture",
+    "horizontalApertureOffset",
+    "verticalApertureOffset",
+    "focusDistance",
+    "projection",
+    "resolution",
+];
 const OPERATION: &str = "xformOp:";
 
 /// The layer: its metadata, and the prims that are kept below it.
@@ -77,8 +87,10 @@ fn prim(tables: &Tables<'_>, idx: u32, below: &BTreeMap<u32, Vec<u32>>, depth: u
         }
     }
     sort_as_named(&mut children, prim.meta("primChildren"));
-    prim.children =
-        children.into_iter().map(|(_, path)| self::prim(tables, path, below, depth + 1)).collect::<Result<_, _>>()?;
+    let child = |(name, path): (&str, u32)| {
+        Ok::<_, ExportError>(Prim { name: name.to_owned(), ..self::prim(tables, path, below, depth + 1)? })
+    };
+    prim.children = children.into_iter().map(child).collect::<Result<_, _>>()?;
     Ok(prim)
 }
 
