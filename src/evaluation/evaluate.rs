@@ -177,7 +177,7 @@ impl Evaluation {
 
 /// The name of a unit behind a number: `1 frame`, `5 frames`.
 fn singular(unit: &str, number: f64) -> &str {
-    if number == 1.0 { unit.strip_suffix('s').unwrap_or(unit) } else { unit }
+    if (number - 1.0).abs() < f64::EPSILON { unit.strip_suffix('s').unwrap_or(unit) } else { unit }
 }
 
 fn check(settings: &EvalSettings) -> Result<(), EvaluationError> {

@@ -14,6 +14,8 @@ const MARGIN: f64 = 16.0;
 const HEADER: f64 = 64.0;
 const VIEW_HEIGHT: f64 = 410.0;
 const GAP: f64 = 10.0;
+const RIGHT: &str = "right of the first view, scene units";
+const AHEAD: &str = "ahead of the first view, scene units";
 
 /// The figure of paths.
 ///
@@ -125,8 +127,6 @@ fn views(figure: &mut Figure, level: &LevelFrame, paths: &[(&str, &Trajectory)],
         let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         high - low
     };
-    const RIGHT: &str = "right of the first view, scene units";
-    const AHEAD: &str = "ahead of the first view, scene units";
     let (side, side_name) =
         if reach(level.east) > reach(level.north) { (level.east, RIGHT) } else { (level.north, AHEAD) };
     let above = ("seen from above", level.east, RIGHT, level.north, AHEAD);

@@ -66,6 +66,37 @@ fn animations_of_the_nodes_above_a_camera_move_it() {
     );
 }
 
+/// Only the keys of a spline were read, joined by lines.
+#[test]
+fn cubic_splines_of_gltf_are_followed_between_their_keys() {
+    // Keys at 0 and 1 s: in-tangent, value, out-tangent of x from 0 to 3, leaving at 3 per second and arriving at rest.
+    let x = [0.0, 0.0, 3.0, 0.0, 3.0, 0.0_f32].map(|x| [x, 0.0, 0.0]);
+    let numbers = [0.0_f32, 1.0].into_iter().chain(x.into_iter().flatten());
+    let bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).collect();
+    let data = cinesplat::files::base64::encode(&bytes);
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "cameras": [{{"type": "perspective", "perspective": {{"yfov": 0.8, "znear": 0.1}}}}],
+        "nodes": [{{"camera": 0}}],
+        "buffers": [{{"byteLength": 80, "uri": "data:application/octet-stream;base64,{data}"}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": 8}}, {{"buffer": 0, "byteOffset": 8, "byteLength": 72}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR"}},
+            {{"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC3"}}],
+        "animations": [{{"samplers": [{{"input": 0, "output": 1, "interpolation": "CUBICSPLINE"}}],
+            "channels": [{{"sampler": 0, "target": {{"node": 0, "path": "translation"}}}}]}}]}}"#
+    );
+    let (path, _folder) = file("a.gltf", text.as_bytes());
+    let track = read(&path, None).unwrap().track;
+    assert_eq!(
+        (track.frames.len(), track.unread),
+        (31, vec!["cubic splines are read at 30 frames per second".to_owned()])
+    );
+    for frame in &track.frames {
+        let t = frame.time_secs;
+        let wanted = 3.0 * (t.powi(3) - 2.0 * t * t + t) + 3.0 * (3.0 * t * t - 2.0 * t.powi(3));
+        assert!((frame.pose.position.x - wanted).abs() < 1e-6, "{t}: {} instead of {wanted}", frame.pose.position.x);
+    }
+}
+
 #[test]
 fn a_cut_adds_one_key_that_holds() {
     // 72 frames, and one key that holds the pose before the cut.

@@ -5,6 +5,7 @@
 //! are f32, as the format requires. An additional key just before a cut holds the pose up to the cut.
 
 mod accessor;
+mod channel;
 mod constants;
 mod nodes;
 mod read;

@@ -1,11 +1,12 @@
-use glam::{DAffine3, DQuat, DVec3, DVec4};
+use glam::{DAffine3, DQuat, DVec3};
 
 use super::super::ExportError;
 use super::super::json_read::{self, Node};
 use super::super::opengl::{from_opengl_rotation, y_up_from_world};
 use super::super::track::{PoseFrame, PoseTrack};
 use super::super::which_camera::which;
-use super::accessor::{item, size, values};
+use super::accessor::{item, size};
+use super::channel::{Channel, blend, read_sampler, spline_fps, turn, with_times_between};
 use super::constants::{BINARY_CHUNK, CUT_SECS, GLB_MAGIC, JSON_CHUNK, POINTER};
 use super::nodes::{Moved, NodeTransform, chain_to, scene_up};
 use super::rigid::{Bend, Rigid};
@@ -44,9 +45,7 @@ pub(crate) fn read(
         let num = channels.num_further;
         unread.push(format!("only the first animation of a property is read (further ones of this camera: {num})"));
     }
-    if channels.is_cubic() {
-        unread.push("the tangents of cubic splines are not read: the keys are".to_owned());
-    }
+    unread.extend(channels.spline_fps().map(|fps| format!("cubic splines are read at {fps} frames per second")));
     let aspect = lens.optional("aspectRatio").map(|aspect| aspect.number()).transpose()?.filter(|aspect| *aspect > 0.0);
     Ok(PoseTrack { stated_aspect: aspect, up: Some(up), timed: true, unread, ..PoseTrack::untimed(frames) })
 }
@@ -123,16 +122,6 @@ fn buffer_at(uri: &Node, resolve: &dyn Fn(&str) -> Result<Vec<u8>, ExportError>)
     }
 }
 
-/// The keys of an animated property.
-struct Channel {
-    times: Vec<f64>,
-    values: Vec<Vec<f64>>,
-    /// Whether each value holds until the next key.
-    step: bool,
-    /// Whether the file has tangents.
-    is_cubic: bool,
-}
-
 #[derive(Default)]
 struct NodeChannels {
     translation: Option<Channel>,
@@ -172,8 +161,9 @@ impl Channels {
         self.nodes.iter().flat_map(NodeChannels::all).chain(&self.fov)
     }
 
-    fn is_cubic(&self) -> bool {
-        self.all().any(|channel| channel.is_cubic)
+    /// The rate at which splines are read, frames per second; `None` without splines.
+    fn spline_fps(&self) -> Option<f64> {
+        self.all().any(Channel::is_spline).then(|| spline_fps(self.all().flat_map(Channel::times)))
     }
 }
 
@@ -215,60 +205,6 @@ fn channels(root: &Node, buffers: &[Vec<u8>], chain: &[usize], camera: usize) ->
     Ok(found)
 }
 
-fn read_sampler(root: &Node, buffers: &[Vec<u8>], sampler: &Node) -> Result<Channel, ExportError> {
-    let times: Vec<f64> = values(root, buffers, size(sampler, "input", None)?)?.into_iter().flatten().collect();
-    let mut values = values(root, buffers, size(sampler, "output", None)?)?;
-    let interpolation = sampler.optional("interpolation").map_or(Ok("LINEAR"), |name| name.text())?;
-    if interpolation == "CUBICSPLINE" && values.len() == 3 * times.len() {
-        // Each key has an in-tangent, a value and an out-tangent; only the value is read.
-        values = values.into_iter().skip(1).step_by(3).collect();
-    }
-    if values.len() != times.len() {
-        return Err(sampler.error("as many values as times"));
-    }
-    Ok(Channel { times, values, step: interpolation == "STEP", is_cubic: interpolation == "CUBICSPLINE" })
-}
-
-impl Channel {
-    /// Checks that every value is usable for the property that `path` names: finite, of the right width, and a rotation
-    /// not 0.
-    fn check(&self, path: &str, sampler: &Node) -> Result<(), ExportError> {
-        let (width, expected) = match path {
-            "rotation" => (4, "4 finite numbers, not all 0"),
-            "translation" | "scale" => (3, "3 finite numbers"),
-            _ => (1, "a finite number"),
-        };
-        let is_null = |value: &[f64]| path == "rotation" && !(DVec4::from_slice(value).length() > 1e-6);
-        let is_bad = |value: &[f64]| value.len() != width || value.iter().any(|v| !v.is_finite()) || is_null(value);
-        let Some(idx) = self.values.iter().position(|value| is_bad(value)) else { return Ok(()) };
-        Err(ExportError::BadField {
-            place: format!("{}.output, {path} of key {idx}", sampler.place()),
-            found: format!("{:?}", self.values[idx]),
-            expected: expected.to_owned(),
-        })
-    }
-
-    /// The value at a time, interpolated by `between`.
-    fn at(&self, time: f64, between: impl Fn(&[f64], &[f64], f64) -> Vec<f64>) -> Option<Vec<f64>> {
-        let after = self.times.partition_point(|key| *key <= time);
-        let (before, next) = (after.saturating_sub(1), after.min(self.times.len().checked_sub(1)?));
-        let span = self.times[next] - self.times[before];
-        if self.step || span <= 0.0 || time <= self.times[before] {
-            return self.values.get(before).cloned();
-        }
-        Some(between(&self.values[before], &self.values[next], (time - self.times[before]) / span))
-    }
-}
-
-fn blend(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a + (b - a) * t).collect()
-}
-
-/// The rotation of a value that [`Channel::check`] accepted.
-fn turn(values: &[f64]) -> DQuat {
-    DQuat::from_slice(values).normalize()
-}
-
 /// The camera without animation.
 struct StaticCamera {
     /// The nodes from the root to the camera's.
@@ -281,9 +217,12 @@ struct StaticCamera {
 /// One frame per key time of any channel, one frame without animation, and what no camera can show of its nodes;
 /// `None` where the nodes shrink the camera to nothing.
 fn frames(channels: &Channels, still: &StaticCamera) -> Option<(Vec<PoseFrame>, Bend)> {
-    let mut times: Vec<f64> = channels.all().flat_map(|channel| channel.times.iter().copied()).collect();
+    let mut times: Vec<f64> = channels.all().flat_map(Channel::times).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
+    if let Some(fps) = channels.spline_fps() {
+        times = with_times_between(&times, fps);
+    }
     if times.is_empty() {
         times.push(0.0);
     }
