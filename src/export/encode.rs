@@ -94,6 +94,7 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
     } else {
         encode_poses(format, shot, &track, settings.layout)?
     };
+    encoded.losses.extend(lost_effects(format, shot));
     if content == Content::Keyframes && shot.keyframes.len() > 1 {
         encoded.losses.extend(stray::line(format, shot)?);
     }
@@ -104,6 +105,13 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
         ));
     }
     Ok(encoded)
+}
+
+/// A line about the effects of a shot: no other program has them, nor what they do to the lens and the path.
+fn lost_effects(format: Format, shot: &Shot) -> Option<String> {
+    let names: Vec<&str> = shot.effects.iter().map(|effect| effect.kind.as_str()).collect();
+    let are_lost = format != Format::Shot && !names.is_empty();
+    are_lost.then(|| format!("{format} holds no effects: {} are lost", names.join(", ")))
 }
 
 /// A shot with one keyframe per frame of another shot's film. It keeps what does not depend on the keys.

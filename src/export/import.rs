@@ -243,7 +243,7 @@ fn file_of(path: &Path) -> Result<PathBuf, ExportError> {
     let found = IN_FOLDER.iter().map(|name| path.join(name)).find(|file| file.is_file());
     found.ok_or_else(|| ExportError::WrongFormat {
         found: "a folder without a camera path".into(),
-        expected: format!("one of {}", IN_FOLDER.join(", ")),
+        expected: format!("one of {}, or a sequence of 7-Scenes (frame-000000.pose.txt)", IN_FOLDER.join(", ")),
     })
 }
 

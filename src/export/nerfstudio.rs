@@ -77,11 +77,15 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     for (idx, node) in path.iter().enumerate() {
         frames.push(read_camera(node, "camera_to_world", idx as f64 / fps.unwrap_or(DEFAULT_FPS))?);
     }
+    let projection = root.optional("camera_type").map_or(Ok("perspective"), |node| node.text())?;
+    let is_perspective = projection == "perspective";
+    let not_read = || format!("the projection {} is read as perspective", json_read::quoted(projection));
+    let unread = if is_perspective { Vec::new() } else { vec![not_read()] };
     // A path that repeats its keys was written from keys: their transitions give the times.
     if frames.is_empty() || (frames.len() == keys.len() && frames.iter().zip(&keys).all(|(a, b)| a.pose == b.pose)) {
-        return Ok(PoseTrack { size_px, fps, timed: true, ..PoseTrack::untimed(keys) });
+        return Ok(PoseTrack { size_px, fps, timed: true, unread, ..PoseTrack::untimed(keys) });
     }
-    Ok(PoseTrack { size_px, fps, timed: fps.is_some(), keys, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { size_px, fps, timed: fps.is_some(), keys, unread, ..PoseTrack::untimed(frames) })
 }
 
 /// Keyframes, with times summed from the transitions.

@@ -14,6 +14,15 @@ fn exported(settings: ExportSettings) -> Value {
 }
 
 #[test]
+fn a_projection_that_is_not_perspective_is_named() {
+    let mut path = exported(ExportSettings::default());
+    path["camera_type"] = "equirectangular".into();
+    let (path, _folder) = file("a.json", path.to_string().as_bytes());
+    let unread = read(&path, None).unwrap().track.unread;
+    assert_eq!(unread, ["the projection equirectangular is read as perspective"]);
+}
+
+#[test]
 fn holds_every_key_that_ns_render_and_the_viewer_read() {
     let path = exported(ExportSettings::default());
     for name in

@@ -1,7 +1,7 @@
 //! Warnings name the properties that a format cannot hold, and nothing else.
 
 use cinesplat::export::{Content, Format};
-use cinesplat::trajectory::Easing;
+use cinesplat::trajectory::{Easing, EffectRequest, Shot};
 use glam::{DQuat, DVec3};
 
 use super::sample_shot::{key, shot, there_and_back, with_cut};
@@ -34,6 +34,26 @@ fn every_loss_has_a_line() {
     cameras holds no focus distance
     cameras holds no cuts: other programs may interpolate across them
     ");
+}
+
+/// A shot for 360 video became a path of plain pictures without a word.
+#[test]
+fn effects_that_other_programs_lack_are_named() {
+    let request = |kind: &str| EffectRequest {
+        kind: kind.to_owned(),
+        because: "asked for".to_owned(),
+        settings: Vec::new(),
+        runs: None,
+    };
+    let shot = Shot { effects: vec![request("panorama"), request("film-grain")], ..with_cut() };
+    for (format, name) in [(Format::Nerfstudio, "a.json"), (Format::Blender, "a.py"), (Format::Cameras, "cameras.json")]
+    {
+        let (_, warnings, _folder) = there_and_back(&shot, format, name, Content::Sampled);
+        let line = format!("{format} holds no effects: panorama, film-grain are lost");
+        assert!(warnings.contains(&line), "{warnings:?}");
+    }
+    let (_, warnings, _folder) = there_and_back(&shot, Format::Shot, "a.shot.json", Content::Keyframes);
+    assert_eq!(warnings, Vec::<String>::new());
 }
 
 #[test]
