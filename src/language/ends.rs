@@ -7,6 +7,8 @@ const UPPER: &str = "headstock tuners tuner pegs head crown canopy leaves foliag
     spire finial pediment shaft";
 const LOWER: &str = "pot planter roots soil base foot feet legs wheels casters castors pedals hem skirt jaw jawbone chin teeth \
     mandible bridge soundhole pedestal plinth stand bottom saucer";
+const FRONT: &str = "front headlight headlights headlamp handlebar handlebars forks grille windscreen toe toes toecap toecaps snout nose";
+const BACK: &str = "back rear taillight taillights exhaust heel heels tail";
 /// Words before such a word that say nothing else.
 const BEFORE: &str = "the a its his her their this that very guitar 's whole eye tuning both two skull";
 
@@ -20,8 +22,8 @@ pub fn end_of(words: &str, label: &str) -> Option<&'static str> {
     let end = match () {
         () if is_listed(UPPER, &last.text) => "top",
         () if is_listed(LOWER, &last.text) => "bottom",
-        () if last.text == "front" => "front",
-        () if is_listed("back rear", &last.text) => "back",
+        () if is_listed(FRONT, &last.text) => "front",
+        () if is_listed(BACK, &last.text) => "back",
         () => return None,
     };
     // The pot of `the teapot` is all of it.

@@ -4,7 +4,7 @@
 //! direction, the step takes it.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::Step;
+use cinesplat_operator::{Motion, Step};
 use cinesplat_trajectory::Move;
 
 /// Words that may stand between a verb and its direction.
@@ -87,6 +87,35 @@ fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {
             step.with[twice] = movement;
         }
         add_lost_move(step, movement);
+    }
+}
+
+/// Ways beside a move, by their words; the second of a pair is the other way.
+const WAYS: [(&[&str], Move); 4] = [
+    (&["back", "backward", "backwards", "out", "away", "pullback", "off"], Move::PullOut),
+    (&["in", "closer", "nearer", "forward", "forwards", "toward", "towards"], Move::PushIn),
+    (&["up", "rise", "rising", "higher", "climb", "climbing", "ascend"], Move::CraneUp),
+    (&["down", "lower", "lowering", "sink", "sinking", "descend", "descending"], Move::CraneDown),
+];
+
+/// Puts another way that the words name in the place of a second move that is the first one again: `pull back up and out`,
+/// read as a rise while rising. Without one the second move goes.
+pub(crate) fn part_twins(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.with.contains(&step.movement)) {
+        let main = step.movement;
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let motion = |movement: Move| Motion::of(movement).filter(|motion| *motion != Motion::Travel);
+        let is_other = |movement: Move| {
+            movement != main
+                && movement.opposite() != Some(main)
+                && (motion(movement).is_none() || motion(movement) != motion(main))
+        };
+        let mut said = WAYS
+            .iter()
+            .filter(|(names, movement)| is_other(*movement) && words.iter().any(|word| names.contains(word)));
+        let other = said.next().map(|(_, movement)| *movement).filter(|_| said.next().is_none());
+        step.with.retain(|with| *with != main);
+        step.with.extend(other.filter(|other| !step.with.contains(other)));
     }
 }
 

@@ -38,6 +38,7 @@ use crate::error::DirectorError;
 pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Direction) -> Result<(), DirectorError> {
     let steps = &mut direction.program.steps;
     directions::take_said_directions(linked, steps);
+    directions::part_twins(linked, steps);
     dolly_zoom::take_said_dolly_zooms(linked, steps);
     dolly_zoom::keep_said_lens(linked, steps);
     open::reverse_retraced(linked, steps);

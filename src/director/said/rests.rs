@@ -10,8 +10,10 @@ use crate::direction::Direction;
 const RESTS: [&str; 10] = ["hold", "pause", "stop", "rest", "dwell", "linger", "wait", "settle", "stay", "halt"];
 const EACH: [&str; 3] = ["each", "every", "all"];
 /// Words between the two.
-const BETWEEN: [&str; 14] =
-    ["on", "upon", "at", "for", "with", "a", "of", "in", "front", "there", "briefly", "shortly", "about", "the"];
+const BETWEEN: [&str; 16] = [
+    "on", "upon", "at", "for", "with", "a", "of", "in", "front", "there", "briefly", "shortly", "about", "the", "good",
+    "full",
+];
 /// How long a rest is that has no length.
 const REST_SECS: f64 = 1.0;
 
