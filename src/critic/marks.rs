@@ -55,12 +55,19 @@ fn fault(shares: &[f64], worst: f64) -> Option<f64> {
     mean(shares).map(|mean| 1.0 - f64::midpoint(mean, largest) / worst)
 }
 
-/// 1 where the foreground never covers much more than it usually does, 0 where it covers 40 % more.
+/// Share of a frame that foreground covers without harm: a frame within the frame; and more than that which leaves the
+/// subject no room.
+const FREE_FOREGROUND: f64 = 0.15;
+const FULL_FOREGROUND: f64 = 0.35;
+
+/// 1 where the foreground never covers much more than it usually does and leaves most of the frame free, 0 where it covers
+/// 40 % more than usual or half of the frame.
 fn wipe(shares: &[f64]) -> Option<f64> {
     let mut sorted = shares.to_vec();
     sorted.sort_by(f64::total_cmp);
     let (middle, largest) = (sorted.get(sorted.len() / 2)?, sorted.last()?);
-    Some(1.0 - (largest - middle) / 0.4)
+    let sweep = (largest - middle) / 0.4;
+    Some(1.0 - sweep.max((largest - FREE_FOREGROUND) / FULL_FOREGROUND))
 }
 
 /// Mean over the pictures, on a logarithmic scale between crisp and soup: of the subjects that should be seen, or else of

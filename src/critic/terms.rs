@@ -12,7 +12,7 @@ pub enum Term {
     Void,
     /// Nothing close before the lens covers the frame.
     Blocked,
-    /// No foreground sweeps across the frame in mid film.
+    /// No foreground sweeps across the frame in mid film, or fills it.
     Wipe,
     /// The camera does not pass through thin matter.
     Haze,
@@ -72,7 +72,7 @@ pub const TERMS: [TermRow; 14] = [
     TermRow {
         term: Term::Wipe,
         weight: 1.5,
-        punishes: "foreground that sweeps across the frame in mid film",
+        punishes: "foreground that sweeps across the frame in mid film, or fills half of it",
         praise: "has no foreground sweeping across",
         source: "a wipe is a transition between shots, never an accident inside one",
     },

@@ -5,10 +5,10 @@
 //! what the capture has fills the rest.
 
 use super::cost::cost;
-use super::framing::in_frame_frac;
+use super::framing::{in_frame_frac, off_center};
 use super::motion::MotionSegment;
 use super::pictures::worst_void;
-use super::program::Program;
+use super::program::{Framing, Program};
 use super::world::World;
 use cinesplat_geometry::{LevelAngles, Pose};
 use cinesplat_trajectory::{CameraState, Move};
@@ -71,17 +71,28 @@ pub(super) fn turned_inward(world: &World, program: &Program, segments: Vec<Moti
 
 /// Share of a subject that may leave the frame.
 const MOST_LOST: f64 = 0.02;
+/// Distance of a subject's middle from the frame's middle beyond which no turn takes it.
+const MOST_OFF: f64 = 0.19;
 
-/// Whether more of a step's subject is out of the frame at an end of a segment than before.
+/// Whether more of a step's subject is out of the frame at an end of a segment than before, or the subject that the end is
+/// about stands farther aside than on a third.
 fn loses_subject(world: &World, program: &Program, before: &[MotionSegment], after: &[MotionSegment]) -> bool {
     before.iter().zip(after).any(|(before, after)| {
         let Some(step) = program.steps.get(before.step) else { return false };
+        let ends = [(&step.start, before.states[0], after.states[0]), (&step.end, before.last(), after.last())];
+        let strays = |(framing, before, after): &(&Framing, CameraState, CameraState)| {
+            let first = framing.subjects.first().and_then(|id| world.subject(*id));
+            let off = |state: &CameraState| first.map_or(0.0, |subject| off_center(world, state, subject.center));
+            off(after) > MOST_OFF.max(off(before))
+        };
         let mut subjects = step.start.subjects.iter().chain(&step.end.subjects).filter_map(|id| world.subject(*id));
-        subjects.any(|subject| {
-            let shown = |state: &CameraState| in_frame_frac(world, state, &subject.points, 0.0);
-            let ends = [(before.states[0], after.states[0]), (before.last(), after.last())];
-            ends.iter().any(|(before, after)| shown(before) - shown(after) > MOST_LOST)
-        })
+        let is_aside = !before.is_join && ends.iter().any(strays);
+        is_aside
+            || subjects.any(|subject| {
+                let shown = |state: &CameraState| in_frame_frac(world, state, &subject.points, 0.0);
+                let ends = [(before.states[0], after.states[0]), (before.last(), after.last())];
+                ends.iter().any(|(before, after)| shown(before) - shown(after) > MOST_LOST)
+            })
     })
 }
 

@@ -21,6 +21,7 @@ mod cost;
 mod detours;
 mod distinct;
 mod dutch;
+mod ends;
 mod facets;
 mod flow;
 mod forbidden;

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::as_filmed::as_filmed;
 use super::detours;
 use super::dutch;
+use super::ends::bettered;
 use super::flow::{Flow, Joint, is_left_out, joints, tightened, without_stops};
 use super::forbidden;
 use super::handles::{MAX_FREE_FILM_SECS, handles, settle};
@@ -90,6 +91,7 @@ fn solution(
     let cost = candidate.cost();
     let mut segments: Vec<MotionSegment> = candidate.segments.into_iter().flatten().collect();
     if settings.level != SolveLevel::Off {
+        segments = bettered(world, program, segments);
         segments = turned_inward(world, program, segments);
     }
     settle(&mut segments);

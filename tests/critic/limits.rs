@@ -1,6 +1,6 @@
 //! Hard limits on whole films.
 
-use cinesplat::critic::{Limit, LimitCheck, Review};
+use cinesplat::critic::{Limit, LimitCheck, Review, Term};
 use cinesplat::objects::Object;
 use cinesplat::scene::Gaussians;
 use glam::{DVec3, Vec3};
@@ -65,6 +65,21 @@ fn a_foreground_breaks_the_limit_unless_the_words_ask_for_it() {
     assert!(!blocked.is_kept() && blocked.got > 0.4, "{}", blocked.got);
     still.foregrounds = vec![[0.0, 10.0]];
     assert!(check(&stage.review(&still, 5), Limit::Blocked).is_kept());
+}
+
+#[test]
+fn a_foreground_that_fills_half_of_every_frame_is_marked_down() {
+    let mark = |half_width: f64| {
+        let mut scene = Gaussians::default();
+        wall(&mut scene, (-8.0, 8.0), 6.0, gray);
+        sheet(&mut scene, ([-0.1, -0.1], [0.1, 0.1]), (4.0, 0.99), gray);
+        sheet(&mut scene, ([0.3, -2.0], [0.3 + half_width, 2.0]), (1.5, 0.99), gray);
+        let ball = Object::from_box(3, "ball", DVec3::new(0.0, 0.0, 4.0), DVec3::splat(0.15));
+        let still = film(DVec3::ZERO, DVec3::new(0.01, 0.0, 0.0), &[3]);
+        Stage::new(scene, vec![ball]).review(&still, 5).value(Term::Wipe).unwrap()
+    };
+    assert!(mark(0.1) > 0.95, "a post at the side: {}", mark(0.1));
+    assert!(mark(2.0) < 0.6, "a curtain over the right half: {}", mark(2.0));
 }
 
 #[test]

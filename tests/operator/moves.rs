@@ -213,6 +213,14 @@ fn a_way_to_the_only_thing_named_comes_nearer() {
 }
 
 #[test]
+fn a_walk_from_one_thing_to_another_does_not_lead_away_from_it() {
+    let frames = filmed(Step { start: about(2), end: about(1), ..Step::of(Move::Follow) });
+    let distance = |state: &CameraState| state.pose.position.distance(CENTER);
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    assert!(distance(last) < 1.05 * distance(first), "{} to {}", distance(first), distance(last));
+}
+
+#[test]
 fn a_rise_after_a_picture_keeps_its_subject_in_the_frame() {
     let steps = vec![Step { end: about(1), ..Step::of(Move::Static) }, Step::of(Move::PedestalUp)];
     for state in film(&solved(&world(), steps)) {

@@ -286,7 +286,11 @@ impl<'a> StepContext<'a> {
     pub(super) fn constrained_at_end(&self, mut segment: MotionSegment) -> MotionSegment {
         let framing = &self.step.end;
         if let (Some(size), Some(end)) = (framing.size, self.end.as_ref().or(self.start.as_ref())) {
-            segment = segment.requiring(Scope::End, ConstraintKind::Height(end.clone(), size.height_band_frac()));
+            let (low, high) = size.height_band_frac();
+            // A wide view without a subject shows the room: what the step leaves behind may be as small as it likes.
+            let is_of_room = self.end.is_none() && matches!(size, ShotSize::Long | ShotSize::ExtremeLong);
+            let band = (if is_of_room { 0.0 } else { low }, high);
+            segment = segment.requiring(Scope::End, ConstraintKind::Height(end.clone(), band));
         }
         if framing.whole {
             segment = segment.requiring(Scope::End, ConstraintKind::InFrame(framing.subjects.clone(), 0.97));

@@ -17,9 +17,13 @@ use cinesplat_trajectory::{CameraState, Move};
 
 /// Void of a picture from which on another composition is looked for.
 const LEAST_VOID: f64 = 0.05;
-/// Largest distance of a subject from the frame's middle, over the frame's width and height: where the words want it in
-/// the middle it still counts as there.
-const MOST_OFF: f64 = 0.13;
+/// Distance of a subject from the frame's middle, over the frame's width and height, up to which it counts as in the
+/// middle; what each unit beyond costs, as a share of void; and the largest distance: a little more than a third.
+const FREE_OFF: f64 = 0.13;
+const OFF_COST: f64 = 0.6;
+const MOST_OFF: f64 = 0.185;
+/// Distance from the middle that a subject at the edge of a capture is allowed, where the words want it in the middle.
+const ALLOWED_OFF: f64 = 0.2;
 /// The same for a subject on a third, with the least distance.
 const THIRD_BAND: (f64, f64) = (0.135, 0.195);
 /// Cost of the largest turn, as a share of void: less void than this is not worth it.
@@ -58,6 +62,11 @@ pub(super) fn fill_frame(context: &StepContext, segments: &mut Vec<MotionSegment
         let share = i as f64 / last as f64;
         *state = turned_by(context, state, (lerp((from.0, to.0), share), lerp((from.1, to.1), share)));
     }
+    for constraint in &mut segment.constraints {
+        if let ConstraintKind::Centered(_, most) = &mut constraint.kind {
+            *most = most.max(ALLOWED_OFF);
+        }
+    }
     rejoin(context, segments);
     segments.retain(|segment| !(segment.is_join && is_same_camera(&segment.states[0], &segment.last())));
 }
@@ -67,9 +76,9 @@ pub(super) fn fill_frame(context: &StepContext, segments: &mut Vec<MotionSegment
 enum Way {
     /// The camera keeps its direction: one turn for the whole move.
     Same,
-    /// A pan keeps its pitch.
+    /// A pan has one pitch.
     SamePitch,
-    /// A tilt keeps its yaw.
+    /// A tilt has one yaw.
     SameYaw,
     /// Both ends for themselves.
     Free,
@@ -106,17 +115,55 @@ fn turns(
         let by = first.turn_to_before(context).unwrap_or_else(|| first.turn(context, at));
         return Some((by, by));
     }
-    let opening = || first.turn_to_before(context).unwrap_or_else(|| first.best(context));
-    let (from, to) = (if continues { (0.0, 0.0) } else { opening() }, last.best(context));
+    let free = |_: IVec2| true;
+    let opening = || first.turn_to_before(context).unwrap_or_else(|| first.best(context, free));
+    let from = || if continues { (0.0, 0.0) } else { opening() };
     let (from, to) = match way {
-        Way::SamePitch => ((from.0, 0.0), (to.0, 0.0)),
-        Way::SameYaw => ((0.0, from.1), (0.0, to.1)),
-        _ => (from, to),
+        // A pan from a free start looks up or down as a whole, a tilt to a side.
+        Way::SamePitch if opens_freely(context, continues, first) => level_turns(context, first, last),
+        Way::SameYaw if opens_freely(context, continues, first) => upright_turns(context, first, last),
+        Way::SamePitch => ((from().0, 0.0), (last.best(context, free).0, 0.0)),
+        Way::SameYaw => ((0.0, from().1), (0.0, last.best(context, free).1)),
+        _ => (from(), last.best(context, free)),
     };
     // A pan or a tilt is a turn: it is not made smaller.
     let own = turn_between(context, &first.state, &last.state);
     let shrinks = (own.0 * (to.0 - from.0)).min(own.1 * (to.1 - from.1)) < 0.0;
     (way == Way::Free || !shrinks).then_some((from, to))
+}
+
+/// Whether a turn in place begins anywhere, so that both its ends may be moved alike.
+fn opens_freely(context: &StepContext, continues: bool, first: &Picture) -> bool {
+    !continues && first.turn_to_before(context).is_none()
+}
+
+/// The turns of both ends of a pan, with one pitch for both.
+fn level_turns(context: &StepContext, first: &Picture, last: &Picture) -> ((f64, f64), (f64, f64)) {
+    let rows = -VoidMap::MARGIN.y..=VoidMap::MARGIN.y;
+    let (from, to) = best_pair(context, (first, last), rows.map(|row| move |at: IVec2| at.y == row));
+    (from, (to.0, from.1))
+}
+
+/// The turns of both ends of a tilt, with one yaw for both.
+fn upright_turns(context: &StepContext, first: &Picture, last: &Picture) -> ((f64, f64), (f64, f64)) {
+    let columns = -VoidMap::MARGIN.x..=VoidMap::MARGIN.x;
+    let (from, to) = best_pair(context, (first, last), columns.map(|column| move |at: IVec2| at.x == column));
+    (from, (from.0, to.1))
+}
+
+/// The turns of two pictures to places on the line of the frame on which they cost least together; none where no line
+/// has places for both.
+fn best_pair<F: Fn(IVec2) -> bool>(
+    context: &StepContext,
+    (first, last): (&Picture, &Picture),
+    lines: impl Iterator<Item = F>,
+) -> ((f64, f64), (f64, f64)) {
+    let both = |line: F| {
+        let (from, to) = (first.cheapest(context, &line)?, last.cheapest(context, &line)?);
+        Some((from.0 + to.0, from.1, to.1))
+    };
+    let best = lines.filter_map(both).min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(((0.0, 0.0), (0.0, 0.0)), |(_, from, to)| (first.turn(context, from), last.turn(context, to)))
 }
 
 /// One end of a move: its camera, its target, and where its surroundings are void.
@@ -149,23 +196,36 @@ impl Picture {
     fn cost(&self, context: &StepContext, at: IVec2) -> Option<f64> {
         let share = at.as_dvec2() / VoidMap::MARGIN.as_dvec2();
         let cost = self.map.void(at) + TURN_COST * share.length();
-        let stays = at == IVec2::ZERO || self.keeps_subject(context, &self.turned(context, at));
-        stays.then_some(cost)
+        let turned = self.turned(context, at);
+        let stays = at == IVec2::ZERO || self.keeps_subject(context, &turned);
+        let beyond = if self.is_on_third { 0.0 } else { (self.off(context, &turned) - FREE_OFF).max(0.0) };
+        stays.then_some(cost + OFF_COST * beyond)
+    }
+
+    /// Distance of the subject from the middle of the frame of a turned camera; 0 without a subject.
+    fn off(&self, context: &StepContext, turned: &CameraState) -> f64 {
+        let off = |point| off_center(context.world, turned, point);
+        if self.target.ids.is_empty() { 0.0 } else { off(self.target.aim).max(off(self.target.center)) }
     }
 
     /// Whether the subject stays near the middle and as whole as it is, seen from a turned camera.
     fn keeps_subject(&self, context: &StepContext, turned: &CameraState) -> bool {
         let (world, target) = (context.world, &self.target);
-        let off = off_center(world, turned, target.aim).max(off_center(world, turned, target.center));
+        let off = self.off(context, turned);
         let framed = |state: &CameraState| in_frame_frac(world, state, &target.corners, 0.02);
         let (least, most) = if self.is_on_third { THIRD_BAND } else { (0.0, MOST_OFF) };
         target.ids.is_empty() || ((least..=most).contains(&off) && framed(turned) >= framed(&self.state))
     }
 
-    fn best(&self, context: &StepContext) -> (f64, f64) {
-        let priced = Self::places().filter_map(|at| Some((self.cost(context, at)?, at)));
-        let best = priced.min_by(|a, b| a.0.total_cmp(&b.0));
-        best.map_or((0.0, 0.0), |(_, at)| self.turn(context, at))
+    /// The turn to the best of the allowed places.
+    fn best(&self, context: &StepContext, allowed: impl Fn(IVec2) -> bool) -> (f64, f64) {
+        self.cheapest(context, allowed).map_or((0.0, 0.0), |(_, at)| self.turn(context, at))
+    }
+
+    /// The best of the allowed places, with its cost.
+    fn cheapest(&self, context: &StepContext, allowed: impl Fn(IVec2) -> bool) -> Option<(f64, IVec2)> {
+        let priced = Self::places().filter(|at| allowed(*at)).filter_map(|at| Some((self.cost(context, at)?, at)));
+        priced.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The turn back to the camera before, where it stands at the same place and its picture has no more void.
