@@ -27,12 +27,12 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
     cut_cost(world, segment, states) + turned + widened_cost(segment) + approach_cost(segment, states)
 }
 
-/// Cost of a way from one thing to another at whose end the other is no larger than at its start.
+/// Cost of a way to a thing that ends farther from it than it begins, and the factor on the distance at which it costs as
+/// much.
 const APPROACH_COST: f64 = 1.0;
-/// Growth of the thing in the picture from which on a way to it costs nothing.
-const LEAST_GROWTH: f64 = 1.4;
+const FAR_RETREAT: f64 = 1.4;
 
-/// Cost of a walk to a thing that does not come nearer to it: `stroll over to the armchair` ends at the armchair.
+/// Cost of a walk to a thing that leads away from it: `stroll over to the armchair` ends at the armchair.
 fn approach_cost(segment: &MotionSegment, states: &[CameraState]) -> f64 {
     if segment.movement != Move::Follow || segment.is_join {
         return 0.0;
@@ -46,15 +46,10 @@ fn approach_cost(segment: &MotionSegment, states: &[CameraState]) -> f64 {
         _ => None,
     });
     let Some(goal) = goal.filter(|_| !segment.constraints.iter().any(sized)) else { return 0.0 };
-    let size = |state: &CameraState| goal.radius / state.pose.position.distance(goal.aim).max(1e-9);
-    let growth = size(&states[states.len() - 1]) / size(&states[0]).max(1e-9);
-    let is_large = size(&states[0]) > LARGE_AT_START * (states[0].fov_y_rad / 2.0).tan();
-    let wanted: f64 = if is_large { 1.0 } else { LEAST_GROWTH };
-    APPROACH_COST * ((wanted / growth).ln() / LEAST_GROWTH.ln()).clamp(0.0, 1.0)
+    let distance = |state: &CameraState| state.pose.position.distance(goal.aim).max(1e-9);
+    let retreat = distance(&states[states.len() - 1]) / distance(&states[0]);
+    APPROACH_COST * (retreat.ln() / FAR_RETREAT.ln()).clamp(0.0, 1.0)
 }
-
-/// Size of a thing in the first picture, over the frame's height, from which on a walk to it only must not lead away.
-const LARGE_AT_START: f64 = 0.75;
 
 /// Cost of a pull-out that widens its lens because the room ends behind the camera: as one that stays in the room by
 /// itself is better.
