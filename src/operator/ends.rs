@@ -7,7 +7,7 @@
 use super::cost::{cost, evenly_spaced};
 use super::motion::MotionSegment;
 use super::pictures::worst_void;
-use super::program::{Program, Step};
+use super::program::{Framing, Program, Step};
 use super::world::World;
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraState, Move};
@@ -32,9 +32,9 @@ pub(super) fn bettered(world: &World, program: &Program, mut segments: Vec<Motio
         return segments;
     }
     for index in 0..segments.len() {
-        let opens = index == 0 || segments[index].cut;
-        let closes = segments.get(index + 1).is_none_or(|next| next.cut);
         let Some(step) = program.steps.get(segments[index].step) else { continue };
+        let opens = (index == 0 || segments[index].cut) && is_open(&step.start);
+        let closes = segments.get(index + 1).is_none_or(|next| next.cut) && is_open(&step.end);
         if is_bad(world, &segments[index]) {
             let slid = if opens && closes && is_slide(&segments[index]) {
                 shifted(world, &segments[index])
@@ -45,6 +45,11 @@ pub(super) fn bettered(world: &World, program: &Program, mut segments: Vec<Motio
         }
     }
     segments
+}
+
+/// Whether the words leave a picture open but for what is in it: a close-up at the start is no end to trade.
+fn is_open(framing: &Framing) -> bool {
+    *framing == Framing { subjects: framing.subjects.clone(), ..Framing::default() }
 }
 
 fn is_bad(world: &World, segment: &MotionSegment) -> bool {
