@@ -50,17 +50,17 @@ pub(crate) fn point_ones(prompt: &str, objects: &[NamedObject], found: &mut [Fou
         // Places (`the left one`) and numbers are not in labels.
         let fits = |id: &u32| {
             label(objects, *id).is_some_and(|label| {
-                let has = |word: &&str| tokenize(label).iter().any(|part| part.text == **word);
-                !told.is_empty() && told.iter().all(|word| has(&word))
+                let has = |word: &&str| tokenize(label).iter().any(|part| part.text == *word);
+                !told.is_empty() && told.iter().all(has)
             })
         };
-        let kinds = before.iter().rev().flat_map(|found| content(said(prompt, &found.mention)));
+        let mut kinds = before.iter().rev().flat_map(|found| content(said(prompt, &found.mention)));
         let of_kind = |kind: &String| {
             let is_kind = |object: &&NamedObject| tokenize(&object.label).iter().any(|word| stem(&word.text) == *kind);
             let ids: Vec<u32> = objects.iter().filter(is_kind).map(|object| object.id).filter(fits).collect();
             matches!(ids[..], [_]).then_some(ids)
         };
-        if let Some(ids) = kinds.filter_map(|kind| of_kind(&kind)).next() {
+        if let Some(ids) = kinds.find_map(|kind| of_kind(&kind)) {
             later.ids = ids;
         }
     }

@@ -20,7 +20,8 @@ const REST_SECS: f64 = 1.0;
 /// Rests on what each step arrives at, and on what the first one leaves, where the words ask for a rest on each.
 pub(crate) fn rest_on_each(linked: &Linked, direction: &mut Direction) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
-    let Some((at, stated)) = (0..words.len()).find_map(|at| Some((at, rest_at(linked, &words, at)?))) else { return };
+    let Some(at) = (0..words.len()).find(|at| is_rest_on_each(linked, &words, *at)) else { return };
+    let stated = stated_secs(linked, &words, at);
     let secs = stated.unwrap_or(REST_SECS);
     let byte = linked.spans.get(at).map_or(0, |span| span[0]);
     let steps = &mut direction.program.steps;
@@ -59,29 +60,23 @@ pub(crate) fn rest_on_each(linked: &Linked, direction: &mut Direction) {
     }
 }
 
-/// How long a rest on each thing is that the words at word `at` ask for, where they state that.
-fn rest_at(linked: &Linked, words: &[&str], at: usize) -> Option<Option<f64>> {
+/// Whether the words at word `at` ask for a rest on each thing.
+fn is_rest_on_each(linked: &Linked, words: &[&str], at: usize) -> bool {
     if !EACH.contains(&words[at]) {
-        return None;
+        return false;
     }
-    let before = words[..at].iter().rev().find(|word| !BETWEEN.contains(word) && !linked.is_quantity(word))?;
-    let secs = |word: &&str| {
-        linked
-            .quantity_at(word)
-            .filter(|quantity| quantity.kind == QuantityKind::Seconds)
-            .map(|quantity| quantity.value)
-    };
-    let stated = words[at + 1..]
-        .iter()
-        .take(8)
-        .take_while(|word| !matches!(**word, "." | ";"))
-        .chain(words[..at].iter().rev().take(3))
-        .find_map(secs);
+    let before = words[..at].iter().rev().find(|word| !BETWEEN.contains(word) && !linked.is_quantity(word));
     // `All the way`, `every time`.
     let is_else =
         words.get(at + 1).is_some_and(|word| matches!(*word, "the" | "time" | "along" | "over" | "of" | "around"));
-    let rests = RESTS.iter().any(|verb| is_form(before, verb));
-    (rests && !(is_else && words[at] != "each")).then_some(stated)
+    before.is_some_and(|before| RESTS.iter().any(|verb| is_form(before, verb))) && !(is_else && words[at] != "each")
+}
+
+/// How long each rest is, where the words around word `at` state that.
+fn stated_secs(linked: &Linked, words: &[&str], at: usize) -> Option<f64> {
+    let secs = |word: &&str| linked.quantity_at(word).filter(|quantity| quantity.kind == QuantityKind::Seconds);
+    let behind = words[at + 1..].iter().take(8).take_while(|word| !matches!(**word, "." | ";"));
+    behind.chain(words[..at].iter().rev().take(3)).find_map(secs).map(|quantity| quantity.value)
 }
 
 #[cfg(test)]
@@ -92,7 +87,7 @@ mod tests {
     fn a_rest_on_each_is_told_from_others() {
         let rests = |text: &str| {
             let words: Vec<&str> = text.split(' ').collect();
-            (0..words.len()).any(|at| rest_at(&Linked::default(), &words, at).is_some())
+            (0..words.len()).any(|at| is_rest_on_each(&Linked::default(), &words, at))
         };
         assert!(rests("turn to <obj-0> then to <obj-1> , dwelling upon each item for no less than a second"));
         assert!(rests("a pause at each stage"));
