@@ -63,6 +63,14 @@ pub(super) struct Args {
     /// Model to start from [default: random weights]
     #[arg(long, value_name = "MODEL")]
     from: Option<PathBuf>,
+    /// Text encoder that was trained beforehand: a folder with config.json, model.safetensors and vocab.txt of a BERT
+    ///
+    /// As `transformers` stores it. Its word pieces become the vocabulary.
+    #[arg(long, value_name = "DIR", hide_short_help = true, conflicts_with_all = ["names", "new_vocabulary"])]
+    base: Option<PathBuf>,
+    /// Highest learning rate of that encoder, as a share of --rate
+    #[arg(long, value_name = "FRAC", default_value_t = TrainSettings::default().base_rate_frac, hide_short_help = true)]
+    base_rate_frac: f32,
     /// Learn the vocabulary anew although there is a model to start from
     #[arg(long, requires = "from")]
     new_vocabulary: bool,
@@ -200,6 +208,8 @@ impl Args {
             vocabulary: self.vocabulary,
             name: self.name,
             shots: self.shots,
+            base_rate_frac: self.base_rate_frac,
+            base: self.base,
             from: self.from,
             new_vocabulary: self.new_vocabulary,
             threads: self.threads,

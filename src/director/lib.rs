@@ -33,6 +33,7 @@ mod model_files;
 pub mod names;
 pub mod network;
 mod said;
+mod tensor_file;
 
 pub use calibration::Calibration;
 pub use decoding::Choice;

@@ -3,8 +3,9 @@
 use crate::calibration::Calibration;
 use crate::error::DirectorError;
 use crate::inputs::Vocabulary;
-use crate::model_files::{ModelFiles, bad_tokenizer, bad_weights};
+use crate::model_files::{ModelFiles, bad_tokenizer};
 use crate::network::{ModelConfig, Network, Parameters};
+use crate::tensor_file::bad_weights;
 
 /// A network with its vocabulary.
 #[derive(Debug, Clone)]

@@ -1,25 +1,22 @@
 //! A trained model as three files side by side.
 //!
-//! `director.json` describes the other two (sizes, hashes, names of all classes), `director.safetensors` holds the weights
-//! as `f16`, and `director.tokenizer.json` holds the vocabulary.
+//! `director.json` describes the other two (sizes, hashes, names of all classes), `director.safetensors` holds the weights,
+//! and `director.tokenizer.json` holds the vocabulary.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use candle_core::{Device, Tensor};
+use candle_core::Tensor;
 use cinesplat_files::{FileError, Limits, sha256_hex};
-use half::f16;
-use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
 use crate::calibration::Calibration;
 use crate::error::DirectorError;
 use crate::inputs::Vocabulary;
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::network::ModelConfig;
+use crate::tensor_file::{WEIGHTS_FILE, bad, bad_weights, pack_tensors, read_tensors};
 
-/// Name of the file with the weights.
-const WEIGHTS_FILE: &str = "director.safetensors";
 /// Name of the file with the vocabulary.
 const TOKENIZER_FILE: &str = "director.tokenizer.json";
 
@@ -58,7 +55,7 @@ impl ModelFiles {
         })
     }
 
-    /// The files of a network. `tensors` maps names to shapes and values; values are rounded to `f16`.
+    /// The files of a network. `tensors` maps names to shapes and values; values are rounded.
     ///
     /// # Errors
     /// [`DirectorError::BadModel`] when a part cannot be serialized.
@@ -140,11 +137,19 @@ impl ModelFiles {
         Vocabulary::from_json(&self.tokenizer)
     }
 
+    /// The sizes of the network.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] for a bad description, or files that it does not describe.
+    pub fn config(&self) -> Result<ModelConfig, DirectorError> {
+        Ok(self.manifest()?.config)
+    }
+
     /// All tensors by name, as `f32`.
     ///
     /// # Errors
-    /// [`DirectorError::BadModel`] when the file is not a safetensors file, or a tensor is neither `f16` nor `f32` or holds
-    /// a value that is not finite.
+    /// [`DirectorError::BadModel`] when the file is not a safetensors file, or a tensor has another type than this program
+    /// writes, or holds a value that is not finite.
     pub fn tensors(&self) -> Result<BTreeMap<String, Tensor>, DirectorError> {
         read_tensors(&self.weights)
     }
@@ -178,54 +183,7 @@ pub(crate) fn check_hash(file: &str, bytes: &[u8], expected: &str) -> Result<(),
     if found == expected { Ok(()) } else { Err(bad(&file, &format!("SHA-256 {found}"), &expected)) }
 }
 
-/// All tensors of a safetensors file by name, as `f32`.
-pub(crate) fn read_tensors(bytes: &[u8]) -> Result<BTreeMap<String, Tensor>, DirectorError> {
-    let file = SafeTensors::deserialize(bytes).map_err(|error| bad_weights(&error, &"a safetensors file"))?;
-    file.iter().map(|(name, view)| Ok((name.to_owned(), read_tensor(name, &view)?))).collect()
-}
-
-fn read_tensor(name: &str, view: &TensorView<'_>) -> Result<Tensor, DirectorError> {
-    let values: Vec<f32> = match view.dtype() {
-        Dtype::F16 => view.data().as_chunks::<2>().0.iter().map(|b| f16::from_le_bytes(*b).to_f32()).collect(),
-        Dtype::F32 => view.data().as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect(),
-        other => return Err(bad(&name, &format!("{other:?}"), &"F16 or F32")),
-    };
-    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-        return Err(bad(&name, &format!("{} at {at}", values[at]), &"finite numbers"));
-    }
-    Ok(Tensor::from_vec(values, view.shape(), &Device::Cpu)?)
-}
-
-pub(crate) fn pack_tensors(tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>) -> Result<Vec<u8>, DirectorError> {
-    let halves: BTreeMap<&String, (&Vec<usize>, Vec<u8>)> = tensors
-        .iter()
-        .map(|(name, (shape, values))| {
-            (name, (shape, values.iter().flat_map(|value| f16::from_f32(*value).to_le_bytes()).collect()))
-        })
-        .collect();
-    let views = halves
-        .iter()
-        .map(|(name, (shape, bytes))| Ok((*name, TensorView::new(Dtype::F16, (*shape).clone(), bytes)?)))
-        .collect::<Result<Vec<_>, safetensors::SafeTensorError>>();
-    views
-        .and_then(|views| safetensors::serialize(views, None))
-        .map_err(|error| bad_weights(&error, &"tensors that can be written"))
-}
-
-/// The error for a bad weights file.
-pub(crate) fn bad_weights(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
-    bad(&WEIGHTS_FILE, found, expected)
-}
-
 /// The error for a bad tokenizer file.
 pub(crate) fn bad_tokenizer(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
     bad(&TOKENIZER_FILE, found, expected)
-}
-
-pub(crate) fn bad(
-    part: &dyn std::fmt::Display,
-    found: &dyn std::fmt::Display,
-    expected: &dyn std::fmt::Display,
-) -> DirectorError {
-    DirectorError::BadModel { part: part.to_string(), found: found.to_string(), expected: expected.to_string() }
 }

@@ -17,7 +17,7 @@ pub use names::{
 };
 pub use sampler::{LabeledPrompt, PromptSampler, TemplateSplit, exam, exam_objects};
 pub use train::{
-    ErrorCase, EvaluationSplit, Examination, GradientCheck, Mentions, Mistake, Modifier, Modifiers, ParameterCheck,
-    Phrases, Position, ProgramMetrics, ProgressCallback, StepField, Tally, TrainError, TrainSettings, TrainSummary,
-    TrainingProgress, Wish, check_gradients, drawn_sentences, evaluate_director, examine, train,
+    Base, ErrorCase, EvaluationSplit, Examination, GradientCheck, Mentions, Mistake, Modifier, Modifiers,
+    ParameterCheck, Phrases, Position, ProgramMetrics, ProgressCallback, StepField, Tally, TrainError, TrainSettings,
+    TrainSummary, TrainingProgress, Wish, check_gradients, drawn_sentences, evaluate_director, examine, train,
 };

@@ -1,6 +1,7 @@
 //! Tests of `director`: keys and their codes, scene frame, vocabulary, model files, directions.
 
 mod beats;
+mod bert;
 mod calibration;
 mod circles;
 mod codes;

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use cinesplat::director::ModelFiles;
 use cinesplat::training::{TrainSettings, TrainingProgress, check_gradients, train};
 
 /// candle silently drops the gradients of some of its operations, and several operations have hand-written gradients.
@@ -54,6 +55,21 @@ fn a_stopped_training_resumes_to_the_same_weights() {
     let resumed = TrainSettings { resume: true, ..short_training() };
     let resumed = train(&resumed, parted.path(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(resumed.sha256, through.sha256, "the weights depend on the stop or on the number of threads");
+}
+
+#[test]
+fn a_text_encoder_trained_beforehand_is_trained_on_and_goes_into_the_model() {
+    let out = tempfile::tempdir().unwrap();
+    let base = TrainSettings { base: Some("tests/director/bert".into()), steps: 2, ..short_training() };
+    train(&base, out.path(), &mut |_| ControlFlow::Continue(())).unwrap();
+    let files = ModelFiles::read(out.path()).unwrap();
+    assert_eq!(files.config().unwrap().bert.map(|bert| bert.layers), Some(2));
+    assert!(files.vocabulary().unwrap().pieces().contains_key("##ly"));
+    // A training from that model needs the folder no longer.
+    let next = tempfile::tempdir().unwrap();
+    let from = TrainSettings { base: None, from: Some(out.path().to_owned()), ..base };
+    train(&from, next.path(), &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(ModelFiles::read(next.path()).unwrap().config().unwrap(), files.config().unwrap());
 }
 
 #[test]

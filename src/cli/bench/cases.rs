@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use crate::cli::console;
 use crate::cli::failure::{Exit, Failure};
+use crate::cli::model_args::ModelArgs;
 use crate::cli::outputs;
-use cinesplat::director::Director;
 use cinesplat::language::program_from_notation;
 use cinesplat::objects::ObjectSet;
 use cinesplat::operator::{Program, SolveLevel, SolveSettings, World, realize};
@@ -36,6 +36,8 @@ pub(super) struct CaseArgs {
     /// Seed of the camera search
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    #[command(flatten)]
+    models: ModelArgs,
 }
 
 /// A prompt on a scene.
@@ -89,7 +91,7 @@ impl CaseArgs {
             }
             cases.push(case);
         }
-        let interpreter = if programs.is_none() { Some(Director::embedded()?.into()) } else { None };
+        let interpreter = if programs.is_none() { Some(self.models.interpreter()?) } else { None };
         Ok((cases, CaseDirector { interpreter, scenes: BTreeMap::new(), seed: self.seed }))
     }
 }

@@ -21,6 +21,10 @@ impl From<TrainError> for Failure {
             }
             TrainError::Diverged { .. } => (Exit::Fault, "resume from the last checkpoint with a smaller --rate"),
             TrainError::Stopped { .. } => (Exit::Stopped, "the same command with --resume continues from there"),
+            TrainError::BadBase { .. } => (
+                Exit::BadData,
+                "give --base a folder with config.json, model.safetensors and vocab.txt of one BERT model",
+            ),
             TrainError::BadCheckpoint { .. } => {
                 (Exit::BadData, "train into another folder, or give the settings that it was made with")
             }

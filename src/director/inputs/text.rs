@@ -32,6 +32,10 @@ pub fn encode_text(
         sources.push(TokenSource { bytes, word: Some(word_idx), quantity: input.quantity });
         inputs.push(input);
     }
+    if let Some(id) = vocabulary.end() {
+        inputs.push(TokenInput { id, ..TokenInput::default() });
+        sources.push(TokenSource { bytes: [0, 0], word: None, quantity: None });
+    }
     let object_ids = linked.slots.iter().chain(others).copied().collect();
     Ok((inputs, Grounding { object_ids, quantities: linked.quantities.clone(), tokens: sources }))
 }

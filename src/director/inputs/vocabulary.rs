@@ -1,4 +1,4 @@
-//! Text to tokens: byte-pair encoding with the identifiers of objects and quantities as special tokens.
+//! Text to tokens: byte-pair encoding or word pieces, with the identifiers of objects and quantities as special tokens.
 //!
 //! Enters: the linked text, which is lower case and has mentions as `<obj-S>` and `<qty-Q>`. Leaves: token ids with their
 //! byte ranges. The special tokens have fixed ids, so that weights and vocabulary cannot disagree about them.
@@ -29,6 +29,10 @@ const FIRST_OBJECT: u32 = 3;
 const FIRST_QUANTITY: u32 = FIRST_OBJECT + NUM_OBJECT_SLOTS as u32;
 /// The first id after the special tokens.
 const FIRST_PIECE: u32 = FIRST_QUANTITY + NUM_QUANTITY_SLOTS as u32;
+/// Number of special tokens that every vocabulary has.
+pub(crate) const NUM_SPECIAL_TOKENS: usize = FIRST_PIECE as usize;
+/// Text of the token that ends every text in vocabularies of word pieces.
+const END: &str = "<eos>";
 
 /// One token of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,6 +99,40 @@ impl Vocabulary {
         Self::from_json(description.to_string().as_bytes())
     }
 
+    /// A vocabulary of word pieces (Wu et al. 2016): those of a network that was trained beforehand. Its texts end with a token
+    /// of their own, whose id follows those of the special tokens; then come the `pieces`.
+    ///
+    /// # Errors
+    /// [`DirectorError::BadModel`] when `tokenizers` rejects the pieces.
+    pub fn of_word_pieces(pieces: &[String]) -> Result<Self, DirectorError> {
+        let specials: Vec<String> = special_tokens().into_iter().chain([END.to_owned()]).collect();
+        let ids = specials.iter().chain(pieces).zip(0_u32..);
+        let vocab: serde_json::Map<String, Value> = ids.map(|(piece, id)| (piece.clone(), id.into())).collect();
+        let added: Vec<Value> = specials.iter().zip(0_u32..).map(|(text, id)| added_token(text, id)).collect();
+        let description = json!({
+            "version": "1.0",
+            "added_tokens": added,
+            "normalizer": {
+                "type": "BertNormalizer",
+                "clean_text": false, "handle_chinese_chars": true, "strip_accents": true, "lowercase": true,
+            },
+            "pre_tokenizer": {"type": "BertPreTokenizer"},
+            "model": {
+                "type": "WordPiece",
+                "unk_token": "<unk>",
+                "continuing_subword_prefix": merges::CONTINUES,
+                "max_input_chars_per_word": 100,
+                "vocab": vocab,
+            },
+        });
+        Self::from_json(description.to_string().as_bytes())
+    }
+
+    /// Id of the token that ends every text; `None` in vocabularies without one.
+    pub(super) fn end(&self) -> Option<u32> {
+        self.tokenizer.token_to_id(END)
+    }
+
     /// Reads a vocabulary from the JSON of `tokenizers`.
     ///
     /// # Errors
@@ -149,8 +187,9 @@ impl Vocabulary {
         if tokens.is_empty() {
             return Err(DirectorError::EmptyPrompt);
         }
-        if tokens.len() + 1 > MAX_TOKENS {
-            return Err(DirectorError::PromptTooLong { found: tokens.len() + 1, limit: MAX_TOKENS });
+        let around = 1 + usize::from(self.end().is_some());
+        if tokens.len() + around > MAX_TOKENS {
+            return Err(DirectorError::PromptTooLong { found: tokens.len() + around, limit: MAX_TOKENS });
         }
         match tokens.iter().find(|token| token.id as usize >= self.size()) {
             Some(token) => Err(DirectorError::IdBeyondVocabulary { found: token.id, limit: self.size() }),

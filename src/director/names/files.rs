@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use super::network::{NamesConfig, NamesNetwork};
 use crate::error::DirectorError;
-use crate::model_files::{bad, check_hash, pack_tensors, read_capped, read_tensors};
+use crate::model_files::{check_hash, read_capped};
 use crate::network::Parameters;
+use crate::tensor_file::{bad, pack_tensors, read_tensors};
 
 const WEIGHTS_FILE: &str = "names.safetensors";
 const MANIFEST_FILE: &str = "names.json";

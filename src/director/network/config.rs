@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::inputs::NUM_SPECIAL_TOKENS;
+
 /// Sizes of the network.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ModelConfig {
@@ -30,6 +32,9 @@ pub struct ModelConfig {
     /// Number of senses of words; 0 in networks that know none.
     #[serde(default)]
     pub senses: usize,
+    /// Sizes of the part of the text encoder that was trained beforehand; `None` in networks without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bert: Option<BertConfig>,
 }
 
 impl ModelConfig {
@@ -48,6 +53,7 @@ impl ModelConfig {
             axis_features: 32,
             vocabulary,
             senses,
+            bert: None,
         }
     }
 
@@ -66,7 +72,13 @@ impl ModelConfig {
             axis_features: 8,
             vocabulary,
             senses,
+            bert: Some(BertConfig { width: 12, heads: 2, hidden: 20, layers: 2, positions: 256 }),
         }
+    }
+
+    /// Rows of the table of tokens that is not BERT's.
+    pub(super) fn table_rows(&self) -> usize {
+        if self.bert.is_some() { NUM_SPECIAL_TOKENS + 1 } else { self.vocabulary }
     }
 
     /// Whether a network of these sizes can be built and is of a plausible size.
@@ -78,8 +90,36 @@ impl ModelConfig {
             && self.width.is_multiple_of(self.heads)
             && self.width <= 4096
             && self.senses <= 1024
+            && self.bert.as_ref().is_none_or(BertConfig::is_sound)
             && self.hidden <= 16_384
             && self.axis_features.is_multiple_of(2)
             && (2..=512).contains(&self.axis_features)
+    }
+}
+
+/// Sizes of BERT.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BertConfig {
+    /// Width of a token's state.
+    pub width: usize,
+    /// Attention heads; each has an equal part of the width.
+    pub heads: usize,
+    /// Hidden width of a feed-forward layer.
+    pub hidden: usize,
+    /// Number of layers.
+    pub layers: usize,
+    /// Number of positions: the limit on the tokens of a text.
+    pub positions: usize,
+}
+
+impl BertConfig {
+    /// Whether a network of these sizes can be built and is of a plausible size.
+    fn is_sound(&self) -> bool {
+        (1..=4096).contains(&self.width)
+            && (1..=16_384).contains(&self.hidden)
+            && (1..=64).contains(&self.layers)
+            && (256..=4096).contains(&self.positions)
+            && self.heads > 0
+            && self.width.is_multiple_of(self.heads)
     }
 }

@@ -1,13 +1,19 @@
 //! The network: text encoder, Q-former, causal decoders, heads.
 //!
+//! The text encoder may begin with BERT, whose weights were trained beforehand on texts of all kinds: people use more words
+//! than any corpus of camera moves has.
+//!
 //! Enters: a batch of prompts with their objects in the scene's frame, and the keys so far. Leaves: scores of every choice
 //! of the next keys, and poses. All arithmetic is in `f32` on the CPU. Batches are padded; padding does not change a result.
 
 mod attention;
+mod bert;
 mod config;
 mod decoder;
+mod gelu;
 mod heads;
 mod key_batch;
+mod layer_norm;
 mod layers;
 mod norm;
 mod objects;
@@ -17,7 +23,7 @@ mod prompt_batch;
 mod slices;
 mod text;
 
-pub use config::ModelConfig;
+pub use config::{BertConfig, ModelConfig};
 pub use decoder::Memory;
 pub use heads::Scores;
 pub use key_batch::{KeyBatch, anchor_objects};
@@ -82,6 +88,15 @@ impl Network {
             object_tokens: tokens,
             object_tokens_exist: object_tokens_exist.into(),
         })
+    }
+
+    /// States of all tokens in BERT, before the other layers of the text encoder, `[batch, tokens, width of BERT]`; `None` for
+    /// a network without one.
+    ///
+    /// # Errors
+    /// A candle error when a tensor operation fails.
+    pub fn bert_states(&self, batch: &PromptBatch) -> Result<Option<Tensor>> {
+        self.text.bert_states(batch)
     }
 
     /// States that predict each key and the one after the last, each from the keys before it: `[batch, keys + 1, width]`.

@@ -8,6 +8,9 @@ use super::config::ModelConfig;
 use super::padding::padded;
 use crate::inputs::{ObjectInput, PAD, Prompt, TokenInput};
 
+/// Number of kinds of quantities, plus one for all other tokens.
+pub(super) const NUM_KINDS: usize = 7;
+
 /// Prompts as padded tensors. Padding does not change the output for a prompt.
 #[derive(Debug, Clone)]
 pub struct PromptBatch {
@@ -16,6 +19,8 @@ pub struct PromptBatch {
     pub(super) num_objects: usize,
     /// `[batch * tokens]`
     pub(super) ids: Tensor,
+    /// Rows of the table of tokens that is not BERT's: `[batch * tokens]`
+    pub(super) table_ids: Tensor,
     /// `[batch * tokens]`
     pub(super) kinds: Tensor,
     /// Senses of the tokens' words, each row of length 1 or 0: `[batch * tokens, senses]`
@@ -60,6 +65,8 @@ impl PromptBatch {
         };
         let cpu = &Device::Cpu;
         let ids: Vec<u32> = tokens().map(|t| t.map_or(PAD, |t| t.id)).collect();
+        let last_row = u32::try_from(config.table_rows().saturating_sub(1)).unwrap_or(u32::MAX);
+        let table_ids: Vec<u32> = ids.iter().map(|id| (*id).min(last_row)).collect();
         let kinds: Vec<u32> = tokens().map(|t| t.map_or(0, |t| t.kind)).collect();
         let values: Vec<f32> = tokens().map(|t| t.map_or(0.0, |t| t.value)).collect();
         let slots: Vec<u32> = objects().map(|o| o.map_or(PAD, |o| o.slot_token)).collect();
@@ -69,6 +76,7 @@ impl PromptBatch {
             num_tokens,
             num_objects,
             ids: Tensor::from_vec(ids, size * num_tokens, cpu)?,
+            table_ids: Tensor::from_vec(table_ids, size * num_tokens, cpu)?,
             kinds: Tensor::from_vec(kinds, size * num_tokens, cpu)?,
             senses: encode_senses(tokens(), size * num_tokens, config.senses)?,
             values: Tensor::from_vec(values, (size, num_tokens, 1), cpu)?,

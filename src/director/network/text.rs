@@ -2,19 +2,20 @@
 
 use candle_core::{DType, Device, Result, Tensor};
 
+use super::bert::Bert;
 use super::config::ModelConfig;
 use super::layers::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Visibility};
 use super::parameters::{Parameters, Start};
-use super::prompt_batch::PromptBatch;
+use super::prompt_batch::{NUM_KINDS, PromptBatch};
 
-/// Number of kinds of quantities, plus one for all other tokens.
-const NUM_KINDS: usize = 7;
-
-/// Embedding table and bidirectional layers.
+/// Embeddings and bidirectional layers.
 #[derive(Debug, Clone)]
 pub(super) struct TextEncoder {
-    /// `[vocabulary, width]`; the object encoder uses the rows of the object slots too.
+    /// `[vocabulary, width]`, or `[special tokens + 1, width]` with BERT, whose word pieces share the last row. The object
+    /// encoder uses the rows of the object slots too.
     table: Tensor,
+    /// Understands word pieces, if the network was trained on top of one; then its states enter the layers.
+    bert: Option<(Bert, Linear)>,
     /// `[NUM_KINDS, width]`
     kinds: Tensor,
     value: Linear,
@@ -34,7 +35,14 @@ impl TextEncoder {
             ))
         };
         Ok(Self {
-            table: parameters.get("text.table", &[config.vocabulary, width], Start::Normal(0.5))?,
+            table: parameters.get("text.table", &[config.table_rows(), width], Start::Normal(0.5))?,
+            bert: match &config.bert {
+                None => None,
+                Some(bert) => Some((
+                    Bert::new(parameters, bert, config.vocabulary)?,
+                    Linear::new(parameters, "text.from_bert", bert.width, width)?,
+                )),
+            },
             kinds: parameters.get("text.kinds", &[NUM_KINDS, width], Start::Normal(0.5))?,
             value: Linear::new(parameters, "text.value", 1, width)?,
             senses: match config.senses {
@@ -52,14 +60,22 @@ impl TextEncoder {
         self.table.index_select(ids, 0)
     }
 
+    /// States of all tokens in BERT, if there is one: `[batch, tokens, width of BERT]`.
+    pub(super) fn bert_states(&self, batch: &PromptBatch) -> Result<Option<Tensor>> {
+        self.bert.as_ref().map(|(bert, _)| bert.apply(batch, &Dropout::off())).transpose()
+    }
+
     /// States of all tokens: `[batch, tokens, width]`.
     pub(super) fn apply(&self, batch: &PromptBatch, dropout: &Dropout) -> Result<Tensor> {
         let width = self.table.dim(1)?;
         let shape = (batch.size, batch.num_tokens, width);
-        let words = self.rows(&batch.ids)?.reshape(shape)?; // [batch, tokens, width]
+        let words = self.rows(&batch.table_ids)?.reshape(shape)?; // [batch, tokens, width]
         let kinds = self.kinds.index_select(&batch.kinds, 0)?.reshape(shape)?; // [batch, tokens, width]
         let values = self.value.apply(&batch.values)?;
         let mut inputs = ((words + kinds)? + values)?;
+        if let Some((bert, from_bert)) = &self.bert {
+            inputs = (inputs + from_bert.apply(&bert.apply(batch, dropout)?)?)?;
+        }
         if let Some(senses) = &self.senses {
             inputs = (inputs + batch.senses.matmul(senses)?.reshape(shape)?)?;
         }

@@ -27,6 +27,9 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
         if let Some(side) = side_of_end(&words, &is_own).filter(|_| circles && step.amount.is_none()) {
             step.end.side = Some(side);
         }
+        if let Some([first, last]) = profiles(&words) {
+            (step.start.side, step.end.side) = (Some(first), Some(last));
+        }
         let is_turned = step.start.side.is_some() && step.end.side.is_some() && step.start.side != step.end.side;
         if step.movement == Move::Static && step.with.is_empty() && is_turned {
             (step.movement, step.either_way) = (Move::OrbitRight, true);
@@ -35,6 +38,24 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
             step.start.subjects.clone_from(&step.end.subjects);
         }
     }
+}
+
+/// The first and the last of several profiles: `profile from left, then front, then profile from right`. `None` where they
+/// are one side.
+fn profiles(words: &[&str]) -> Option<[SubjectSide; 2]> {
+    let side_of = |word: &&str| match *word {
+        "left" => Some(SubjectSide::FromLeft),
+        "right" => Some(SubjectSide::FromRight),
+        _ => None,
+    };
+    let side_at = |at: usize| {
+        let before = at.checked_sub(1).and_then(|before| side_of(&words[before]));
+        let mut after = words[at + 1..].iter().take(3).skip_while(|word| ["from", "the"].contains(word));
+        before.or_else(|| after.next().and_then(side_of))
+    };
+    let mut sides = (0..words.len()).filter(|at| words[*at] == "profile").filter_map(side_at);
+    let first = sides.next()?;
+    sides.next_back().filter(|last| *last != first).map(|last| [first, last])
 }
 
 /// The side that the words go round to; `None` where they name none or several. `is_own` tells the subject.
@@ -65,5 +86,15 @@ mod tests {
         assert_eq!(side("go round the front"), None);
         assert_eq!(side("go around to the front of <obj-1>"), None);
         assert_eq!(side("round to the front then round to the back"), None);
+    }
+
+    #[test]
+    fn profiles_are_seen_from_the_sides_that_are_named() {
+        let sides = |text: &str| profiles(&text.split(' ').collect::<Vec<_>>());
+        let both = Some([SubjectSide::FromLeft, SubjectSide::FromRight]);
+        assert_eq!(sides("profile from left , then front , then profile from the right"), both);
+        assert_eq!(sides("left profile then right profile"), both);
+        assert_eq!(sides("profile from left"), None);
+        assert_eq!(sides("left profile , then profile from left"), None);
     }
 }

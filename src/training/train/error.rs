@@ -51,6 +51,14 @@ pub enum TrainError {
         /// What was found.
         found: String,
     },
+    /// A text encoder to start from that is not of the family that this program knows.
+    #[error("{}: found {found}, expected BERT as transformers stores it", path.display())]
+    BadBase {
+        /// The file, or the folder and the name of a tensor.
+        path: PathBuf,
+        /// What was found.
+        found: String,
+    },
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
@@ -75,6 +83,7 @@ impl TrainError {
             Self::Diverged { .. } => "TRAIN-DIVERGED",
             Self::Stopped { .. } => "TRAIN-STOPPED",
             Self::BadCheckpoint { .. } => "TRAIN-CHECKPOINT",
+            Self::BadBase { .. } => "TRAIN-BASE",
         }
     }
 }

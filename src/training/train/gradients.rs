@@ -58,8 +58,11 @@ impl TrainableNetwork<'_> {
         let work = |_thread: usize| {
             let mut results = Vec::new();
             loop {
-                let part_idx = next.fetch_add(1, Ordering::Relaxed);
-                let Some(part) = parts.get(part_idx) else { return results };
+                // The longest first, so that no thread waits for another's long part at the end.
+                let Some(part_idx) = parts.len().checked_sub(1 + next.fetch_add(1, Ordering::Relaxed)) else {
+                    return results;
+                };
+                let part = parts[part_idx];
                 let seed = settings.seed ^ (part_idx as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
                 let dropout = Dropout::new(settings.dropout, Pcg64Mcg::seed_from_u64(seed));
                 results.push((part_idx, self.part(&part.iter().collect::<Vec<_>>(), &dropout, scale)));

@@ -1,6 +1,7 @@
 //! Training: examples, loss, optimizer, checkpoints, evaluation.
 
 mod augmentation;
+mod base;
 mod checkpoint;
 mod error;
 mod evaluation;
@@ -25,6 +26,7 @@ mod wishes;
 pub(crate) use loss::whole_rows;
 pub(crate) use optimizer::{AdamSettings, AdamW, learning_rate};
 
+pub use base::Base;
 pub use error::TrainError;
 pub use evaluation::{EvaluationSplit, Examination, Mentions, evaluate_director, examine};
 pub use gradient_check::{GradientCheck, ParameterCheck, check_gradients};

@@ -19,11 +19,13 @@ pub(crate) struct AdamSettings {
     pub(crate) weight_decay: f32,
     /// Largest norm of the gradient of all parameters together; a longer gradient is scaled down to it.
     pub(crate) max_norm: f32,
+    /// Learning rate of the parameters of BERT, which were trained beforehand, over that of the rest.
+    pub(crate) base_rate_frac: f32,
 }
 
 impl Default for AdamSettings {
     fn default() -> Self {
-        Self { beta1: 0.9, beta2: 0.98, epsilon: 1e-8, weight_decay: 0.01, max_norm: 1.0 }
+        Self { beta1: 0.9, beta2: 0.98, epsilon: 1e-8, weight_decay: 0.01, max_norm: 1.0, base_rate_frac: 1.0 }
     }
 }
 
@@ -68,6 +70,7 @@ impl AdamW {
             let moments = self.moments.entry(name.clone()).or_default();
             moments.mean.resize(gradient.len(), 0.0);
             moments.square.resize(gradient.len(), 0.0);
+            let rate = if name.starts_with("bert.") { rate * settings.base_rate_frac } else { rate };
             let decay = if var.rank() >= 2 { rate * settings.weight_decay } else { 0.0 };
             let mut values = var.flatten_all()?.to_vec1::<f32>()?;
             for (idx, value) in values.iter_mut().enumerate() {

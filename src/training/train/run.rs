@@ -11,6 +11,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::augmentation::Augmentation;
+use super::base::Base;
 use super::checkpoint;
 use super::error::TrainError;
 use super::evaluation::{EvaluationSplit, evaluate_director};
@@ -37,7 +38,7 @@ use cinesplat_language::{link, sense_names};
 /// Name of the checkpoint in the output folder.
 const CHECKPOINT_FILE: &str = "checkpoint.safetensors";
 /// Examples per part of a batch, which one thread computes.
-const PART_SIZE: usize = 32;
+const PART_SIZE: usize = 16;
 /// One of this many realized shots is held out of training.
 const HELD_OUT_EVERY: usize = 20;
 /// Examples of the held-out loss.
@@ -94,14 +95,27 @@ pub fn train(
     corpus.extend(Modifiers::embedded().texts());
     let words = words(&corpus);
     let from = settings.from.as_deref().map(ModelFiles::read).transpose()?;
-    let vocabulary = match &from {
-        Some(files) if files.is_current() && !settings.new_vocabulary => files.vocabulary()?,
+    let base = settings.base.as_deref().map(Base::read).transpose()?;
+    // A resumed training keeps the vocabulary of its last checkpoint, even if the lists of words have changed since.
+    let is_kept = settings.resume && ModelFiles::NAMES.iter().all(|name| out.join(name).exists());
+    let vocabulary = match (&base, &from) {
+        _ if is_kept => ModelFiles::read(out)?.vocabulary()?,
+        (Some(base), _) => base.vocabulary(&corpus)?,
+        (None, Some(files)) if files.is_current() && !settings.new_vocabulary => files.vocabulary()?,
         _ => Vocabulary::train(&corpus, settings.vocabulary)?,
     };
-    let config = ModelConfig::shipped(vocabulary.size(), sense_names()?.len());
+    let bert = match (&base, &from) {
+        (Some(base), _) => Some(base.config()),
+        (None, Some(files)) if files.is_current() && !settings.new_vocabulary => files.config()?.bert,
+        _ => None,
+    };
+    let config = ModelConfig { bert, ..ModelConfig::shipped(vocabulary.size(), sense_names()?.len()) };
     let mut parameters = Parameters::seeded(settings.seed);
     let network = Network::new(&mut parameters, &config)?;
     let vars = trainable(&mut parameters, from.as_ref(), &vocabulary)?;
+    if let Some(base) = &base {
+        base.load(&vars, &vocabulary)?;
+    }
     let shots_frac = if learned.is_empty() { 0.0 } else { settings.shots_frac };
     let sampler = ExampleSampler {
         prompts,
@@ -230,7 +244,8 @@ impl Training<'_> {
         let trainable = TrainableNetwork { network: &self.network, config: &self.config, vars: &self.vars };
         let result = trainable.gradients(&mut examples, &batch)?;
         let rate = self.rate();
-        let norm = self.optimizer.step(&self.vars, &result.gradients, rate, &AdamSettings::default())?;
+        let adam = AdamSettings { base_rate_frac: self.settings.base_rate_frac, ..AdamSettings::default() };
+        let norm = self.optimizer.step(&self.vars, &result.gradients, rate, &adam)?;
         let found = result.choice_loss + result.pose_loss + f64::from(norm);
         if !found.is_finite() {
             return Err(TrainError::Diverged { step, found });

@@ -39,6 +39,12 @@ pub struct TrainSettings {
     /// Folder of realized shots. Without one, the network learns programs only, not poses.
     #[serde(skip)]
     pub shots: Option<PathBuf>,
+    /// Highest learning rate of the text encoder that was trained beforehand, over that of the rest.
+    pub base_rate_frac: f32,
+    /// Folder of a text encoder that was trained beforehand (BERT as `transformers` stores it), instead of one with random
+    /// weights. Its word pieces are the vocabulary.
+    #[serde(skip)]
+    pub base: Option<PathBuf>,
     /// Model whose weights and vocabulary the training starts from, instead of random weights.
     #[serde(skip)]
     pub from: Option<PathBuf>,
@@ -83,6 +89,8 @@ impl Default for TrainSettings {
             name: "director-3".into(),
             sentences: None,
             shots: None,
+            base_rate_frac: 0.1,
+            base: None,
             from: None,
             new_vocabulary: false,
             threads: 2,

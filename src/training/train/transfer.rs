@@ -45,7 +45,7 @@ fn places(name: &str, (tensor, var): (&Tensor, &Var), pieces: &Places) -> Option
     let first = |from: usize, to: usize| (0..to).map(|place| Some(place).filter(|place| *place < from)).collect();
     let is_classes = |size: usize| size == v1_classes();
     match name {
-        "text.table" => Some((pieces.clone(), first(old[1], new[1]))),
+        "text.table" | "bert.table" => Some((pieces.iter().take(new[0]).copied().collect(), first(old[1], new[1]))),
         "intent.key.classes.weight" | "pose.key.classes.weight" if is_classes(old[0]) => {
             Some((class_places(), first(old[1], new[1])))
         }
