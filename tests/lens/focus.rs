@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use cinesplat::lens::{CalledEffect, EffectChoice, EffectPlan, Moment, OpticsTrack, Take};
+use cinesplat::lens::{Call, Called, CalledEffect, Calls, EffectChoice, EffectPlan, Moment, OpticsTrack, Take};
 use cinesplat::render::{Frame, RenderSettings, Renderer};
 use cinesplat::scene::Gaussians;
 use cinesplat::trajectory::{Easing, KeyOptics, Keyframe};
@@ -275,4 +275,39 @@ fn a_resting_frame_through_an_open_lens_is_repeated_until_its_focus_moves() {
         assert_eq!(frame_of(&plan, take, 0, &renderer).rgb, frame_of(&plan, take, 1, &renderer).rgb);
         assert_ne!(frame_of(&plan, take, 1, &renderer).rgb, frame_of(&plan, take, 2, &renderer).rgb);
     });
+}
+
+/// The plan chose an f-stop that the film did not use, and the saved shot stated it.
+#[test]
+fn the_f_stop_of_keyframes_is_overruled_in_the_reason_by_one_that_is_chosen() {
+    let scene = board();
+    let renderer = Renderer::new(&scene);
+    let optics = KeyOptics { f_stop: Some(0.3), ..KeyOptics::default() };
+    let open = |secs: f64, focus_distance: f64| Keyframe { optics, ..key(secs, false, Some(focus_distance)) };
+    let keys = [open(0.0, 2.0), open(0.2, 6.0)];
+    let earlier = Call {
+        because: "shallow focus: f/1.37 for a circle of confusion of 3.2 px infinitely far away".to_owned(),
+        ..call("depth-of-field", &[("f_stop", 1.37), ("meters_per_unit", 1.0)])
+    };
+    for (calls, because) in [
+        (vec![], "f_stop of keyframe 0"),
+        (vec![call("depth-of-field", &[])], "the test"),
+        (vec![call("rack-focus", &[])], "the test"),
+        (vec![earlier], "shallow focus"),
+    ] {
+        let calls = Calls { calls: &calls, forbidden: &[], moves: &[], keyframes: &keys, scene_size: 1.0, seed: 0 };
+        let effects = Called::of(&EffectChoice::Auto, &calls).effects;
+        with_shot(0.0, &keys, |take| {
+            let plan = plan_of(&effects, take, &renderer);
+            assert_eq!((plan.effects.len(), plan.effects[0].because.as_str()), (1, because));
+            let settings = plan.effects[0].settings();
+            assert!(settings.iter().all(|(name, _)| !["f_stop", "background_blur"].contains(name)), "{settings:?}");
+            // The circle of the wall is that of the keyframes' f-stop.
+            let own = camera(SIZE).intrinsics;
+            let aperture = 0.036 * own.fx_px / f64::from(own.width) / 0.3;
+            let wanted = own.fx_px * aperture * (1.0 / 2.0 - 1.0 / 6.0);
+            let circle_px = plan.effects[0].losses()[0].error;
+            assert!((circle_px / wanted - 1.0).abs() < 0.05, "{circle_px} instead of {wanted}");
+        });
+    }
 }

@@ -233,3 +233,37 @@ fn a_lens_flares_only_where_something_is_really_bright() {
     };
     assert!(left_above(&mut with) > left_above(&mut without) + 0.01);
 }
+
+/// The pictures had their alpha, and the report said that nothing was done.
+#[test]
+fn a_transparent_background_is_reported_as_skipped() {
+    let nothing = Gaussians::default();
+    let renderer = Renderer::new(&nothing);
+    let plan = |effects: &[_]| {
+        with_take(effects, SIZE, |take| {
+            EffectPlan::of(effects, take, 0..3, (&renderer, &RenderSettings::default())).unwrap()
+        })
+    };
+    let clear = plan(&effect("background", &[("alpha", 1.0)]));
+    insta::assert_snapshot!(clear.sentences()[0], @"background: on 3 of 3 frames, largest change of the background 1.00 of 1 > 0.0020 ('the test')");
+    assert!(clear.is_transparent());
+    // Black over black is nothing.
+    let black = plan(&effect("background", &[]));
+    assert!(black.is_plain(1) && black.sentences()[0].contains("skipped on 3 of 3 frames"), "{:?}", black.sentences());
+}
+
+/// Beyond half a turn it was infinite, and a little below some thousand pixels.
+#[test]
+fn a_fisheye_shifts_the_corners_by_infinity() {
+    let nothing = Gaussians::default();
+    let renderer = Renderer::new(&nothing);
+    let half_diagonal = 0.5 * f64::from(SIZE[0]).hypot(f64::from(SIZE[1]));
+    let plain_deg = 2.0 * (half_diagonal / camera(SIZE).intrinsics.fx_px).atan().to_degrees();
+    for fov_deg in [1.0, plain_deg, 140.0, 179.9, 180.0, 220.0, 360.0] {
+        let fisheye = effect("fisheye", &[("fov_deg", fov_deg)]);
+        let plan =
+            with_take(&fisheye, SIZE, |take| EffectPlan::of(&fisheye, take, 0..1, (&renderer, &settings())).unwrap());
+        let shift_px = plan.effects[0].losses()[0].error;
+        assert!(!plan.is_plain(0) && shift_px > 1.0 && shift_px < half_diagonal, "{fov_deg} degrees: {shift_px} px");
+    }
+}

@@ -30,12 +30,14 @@ pub(super) enum Item {
     Stops,
     /// One to three words.
     Wild,
-    /// Up to four words that say nothing of their own: `should be very`.
+    /// Up to four words that say nothing of their own, and negations: `should be very`, `should not be`.
     Loose,
     /// Up to nine words of the sentence.
     Span,
     /// No word: the end of what belongs together.
     End,
+    /// No word: the end of a clause that no `to`, `with` or `at` continues.
+    ClauseEnd,
     /// One of a named list.
     Of(Arc<Ways>),
 }
@@ -47,10 +49,48 @@ pub(super) struct Text<'a> {
     pub(super) words: &'a [Word],
     /// Words that a `..` may stand for.
     pub(super) loose: &'a BTreeSet<String>,
+    /// Negations that a `..` may stand for.
+    pub(super) negating: &'a BTreeSet<String>,
+    /// Words that make a negation a matter of degree.
+    pub(super) moderating: &'a BTreeSet<String>,
 }
 
-/// Words taken by some items, and the number in them.
-pub(super) type Taken = (usize, Option<f64>);
+/// Words taken by some items.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Taken {
+    /// Number of the words.
+    pub(super) len: usize,
+    /// The number in them.
+    pub(super) number: Option<f64>,
+    /// Whether a `..` stands for a negation among them: `the corners should not be dark`.
+    pub(super) is_negated: bool,
+}
+
+impl Taken {
+    /// Words without a number or a negation.
+    fn words(len: usize) -> Self {
+        Self { len, ..Self::default() }
+    }
+
+    /// A number of some words.
+    fn number((len, value): (usize, f64)) -> Self {
+        Self { len, number: Some(value), is_negated: false }
+    }
+
+    /// These words and those of later items.
+    pub(super) fn then(self, later: Self) -> Self {
+        Self {
+            len: self.len + later.len,
+            number: self.number.or(later.number),
+            is_negated: self.is_negated != later.is_negated,
+        }
+    }
+
+    /// The larger, the better: more words, then those without a negation.
+    pub(super) fn rank(self) -> (usize, bool) {
+        (self.len, !self.is_negated)
+    }
+}
 
 /// The choices of `a b|c+|$list`.
 ///
@@ -78,6 +118,7 @@ fn items_of(token: &str, lists: &Lists) -> Result<Ways, &'static str> {
         ".." => Item::Loose,
         "..." => Item::Span,
         ";" => Item::End,
+        ";;" => Item::ClauseEnd,
         _ if token.starts_with('#') => {
             let (least, most) = token[1..].split_once("..").ok_or("a number without bounds")?;
             let bound = |digits: &str| digits.parse().map_err(|_| "a bound that is no number");
@@ -93,6 +134,10 @@ fn items_of(token: &str, lists: &Lists) -> Result<Ways, &'static str> {
 fn words_of(token: &str) -> Ways {
     if let Some(base) = token.strip_suffix('+').filter(|base| !base.is_empty()) {
         return forms(base).into_iter().map(|form| vec![Item::Word(form)]).collect();
+    }
+    // The end of `shouldn't` is a word of its own.
+    if token.starts_with('\'') {
+        return vec![vec![Item::Word(token.to_owned())]];
     }
     vec![tokenize(token).into_iter().map(|word| Item::Word(word.text)).collect()]
 }
@@ -113,43 +158,58 @@ pub(super) fn spans(items: &[Item]) -> bool {
 
 /// Every way in which some items are at a word.
 pub(super) fn ways_at(items: &[Item], text: Text<'_>, at: usize) -> Vec<Taken> {
-    let Some((item, rest)) = items.split_first() else { return vec![(0, None)] };
-    let after = |(len, number): Taken| {
-        let further = ways_at(rest, text, at + len);
-        further.into_iter().map(move |(more, later)| (len + more, number.or(later)))
-    };
+    let Some((item, rest)) = items.split_first() else { return vec![Taken::default()] };
+    let after = |taken: Taken| ways_at(rest, text, at + taken.len).into_iter().map(move |further| taken.then(further));
     item_at(item, text, at).into_iter().flat_map(after).collect()
 }
 
 /// Every way in which an item is at a word.
 fn item_at(item: &Item, text: Text<'_>, at: usize) -> Vec<Taken> {
     let words = text.words;
-    let lens = |first: usize, num: usize| (first..=num).map(|len| (len, None)).collect();
+    let lens = |first: usize, num: usize| (first..=num).map(Taken::words).collect();
+    let none_if = |holds: bool| if holds { vec![Taken::default()] } else { Vec::new() };
     let is_word = |at: &usize| words.get(*at).is_some_and(|word| word.text.chars().any(char::is_alphanumeric));
     match item {
         Item::Word(wanted) => {
-            words.get(at).filter(|word| word.text == *wanted).map(|_| (1, None)).into_iter().collect()
+            words.get(at).filter(|word| word.text == *wanted).map(|_| Taken::words(1)).into_iter().collect()
         }
         Item::Number(least, most) => {
             let number = signed(text, at, cardinal_at(words, at)).filter(|(_, value)| (least..=most).contains(&value));
-            number.map(|(len, value)| (len, Some(value))).into_iter().collect()
+            number.map(Taken::number).into_iter().collect()
         }
-        Item::Stops => stops_at(text, at).map(|(len, value)| (len, Some(value))).into_iter().collect(),
+        Item::Stops => stops_at(text, at).map(Taken::number).into_iter().collect(),
         Item::Wild => lens(1, (at..at + MAX_WILD).take_while(is_word).count()),
-        Item::Loose => lens(0, (at..at + MAX_LOOSE).take_while(|at| text.loose.contains(word_at(words, *at))).count()),
+        Item::Loose => loose_at(text, at),
         Item::Span => {
             let goes_on = |at: &usize| is_word(at) || word_at(words, *at) == ",";
             lens(1, (at..at + MAX_SPAN).take_while(goes_on).count())
         }
-        Item::End => {
-            if ends_at(words, at) {
-                vec![(0, None)]
-            } else {
-                Vec::new()
-            }
-        }
+        Item::End => none_if(ends_at(words, at)),
+        Item::ClauseEnd => none_if(ends_clause_at(words, at)),
         Item::Of(ways) => ways.iter().flat_map(|way| ways_at(way, text, at)).collect(),
     }
+}
+
+/// Every way in which a `..` stands for words at a word. A negation that is a matter of degree is none: `should not be
+/// too dark`.
+fn loose_at(text: Text<'_>, at: usize) -> Vec<Taken> {
+    let mut ways = vec![Taken::default()];
+    let (mut taken, mut num_loose) = (Taken::default(), 0);
+    loop {
+        let word = word_at(text.words, at + taken.len);
+        let is_degree = taken.is_negated && text.moderating.contains(word);
+        if text.negating.contains(word) {
+            taken.is_negated = true;
+        } else if text.loose.contains(word) && num_loose < MAX_LOOSE && !is_degree {
+            num_loose += 1;
+        } else {
+            break;
+        }
+        taken.len += 1;
+        ways.push(taken);
+    }
+    ways.retain(|way| !way.is_negated || !text.moderating.contains(word_at(text.words, at + way.len)));
+    ways
 }
 
 /// Whether nothing that belongs to the words before stands at a word.
@@ -158,6 +218,15 @@ fn ends_at(words: &[Word], at: usize) -> bool {
     let is_joint =
         matches!(word, "and" | "then" | "so" | "with" | "while" | "as" | "but" | "for" | "at" | "to" | "please");
     is_joint || !word.starts_with(char::is_alphanumeric)
+}
+
+/// Whether a clause ends before a word. The point of `ca. 3 m` ends none.
+fn ends_clause_at(words: &[Word], at: usize) -> bool {
+    match word_at(words, at) {
+        "and" | "then" | "so" | "but" | "while" | "please" | "because" | "since" | "though" | "tho" | "thanks" => true,
+        "." => cardinal_at(words, at + 1).is_none(),
+        word => !word.starts_with(char::is_alphanumeric),
+    }
 }
 
 /// A number with the minus sign before it.

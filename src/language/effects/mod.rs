@@ -3,6 +3,7 @@
 //! Enters: the words of a prompt, and which of them name objects. Leaves: the mentions of effects in order, each with
 //! its degree, its settings and whether it is forbidden. `prompts/effects.txt` holds the phrases.
 
+mod dismissal;
 mod item;
 mod lookalike;
 mod phrase;
@@ -55,7 +56,7 @@ pub fn effect_mentions(prompt: &str, linked: &Linked) -> Result<Vec<EffectMentio
         placeholders.filter(|(word, _)| word.starts_with(OBJECT)).map(|(_, span)| *span).collect();
     let phrases = phrases_in(prompt, &words, &objects)?;
     let mut mentions: Vec<EffectMention> = Vec::new();
-    let is_negated = forbidden(Context { table: Table::embedded()?, words: &words, phrases: &phrases });
+    let is_negated = forbidden(Context { table: Table::embedded()?, prompt, words: &words, phrases: &phrases });
     let (strong, weak): (Vec<_>, Vec<_>) =
         phrases.iter().enumerate().partition(|(_, found)| found.row.meaning != Meaning::Suggests);
     for (at, found) in strong.into_iter().chain(weak) {

@@ -18,6 +18,8 @@ pub(super) struct Found<'a> {
     pub(super) is_stuff: bool,
     /// Whether other phrases may be among its words.
     pub(super) spans: bool,
+    /// Whether a negation is among its words: `the corners should not be dark`.
+    pub(super) is_negated: bool,
     /// The line of the table.
     pub(super) row: &'a Row,
 }
@@ -89,12 +91,12 @@ pub(super) fn first_words(parts: &[Part]) -> BTreeSet<String> {
 
 /// The longest way in which a phrase is at a word.
 pub(super) fn match_at(parts: &[Part], text: Text<'_>, at: usize) -> Option<Taken> {
-    let Some((part, rest)) = parts.split_first() else { return Some((0, None)) };
+    let Some((part, rest)) = parts.split_first() else { return Some(Taken::default()) };
     let mut best = if part.is_optional { match_at(rest, text, at) } else { None };
     for way in &part.ways {
-        for (len, number) in ways_at(way, text, at) {
-            let whole = match_at(rest, text, at + len).map(|(more, later)| (len + more, number.or(later)));
-            if whole.map(|(len, _)| len) > best.map(|(len, _)| len) {
+        for taken in ways_at(way, text, at) {
+            let whole = match_at(rest, text, at + taken.len).map(|further| taken.then(further));
+            if whole.map(Taken::rank) > best.map(Taken::rank) {
                 best = whole;
             }
         }

@@ -35,6 +35,7 @@ impl Scope {
 #[derive(Clone, Copy)]
 pub(super) struct Context<'a> {
     pub(super) table: &'a Table,
+    pub(super) prompt: &'a str,
     pub(super) words: &'a [Word],
     pub(super) phrases: &'a [Found<'a>],
 }
@@ -48,17 +49,18 @@ pub(super) fn forbidden(context: Context<'_>) -> Vec<bool> {
     while at < words.len() {
         if let Some(idx) = phrases.iter().position(|found| found.start == at && !found.spans) {
             at = phrases[idx].end();
-            let after = context.is_forbidden_after(at);
-            result[idx] |= scope.is_some() != after;
-            if after && scope.is_none() {
+            let dismissal = context.dismissal_after(&phrases[idx], scope.is_some());
+            result[idx] |= scope.is_some() ^ dismissal.is_some() ^ phrases[idx].is_negated;
+            if dismissal.is_some() && scope.is_none() {
                 context.forbid_list_before(idx, &mut result);
             }
+            at += dismissal.unwrap_or_default();
             scope = scope.filter(|scope| context.goes_on(at, scope.start));
             continue;
         }
         // A phrase whose words stand apart begins inside what covers it: `don't let the focus start on A and end on B`.
         if let Some(idx) = phrases.iter().position(|found| found.start == at && found.spans) {
-            result[idx] |= scope.is_some();
+            result[idx] |= scope.is_some() != phrases[idx].is_negated;
         }
         scope = context.next_scope(at, scope);
         at += 1;
@@ -95,6 +97,13 @@ impl Context<'_> {
                 None
             }
             "turn" | "turned" | "switch" | "leave" | "take" if matches!(follows(1), "off" | "out") => {
+                Some(Scope::from(at))
+            }
+            // `keep out of the fog` is a path.
+            "keep" | "filter" | "edit" if follows(1) == "out" && follows(2) != "of" => Some(Scope::from(at)),
+            "enough" | "sick" | "tired" if follows(1) == "of" => Some(Scope::from(at)),
+            "spare" if matches!(follows(1), "me" | "us") => Some(Scope::from(at)),
+            "away" if follows(1) == "with" && at > 0 && matches!(self.word(at - 1), "do" | "doing" | "done") => {
                 Some(Scope::from(at))
             }
             // `can't wait to see`, `without a doubt`.
@@ -170,14 +179,18 @@ impl Context<'_> {
         }
     }
 
+    /// The number of words right behind a phrase that do nothing but forbid it, if words behind it do: `grain has to
+    /// go`, `grain off`. Behind a phrase that a negation covers, only those that take the negation back.
+    fn dismissal_after(&self, found: &Found<'_>, is_covered: bool) -> Option<usize> {
+        let text = self.table.text(self.prompt, self.words)?;
+        let dismissals = self.table.dismissals().iter().filter(|dismissal| !is_covered || dismissal.takes_back());
+        let dismissal = dismissals.filter_map(|dismissal| dismissal.len_after(text, found)).max();
+        dismissal.or_else(|| self.is_forbidden_after(found.end()).then_some(0))
+    }
+
     /// Whether the words after a phrase forbid it: `grain off`, `blur-free`, `motion blur: none`, `grain is added in
     /// post`.
     fn is_forbidden_after(&self, end: usize) -> bool {
-        let is_end = |at: usize| !self.word(at).starts_with(|c: char| c.is_alphanumeric());
-        // `grain yes, flares no`.
-        if self.word(end) == "no" && is_end(end + 1) {
-            return true;
-        }
         let between = (end..end + AFTER_REACH).take_while(|at| self.lists(WordKind::Between, *at)).count();
         let at = end + between;
         let (first, second) = (self.word(at), self.word(at + 1));

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
-use super::item::{Lists, Text, ways_of};
+use super::dismissal::Dismissal;
+use super::item::{Lists, Taken, Text, ways_of};
 use super::phrase::{Found, Part, first_words, match_at, parts_of};
 use super::row::{Row, row_of};
 use crate::error::LanguageError;
@@ -44,6 +45,8 @@ pub(super) enum WordKind {
     Between,
     /// A `..` may stand for it.
     Loose,
+    /// A `..` may stand for it: then the phrase is negated.
+    Negates,
     /// Takes back the negation before it.
     TakesBack,
     /// Makes the negation before it a matter of degree.
@@ -62,6 +65,8 @@ pub(super) struct Table {
     rows: Vec<Row>,
     /// Phrases by their first word; those that begin with a number under an empty one.
     phrases: BTreeMap<String, Vec<Phrase>>,
+    /// Phrases that forbid the effect before them.
+    dismissals: Vec<Dismissal>,
 }
 
 impl Table {
@@ -92,6 +97,9 @@ impl Table {
             let kind = kind.parse().map_err(|_| "an unknown list of words")?;
             self.words.entry(kind).or_default().extend(phrases.split(',').map(|word| word.trim().to_owned()));
             return Ok(());
+        }
+        if let Some(opening) = head.strip_prefix('<') {
+            return Dismissal::all_of(opening, phrases, &self.lists).map(|more| self.dismissals.extend(more));
         }
         if let Some(name) = head.strip_prefix('$') {
             let choices: Vec<&str> = phrases.split(',').map(str::trim).collect();
@@ -131,19 +139,32 @@ impl Table {
         self.words.get(&kind).is_some_and(|words| words.contains(word))
     }
 
+    /// Words of a prompt, with those of them that a `..` may stand for.
+    pub(super) fn text<'a>(&'a self, prompt: &'a str, words: &'a [Word]) -> Option<Text<'a>> {
+        let of = |kind: WordKind| self.words.get(&kind);
+        let (loose, negating) = (of(WordKind::Loose)?, of(WordKind::Negates)?);
+        Some(Text { prompt, words, loose, negating, moderating: of(WordKind::Moderates)? })
+    }
+
+    /// Phrases that forbid the effect before them.
+    pub(super) fn dismissals(&self) -> &[Dismissal] {
+        &self.dismissals
+    }
+
     /// The longest phrase that begins at a word.
     pub(super) fn longest_at<'a>(&'a self, prompt: &str, words: &[Word], at: usize) -> Option<Found<'a>> {
         let first = words.get(at)?.text.as_str();
         let own = self.phrases.get(first).into_iter().flatten();
         let numbers = self.phrases.get("").into_iter().flatten();
-        let text = Text { prompt, words, loose: self.words.get(&WordKind::Loose)? };
+        let text = self.text(prompt, words)?;
         let mut best: Option<Found<'a>> = None;
         for phrase in own.chain(numbers) {
-            if let Some((len, number)) = match_at(&phrase.parts, text, at)
-                && best.as_ref().is_none_or(|best| len > best.len)
+            if let Some(taken) = match_at(&phrase.parts, text, at)
+                && best.as_ref().is_none_or(|best| taken.rank() > (best.len, !best.is_negated))
             {
                 let Phrase { is_stuff, spans, row, .. } = *phrase;
-                best = Some(Found { start: at, len, number, is_stuff, spans, row: &self.rows[row] });
+                let Taken { len, number, is_negated } = taken;
+                best = Some(Found { start: at, len, number, is_stuff, spans, is_negated, row: &self.rows[row] });
             }
         }
         best
