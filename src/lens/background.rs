@@ -44,6 +44,10 @@ impl Effect for Background {
     }
 
     fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
+        if self.is_transparent {
+            // Without the effect the film is opaque.
+            return Ok(Loss::of_one_sample(1.0, budget.color));
+        }
         let plain = frame.moment.render.background.to_array().map(f64::from);
         let change = self.color.iter().zip(plain).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
         Ok(Loss::of_one_sample(change, budget.color))

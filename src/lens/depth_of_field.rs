@@ -41,9 +41,14 @@ pub enum Focus {
     },
 }
 
-/// How wide the aperture is, where no keyframe has an f-stop.
+/// How a reason ends that says what was chosen: see [`without_choice`].
+const CHOICE_END: &str = " px infinitely far away";
+
+/// How wide the aperture is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Opening {
+    /// As keyframes say: nothing is chosen.
+    OfKeyframes,
     /// Focal length over diameter, on a sensor of [`super::SENSOR_M`].
     FStop(f64),
     /// The f-stop that gives circles of this diameter, pixels, infinitely far away in the first frame.
@@ -104,7 +109,7 @@ impl DepthOfField {
     fn lens(&self, moment: &Moment<'_>) -> Option<ThinLens> {
         let f_stop = moment.take.optics.f_stop(moment.time_secs).or(match self.opening {
             Opening::FStop(f_stop) | Opening::Chosen { f_stop, .. } => Some(f_stop),
-            Opening::BackgroundBlur(_) => None,
+            Opening::OfKeyframes | Opening::BackgroundBlur(_) => None,
         })?;
         let aperture = Aperture { f_stop, meters_per_unit: self.meters_per_unit };
         let Camera { intrinsics, .. } = (moment.take.camera_at)(moment.time_secs);
@@ -115,6 +120,9 @@ impl DepthOfField {
     /// focus. Unchanged where the keyframes have no two focus distances.
     pub(super) fn opened_between(&self, first: &FrameFacts<'_>) -> Self {
         let Opening::BackgroundBlur(frac) = self.opening else { return *self };
+        if is_stated(first) {
+            return *self;
+        }
         let Some([near, far]) = first.moment.take.optics.focus_range().filter(|[near, far]| near < far) else {
             return *self;
         };
@@ -130,12 +138,15 @@ impl DepthOfField {
     /// The effect with a focus and an f-stop.
     pub(super) fn settled(&self, first: &FrameFacts<'_>) -> Result<Self, RenderError> {
         let mut settled = *self;
+        if is_stated(first) {
+            settled.opening = Opening::OfKeyframes;
+        }
         if self.focus_distance(&first.moment).is_none() {
             let Camera { pose, .. } = first.moment.camera;
             let distance = middle_depth(first)?.unwrap_or(f64::MAX.sqrt());
             settled.focus = Focus::Point { point: pose.position + pose.forward() * distance, nearer: 0.0 };
         }
-        if let (Opening::BackgroundBlur(frac), Some(focus)) = (self.opening, settled.focus_distance(&first.moment)) {
+        if let (Opening::BackgroundBlur(frac), Some(focus)) = (settled.opening, settled.focus_distance(&first.moment)) {
             let Camera { intrinsics, .. } = first.moment.camera;
             // At twice the focus distance the circle has half the diameter of one at infinity.
             let circle_px = 2.0 * frac * f64::from(intrinsics.height);
@@ -148,6 +159,19 @@ impl DepthOfField {
         }
         Ok(settled)
     }
+}
+
+/// Whether keyframes say how wide the aperture is.
+fn is_stated(first: &FrameFacts<'_>) -> bool {
+    first.moment.take.optics.f_stop(first.moment.time_secs).is_some()
+}
+
+/// A call without what an earlier plan chose for it, where keyframes now say how wide the aperture is.
+fn without_choice(call: Call, calls: &Calls<'_>) -> Call {
+    let has_choice =
+        call.because.ends_with(CHOICE_END) && calls.keyframes.iter().any(|key| key.optics.f_stop.is_some());
+    let words = call.because.rsplit_once(": f/").filter(|_| has_choice).map(|(words, _)| words.to_owned());
+    Call { because: words.unwrap_or_else(|| call.because.clone()), ..call }
 }
 
 /// Median depth of the middle of a frame; of the whole frame, if there is nothing in the middle. `None` for an empty one.
@@ -170,7 +194,8 @@ pub(super) const RACK_FOCUS: &str = "rack-focus";
 
 /// The call for a rack focus, by words or by the move.
 pub(super) fn rack_focus_call(calls: &Calls<'_>) -> Option<Call> {
-    calls.named(RACK_FOCUS).cloned().or_else(|| calls.of_move(RACK_FOCUS, Move::RackFocus))
+    let call = calls.named(RACK_FOCUS).cloned().or_else(|| calls.of_move(RACK_FOCUS, Move::RackFocus));
+    call.map(|call| without_choice(call, calls))
 }
 
 impl EffectKind for DepthOfField {
@@ -185,7 +210,8 @@ impl EffectKind for DepthOfField {
         }
         let of_key = || calls.of_keyframes(Self::NAME, "f_stop", |key| key.optics.f_stop.is_some());
         let of_focus = || calls.of_keyframes(Self::NAME, "focus_distance", |key| key.focus_distance.is_some());
-        calls.named(Self::NAME).cloned().or_else(of_key).or_else(of_focus)
+        let call = calls.named(Self::NAME).cloned().or_else(of_key).or_else(of_focus);
+        call.map(|call| without_choice(call, calls))
     }
 
     fn called_for(call: &Call, _: &Calls<'_>) -> Option<Self> {
@@ -196,6 +222,7 @@ impl EffectKind for DepthOfField {
 impl Effect for DepthOfField {
     fn settings(&self) -> Vec<(&'static str, f64)> {
         let mut settings = match self.opening {
+            Opening::OfKeyframes => Vec::new(),
             Opening::FStop(f_stop) | Opening::Chosen { f_stop, .. } => vec![("f_stop", f_stop)],
             Opening::BackgroundBlur(frac) => vec![("background_blur", frac)],
         };
@@ -212,7 +239,7 @@ impl Effect for DepthOfField {
 
     fn chose(&self) -> Option<String> {
         let Opening::Chosen { f_stop, circle_px } = self.opening else { return None };
-        Some(format!("f/{f_stop:.2} for a circle of confusion of {circle_px:.1} px infinitely far away"))
+        Some(format!("f/{f_stop:.2} for a circle of confusion of {circle_px:.1}{CHOICE_END}"))
     }
 
     fn shares_samples(&self) -> bool {

@@ -12,6 +12,9 @@ use super::moment::{Moment, Take};
 use super::resample::through;
 use super::seen::FrameFacts;
 
+/// Angles from the view axis at which the lens is compared with a pinhole.
+const NUM_ANGLES: u32 = 16;
+
 /// A fisheye lens that fills the frame: the distance from the middle is proportional to the angle from the view axis. It
 /// takes the place of the shot's lens: a zoom does not change it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,19 +55,21 @@ impl Effect for Fisheye {
     }
 
     fn measure(&self) -> (&'static str, &'static str) {
-        ("shift of the corners", "px")
+        ("largest shift of what both lenses show", "px")
     }
 
     fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
         let intrinsics = frame.moment.camera.intrinsics;
         let corner = 0.5 * f64::from(intrinsics.width).hypot(f64::from(intrinsics.height));
-        // The plain picture shows the same direction elsewhere, or nowhere.
-        let plain = if self.fov_rad < std::f64::consts::PI {
-            intrinsics.fx_px * (self.fov_rad / 2.0).tan()
-        } else {
-            f64::INFINITY
+        let (own, plain) = (self.fov_rad / 2.0, (corner / intrinsics.fx_px).atan());
+        // Beyond the narrower of the two only one of them shows something, and nothing can be compared.
+        let widest = own.min(plain);
+        let shift_px = |part: u32| {
+            let angle = widest * f64::from(part) / f64::from(NUM_ANGLES);
+            (angle / own * corner - intrinsics.fx_px * angle.tan()).abs()
         };
-        Ok(Loss::of_one_sample((plain - corner).abs(), budget.shift_px))
+        let shift_px = (1..=NUM_ANGLES).map(shift_px).fold(0.0, f64::max);
+        Ok(Loss::of_one_sample(shift_px, budget.shift_px))
     }
 
     /// The pixels of its middle, whatever the shot's lens.

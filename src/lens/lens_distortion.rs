@@ -117,12 +117,8 @@ impl Effect for LensDistortion {
             for place in [[along * width, 0.0], [along * width, height], [0.0, along * height], [width, along * height]]
             {
                 let Some(point) = self.direction(&intrinsics, place) else {
-                    let found = DVec2::from(place).distance(DVec2::new(width, height) / 2.0);
-                    return Err(RenderError::Setting {
-                        name: "the distance in pixels of the lens distortion's fold from the middle",
-                        found,
-                        expected: "a distortion that does not fold inside the frame",
-                    });
+                    let found_px = DVec2::from(place).distance(DVec2::new(width, height) / 2.0);
+                    return Err(RenderError::Fold { found_px });
                 };
                 let plain = DVec2::new(
                     intrinsics.cx_px + intrinsics.fx_px * point.x,

@@ -15,6 +15,8 @@ use cinesplat_trajectory::{CameraPath, ClearanceFailure, ClearanceProof, Keyfram
 
 /// Largest factor by which a detour may lengthen a segment's duration.
 const MAX_SLOWDOWN: f64 = 2.5;
+/// Clause of the report's line about the clearance certificate.
+const CERTIFICATE: &str = "clear of matter";
 /// Limit on the path intervals examined to decide whether a segment is blocked.
 const MAX_INTERVALS: usize = 4000;
 
@@ -83,19 +85,24 @@ pub fn prove_clear(gaussians: &Gaussians, path: &CameraPath) -> ClearanceProof {
 /// As [`prove_clear`], for a camera that leaves the path by up to `reach`, scene units.
 pub fn prove_clear_around(gaussians: &Gaussians, path: &CameraPath, reach: f64) -> ClearanceProof {
     let radius = default_camera_radius(&Bounds::of(gaussians));
-    let index = ClearanceIndex::new(gaussians);
-    if !(reach > 0.0) {
-        return prove(&index, path, radius);
-    }
-    // A ball about the path that holds the ball about the camera wherever it is.
-    let proof = prove(&index, path, radius + reach);
-    let failure = proof.failure.map(|failure| ClearanceFailure { distance: failure.distance - reach, ..failure });
-    ClearanceProof { camera_radius: radius, min_distance: (proof.min_distance - reach).max(0.0), failure, ..proof }
+    prove_around(&ClearanceIndex::new(gaussians), path, [radius, reach])
 }
 
-/// Certifies the clearance of the path through a film's keyframes.
+/// Certifies the clearance of a ball of this radius that leaves the path by up to `reach`.
+fn prove_around(index: &ClearanceIndex, path: &CameraPath, [radius, reach]: [f64; 2]) -> ClearanceProof {
+    if !(reach > 0.0) {
+        return prove(index, path, radius);
+    }
+    // A ball about the path that holds the ball about the camera wherever it is.
+    let proof = prove(index, path, radius + reach);
+    let distance = |of_path: f64| (of_path - reach).max(0.0);
+    let failure = proof.failure.map(|failure| ClearanceFailure { distance: distance(failure.distance), ..failure });
+    ClearanceProof { camera_radius: radius, min_distance: distance(proof.min_distance), failure, ..proof }
+}
+
+/// Certifies the clearance of the path through a film's keyframes, for a camera that its effects move.
 pub(super) fn proof(world: &World, keys: &[Keyframe]) -> ClearanceProof {
-    prove(world.ellipsoids(), &CameraPath::fine(keys.to_vec(), world.frame), world.camera_radius)
+    prove_around(world.ellipsoids(), &CameraPath::fine(keys.to_vec(), world.frame), world.ball)
 }
 
 /// Report lines of the detours and of the certificate.
@@ -108,13 +115,14 @@ pub(super) fn clearance_lines(
 ) -> Vec<ReportLine> {
     let words =
         |segment: &MotionSegment| clause(prompt, program.steps.get(segment.step).and_then(|step| step.words), segment);
+    let failed = proof.failure.map(|failure| segment_at((segments, spans), failure.from_secs).0);
     let around = |detour: &Detour| {
         let (segment, num_inner) = (segments.get(detour.segment)?, detour.found.ok()?);
         Some(ReportLine {
             clause: words(segment),
             wanted: "a path clear of matter".to_owned(),
             got: proof.min_distance.min(world.bounds.size()),
-            met: true,
+            met: failed != Some(detour.segment),
             note: format!("the direct path is blocked: the camera takes a detour through {num_inner} more keyframes"),
         })
     };
@@ -123,26 +131,41 @@ pub(super) fn clearance_lines(
         let (index, segment) = segment_at((segments, spans), failure.from_secs);
         let blocked = detours.iter().find(|detour| detour.segment == index).and_then(|detour| detour.found.err());
         let why = blocked.map_or_else(String::new, |why| format!("; no detour: {why}"));
-        format!(
-            "{:.4} from matter between {:.2} and {:.2} s, in \"{}\"{why}",
-            failure.distance,
-            failure.from_secs,
-            failure.to_secs,
-            words(segment)
-        )
+        format!("{}, in \"{}\"{why}", found(&failure), words(segment))
     });
-    lines.push(ReportLine {
-        clause: "clear of matter".to_owned(),
+    lines.push(certificate_line(proof, world.bounds.size(), note));
+    lines
+}
+
+/// Where and by how much a path is too near to matter.
+fn found(failure: &ClearanceFailure) -> String {
+    let ClearanceFailure { distance, from_secs, to_secs, .. } = failure;
+    format!("{distance:.4} from matter between {from_secs:.2} and {to_secs:.2} s")
+}
+
+/// The report's line of a certificate.
+fn certificate_line(proof: &ClearanceProof, scene_size: f64, note: String) -> ReportLine {
+    ReportLine {
+        clause: CERTIFICATE.to_owned(),
         wanted: format!(
             "at every moment at least {:.4} scene units from all Gaussians of opacity {SOLID_OPACITY} and more, out to \
              {SIGMA_LEVEL} standard deviations",
             proof.camera_radius
         ),
-        got: proof.min_distance.min(world.bounds.size()),
+        got: proof.min_distance.min(scene_size),
         met: proof.is_clear(),
         note,
-    });
-    lines
+    }
+}
+
+/// Makes the report's line about clearance, if it has one, say what a certificate says: the path, or how far effects take
+/// the camera from it, may have changed since the line was written. A line that still holds keeps its note.
+pub fn restate_clearance(report: &mut [ReportLine], proof: &ClearanceProof, scene_size: f64) {
+    let new = certificate_line(proof, scene_size, proof.failure.as_ref().map_or_else(String::new, found));
+    let holds = |line: &ReportLine| line.met == new.met && (line.got - new.got).abs() <= 1e-9 * scene_size;
+    for line in report.iter_mut().filter(|line| line.clause == CERTIFICATE && !holds(line)) {
+        line.clone_from(&new);
+    }
 }
 
 /// The segment that plays at a time, and its index.

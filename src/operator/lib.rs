@@ -55,7 +55,7 @@ mod wording;
 mod world;
 
 pub use clearance::{ClearanceIndex, Nearest, SIGMA_LEVEL};
-pub use detours::{prove_clear, prove_clear_around};
+pub use detours::{prove_clear, prove_clear_around, restate_clearance};
 pub use program::{
     Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step, SubjectPart,
     SubjectSide, Via,

@@ -42,8 +42,11 @@ pub struct World {
     /// Width over height of the film's frame: every view is planned, and every report measured, for it. Above 0; 16:9
     /// unless set.
     pub aspect: f64,
-    /// Radius of the camera's ball: the least distance that it keeps from matter, scene units. Above 0.
+    /// The least distance that the path keeps from matter, scene units: the radius of the camera's ball, and how far
+    /// effects take the camera from its path ([`World::add_reach`]). Above 0.
     pub camera_radius: f64,
+    /// Radius of the camera's ball, and how far effects take it from the path, scene units.
+    pub(super) ball: [f64; 2],
     subjects: BTreeMap<u32, Subject>,
     matter: OpacityGrid,
     clearance: ClearanceIndex,
@@ -113,6 +116,7 @@ impl World {
             bottom,
             aspect: DEFAULT_ASPECT,
             camera_radius,
+            ball: [camera_radius, 0.0],
             subjects,
             matter,
             clearance,
@@ -126,6 +130,13 @@ impl World {
     /// The subject with an object id.
     pub(super) fn subject(&self, id: u32) -> Option<&Subject> {
         self.subjects.get(&id)
+    }
+
+    /// Makes room for effects that take the camera from its path, such as a shaking hand, by up to `reach`, scene units.
+    pub fn add_reach(&mut self, reach: f64) {
+        let [radius, before] = self.ball;
+        self.ball = [radius, before + reach];
+        self.camera_radius = radius + self.ball[1];
     }
 
     /// Says which way the front of a subject faces, by a direction from its middle.

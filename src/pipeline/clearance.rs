@@ -1,6 +1,6 @@
 use super::error::PipelineError;
 use super::film::called_effects;
-use cinesplat_lens::EffectChoice;
+use cinesplat_lens::{Called, EffectChoice};
 use cinesplat_operator;
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::{CameraPath, ClearanceProof, Shot};
@@ -14,10 +14,26 @@ pub fn prove_clearance(scene: &Scene, shot: &Shot) -> Result<ClearanceProof, Pip
     Ok(in_file_order(scene, cinesplat_operator::prove_clear_around(&scene.gaussians, &path, reach(scene, shot))))
 }
 
+/// Gives a shot its proof of clearance, and makes its report say the same.
+///
+/// # Errors
+/// As [`prove_clearance`].
+pub fn certify(scene: &Scene, shot: &mut Shot) -> Result<(), PipelineError> {
+    let proof = prove_clearance(scene, shot)?;
+    cinesplat_operator::restate_clearance(&mut shot.report, &proof, scene.bounds().size());
+    shot.clearance = Some(proof);
+    Ok(())
+}
+
 /// How far the effects of a shot take the camera from its path, scene units.
 fn reach(scene: &Scene, shot: &Shot) -> f64 {
     let size = scene.bounds().size();
-    called_effects(shot, &EffectChoice::Auto, size).effects.iter().map(|called| called.effect.reach()).sum()
+    reach_of(&called_effects(shot, &EffectChoice::Auto, size))
+}
+
+/// How far effects take the camera from its path, scene units.
+pub(super) fn reach_of(called: &Called) -> f64 {
+    called.effects.iter().map(|called| called.effect.reach()).sum()
 }
 
 /// The proof with indices of Gaussians in the scene's file, where dropped Gaussians count too.

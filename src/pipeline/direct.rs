@@ -1,22 +1,18 @@
 use super::choose_film::{Critique, FilmChoice, choose_film};
+use super::clearance::reach_of;
 use super::error::PipelineError;
 use super::interpreter::Interpreter;
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
+use super::slant::slant_of;
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
-use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, NamedObject};
+use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, NamedObject, forbidding_words};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
-use cinesplat_operator::{Program, Slant, Solution, SolveLevel, SolveSettings, Step, World};
+use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot};
-
-/// Name of the effect that rolls the camera, and its roll in degrees, in the middle of the 5 to 35 degrees that
-/// storyboards use.
-const DUTCH_DEG: f64 = 15.0;
-/// Words beside a dutch angle that give it to every step.
-const THROUGHOUT: [&str; 6] = ["throughout", "whole film", "whole shot", "whole time", "entire", "all the way"];
 
 /// Settings of a shot beyond its prompt.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,6 +137,9 @@ pub fn direct(
         fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
     }
     let program = &direction.program;
+    // A shaky camera keeps clear wherever the hand takes it.
+    let called = called(&effects, (program, prompt), settings, bounds.size());
+    world.add_reach(reach_of(&called));
     let (level, seed, slant) = (settings.solve, settings.seed, slant_of(&effects, program, prompt));
     let solve = SolveSettings { level, seed, slant, ..SolveSettings::default() };
     let num = settings.choice.num_finalists(level);
@@ -154,7 +153,6 @@ pub fn direct(
     };
     let critique = subjects.as_ref().map(judge).transpose()?;
     solutions.truncate(settings.choice.num_takes.max(1));
-    let called = called(&effects, program, settings, bounds.size());
     let finished = |solution| {
         let mut shot = shot_of(scene, prompt, solution, settings);
         shot.model = Some(interpreter.model_ref());
@@ -165,11 +163,6 @@ pub fn direct(
         shot.validated()
     };
     let mut takes: Vec<Shot> = solutions.into_iter().map(finished).collect::<Result<_, _>>()?;
-    if called.effects.iter().any(|called| called.effect.reach() > 0.0) {
-        for shot in &mut takes {
-            shot.clearance = Some(super::clearance::prove_clearance(scene, shot)?);
-        }
-    }
     for shot in &mut takes {
         super::focus::focus(scene, &objects, shot)?;
     }
@@ -213,33 +206,21 @@ fn with_clouds(scene: &Scene, objects: &ObjectSet, linked: &Linked) -> Result<Ob
     Ok(set)
 }
 
-/// The dutch angle that the words ask for, during the step whose words are nearest to them, or throughout where they
-/// say so.
-fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &str) -> Option<Slant> {
-    let mention = mentions.iter().find(|mention| mention.call.name == DUTCH_ANGLE && !mention.is_forbidden)?;
-    let [start, end] = mention.span;
-    let last = program.steps.len().checked_sub(1)?;
-    let around = [prompt.get(..start).unwrap_or_default(), prompt.get(end..).unwrap_or_default()];
-    let beside = [around[0].rsplit(['.', ',', ';']).next(), around[1].split(['.', ',', ';']).next()];
-    let says = |clause: &str| THROUGHOUT.iter().any(|words| clause.to_lowercase().contains(words));
-    if beside.into_iter().flatten().any(says) {
-        return Some(Slant { degrees: DUTCH_DEG, steps: [0, last] });
-    }
-    let gap = |step: &Step| {
-        let [from, to] = step.words.unwrap_or([usize::MAX; 2]);
-        from.saturating_sub(end).max(start.saturating_sub(to))
-    };
-    let step = (0..=last).min_by_key(|at| gap(&program.steps[*at]))?;
-    Some(Slant { degrees: DUTCH_DEG, steps: [step, step] })
-}
-
 /// The effects that the words and the moves of a program call for.
-fn called(mentions: &[EffectMention], program: &Program, settings: &DirectSettings, scene_size: f64) -> Called {
+fn called(
+    mentions: &[EffectMention],
+    (program, prompt): (&Program, &str),
+    settings: &DirectSettings,
+    scene_size: f64,
+) -> Called {
     let wanted = mentions.iter().filter(|mention| !mention.is_forbidden && mention.call.name != DUTCH_ANGLE);
     let calls: Vec<Call> = wanted.map(|mention| mention.call.clone()).collect();
     let forbidden = mentions.iter().filter(|mention| mention.is_forbidden);
-    let forbidden: Vec<_> =
-        forbidden.map(|mention| (mention.call.name.clone(), mention.call.because.clone())).collect();
+    let words = |mention: &EffectMention| {
+        let [start, end] = forbidding_words(prompt, mention, mentions);
+        prompt.get(start..end).unwrap_or_default().to_lowercase()
+    };
+    let forbidden: Vec<_> = forbidden.map(|mention| (mention.call.name.clone(), words(mention))).collect();
     let moves = program.steps.iter().flat_map(|step| std::iter::once(step.movement).chain(step.with.iter().copied()));
     let moves: Vec<Move> = moves.collect();
     let seed = settings.seed;

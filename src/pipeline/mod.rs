@@ -21,12 +21,13 @@ mod panic_point;
 mod phases;
 mod promise;
 mod reading;
+mod slant;
 mod stated;
 mod stills;
 mod takes_sheet;
 
 pub use choose_film::{Critique, FilmChoice};
-pub use clearance::prove_clearance;
+pub use clearance::{certify, prove_clearance};
 pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of, stated_size};
 pub use error::PipelineError;
 pub use film::{
@@ -41,7 +42,7 @@ pub use frames::{FrameRange, Piece};
 pub use interpreter::Interpreter;
 pub use job::{
     JobError, JobSettings, JobStart, check_job, check_shared_job, clear_job, has_job, job_field, job_folder,
-    job_progress, tasks_folder,
+    job_progress, remove_leftover, remove_tasks_folder, tasks_folder,
 };
 pub use opened_scene::{OpenedScene, open_scene};
 pub use phases::{Phase, PhaseTimes};

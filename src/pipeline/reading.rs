@@ -1,7 +1,7 @@
 //! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
 
 use cinesplat_director::{Direction, SceneContext};
-use cinesplat_language::{EffectMention, Linked, effect_mentions, tokenize};
+use cinesplat_language::{EffectMention, Linked, effect_mentions, forbidding_words, tokenize};
 use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
@@ -84,7 +84,7 @@ impl Reading {
     /// request.
     pub fn unused_words<'a>(&self, prompt: &'a str) -> Vec<&'a str> {
         let of_steps = self.direction.program.steps.iter().filter_map(|step| step.words);
-        let of_effects = self.effects.iter().map(|effect| effect.span);
+        let of_effects = self.effects.iter().map(|effect| effect_words(prompt, effect, &self.effects));
         let of_problems = self.problems.iter().map(|problem| problem.span);
         let others: Vec<[usize; 2]> = of_effects.chain(of_problems).collect();
         let used: Vec<[usize; 2]> = of_steps.chain(others.iter().copied()).collect();
@@ -204,10 +204,17 @@ fn goes_on(first: &Step, second: &Step) -> bool {
 /// Words that the notation cannot say and that are no effect.
 fn unmet(prompt: &str, direction: &Direction, effects: &[EffectMention]) -> Vec<Problem> {
     let overlaps = |a: &[usize; 2], b: &[usize; 2]| a[0] < b[1] && b[0] < a[1];
-    let spans = direction.unmet.iter().filter(|span| !effects.iter().any(|effect| overlaps(&effect.span, span)));
+    let of_effects: Vec<_> = effects.iter().map(|effect| effect_words(prompt, effect, effects)).collect();
+    let spans = direction.unmet.iter().filter(|span| !of_effects.iter().any(|effect| overlaps(effect, span)));
     let spans = spans.filter(|[start, end]| prompt.get(*start..*end).is_some_and(carries_request));
     let problem = |span: &[usize; 2]| problem(prompt, ProblemKind::CannotBeDone, *span, String::new());
     spans.map(problem).collect()
+}
+
+/// The bytes of the words that mention an effect, with the negation before them.
+fn effect_words(prompt: &str, mention: &EffectMention, mentions: &[EffectMention]) -> [usize; 2] {
+    let [start, _] = forbidding_words(prompt, mention, mentions);
+    [start, mention.span[1]]
 }
 
 fn problem(prompt: &str, kind: ProblemKind, span: [usize; 2], note: String) -> Problem {

@@ -18,6 +18,14 @@ pub enum RenderError {
         /// The values allowed.
         expected: &'static str,
     },
+    /// A lens that shows a direction twice.
+    #[error(
+        "the distortion of the lens folds the picture within {found_px:.0} px of its middle, expected no fold inside the frame"
+    )]
+    Fold {
+        /// Distance from the middle of the picture, at or before which it folds.
+        found_px: f64,
+    },
     /// A per-Gaussian or per-pixel input of the wrong length.
     #[error("{what}: {found} values, expected {expected}")]
     Length {
@@ -54,6 +62,7 @@ impl RenderError {
         match self {
             Self::Camera(_) => "RENDER-CAMERA",
             Self::Setting { .. } => "RENDER-SETTING",
+            Self::Fold { .. } => "RENDER-FOLD",
             Self::Length { .. } => "RENDER-LENGTH",
             Self::Memory { .. } => "RENDER-MEMORY",
             Self::Cost { .. } => "RENDER-COST",

@@ -281,8 +281,8 @@ fn check_keyframe(index: usize, key: &Keyframe) -> Result<(), TrajectoryError> {
     if !(fov_deg > 0.1 && fov_deg < 175.0) {
         return bad("fov_y_deg", fov_deg.to_string(), "0.1..175");
     }
-    if key.focus_distance.is_some_and(|d| !(d > 0.0 && d.is_finite())) {
-        return bad("focus_distance", format!("{:?}", key.focus_distance), "above 0, or null");
+    if let Some(found) = key.focus_distance.filter(|distance| !(*distance > 0.0 && distance.is_finite())) {
+        return bad("focus_distance", found.to_string(), "above 0, or null");
     }
     let KeyOptics { f_stop, shutter_angle_rad } = key.optics;
     if let Some(found) = f_stop.filter(|f_stop| !(*f_stop >= 0.1 && *f_stop <= 1000.0)) {

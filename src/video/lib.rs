@@ -34,4 +34,4 @@ pub use pattern::FramePattern;
 pub use sequence::{decode_png, encode_png, encode_png_with_alpha, remove_frames_from, write_png};
 pub use settings::{EyePacking, VideoFormat, VideoSettings, X264Preset};
 pub use takes_sheet::TakesSheet;
-pub use writer::{VideoWriter, check_format, check_output, odd_size_note, read_film};
+pub use writer::{VideoWriter, check_format, check_output, odd_size_note, panorama_warning, read_film};

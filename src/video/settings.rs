@@ -179,6 +179,11 @@ impl VideoFormat {
         matches!(self, Self::Mov | Self::Sequence(_))
     }
 
+    /// Whether its files say to players that a film shows all directions.
+    pub fn marks_panoramas(&self) -> bool {
+        matches!(self, Self::Mp4 | Self::Mov)
+    }
+
     /// FFmpeg's names of the container and the encoder; `None` for a sequence.
     pub(super) fn ffmpeg_names(&self, has_alpha: bool) -> Option<(&'static str, &'static str)> {
         match self {

@@ -177,3 +177,11 @@ pub fn odd_size_note(format: &VideoFormat, settings: &VideoSettings) -> Option<S
     let padded = even != (width, height) && !matches!(format, VideoFormat::Sequence(_));
     padded.then(|| format!("{width}x{height} is odd: the film is {}x{}, last column or row repeated", even.0, even.1))
 }
+
+/// A warning for the user if players will not recognize a film of all directions, because its container does not say so.
+pub fn panorama_warning(format: &VideoFormat, settings: &VideoSettings) -> Option<String> {
+    let is_film = !matches!(format, VideoFormat::Sequence(_));
+    let is_unmarked = settings.is_panorama && is_film && !format.marks_panoramas();
+    let extension = format.extension();
+    is_unmarked.then(|| format!("players do not recognize a 360 video in a .{extension}: write a .mp4 or a .mov"))
+}

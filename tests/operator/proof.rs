@@ -1,11 +1,11 @@
 //! Clearance certificates of whole paths: they hold between frames, and they agree with dense sampling.
 
-use cinesplat::operator::prove_clear;
+use cinesplat::operator::{Framing, Step, World, prove_clear, prove_clear_around};
 use cinesplat::scene::Gaussians;
-use cinesplat::trajectory::{CameraPath, ClearanceProof, Easing, Intent, Keyframe, Move};
+use cinesplat::trajectory::{CameraPath, ClearanceProof, Easing, Intent, Keyframe, Move, Shot};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
-use super::{add, brute_force, wall};
+use super::{add, brute_force, room, solved, wall};
 use crate::support::shot_over;
 use cinesplat::geometry::Pose;
 
@@ -153,4 +153,24 @@ fn a_camera_that_stands_still_and_an_empty_scene_have_proofs_too() {
     let nothing = prove_clear(&Gaussians::default(), &straight());
     assert!(nothing.is_clear() && nothing.min_distance == f64::INFINITY && nothing.gaussian_idx.is_none());
     assert!(nothing.camera_radius > 0.0);
+}
+
+/// A ball that fits nowhere: the search for a place must end, and the film must say what is wrong with it.
+#[test]
+fn a_camera_that_shakes_wider_than_its_room_is_clear_where_its_proof_says_so() {
+    for reach in [0.4, 3.0, 100.0] {
+        let (gaussians, objects) = room();
+        let mut world = World::new(&gaussians, DVec3::Y, &objects, &[1, 2]).unwrap();
+        world.add_reach(reach);
+        for movement in [Move::PushIn, Move::OrbitLeft, Move::Follow, Move::TruckLeft, Move::PedestalUp] {
+            let end = Framing { subjects: vec![2], ..Framing::default() };
+            let solution = solved(&world, vec![Step { end, ..Step::of(movement) }]);
+            let shot = shot_over(solution.keyframes.clone());
+            let path = CameraPath::new(&Shot { duration_secs: solution.duration_secs, ..shot }).unwrap();
+            let proof = prove_clear_around(&gaussians, &path, reach);
+            let line = solution.report.iter().find(|line| line.clause == "clear of matter").unwrap();
+            assert_eq!(line.met, proof.is_clear(), "{movement}: {line:?}");
+            assert_eq!(solution.clearance, proof, "{movement}");
+        }
+    }
 }

@@ -51,6 +51,13 @@ fn a_budget_chooses_the_most_accurate_quality_and_a_psnr_the_fastest() {
     assert_eq!(chosen(None, Some(29.5)), Some(Quality::Standard), "the worst frame counts");
     assert_eq!(chosen(Some(40), Some(60.0)), Some(Quality::Final));
     assert_eq!((chosen(Some(25), Some(60.0)), chosen(Some(5), None)), (None, None));
+    // The reserve for opening and closing a film decides for a film of two seconds.
+    let short = |millis: u64| {
+        let film_time = Duration::from_secs(2);
+        let made = forecasts().into_iter().map(|forecast| Forecast { film_time, ..forecast }).collect::<Vec<_>>();
+        choose(&made, Requirements { budget: Some(Duration::from_millis(millis)), min_psnr_db: None }).ok()
+    };
+    assert_eq!((short(2600), short(2700)), (Some(Quality::Draft), Some(Quality::Reference)));
     // In time without a margin.
     assert_eq!((chosen(Some(11), None), chosen(Some(31), Some(60.0))), (Some(Quality::Draft), Some(Quality::Final)));
 }
@@ -62,6 +69,9 @@ fn requirements_out_of_reach_report_every_forecast() {
     assert_eq!(error.code(), "COST-BUDGET");
     let text = error.to_string();
     assert!(text.contains("at most 25.0 s and at least 60.0 dB") && text.contains("final 30.0 s, 106.0 dB"), "{text}");
+    let short = Requirements { budget: Some(Duration::from_millis(1200)), ..Requirements::default() };
+    let text = choose(&forecasts(), short).unwrap_err().to_string();
+    assert!(text.starts_with("no quality gives at most 1.20 s; predicted: draft 10.0 s"), "{text}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The pipeline used as a library.
 
+mod directed;
 mod forecast;
 mod job;
 mod promises;

@@ -111,4 +111,7 @@ fn a_budget_that_cannot_be_kept_is_refused_before_the_film() {
     let little = Requirements { budget: Some(Duration::from_micros(10)), ..Requirements::default() };
     let error = promised(&Renderer::new(&scene.gaussians), &shot, Path::new("a.mp4"), &settings(), little).unwrap_err();
     assert!(matches!(error, PipelineError::Unreachable { .. }));
+    // It used to name what the forecast had left of the budget: `no quality gives at most 0.0 s`.
+    let text = error.to_string();
+    assert!(text.starts_with("no quality gives at most 0.01 ms (the forecast took "), "{text}");
 }

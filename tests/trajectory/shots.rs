@@ -52,3 +52,15 @@ fn keys_after_the_end_of_the_film_are_a_warning() {
     duration_secs is 0, less than half a frame at 30 frames per second: the film has one frame
     ");
 }
+
+/// The error said `focus_distance is Some(-1.0)`.
+#[test]
+fn a_focus_behind_the_camera_is_shown_in_the_notation_of_the_program() {
+    let at = |focus_distance: f64| {
+        let mut shot = shot(vec![key(0.0, DVec3::ZERO), key(1.0, DVec3::X)]);
+        shot.keyframes[1].focus_distance = Some(focus_distance);
+        shot.validated().unwrap_err().to_string()
+    };
+    insta::assert_snapshot!(at(-1.0), @"keyframe 1: focus_distance is -1, expected above 0, or null");
+    assert!(at(f64::NAN).contains("focus_distance is NaN"), "{}", at(f64::NAN));
+}

@@ -52,7 +52,7 @@ impl FilmEncoder {
         let mut muxer = format::output_to_stream(io, None, Some(container)).map_err(|_| missing(container))?;
         let stream_tick = write_header(&mut muxer, &encoder, (rate, settings.eyes), header_options(format, settings))
             .map_err(|e| fault_of(&first_error, "starting the file", e, path))?;
-        let is_marked = matches!(format, VideoFormat::Mp4 | VideoFormat::Mov);
+        let is_marked = format.marks_panoramas();
         let (is_panorama, eyes) = (settings.is_panorama && is_marked, settings.eyes.filter(|_| is_marked));
         let (tick, path) = (rate.invert(), path.to_owned());
         Ok(Self { encoder, muxer, first_error, file, tick, stream_tick, num_sent: 0, is_panorama, eyes, path })

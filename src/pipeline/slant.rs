@@ -1,0 +1,50 @@
+//! The steps that a dutch angle belongs to.
+//!
+//! Enters: the mentions of effects in a prompt, and the steps of its program with their words. Leaves: the slant of the
+//! steps in whose clause the phrase stands.
+
+use cinesplat_language::{DUTCH_ANGLE, EffectMention, tokenize};
+use cinesplat_operator::{Program, Slant, Step};
+
+/// The roll, degrees: in the middle of the 5 to 35 degrees that storyboards use.
+const DUTCH_DEG: f64 = 15.0;
+/// Words beside a dutch angle that give it to every step.
+const THROUGHOUT: [&str; 6] = ["throughout", "whole film", "whole shot", "whole time", "entire", "all the way"];
+/// Marks and words between two clauses.
+const BORDERS: [&str; 10] = [",", ";", ".", ":", "then", "and", "before", "after", "next", "finally"];
+
+/// The dutch angle that the words ask for, during the step in whose clause its phrase stands, or throughout where they
+/// say so.
+pub(super) fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &str) -> Option<Slant> {
+    let mention = mentions.iter().find(|mention| mention.call.name == DUTCH_ANGLE && !mention.is_forbidden)?;
+    let [start, end] = mention.span;
+    let last = program.steps.len().checked_sub(1)?;
+    let around = [prompt.get(..start).unwrap_or_default(), prompt.get(end..).unwrap_or_default()];
+    let beside = [around[0].rsplit(['.', ',', ';']).next(), around[1].split(['.', ',', ';']).next()];
+    let says = |clause: &str| THROUGHOUT.iter().any(|words| clause.to_lowercase().contains(words));
+    if beside.into_iter().flatten().any(says) {
+        return Some(Slant { degrees: DUTCH_DEG, steps: [0, last] });
+    }
+    let step = (0..=last).min_by_key(|at| apart(prompt, mention.span, &program.steps[*at]))?;
+    Some(Slant { degrees: DUTCH_DEG, steps: [step, step] })
+}
+
+/// How far a phrase is from the words of a step: the borders of clauses between them, then the bytes. Bytes alone
+/// mislead: in `push in with a dutch angle, then pull back` the next step is nearer.
+fn apart(prompt: &str, [start, end]: [usize; 2], step: &Step) -> (usize, usize) {
+    let Some(words) = step.words else { return (usize::MAX, usize::MAX) };
+    let [from, to] = without_borders(prompt, words);
+    let between = if end <= from { end..from } else { to..start.max(to) };
+    let num_bytes = between.len();
+    let between = tokenize(prompt.get(between).unwrap_or_default());
+    (between.iter().filter(|word| BORDERS.contains(&word.text.as_str())).count(), num_bytes)
+}
+
+/// A range of a prompt without the borders at its ends: `then pull back,` is what `pull back` is.
+fn without_borders(prompt: &str, [from, to]: [usize; 2]) -> [usize; 2] {
+    let words = tokenize(prompt.get(from..to).unwrap_or_default());
+    let mut inner = words.iter().filter(|word| !BORDERS.contains(&word.text.as_str()));
+    let Some(first) = inner.next() else { return [from, to] };
+    let last = inner.next_back().unwrap_or(first);
+    [from + first.span[0], from + last.span[1]]
+}
