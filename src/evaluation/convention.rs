@@ -1,5 +1,5 @@
 /// Whose choices decide where this program and evo differ: one pose matched twice, times without a pose nearby,
-/// rotations about nearly straight paths.
+/// rotations about nearly straight paths, a span of time of the reference alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Convention {
     /// Those of this program.

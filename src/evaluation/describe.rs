@@ -6,7 +6,7 @@
 //! things at once.
 
 use super::named_move::{NamedMove, extent, name_move};
-use super::progress::is_one_way;
+use super::progress::{is_one_way, stray_share};
 use super::svd::rotation_angle;
 use super::{Reduction, Trajectory};
 use cinesplat_trajectory::Move;
@@ -34,6 +34,8 @@ const BLEND_FRAC: f64 = 0.12;
 const NAMED_COST: f64 = 1.0;
 /// Added for a move that turns while it travels: a straight move with the beginning of a pan looks like a short arc.
 const CURVED_COST: f64 = 0.05;
+/// Added for a move that circles and rises as unevenly as is allowed: an arc ends where a crane begins.
+const UNEVEN_COST: f64 = 0.05;
 const BLENDED_COST: f64 = 2.0;
 const UNNAMED_COST: f64 = 2.5;
 const UNNAMED_COST_PER_WHOLE: f64 = 8.0;
@@ -178,7 +180,8 @@ fn priced(span: &Trajectory, still_distance: f64, share: f64) -> Priced {
     // Among equal splits the one with even spans is cheapest.
     let evenness = 1e-3 * share * share;
     if let Some(found) = name_move(span, still_distance).filter(|found| is_one_way(span, found.name, still_distance)) {
-        return (Some(found), NAMED_COST + curved_cost(found.name) + evenness);
+        let uneven_cost = UNEVEN_COST * stray_share(span, found.name).powi(2);
+        return (Some(found), NAMED_COST + curved_cost(found.name) + uneven_cost + evenness);
     }
     let ends = (BLEND_FRAC * span.len() as f64) as usize;
     let middle = span.select(&(ends..span.len() - ends).collect::<Vec<_>>());

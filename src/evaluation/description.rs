@@ -6,7 +6,7 @@ use glam::DQuat;
 use strum::VariantArray;
 
 use super::describe::{DescribedMove, describe};
-use super::named_move::zoom_factor;
+use super::named_move::{extent, unrolled, zoom_factor};
 use super::{SubjectSphere, Trajectory};
 use cinesplat_export::json_write::{Json, object};
 use cinesplat_geometry::LevelFrame;
@@ -19,6 +19,10 @@ const DIGITS: usize = 3;
 const NAMED_FRAC: f64 = 0.25;
 /// Smallest net turn that words name, rad.
 const NAMED_TURN_RAD: f64 = 0.035;
+/// Smallest rise beside an arc, and arc beside a rise, that words name, over the length of the path.
+const BESIDE_FRAC: f64 = 0.1;
+/// Smallest sweep beside a rise that words name, rad.
+const BESIDE_RAD: f64 = 0.1;
 /// Smallest factor of the focal length that words name beside another move.
 const NAMED_ZOOM: f64 = 1.05;
 
@@ -174,9 +178,32 @@ fn is_turn(name: Move) -> bool {
     circles.contains(&name) || turns.contains(&name)
 }
 
-/// A move in words, with the zoom beside it.
+/// The rise beside an arc, or the arc beside a rise, in words.
+fn beside(found: &DescribedMove) -> Option<String> {
+    use Move as M;
+    let name = found.movement?.name;
+    let places = unrolled(&found.path)?;
+    let way = *places.last()? - *places.first()?;
+    let least = BESIDE_FRAC * found.path.path_length();
+    match name {
+        M::ArcLeft | M::ArcRight | M::OrbitLeft | M::OrbitRight if way.y.abs() > least => {
+            Some(format!("craning {}", if way.y > 0.0 { "up" } else { "down" }))
+        }
+        M::CraneUp | M::CraneDown if way.x.abs() > least => {
+            let swept = extent(&found.path, M::ArcRight).filter(|swept| *swept > BESIDE_RAD)?;
+            let side = if way.x > 0.0 { "right" } else { "left" };
+            Some(format!("arcing to the {side} by {:.0} degrees", swept.to_degrees()))
+        }
+        _ => None,
+    }
+}
+
+/// A move in words, with what is beside it.
 fn words(found: &DescribedMove) -> String {
-    let (moves, zoom) = (move_words(found), zoom_factor(&found.path));
+    let (mut moves, zoom) = (move_words(found), zoom_factor(&found.path));
+    if let Some(other) = beside(found) {
+        moves = format!("{moves} while {other}");
+    }
     let has_zoom = found.movement.is_some_and(|movement| {
         use Move as M;
         matches!(movement.name, M::ZoomIn | M::ZoomOut | M::DollyZoomIn | M::DollyZoomOut | M::Static)

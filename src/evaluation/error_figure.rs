@@ -32,6 +32,8 @@ const MAX_COLUMNS: usize = 3;
 const NUM_BARS: usize = 40;
 /// Distances of relative errors over the length of the reference.
 const DISTANCES: [f64; 5] = [0.1, 0.2, 0.3, 0.4, 0.5];
+/// Most characters of a name beside the statistics along an axis.
+const MAX_NAME_CHARS: usize = 34;
 /// Digits of statistics in a figure.
 const DIGITS: usize = 4;
 
@@ -194,7 +196,7 @@ fn along_axes(estimates: &[Named]) -> [Chart; 3] {
     };
     axes.map(|(axis, name)| {
         let mut chart = Chart::new(name, time_axis(estimates), Axis::linear("scene units"));
-        for (idx, (_, found)) in estimates.iter().enumerate() {
+        for (idx, (name, found)) in estimates.iter().enumerate() {
             let (reference, estimate) = (&found.matches.reference, &found.matches.estimate);
             let off = reference.positions.iter().zip(&estimate.positions).map(|(a, b)| (*b - *a).dot(axis));
             let off: Vec<f64> = off.collect();
@@ -202,13 +204,25 @@ fn along_axes(estimates: &[Named]) -> [Chart; 3] {
             let mean = off.iter().sum::<f64>() / off.len() as f64;
             // An alignment makes the mean 0 up to rounding.
             let mean = if mean.abs() < 1e-9 * rmse { 0.0 } else { mean };
-            chart.notes.push(format!("rmse {}, mean {}", significant(rmse, 3), significant(mean, 3)));
+            let numbers = format!("rmse {}, mean {}", significant(rmse, 3), significant(mean, 3));
+            chart.notes.push(if estimates.len() == 1 { numbers } else { format!("{}: {numbers}", shortened(name)) });
             let points = since_start(found, &reference.times_or_indices()).into_iter().zip(off).collect();
             chart.series.push(Series { points, color: color(idx), line_px: 1.2, markers: Vec::new() });
         }
         chart.levels.push(Level { y: 0.0, name: String::new(), is_name_below: false, color: COLORS[0] });
         chart
     })
+}
+
+/// A name without its middle if it is long: the names of several estimates often begin alike.
+fn shortened(name: &str) -> String {
+    let num_chars = name.chars().count();
+    if num_chars <= MAX_NAME_CHARS {
+        return name.to_owned();
+    }
+    let kept = (MAX_NAME_CHARS - 2) / 2;
+    let (head, tail) = (name.chars().take(kept), name.chars().skip(num_chars - kept));
+    head.chain("..".chars()).chain(tail).collect()
 }
 
 fn histogram(estimates: &[Named]) -> Chart {
@@ -231,15 +245,17 @@ fn histogram(estimates: &[Named]) -> Chart {
     chart
 }
 
-/// The spread of relative errors over distances along the reference.
+/// The spread of relative errors over distances along the reference: the same distances for all estimates, of which the
+/// one that covers the shortest part of the reference has the longest.
 fn over_distances(title: &str, relation: Relation, estimates: &[Named]) -> Chart {
     let x = Axis::linear("distance along the reference, scene units (box 25-75 %, whiskers 5-95 %)");
     let mut chart = Chart::new(title, x, Axis::linear(relation.unit()));
     let shift = |idx: usize| (idx as f64 + 0.5) / estimates.len() as f64 - 0.5;
+    let lengths = estimates.iter().map(|(_, found)| found.matches.reference.path_length());
+    let length = lengths.filter(|length| *length > 0.0).fold(f64::INFINITY, f64::min);
+    let slot = 0.07 * length;
     for (idx, (_, found)) in estimates.iter().enumerate() {
-        let length = found.matches.reference.path_length();
-        let slot = 0.07 * length;
-        for share in DISTANCES.into_iter().filter(|_| length > 0.0) {
+        for share in DISTANCES.into_iter().filter(|_| length.is_finite()) {
             let choice =
                 PairSettings { delta: Delta::Distance(share * length), all_pairs: true, ..PairSettings::default() };
             // A path without pairs at this distance has no box.

@@ -49,7 +49,7 @@ pub use motion::motion_text;
 pub use named_move::{NamedMove, name_move};
 pub use pairs::{Delta, DeltaUnit, PairSettings, pairs};
 pub use path_figure::{compared_figure, path_figure};
-pub use reduce::{MotionFilter, Reduction};
+pub use reduce::{MotionFilter, Reduction, Role};
 pub use relation::Relation;
 pub use result_table::{result_latex, result_markdown};
 pub use smoothness::{Smoothness, smoothness};

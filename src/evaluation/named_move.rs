@@ -4,10 +4,10 @@
 //! changes. If position and rotation change and all view axes pass near one point, the move is an arc about that point
 //! (an orbit from half a turn on) or, if it is mainly vertical, a crane. The thresholds are chosen by this project.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::Trajectory;
-use cinesplat_geometry::{LevelAngles, LevelFrame};
+use cinesplat_geometry::{LevelAngles, LevelFrame, rotation};
 use cinesplat_trajectory::Move;
 
 /// Smallest rotation that counts, rad (1 degree).
@@ -163,6 +163,28 @@ pub(super) fn extent(path: &Trajectory, name: Move) -> Option<f64> {
         Move::Static => 0.0,
         _ => moved.length(),
     })
+}
+
+/// A path unrolled from the upright cylinder about the point that it aims at: how far to the operator's right, and how
+/// high, each pose is, in scene units. `None` without a common aim.
+pub(super) fn unrolled(path: &Trajectory) -> Option<Vec<DVec2>> {
+    let level = LevelFrame::new(path.up_or_mean()).ok()?;
+    let center = aimed_at(path)?;
+    let radii = path.positions.iter().map(|p| level.horizontal(*p - center).length());
+    let radius = radii.sum::<f64>() / path.len() as f64;
+    let azimuths = unwrapped(path.positions.iter().map(|p| level.azimuth(*p - center)));
+    let place = |(p, azimuth): (&DVec3, f64)| DVec2::new(-radius * azimuth, level.height(*p));
+    Some(path.positions.iter().zip(azimuths).map(place).collect())
+}
+
+/// Angles without jumps by full turns.
+pub(super) fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut found: Vec<f64> = Vec::new();
+    for angle in angles {
+        let last = found.last().copied().unwrap_or(angle);
+        found.push(last + rotation::short_turn(angle - last));
+    }
+    found
 }
 
 /// The angle that a path sweeps about an upright axis through a point, positive to the operator's right.

@@ -4,13 +4,13 @@
 use glam::{DQuat, DVec3};
 
 use super::Trajectory;
-use super::named_move::aimed_at;
-use cinesplat_geometry::{LevelAngles, LevelFrame, rotation};
+use super::named_move::{aimed_at, unrolled, unwrapped};
+use cinesplat_geometry::{LevelAngles, LevelFrame};
 use cinesplat_trajectory::Move;
 
 /// Largest way back, over the whole way.
 const BACK_FRAC: f64 = 0.08;
-/// Largest distance of a straight way from its line, over its length.
+/// Largest distance of a straight way, or of one on a cylinder that is unrolled, from its line, over its length.
 const STRAY_FRAC: f64 = 0.12;
 /// Largest distance from its place of a camera that stands, in distances that count as none.
 const STANDING_DISTANCES: f64 = 3.0;
@@ -38,7 +38,8 @@ pub(super) fn is_one_way(path: &Trajectory, name: Move, still_distance: f64) -> 
     back <= BACK_FRAC * way.abs()
 }
 
-/// Whether a camera that stands in a move leaves its place, or one that travels straight leaves its line.
+/// Whether a camera that stands in a move leaves its place, one that travels straight leaves its line, or one that circles
+/// rises before or after it instead of all along.
 fn strays(path: &Trajectory, name: Move, still_distance: f64) -> bool {
     use Move as M;
     let Some((first, last)) = path.positions.first().zip(path.positions.last()) else { return false };
@@ -58,8 +59,28 @@ fn strays(path: &Trajectory, name: Move, still_distance: f64) -> bool {
             let along = way.normalize_or_zero();
             farthest(&|moved| moved.reject_from_normalized(along).length()) > STRAY_FRAC * way.length()
         }
+        M::ArcLeft | M::ArcRight | M::OrbitLeft | M::OrbitRight | M::CraneUp | M::CraneDown => {
+            circle_stray(path) > STRAY_FRAC
+        }
         _ => false,
     }
+}
+
+/// How far a path that circles strays from an even rise, over what is allowed; 0 for other moves.
+pub(super) fn stray_share(path: &Trajectory, name: Move) -> f64 {
+    use Move as M;
+    let circles = matches!(name, M::ArcLeft | M::ArcRight | M::OrbitLeft | M::OrbitRight | M::CraneUp | M::CraneDown);
+    if circles { circle_stray(path) / STRAY_FRAC } else { 0.0 }
+}
+
+/// Largest distance of an unrolled path from the line between its ends, over the length of that line.
+fn circle_stray(path: &Trajectory) -> f64 {
+    let places = unrolled(path).unwrap_or_default();
+    let Some((first, last)) = places.first().zip(places.last()) else { return 0.0 };
+    let way = *last - *first;
+    let along = way.normalize_or_zero();
+    let farthest = places.iter().map(|place| (*place - *first).perp_dot(along).abs()).fold(0.0, f64::max);
+    if way.length() > 0.0 { farthest / way.length() } else { 0.0 }
 }
 
 /// How far a move has come at each pose: an angle, a distance, or a logarithm.
@@ -91,14 +112,4 @@ fn progress(path: &Trajectory, name: Move) -> Option<Vec<f64>> {
 
 fn turned(path: &Trajectory, level: &LevelFrame, of: fn(&LevelAngles) -> f64) -> Vec<f64> {
     unwrapped(path.rotations.iter().map(|rotation| of(&level.angles(DQuat::from_mat3(rotation).normalize()))))
-}
-
-/// Angles without jumps by full turns.
-fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut found: Vec<f64> = Vec::new();
-    for angle in angles {
-        let last = found.last().copied().unwrap_or(angle);
-        found.push(last + rotation::short_turn(angle - last));
-    }
-    found
 }

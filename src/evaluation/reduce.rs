@@ -1,7 +1,7 @@
 //! Fewer poses of a path, before paths are matched: a span of time, those after enough motion, an even choice.
 
 use super::svd::rotation_angle;
-use super::{EvaluationError, Trajectory};
+use super::{Convention, EvaluationError, Trajectory};
 
 /// The motion from one kept pose to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,6 +10,15 @@ pub struct MotionFilter {
     pub distance: f64,
     /// Angle from the last kept pose, rad.
     pub angle_rad: f64,
+}
+
+/// What a path is in a comparison.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// What the others are compared with.
+    Reference,
+    /// What is compared.
+    Estimate,
 }
 
 /// Which poses of a path are kept. The steps are taken in the order of the fields.
@@ -33,7 +42,7 @@ impl Reduction {
     /// left.
     pub fn apply(&self, path: &Trajectory) -> Result<Trajectory, EvaluationError> {
         let mut kept: Vec<usize> = (0..path.len()).collect();
-        if self.start_secs.is_some() || self.end_secs.is_some() {
+        if self.has_span() {
             let times = path.times_secs.as_ref().ok_or(EvaluationError::NoTimes { wanted: "a span of time" })?;
             let span = self.start_secs.unwrap_or(f64::NEG_INFINITY)..=self.end_secs.unwrap_or(f64::INFINITY);
             kept.retain(|idx| span.contains(&times[*idx]));
@@ -47,6 +56,34 @@ impl Reduction {
             None => reduced,
         };
         if reduced.is_empty() { Err(EvaluationError::Empty { which: "rest of a path" }) } else { Ok(reduced) }
+    }
+
+    /// The kept poses of a path in a comparison.
+    ///
+    /// By evo's convention the span of time is the last step, and it is that of the reference alone: the estimate keeps its
+    /// poses outside of it, which decides which path has fewer poses and so whose poses are matched with the nearest ones.
+    ///
+    /// # Errors
+    /// Those of [`Self::apply`].
+    pub fn apply_as(
+        &self,
+        path: &Trajectory,
+        role: Role,
+        convention: Convention,
+    ) -> Result<Trajectory, EvaluationError> {
+        if convention == Convention::Cinesplat || !self.has_span() {
+            return self.apply(path);
+        }
+        let fewer = Self { start_secs: None, end_secs: None, ..*self }.apply(path)?;
+        match role {
+            Role::Estimate => Ok(fewer),
+            Role::Reference => Self { max_poses: None, motion: None, ..*self }.apply(&fewer),
+        }
+    }
+
+    /// Whether a span of time is kept.
+    pub fn has_span(&self) -> bool {
+        self.start_secs.is_some() || self.end_secs.is_some()
     }
 }
 

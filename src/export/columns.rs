@@ -3,10 +3,30 @@
 use super::ExportError;
 use super::json_read::quoted;
 
-/// Lines with data and their numbers from 1, without comments (`#`) and empty lines.
+/// Lines with data and their numbers from 1, without comments (`#`, and `%` of MATLAB) and empty lines.
 pub(super) fn data_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let numbered = all_lines(text).enumerate().map(|(idx, line)| (idx + 1, line));
-    numbered.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+    numbered.filter(|(_, line)| !line.is_empty() && !is_comment(line))
+}
+
+/// Whether a line is a comment.
+pub(super) fn is_comment(line: &str) -> bool {
+    line.starts_with(['#', '%'])
+}
+
+/// A table without its first column, if that has no name and the others have names: the index that pandas writes.
+pub(super) fn without_index(text: &str) -> Option<String> {
+    let mut lines = data_lines(text);
+    let (first, header) = lines.next()?;
+    let separator = header.chars().next().filter(|first| [',', ';'].contains(first))?;
+    if !is_names(&header[1..]) {
+        return None;
+    }
+    let after_index = |line: &str| line.split_once(separator).map_or("", |(_, rest)| rest).to_owned();
+    // The lines keep their numbers.
+    let is_whole = |idx: usize, line: &str| idx + 1 < first || is_comment(line);
+    let kept = |(idx, line): (usize, &str)| if is_whole(idx, line) { line.to_owned() } else { after_index(line) };
+    Some(all_lines(text).enumerate().map(kept).collect::<Vec<_>>().join("\n"))
 }
 
 /// All lines without the white space around them. A line ends with `\n`, `\r\n` or `\r`, also in one text.

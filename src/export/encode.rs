@@ -81,18 +81,21 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
     let num_eased = eased.iter().filter(|key| !lichtfeld::has(key.easing)).count();
     let is_too_eased = format == Format::Lichtfeld && num_eased > 0;
     let content = if is_too_eased { Content::Sampled } else { settings.content };
+    // `ns-render` renders the path that stands beside the keyframes.
+    let has_path = format == Format::Nerfstudio;
     let track = match content {
-        Content::Sampled => PoseTrack::sampled(shot, settings.fps)?,
-        Content::Keyframes => PoseTrack::keyframes(shot),
+        Content::Keyframes if !has_path => PoseTrack::keyframes(shot),
+        Content::Keyframes | Content::Sampled => PoseTrack::sampled(shot, settings.fps)?,
     };
     if format == Format::Shot && content == Content::Keyframes {
         return Ok(Encoded { files: EncodedFiles::Single(shot_json::write(shot).into_bytes()), losses: Vec::new() });
     }
-    let mut encoded = if format == Format::Blender && content == Content::Keyframes {
-        let script = blender::write(&track, &key_slopes(shot)?);
-        Encoded { files: EncodedFiles::Single(script.into_bytes()), losses: losses(format, &track) }
-    } else {
-        encode_poses(format, shot, &track, settings.layout)?
+    let single =
+        |text: String| Encoded { files: EncodedFiles::Single(text.into_bytes()), losses: losses(format, &track) };
+    let mut encoded = match (format, content) {
+        (Format::Blender, Content::Keyframes) => single(blender::write(&track, &key_slopes(shot)?)),
+        (Format::Nerfstudio, Content::Keyframes) => single(nerfstudio::write(&track, &track.keys)),
+        _ => encode_poses(format, shot, &track, settings.layout)?,
     };
     encoded.losses.extend(lost_effects(format, shot));
     if content == Content::Keyframes && shot.keyframes.len() > 1 {
@@ -166,7 +169,7 @@ fn encode_poses(format: Format, shot: &Shot, track: &PoseTrack, layout: Layout) 
         Format::Tum => tum::write(track),
         Format::Kitti => kitti::write(track),
         Format::Euroc => euroc::write(track),
-        Format::Nerfstudio => nerfstudio::write(track),
+        Format::Nerfstudio => nerfstudio::write(track, &track.frames),
         Format::Transforms => transforms::write(track),
         Format::Supersplat => supersplat::write(track),
         Format::Lichtfeld => lichtfeld::write(track),

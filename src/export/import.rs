@@ -5,7 +5,7 @@ use strum::VariantNames;
 
 use cinesplat_files::{FileError, Limits};
 
-use super::columns::data_lines;
+use super::columns::{data_lines, without_index};
 use super::format::{self, Doubt};
 use super::imported_shot::{ImportSettings, overrule, shot_of};
 use super::json_read::quoted;
@@ -79,7 +79,8 @@ pub fn read(path: &Path, format: Option<Format>) -> Result<Imported, ExportError
     read_with(path, &ReadSettings { format, camera: None })
 }
 
-/// The camera path in a file, or in a folder that holds a COLMAP, EuRoC, nerfstudio or 7-Scenes capture.
+/// The camera path in a file, or in a folder that holds a COLMAP, EuRoC, nerfstudio or 7-Scenes capture or one recording
+/// of ROS.
 ///
 /// Without a format, the content of the file determines it. `FILE#NAME` names a topic of a recording of ROS, or a camera
 /// of a file of several.
@@ -95,8 +96,11 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
     }
     let (path, topic) = without_topic(path);
     let path = &file_of(path)?;
-    let bytes = read_bytes(path)?;
-    refuse_recordings(&bytes)?;
+    let whole = read_bytes(path)?;
+    refuse_recordings(&whole)?;
+    let without_index = std::str::from_utf8(&whole).ok().and_then(without_index).map(String::into_bytes);
+    let has_index = without_index.is_some();
+    let bytes = without_index.unwrap_or(whole);
     let by_name = || Format::from_path(path).filter(|format| *format == Format::Colmap);
     let (format, lines) = match (*format).or_else(by_name) {
         Some(format) => (format, None),
@@ -147,7 +151,10 @@ pub fn read_with(path: &Path, settings: &ReadSettings) -> Result<Imported, Expor
             }
         }
     }?;
-    let read = imported(format, track)?;
+    let mut read = imported(format, track)?;
+    if has_index {
+        read.track.unread.push("the first column has no name and is not read: an index of the lines".to_owned());
+    }
     let doubt = lines.and_then(|found| Doubt::new(format, &found));
     Ok(Imported { shot, doubt, notes, ..read })
 }
@@ -235,16 +242,57 @@ fn text_of(bytes: &[u8]) -> Result<&str, ExportError> {
     })
 }
 
-/// The file itself, or the first match of [`IN_FOLDER`] in a folder.
+/// The file itself; of a folder the first match of [`IN_FOLDER`], or its recording of ROS.
 fn file_of(path: &Path) -> Result<PathBuf, ExportError> {
     if !path.is_dir() {
         return Ok(path.to_owned());
     }
     let found = IN_FOLDER.iter().map(|name| path.join(name)).find(|file| file.is_file());
-    found.ok_or_else(|| ExportError::WrongFormat {
-        found: "a folder without a camera path".into(),
-        expected: format!("one of {}, or a sequence of 7-Scenes (frame-000000.pose.txt)", IN_FOLDER.join(", ")),
-    })
+    match found {
+        Some(file) => Ok(file),
+        None => recording_in(path)?.ok_or_else(|| ExportError::WrongFormat {
+            found: "a folder without a camera path".into(),
+            expected: format!(
+                "one of {}, a recording of ROS (.mcap or .bag), or a sequence of 7-Scenes (frame-000000.pose.txt)",
+                IN_FOLDER.join(", ")
+            ),
+        }),
+    }
+}
+
+/// The only recording of ROS in a folder, as ROS 2 writes one beside its `metadata.yaml`.
+///
+/// # Errors
+/// [`ExportError::WrongFormat`] for several recordings and for a packed one.
+fn recording_in(folder: &Path) -> Result<Option<PathBuf>, ExportError> {
+    let of_folder = |source| FileError::Read { path: folder.to_owned(), source };
+    let entries = std::fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>).map_err(of_folder)?;
+    let is_file = |name: &String| is_recording(name) && folder.join(name).is_file();
+    let mut names: Vec<String> =
+        entries.iter().filter_map(|entry| entry.file_name().into_string().ok()).filter(is_file).collect();
+    names.sort_unstable();
+    let listed = names.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(", ");
+    match &names[..] {
+        [] => Ok(None),
+        [name] if name.ends_with(PACKED) => Err(ExportError::WrongFormat {
+            found: format!("a packed recording of ROS, {listed}"),
+            expected: format!("one that is unpacked (`zstd -d {listed}`)"),
+        }),
+        [name] => Ok(Some(folder.join(name))),
+        _ => Err(ExportError::WrongFormat {
+            found: format!("a folder with {} recordings of ROS ({listed})", names.len()),
+            expected: "the path of one of them".into(),
+        }),
+    }
+}
+
+/// Ending of a recording that is packed as a whole.
+const PACKED: &str = ".zstd";
+
+/// Whether a file is a recording of ROS by its name.
+fn is_recording(name: &str) -> bool {
+    let unpacked = name.strip_suffix(PACKED).unwrap_or(name);
+    [".mcap", ".bag", ".db3"].iter().any(|ending| unpacked.ends_with(ending))
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, ExportError> {

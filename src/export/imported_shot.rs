@@ -16,6 +16,10 @@ const EVEN_STEPS: f64 = 0.05;
 const ROUNDING_SECS: f64 = 1e-6;
 /// The same for later times of 32 bits, over the time.
 const ROUNDING_FRAC: f64 = 1e-7;
+/// Largest frame rate of a film, frames per second. Even stamps closer together are keyframes, too.
+const MAX_FPS: f64 = 1000.0;
+/// Most decimals of a rate that is found from rounded stamps.
+const RATE_DECIMALS: i32 = 6;
 /// Lowest frame rate of a film, frames per second. Even stamps further apart are keyframes.
 const MIN_INFERRED_FPS: f64 = 4.0;
 
@@ -49,7 +53,7 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     lines.extend(rate.line(&track, settings));
     let (size_px, line) = size_px(&track, settings);
     lines.extend(line);
-    lines.extend(fov_line(&track, settings));
+    lines.extend(fov_line(&track, settings, size_px));
     let lens = |fov_y_rad: f64| match track.lens_side {
         LensSide::Vertical => fov_y_rad,
         LensSide::Larger => refitted(fov_y_rad, size_px),
@@ -70,7 +74,11 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     let keyframe = |(idx, frame): (usize, &PoseFrame)| Keyframe {
         time_secs: times(idx, frame),
         pose: frame.pose,
-        fov_y_rad: settings.fov_y_rad.or(frame.fov_y_rad.map(lens)).unwrap_or(DEFAULT_FOV_Y_DEG.to_radians()),
+        fov_y_rad: settings
+            .fov_y_rad
+            .or(frame.fov_y_rad.map(lens))
+            .or(frame.fov_x_rad.map(|across| upward(across, size_px)))
+            .unwrap_or(DEFAULT_FOV_Y_DEG.to_radians()),
         focus_distance: frame.focus_distance,
         optics: cinesplat_trajectory::KeyOptics::default(),
         easing: frame.easing,
@@ -122,6 +130,11 @@ fn refitted(fov_y_rad: f64, (width, height): (u32, u32)) -> f64 {
     let larger_over_height = |(width, height): (u32, u32)| (f64::from(width) / f64::from(height)).max(1.0);
     let tangent = (fov_y_rad / 2.0).tan() * larger_over_height(DEFAULT_SIZE_PX) / larger_over_height((width, height));
     2.0 * tangent.atan()
+}
+
+/// The vertical field of view in an image of a size, from the horizontal one, rad.
+fn upward(across_rad: f64, (width, height): (u32, u32)) -> f64 {
+    2.0 * ((across_rad / 2.0).tan() * f64::from(height) / f64::from(width)).atan()
 }
 
 /// Replaces what the settings state in a shot.
@@ -186,7 +199,8 @@ fn steps(frames: &[PoseFrame]) -> String {
 
 /// The rate of frames at even times; `None` for uneven times, for keyframes and for one frame.
 ///
-/// The result is the closest usual rate if it explains every time as well as the mean step does.
+/// The result is the closest usual rate if it explains every time, else the one with the fewest decimals that explains
+/// them as well as the mean step does.
 fn even_rate(frames: &[PoseFrame]) -> Option<f64> {
     let (first, last) = frames.first().zip(frames.last())?;
     let num_steps = frames.len() as f64 - 1.0;
@@ -195,16 +209,23 @@ fn even_rate(frames: &[PoseFrame]) -> Option<f64> {
         return None;
     }
     let tolerance = EVEN_SECS.min(EVEN_STEPS * step);
-    let is_even =
-        |(idx, frame): (usize, &PoseFrame)| (frame.time_secs - first.time_secs - idx as f64 * step).abs() <= tolerance;
-    if !frames.iter().enumerate().all(is_even) {
+    let off_secs = |step: f64| {
+        let off = |(idx, frame): (usize, &PoseFrame)| (frame.time_secs - first.time_secs - idx as f64 * step).abs();
+        frames.iter().enumerate().map(off).fold(0.0, f64::max)
+    };
+    let mean_off_secs = off_secs(step);
+    if !(mean_off_secs <= tolerance) {
         return None;
     }
     let film_rates = [24.0, 30.0, 48.0, 60.0, 120.0].map(|fps| fps * 1000.0 / 1001.0);
     let rates = (1..=240).map(f64::from).chain(film_rates);
     let drift_secs = |fps: f64| num_steps * (step - fps.recip()).abs();
     let usual = rates.min_by(|a, b| drift_secs(*a).total_cmp(&drift_secs(*b)));
-    Some(usual.filter(|fps| drift_secs(*fps) <= tolerance).unwrap_or(step.recip()))
+    let rounded = |decimals: i32| (step.recip() * 10_f64.powi(decimals)).round() / 10_f64.powi(decimals);
+    let mut fewest = (0..=RATE_DECIMALS).map(rounded);
+    let is_as_near = |fps: &f64| off_secs(fps.recip()) <= 2.0 * mean_off_secs.max(ROUNDING_SECS);
+    let found = usual.filter(|fps| drift_secs(*fps) <= tolerance);
+    found.or_else(|| fewest.find(is_as_near)).or(Some(step.recip())).filter(|fps| *fps <= MAX_FPS)
 }
 
 /// The image size, and a line if the file does not state it.
@@ -232,20 +253,25 @@ fn size_px(track: &PoseTrack, settings: &ImportSettings) -> ((u32, u32), Option<
     }
 }
 
-/// A line about poses without a field of view, or about fields of view that are replaced.
-fn fov_line(track: &PoseTrack, settings: &ImportSettings) -> Option<String> {
+/// A line about poses without a vertical field of view, or about fields of view that are replaced.
+fn fov_line(track: &PoseTrack, settings: &ImportSettings, (width, height): (u32, u32)) -> Option<String> {
     let num_poses = track.frames.len();
-    let num_without = track.frames.iter().filter(|frame| frame.fov_y_rad.is_none()).count();
+    let has_none = |frame: &&PoseFrame| frame.fov_y_rad.is_none() && frame.fov_x_rad.is_none();
+    let num_without = track.frames.iter().filter(has_none).count();
     match settings.fov_y_rad {
         Some(wanted) => {
             let wanted_deg = wanted.to_degrees();
-            let replaced =
-                track.frames.iter().filter_map(|frame| frame.fov_y_rad).filter(|fov| (fov - wanted).abs() > 1e-9);
+            let own =
+                |frame: &PoseFrame| frame.fov_y_rad.or(frame.fov_x_rad.map(|across| upward(across, (width, height))));
+            let replaced = track.frames.iter().filter_map(own).filter(|fov| (fov - wanted).abs() > 1e-9);
             let num_replaced = replaced.count();
             (num_replaced > 0).then(|| {
                 format!("the field of view of {num_replaced} poses in the file is replaced by {wanted_deg:.3} degrees")
             })
         }
+        None if num_without == 0 => track.frames.iter().any(|frame| frame.fov_y_rad.is_none()).then(|| {
+            format!("the file states the field of view across the image: that of an image of {width} x {height}")
+        }),
         None if num_without == num_poses => {
             Some(format!("the file has no field of view: {DEFAULT_FOV_Y_DEG} degrees is assumed"))
         }

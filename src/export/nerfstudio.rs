@@ -2,8 +2,9 @@
 //!
 //! Matrices are `world_from_camera` with OpenGL camera axes, 16 numbers in row-major order. Fields of view are
 //! vertical, in degrees. `ns-render` renders `camera_path` at `len / seconds` frames per second and ignores `keyframes`
-//! and `fps`; the viewer loads only `keyframes`, so both hold every frame. Positions are in the scene file's world, which is that of nerfstudio
-//! if nerfstudio exported the scene.
+//! and `fps`, so that it holds every frame at even times; the viewer loads only `keyframes`, which are every frame, or
+//! the keys of the shot for people who go on editing there. Positions are in the scene file's world, which is that of
+//! nerfstudio if nerfstudio exported the scene.
 
 use glam::DMat4;
 
@@ -13,14 +14,15 @@ use super::json_write::{Json, matrix_flat, object};
 use super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::frames::{from_opengl, to_opengl};
 
-pub(super) fn write(track: &PoseTrack) -> String {
+/// The file of a track of every frame. `keys` are what the viewer loads; it joins them with a spline of its own, which has
+/// nothing to add to every frame.
+pub(super) fn write(track: &PoseTrack, keys: &[PoseFrame]) -> String {
     let (width, height) = track.size_px.unwrap_or(DEFAULT_SIZE_PX);
     let aspect = track.aspect();
-    // The viewer joins its keys with a spline of its own. With every frame as a key it has nothing to add.
-    let keys = &track.frames;
     let default_fov_deg = default_fov_deg(keys);
     let seconds = track.duration_secs();
     let num_frames = track.frames.len() as f64;
+    let rate_fps = if seconds > 0.0 { num_frames / seconds } else { DEFAULT_FPS };
     let camera = |frame: &PoseFrame, matrix_name| {
         object([
             (matrix_name, matrix_flat(to_opengl(&frame.pose))),
@@ -44,7 +46,7 @@ pub(super) fn write(track: &PoseTrack) -> String {
         ("render_height", height.into()),
         ("render_width", width.into()),
         // A path of no duration still needs a rate: frames over seconds.
-        ("fps", if seconds > 0.0 { num_frames / seconds } else { track.fps.unwrap_or(DEFAULT_FPS) }.into()),
+        ("fps", track.fps.filter(|_| track.is_sampled() || seconds <= 0.0).unwrap_or(rate_fps).into()),
         ("seconds", if seconds > 0.0 { seconds } else { num_frames / track.fps.unwrap_or(DEFAULT_FPS) }.into()),
         ("is_cycle", false.into()),
         ("smoothness_value", 0.0.into()),
@@ -72,7 +74,10 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
     let keys = read_keys(&keys, &root)?;
     let seconds = root.optional("seconds").map(|node| node.number()).transpose()?.filter(|secs| *secs > 0.0);
     let fps = root.optional("fps").map(|node| node.number()).transpose()?.filter(|fps| *fps > 0.0);
-    let fps = seconds.map(|secs| path.len() as f64 / secs).or(fps);
+    // The rate of `ns-render` is that of the frames over the seconds; `fps` has it without the rounding.
+    let rendered_fps = seconds.map(|secs| path.len() as f64 / secs);
+    let fps =
+        fps.filter(|fps| rendered_fps.is_none_or(|rendered| (rendered / fps - 1.0).abs() < 1e-9)).or(rendered_fps);
     let mut frames = Vec::with_capacity(path.len());
     for (idx, node) in path.iter().enumerate() {
         frames.push(read_camera(node, "camera_to_world", idx as f64 / fps.unwrap_or(DEFAULT_FPS))?);

@@ -2,7 +2,7 @@
 //!
 //! Enters: text with one pose per line. Leaves: the unit, and how much the text says about it.
 
-use super::columns::{all_lines, cells, data_lines, is_names};
+use super::columns::{all_lines, cells, data_lines, is_comment, is_names};
 
 /// Number of lines that are examined.
 pub(super) const MAX_LINES: usize = 1000;
@@ -147,7 +147,7 @@ fn unit_of_stamps(stamps: &[f64]) -> Option<Shown> {
 /// The lines before the first data, in lower case.
 pub(super) fn header(text: &str) -> Vec<String> {
     let lines = all_lines(text);
-    lines.take_while(|line| line.is_empty() || line.starts_with('#') || is_names(line)).map(str::to_lowercase).collect()
+    lines.take_while(|line| line.is_empty() || is_comment(line) || is_names(line)).map(str::to_lowercase).collect()
 }
 
 /// The unit that a header names first, in brackets, at the end of a column's name, or as a word beside that of time.

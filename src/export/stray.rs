@@ -62,9 +62,15 @@ pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, Export
         Curve::Spline | Curve::EasedSpline => "its own spline",
         Curve::Bezier(_) => "Bezier curves of the film's slopes",
     };
+    let (program, exact) = match format {
+        Format::Nerfstudio => {
+            ("nerfstudio's viewer", "`ns-render` renders the film's frames, which the file holds, too")
+        }
+        _ => (format.into(), "export every frame for the path of the film"),
+    };
     Ok(Some(format!(
-        "{format} joins keyframes with {what}: up to {moved:.4} scene units (at {worst_secs:.2} s), {:.2} degrees and a \
-         field of view {:.2} degrees off the film; export every frame for the path of the film",
+        "{program} joins keyframes with {what}: up to {moved:.4} scene units (at {worst_secs:.2} s), {:.2} degrees and a \
+         field of view {:.2} degrees off the film; {exact}",
         turned.to_degrees(),
         zoomed.to_degrees()
     )))

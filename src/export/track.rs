@@ -73,6 +73,8 @@ pub struct PoseFrame {
     pub pose: Pose,
     /// Vertical field of view; `None` if the file does not state it.
     pub fov_y_rad: Option<f64>,
+    /// Horizontal field of view, of a file that states it without the image size that makes a vertical one of it.
+    pub fov_x_rad: Option<f64>,
     /// Distance of sharpest focus, scene units; `None` if the file does not state it.
     pub focus_distance: Option<f64>,
     /// Speed profile up to the next frame; linear between sampled frames.
@@ -88,7 +90,16 @@ impl PoseFrame {
     /// A pose at a time, without lens or cut.
     pub fn new(time_secs: f64, pose: Pose) -> Self {
         let easing = Easing::Linear;
-        Self { time_secs, pose, fov_y_rad: None, focus_distance: None, easing, cut: false, matrix: None }
+        Self {
+            time_secs,
+            pose,
+            fov_y_rad: None,
+            fov_x_rad: None,
+            focus_distance: None,
+            easing,
+            cut: false,
+            matrix: None,
+        }
     }
 }
 
@@ -98,6 +109,7 @@ impl From<&Keyframe> for PoseFrame {
             time_secs: key.time_secs,
             pose: key.pose,
             fov_y_rad: Some(key.fov_y_rad),
+            fov_x_rad: None,
             focus_distance: key.focus_distance,
             easing: key.easing,
             cut: key.cut,

@@ -1,7 +1,8 @@
 //! `transforms.json` of NeRF, instant-ngp and nerfstudio: images with poses and intrinsics.
 //!
 //! `transform_matrix` is `world_from_camera` with OpenGL camera axes. `fl_x fl_y cx cy w h` in pixels are at the top
-//! level or in each frame; `camera_angle_x` (rad) may replace the focal length. The format has no times: this program
+//! level or in each frame; `camera_angle_x` (rad) may replace the focal length, in the files of NeRF without an image
+//! size. The format has no times: this program
 //! adds `time_secs` to frames and `fps`, which other readers ignore.
 
 use glam::DMat3;
@@ -58,10 +59,12 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         intrinsics.note_losses(&mut losses);
         note_distortion(node, &root, &mut losses)?;
         size_px = size_px.or(intrinsics.size_px());
+        let fov_y_rad = intrinsics.fov_y_rad();
         lenses.push(intrinsics.lens());
         let opencv_axes = DMat3::from_mat4(matrix) * DMat3::from_diagonal(glam::DVec3::new(1.0, -1.0, -1.0));
         frames.push(PoseFrame {
-            fov_y_rad: intrinsics.fov_y_rad(),
+            fov_y_rad,
+            fov_x_rad: intrinsics.angle_x.filter(|_| fov_y_rad.is_none()),
             matrix: Some(opencv_axes),
             ..PoseFrame::new(time_secs.unwrap_or(idx as f64 / fps.unwrap_or(DEFAULT_FPS)), pose)
         });

@@ -60,6 +60,15 @@ fn nearest<'a>(key: &str, names: &[&'a str]) -> Option<&'a str> {
     names.iter().copied().min_by_key(|name| strsim::osa_distance(&key, name))
 }
 
+/// Fewest edits between two names, or between one word of each.
+pub fn edits_between(name: &str, other: &str) -> usize {
+    let short = |text: &str| text.chars().take(MAX_SHOWN_CHARS).collect::<String>().to_lowercase();
+    let (name, other) = (short(name), short(other));
+    let by_word =
+        name.split_whitespace().flat_map(|a| other.split_whitespace().map(move |b| strsim::osa_distance(a, b)));
+    by_word.chain([strsim::osa_distance(&name, &other)]).min().unwrap_or(usize::MAX)
+}
+
 /// Longest part of a key in a line and in a comparison, characters.
 const MAX_SHOWN_CHARS: usize = 40;
 

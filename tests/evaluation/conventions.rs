@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use cinesplat::evaluation::{
-    Convention, Delta, EvalSettings, Matching, Metric, MotionFilter, PairSettings, Reduction, Trajectory, evaluate,
+    Convention, Delta, EvalSettings, Matching, Metric, MotionFilter, PairSettings, Reduction, Role, Trajectory,
+    evaluate,
 };
 use cinesplat::export::read;
 
@@ -42,6 +43,9 @@ const ROWS: &[Row] = &[
     ("repeated_reference", "repeated_estimate", 0.1, false, "se3", None, "trans", Some(37), Some((0.2, 40.0)), None, (None, 16, [0.264_755_151_756_107_03, 0.228_315_513_284_153_56, 0.410_108_459_040_399])),
     ("repeated_reference", "repeated_estimate", 0.03, false, "none", None, "trans", None, None, None, (Some(3), 13, [0.137_374_245_233_606_28, 0.116_393_769_631_290_08, 0.214_503_053_955_917_65])),
     ("repeated_reference", "repeated_estimate", 0.03, false, "sim3", None, "full", None, None, Some((1.0, 5.5)), (None, 25, [0.051_092_031_640_147_32, 0.047_409_414_485_727_28, 0.087_945_566_221_666_22])),
+    // The reference alone is trimmed, so that it is the shorter path.
+    ("repeated_reference", "repeated_estimate", 0.1, false, "se3", None, "trans", None, None, Some((1.0, 2.5)), (None, 30, [0.072_690_852_453_818_79, 0.057_856_147_758_572_02, 0.144_008_473_448_863_94])),
+    ("repeated_reference", "repeated_estimate", 0.1, false, "se3", None, "trans", Some(37), None, Some((1.0, 5.5)), (None, 17, [0.247_993_216_491_638_47, 0.204_866_161_476_762_1, 0.493_286_596_998_688_54])),
     ("straight_reference", "straight_estimate", 0.01, false, "se3", Some(20), "trans", None, None, None, (None, 60, [0.041_565_601_233_264_284, 0.000_319_506_222_609_783_47, 0.128_148_801_894_723_97])),
     ("straight_reference", "straight_estimate", 0.01, false, "se3", Some(20), "angle_deg", None, None, None, (None, 60, [2.914_531_695_552_925_2, 2.914_539_422_290_291_6, 2.914_576_579_970_799_7])),
     ("straight_reference", "straight_estimate", 0.01, false, "se3", None, "trans", None, None, None, (None, 60, [0.000_162_888_784_296_089_88, 0.000_150_849_419_283_918_83, 0.000_357_049_167_974_293_9])),
@@ -78,7 +82,9 @@ fn the_conventions_of_evo_give_its_figures() {
             convention: Convention::Evo,
             ..EvalSettings::default()
         };
-        let found = evaluate(&path(reference, &reduction), &path(estimate, &reduction), &settings).unwrap();
+        let [reference, estimate] = [(reference, Role::Reference), (estimate, Role::Estimate)]
+            .map(|(name, role)| reduction.apply_as(&path(name, &Reduction::default()), role, Convention::Evo).unwrap());
+        let found = evaluate(&reference, &estimate, &settings).unwrap();
         assert_eq!(found.errors.len(), count, "{row:?}");
         let got = [found.statistics.rmse, found.statistics.median, found.statistics.max];
         for (got, wanted) in got.into_iter().zip(wanted) {
@@ -97,6 +103,16 @@ fn a_note_says_where_the_own_convention_matches_otherwise() {
     // Poses that share one stamp share its match in both conventions.
     let found = evaluate(&reference, &estimate, &narrow).unwrap();
     assert_eq!((found.errors.len(), found.notes.len()), (41, 0), "{:?}", found.notes);
+}
+
+#[test]
+fn a_span_of_time_trims_both_paths_and_by_the_convention_of_evo_the_reference_alone() {
+    let span = Reduction { start_secs: Some(1.0), end_secs: Some(2.5), ..Reduction::default() };
+    let estimate = path("repeated_estimate", &Reduction::default());
+    let kept = |role, convention| span.apply_as(&estimate, role, convention).unwrap().len();
+    assert_eq!(kept(Role::Estimate, Convention::Evo), estimate.len());
+    assert!(kept(Role::Reference, Convention::Evo) < estimate.len());
+    assert_eq!(kept(Role::Estimate, Convention::Cinesplat), kept(Role::Reference, Convention::Evo));
 }
 
 #[test]

@@ -52,6 +52,16 @@ impl Walk {
         })
     }
 
+    /// About a point ahead, to the operator's right by an angle and up by a height, with the view on that point.
+    fn circle(self, secs: f64, radius: f64, (degrees, rise): (f64, f64)) -> Self {
+        let center = DVec3::new(0.3, -1.6, -4.0 + radius);
+        self.piece(secs, |level, start, t| {
+            let turn = DQuat::from_axis_angle(level.up, (degrees * t).to_radians());
+            let position = center + turn * (start.position - center) + level.up * rise * t;
+            Pose::look_at(position, center, level.up, None).unwrap()
+        })
+    }
+
     fn path(self) -> Trajectory {
         let times = (0..self.poses.len()).map(|k| k as f64 / FPS).collect();
         Trajectory {
@@ -108,6 +118,32 @@ fn an_arc_is_told_as_an_arc() {
     assert_eq!(names(&path), [Some(Move::ArcRight)]);
     let sentence = Description::new(&path, &[], None).sentence();
     assert!(sentence.starts_with("arc to the right by "), "{sentence}");
+}
+
+/// `orbit the sofa to the left 90 degrees, then crane up` was told as an arc alone.
+#[test]
+fn a_rise_after_an_arc_is_a_move_of_its_own() {
+    for (degrees, arc) in [(-90.0, Move::ArcLeft), (60.0, Move::ArcRight)] {
+        let path = Walk::new().circle(5.0, 2.3, (degrees, 0.0)).circle(3.0, 2.3, (0.0, 1.4)).path();
+        assert_eq!(names(&path), [arc, Move::CraneUp].map(Some));
+        let first = Walk::new().circle(3.0, 2.3, (0.0, 1.4)).circle(5.0, 2.3, (degrees, 0.0)).path();
+        assert_eq!(names(&first), [Move::CraneUp, arc].map(Some));
+    }
+    let path = Walk::new().circle(5.0, 2.3, (-90.0, 0.0)).circle(3.0, 2.3, (0.0, 1.4)).path();
+    let sentence = Description::new(&path, &[], None).sentence();
+    assert!(sentence.starts_with("arc to the left by 90 degrees for ") && sentence.contains(", then crane up for "));
+}
+
+#[test]
+fn a_rise_along_an_arc_is_told_beside_it() {
+    let told = |degrees: f64, rise: f64| {
+        let path = Walk::new().circle(4.0, 2.5, (degrees, rise)).path();
+        Description::new(&path, &[], None).sentence()
+    };
+    assert_eq!(told(80.0, 1.2), "arc to the right by 80 degrees while craning up for 4 seconds");
+    assert_eq!(told(-80.0, -1.2), "arc to the left by 80 degrees while craning down for 4 seconds");
+    assert_eq!(told(80.0, 0.1), "arc to the right by 80 degrees for 4 seconds");
+    assert_eq!(told(-20.0, 2.0), "crane up while arcing to the left by 20 degrees for 4 seconds");
 }
 
 #[test]

@@ -178,6 +178,38 @@ fn the_figure_of_errors_shows_maps_times_axes_and_spreads_of_every_estimate() {
     assert!(is_well_formed(&svg) && !svg.contains("NaN") && svg.contains("the reference is stationary"));
 }
 
+/// Each estimate had distances of its own, so that boxes beside each other were of other distances.
+#[test]
+fn boxes_of_several_estimates_stand_at_common_distances() {
+    let whole = compared(0.01);
+    let wave = |count: usize| {
+        let part: Vec<usize> = (0..count).collect();
+        let (reference, estimate) = (whole.matches.reference.select(&part), whole.matches.estimate.select(&part));
+        evaluate(&reference, &estimate, &EvalSettings::default()).unwrap()
+    };
+    let svg = error_figure("truth.txt", &[("whole.txt", &wave(300)), ("half.txt", &wave(150))]).to_svg();
+    // The left side and the width.
+    let boxes: Vec<(f64, f64)> = svg
+        .lines()
+        .filter(|line| line.starts_with("<polygon") && line.contains("fill-opacity=\"0.35\""))
+        .map(|line| {
+            let corners = line.split_once("points=\"").unwrap().1.split_once('"').unwrap().0;
+            let corners: Vec<f64> =
+                corners.split(' ').map(|corner| corner.split_once(',').unwrap().0.parse().unwrap()).collect();
+            (corners[0], corners[1] - corners[0])
+        })
+        .collect();
+    // In each chart first the five of one estimate, then those of the other.
+    for chart in boxes.chunks(10) {
+        for (a, b) in chart[..5].iter().zip(&chart[5..]) {
+            assert!(b.0 > a.0 && b.0 - a.0 < 1.5 * a.1, "{a:?} {b:?}");
+        }
+    }
+    assert_eq!(boxes.len(), 20);
+    // The statistics along an axis name the estimate, too.
+    assert_eq!(svg.matches("half.txt: rmse ").count(), 4);
+}
+
 #[test]
 fn a_pdf_says_where_each_of_its_objects_starts() {
     let pdf = error_figure("truth", &[("near", &compared(0.01))]).to_pdf();

@@ -65,6 +65,23 @@ def cases(kind):
             yield {"align": align, "relation": "trans", "max_diff": max_diff}
             yield {"align": align, "relation": "full", "max_diff": max_diff, "interpolate": True}
         yield {"align": "sim3", "relation": "trans", "time_offset": 0.02}
+        for start, end in [(0.2, 0.4), (0.5, None), (None, 0.3)]:
+            trim = {"start": start, "end": end}
+            for max_diff in [0.01, 0.1]:
+                yield {"align": "se3", "relation": "trans", "trim": trim, "max_diff": max_diff}
+                yield {"align": "sim3", "relation": "angle_deg", "trim": trim, "max_diff": max_diff, "rpe": ("f", 5)}
+            yield {"align": "se3", "relation": "full", "trim": trim, "interpolate": True}
+            yield {"align": "se3", "relation": "trans", "trim": trim, "downsample": 200, "max_diff": 0.2}
+            yield {"align": "se3", "relation": "trans", "trim": trim, "motion_filter": (0.05, 5), "max_diff": 0.1}
+            yield {"align": "none", "relation": "trans", "trim": trim, "time_offset": 0.02}
+
+
+def span(reference, trim):
+    """First and last time of a part of the reference."""
+    first, last = reference.timestamps[0], reference.timestamps[-1]
+    return [
+        None if part is None else round(float(first + part * (last - first)), 3) for part in (trim["start"], trim["end"])
+    ]
 
 
 def load(kind, path):
@@ -84,6 +101,9 @@ def by_evo(kind, reference, estimate, case):
         if "motion_filter" in case:
             path.motion_filter(*case["motion_filter"], True)
     try:
+        if "trim" in case:
+            # As evo_ape and evo_rpe, evo 1.38.1: after the filters, and the reference alone.
+            reference.reduce_to_time_range(*case["trim"])
         if kind != "kitti":
             reference, estimate = sync.associate_trajectories(
                 reference,
@@ -125,6 +145,8 @@ def by_cinesplat(program, reference, estimate, case):
             flags += ["--" + name.replace("_", "-"), str(case[name])]
     if "motion_filter" in case:
         flags += ["--motion-filter", ",".join(map(str, case["motion_filter"]))]
+    for name, time in zip(("--start", "--end"), case.get("trim", [])):
+        flags += [] if time is None else [name, repr(time)]
     flags += ["--" + name.replace("_", "-") for name in ("all_pairs", "interpolate") if case.get(name)]
     done = subprocess.run([program, "eval", reference, estimate, *flags], capture_output=True, text=True, check=False)
     return json.loads(done.stdout) if done.returncode == 0 else done.stderr.strip()
@@ -142,6 +164,8 @@ def main():
             continue
         loaded = [load(kind, path) for path in paths]
         for case in cases(kind):
+            if "trim" in case:
+                case["trim"] = span(loaded[0], case["trim"])
             wanted = by_evo(kind, *loaded, case)
             found = by_cinesplat(program, *map(str, paths), case)
             if wanted is None:

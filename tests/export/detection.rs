@@ -295,6 +295,41 @@ fn kitti_with_nanoseconds_is_not_read_as_seconds() {
 }
 
 #[test]
+fn comments_of_matlab_are_skipped() {
+    let (path, _folder) = file("a.txt", b"% time x y z qx qy qz qw\n0.1 1 2 3 0 0 0 1\n% half\n0.2 1 2 4 0 0 0 1\n");
+    let found = read(&path, None).unwrap();
+    assert_eq!((found.format, found.track.frames.len()), (Format::Tum, 2));
+}
+
+/// `DataFrame.to_csv` of pandas writes the numbers of the rows in a first column without a name.
+#[test]
+fn the_index_column_of_pandas_is_skipped_aloud() {
+    let rows = |start: &str, header: &str, separator: char| {
+        let row = |idx: u32| {
+            format!("{idx},{start}.{idx}659,1.5,0.5,{idx},0,0.6,0,0.8\n").replace(',', &separator.to_string())
+        };
+        header.replace(',', &separator.to_string()) + &(0..5).map(row).collect::<String>()
+    };
+    for separator in [',', ';'] {
+        let text = rows("1305031098", ",timestamp,x,y,z,qx,qy,qz,qw\n", separator);
+        let (path, _folder) = file("a.csv", text.as_bytes());
+        let found = read(&path, None).unwrap();
+        assert_eq!((found.format, found.track.frames.len()), (Format::Tum, 5));
+        let frame = &found.track.frames[3];
+        assert!((frame.time_secs - 1_305_031_098.365_9).abs() < 1e-6 && frame.pose.position.z == 3.0);
+        assert!((frame.pose.rotation.y - 0.6).abs() < 1e-12);
+        assert_eq!(found.track.unread, ["the first column has no name and is not read: an index of the lines"]);
+    }
+    let (path, _folder) = file("b.csv", rows("7", ",time_secs,x,y,z,qx,qy,qz,qw\n", ',').as_bytes());
+    let found = read(&path, None).unwrap();
+    assert_eq!((found.format, found.track.frames[4].pose.position.z), (Format::Csv, 4.0));
+    // An error names the line of the file.
+    let damaged = rows("7", ",time_secs,x,y,z,qx,qy,qz,qw\n", ',').replace("2,7.2659,1.5", "2,7.2659,left");
+    let (path, _folder) = file("b.csv", damaged.as_bytes());
+    assert!(read(&path, None).unwrap_err().to_string().starts_with("line 4: "));
+}
+
+#[test]
 fn unread_columns_and_odd_flags_of_a_csv_are_told() {
     let csv = |head: &str, cell: &str| format!("time_secs,x,y,z,qx,qy,qz,qw,{head}\n0,1,2,3,0,0,0,1,{cell}\n");
     let (path, _folder) = file("a.csv", csv("note", "hi").as_bytes());

@@ -124,3 +124,40 @@ fn poses_out_of_order_are_sorted_and_repeated_ones_dropped_aloud() {
     let (path, _folder) = file("a.tum", b"0 1 2 3 0 0 0 1\n0.1 1 2 3 0 0 0 1\n0.1 9 2 3 0 0 0 1\n");
     assert!(read(&path, None).unwrap().into_shot(&ImportSettings::default()).is_err());
 }
+
+/// The original files of NeRF state the horizontal field of view and no image size: 50 degrees were assumed.
+#[test]
+fn the_horizontal_field_of_view_of_nerf_is_taken_with_the_given_or_the_assumed_size() {
+    let matrix = "[[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]";
+    let text =
+        format!(r#"{{"camera_angle_x":0.69,"frames":[{{"file_path":"./train/r_0","transform_matrix":{matrix}}}]}}"#);
+    let (path, _folder) = file("transforms_train.json", text.as_bytes());
+    let settings = ImportSettings { size_px: Some((800, 800)), ..ImportSettings::default() };
+    let (square, lines) = read(&path, None).unwrap().into_shot(&settings).unwrap();
+    assert!((square.keyframes[0].fov_y_rad - 0.69).abs() < 1e-12);
+    insta::assert_snapshot!(lines.join("\n"), @r"
+    the file has no times: 30 frames per second are assumed
+    the file states the field of view across the image: that of an image of 800 x 800
+    the file has no world up: the shot states none
+    ");
+    let (wide, lines) = read(&path, None).unwrap().into_shot(&ImportSettings::default()).unwrap();
+    let wanted = 2.0 * ((0.69_f64 / 2.0).tan() * 720.0 / 1280.0).atan();
+    assert!((wide.keyframes[0].fov_y_rad - wanted).abs() < 1e-12);
+    assert!(lines[1].ends_with("1280 x 720 is assumed") && lines[2].ends_with("an image of 1280 x 720"), "{lines:?}");
+}
+
+/// At exactly 1 kHz the rate was 1000.0000000000002, above the largest one of a film; 7.5 was 7.499999948630137.
+#[test]
+fn rates_of_rounded_stamps_have_few_decimals() {
+    let made = |line: &dyn Fn(u32) -> String, num_frames: u32| {
+        let (path, _folder) = file("a.tum", (0..num_frames).map(line).collect::<String>().as_bytes());
+        read(&path, None).unwrap().into_shot(&ImportSettings::default()).unwrap()
+    };
+    let at = |fps: f64, start: f64| move |idx: u32| format!("{:.6} {idx} 2 3 0 0 0 1\n", start + f64::from(idx) / fps);
+    for (fps, start) in [(7.5, 0.0), (7.5, 1_305_031_098.665_9), (1000.0, 1.0), (12.5, 0.0), (400.0, 0.0)] {
+        assert_eq!(made(&at(fps, start), 366).0.fps, fps, "{fps} from {start}");
+    }
+    let (shot, lines) = made(&at(2000.0, 0.0), 366);
+    assert_eq!((shot.fps, shot.keyframes.len()), (30.0, 366));
+    assert!(lines[0].contains("30 frames per second are assumed"), "{lines:?}");
+}

@@ -93,6 +93,23 @@ fn reads_files_of_other_writers() {
     assert_eq!(track.frames[0].fov_y_rad, Some(60_f64.to_radians()));
 }
 
+/// The keys of a shot are uneven in time, and `ns-render` rendered them as the only frames, at even times.
+#[test]
+fn keyframes_stand_beside_a_path_of_every_frame() {
+    let path = exported(ExportSettings { content: Content::Keyframes, ..ExportSettings::default() });
+    let list = |name: &str| path[name].as_array().unwrap().clone();
+    assert_eq!((list("camera_path").len(), list("keyframes").len()), (72, with_cut().keyframes.len()));
+    assert_eq!(path["seconds"].as_f64().unwrap(), 3.0);
+    let whole = exported(ExportSettings::default());
+    assert_eq!(path["camera_path"], whole["camera_path"]);
+    let steps: f64 = list("keyframes").iter().map(|key| key["override_transition_sec"].as_f64().unwrap()).sum();
+    assert!((steps - with_cut().keyframes[3].time_secs).abs() < 1e-12, "{steps}");
+    let (imported, lines, _folder) = there_and_back(&with_cut(), Format::Nerfstudio, "a.json", Content::Keyframes);
+    assert_eq!((imported.track.frames.len(), imported.track.keys.len()), (72, 4));
+    let is_said = |line: &String| line.starts_with("nerfstudio's viewer joins keyframes with its own spline: up to ");
+    assert!(lines.iter().any(is_said), "{lines:?}");
+}
+
 #[test]
 fn a_transition_switch_that_is_no_flag_is_an_error() {
     let (_, _, folder) = there_and_back(&with_cut(), Format::Nerfstudio, "a.json", Content::Keyframes);

@@ -280,3 +280,29 @@ fn poses_at_times_that_a_link_is_not_known_at_are_counted() {
     let error = topic("a.bag", &apart, "/tf:map.camera").unwrap_err().to_string();
     assert!(error.starts_with("/tf:map.camera: found 3 of 3 poses left out: map <- odom"), "{error}");
 }
+
+/// ROS 2 records into a folder, which was `a folder without a camera path`.
+#[test]
+fn the_folder_of_a_recording_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    write("metadata.yaml", b"rosbag2_bagfile_information:\n  version: 9\n");
+    let error = read(folder.path(), None).unwrap_err().to_string();
+    assert!(error.contains("a recording of ROS (.mcap or .bag)"), "{error}");
+    write("drive_0.mcap.zstd", &[]);
+    insta::assert_snapshot!(read(folder.path(), None).unwrap_err(), @"found a packed recording of ROS, drive_0.mcap.zstd, expected one that is unpacked (`zstd -d drive_0.mcap.zstd`)");
+    std::fs::remove_file(folder.path().join("drive_0.mcap.zstd")).unwrap();
+    write("drive_0.mcap", &mcap(""));
+    assert_poses(&read(folder.path(), None).unwrap());
+    let mut named = folder.path().as_os_str().to_owned();
+    named.push("#/odom");
+    assert_poses(&read(named.as_ref(), None).unwrap());
+    write("drive_1.mcap", &mcap(""));
+    insta::assert_snapshot!(read(folder.path(), None).unwrap_err(), @"found a folder with 2 recordings of ROS (drive_0.mcap, drive_1.mcap), expected the path of one of them");
+    for name in ["drive_0.mcap", "drive_1.mcap"] {
+        std::fs::remove_file(folder.path().join(name)).unwrap();
+    }
+    write("drive_0.db3", b"SQLite format 3\0..");
+    let error = read(folder.path(), None).unwrap_err().to_string();
+    assert!(error.contains("evo_traj bag2"), "{error}");
+}

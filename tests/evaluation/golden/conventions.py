@@ -69,12 +69,12 @@ rows = []
 def row(ref, est, md, method, align, n, relation, down=None, motion=None, rpe=None, trim=None):
     a, b = load(ref + ".tum"), load(est + ".tum")
     for x in (a, b):
-        if trim:
-            x.reduce_to_time_range(*trim)
         if down:
             x.downsample(down)
         if motion:
             x.motion_filter(motion[0], motion[1], True)
+    if trim:
+        a.reduce_to_time_range(*trim)  # as evo_ape does: the reference alone
     a, b = sync.associate_trajectories(
         a, b, max_diff=md, sync_method=SyncMethod.interpolation if method else SyncMethod.nearest_time
     )
@@ -107,6 +107,8 @@ row(A, B, 0.1, 0, "se3", None, "trans", motion=(0.3, 15.0))
 row(A, B, 0.1, 0, "se3", None, "trans", down=37, motion=(0.2, 40.0))
 row(A, B, 0.03, 0, "none", None, "trans", rpe=3)
 row(A, B, 0.03, 0, "sim3", None, "full", trim=(1.0, 5.5))
+row(A, B, 0.1, 0, "se3", None, "trans", trim=(1.0, 2.5))
+row(A, B, 0.1, 0, "se3", None, "trans", down=37, trim=(1.0, 5.5))
 C, D = "straight_reference", "straight_estimate"
 row(C, D, 0.01, 0, "se3", 20, "trans")
 row(C, D, 0.01, 0, "se3", 20, "angle_deg")
