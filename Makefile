@@ -111,7 +111,7 @@ check-slurm: build
 # tests/fuzz/artifacts, and makes this fail when the other targets are done.
 # Needs a nightly compiler and cargo-fuzz (`cargo install cargo-fuzz`).
 FUZZ_SECS := 1800
-FUZZ_TARGETS := scene path shot cameras objects array
+FUZZ_TARGETS := scene path shot cameras objects array model names vocabulary gguf mask prompt reading
 fuzz:
 	mkdir -p target/fuzz
 	cd tests/fuzz && cargo +nightly fuzz build --fuzz-dir . --target-dir ../../target/fuzz -s none

@@ -148,7 +148,7 @@ fn end(bytes: usize) -> ! {
         if !ENDS.get() {
             thread::sleep(TIME_TO_END);
         }
-        std::process::exit(OVER_CAP);
+        leave(OVER_CAP);
     }
     ENDS.set(true);
     let mut text = ShortText { bytes: [0; 320], len: 0 };
@@ -156,13 +156,26 @@ fn end(bytes: usize) -> ! {
     let _ = write!(
         text,
         "error[MEM-CAP]: {} MB more memory are needed, expected to stay within --max-memory and the system's limits\n\
-         help: raise --max-memory, and the limit of the shell (ulimit -v) where that is lower, or reduce --size and --threads\n",
+         help: raise --max-memory, and the limit of the shell (ulimit -v) where that is lower, or take smaller pictures and fewer threads\n",
         bytes.div_ceil(1 << 20)
     );
     // There is no other place to report a failed report.
     let _ = std::io::stderr().write_all(&text.bytes[..text.len]);
     remove_open_files();
-    std::process::exit(OVER_CAP)
+    leave(OVER_CAP)
+}
+
+/// Ends the program with this exit code, without the handlers that libraries registered for its end: mimalloc's frees what
+/// it could not take where the limit on address space is lower than its tables, and would end the program by a signal.
+/// Nothing is lost by that: all files are written by now, and streams are flushed as they are written.
+pub(crate) fn leave(code: i32) -> ! {
+    #[cfg(unix)]
+    // It takes a number and touches no memory of the program.
+    unsafe {
+        nix::libc::_exit(code)
+    }
+    #[cfg(not(unix))]
+    std::process::exit(code)
 }
 
 /// A text on the stack.

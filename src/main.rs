@@ -3,12 +3,10 @@
 mod allocator;
 mod cli;
 
-use std::process::ExitCode;
-
 /// Training and rendering make and drop many large buffers; the system's allocator gives each back to the system.
 #[global_allocator]
 static ALLOCATOR: allocator::BoundedAllocator = allocator::BoundedAllocator;
 
-fn main() -> ExitCode {
-    cli::run(std::env::args_os())
+fn main() -> ! {
+    allocator::leave(cli::run(std::env::args_os()).into())
 }

@@ -9,8 +9,8 @@ use super::failure::{Exit, Failure};
 use super::{console, eval_folders, eval_paths, figures, heading, outputs};
 use cinesplat::evaluation::{
     Align, BatchRow, Convention, Delta, DeltaUnit, EvalSettings, Evaluation, Matching, Metric, MotionFilter,
-    PairSettings, Reduction, Relation, SubjectSphere, Trajectory, compared_figure, error_figure, evaluate, motion_text,
-    result_latex, result_markdown, summary_csv, summary_json, summary_text,
+    PairSettings, Reduction, Relation, Role, SubjectSphere, Trajectory, compared_figure, error_figure, evaluate,
+    motion_text, result_latex, result_markdown, summary_csv, summary_json, summary_text,
 };
 use cinesplat::export::Format;
 
@@ -60,8 +60,8 @@ pub(super) struct Args {
     pairs_from_reference: bool,
     /// Choose as evo where this program chooses otherwise
     ///
-    /// A pose may be matched with two others, interpolation keeps only times with a pose nearby, and positions alone
-    /// determine the alignment of nearly straight paths.
+    /// A pose may be matched with two others, interpolation keeps only times with a pose nearby, positions alone
+    /// determine the alignment of nearly straight paths, and --start and --end trim the reference alone.
     #[arg(long)]
     like_evo: bool,
     /// Number of first poses used for the alignment [default: all]
@@ -142,8 +142,9 @@ impl Args {
         {
             return self.run_folders(estimate, &settings);
         }
-        let reference = self.read(&self.reference)?;
+        let reference = self.read(&self.reference, Role::Reference)?;
         let rows = self.compare(&reference, &settings)?;
+        self.note_trimming();
         self.draw(&rows)?;
         let is_table = self.csv || self.table.is_some();
         if let ([BatchRow { outcome: Ok(_), .. }], false) = (&rows[..], is_table) {
@@ -159,7 +160,7 @@ impl Args {
 
     /// The comparison of each estimate, or of all as one path. Of one estimate alone an error ends the command.
     fn compare(&self, reference: &Trajectory, settings: &EvalSettings) -> Result<Vec<BatchRow>, Failure> {
-        let paths = self.estimates.iter().map(|path| self.read(path)).collect::<Result<Vec<_>, _>>()?;
+        let paths = self.estimates.iter().map(|path| self.read(path, Role::Estimate)).collect::<Result<Vec<_>, _>>()?;
         let named: Vec<(String, Trajectory)> = if self.merge {
             vec![(self.names().join(" + "), Trajectory::merged(&paths)?)]
         } else {
@@ -249,7 +250,8 @@ impl Args {
                 "give files, or leave these flags out",
             ));
         }
-        let rows = eval_folders::compare([&self.reference, estimate], settings, |path| self.read(path))?;
+        let rows = eval_folders::compare([&self.reference, estimate], settings, |path, role| self.read(path, role))?;
+        self.note_trimming();
         self.print_rows(&rows)?;
         check_any(&rows)
     }
@@ -263,21 +265,39 @@ impl Args {
             max_diff_secs: self.max_diff,
             estimate_offset_secs: self.time_offset,
             matching: if self.interpolate { Matching::Interpolated } else { Matching::Nearest },
-            convention: if self.like_evo { Convention::Evo } else { Convention::Cinesplat },
+            convention: self.convention(),
             scene_diameter: self.diameter,
             subject: self.subject,
         })
     }
 
-    fn read(&self, path: &Path) -> Result<Trajectory, Failure> {
-        let track = eval_paths::read(path, self.from)?;
-        let reduction = Reduction {
+    fn convention(&self) -> Convention {
+        if self.like_evo { Convention::Evo } else { Convention::Cinesplat }
+    }
+
+    fn reduction(&self) -> Reduction {
+        Reduction {
             start_secs: self.start,
             end_secs: self.end,
             max_poses: self.downsample.map(|poses| poses as usize),
             motion: self.motion_filter,
-        };
-        reduction.apply(&Trajectory::from(&track)).map_err(|error| Failure::from(error).in_file(path))
+        }
+    }
+
+    fn read(&self, path: &Path, role: Role) -> Result<Trajectory, Failure> {
+        let track = eval_paths::read(path, self.from)?;
+        let reduced = self.reduction().apply_as(&Trajectory::from(&track), role, self.convention());
+        reduced.map_err(|error| Failure::from(error).in_file(path))
+    }
+
+    /// Says that evo trims otherwise.
+    fn note_trimming(&self) {
+        if self.reduction().has_span() && !self.like_evo {
+            console::note(
+                "note: --start and --end trim all paths; evo trims the reference alone, which may give other pairs and figures: \
+                 --like-evo trims as evo",
+            );
+        }
     }
 
     fn metric(&self) -> Result<Metric, Failure> {

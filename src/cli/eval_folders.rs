@@ -2,13 +2,13 @@ use std::path::{Path, PathBuf};
 
 use super::console;
 use super::failure::{Exit, Failure};
-use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, Trajectory, evaluate, pair_files};
+use cinesplat::evaluation::{BatchRow, EvalSettings, EvaluationError, Role, Trajectory, evaluate, pair_files};
 
 /// Compares the files of two folders that have the same name up to the first dot.
 pub(super) fn compare(
     [reference, estimate]: [&Path; 2],
     settings: &EvalSettings,
-    read: impl Fn(&Path) -> Result<Trajectory, Failure>,
+    read: impl Fn(&Path, Role) -> Result<Trajectory, Failure>,
 ) -> Result<Vec<BatchRow>, Failure> {
     let found = pair_files(&files_in(reference)?, &files_in(estimate)?)?;
     for (lone, other) in [(&found.lone_references, estimate), (&found.lone_estimates, reference)] {
@@ -19,8 +19,8 @@ pub(super) fn compare(
     let unreadable = |failure: Failure| EvaluationError::Unreadable { reason: failure.to_string().replace('\n', "; ") };
     let mut rows = Vec::with_capacity(found.pairs.len());
     for (name, [reference, estimate]) in found.pairs {
-        let outcome = read(&reference)
-            .and_then(|reference| Ok((reference, read(&estimate)?)))
+        let outcome = read(&reference, Role::Reference)
+            .and_then(|reference| Ok((reference, read(&estimate, Role::Estimate)?)))
             .map_err(unreadable)
             .and_then(|(reference, estimate)| evaluate(&reference, &estimate, settings));
         rows.push(BatchRow { name, outcome });

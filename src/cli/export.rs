@@ -72,6 +72,7 @@ impl Args {
             }
             (false, _) => export::check_output(&self.output, format, layout, self.overwrite.existing())?,
         }
+        self.check_not_inputs(format, layout)?;
         let objects = self.objects.as_deref().map(objects::read_boxes).transpose()?.unwrap_or_default();
         // An object without a box has no place outside its scene.
         let objects: Vec<Object> = objects.into_iter().filter(|object| object.radius() > 0.0).collect();
@@ -89,5 +90,13 @@ impl Args {
         console::warnings(&encoded.losses);
         console::note(&format!("{}: {}", self.output.display(), format));
         Ok(())
+    }
+    fn check_not_inputs(&self, format: Format, layout: Layout) -> Result<(), Failure> {
+        let files = export::output_files(&self.output, format, layout);
+        let objects = self.objects.as_deref().map(|path| ("the objects", path));
+        outputs::check_not_inputs(
+            files.iter().map(|path| ("--output", path.as_path())),
+            [("the shot", self.shot.as_path())].into_iter().chain(objects),
+        )
     }
 }

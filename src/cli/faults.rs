@@ -13,8 +13,9 @@ use super::reproduce;
 use cinesplat::files::{self, Existing};
 use cinesplat::pipeline;
 
-/// What the standard library and rayon say where the system refuses a thread: neither returns it as an error everywhere.
-const NO_THREADS: [&str; 2] = ["failed to spawn thread", "global thread pool has not been initialized"];
+/// What the standard library ("failed to spawn thread"), candle ("failed to spawn candle barrier pool worker") and rayon say
+/// where the system refuses a thread: none of them returns it as an error everywhere.
+const NO_THREADS: [&str; 2] = ["failed to spawn", "global thread pool has not been initialized"];
 
 /// The first panic.
 struct Panicked {

@@ -100,7 +100,7 @@ pub(super) fn stopped(report: &FilmReport, output: &Path, is_kept: bool) -> Fail
     } else {
         (found, format!("without --no-job the finished frames are kept; to start over, type: {line}"))
     };
-    Failure::new("STOPPED", found, help, Exit::Stopped)
+    Failure::stopped(found, help)
 }
 
 /// The failure, and the line to type once its cause is mended, where finished frames are kept.

@@ -1,5 +1,5 @@
 use super::outputs::Overwrite;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use super::choice::choice;
 use super::failure::Failure;
 use super::scene_args::parse_vector;
 use super::shot_args::{parse_rate, parse_size};
-use super::{console, formats, heading};
+use super::{console, formats, heading, outputs};
 use cinesplat::export::{self, Format, ImportSettings, ReadSettings, shot_json};
 use cinesplat::lens;
 
@@ -55,6 +55,10 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         self.overwrite.check(&self.output)?;
+        // Of a recording the name of a topic may follow.
+        let file = self.file.to_string_lossy();
+        let inputs = [&*file, file.split('#').next().unwrap_or_default()].map(|file| ("the path", Path::new(file)));
+        outputs::check_not_inputs([("--output", self.output.as_path())], inputs)?;
         let in_file = |error| Failure::from(error).in_file(&self.file);
         let how = ReadSettings { format: self.from, camera: self.camera.clone() };
         let imported = export::read_with(&self.file, &how).map_err(in_file)?;

@@ -1,8 +1,9 @@
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::console;
 use super::failure::Failure;
+use super::{console, member, reproduce};
+use crate::allocator;
 use cinesplat::files::remove_open_files;
 
 /// Makes a write beyond the limit on file sizes (`ulimit -f`) an error instead of the end of the program. Call it before
@@ -16,24 +17,36 @@ pub(super) fn survive_file_limit() {
     }
 }
 
-/// Counts Ctrl-C: the first requests a stop after the current step, the second ends the program at once.
-#[derive(Debug, Clone, Default)]
+/// Counts Ctrl-C: the first requests a stop after the current step, the second ends the program at once. Before the work that
+/// can be stopped is begun, the first one ends the program.
+#[derive(Debug, Clone)]
 pub(super) struct Interrupt {
     count: Arc<AtomicUsize>,
-    is_listening: bool,
+    is_begun: Arc<AtomicBool>,
 }
 
 impl Interrupt {
     /// Handles Ctrl-C, SIGTERM and SIGHUP for the rest of the program.
     pub(super) fn listen() -> Result<Self, Failure> {
-        let interrupt = Self { is_listening: true, ..Self::default() };
-        let count = Arc::clone(&interrupt.count);
+        Ok(Self::before_work("")?.begun())
+    }
+
+    /// As [`Interrupt::listen`], before the work that can be stopped is begun: until [`Interrupt::begun`] Ctrl-C ends the
+    /// program, which says `how_far` it came.
+    pub(super) fn before_work(how_far: &'static str) -> Result<Self, Failure> {
+        let interrupt = Self { count: Arc::default(), is_begun: Arc::default() };
+        let (count, is_begun) = (Arc::clone(&interrupt.count), Arc::clone(&interrupt.is_begun));
         let listening = ctrlc::set_handler(move || {
-            if count.fetch_add(1, Ordering::SeqCst) == 0 {
+            if !is_begun.load(Ordering::SeqCst) {
+                let stopped = Failure::stopped(how_far, format!("to start again, type: {}", reproduce::line()));
+                member::report(&stopped);
+                remove_open_files();
+                allocator::leave(stopped.exit_code().into());
+            } else if count.fetch_add(1, Ordering::SeqCst) == 0 {
                 console::note("stopping after the current step; Ctrl-C again stops at once");
             } else {
                 remove_open_files();
-                std::process::exit(130);
+                allocator::leave(130);
             }
         });
         // It listens on a thread of its own.
@@ -41,9 +54,10 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// This one if it listens already, else a new one that does.
-    pub(super) fn listening(self) -> Result<Self, Failure> {
-        if self.is_listening { Ok(self) } else { Self::listen() }
+    /// The same, from here on for work that finishes its step.
+    pub(super) fn begun(self) -> Self {
+        self.is_begun.store(true, Ordering::SeqCst);
+        self
     }
 
     /// Whether a stop was requested.

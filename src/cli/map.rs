@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::outputs::Overwrite;
 use super::scene_args::SceneArgs;
-use super::{figures, heading, reproduce, shot_args};
+use super::{figures, heading, outputs, reproduce, shot_args};
 use cinesplat::map;
 use cinesplat::objects::ObjectSet;
 use cinesplat::pipeline;
@@ -41,6 +41,9 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         figures::check(&self.output, self.overwrite)?;
+        let objects = self.objects.as_deref().map(|path| ("the objects", path));
+        let inputs = [("the scene", self.scene.scene.as_path()), ("the shot", &self.shot)].into_iter().chain(objects);
+        outputs::check_not_inputs([("--output", self.output.as_path())], inputs)?;
         // A shot that cannot be read is refused before its scene is loaded; one that names objects needs them first.
         let is_complete = !shot_args::names_objects(&self.shot)?;
         let early = is_complete.then(|| shot_args::read_file(&self.shot, &[])).transpose()?;

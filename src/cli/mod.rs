@@ -28,6 +28,7 @@ mod interrupt;
 mod job_args;
 mod map;
 mod masks;
+mod member;
 mod memory;
 mod model_args;
 mod objects;
@@ -51,7 +52,6 @@ mod usage;
 
 use std::ffi::OsString;
 use std::path::Path;
-use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -148,7 +148,7 @@ impl Command {
 }
 
 /// Runs the program with its arguments, the program's name first; returns the exit code.
-pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     interrupt::survive_file_limit();
     let ended = match Cli::try_parse_from(arguments) {
         Ok(cli) => {
@@ -160,10 +160,10 @@ pub(super) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(refused) => usage::answer(&refused),
     };
     match ended {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => {
-            console::error(&failure);
-            ExitCode::from(failure.exit_code())
+            member::report(&failure);
+            failure.exit_code()
         }
     }
 }

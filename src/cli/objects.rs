@@ -110,7 +110,15 @@ impl Args {
         let named = || named.into_iter().filter_map(|(flag, path)| Some((flag, path?)));
         self.sheet.as_deref().map_or(Ok(()), check_sheet_name)?;
         named().try_for_each(|(_, path)| self.overwrite.check(path))?;
-        outputs::check_distinct(named())
+        outputs::check_distinct(named())?;
+        // The objects file and its labels are not among them: writing new names over the old ones is what people mean.
+        let inputs = [
+            ("the scene", Some(&self.scene.scene)),
+            ("the masks", self.masks.as_ref()),
+            ("the cameras", self.cameras.as_ref()),
+            ("the names", self.rename.as_ref()),
+        ];
+        outputs::check_not_inputs(named(), inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))))
     }
 
     /// The names of --rename and --name; the latter win.

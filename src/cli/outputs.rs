@@ -97,6 +97,25 @@ pub(super) fn check_distinct<'a>(outputs: impl IntoIterator<Item = (&'a str, &'a
     Ok(())
 }
 
+/// Refuses an output that would replace an input, before any work. Each output comes with the flag that names it, each input
+/// with its name; of an input that is a folder the files count by which scenes and captures are read.
+pub(super) fn check_not_inputs<'a>(
+    outputs: impl IntoIterator<Item = (&'a str, &'a Path)>,
+    inputs: impl IntoIterator<Item = (&'a str, &'a Path)>,
+) -> Result<(), Failure> {
+    let of_input = |(name, path): (&'a str, &'a Path)| {
+        [path.to_owned(), path.join("meta.json"), path.join("transforms.json")].map(|file| (name, file))
+    };
+    let replaceable: Vec<(&str, PathBuf)> = inputs.into_iter().flat_map(of_input).collect();
+    for (flag, output) in outputs {
+        if let Some((name, _)) = replaceable.iter().find(|(_, input)| files::is_same_file(output, input)) {
+            let found = format!("{}: {flag} would replace {name}, expected another file", output.display());
+            return Err(Failure::usage(found, "give the output a name of its own"));
+        }
+    }
+    Ok(())
+}
+
 /// One name per file: the folder without links and `..`, then the name.
 fn place_of(path: &Path) -> PathBuf {
     match (files::folder_of(path).canonicalize(), path.file_name()) {

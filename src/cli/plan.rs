@@ -3,11 +3,12 @@ use std::path::{Path, PathBuf};
 use strum::VariantArray;
 
 use super::failure::Failure;
+use super::interrupt::Interrupt;
 use super::plan_outputs::PlanOutputs;
 use super::prompts_file::{self, NamedPrompt};
 use super::scene_args::{PictureArgs, SceneArgs};
 use super::shot_args::{ShotArgs, deciding};
-use super::{console, explain, heading, map, reproduce, takes};
+use super::{console, explain, heading, map, outputs, reproduce, takes};
 use cinesplat::export::shot_json;
 use cinesplat::lens::{EffectChoice, EffectPlan};
 use cinesplat::objects::ObjectSet;
@@ -84,7 +85,8 @@ impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let prompts = self.words.prompts.as_deref().map(prompts_file::read).transpose()?;
         let jobs = self.jobs(prompts)?;
-        jobs.iter().try_for_each(|(_, outputs)| outputs.check(self.overwrite))?;
+        jobs.iter().try_for_each(|(_, outputs)| self.check_outputs(outputs))?;
+        Interrupt::before_work("stopped before the plan was whole")?;
         self.picture.bound_threads()?;
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
         let interpreter = self.shot.interpreter()?;
@@ -95,6 +97,24 @@ impl Args {
             [(named, outputs)] if self.words.prompts.is_none() => plan(named, outputs),
             jobs => prompts_file::for_each(jobs, plan),
         }
+    }
+
+    /// Refuses wrong outputs of one prompt.
+    fn check_outputs(&self, planned: &PlanOutputs) -> Result<(), Failure> {
+        planned.check(self.overwrite)?;
+        let sheet = planned.sheet();
+        let takes = self.shot.takes.numbers().map(|number| planned.of_take(number)).collect::<Vec<_>>();
+        let numbered = takes.iter().flat_map(|[shot, map]| [("--output", shot.as_ref()), ("--map", map.as_ref())]);
+        let named = numbered.chain([("--sheet", sheet.as_ref())]);
+        let inputs = [
+            ("the scene", Some(&self.scene.scene)),
+            ("the prompts", self.words.prompts.as_ref()),
+            ("the objects", self.shot.objects.as_ref()),
+        ];
+        outputs::check_not_inputs(
+            named.filter_map(|(flag, path)| Some((flag, path?.as_path()))),
+            inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))),
+        )
     }
 
     /// Every prompt with its outputs.

@@ -7,6 +7,11 @@ pub(super) fn print(deciding: &[(&str, String)]) {
     console::note(&format!("reproduce with: {}", command(std::env::args_os().skip(1), deciding)));
 }
 
+/// The line that was typed.
+pub(super) fn line() -> String {
+    std::env::args_os().map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>().join(" ")
+}
+
 /// The line that goes on with a stopped film: the one that was typed, without the flag that starts anew.
 pub(super) fn line_to_go_on() -> String {
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());

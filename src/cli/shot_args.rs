@@ -92,7 +92,7 @@ impl ShotArgs {
         if self.retime {
             for shot in iter::once(&mut directed.shot).chain(&mut directed.takes) {
                 *shot = retimed(shot);
-                shot.clearance = Some(pipeline::prove_clearance(scene, shot)?);
+                pipeline::certify(scene, shot)?;
             }
         }
         if self.size.is_none() && directed.effects.effects.iter().any(|called| called.effect.is_panorama()) {
@@ -115,7 +115,7 @@ impl ShotArgs {
         print_warnings(&shot);
         let called = pipeline::complete_effects(&mut shot, &self.effects, scene.bounds().size());
         print_effects(&called);
-        shot.clearance = Some(pipeline::prove_clearance(scene, &shot)?);
+        pipeline::certify(scene, &mut shot)?;
         print_clearance(&shot);
         Ok(shot)
     }

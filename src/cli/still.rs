@@ -124,7 +124,22 @@ impl Args {
         self.check_names(cameras)?;
         outputs::create_folder(&self.output)?;
         let mut names = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name));
-        names.try_for_each(|path| self.overwrite.check(&path))
+        names.try_for_each(|path| self.overwrite.check(&path))?;
+        self.check_not_inputs(cameras)
+    }
+
+    fn check_not_inputs(&self, cameras: &StillCameras) -> Result<(), Failure> {
+        let files: Vec<PathBuf> = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name)).collect();
+        let inputs = [
+            ("the scene", Some(&self.scene.scene)),
+            ("the cameras", Some(&self.cameras)),
+            ("the labels", self.ids.as_ref().and_then(Option::as_ref)),
+            ("the features", self.features.as_ref()),
+        ];
+        outputs::check_not_inputs(
+            files.iter().map(|path| ("--output", path.as_path())),
+            inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))),
+        )
     }
 
     /// Refuses two cameras that would write the same file.

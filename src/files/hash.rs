@@ -1,4 +1,7 @@
+use std::fs::File;
 use std::hash::Hasher;
+use std::io::{self, Read};
+use std::path::Path;
 
 use sha2::{Digest, Sha256};
 use twox_hash::XxHash64;
@@ -14,4 +17,20 @@ pub fn checksum(parts: &[&[u8]]) -> u64 {
     let mut hasher = XxHash64::with_seed(0);
     parts.iter().for_each(|part| hasher.write(part));
     hasher.finish()
+}
+
+/// XXH64 of a file's bytes, of which one part at a time is in memory.
+///
+/// # Errors
+/// Those of opening and reading the file.
+pub fn file_checksum(path: &Path) -> io::Result<u64> {
+    let (mut file, mut part, mut hasher) = (File::open(path)?, vec![0; 1 << 18], XxHash64::with_seed(0));
+    loop {
+        match file.read(&mut part) {
+            Ok(0) => return Ok(hasher.finish()),
+            Ok(num_bytes) => hasher.write(&part[..num_bytes]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
 }

@@ -163,7 +163,12 @@ pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
         Ok(folder) if !folder.is_dir() => refuse(ErrorKind::NotADirectory, "its folder is a file"),
         Ok(folder) if folder.permissions().readonly() => refuse(ErrorKind::PermissionDenied, "its folder is read-only"),
         Ok(_) => Ok(()),
-        Err(_) => refuse(ErrorKind::NotFound, "its folder does not exist"),
+        Err(error) if error.kind() == ErrorKind::NotFound => refuse(ErrorKind::NotFound, "its folder does not exist"),
+        Err(error) if error.kind() == ErrorKind::NotADirectory => {
+            refuse(ErrorKind::NotADirectory, "a part of its folder's path is a file")
+        }
+        // Such as links that lead to each other.
+        Err(source) => Err(FileError::Create { path: path.to_owned(), source }),
     }
 }
 

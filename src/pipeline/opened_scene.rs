@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use super::error::PipelineError;
+use super::panic_point::panic_point;
 use cinesplat_objects::{FindSettings, Object, ObjectSet};
 use cinesplat_scene::{LoadOptions, Scene, UpSource};
 use cinesplat_synth::{SynthKind, SynthScene, SynthSettings};
@@ -57,6 +58,7 @@ impl OpenedScene {
 /// [`PipelineError::Scene`] when the file cannot be read, [`PipelineError::UnknownSynth`] for another name that starts
 /// with `synth:`.
 pub fn open_scene(name: &Path, options: &LoadOptions) -> Result<OpenedScene, PipelineError> {
+    panic_point("load", 0);
     match name.to_str().and_then(|name| name.strip_prefix("synth:")) {
         Some(spec) => {
             let settings = synth_settings(spec).ok_or_else(|| unknown(name))?;

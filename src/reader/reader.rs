@@ -123,14 +123,17 @@ fn tokenizer(path: &Path, content: &Content) -> Result<Tokenizer, ReaderError> {
         return Err(ReaderError::bad_model(path, "tokenizer.ggml.model", &kind, &expected));
     }
     let bytes = cinesplat_files::read(&beside, Limits::DEFAULT.text_bytes)?;
-    Tokenizer::from_bytes(bytes).map_err(|error| {
-        ReaderError::bad_model(
-            &beside,
-            "the tokenizer",
-            &format!("damaged: {error}"),
-            &"a tokenizer.json of this model",
-        )
-    })
+    let bad = |found: &str| ReaderError::bad_model(&beside, "the tokenizer", &found, &"a tokenizer.json of this model");
+    check_tokenizer(&bytes).map_err(|found| bad(&found))?;
+    Tokenizer::from_bytes(bytes).map_err(|error| bad(&format!("damaged: {error}")))
+}
+
+/// Refuses what the package `tokenizers` panics at: a text that is no JSON, and the packed tables of characters of other
+/// families, where they are damaged.
+fn check_tokenizer(bytes: &[u8]) -> Result<(), String> {
+    let json: serde_json::Value = serde_json::from_slice(bytes).map_err(|error| format!("damaged: {error}"))?;
+    let has_table = json.get("normalizer").is_some_and(|normalizer| normalizer.to_string().contains("\"Precompiled\""));
+    if has_table { Err("with a packed table of characters".to_owned()) } else { Ok(()) }
 }
 
 /// Checks that every answer can be written and that the network knows every token.

@@ -113,6 +113,20 @@ fn outputs_are_checked_before_the_scene_is_read() {
     assert_eq!(fs::read(folder.path().join("film.mp4")).unwrap(), b"mine");
 }
 
+/// It used to be called a folder that does not exist.
+#[cfg(target_os = "linux")]
+#[test]
+fn links_that_lead_to_each_other_are_no_missing_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("b", folder.path().join("a")).unwrap();
+    std::os::unix::fs::symlink("a", folder.path().join("b")).unwrap();
+    insta::assert_snapshot!(answer(folder.path(), &["render", "no.ply", "-p", "x", "-o", "a/film.mp4"]), @r"
+    exit 73
+    error[OUTPUT-CREATE]: a/film.mp4: cannot create: Too many levels of symbolic links (os error 40)
+    help: mend the links of that folder, or choose another one
+    ");
+}
+
 #[test]
 fn models_and_shards_of_other_settings_are_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();

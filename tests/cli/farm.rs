@@ -172,8 +172,22 @@ fn what_the_cluster_refuses_is_told_from_a_cluster_that_is_away() {
         let cluster = Cluster::new(&format!("#!/bin/sh\necho '{reason}' >&2\nexit 1\n"), IDLE_QUEUE);
         let (code, said) = cluster.farm(&FILM);
         assert!(code == expected && said.contains(reason), "{code}: {said}");
+        assert!(!cluster.path().join("film.mp4.job").exists(), "nothing is left of a job that was not taken");
     }
     let cluster = Cluster::new("#!/bin/sh\necho 7\n", "#!/bin/sh\n");
     let (code, said) = cluster.farm(&FILM);
     assert!(code == 69 && said.contains("the tasks of job 7 finished no frame: they said nothing"), "{code}: {said}");
+}
+
+/// It used to leave a job folder with a script.
+#[test]
+fn without_slurm_a_farm_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
+    let program = program.args(["farm", "--slurm"]).args(FILM).current_dir(folder.path()).env("PATH", folder.path());
+    let output = program.output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(69) && said.contains("error[SLURM-MISSING]: sbatch: "), "{said}");
+    assert!(!folder.path().join("film.mp4.job").exists());
 }

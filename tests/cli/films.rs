@@ -242,3 +242,42 @@ fn players_know_what_kind_of_film_it_is() {
         assert!(eyes.contains("type=side by side") || eyes.contains("stereo_mode=left_right"), "{name}: {eyes}");
     }
 }
+
+/// Such films were written without a word, and opened as flat ones.
+#[test]
+fn a_360_video_that_no_player_recognizes_is_made_without_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let film = |effects: &str, name: &str| {
+        let film = ["render", SMALL_SCENE, "--shot", "shot.json", "--effects", effects, "-o", name, "--frames", "0..2"];
+        let said = answer(folder.path(), &film);
+        assert!(said.starts_with("exit 0"), "{said}");
+        said
+    };
+    for name in ["a.mkv", "a.webm"] {
+        let extension = name.trim_start_matches('a');
+        let warning = format!("warning: players do not recognize a 360 video in a {extension}: write a .mp4 or a .mov");
+        let said = film("panorama", name);
+        assert!(said.contains(&warning), "{name}: {said}");
+    }
+    for (effects, name) in [("panorama", "a.mp4"), ("panorama", "a.mov"), ("panorama", "%02d.png"), ("stereo", "b.mkv")]
+    {
+        assert!(!film(effects, name).contains("do not recognize"), "{name}");
+    }
+}
+
+/// What the error said was said again by its help.
+#[test]
+fn the_help_of_a_distortion_that_folds_the_picture_repeats_its_error() {
+    let folder = tempfile::tempdir().unwrap();
+    write_shot(folder.path());
+    let text = fs::read_to_string(folder.path().join("shot.json")).unwrap();
+    let effects = r#""effects":[{"kind":"lens-distortion","k1":-0.9,"because":"the test"}],"keyframes""#;
+    fs::write(folder.path().join("shot.json"), text.replace("\"keyframes\"", effects)).unwrap();
+    let said = answer(folder.path(), &["render", SMALL_SCENE, "--shot", "shot.json", "-o", "f.mp4"]);
+    let error: Vec<&str> = said.lines().filter(|line| line.starts_with("error") || line.starts_with("help")).collect();
+    insta::assert_snapshot!(error.join("\n"), @r"
+    error[RENDER-FOLD]: the distortion of the lens folds the picture within 37 px of its middle, expected no fold inside the frame
+    help: bring the k1, k2, k3, p1 and p2 of lens-distortion nearer to 0, or narrow the field of view
+    ");
+}

@@ -22,6 +22,7 @@ fn a_picture_that_fits_no_memory_is_refused() {
     let said = answer(folder.path(), &["still", SMALL_SCENE, "--cameras", "cameras.json", "-o", "stills"]);
     assert!(said.starts_with("exit 71\n") && said.contains("error[RENDER-MEMORY]: "), "{said}");
     assert!(said.contains("help: raise --max-memory"), "{said}");
+    assert!(!said.contains("--size"), "a flag that `still` has not: {said}");
 }
 
 /// It used to abort, or to take hours.
@@ -75,6 +76,50 @@ fn a_limit_on_address_space_ends_in_an_error_and_never_in_an_abort() {
         // Below its own size the program does not even start: that is the system's loader.
         assert!(matches!(output.status.code(), Some(0 | 71 | 127)), "{kilobytes} KB: {:?} {said}", output.status);
         assert!(output.status.code() != Some(71) || said.contains("help: "), "{kilobytes} KB: {said}");
+    }
+}
+
+/// Exit code and stderr of a line in which `$0` is the program, under a limit on address space.
+#[cfg(target_os = "linux")]
+fn under_limit(folder: &std::path::Path, kilobytes: usize, line: &str) -> (Option<i32>, String) {
+    let line = format!("ulimit -v {kilobytes}; exec \"$0\" {line}");
+    let words = ["-c", &line, env!("CARGO_BIN_EXE_cinesplat")];
+    let output = std::process::Command::new("sh").args(words).current_dir(folder).output().unwrap();
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+/// Where the program barely starts, it said 71 and died of a signal: mimalloc frees at the end what it could not take.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_program_that_barely_starts_ends_with_its_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let info = |kilobytes| under_limit(folder.path(), kilobytes, &format!("info {SMALL_SCENE}"));
+    // Below that, the system's loader ends it, or a library that aborts while it is loaded.
+    let aborts = |code: Option<i32>, said: &str| code.is_none() && said.contains("GLib") && !said.contains("error[");
+    let starts = |code: Option<i32>, said: &str| code != Some(127) && !aborts(code, said);
+    let is_above = |kilobytes: &usize| {
+        let (code, said) = info(*kilobytes);
+        starts(code, &said)
+    };
+    let above = (150_000..2_000_000).step_by(5_000).find(is_above).unwrap();
+    for kilobytes in (above - 5_000..above + 15_000).step_by(500) {
+        let (code, said) = info(kilobytes);
+        if starts(code, &said) {
+            assert!(matches!(code, Some(0 | 71)), "{kilobytes} KB: {code:?} {said}");
+            assert!(code == Some(0) || said.contains("\nhelp: "), "{kilobytes} KB: {said}");
+        }
+    }
+}
+
+/// It used to be a fault of the program: a library panics where the system refuses it a thread.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_library_that_gets_no_thread_is_a_lack_of_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    for kilobytes in (260_000..=540_000).step_by(40_000) {
+        let plan = format!("plan {SMALL_SCENE} -p push_in -o plan.json --overwrite -q --solve fast");
+        let (code, said) = under_limit(folder.path(), kilobytes, &plan);
+        assert!(matches!(code, Some(0 | 71 | 127)), "{kilobytes} KB: {code:?} {said}");
     }
 }
 

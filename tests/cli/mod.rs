@@ -4,11 +4,14 @@ mod commands;
 mod errors;
 mod farm;
 mod films;
+mod leftovers;
 mod map;
 mod memory;
 mod paths;
 mod read;
+mod replacing;
 mod resume;
+mod stopping;
 mod surroundings;
 
 use std::ffi::OsStr;

@@ -78,6 +78,20 @@ fn several_estimates_make_one_table_and_one_figure() {
 }
 
 #[test]
+fn a_note_says_that_evo_trims_the_reference_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let [reference, estimate] = ["repeated_reference", "repeated_estimate"].map(golden);
+    let trimmed =
+        ["eval", &reference, &estimate, "--align", "se3", "--max-diff", "0.1", "--start", "1", "--end", "2.5"];
+    let own = run(folder.path(), &trimmed);
+    assert!(String::from_utf8_lossy(&own.stderr).contains("evo trims the reference alone"), "{own:?}");
+    let evo = run(folder.path(), &[&trimmed[..], &["--like-evo"]].concat());
+    assert!(!String::from_utf8_lossy(&evo.stderr).contains("evo trims"), "{evo:?}");
+    // By `evo_ape tum .. --align --t_start 1 --t_end 2.5 --t_max_diff 0.1`, evo 1.38.1.
+    assert!(String::from_utf8_lossy(&evo.stdout).contains("rmse    0.072690852"), "{evo:?}");
+}
+
+#[test]
 fn a_span_of_time_of_a_path_without_times_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a.kitti"), "1 0 0 0 0 1 0 0 0 0 1 0\n".repeat(3)).unwrap();

@@ -77,3 +77,18 @@ fn an_entry_of_a_timeline_that_names_a_move_keeps_it() {
     let read = read("0-3 s: the sofa. 3-6 s: push in on the floor lamp");
     assert_eq!(read["program"], "static end=1 dur=3s / push-in end=2 dur=3s | total=6s");
 }
+
+/// The negation belongs to the effect that it forbids.
+#[test]
+fn the_no_of_no_depth_of_field_has_no_meaning_for_the_camera() {
+    for prompt in [
+        "push in on the sofa, no depth of field",
+        "no depth of field, push in on the sofa",
+        "whip pan to the sofa without motion blur",
+        "push in on the sofa, don't use any motion blur, no fog or grain",
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let text = data(folder.path(), &["read", "-p", prompt, "--names", "sofa,floor lamp"]);
+        assert!(text.contains(", forbidden") && !text.contains("without a meaning"), "{prompt}: {text}");
+    }
+}

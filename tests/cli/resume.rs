@@ -10,7 +10,7 @@ const RENDER: [&str; 4] = ["render", SMALL_SCENE, "--shot", "shot.json"];
 /// A film of 24 frames.
 const SHORT: [&str; 4] = ["--size", "320x180", "--fps", "24"];
 /// A film of 300 frames: a signal comes before its end.
-const LONG: [&str; 4] = ["--size", "320x180", "--fps", "300"];
+pub const LONG: [&str; 4] = ["--size", "320x180", "--fps", "300"];
 
 /// The line that renders the film of most of these tests.
 fn render<'a>(output: &'a str, flags: &[&'a str]) -> Vec<&'a str> {
@@ -34,7 +34,8 @@ fn undisturbed_sized(folder: &Path, size: &[&str]) -> Vec<u8> {
     bytes
 }
 
-fn names(folder: &Path) -> Vec<String> {
+/// Names of the files and folders in a folder.
+pub fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
         fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
@@ -42,7 +43,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 /// Starts the program, and returns once its job folder lists `num_frames` frames, or the film has ended.
-fn start(folder: &Path, arguments: &[&str], num_frames: usize) -> Child {
+pub fn start(folder: &Path, arguments: &[&str], num_frames: usize) -> Child {
     let mut program = Command::new(env!("CARGO_BIN_EXE_cinesplat"));
     program.args(arguments).current_dir(folder).stderr(Stdio::piped());
     let mut film = program.spawn().unwrap();
@@ -243,6 +244,7 @@ fn a_limit_on_file_sizes_is_an_error_that_keeps_the_frames() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(74), "{said}");
     assert!(said.contains("File too large") && said.contains("then go on with: "), "{said}");
+    assert!(said.contains("help: raise the limit on file sizes (ulimit -f)"), "{said}");
     let said = answer(folder.path(), &render_sized(&size, "film.mp4", &[]));
     assert!(said.starts_with("exit 0\n"), "{said}");
     assert!(fs::read(folder.path().join("film.mp4")).unwrap() == whole);
@@ -336,6 +338,7 @@ fn the_longest_names_are_written_and_longer_ones_refused_at_once() {
     assert!(line(&name(255), "--no-job").starts_with("exit 0\n"));
     let refused = answer(folder.path(), &["render", "no.ply", "-p", "x", "-o", &name(256), "--no-job"]);
     assert!(refused.starts_with("exit 73\n") && refused.contains("longer than the file system allows"), "{refused}");
+    assert!(refused.ends_with("help: choose a shorter name\n"), "{refused}");
 }
 
 #[test]

@@ -11,6 +11,7 @@ import os
 import pathlib
 import resource
 import shutil
+import signal
 import subprocess
 import tempfile
 
@@ -81,19 +82,28 @@ COMMANDS = {
 
 
 def address_space(program):
-    """`ulimit -v` from 64 MB to 4 GB over the commands."""
+    """`ulimit -v` from 64 MB to 4 GB over the commands; in steps of 500 KB where the program barely starts and where `plan`
+    barely fits."""
     folder, row, codes = Folder(program), Row("`ulimit -v` from 64 MB to 4 GB over 7 commands"), collections.Counter()
-    sizes = [64, 128, 192, *range(208, 400, 16), 448, 512, 640, 768, 1024, 1280, 1536, 2048, 3072, 4096]
-    for size in sizes:
-        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (size << 20, size << 20))
-        for name, words in COMMANDS.items():
-            ended = folder.run(*words, preexec_fn=limit)
-            codes[ended.returncode] += 1
-            row.check(ended.returncode in WITHIN_LIMITS, f"{name}, {size} MB: exit {ended.returncode}: {ended.stderr[-300:]}")
-            row.check(ended.returncode != 71 or "\nhelp: " in ended.stderr, f"{name}, {size} MB: no help: {ended.stderr[-300:]}")
-            folder.clear()
+    coarse = [64, 128, 192, *range(208, 400, 16), 448, 512, 640, 768, 1024, 1280, 1536, 2048, 3072, 4096]
+    runs = [(size << 10, name) for size in coarse for name in COMMANDS]
+    runs += [(size, name) for size in range(200_000, 480_000, 500) for name in ("info", "plan")]
+    for size, name in runs:
+        # In kilobytes, as the shell's.
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (size << 10, size << 10))
+        ended = folder.run(*COMMANDS[name], preexec_fn=limit)
+        codes[ended.returncode] += 1
+        is_right = ended.returncode in WITHIN_LIMITS or is_abort_of_library(ended)
+        row.check(is_right, f"{name}, {size} KB: exit {ended.returncode}: {ended.stderr[-300:]}")
+        row.check(ended.returncode != 71 or "\nhelp: " in ended.stderr, f"{name}, {size} KB: no help: {ended.stderr[-300:]}")
+        folder.clear()
     folder.close()
-    return row.end(f"{len(sizes)} limits, {len(sizes) * len(COMMANDS)} runs", codes, " (127: the system's loader)")
+    return row.end(f"{len({size for size, _ in runs})} limits, {len(runs)} runs", codes, " (127: the system's loader, -6: a library before the program begins)")
+
+
+def is_abort_of_library(ended):
+    """Whether GLib, on which FFmpeg's libraries depend, aborted while the system loaded it: before the program's first line."""
+    return ended.returncode == -signal.SIGABRT and "GLib" in ended.stderr and "error[" not in ended.stderr
 
 
 def max_memory(program):

@@ -1,7 +1,8 @@
 // Makes the nth call of a program that writes a file fail. Loaded with LD_PRELOAD; reads FAULT_KIND (enospc, eio, eintr,
 // short) and FAULT_CALL (n, from 1). enospc fails that call and all later writes, the other kinds fail that call alone.
 // Writes "reached" to the file FAULT_REACHED when the call comes. Standard streams are left alone. With FAULT_LOCKS every
-// lock fails with that error number, as on a disk without locks.
+// lock fails with that error number, as on a disk without locks. With FAULT_CLOCK every second look at the time of day is
+// that many seconds off.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -12,6 +13,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static atomic_long num_calls;
@@ -68,6 +70,26 @@ int rename(const char *from, const char *to) {
     int (*real)(const char *, const char *) = dlsym(RTLD_NEXT, "rename");
     if (turn() == 1 && (is_kind("eio") || is_kind("enospc"))) { errno = is_kind("eio") ? EIO : ENOSPC; return -1; }
     return real(from, to);
+}
+
+// A file that was written to is closed, and the disk says only then that it lost something.
+int close(int fd) {
+    int (*real)(int) = dlsym(RTLD_NEXT, "close");
+    int flags = fcntl(fd, F_GETFL);
+    int is_failing = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && fails(fd);
+    int closed = real(fd);
+    if (!is_failing) return closed;
+    errno = is_kind("eio") ? EIO : ENOSPC;
+    return -1;
+}
+
+int clock_gettime(clockid_t clock, struct timespec *now) {
+    static atomic_long num_looks;
+    int (*real)(clockid_t, struct timespec *) = dlsym(RTLD_NEXT, "clock_gettime");
+    int looked = real(clock, now);
+    const char *jump = getenv("FAULT_CLOCK");
+    if (jump && clock == CLOCK_REALTIME && atomic_fetch_add(&num_looks, 1) % 2 == 1) now->tv_sec += atol(jump);
+    return looked;
 }
 
 int flock(int fd, int operation) {

@@ -5,12 +5,20 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use cinesplat::director::inputs::Vocabulary;
+use cinesplat::director::{Director, ModelFiles, Names, NamesFiles};
 use cinesplat::export::{Format, cameras_json, read, shot_json};
-use cinesplat::files::npy;
-use cinesplat::objects::read_boxes;
+use cinesplat::files::{npy, sha256_hex};
+use cinesplat::language::{
+    NamedObject, effect_mentions, frame_shape, link, plain_words, program_from_notation, tokenize,
+};
+use cinesplat::objects::{read_boxes, read_mask};
+use cinesplat::reader::Reader;
 use cinesplat::scene::{Limits, LoadOptions, load_bytes};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
+use serde_json::Value;
+use strum::VariantArray;
 
 /// Changed copies of every seed.
 const NUM_CHANGED: usize = 200;
@@ -25,23 +33,13 @@ fn read_as(target: &str, folder: &Path, input: &[u8]) {
             drop(load_bytes(&folder.join(name), rest, &LoadOptions { up: None, limits }));
         }
         "path" => {
-            let formats = [
-                None,
-                Some(Format::Tum),
-                Some(Format::Kitti),
-                Some(Format::Euroc),
-                Some(Format::Nerfstudio),
-                Some(Format::Transforms),
-                Some(Format::Colmap),
-                Some(Format::Supersplat),
-                Some(Format::Lichtfeld),
-                Some(Format::Gltf),
-                Some(Format::Usd),
-                Some(Format::Blender),
-            ];
-            let path = folder.join(if first & 128 == 0 { "a.txt" } else { "a.bin" });
+            let number = usize::from(first & 127) % (Format::VARIANTS.len() + 1);
+            let format = number.checked_sub(1).map(|idx| Format::VARIANTS[idx]);
+            let is_folder = format == Some(Format::SevenScenes);
+            let name = if first & 128 == 0 { "a.txt" } else { "a.bin" };
+            let path = folder.join(if is_folder { "frame-000000.pose.txt" } else { name });
             fs::write(&path, rest).unwrap();
-            drop(read(&path, formats[usize::from(first & 127) % formats.len()]));
+            drop(read(if is_folder { folder } else { &path }, format));
         }
         "shot" => drop(std::str::from_utf8(input).map(shot_json::read)),
         "cameras" => drop(std::str::from_utf8(input).map(cameras_json::read)),
@@ -54,8 +52,69 @@ fn read_as(target: &str, folder: &Path, input: &[u8]) {
             drop(read_boxes(&path));
         }
         "array" => drop(npy::Array::parse(input).map(|array| (array.to_u32(), array.to_f32()))),
+        "mask" => {
+            fs::write(folder.join("mask.png"), input).unwrap();
+            drop(read_mask(&folder.join("mask.png")));
+        }
+        "prompt" | "reading" => read_prompt(&String::from_utf8_lossy(input)),
+        other => read_model(other, folder, input),
+    }
+}
+
+/// Reads an input as the fuzz target of that name does, for targets of weights and vocabularies.
+fn read_model(target: &str, folder: &Path, input: &[u8]) {
+    let part = |input: &[u8]| {
+        let (length, rest) = input.split_first_chunk::<4>().map_or(([0; 4], &[][..]), |(length, rest)| (*length, rest));
+        let (part, rest) = rest.split_at(rest.len().min(u32::from_le_bytes(length) as usize));
+        (part.to_vec(), rest.to_vec())
+    };
+    let with_hashes = |description: &[u8], hashes: &[(&str, &[u8])]| {
+        let Ok(Value::Object(mut json)) = serde_json::from_slice(description) else { return description.to_vec() };
+        json.extend(hashes.iter().map(|(key, bytes)| ((*key).to_owned(), sha256_hex(bytes).into())));
+        Value::Object(json).to_string().into_bytes()
+    };
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).unwrap();
+    match target {
+        "vocabulary" => drop(Vocabulary::from_json(input)),
+        "model" => {
+            let (description, rest) = part(input);
+            let (vocabulary, rest) = part(&rest);
+            let (weights, _) = part(&rest);
+            let hashes = [("weights_sha256", &weights[..]), ("tokenizer_sha256", &vocabulary)];
+            write("director.json", &with_hashes(&description, &hashes));
+            write("director.tokenizer.json", &vocabulary);
+            write("director.safetensors", &weights);
+            let files = ModelFiles::read(folder).unwrap();
+            drop((files.vocabulary(), files.tensors(), Director::from_files(&files)));
+        }
+        "names" => {
+            let (description, weights) = part(input);
+            write("names.json", &with_hashes(&description, &[("weights_sha256", &weights)]));
+            write("names.safetensors", &weights);
+            let files = NamesFiles::read(folder).unwrap();
+            drop((files.tensors(), Names::from_files(&files)));
+        }
+        "gguf" => {
+            let Some((first, rest)) = input.split_first() else { return };
+            let header = &include_bytes!("../fuzz/seeds/gguf/beside.gguf")[1..];
+            let (model, tokenizer) = if first % 2 == 0 { (rest, &b"{}"[..]) } else { (header, rest) };
+            write("model.gguf", model);
+            write("tokenizer.json", tokenizer);
+            drop(Reader::load(&folder.join("model.gguf")));
+        }
         other => panic!("no target {other}"),
     }
+}
+
+/// Reads a prompt by its words alone; `tests/director/hostile.rs` has prompts for the director.
+fn read_prompt(prompt: &str) {
+    let objects = [(1, "sofa"), (2, "bottle 1"), (3, "bottle 2"), (4, "floor lamp")];
+    let objects = objects.map(|(id, label)| NamedObject { id, label: label.to_owned() });
+    drop((plain_words(prompt, &tokenize(prompt), &|_| false), frame_shape(prompt, &objects)));
+    if let Ok(linked) = link(prompt, &objects) {
+        drop(effect_mentions(prompt, &linked));
+    }
+    drop(program_from_notation(prompt));
 }
 
 /// Every seed with the name of its target.

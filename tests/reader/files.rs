@@ -110,6 +110,26 @@ fn a_tokenizer_beside_the_model_is_used_where_the_model_has_none() {
     assert_eq!(Reader::load(&path).err().unwrap().code(), "READER-BAD");
 }
 
+/// The package that reads tokenizers panics at both.
+#[test]
+fn a_tokenizer_that_is_damaged_in_its_decoder_or_has_a_damaged_table_is_refused() {
+    let (folder, path) = saved(&with_keys(&[("tokenizer.ggml.model", Some(Value::String("other".to_owned())))]));
+    let refusal = |json: &str| {
+        fs::write(folder.path().join("tokenizer.json"), json).unwrap();
+        let error = Reader::load(&path).err().expect("a refusal").to_string();
+        error.replace(&format!("{}/", folder.path().display()), "")
+    };
+    let json =
+        |parts: &str| format!(r#"{{"version":"1.0",{parts},"model":{{"type":"BPE","vocab":{{}},"merges":[]}}}}"#);
+    let damaged = refusal(&json(r#""decoder":{"type":"ByteLevel",0}"#));
+    assert!(
+        damaged.starts_with("tokenizer.json: the tokenizer is damaged: key must be a string at line 1"),
+        "{damaged}"
+    );
+    let table = r#""normalizer":{"type":"Precompiled","precompiled_charsmap":"AA=="}"#;
+    insta::assert_snapshot!(refusal(&json(table)), @"tokenizer.json: the tokenizer is with a packed table of characters, expected a tokenizer.json of this model");
+}
+
 #[test]
 fn the_command_says_what_is_wrong_with_a_reader() {
     let folder = tempfile::tempdir().unwrap();

@@ -14,6 +14,10 @@ impl From<ExportError> for Failure {
             E::NotJson { .. } => (Exit::BadData, "check the file with a JSON validator; it may be cut off".to_owned()),
             E::WrongFormat { .. } => (Exit::BadData, "name the format with --from or --to".to_owned()),
             E::WrongVersion { .. } => (Exit::BadData, "write the file with a version listed above".to_owned()),
+            E::BadField { place, expected, .. } if expected.contains("<obj-") => {
+                let names = "the label of an object or its <obj-N> (`cinesplat objects SCENE` lists them)";
+                (Exit::BadData, format!("set {place} to {names}, or to a point [x, y, z]"))
+            }
             E::BadField { place, expected, .. } => (Exit::BadData, format!("set {place} to {expected}")),
             E::BadLine { line, .. } => (Exit::BadData, format!("correct or remove line {line}")),
             E::BadBytes { .. } => (Exit::BadData, "the file may be cut off: copy it again".to_owned()),

@@ -15,9 +15,11 @@ pub(crate) struct Failure {
     exit: Exit,
 }
 
+/// Code of work that the user stopped.
+const STOPPED: &str = "STOPPED";
+
 /// What to do where memory is short.
-pub(super) const MORE_MEMORY: &str =
-    "raise --max-memory, and the limit of the shell (ulimit -v) where that is lower, or reduce --size and --threads";
+pub(super) const MORE_MEMORY: &str = "raise --max-memory, and the limit of the shell (ulimit -v) where that is lower, or take smaller pictures and fewer threads";
 
 impl Failure {
     /// A failure with a stable `code`. `message` is `FILE: found, expected`, without `FILE` where no file is at fault;
@@ -61,6 +63,11 @@ impl Failure {
         Self { help, ..self }
     }
 
+    /// Work that the user stopped: `found` says how far it came, `help` how it goes on.
+    pub(crate) fn stopped(found: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::new(STOPPED, found, help, Exit::Stopped)
+    }
+
     /// A line of a shot's report that is not met, where the user wants all of them met.
     pub(crate) fn not_met(line: &ReportLine) -> Self {
         let found = if line.note.is_empty() { format!("got {:.3}", line.got) } else { line.note.clone() };
@@ -91,6 +98,11 @@ impl Failure {
     pub(crate) fn with_further_help(mut self, further: &str) -> Self {
         self.help = format!("{}; {further}", self.help);
         self
+    }
+
+    /// Whether the user stopped the work.
+    pub(crate) fn is_stop(&self) -> bool {
+        self.code == STOPPED
     }
 
     /// The kind of failure.

@@ -12,6 +12,11 @@ impl From<RenderError> for Failure {
                 (Exit::BadData, "give the camera a size, focal lengths above 0 and a finite pose".to_owned())
             }
             E::Setting { name, expected, .. } => (Exit::Usage, format!("set {name} to {expected}")),
+            E::Fold { .. } => (
+                Exit::BadData,
+                "bring the k1, k2, k3, p1 and p2 of lens-distortion nearer to 0, or narrow the field of view"
+                    .to_owned(),
+            ),
             E::Length { what, expected, .. } => (Exit::BadData, format!("give {what} {expected} values, in order")),
             E::Memory { .. } => (Exit::OverCap, MORE_MEMORY.to_owned()),
             E::Cost { .. } => {

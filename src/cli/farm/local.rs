@@ -7,7 +7,7 @@ use super::waiting::Ended;
 use crate::cli::failure::{Exit, Failure};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::progress::FrameProgress;
-use crate::cli::{console, reproduce};
+use crate::cli::{console, member, reproduce};
 use cinesplat::pipeline;
 
 /// Time between two looks at the programs.
@@ -105,5 +105,6 @@ fn spawn(words: &[String]) -> Result<Child, Failure> {
     // Of their own group: Ctrl-C reaches them once, through this program.
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    member::mark(&mut command);
     command.args(words).stdin(Stdio::null()).stdout(Stdio::null()).spawn().map_err(failed)
 }

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use super::failure::{Exit, Failure};
 use super::interrupt::Interrupt;
+use super::render::BEFORE_FRAMES;
 use super::{console, heading, render, reproduce};
 use cinesplat::pipeline;
 use waiting::{Ended, wait_for_lost_programs};
@@ -51,6 +52,7 @@ impl Args {
     }
 
     pub(super) fn run(self) -> Result<(), Failure> {
+        let interrupt = Interrupt::before_work(BEFORE_FRAMES)?;
         let output = self.render.check_shared()?;
         if self.place.slurm && !self.cluster.waits_for_jobs()? {
             self.check_inputs()?;
@@ -58,7 +60,7 @@ impl Args {
         if self.render.starts_fresh() {
             pipeline::clear_job(&output)?;
         }
-        let interrupt = Interrupt::listen()?;
+        let interrupt = interrupt.begun();
         let ended = match self.place.local {
             Some(num) => local::run(usize::from(num.get()), &output, &interrupt)?,
             None => slurm::Farm::new(&self.cluster, &output)?.run(&interrupt)?,
@@ -90,5 +92,5 @@ impl Args {
 fn stopped(output: &Path) -> Failure {
     let (done, total) = pipeline::job_progress(output).unwrap_or_default();
     let found = format!("{}: stopped after {done} of {total} frames", output.display());
-    Failure::new("STOPPED", found, format!("to go on, type: {}", reproduce::line_to_go_on()), Exit::Stopped)
+    Failure::stopped(found, format!("to go on, type: {}", reproduce::line_to_go_on()))
 }

@@ -53,13 +53,17 @@ pub(super) struct Farm<'a> {
     num_parts: usize,
     /// Further words for `sbatch`.
     further: Vec<String>,
+    /// Whether the job folder was made for this job.
+    is_new: bool,
     is_left_alone: bool,
 }
 
 impl<'a> Farm<'a> {
     pub(super) fn new(args: &ClusterArgs, output: &'a Path) -> Result<Self, Failure> {
+        let is_new = !pipeline::job_folder(output).exists();
         Ok(Self {
             output,
+            is_new,
             folder: pipeline::tasks_folder(output)?,
             num_parts: usize::from(args.parts.get()),
             further: words::split(&args.sbatch)?,
@@ -74,7 +78,7 @@ impl<'a> Farm<'a> {
         let mut num_tasks = self.num_parts;
         while self.num_missing() != Some(0) {
             let before = self.num_done();
-            let job = self.submit(num_tasks, &script)?;
+            let job = self.submit(num_tasks, &script).inspect_err(|_| self.remove_new_folder())?;
             console::note(&format!("job {}: {num_tasks} tasks; logs are in {}", job.id(), self.folder.display()));
             if self.is_left_alone {
                 self.submit_film(&job)?;
@@ -93,6 +97,13 @@ impl<'a> Farm<'a> {
             }
         }
         Ok(Ended::Done)
+    }
+
+    /// Leaves nothing of a job that Slurm did not take.
+    fn remove_new_folder(&self) {
+        if self.is_new && pipeline::job_progress(self.output).is_none() {
+            pipeline::remove_tasks_folder(self.output);
+        }
     }
 
     fn submit(&self, num_tasks: usize, script: &Path) -> Result<Job, Failure> {

@@ -46,6 +46,7 @@ impl Args {
         if let Some(note) = video::odd_size_note(&format, &video) {
             console::note(&note);
         }
+        console::warnings(video::panorama_warning(&format, &video));
         settings.job = self.job.settings(self.inputs(scene, shot)?);
         if self.job.part.is_some() {
             self.write_shot((scene, renderer), shot, &settings)?;

@@ -14,7 +14,7 @@ use super::scene_args::{PictureArgs, SceneArgs, print_up, print_up_of};
 use super::shot_args::{ShotArgs, names_objects};
 use super::{console, heading, map, takes};
 use cinesplat::files::{self, Existing, Limits};
-use cinesplat::objects::ObjectSet;
+use cinesplat::objects::{self, ObjectSet};
 use cinesplat::pipeline::{self, FrameRange, Phase, PhaseTimes};
 use cinesplat::render::Renderer;
 use cinesplat::scene::Scene;
@@ -90,6 +90,9 @@ pub(super) struct Args {
     overwrite: Overwrite,
 }
 
+/// How far a film came that is stopped before it is begun.
+pub(super) const BEFORE_FRAMES: &str = "stopped before the first frame was begun";
+
 #[derive(Debug, Clone, clap::Args)]
 #[group(required = true, multiple = false)]
 struct ShotSource {
@@ -111,13 +114,12 @@ struct ShotSource {
 
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
-        self.run_with(Interrupt::default())
+        self.run_with(Interrupt::before_work(BEFORE_FRAMES)?)
     }
 
-    /// `interrupt` listens already, or starts to when the film does: before that, Ctrl-C ends the program at once.
     fn run_with(self, interrupt: Interrupt) -> Result<(), Failure> {
         if let Some(file) = &self.source.prompts {
-            return self.run_prompts(&prompts_file::read(file)?);
+            return self.run_prompts(&prompts_file::read(file)?, interrupt);
         }
         let start = Instant::now();
         self.check_outputs()?;
@@ -125,7 +127,7 @@ impl Args {
         let mut times = PhaseTimes::default();
         let (scene, objects, shots) = self.open(&mut times)?;
         let renderer = Renderer::new(&scene.gaussians);
-        self.render_takes((&scene, &objects, &renderer), &shots, (times, start), &interrupt.listening()?)
+        self.render_takes((&scene, &objects, &renderer), &shots, (times, start), &interrupt.begun())
     }
 
     /// As [`Args::run`], after several programs have rendered the frames.
@@ -148,6 +150,7 @@ impl Args {
         if let Some((flag, _)) = refused.iter().find(|(_, is_given)| *is_given) {
             return Err(Failure::usage(format!("{flag} with several programs"), "leave it out, or use `render`"));
         }
+        self.remove_leftovers()?;
         self.check_names()?;
         pipeline::check_shared_job(&self.output)?;
         Ok(self.output.clone())
@@ -175,9 +178,10 @@ impl Args {
     }
 
     /// One film per prompt of a file; scene, director and renderer are prepared once.
-    fn run_prompts(&self, prompts: &[NamedPrompt]) -> Result<(), Failure> {
+    fn run_prompts(&self, prompts: &[NamedPrompt], interrupt: Interrupt) -> Result<(), Failure> {
         let mut jobs: Vec<(NamedPrompt, Self)> =
             prompts.iter().map(|named| Ok((named.clone(), self.for_prompt(named)?))).collect::<Result<_, Failure>>()?;
+        jobs.iter().try_for_each(|(_, job)| job.remove_leftovers())?;
         // The films before one that was stopped are there already.
         if self.overwrite.existing() == Existing::Keep && jobs.iter().any(|(_, job)| job.job.goes_on(&job.output)) {
             let (finished, left): (Vec<_>, Vec<_>) = jobs.into_iter().partition(|(_, job)| job.is_finished());
@@ -191,7 +195,7 @@ impl Args {
         let (scene, objects) = self.scene.open_with_objects(self.shot.objects.as_deref())?;
         let interpreter = self.shot.interpreter()?;
         let renderer = Renderer::new(&scene.gaussians);
-        let interrupt = Interrupt::listen()?;
+        let interrupt = interrupt.begun();
         prompts_file::for_each(&jobs, |named, job| {
             let start = Instant::now();
             let directed = job.shot.direct(&interpreter, (&scene, &objects), &named.prompt)?;
@@ -208,6 +212,7 @@ impl Args {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let render = |job: &Self, shot: &Shot| {
+            job.make_picture_folder()?;
             job.write_map((scene, objects), shot)?;
             job.render((scene, renderer), shot, (times.clone(), start), interrupt)
         };
@@ -215,6 +220,7 @@ impl Args {
             return shots.iter().try_for_each(|shot| render(self, shot));
         }
         let existing = if self.takes_go_on() { Existing::Replace } else { self.overwrite.existing() };
+        self.make_picture_folder()?;
         takes::write_sheet((scene, renderer), shots, &self.sheet_of_takes(), existing)?;
         let takes: Vec<(Self, &Shot)> = (1..).zip(shots).map(|(number, shot)| (self.for_take(number), shot)).collect();
         let missing: Vec<_> = takes.iter().filter(|(take, _)| !self.has(take)).collect();
@@ -248,6 +254,9 @@ impl Args {
             let with_objects = || self.scene.open_with_objects(self.shot.objects.as_deref());
             // The film needs objects only where the shot looks at them by name; the map names them.
             let needs_objects = self.map.is_some() || names_objects(file)?;
+            if let Some(unused) = self.shot.objects.as_deref().filter(|_| !needs_objects) {
+                objects::read_boxes(unused)?;
+            }
             let (scene, objects) =
                 times.measure(Phase::Load, || if needs_objects { with_objects() } else { opened() })?;
             let shot = self.shot.read_shot(file, (&scene, &objects))?;

@@ -6,6 +6,8 @@ use super::Args;
 use crate::cli::failure::Failure;
 use crate::cli::prompts_file::{self, NamedPrompt};
 use crate::cli::{figures, outputs, takes};
+use cinesplat::files;
+use cinesplat::pipeline;
 use cinesplat::video::{self, VideoFormat};
 
 impl Args {
@@ -47,8 +49,43 @@ impl Args {
         })
     }
 
+    /// Removes what a program left of a job folder that was killed while it removed that folder.
+    pub(super) fn remove_leftovers(&self) -> Result<(), Failure> {
+        if self.job.part.is_some() {
+            return Ok(());
+        }
+        if !self.shot.takes.is_several() {
+            return Ok(pipeline::remove_leftover(&self.output)?);
+        }
+        let outputs = self.shot.takes.numbers().map(|number| takes::output_of(&self.output, number));
+        Ok(outputs.into_iter().try_for_each(|output| pipeline::remove_leftover(&output))?)
+    }
+
+    /// Makes the folder of the pictures of a sequence: other outputs may go there before the first picture.
+    pub(super) fn make_picture_folder(&self) -> Result<(), Failure> {
+        Ok(self.picture_folder().as_deref().map_or(Ok(()), files::create_folder)?)
+    }
+
+    /// The folder of the pictures of a sequence.
+    fn picture_folder(&self) -> Option<PathBuf> {
+        match VideoFormat::from_path(&self.output) {
+            Ok(VideoFormat::Sequence(pattern)) => {
+                Some(pattern.folder().to_owned()).filter(|folder| !folder.as_os_str().is_empty())
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a path lies in the folder that is made for the pictures, so that nothing is in its way.
+    fn is_in_new_folder(&self, path: &Path) -> bool {
+        let folder = self.picture_folder().filter(|folder| !folder.exists());
+        folder
+            .is_some_and(|folder| std::path::absolute(files::folder_of(path)).ok() == std::path::absolute(folder).ok())
+    }
+
     /// Refuses wrong outputs before the scene is read.
     pub(super) fn check_outputs(&self) -> Result<(), Failure> {
+        self.remove_leftovers()?;
         if !self.shot.takes.is_several() {
             return self.check_own_outputs();
         }
@@ -58,8 +95,9 @@ impl Args {
                 "leave --takes out, or give a prompt",
             ));
         }
-        if !self.takes_go_on() {
-            self.overwrite.check(&self.sheet_of_takes())?;
+        let sheet = self.sheet_of_takes();
+        if !self.takes_go_on() && !self.is_in_new_folder(&sheet) {
+            self.overwrite.check(&sheet)?;
         }
         let missing = self.shot.takes.numbers().map(|number| self.for_take(number)).filter(|take| !self.has(take));
         missing.into_iter().try_for_each(|take| take.check_own_outputs())
@@ -89,15 +127,27 @@ impl Args {
             video::check_output(&self.output, &self.encoder())?;
         }
         // A stopped film may have written them already; they are written again only if they differ.
-        for path in self.save_shot.iter().chain(&self.sheet).filter(|_| !goes_on) {
+        let is_free = |path: &Path| goes_on || self.is_in_new_folder(path);
+        for path in self.save_shot.iter().chain(&self.sheet).filter(|path| !is_free(path)) {
             self.overwrite.check(path)?;
         }
         let check_map =
-            |path: &Path| if goes_on { figures::check_name(path) } else { figures::check(path, self.overwrite) };
+            |path: &Path| if is_free(path) { figures::check_name(path) } else { figures::check(path, self.overwrite) };
         self.map.as_deref().map_or(Ok(()), check_map)?;
-        let shot = self.save_shot.as_deref().map(|path| ("--save-shot", path));
-        let sheet = self.sheet.as_deref().map(|path| ("--sheet", path));
-        let map = self.map.as_deref().map(|path| ("--map", path));
-        outputs::check_distinct([("--output", self.output.as_path())].into_iter().chain(shot).chain(sheet).chain(map))
+        let named = [
+            ("--output", Some(&self.output)),
+            ("--save-shot", self.save_shot.as_ref()),
+            ("--sheet", self.sheet.as_ref()),
+            ("--map", self.map.as_ref()),
+        ];
+        let named = || named.into_iter().filter_map(|(flag, path)| Some((flag, path?.as_path())));
+        outputs::check_distinct(named())?;
+        let inputs = [
+            ("the scene", Some(&self.scene.scene)),
+            ("the shot", self.source.file.as_ref()),
+            ("the prompts", self.source.prompts.as_ref()),
+            ("the objects", self.shot.objects.as_ref()),
+        ];
+        outputs::check_not_inputs(named(), inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))))
     }
 }

@@ -88,7 +88,7 @@ pub fn film_planned(
                 if !keeps_frames {
                     job.abandon_frames();
                 }
-                job.place_film(output, settings.video.existing)?;
+                job.place_film(output, settings.video.existing, keeps_frames)?;
             }
             if !keeps_frames {
                 job.remove();

@@ -57,7 +57,12 @@ pub fn promised(
         forecasts.extend(at(&[Quality::Reference])?);
     }
     let left = requirements.budget.map(|budget| budget.saturating_sub(start.elapsed()));
-    let quality = choose(&forecasts, Requirements { budget: left, ..requirements })?;
+    let quality = choose(&forecasts, Requirements { budget: left, ..requirements }).map_err(|error| match error {
+        PipelineError::Unreachable { reachable, .. } => {
+            PipelineError::Unreachable { wanted: requirements.sentence_after(start.elapsed()), reachable }
+        }
+        error => error,
+    })?;
     let is_chosen = |forecast: &&Forecast| forecast.quality == quality;
     let chosen = forecasts.iter().find(is_chosen).copied().ok_or(PipelineError::Unreachable {
         wanted: quality.as_ref().to_owned(),
@@ -75,13 +80,13 @@ pub fn promised(
         let fastest = if requirements.min_psnr_db.is_some() { Some(&chosen) } else { forecasts.first() };
         let cores = super::num_cores();
         let slower = cores as f64 / cores.saturating_sub(CORES_AT_RISK).max(1) as f64;
-        let needed = fastest?.film_time.mul_f64(slower.max(TIME_MARGIN)) + super::TIME_RESERVE;
+        let needed = (fastest?.film_time + super::TIME_RESERVE).mul_f64(slower.max(TIME_MARGIN));
         (needed > left).then(|| {
             format!(
-                "no reserve: if one more program takes a core, even {} needs {:.1} s of the {:.1} s that are left",
+                "no reserve: if one more program takes a core, even {} needs {} of the {} that are left",
                 fastest.map_or("", |forecast| forecast.quality.as_ref()),
-                needed.as_secs_f64(),
-                left.as_secs_f64()
+                super::seconds(needed),
+                super::seconds(left)
             )
         })
     });

@@ -1,7 +1,8 @@
 use std::path::Path;
+use std::sync::OnceLock;
 
 use cinesplat_export::shot_json;
-use cinesplat_files::{Existing, FileError, Limits, json_excess, sha256_hex};
+use cinesplat_files::{Existing, FileError, Limits, file_checksum, json_excess, sha256_hex};
 use cinesplat_render::RenderSettings;
 use cinesplat_trajectory::{SceneRef, Shot};
 use cinesplat_video::VideoSettings;
@@ -55,7 +56,7 @@ impl Fingerprint {
             has_alpha: _,
         } = video;
         let own = [
-            ("engine", env!("CARGO_PKG_VERSION").to_owned()),
+            ("engine", engine()),
             ("size", format!("{width}x{height}")),
             ("fps", rate_fps.to_string()),
             ("frames", format!("{first_frame}..{}", first_frame + num_frames)),
@@ -136,6 +137,21 @@ impl Fingerprint {
         let json = serde_json::json!({"format": FORMAT, "version": VERSION, "made_from": fields});
         format!("{json:#}\n")
     }
+}
+
+/// The version of this program and the checksum of its file: two builds of one version may render different pictures. The
+/// programs of a farm are one file. A file that the system does not let the program read counts as that of no build.
+fn engine() -> String {
+    static ENGINE: OnceLock<String> = OnceLock::new();
+    let name = || {
+        let version = env!("CARGO_PKG_VERSION");
+        // Linux keeps the file of a running program under this name, whatever became of its path.
+        let own = Path::new("/proc/self/exe");
+        let file = if own.exists() { Ok(own.to_owned()) } else { std::env::current_exe() };
+        let build = file.and_then(|file| file_checksum(&file));
+        build.map_or_else(|_| version.to_owned(), |build| format!("{version} build {build:016x}"))
+    };
+    ENGINE.get_or_init(name).clone()
 }
 
 /// The camera's path as text: the shot without what no picture depends on, and without what has a field of its own.

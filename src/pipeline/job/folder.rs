@@ -6,7 +6,7 @@ use cinesplat_video::{VideoFormat, VideoSettings};
 
 use super::access::Access;
 use super::claims::{Claim, claim};
-use super::cleanup::{FRAMES, film_path, remove_contents, remove_empty, remove_temporary};
+use super::cleanup::{FRAMES, film_path, note_placed, remove_contents, remove_empty, remove_temporary};
 use super::done_log::DoneLog;
 use super::error::JobError;
 use super::fingerprint::Fingerprint;
@@ -81,13 +81,17 @@ impl Job {
         matches!(self.format, VideoFormat::Sequence(_))
     }
 
-    /// Gives the finished film its name.
+    /// Gives the finished film its name. Where no frames are kept after that, the folder says so first: this program may be
+    /// killed before it has removed it.
     ///
     /// # Errors
     /// [`JobError::NotPlaced`]; the film stays in the folder. [`JobError::Lost`].
-    pub(crate) fn place_film(&self, output: &Path, existing: Existing) -> Result<(), JobError> {
+    pub(crate) fn place_film(&self, output: &Path, existing: Existing, keeps_frames: bool) -> Result<(), JobError> {
         self.lock.sign().check_now()?;
         let kept = self.film_path();
+        if !keeps_frames {
+            note_placed(&self.folder, &kept);
+        }
         move_file(&kept, output, existing).map_err(|error| JobError::NotPlaced { kept, error })
     }
 

@@ -11,6 +11,7 @@
 //! holders/          a file per program that works on the folder: a disk may have no locks
 //! tasks/            scripts and logs of the tasks that a cluster runs
 //! film.mp4          the film, between the moment it is whole and the moment it gets its own name
+//! placed            which file that film is: once the output is that file, the rest of the folder is not needed
 //! ```
 //!
 //! The pictures of a sequence are their own frames: they lie under their final names and only `done.log` is here.
@@ -49,6 +50,9 @@ pub(crate) use fingerprint::Fingerprint;
 pub(crate) use folder::Job;
 pub(crate) use frame_files::Kept;
 pub(crate) use keeper::Keeper;
-pub use outside::{check_job, check_shared_job, clear_job, has_job, job_field, job_folder, job_progress, tasks_folder};
+pub use outside::{
+    check_job, check_shared_job, clear_job, has_job, job_field, job_folder, job_progress, remove_leftover,
+    remove_tasks_folder, tasks_folder,
+};
 pub(crate) use picture::Picture;
 pub use settings::{JobSettings, JobStart};

@@ -8,7 +8,7 @@ use cinesplat_files::{Existing, FileError, NewFile, create_folder};
 use cinesplat_video::{VideoFormat, VideoSettings};
 
 use super::access::Access;
-use super::cleanup::{TASKS, remove_contents, remove_empty};
+use super::cleanup::{TASKS, is_leftover, remove_contents, remove_empty, remove_tasks};
 use super::done_log::DoneLog;
 use super::error::JobError;
 use super::fingerprint::Fingerprint;
@@ -68,6 +68,37 @@ pub fn clear_job(output: &Path) -> Result<(), JobError> {
     remove_contents(&folder, &format);
     remove_empty(&folder, &mut lock);
     Ok(())
+}
+
+/// Removes the job folder of an output if it is what a program left that was killed while it removed it. One that another
+/// program works on stays.
+///
+/// # Errors
+/// [`JobError::File`]
+pub fn remove_leftover(output: &Path) -> Result<(), JobError> {
+    let folder = job_folder(output);
+    if !folder.is_dir() || !is_leftover(&folder, output) {
+        return Ok(());
+    }
+    let format = VideoFormat::from_path(output).map_err(JobError::video)?;
+    let mut lock = match locked(&folder, Access::Alone) {
+        Err(JobError::Locked { .. }) => return Ok(()),
+        lock => lock?,
+    };
+    // Another program may have begun the film since.
+    if is_leftover(&folder, output) {
+        remove_contents(&folder, &format);
+        remove_empty(&folder, &mut lock);
+    }
+    Ok(())
+}
+
+/// Removes the scripts of tasks that no cluster took, and the job folder of an output if nothing else is in it.
+pub fn remove_tasks_folder(output: &Path) {
+    let folder = job_folder(output);
+    remove_tasks(&folder);
+    // Whoever put something else into it still needs it.
+    let _ = fs::remove_dir(folder);
 }
 
 /// Checks before any work that the job folder of an output can be made and written to, and that no other program works on
