@@ -16,7 +16,7 @@ const LOOKS: &str = "grade grading graded palette palettes tone tones hue hues t
 const TERMS: &str = "axis axes objective constraint constraints sensor gimbal goal goals waypoint waypoints target targets \
     pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading";
 /// Words beside such a term.
-const BESIDE: &str = "the a an its each every all any none of both this that next last first no optical";
+const BESIDE: &str = "of the a an its each every all any none of both this that next last first no optical";
 /// What comes before `plate` where it is a piece of film.
 const PLATES: &str = "reference background clean back empty bg vfx still";
 
@@ -45,7 +45,7 @@ fn is_color_of_look(words: &[Word], [first, end]: [usize; 2]) -> bool {
     }
     let behind = (end..words.len()).take_while(is_color).count();
     (first + 1..end).any(|at| is_listed(LOOKS, word_at(words, at)))
-        || words.get(end + behind).is_some_and(|word| is_listed(LOOKS, &word.text))
+        || (end..=end + behind).any(|at| is_listed(LOOKS, word_at(words, at)))
 }
 
 /// `reference plate`: a piece of film.
@@ -59,7 +59,7 @@ fn is_term(words: &[Word], objects: &[NamedObject]) -> bool {
     let is_label =
         |word: &Word| objects.iter().any(|object| tokenize(&object.label).iter().any(|w| w.stem == word.stem));
     words.iter().any(|word| is_listed(TERMS, &word.text))
-        && words.iter().all(|word| (is_listed(TERMS, &word.text) || is_listed(BESIDE, &word.text)) && !is_label(word))
+        && words.iter().all(|word| is_listed(TERMS, &word.text) && !is_label(word) || is_listed(BESIDE, &word.text))
 }
 
 #[cfg(test)]
