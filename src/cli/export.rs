@@ -91,12 +91,12 @@ impl Args {
         console::note(&format!("{}: {}", self.output.display(), format));
         Ok(())
     }
+
     fn check_not_inputs(&self, format: Format, layout: Layout) -> Result<(), Failure> {
         let files = export::output_files(&self.output, format, layout);
-        let objects = self.objects.as_deref().map(|path| ("the objects", path));
         outputs::check_not_inputs(
             files.iter().map(|path| ("--output", path.as_path())),
-            [("the shot", self.shot.as_path())].into_iter().chain(objects),
+            [("the shot", Some(self.shot.as_path())), ("the objects", self.objects.as_deref())],
         )
     }
 }

@@ -57,7 +57,8 @@ impl Args {
         self.overwrite.check(&self.output)?;
         // Of a recording the name of a topic may follow.
         let file = self.file.to_string_lossy();
-        let inputs = [&*file, file.split('#').next().unwrap_or_default()].map(|file| ("the path", Path::new(file)));
+        let inputs =
+            [&*file, file.split('#').next().unwrap_or_default()].map(|file| ("the path", Some(Path::new(file))));
         outputs::check_not_inputs([("--output", self.output.as_path())], inputs)?;
         let in_file = |error| Failure::from(error).in_file(&self.file);
         let how = ReadSettings { format: self.from, camera: self.camera.clone() };

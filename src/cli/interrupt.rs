@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use super::failure::Failure;
 use super::{console, member, reproduce};
 use crate::allocator;
-use cinesplat::files::remove_open_files;
+use cinesplat::files::{end_probes, remove_open_files};
 
 /// Makes a write beyond the limit on file sizes (`ulimit -f`) an error instead of the end of the program. Call it before
 /// any thread is started.
@@ -38,6 +38,7 @@ impl Interrupt {
         let (count, is_begun) = (Arc::clone(&interrupt.count), Arc::clone(&interrupt.is_begun));
         let listening = ctrlc::set_handler(move || {
             if !is_begun.load(Ordering::SeqCst) {
+                end_probes();
                 let stopped = Failure::stopped(how_far, format!("to start again, type: {}", reproduce::line()));
                 member::report(&stopped);
                 remove_open_files();

@@ -41,8 +41,11 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         figures::check(&self.output, self.overwrite)?;
-        let objects = self.objects.as_deref().map(|path| ("the objects", path));
-        let inputs = [("the scene", self.scene.scene.as_path()), ("the shot", &self.shot)].into_iter().chain(objects);
+        let inputs = [
+            ("the scene", Some(self.scene.scene.as_path())),
+            ("the shot", Some(&self.shot)),
+            ("the objects", self.objects.as_deref()),
+        ];
         outputs::check_not_inputs([("--output", self.output.as_path())], inputs)?;
         // A shot that cannot be read is refused before its scene is loaded; one that names objects needs them first.
         let is_complete = !shot_args::names_objects(&self.shot)?;

@@ -113,12 +113,12 @@ impl Args {
         outputs::check_distinct(named())?;
         // The objects file and its labels are not among them: writing new names over the old ones is what people mean.
         let inputs = [
-            ("the scene", Some(&self.scene.scene)),
-            ("the masks", self.masks.as_ref()),
-            ("the cameras", self.cameras.as_ref()),
-            ("the names", self.rename.as_ref()),
+            ("the scene", Some(self.scene.scene.as_path())),
+            ("the masks", self.masks.as_deref()),
+            ("the cameras", self.cameras.as_deref()),
+            ("the names", self.rename.as_deref()),
         ];
-        outputs::check_not_inputs(named(), inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))))
+        outputs::check_not_inputs(named(), inputs)
     }
 
     /// The names of --rename and --name; the latter win.

@@ -98,15 +98,16 @@ pub(super) fn check_distinct<'a>(outputs: impl IntoIterator<Item = (&'a str, &'a
 }
 
 /// Refuses an output that would replace an input, before any work. Each output comes with the flag that names it, each input
-/// with its name; of an input that is a folder the files count by which scenes and captures are read.
+/// with its name, if it is given; of an input that is a folder the files count by which scenes and captures are read.
 pub(super) fn check_not_inputs<'a>(
     outputs: impl IntoIterator<Item = (&'a str, &'a Path)>,
-    inputs: impl IntoIterator<Item = (&'a str, &'a Path)>,
+    inputs: impl IntoIterator<Item = (&'a str, Option<&'a Path>)>,
 ) -> Result<(), Failure> {
+    let given = inputs.into_iter().filter_map(|(name, path)| Some((name, path?)));
     let of_input = |(name, path): (&'a str, &'a Path)| {
         [path.to_owned(), path.join("meta.json"), path.join("transforms.json")].map(|file| (name, file))
     };
-    let replaceable: Vec<(&str, PathBuf)> = inputs.into_iter().flat_map(of_input).collect();
+    let replaceable: Vec<(&str, PathBuf)> = given.flat_map(of_input).collect();
     for (flag, output) in outputs {
         if let Some((name, _)) = replaceable.iter().find(|(_, input)| files::is_same_file(output, input)) {
             let found = format!("{}: {flag} would replace {name}, expected another file", output.display());

@@ -107,14 +107,11 @@ impl Args {
         let numbered = takes.iter().flat_map(|[shot, map]| [("--output", shot.as_ref()), ("--map", map.as_ref())]);
         let named = numbered.chain([("--sheet", sheet.as_ref())]);
         let inputs = [
-            ("the scene", Some(&self.scene.scene)),
-            ("the prompts", self.words.prompts.as_ref()),
-            ("the objects", self.shot.objects.as_ref()),
+            ("the scene", Some(self.scene.scene.as_path())),
+            ("the prompts", self.words.prompts.as_deref()),
+            ("the objects", self.shot.objects.as_deref()),
         ];
-        outputs::check_not_inputs(
-            named.filter_map(|(flag, path)| Some((flag, path?.as_path()))),
-            inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))),
-        )
+        outputs::check_not_inputs(named.filter_map(|(flag, path)| Some((flag, path?.as_path()))), inputs)
     }
 
     /// Every prompt with its outputs.

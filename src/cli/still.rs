@@ -131,15 +131,12 @@ impl Args {
     fn check_not_inputs(&self, cameras: &StillCameras) -> Result<(), Failure> {
         let files: Vec<PathBuf> = cameras.cameras.iter().flat_map(|camera| self.files(&camera.name)).collect();
         let inputs = [
-            ("the scene", Some(&self.scene.scene)),
+            ("the scene", Some(self.scene.scene.as_path())),
             ("the cameras", Some(&self.cameras)),
-            ("the labels", self.ids.as_ref().and_then(Option::as_ref)),
-            ("the features", self.features.as_ref()),
+            ("the labels", self.ids.as_ref().and_then(Option::as_deref)),
+            ("the features", self.features.as_deref()),
         ];
-        outputs::check_not_inputs(
-            files.iter().map(|path| ("--output", path.as_path())),
-            inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))),
-        )
+        outputs::check_not_inputs(files.iter().map(|path| ("--output", path.as_path())), inputs)
     }
 
     /// Refuses two cameras that would write the same file.

@@ -1,8 +1,8 @@
 //! Weights as a safetensors file.
 //!
 //! Enters: tensors by name, as `f32`. Leaves: `f16`, and for the matrices of BERT blocks of 256 numbers of 6.6 bits each
-//! (GGML's `Q6_K`; the last one is filled up with zeros), which are most of the bytes. The format has no such type: the bytes are stored as `U8`, and the
-//! metadata says which tensors they are and their shapes.
+//! (GGML's `Q6_K`; the last one is filled up with zeros), which are most of the bytes. The format has no such type: the
+//! bytes are stored as `U8`, and the metadata says which tensors they are and their shapes.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};

@@ -59,10 +59,7 @@ fn strays(path: &Trajectory, name: Move, still_distance: f64) -> bool {
             let along = way.normalize_or_zero();
             farthest(&|moved| moved.reject_from_normalized(along).length()) > STRAY_FRAC * way.length()
         }
-        M::ArcLeft | M::ArcRight | M::OrbitLeft | M::OrbitRight | M::CraneUp | M::CraneDown => {
-            circle_stray(path) > STRAY_FRAC
-        }
-        _ => false,
+        _ => stray_share(path, name) > 1.0,
     }
 }
 

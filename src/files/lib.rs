@@ -17,6 +17,7 @@ pub mod npy;
 mod open_files;
 mod past_cache;
 mod paths;
+mod probe;
 mod read;
 mod unknown_keys;
 
@@ -31,5 +32,6 @@ pub use new_file::{Existing, NewFile, check_free, create_folder, holds, write};
 pub use open_files::remove_open_files;
 pub use past_cache::PastCache;
 pub use paths::{beside, folder_of, is_same_file, relative_to};
+pub use probe::{end_probes, probe};
 pub use read::read;
 pub use unknown_keys::{UnknownKeys, edits_between, misspelling};

@@ -3,15 +3,9 @@
 //! Enters: a prompt and the mentions of effects in it. Leaves: the bytes of the prompt from the negation before a
 //! mention to its end, or from the mention to the end of its clause.
 
-use std::collections::BTreeSet;
-use std::sync::LazyLock;
-
-use super::effects::EffectMention;
-use super::list_lines::list_lines;
+use super::effects::{EffectMention, is_negation};
 use super::tokenizer::{Word, tokenize, word_at};
 
-/// The line of the table of effects that lists the negations.
-const LIST: &str = "@negation:";
 /// Words that forbid what follows them where `of`, `from`, `off`, `out`, `with` or `than` is next.
 const LEADING: [&str; 11] =
     ["free", "clean", "clear", "devoid", "rid", "turn", "turned", "switch", "away", "instead", "rather"];
@@ -20,12 +14,6 @@ const FOLLOWING: [&str; 6] = ["of", "from", "off", "out", "with", "than"];
 const ENDS: [&str; 8] = [".", ";", "!", "?", "but", "then", "while", "because"];
 /// Most words between a negation and a mention, and behind a mention.
 const REACH: usize = 8;
-
-static NEGATIONS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| {
-    let mut lines = list_lines(include_str!("../../prompts/effects.txt")).map(|(_, line)| line);
-    let list = lines.find_map(|line| line.strip_prefix(LIST)).unwrap_or_default();
-    list.split(',').map(str::trim).collect()
-});
 
 /// The bytes of the words that forbid an effect: the mention with the negation before it (`no fog`, `without fog, grain or a
 /// vignette`), or with the rest of its clause (`the grain has to go`). `mentions` are all of the prompt. What is not
@@ -60,7 +48,7 @@ pub fn forbidding_words(prompt: &str, mention: &EffectMention, mentions: &[Effec
 /// Whether a word begins a negation.
 fn negates(words: &[Word], at: usize) -> bool {
     let (word, next) = (word_at(words, at), word_at(words, at + 1));
-    NEGATIONS.contains(word) || LEADING.contains(&word) && FOLLOWING.contains(&next)
+    is_negation(word) || LEADING.contains(&word) && FOLLOWING.contains(&next)
 }
 
 /// Whether a word belongs to the mention of a forbidden effect.

@@ -143,11 +143,11 @@ impl Args {
         let named = || named.into_iter().filter_map(|(flag, path)| Some((flag, path?.as_path())));
         outputs::check_distinct(named())?;
         let inputs = [
-            ("the scene", Some(&self.scene.scene)),
-            ("the shot", self.source.file.as_ref()),
-            ("the prompts", self.source.prompts.as_ref()),
-            ("the objects", self.shot.objects.as_ref()),
+            ("the scene", Some(self.scene.scene.as_path())),
+            ("the shot", self.source.file.as_deref()),
+            ("the prompts", self.source.prompts.as_deref()),
+            ("the objects", self.shot.objects.as_deref()),
         ];
-        outputs::check_not_inputs(named(), inputs.into_iter().filter_map(|(name, path)| Some((name, path?.as_path()))))
+        outputs::check_not_inputs(named(), inputs)
     }
 }

@@ -79,24 +79,9 @@ impl Vocabulary {
         }
         let specials = special_tokens();
         let learned = merges::learn(&words, size.saturating_sub(specials.len()));
-        let ids = specials.iter().chain(&learned.pieces).zip(0_u32..);
-        let vocab: serde_json::Map<String, Value> = ids.map(|(piece, id)| (piece.clone(), id.into())).collect();
         let joined: Vec<Value> = learned.merges.iter().map(|(left, right)| json!([left, right])).collect();
-        let added: Vec<Value> = specials.iter().zip(0_u32..).map(|(text, id)| added_token(text, id)).collect();
-        let description = json!({
-            "version": "1.0",
-            "added_tokens": added,
-            "normalizer": {"type": "Lowercase"},
-            "pre_tokenizer": {"type": "Whitespace"},
-            "model": {
-                "type": "BPE",
-                "unk_token": "<unk>",
-                "continuing_subword_prefix": merges::CONTINUES,
-                "vocab": vocab,
-                "merges": joined,
-            },
-        });
-        Self::from_json(description.to_string().as_bytes())
+        let around = [json!({"type": "Lowercase"}), json!({"type": "Whitespace"})];
+        Self::described([&specials, &learned.pieces], around, json!({"type": "BPE", "merges": joined}))
     }
 
     /// A vocabulary of word pieces (Wu et al. 2016): those of a network that was trained beforehand. Its texts end with a token
@@ -106,24 +91,32 @@ impl Vocabulary {
     /// [`DirectorError::BadModel`] when `tokenizers` rejects the pieces.
     pub fn of_word_pieces(pieces: &[String]) -> Result<Self, DirectorError> {
         let specials: Vec<String> = special_tokens().into_iter().chain([END.to_owned()]).collect();
+        let normalizer = json!({
+            "type": "BertNormalizer",
+            "clean_text": false, "handle_chinese_chars": true, "strip_accents": true, "lowercase": true,
+        });
+        let around = [normalizer, json!({"type": "BertPreTokenizer"})];
+        Self::described([&specials, pieces], around, json!({"type": "WordPiece", "max_input_chars_per_word": 100}))
+    }
+
+    /// The vocabulary of special tokens, then pieces, by what is done before the model and the model's own settings.
+    fn described(
+        [specials, pieces]: [&[String]; 2],
+        [normalizer, pre_tokenizer]: [Value; 2],
+        mut model: Value,
+    ) -> Result<Self, DirectorError> {
         let ids = specials.iter().chain(pieces).zip(0_u32..);
         let vocab: serde_json::Map<String, Value> = ids.map(|(piece, id)| (piece.clone(), id.into())).collect();
         let added: Vec<Value> = specials.iter().zip(0_u32..).map(|(text, id)| added_token(text, id)).collect();
+        model["unk_token"] = "<unk>".into();
+        model["continuing_subword_prefix"] = merges::CONTINUES.into();
+        model["vocab"] = vocab.into();
         let description = json!({
             "version": "1.0",
             "added_tokens": added,
-            "normalizer": {
-                "type": "BertNormalizer",
-                "clean_text": false, "handle_chinese_chars": true, "strip_accents": true, "lowercase": true,
-            },
-            "pre_tokenizer": {"type": "BertPreTokenizer"},
-            "model": {
-                "type": "WordPiece",
-                "unk_token": "<unk>",
-                "continuing_subword_prefix": merges::CONTINUES,
-                "max_input_chars_per_word": 100,
-                "vocab": vocab,
-            },
+            "normalizer": normalizer,
+            "pre_tokenizer": pre_tokenizer,
+            "model": model,
         });
         Self::from_json(description.to_string().as_bytes())
     }

@@ -43,6 +43,11 @@ pub struct EffectMention {
     pub span: [usize; 2],
 }
 
+/// Whether a word forbids what follows it, as the table lists such words.
+pub(crate) fn is_negation(word: &str) -> bool {
+    Table::embedded().is_ok_and(|table| table.lists(WordKind::Negation, word))
+}
+
 /// The effects that a prompt mentions, each kind once, in the order of the words: effects of the camera, and requests
 /// that no camera can meet. Of two mentions of one kind that contradict each other the last one counts. A negated
 /// mention (`no motion blur`) is one that forbids; of what is no effect (`without music`) it is omitted.

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use cinesplat_files::{Existing, FileError, NewFile, create_folder};
+use cinesplat_files::{Existing, FileError, NewFile, create_folder, probe};
 use cinesplat_video::{VideoFormat, VideoSettings};
 
 use super::access::Access;
@@ -107,7 +107,7 @@ pub fn remove_tasks_folder(output: &Path) {
 /// # Errors
 /// [`JobError::Locked`], [`JobError::File`].
 pub fn check_job(output: &Path) -> Result<(), JobError> {
-    check(output, Access::Alone)
+    probe(|| check(output, Access::Alone))
 }
 
 /// As [`check_job`], for a program that shares the work: others that do so too may be at it.
@@ -115,7 +115,7 @@ pub fn check_job(output: &Path) -> Result<(), JobError> {
 /// # Errors
 /// As [`check_job`].
 pub fn check_shared_job(output: &Path) -> Result<(), JobError> {
-    check(output, Access::Shared)
+    probe(|| check(output, Access::Shared))
 }
 
 fn check(output: &Path, access: Access) -> Result<(), JobError> {

@@ -41,8 +41,8 @@ pub struct Base {
     sizes: Sizes,
     /// Id of each piece.
     pieces: BTreeMap<String, usize>,
-    /// Shape and values by the names of the file.
-    tensors: BTreeMap<String, (Vec<usize>, Vec<f32>)>,
+    /// Values by the names of the file.
+    tensors: BTreeMap<String, Vec<f32>>,
 }
 
 impl Base {
@@ -62,7 +62,7 @@ impl Base {
             SafeTensors::deserialize(&weights).map_err(|error| bad(folder, "model.safetensors", &error.to_string()))?;
         let tensors = file.iter().filter(|(_, view)| view.dtype() == Dtype::F32).map(|(name, view)| {
             let values = view.data().as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
-            (name.trim_start_matches("bert.").to_owned(), (view.shape().to_vec(), values))
+            (name.trim_start_matches("bert.").to_owned(), values)
         });
         Ok(Self { folder: folder.to_owned(), sizes, pieces, tensors: tensors.collect() })
     }
@@ -194,7 +194,7 @@ impl Base {
     fn tensor(&self, name: &str) -> Result<&[f32], TrainError> {
         self.tensors
             .get(name)
-            .map(|(_, values)| values.as_slice())
+            .map(Vec::as_slice)
             .ok_or_else(|| bad(&self.folder, name, "missing, or not of 32-bit numbers"))
     }
 

@@ -98,16 +98,17 @@ pub fn train(
     let base = settings.base.as_deref().map(Base::read).transpose()?;
     // A resumed training keeps the vocabulary of its last checkpoint, even if the lists of words have changed since.
     let is_kept = settings.resume && ModelFiles::NAMES.iter().all(|name| out.join(name).exists());
-    let vocabulary = match (&base, &from) {
+    let continued = from.as_ref().filter(|files| files.is_current() && !settings.new_vocabulary);
+    let vocabulary = match (&base, continued) {
         _ if is_kept => ModelFiles::read(out)?.vocabulary()?,
         (Some(base), _) => base.vocabulary(&corpus)?,
-        (None, Some(files)) if files.is_current() && !settings.new_vocabulary => files.vocabulary()?,
-        _ => Vocabulary::train(&corpus, settings.vocabulary)?,
+        (None, Some(files)) => files.vocabulary()?,
+        (None, None) => Vocabulary::train(&corpus, settings.vocabulary)?,
     };
-    let bert = match (&base, &from) {
+    let bert = match (&base, continued) {
         (Some(base), _) => Some(base.config()),
-        (None, Some(files)) if files.is_current() && !settings.new_vocabulary => files.config()?.bert,
-        _ => None,
+        (None, Some(files)) => files.config()?.bert,
+        (None, None) => None,
     };
     let config = ModelConfig { bert, ..ModelConfig::shipped(vocabulary.size(), sense_names()?.len()) };
     let mut parameters = Parameters::seeded(settings.seed);
