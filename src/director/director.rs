@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, end_of, is_no_thing, link_parts,
-    scenery, tokenize, without_camera_settings, without_frame_shape, without_tolerances,
+    scenery, tokenize, without_arrows, without_camera_settings, without_frame_shape, without_tolerances,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -17,14 +17,14 @@ use crate::compositions::direct_composed;
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
-use crate::explained::{absorb_places, own_parts, point_back, point_ones};
+use crate::explained::{absorb_places, drop_sizes, name_by_label_words, own_parts, point_back, point_ones};
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
 use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
-use crate::said::take_said;
+use crate::said::{take_said, take_said_of_all};
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -92,6 +92,7 @@ impl Director {
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
         let prompt = &*without_tolerances(prompt);
+        let prompt = &*without_arrows(prompt);
         let mut found = self.names.mentions(prompt, objects)?;
         found.retain(|found| !is_no_thing(prompt, &found.mention, objects));
         let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
@@ -99,6 +100,8 @@ impl Director {
         let prompt = &*blanked(prompt, &scenery);
         let is_blank = |at: usize| scenery.iter().any(|[start, end]| (*start..*end).contains(&at));
         found.retain(|found| !is_blank(found.mention.bytes[0]));
+        drop_sizes(prompt, objects, &mut found);
+        name_by_label_words(prompt, objects, &mut found);
         absorb_places(prompt, objects, &mut found);
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);
@@ -141,10 +144,12 @@ impl Director {
     /// [`DirectorError::NotFinite`] when the network outputs a position that is not finite ·
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
-        direct_composed(linked, &|linked, subjects| match &linked.timeline {
+        let mut direction = direct_composed(linked, &|linked, subjects| match &linked.timeline {
             Some(timeline) => direct_beats(linked, timeline, subjects, &|part| self.direct_corrected(part, scene)),
             None => self.direct_corrected(linked, scene),
-        })
+        })?;
+        take_said_of_all(linked, &mut direction);
+        Ok(direction)
     }
 
     /// The direction of a prompt, or of what a person who corrects himself in it means, whichever is surer.

@@ -164,6 +164,61 @@ pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut V
     }
 }
 
+/// Abbreviations of shot sizes, which are no part of a name: `EWS ship`.
+const SIZES: &str = "ecu xcu bcu cu mcu ms mls mws ls ws fs els ews vws";
+
+/// Takes abbreviations of shot sizes off the beginnings of mentions.
+pub(crate) fn drop_sizes(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {
+    for found in found {
+        let mention = &mut found.mention;
+        let words = tokenize(said(prompt, mention));
+        let is_named = |word: &str| {
+            let mut labels = mention.ids.iter().filter_map(|id| label(objects, *id));
+            labels.any(|label| tokenize(label).iter().any(|part| part.text == word))
+        };
+        if let [first, second, ..] = &words[..]
+            && is_listed(SIZES, &first.text)
+            && !is_named(&first.text)
+        {
+            mention.bytes[0] += second.span[0];
+        }
+    }
+}
+
+/// Words before a thing that is named by a part of its label, and words behind it, besides marks.
+const POINTS: &str = "the this that my our your his her its";
+const BEHIND: &str =
+    "and then to until till on in from with at for while as so but or by before after into again please is stays";
+/// Words of labels that may mean something else where they stand alone.
+const LOOSE: &str = "left right top bottom front back rear side middle center centre big small large tall short high low \
+    wall walls floor ceiling room corner end edge camera frame shot picture view scene light lights glass wood wooden metal \
+    stone door table window red green blue yellow white black brown gray grey pink orange purple gold golden silver dark \
+    bright old new open closed round square first second third other one two three base part half upper lower area space";
+
+/// Links words that name nothing yet, where they are a word of one label alone: `the sushi` for the sushi platter.
+pub(crate) fn name_by_label_words(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>) {
+    let words = tokenize(prompt);
+    let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
+    for at in 1..words.len() {
+        let word = &words[at];
+        let is_alone = text(at + 1).chars().all(|letter| !letter.is_alphanumeric()) || is_listed(BEHIND, text(at + 1));
+        let is_name = is_listed(POINTS, text(at - 1)) && is_alone && !word.after_hyphen && word.is_alphabetic();
+        let is_linked = found.iter().any(|found| {
+            let [start, end] = found.mention.bytes;
+            start < word.span[1] && word.span[0] < end
+        });
+        if !is_name || is_linked || word.text.len() < 4 || is_listed(LOOSE, &word.text) {
+            continue;
+        }
+        let has = |object: &&NamedObject| content(&object.label).contains(&stem(&word.text));
+        let mut named = objects.iter().filter(has);
+        let (Some(object), None) = (named.next(), named.next()) else { continue };
+        let mention = Mention { bytes: [words[at - 1].span[0], word.span[1]], ids: vec![object.id] };
+        let place = found.partition_point(|found| found.mention.bytes[0] < mention.bytes[0]);
+        found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+    }
+}
+
 /// The words of a mention.
 fn said<'a>(prompt: &'a str, mention: &Mention) -> &'a str {
     prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default()

@@ -80,6 +80,7 @@
 //! the notation byte by byte: whatever it lets pass parses.
 
 mod blanks;
+mod chain;
 mod corrections;
 mod edit_distance;
 mod effects;
@@ -113,6 +114,7 @@ mod tolerances;
 mod unknown;
 
 pub use blanks::blanked;
+pub use chain::without_arrows;
 pub use edit_distance::edit_distance;
 pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
 pub use ends::end_of;

@@ -1,5 +1,6 @@
 //! Numbers in digits and in words.
 
+use super::quantity::is_joined;
 use super::tokenizer::{Word, word_at};
 
 const ONES: [&str; 20] = [
@@ -118,7 +119,8 @@ fn with_fraction(words: &[Word], i: usize, len: usize, value: f64) -> Numeral {
         ("and", "half", _) => Numeral { len: len + 2, value: value + 0.5, form: NumeralForm::Number },
         ("and", "a", "half") => Numeral { len: len + 3, value: value + 0.5, form: NumeralForm::Number },
         ("and", "a", "quarter") => Numeral { len: len + 3, value: value + 0.25, form: NumeralForm::Number },
-        ("/", below, _) if below.parse::<f64>().is_ok_and(|d| d > 0.0) => {
+        // `shot 014 / 35mm` is no fraction.
+        ("/", below, _) if is_joined(words, i + len) && below.parse::<f64>().is_ok_and(|d| d > 0.0) => {
             let below: f64 = below.parse().unwrap_or(1.0);
             Numeral { len: len + 2, value: value / below, form: NumeralForm::Fraction }
         }

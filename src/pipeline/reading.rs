@@ -147,10 +147,10 @@ fn merge_holds(linked: &Linked, direction: &mut Direction) {
             nth += 1;
             continue;
         }
-        // Two steps with a length that the words state once are one hold.
+        // Two steps with a length that the words state once are one hold; those that share the length of a part add up.
         let stated =
             |secs: f64| linked.quantities.iter().filter(move |quantity| quantity.value.to_bits() == secs.to_bits());
-        let is_new = |secs: &f64| first.duration_secs != Some(*secs) || stated(*secs).count() > 1;
+        let is_new = |secs: &f64| first.duration_secs != Some(*secs) || stated(*secs).count() != 1;
         let further = second.duration_secs.filter(is_new);
         first.duration_secs = first.duration_secs.into_iter().chain(further).reduce(|sum, secs| sum + secs);
         first.words = first.joint_words(second);

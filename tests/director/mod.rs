@@ -14,4 +14,5 @@ mod model_files;
 mod names;
 mod plain_words;
 mod said;
+mod said_of_all;
 mod vocabulary;

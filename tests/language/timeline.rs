@@ -107,3 +107,12 @@ fn labels_with_a_time_begin_beats() {
     );
     assert_eq!(beats("push in on a, 3 s later pan to b"), ["no timeline"]);
 }
+
+#[test]
+fn frame_numbers_are_times() {
+    let expected = ["static, drawers (2 s)", "tilt up to the rack (3 s)"];
+    assert_eq!(beats("f0-f48 static, drawers; f48-f120 tilt up to the rack"), expected);
+    assert_eq!(beats("frames 0-48: static, drawers\nframes 48-120: tilt up to the rack"), expected);
+    let at_25 = ["static, drawers (2 s)", "tilt up to the rack (2 s)"];
+    assert_eq!(beats("25 fps. f0-f50 static, drawers; f50-f100 tilt up to the rack")[1..], at_25);
+}

@@ -1,4 +1,5 @@
-//! Turns all the way round: `spin all the way around on the spot`, `look right round the whole room`.
+//! Turns all the way round: `spin all the way around on the spot`, `look right round the whole room`, `one complete turn
+//! around the anvil`.
 
 use cinesplat_language::Linked;
 use cinesplat_operator::{Amount, Framing, Step};
@@ -22,18 +23,48 @@ const ALL_ROUND: [&[&str]; 10] = [
     &["round", "the", "whole", "room"],
 ];
 
-/// Words of a turn that does not come round.
-const SHORT: [&str; 7] = ["not", "'t", "n't", "without", "almost", "nearly", "half"];
+/// Words of a turn that does not come round, and words that deny what follows them.
+const SHORT: [&str; 5] = ["almost", "nearly", "half", "quarter", "halfway"];
+const DENIALS: [&str; 6] = ["not", "'t", "n't", "without", "no", "never"];
 
-/// Gives a pan without a goal and without an angle a full turn, where its words lead all the way round.
+/// What is complete is one circle, and not a part of it: `one full round of the pillar`.
+const COMPLETE: [&str; 5] = ["complete", "full", "entire", "whole", "completely"];
+const CIRCLES: [&str; 14] = [
+    "circle",
+    "turn",
+    "round",
+    "lap",
+    "circuit",
+    "orbit",
+    "loop",
+    "revolution",
+    "around",
+    "rotation",
+    "ring",
+    "walkaround",
+    "pass",
+    "spin",
+];
+
+/// Gives a pan without a goal, or a circle about its subject, a full turn where its words lead all the way round and state
+/// no angle.
 pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
-        let turns = matches!(step.movement, Move::PanLeft | Move::PanRight) && step.end.subjects.is_empty();
-        let is_open = !matches!(step.amount, Some(Amount::Degrees(_) | Amount::Factor(_)));
-        let Some(span) = step.words.filter(|_| turns && is_open) else { continue };
+        let pans = matches!(step.movement, Move::PanLeft | Move::PanRight) && step.end.subjects.is_empty();
+        let circles = matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight)
+            && step.end.side.is_none()
+            && (step.start.subjects.is_empty() || step.start.subjects == step.end.subjects);
+        let is_open = !matches!(step.amount, Some(Amount::Degrees(_) | Amount::Factor(_))) && !step.returns;
+        let Some(span) = step.words.filter(|_| (pans || circles) && is_open) else { continue };
         let words = linked.texts_in(span);
-        let is_short = words.iter().any(|word| SHORT.contains(word));
-        if !is_short && ALL_ROUND.iter().any(|said| words.windows(said.len()).any(|window| window == *said)) {
+        let is_all = |at: usize| ALL_ROUND.iter().any(|said| words[at..].starts_with(said));
+        let is_complete =
+            |at: usize| COMPLETE.contains(&words[at]) && words.get(at + 1).is_some_and(|word| CIRCLES.contains(word));
+        let is_said = |at: usize| {
+            let before = &words[at.saturating_sub(4)..at];
+            (is_all(at) || circles && is_complete(at)) && !before.iter().any(|word| DENIALS.contains(word))
+        };
+        if (0..words.len()).any(is_said) && !words.iter().any(|word| SHORT.contains(word)) {
             step.amount = Some(Amount::Degrees(360.0));
         }
     }

@@ -48,6 +48,26 @@ pub(super) const CORRECTIONS: [&str; 15] = [
 /// Words behind a step that may correct it.
 const NUM_BEHIND: usize = 3;
 
+/// Verbs of a slide to one side.
+const SLIDES: [&str; 7] = ["truck", "track", "slide", "crab", "dolly", "move", "drift"];
+
+/// Gives a reveal the way that its words say: `truck right to reveal the sword`.
+pub(crate) fn reveal_sideways(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Reveal && step.with.is_empty()) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let ways = words.iter().enumerate().filter(|(_, word)| SLIDES.iter().any(|verb| is_form(word, verb)));
+        let mut ways = ways.filter_map(|(at, _)| {
+            let way = words[at + 1..].iter().find(|word| !BETWEEN.contains(word))?;
+            match *way {
+                "left" => Some(Move::TruckLeft),
+                "right" => Some(Move::TruckRight),
+                _ => None,
+            }
+        });
+        step.with.extend(ways.next());
+    }
+}
+
 /// Gives the moves of steps the directions that their words say. Words that several steps share, and words that name both
 /// directions of an axis, say nothing about one step.
 pub(crate) fn take_said_directions(linked: &Linked, steps: &mut [Step]) {

@@ -5,6 +5,7 @@ mod bans;
 mod circles;
 mod directions;
 mod dolly_zoom;
+mod endings;
 mod fixed;
 mod heights;
 mod lengths;
@@ -22,6 +23,7 @@ mod stillness;
 mod taken_back;
 mod together;
 mod until;
+mod whole_film;
 
 use cinesplat_language::{Linked, Senses};
 
@@ -39,6 +41,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     directions::take_said_directions(linked, steps);
     directions::part_twins(linked, steps);
+    directions::reveal_sideways(linked, steps);
     dolly_zoom::take_said_dolly_zooms(linked, steps);
     dolly_zoom::keep_said_lens(linked, steps);
     open::reverse_retraced(linked, steps);
@@ -57,8 +60,11 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     together::show_both(linked, steps);
     together::keep_always(linked, steps);
     openings::take_sizes(linked, steps);
+    openings::size_rests(linked, steps);
+    openings::open_as_said(linked, steps);
     openings::rest_on_first_picture(linked, senses, steps)?;
     openings::rise_from_ground(linked, steps);
+    openings::rise_overhead(linked, steps);
     openings::temper_closeness(linked, senses, steps)?;
     stillness::drop_unsaid_shake(linked, senses, steps)?;
     stillness::hold_tripods(linked, &mut direction.program);
@@ -69,6 +75,11 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     stillness::move_without_focus(linked, steps);
     stillness::travel_ways(linked, steps);
     stillness::hold_arrivals(linked, steps);
+    endings::glide_in_and_out(linked, steps);
+    endings::travel_at_distance(steps);
+    endings::show_whole(linked, steps);
+    endings::end_on_place(linked, steps);
+    endings::widen_again(linked, steps);
     stillness::circle_spirals(linked, steps);
     // What the rules above read from the words is taken back with the rest.
     taken_back::drop_taken_back(linked, direction);
@@ -94,4 +105,14 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
     Ok(())
+}
+
+/// Corrects a direction by what the words say plainly of several of its parts.
+pub(crate) fn take_said_of_all(linked: &Linked, direction: &mut Direction) {
+    let steps = &mut direction.program.steps;
+    endings::include_named(linked, steps);
+    whole_film::keep_uncut(linked, steps);
+    whole_film::take_pace(linked, steps);
+    whole_film::size_each(linked, steps);
+    whole_film::avoid_throughout(linked, &mut direction.program);
 }

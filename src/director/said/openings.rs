@@ -30,7 +30,7 @@ pub(crate) fn take_sizes(linked: &Linked, steps: &mut [Step]) {
         matches!(step.movement, Move::PushIn | Move::PullOut | Move::ZoomIn | Move::ZoomOut | Move::Follow)
     };
     let size = |word: &str| SIZES.iter().find(|(name, _)| *name == word).map(|(_, size)| *size);
-    for step in steps.iter_mut().filter(changes_size).filter(|step| step.start.size.is_none()) {
+    for step in steps.iter_mut().filter(changes_size) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_arrow = |word: &&&str| matches!(**word, "to" | "into" | "-" | ">" | "\u{2192}" | "\u{2013}");
         let sizes = words.iter().enumerate().filter_map(|(at, word)| Some((at, size(word)?)));
@@ -51,6 +51,70 @@ pub(crate) fn take_sizes(linked: &Linked, steps: &mut [Step]) {
             if step.start.subjects.is_empty() {
                 step.start.subjects.clone_from(&step.end.subjects);
             }
+        }
+    }
+}
+
+/// Shows a picture that rests as large as the only abbreviation in its words says, and what stands behind it: `00:00 EWS
+/// ship`.
+pub(crate) fn size_rests(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let sizes = words.iter().enumerate();
+        let mut sizes = sizes.filter_map(|(at, word)| Some((at, SIZES.iter().find(|(name, _)| name == word)?.1)));
+        let (Some((at, size)), None) = (sizes.next(), sizes.next()) else { continue };
+        let shown = words[at + 1..].iter().find(|word| !matches!(**word, "on" | "of" | "the" | "a"));
+        let shown = shown.and_then(|word| linked.slot_at(word));
+        if let Some(id) = shown.filter(|_| step.end.subjects.is_empty() && step.start == Framing::default()) {
+            step.end.subjects = linked.expanded(&[id]);
+            step.via = step.via.take().filter(|via| via.objects != step.end.subjects);
+        }
+        step.end.size = step.end.size.or(Some(size));
+    }
+}
+
+/// Words that open the film, and the size of the picture that they open on.
+const OPENS: [&str; 9] = ["start", "starts", "starting", "begin", "begins", "beginning", "open", "opens", "opening"];
+const OPENING_SIZES: [(&str, ShotSize); 5] = [
+    ("tight", ShotSize::CloseUp),
+    ("close", ShotSize::CloseUp),
+    ("tightly", ShotSize::CloseUp),
+    ("wide", ShotSize::Long),
+    ("medium", ShotSize::Medium),
+];
+
+/// Opens on a picture as large as the words say beside their first one, where another detail of it is all that was read:
+/// `start tight on the table from above`.
+pub(crate) fn open_as_said(linked: &Linked, steps: &mut [Step]) {
+    let Some(step) = steps.first_mut() else { return };
+    let framing = if step.movement == Move::Static { &mut step.end } else { &mut step.start };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let said = words.windows(3).find_map(|three| {
+        let size = OPENING_SIZES.iter().find(|(word, _)| *word == three[1]).map(|(_, size)| *size)?;
+        (OPENS.contains(&three[0]) && matches!(three[2], "on" | "in")).then_some(size)
+    });
+    if framing.size.is_none() && framing.height_frac.is_none() && !framing.subjects.is_empty() && !framing.whole {
+        framing.size = said;
+    }
+}
+
+/// Words of a picture from straight above, and words by which it is only the last one.
+const OVERHEADS: [&str; 6] = ["bird", "birds", "birdseye", "bird's-eye", "topdown", "overhead"];
+const LEADS: [&str; 12] =
+    ["until", "till", "to", "end", "ends", "ending", "into", "finish", "then", "become", "becomes", "reach"];
+
+/// Begins a rise straight above its subject where nothing leads there: `straight up bird's eye over the keep, looking down`.
+pub(crate) fn rise_overhead(linked: &Linked, steps: &mut [Step]) {
+    let lifts = |step: &&mut Step| {
+        matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown)
+    };
+    for step in steps.iter_mut().filter(lifts) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_open = step.start == Framing::default() && step.end.angle == Some(ShotAngle::Overhead);
+        let says = |list: &[&str]| words.iter().any(|word| list.contains(word));
+        if is_open && !step.end.subjects.is_empty() && says(&OVERHEADS) && !says(&LEADS) {
+            step.start.angle = step.end.angle;
+            step.start.subjects.clone_from(&step.end.subjects);
         }
     }
 }

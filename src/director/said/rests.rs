@@ -20,7 +20,9 @@ const REST_SECS: f64 = 1.0;
 /// Rests on what each step arrives at, and on what the first one leaves, where the words ask for a rest on each.
 pub(crate) fn rest_on_each(linked: &Linked, direction: &mut Direction) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
-    let Some(at) = (0..words.len()).find(|at| is_rest_on_each(linked, &words, *at)) else { return };
+    let steps = &direction.program.steps;
+    let asks = |at: &usize| is_rest_on_each(linked, &words, *at) || is_time_of_each(linked, &words, *at, steps);
+    let Some(at) = (0..words.len()).find(asks) else { return };
     let stated = stated_secs(linked, &words, at);
     let secs = stated.unwrap_or(REST_SECS);
     let byte = linked.spans.get(at).map_or(0, |span| span[0]);
@@ -70,6 +72,14 @@ fn is_rest_on_each(linked: &Linked, words: &[&str], at: usize) -> bool {
     let is_else =
         words.get(at + 1).is_some_and(|word| matches!(*word, "the" | "time" | "along" | "over" | "of" | "around"));
     before.is_some_and(|before| RESTS.iter().any(|verb| is_form(before, verb))) && !(is_else && words[at] != "each")
+}
+
+/// Whether the words at word `at` give each thing of a list its time: `vanity -> shower -> tub, 4 s each`.
+fn is_time_of_each(linked: &Linked, words: &[&str], at: usize, steps: &[Step]) -> bool {
+    let is_secs = |word: &str| linked.quantity_at(word).is_some_and(|quantity| quantity.kind == QuantityKind::Seconds);
+    let lists = |step: &Step| matches!(step.movement, Move::Follow | Move::Static) && !step.end.subjects.is_empty();
+    let before = at.checked_sub(1).map_or("", |before| words[before]);
+    matches!(words[at], "each" | "apiece" | "per") && is_secs(before) && steps.len() > 1 && steps.iter().all(lists)
 }
 
 /// How long each rest is, where the words around word `at` state that.

@@ -27,7 +27,8 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
         if let Some(side) = side_of_end(&words, &is_own).filter(|_| circles && step.amount.is_none()) {
             step.end.side = Some(side);
         }
-        if let Some([first, last]) = profiles(&words) {
+        let from_to = from_side_to_side(&words, &is_own).filter(|_| circles);
+        if let Some([first, last]) = profiles(&words).or(from_to) {
             (step.start.side, step.end.side) = (Some(first), Some(last));
         }
         let is_turned = step.start.side.is_some() && step.end.side.is_some() && step.start.side != step.end.side;
@@ -58,6 +59,36 @@ fn profiles(words: &[&str]) -> Option<[SubjectSide; 2]> {
     sides.next_back().filter(|last| *last != first).map(|last| [first, last])
 }
 
+/// The sides of a way round from one to the other: `from the front to the rear`. `is_own` tells the subject.
+fn from_side_to_side(words: &[&str], is_own: &dyn Fn(&str) -> bool) -> Option<[SubjectSide; 2]> {
+    let is_link =
+        |word: &&&str| BETWEEN.contains(*word) || matches!(**word, "of" | "all" | "way" | "right") || is_own(word);
+    // The side that the words after word `at` lead to, and its place.
+    let side_behind = |at: usize| {
+        let num_links = words[at + 1..].iter().take(8).take_while(is_link).count();
+        let place = at + 1 + num_links;
+        let name = words.get(place)?;
+        let is_end = words.get(place + 1).is_none_or(|word| {
+            matches!(*word, "to" | "side" | "of" | "," | "." | ";" | "all" | "and" | "then" | "in" | "while" | "with")
+        });
+        let named = SIDES.iter().find(|(names, _)| names.contains(name)).map(|(_, side)| *side);
+        let side = named.or(match *name {
+            "left" => Some(SubjectSide::FromLeft),
+            "side" => Some(SubjectSide::FromSide),
+            _ => None,
+        });
+        Some((place + usize::from(words.get(place + 1) == Some(&"side")), side.filter(|_| is_end)?))
+    };
+    let mut pairs = (0..words.len()).filter(|at| words[*at] == "from").filter_map(|from| {
+        let (first_at, first) = side_behind(from)?;
+        let num_links = words[first_at + 1..].iter().take(8).take_while(is_link).count();
+        let leads = words[first_at + 1..first_at + 1 + num_links].contains(&"to");
+        let (_, last) = side_behind(first_at).filter(|_| leads)?;
+        (first != last).then_some([first, last])
+    });
+    pairs.next().filter(|_| pairs.next().is_none())
+}
+
 /// The side that the words go round to; `None` where they name none or several. `is_own` tells the subject.
 fn side_of_end(words: &[&str], is_own: &dyn Fn(&str) -> bool) -> Option<SubjectSide> {
     let mut sides = (0..words.len()).filter(|at| AROUND.contains(&words[*at])).filter_map(|at| {
@@ -86,6 +117,18 @@ mod tests {
         assert_eq!(side("go round the front"), None);
         assert_eq!(side("go around to the front of <obj-1>"), None);
         assert_eq!(side("round to the front then round to the back"), None);
+    }
+
+    #[test]
+    fn a_way_round_leads_from_the_first_side_to_the_second() {
+        let sides = |text: &str| from_side_to_side(&text.split(' ').collect::<Vec<_>>(), &|word| word == "<obj-0>");
+        let rear = Some([SubjectSide::FromFront, SubjectSide::FromBack]);
+        assert_eq!(sides("orbit <obj-0> from the front to the rear ,"), rear);
+        assert_eq!(sides("from the front of <obj-0> all the way to its back"), rear);
+        assert_eq!(sides("from the left side to the back"), Some([SubjectSide::FromLeft, SubjectSide::FromBack]));
+        assert_eq!(sides("from the front of <obj-1> to the rear"), None);
+        assert_eq!(sides("from the front"), None);
+        assert_eq!(sides("from left to <obj-0>"), None);
     }
 
     #[test]

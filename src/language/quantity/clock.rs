@@ -156,8 +156,34 @@ fn code_at(words: &[Word], i: usize) -> Option<Found> {
     (duration > 0.0).then(|| found(len + unit, QuantityKind::Seconds, duration))
 }
 
+/// Frames a second of films whose words state frames and no rate.
+const FRAMES_PER_SEC: f64 = 24.0;
+
+/// Frames a second that the words state (`25 fps`), or the usual ones.
+pub(crate) fn frames_per_sec(words: &[Word]) -> f64 {
+    let stated = (1..words.len()).find_map(|at| {
+        let rate: f64 = word_at(words, at - 1).parse().ok()?;
+        (word_at(words, at) == "fps" && (1.0..=240.0).contains(&rate)).then_some(rate)
+    });
+    stated.unwrap_or(FRAMES_PER_SEC)
+}
+
+/// The frame number `f72` at word `i`, two words, in seconds.
+fn frame_at(words: &[Word], i: usize) -> Option<f64> {
+    let number = |at: usize| {
+        let is_frame = word_at(words, at) == "f" && is_joined(words, at + 1);
+        whole(word_at(words, at + 1), 1..=5).filter(|_| is_frame)
+    };
+    // `f8` may be an aperture; frames come as spans.
+    let is_span = number(i + 2).is_some() || i >= 2 && number(i - 2).is_some();
+    number(i).filter(|_| is_span).map(|number| number / frames_per_sec(words))
+}
+
 /// The time code `m:ss` or `h:mm:ss` at word `i`: number of words, seconds. No ratio as `16:9`.
 fn digits_of_clock_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
+    if let Some(secs) = frame_at(words, i) {
+        return Some((2, secs));
+    }
     let minutes = whole(word_at(words, i), 1..=2)?;
     let is_inner = i > 0 && word_at(words, i - 1) == ":" && is_joined(words, i);
     let colon = |at: usize| word_at(words, at) == ":" && is_joined(words, at) && is_joined(words, at + 1);

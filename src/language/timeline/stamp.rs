@@ -1,7 +1,7 @@
 //! What a part of a timeline begins with.
 
 use crate::numerals::{cardinal_at, number_word};
-use crate::quantity::{Instant, InstantForm, QuantityKind, instant_at, is_joined, link_at, unit};
+use crate::quantity::{Instant, InstantForm, QuantityKind, frames_per_sec, instant_at, is_joined, link_at, unit};
 use crate::tokenizer::{Word, word_at};
 
 /// The beginning of a part.
@@ -71,6 +71,9 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
     if let Some((end, number)) = list_number_at(prompt, words, i) {
         let at = i - usize::from(i > 0 && word_at(words, i - 1) == "#");
         return Some(Stamp { at, end, kind: StampKind::Number(number) });
+    }
+    if let Some((end, kind)) = frames_at(words, i) {
+        return stamp(end, kind);
     }
     let start = match (word_at(words, i), word_at(words, i + 1)) {
         ("t", "+") => i + 2,
@@ -146,6 +149,19 @@ fn span_from(words: &[Word], start: usize, first: Instant) -> Option<(usize, Sta
         || first.secs == 0.0
         || matches!(word_at(words, last.end), ":" | ")");
     (is_time && last.secs > first.secs).then_some((last.end, StampKind::Span(first.secs, last.secs)))
+}
+
+/// `frames 0-48`, `fr 48 to 96`: the word after it, and the span.
+fn frames_at(words: &[Word], i: usize) -> Option<(usize, StampKind)> {
+    let is_frames = matches!(word_at(words, i), "frames" | "frame" | "fr" | "frs");
+    let first = instant_at(words, i + 1).filter(|first| is_frames && first.form == InstantForm::Bare)?;
+    let link = link_at(words, i + 1, first)?;
+    let last = instant_at(words, first.end + link).filter(|last| last.form == InstantForm::Bare)?;
+    // The first frame is 0 or 1.
+    let first_frame = if first.secs <= 1.0 { 0.0 } else { first.secs };
+    let rate = frames_per_sec(words);
+    let is_span = last.secs > first_frame + 1.0;
+    is_span.then(|| (last.end, StampKind::Span(first_frame / rate, last.secs / rate)))
 }
 
 /// Whether word `i` is a unit of something else than time.

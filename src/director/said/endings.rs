@@ -1,0 +1,160 @@
+//! What the words say of the last picture of a move: `until the table is in, including the lantern`, `up high so we see the
+//! whole camp`, `then zoom out again`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Motion, Step};
+use cinesplat_trajectory::{Move, ShotSize};
+
+use super::bans::asks_for;
+use super::directions::is_form;
+
+/// Words that add a thing to what is seen.
+const INCLUDES: [&str; 5] = ["incl", "including", "include", "includes", "plus"];
+/// Words between them and the thing.
+const BETWEEN: [&str; 6] = ["the", "a", "an", ".", "of", "also"];
+
+/// Widens a picture that ends on what the words include to what they include it in: `pull back from the sushi until the whole
+/// table is visible, incl. the lantern`.
+pub(crate) fn include_named(linked: &Linked, steps: &mut [Step]) {
+    for nth in 0..steps.len() {
+        let (before, rest) = steps.split_at_mut(nth);
+        let Some(step) = rest.first_mut() else { continue };
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let included = words.iter().enumerate().filter(|(_, word)| INCLUDES.contains(word)).find_map(|(at, _)| {
+            let id =
+                words[at + 1..].iter().find(|word| !BETWEEN.contains(word)).and_then(|word| linked.slot_at(word))?;
+            Some((at, linked.expanded(&[id])))
+        });
+        let Some((at, ids)) = included.filter(|(_, ids)| *ids == step.end.subjects && widens(step)) else { continue };
+        let named: Vec<u32> = words[..at].iter().filter_map(|word| linked.slot_at(word)).collect();
+        let shown = before.last().map(|step| &step.end.subjects);
+        let first = [&named, &step.start.subjects].into_iter().chain(shown).find(|ids| !ids.is_empty());
+        let mut subjects = linked.expanded(first.map(Vec::as_slice).unwrap_or_default());
+        subjects.retain(|id| !ids.contains(id));
+        if step.start.subjects.is_empty() {
+            step.start.subjects.clone_from(&subjects);
+        }
+        subjects.extend(ids);
+        step.end.whole |= step.end.size.is_none() || subjects.len() > 1;
+        step.end.subjects = subjects;
+    }
+}
+
+/// Shows all of what the words call whole, where they say no other size: `show the whole cabinet from the front`.
+pub(crate) fn show_whole(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let shows = matches!(step.movement, Move::Static | Move::PushIn | Move::ZoomIn | Move::Reveal) || widens(step);
+        let subjects = linked.expanded(&step.end.subjects);
+        let [from, to] = step.words.filter(|_| shows).unwrap_or_default();
+        let is_whole = |(word, span): (&str, [usize; 2])| {
+            let id = linked.slot_at(word).filter(|_| linked.wholes.contains(&span));
+            id.is_some_and(|id| linked.expanded(&[id]) == subjects)
+        };
+        // A way in begins with the whole of its subject.
+        let nears = matches!(step.movement, Move::PushIn | Move::ZoomIn) && step.start.subjects == step.end.subjects;
+        let mut words = linked.words_in([from, to]);
+        let framing = if nears { &mut step.start } else { &mut step.end };
+        let is_open = framing.size.is_none() && framing.height_frac.is_none() && !framing.hidden;
+        if is_open && words.any(is_whole) {
+            framing.whole = true;
+        }
+    }
+}
+
+/// Whether a step leads away from what it shows.
+fn widens(step: &Step) -> bool {
+    std::iter::once(&step.movement)
+        .chain(&step.with)
+        .any(|movement| matches!(movement, Move::PullOut | Move::ZoomOut | Move::CraneUp | Move::PedestalUp))
+}
+
+/// Words of seeing, and words of all that there is to see.
+const SEES: [&str; 8] = ["see", "show", "view", "reveal", "overlook", "survey", "take", "get"];
+const ALL: [&str; 3] = ["whole", "entire", "complete"];
+/// Words behind `whole` that make it something else than a place.
+const NO_PLACES: [&str; 16] = [
+    "thing", "time", "way", "film", "shot", "move", "length", "height", "body", "object", "circle", "picture", "frame",
+    "of", "story", "process",
+];
+
+/// Ends a rise or a way out wide on the place where the words go on until all of it is seen: `fly up high so we see the whole
+/// camp`.
+pub(crate) fn end_on_place(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| widens(step)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let sees = |at: usize| words[..at].iter().rev().take(5).any(|word| SEES.iter().any(|verb| is_form(word, verb)));
+        let is_place = |at: usize| {
+            let next = words.get(at + 1).copied().unwrap_or_default();
+            let is_word = next.starts_with(char::is_alphabetic) && !NO_PLACES.contains(&next);
+            let ends =
+                words.get(at + 2).is_none_or(|word| matches!(*word, "." | "," | ";" | "!" | "from" | "at" | "in"));
+            ALL.contains(&words[at]) && is_word && ends && sees(at)
+        };
+        let is_open = step.end.size.is_none() && step.end.height_frac.is_none() && !step.end.whole && !step.returns;
+        let opens =
+            words.iter().any(|word| matches!(*word, "start" | "starting" | "begin" | "beginning" | "open" | "opening"));
+        if is_open && !opens && (0..words.len()).any(is_place) {
+            if step.start.subjects.is_empty() {
+                step.start.subjects.clone_from(&step.end.subjects);
+            }
+            step.end = Framing { size: Some(ShotSize::Long), subjects: Vec::new(), ..step.end.clone() };
+        }
+    }
+}
+
+/// Goes back to the size of the film's first picture where the words of a way back state none: `start wide on the castle, go
+/// close, then zoom out again`.
+pub(crate) fn widen_again(linked: &Linked, steps: &mut [Step]) {
+    let Some(first) = steps.first() else { return };
+    let opening = if first.movement == Move::Static { first.end.clone() } else { first.start.clone() };
+    let Some(size) = opening.size else { return };
+    for nth in 1..steps.len() {
+        let has_come = steps[..nth].iter().any(|step| matches!(step.movement, Move::PushIn | Move::ZoomIn));
+        let step = &mut steps[nth];
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_again =
+            words.contains(&"again") || words.windows(2).any(|pair| matches!(pair, ["back", "out" | "away"]));
+        let leaves = matches!(step.movement, Move::PullOut | Move::ZoomOut) && !step.cut && !step.returns;
+        let shown = Framing { subjects: opening.subjects.clone(), ..Framing::default() };
+        let is_open = step.amount.is_none() && (step.end == shown || step.end == Framing::default());
+        if has_come && is_again && leaves && is_open && !shown.subjects.is_empty() {
+            step.end = Framing { size: Some(size), ..shown };
+        }
+    }
+}
+
+/// Travels up or down at a distance that the words state for the whole way, which no turn on the spot keeps: `follow the crack
+/// top to bottom, 30 cm away the whole time`.
+pub(crate) fn travel_at_distance(steps: &mut [Step]) {
+    for step in steps {
+        let is_held = step.start.distance.is_some() && step.start.distance == step.end.distance;
+        if is_held && asks_for(step, Motion::Tilt) && step.with.is_empty() {
+            step.movement = if step.movement == Move::TiltUp { Move::PedestalUp } else { Move::PedestalDown };
+        }
+    }
+}
+
+/// Words of a way back or forward, and verbs of a camera that goes it.
+const BACKWARD: [&str; 4] = ["backward", "backwards", "away", "rearward"];
+const FORWARD: [&str; 6] = ["forward", "forwards", "toward", "towards", "closer", "nearer"];
+const GLIDES: [&str; 12] =
+    ["glide", "move", "drift", "float", "ease", "slide", "roll", "travel", "go", "creep", "fly", "walk"];
+
+/// Moves a camera that the network holds although it glides: `let it hover at a child's height and glide backwards away from
+/// the fountain`.
+pub(crate) fn glide_in_and_out(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static && step.with.is_empty()) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_glide = |word: &&str| GLIDES.iter().any(|verb| is_form(word, verb));
+        let glides = |list: &[&str]| {
+            let leads =
+                |at: usize| list.contains(&words[at]) && words[..at].iter().rev().take(3).any(|word| is_glide(&word));
+            (0..words.len()).any(leads)
+        };
+        let is_denied = words.iter().any(|word| matches!(*word, "no" | "not" | "'t" | "never" | "without" | "dont"));
+        let (back, forth) = (glides(&BACKWARD), glides(&FORWARD));
+        if back != forth && !is_denied && !step.end.subjects.is_empty() && step.duration_secs.is_none() {
+            step.movement = if back { Move::PullOut } else { Move::PushIn };
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! What the words say of the whole film, wherever they say it: `don't show the cooler`, `keep it slow`, `the cube, the sphere
+//! and the cylinder, each in a close-up`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Program, Speed, Step};
+use cinesplat_trajectory::Move;
+
+const SENTENCE_ENDS: [&str; 4] = [".", ";", "!", "?"];
+/// Words that limit a ban to a moment.
+const MOMENTS: [&str; 11] =
+    ["first", "yet", "until", "till", "start", "beginning", "opening", "end", "last", "then", "before"];
+/// Words that make a ban one of the whole film, wherever it stands.
+const EVER: [&str; 8] = ["ever", "never", "anywhere", "throughout", "whole", "always", "point", "anytime"];
+/// Words of a thing that is seen in part: `the forge must not be cut off`.
+const CUT_OFF: [&str; 7] = ["cropped", "crop", "clipped", "truncated", "chopped", "off", "cut"];
+
+/// Keeps in view what the words only rule out to be cut off.
+pub(crate) fn keep_uncut(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_uncut = |id: &u32| {
+            let is_thing = |word: &str| linked.slot_at(word).is_some_and(|slot| linked.expanded(&[slot]).contains(id));
+            let Some(at) = words.iter().rposition(|word| is_thing(word)) else { return false };
+            let behind = || words[at + 1..].iter().take_while(|word| !SENTENCE_ENDS.contains(word)).take(10);
+            behind().any(|word| CUT_OFF.contains(word)) && behind().any(|word| matches!(*word, "not" | "never" | "'t"))
+        };
+        let (uncut, avoid): (Vec<u32>, Vec<u32>) = step.avoid.iter().partition(|id| is_uncut(id));
+        step.avoid = avoid;
+        step.keep.extend(uncut);
+    }
+}
+
+/// Never shows in any step what a sentence of its own rules out.
+pub(crate) fn avoid_throughout(linked: &Linked, program: &mut Program) {
+    let mut banned: Vec<u32> = program.steps.iter().flat_map(|step| step.avoid.clone()).collect();
+    banned.retain(|id| is_banned_throughout(linked, *id));
+    for step in &mut program.steps {
+        let passed = step.via.iter().flat_map(|via| &via.objects);
+        let shown: Vec<u32> = step.start.subjects.iter().chain(&step.end.subjects).chain(passed).copied().collect();
+        for id in &banned {
+            if !shown.contains(id) && !step.avoid.contains(id) {
+                step.avoid.push(*id);
+            }
+        }
+    }
+}
+
+/// Whether a sentence that names nothing before this thing rules it out, or one that says so of the whole film.
+fn is_banned_throughout(linked: &Linked, id: u32) -> bool {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let slot = |at: usize| linked.slot_at(words[at]);
+    let is_thing = |at: &usize| slot(*at).is_some_and(|slot| linked.expanded(&[slot]).contains(&id));
+    let Some(at) = (0..words.len()).rev().find(is_thing) else { return false };
+    let from = (0..at).rev().find(|at| SENTENCE_ENDS.contains(&words[*at])).map_or(0, |end| end + 1);
+    let to = (at..words.len()).find(|at| SENTENCE_ENDS.contains(&words[*at])).unwrap_or(words.len());
+    let has = |list: &[&str]| words[from..to].iter().any(|word| list.contains(word));
+    let is_first = (from..at).all(|at| slot(at).is_none());
+    !has(&MOMENTS) && (is_first || has(&EVER))
+}
+
+/// What is kept slow or fast: `keep it slow`, `take everything gently`.
+const KEEPS: [&str; 8] = ["keep", "keeping", "make", "take", "do", "move", "all", "everything"];
+const KEPT: [&str; 24] = [
+    "it",
+    "this",
+    "that",
+    "things",
+    "everything",
+    "all",
+    "them",
+    "the",
+    "whole",
+    "thing",
+    "movement",
+    "movements",
+    "camera",
+    "nice",
+    "and",
+    "really",
+    "very",
+    "nicely",
+    "pretty",
+    "moves",
+    "pace",
+    "move",
+    "of",
+    "so",
+];
+const SLOW: [&str; 10] =
+    ["slow", "slowly", "gentle", "gently", "calm", "calmly", "unhurried", "leisurely", "relaxed", "sedate"];
+const FAST: [&str; 7] = ["fast", "quick", "quickly", "snappy", "brisk", "briskly", "energetic"];
+
+/// Gives all steps without a speed the one that a sentence says of the film.
+pub(crate) fn take_pace(linked: &Linked, steps: &mut [Step]) {
+    let Some(speed) = pace(&linked.tokens_text.split(' ').collect::<Vec<_>>()) else { return };
+    for step in steps.iter_mut().filter(|step| step.speed == Speed::Normal && step.movement != Move::Static) {
+        step.speed = speed;
+    }
+}
+
+/// The speed that a sentence says of all: it begins with `keep it slow` or `all slow`.
+fn pace(words: &[&str]) -> Option<Speed> {
+    let begins = |at: &usize| *at == 0 || SENTENCE_ENDS.contains(&words[*at - 1]);
+    let speeds = (0..words.len()).filter(|at| begins(at) && KEEPS.contains(&words[*at])).filter_map(|at| {
+        let num_links = words[at + 1..].iter().take(6).take_while(|word| KEPT.contains(word)).count();
+        // `Make slow circles` is about circles.
+        let is_of_all = num_links > 0 || matches!(words[at], "all" | "everything");
+        let word = words.get(at + 1 + num_links).filter(|_| is_of_all)?;
+        let is_slow = SLOW.contains(word).then_some(Speed::Slow);
+        is_slow.or_else(|| FAST.contains(word).then_some(Speed::Fast))
+    });
+    let speeds: Vec<Speed> = speeds.collect();
+    speeds.first().copied().filter(|first| speeds.iter().all(|speed| speed == first))
+}
+
+/// Words that say that something holds for each thing of a list.
+const EACH: [&str; 4] = ["each", "every", "all", "them"];
+/// Words of how large things are in the frame.
+const SIZES: [&str; 16] = [
+    "close",
+    "closeup",
+    "close-up",
+    "closeups",
+    "close-ups",
+    "medium",
+    "wide",
+    "tight",
+    "cu",
+    "mcu",
+    "ms",
+    "ws",
+    "ecu",
+    "mws",
+    "framing",
+    "framed",
+];
+
+/// Shows each thing that is visited as large as the words say of all, where one step alone has the size.
+pub(crate) fn size_each(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let goes_on = |word: &&&str| !SENTENCE_ENDS.contains(*word);
+    let says = |at: usize| {
+        let behind = words[at + 1..].iter().take_while(goes_on).take(6);
+        let mut near = behind.chain(words[..at].iter().rev().take_while(goes_on).take(4));
+        EACH.contains(&words[at]) && near.any(|word| SIZES.contains(word))
+    };
+    let shows = |step: &Step| {
+        matches!(step.movement, Move::Follow | Move::Static) && !step.end.subjects.is_empty() && !step.returns
+    };
+    let mut sizes: Vec<_> = steps.iter().filter_map(|step| step.end.size).collect();
+    sizes.dedup();
+    let num_shown = steps.iter().filter(|step| shows(step)).count();
+    let ([size], true) = (&sizes[..], num_shown > 1 && (0..words.len()).any(says)) else { return };
+    let take = |framing: &mut Framing| {
+        if !framing.subjects.is_empty() {
+            framing.size = framing.size.or(Some(*size));
+        }
+    };
+    for step in steps.iter_mut().filter(|step| shows(step)) {
+        take(&mut step.start);
+        take(&mut step.end);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_says_the_pace_of_the_film() {
+        let said = |text: &str| pace(&text.split(' ').collect::<Vec<_>>());
+        assert_eq!(said("down to <obj-0> . keep it slow so that i can read it"), Some(Speed::Slow));
+        assert_eq!(said("all of it slow . push in"), Some(Speed::Slow));
+        assert_eq!(said("keep everything quick . push in , then keep it slow"), Some(Speed::Fast));
+        assert_eq!(said("push in , keep it slow"), None);
+        assert_eq!(said("make slow circles around <obj-0>"), None);
+        assert_eq!(said("keep it steady"), None);
+    }
+}
