@@ -37,6 +37,7 @@ impl Target {
             _ if joint => middle(&corners),
             // A stated place is that of the subject's center.
             Some(_) if framing.part == SubjectPart::Middle => first.center,
+            _ if framing.part == SubjectPart::Middle && !overflows(framing) => first.center,
             _ => part_point(world, first, framing.part),
         };
         let radius = corners.iter().map(|c| c.distance(aim)).fold(0.0, f64::max);
@@ -73,9 +74,15 @@ fn middle(points: &[DVec3]) -> DVec3 {
 
 /// Height over width from which on a subject counts as upright, and from which on its aim is all the way up.
 const UPRIGHT: (f64, f64) = (1.3, 1.9);
-/// Height of the aim of an upright subject above its middle, over half its height. In a picture that it fills from top to
-/// bottom this leaves a headroom of 11 %, and it puts the middle of its box 11 % below that of the frame.
+/// Height of the aim of an upright subject above its middle, over half its height, in pictures that it is too large for. What
+/// fits into the picture is aimed at its middle, or its foot would be cut off below empty space.
 const UPPER_AIM: f64 = 0.22;
+
+/// Whether a framing states that its subject is taller than the frame.
+fn overflows(framing: &Framing) -> bool {
+    let height_frac = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
+    height_frac.is_some_and(|height_frac| height_frac >= 1.0)
+}
 
 /// The point to aim at for a part of a subject: 60 % of the way from its middle to that end. Left and right give the
 /// middle, because they depend on the camera's position ([`aimed_at_side`](super::view::aimed_at_side)). Where the prompt

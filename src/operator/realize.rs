@@ -59,7 +59,7 @@ pub fn realize(
 }
 
 /// Solves a program up to `num` times: films that clearly differ in side, height, distance, lens or path, the one of
-/// least cost first. At least one; only one where the level is [`SolveLevel::Off`]. Inputs are those of [`realize()`].
+/// [`realize()`] first and the others in order of cost. At least one; only one where the level is [`SolveLevel::Off`]. Inputs are those of [`realize()`].
 ///
 /// A film that violates more requirements than the best one is left out.
 pub fn finalists(

@@ -99,10 +99,10 @@ impl Budget {
     }
 }
 
-/// Up to `num` candidates that clearly differ, the one of least cost first. Without a search there is one.
+/// Up to `num` candidates that clearly differ, the others in order of cost. Without a search there is one.
 ///
 /// The first is the same for every `num`. The local search spends its samples on the first, and a share of them on each of
-/// the others.
+/// the others, one of which may end below it.
 pub(super) fn best_candidates(problem: &SearchProblem, settings: &SolveSettings, num: usize) -> Vec<Candidate> {
     if settings.level == SolveLevel::Off {
         return vec![only_candidate(problem)];

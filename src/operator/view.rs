@@ -58,7 +58,7 @@ fn elevation_band_deg(angle: ShotAngle, range: &ViewRange) -> (f64, f64) {
 /// and 40 is the steepest pitch of a high angle.
 const HIGH_OVER_LOW_DEG: (f64, f64) = (33.0, 39.5);
 /// Height of the top of such a thing, over that of a standing person's eyes.
-const LOW_TOP: f64 = 0.6;
+const LOW_TOP: f64 = 0.66;
 
 /// Whether a target in a room ends well below the eyes of a standing person.
 fn lies_low(world: &World, target: &Target) -> bool {
@@ -117,7 +117,7 @@ pub(super) fn opening_view(
     let bearing = Bearing { azimuth_rad, elevation_rad };
     let fill = stated_fill(framing, parameters[2]).unwrap_or_else(|| Fill::Fit(lerp(range.fill, parameters[2])));
     let loose = framing.whole && framing.height_frac.is_none();
-    let fill = if loose { Fill::Fit(lerp((0.5, 0.88), parameters[2])) } else { fill };
+    let fill = if loose { Fill::Fit(lerp((0.62, 0.9), parameters[2])) } else { fill };
     let fov_deg = framing.lens.map_or(range.fov_deg, lens_fov_deg);
     let fov_y_rad = lerp(fov_deg, parameters[3]).to_radians();
     let view = view_from(world, (target, framing), bearing, fill, fov_y_rad);

@@ -18,6 +18,9 @@ use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
 
 /// Height of a standing person's eyes above the floor, over the scene size: 1.5 m in a room of 5 by 5 by 2.6 m.
 const EYE_FRAC: f64 = 0.2;
+/// The same over the height of a room, 1.55 m of 2.6 m, and the heights of rooms over the scene size that it holds for.
+const EYE_OF_ROOM_FRAC: f64 = 0.6;
+const ROOM_HEIGHT_FRACS: std::ops::Range<f64> = 0.25..0.6;
 /// Default width over height of the frame.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 /// Default of the camera's radius, over the scene size.
@@ -188,7 +191,13 @@ impl World {
     /// Height of a standing person's eyes above the floor. A scene with ground outside reaches farther down, and is larger for
     /// it.
     pub(super) fn eye_height(&self) -> f64 {
-        let eye = EYE_FRAC * self.bounds.size();
+        let size = self.bounds.size();
+        let heights = [self.bounds.core_min, self.bounds.core_max].map(|corner| self.height_above_floor(corner));
+        let height = heights[0].max(heights[1]);
+        if self.is_indoor() && ROOM_HEIGHT_FRACS.contains(&(height / size)) {
+            return EYE_OF_ROOM_FRAC * height;
+        }
+        let eye = EYE_FRAC * size;
         (eye - (self.floor_height - self.bottom)).max(0.5 * eye)
     }
 

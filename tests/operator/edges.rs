@@ -65,14 +65,16 @@ fn void(state: &CameraState, x: f64) -> f64 {
 #[test]
 fn a_slide_past_a_thing_at_the_edge_of_a_capture_does_not_run_out_of_it() {
     let world = part_of_room(|mean| mean.x < 1.6);
-    for seed in 0..3 {
-        let settings = SolveSettings { level: SolveLevel::Fast, seed, ..SolveSettings::default() };
-        for movement in [Move::TruckLeft, Move::TruckRight] {
+    for movement in [Move::TruckLeft, Move::TruckRight] {
+        let worst = (0..6).map(|seed| {
+            let settings = SolveSettings { level: SolveLevel::Fast, seed, ..SolveSettings::default() };
             let steps = vec![Step { end: about(1), ..Step::of(movement) }];
             let frames = film(&realize(&world, &Program { steps, ..Program::default() }, "", &[], &settings));
-            let worst = [&frames[0], &frames[frames.len() - 1]].map(|state| void(state, 1.6));
-            assert!(worst.into_iter().all(|void| void < 0.35), "{movement}, seed {seed}: {worst:?}");
-        }
+            void(&frames[0], 1.6).max(void(&frames[frames.len() - 1], 1.6))
+        });
+        let mut worst: Vec<f64> = worst.collect();
+        worst.sort_by(f64::total_cmp);
+        assert!(worst[4] < 0.3 && worst[2] < 0.2, "{movement}: {worst:?}");
     }
 }
 

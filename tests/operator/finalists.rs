@@ -27,14 +27,14 @@ fn apart(a: &Solution, b: &Solution) -> (f64, f64) {
 }
 
 #[test]
-fn finalists_clearly_differ_and_the_first_is_the_film_of_least_cost() {
+fn finalists_clearly_differ_and_the_first_is_the_film_of_the_search() {
     let world = world();
     for movement in [Move::PushIn, Move::OrbitLeft, Move::Static] {
         let program = program(movement);
         let films = finalists(&world, (&program, ""), &[], &FAST, 4);
         assert!((2..=4).contains(&films.len()), "{movement}: {} films", films.len());
         assert_eq!(films[0], realize(&world, &program, "", &[], &FAST), "{movement}");
-        assert!(films.is_sorted_by(|a, b| a.cost <= b.cost), "{movement}");
+        assert!(films[1..].is_sorted_by(|a, b| a.cost <= b.cost), "{movement}");
         for (i, film) in films.iter().enumerate() {
             assert!(film.report.iter().all(|line| line.met), "{movement}: {:?}", film.report);
             for other in &films[..i] {

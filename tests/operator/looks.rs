@@ -160,5 +160,6 @@ fn a_crane_from_part_to_part_keeps_its_view() {
     let frames = film(&solved(&world, vec![step]));
     let (first, last) = (&frames[0].pose, &frames[frames.len() - 1].pose);
     assert!((last.position - first.position).dot(world.frame.up) < -0.05);
-    assert!(first.forward().angle_between(last.forward()) < 1e-6);
+    // Turned only as far as the composition at the edge of a capture asks; to aim at each part takes twice that.
+    assert!(first.forward().angle_between(last.forward()).to_degrees() < 8.0);
 }

@@ -101,7 +101,7 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     let bearing = unturned(context, first, Bearing { azimuth_rad, elevation_rad });
     let fill = stated_fill(framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.45, 0.78), parameters[6])));
     let loose = framing.whole && framing.height_frac.is_none();
-    let fill = if loose { Fill::Fit(lerp((0.5, 0.85), parameters[6])) } else { fill };
+    let fill = if loose { Fill::Fit(lerp((0.6, 0.88), parameters[6])) } else { fill };
     let view = view_from(world, (end, framing), bearing, fill, context.end_fov_rad(first));
     if stated_fill(framing, parameters[6]).is_some() || framing.distance.is_some() || !world.is_indoor() {
         return view;

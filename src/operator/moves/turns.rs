@@ -16,7 +16,7 @@ use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Easing, Move, ShotAngle};
 
 /// Range of the turn of a pan with a free end, and of a tilt, degrees.
-const OPEN_PAN_DEG: (f64, f64) = (38.0, 66.0);
+const OPEN_PAN_DEG: (f64, f64) = (44.0, 84.0);
 const OPEN_TILT_DEG: (f64, f64) = (24.0, 42.0);
 
 /// Change of pitch that a pan may have before its ends are brought nearer to one pitch.
@@ -329,7 +329,7 @@ fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> Came
 const OVERLOOK_FROM: f64 = 0.6;
 const OVERLOOK_TILT_FROM: f64 = 0.75;
 /// Size of a subject along which the view turns, from one end to the other: more than the picture holds.
-const ALONG_FILL: (f64, f64) = (1.15, 1.7);
+const ALONG_FILL: (f64, f64) = (1.4, 2.2);
 
 /// Whether the view turns from one end of a subject to the other.
 fn is_along(context: &StepContext) -> bool {
