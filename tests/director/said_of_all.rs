@@ -96,3 +96,15 @@ fn a_word_of_one_name_alone_names_it() {
     let linked = director.link("pull back from the sushi until the whole table is visible", &objects).unwrap();
     assert_eq!(linked.slots.first(), Some(&1), "{}", linked.tokens_text);
 }
+
+#[test]
+fn what_is_never_lost_stays_in_view() {
+    let found = program("slowly orbit around the vase from high up, never losing the armchair");
+    assert!(found.contains("keep=4") && !found.contains("avoid=4"), "{found}");
+}
+
+#[test]
+fn a_way_in_ends_close() {
+    let found = program("get in really close to the vase, like you can almost touch it, then back off slowly");
+    assert!(found.starts_with("push-in end=1:extreme-close-up"), "{found}");
+}

@@ -40,6 +40,24 @@ pub(crate) fn include_named(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words of how a film begins.
+const OPENS: [&str; 10] =
+    ["from", "start", "starts", "starting", "begin", "begins", "beginning", "open", "opens", "opening"];
+
+/// Ends a way to its subject on a close picture that the network begins it with, where no words open on it: `get in really
+/// close to the anvil`.
+pub(crate) fn near_to_size(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::PushIn | Move::ZoomIn)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_close = matches!(step.start.size, Some(ShotSize::CloseUp | ShotSize::ExtremeCloseUp));
+        let plain = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
+        let is_open = step.end == plain && step.start.subjects == step.end.subjects;
+        if is_close && is_open && !words.iter().any(|word| OPENS.contains(word)) {
+            step.end = std::mem::replace(&mut step.start, Framing::default());
+        }
+    }
+}
+
 /// Shows all of what the words call whole, where they say no other size: `show the whole cabinet from the front`.
 pub(crate) fn show_whole(linked: &Linked, steps: &mut [Step]) {
     for step in steps {

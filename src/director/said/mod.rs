@@ -77,6 +77,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     stillness::hold_arrivals(linked, steps);
     endings::glide_in_and_out(linked, steps);
     endings::travel_at_distance(steps);
+    endings::near_to_size(linked, steps);
     endings::show_whole(linked, steps);
     endings::end_on_place(linked, steps);
     endings::widen_again(linked, steps);
@@ -112,6 +113,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, direction: &mut Direction) {
     let steps = &mut direction.program.steps;
     endings::include_named(linked, steps);
     whole_film::keep_uncut(linked, steps);
+    whole_film::keep_or_avoid(linked, steps);
     whole_film::take_pace(linked, steps);
     whole_film::size_each(linked, steps);
     whole_film::avoid_throughout(linked, &mut direction.program);

@@ -30,6 +30,20 @@ pub(crate) fn keep_uncut(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words by which a thing that is not to be lost stays in view.
+const LOSSES: [&str; 9] = ["lose", "losing", "loses", "leave", "leaving", "leaves", "out", "drop", "dropping"];
+
+/// Settles what a step both keeps in view and never shows: `never losing the lathe` keeps it.
+pub(crate) fn keep_or_avoid(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let keeps = words.iter().any(|word| LOSSES.contains(word));
+        let both: Vec<u32> = step.keep.iter().filter(|id| step.avoid.contains(id)).copied().collect();
+        let list = if keeps { &mut step.avoid } else { &mut step.keep };
+        list.retain(|id| !both.contains(id));
+    }
+}
+
 /// Never shows in any step what a sentence of its own rules out.
 pub(crate) fn avoid_throughout(linked: &Linked, program: &mut Program) {
     let mut banned: Vec<u32> = program.steps.iter().flat_map(|step| step.avoid.clone()).collect();
