@@ -146,20 +146,24 @@ check-shots: build
 	done || true
 
 # Opens exports in the programs that they are for, and compares `eval --like-evo` with evo on the data of evo's repository.
-# Prints the tables of tests/exchange/README.md. Needs PyPI and GitHub; takes half an hour.
+# Prints the tables of tests/exchange/README.md. Needs PyPI, npm and GitHub (about 2.5 GB, most of it PyTorch), Node, and Python
+# 3.11, which the packages of Blender and PyTorch are for; takes half an hour.
 EXCHANGE_PROMPT := slowly push in on the sofa, then orbit it to the right while zooming in
-EVO_DATA := target/exchange/evo/test/data
+EXCHANGE := target/exchange
 check-exchange: build
-	test -x target/exchange/venv/bin/python || python3 -m venv target/exchange/venv
-	target/exchange/venv/bin/pip install -q evo==1.38.1 pycolmap usd-core pygltflib rosbags
-	test -x target/exchange/blender/bin/python || python3 -m venv target/exchange/blender
-	target/exchange/blender/bin/pip install -q bpy==5.0.1
-	test -d target/exchange/evo || git clone -q --depth 1 https://github.com/MichaelGrupp/evo target/exchange/evo
-	$(BIN) plan $(DEMO_SCENE) -p "$(EXCHANGE_PROMPT)" -o target/exchange/demo.shot.json --overwrite
-	target/exchange/venv/bin/python tests/exchange/open_exports.py $(BIN) target/exchange/demo.shot.json \
-		target/exchange/blender/bin/python
-	target/exchange/venv/bin/python tests/exchange/other_files.py $(BIN)
-	target/exchange/venv/bin/python tests/exchange/evo_figures.py $(BIN) $(EVO_DATA)
+	for name in venv blender nerfstudio; do test -x $(EXCHANGE)/$$name/bin/python || python3 -m venv $(EXCHANGE)/$$name || exit; done
+	$(EXCHANGE)/venv/bin/pip install -q evo==1.38.1 open3d-cpu pycolmap usd-core pygltflib rosbags
+	$(EXCHANGE)/blender/bin/pip install -q bpy==5.0.1
+	$(EXCHANGE)/nerfstudio/bin/pip install -q torch==1.13.1 'numpy<2' scipy splines==0.3.0 viser==0.2.7 \
+		opencv-python-headless==4.10.0.84 jaxtyping imageio pillow rich
+	$(EXCHANGE)/nerfstudio/bin/pip install -q --no-deps nerfstudio==1.1.5
+	npm install --silent --no-save --prefix $(EXCHANGE)/node @playcanvas/supersplat-viewer@1.36.2 playcanvas@2.23.3
+	test -d $(EXCHANGE)/evo || git clone -q --depth 1 https://github.com/MichaelGrupp/evo $(EXCHANGE)/evo
+	$(BIN) plan $(DEMO_SCENE) -p "$(EXCHANGE_PROMPT)" -o $(EXCHANGE)/demo.shot.json --overwrite
+	$(EXCHANGE)/venv/bin/python tests/exchange/open_exports.py $(BIN) $(EXCHANGE)/demo.shot.json \
+		$(EXCHANGE)/blender/bin/python $(EXCHANGE)/nerfstudio/bin/python $(EXCHANGE)/node
+	$(EXCHANGE)/venv/bin/python tests/exchange/other_files.py $(BIN)
+	$(EXCHANGE)/venv/bin/python tests/exchange/evo_figures.py $(BIN) $(EXCHANGE)/evo/test/data
 
 # The pictures of the README: the demo film, and a sheet of each film of prompts/gallery.txt. Needs the program ffmpeg.
 gallery: demo

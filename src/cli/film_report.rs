@@ -34,6 +34,10 @@ pub(super) fn print_promise(settings: &FilmSettings, report: &FilmReport) {
     if counts.len() > 1 {
         console::note(&format!("to keep the requirements: {}", counts.join(", ")));
     }
+    if report.num_finest > 0 {
+        let num = report.num_finest;
+        console::note(&format!("to keep the requirements: {num} frames at `final` with the samples of `reference`"));
+    }
     let late = promise.deadline.map(|deadline| Instant::now().saturating_duration_since(deadline).as_secs_f64());
     if let Some(late) = late.filter(|late| *late > 0.0) {
         console::warnings([format!("the film ended {late:.2} s after its budget")]);

@@ -20,7 +20,8 @@ Examples:
 
 /// Turn another program's camera path into a shot
 ///
-/// Prints a warning for everything that the file does not say and the shot assumes. Flags win over the file.
+/// Prints a warning for everything that the file does not say and the shot assumes. Flags win over the file. The distortion of
+/// the file's lens becomes the effect lens-distortion, with its principal point and its second focal length.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, after_long_help = formats::table_with(EXAMPLES))]
 pub(super) struct Args {
@@ -73,6 +74,11 @@ impl Args {
         self.overwrite.write(&self.output, shot_json::write(&shot).as_bytes())?;
         let (keys, secs) = (shot.keyframes.len(), shot.duration_secs);
         console::note(&format!("{}: {keys} keys, {secs:.2} s, from {format}", self.output.display()));
+        for effect in shot.effects.iter().filter(|_| format != Format::Shot) {
+            let values: Vec<String> =
+                effect.settings.iter().map(|(name, value)| format!("{name} {value:.4}")).collect();
+            console::note(&format!("{} for {}: {}", effect.kind, effect.because, values.join(", ")));
+        }
         Ok(())
     }
 }

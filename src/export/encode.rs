@@ -13,7 +13,7 @@ use super::{
     ExportError, Format, PoseTrack, blender, cameras_json, colmap, csv, euroc, gltf, kitti, lichtfeld, nerfstudio,
     redwood_log, shot_json, supersplat, transforms, tum, usd,
 };
-use cinesplat_trajectory::{Easing, Shot};
+use cinesplat_trajectory::{Easing, LENS_EFFECT, Shot};
 
 /// The poses of a shot to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -112,7 +112,10 @@ pub fn encode(format: Format, shot: &Shot, settings: &ExportSettings) -> Result<
 
 /// A line about the effects of a shot: no other program has them, nor what they do to the lens and the path.
 fn lost_effects(format: Format, shot: &Shot) -> Option<String> {
-    let names: Vec<&str> = shot.effects.iter().map(|effect| effect.kind.as_str()).collect();
+    let mut names: Vec<&str> = shot.effects.iter().map(|effect| effect.kind.as_str()).collect();
+    if !names.contains(&LENS_EFFECT) && shot.keyframes.iter().any(|key| key.optics.lens.is_some()) {
+        names.push(LENS_EFFECT);
+    }
     let are_lost = format != Format::Shot && !names.is_empty();
     are_lost.then(|| format!("{format} holds no effects: {} are lost", names.join(", ")))
 }
@@ -120,7 +123,7 @@ fn lost_effects(format: Format, shot: &Shot) -> Option<String> {
 /// A shot with one keyframe per frame of another shot's film. It keeps what does not depend on the keys.
 fn sampled_shot(shot: &Shot, track: &PoseTrack) -> Result<Encoded, ExportError> {
     let (sampled, _) = shot_of(track, &ImportSettings::default())?;
-    let sampled = Shot {
+    let mut sampled = Shot {
         scene: shot.scene.clone(),
         prompt: shot.prompt.clone(),
         seed: shot.seed,
@@ -128,7 +131,11 @@ fn sampled_shot(shot: &Shot, track: &PoseTrack) -> Result<Encoded, ExportError> 
         effects: shot.effects.clone(),
         ..sampled
     };
+    for key in &mut sampled.keyframes {
+        key.optics.lens = shot.lens_at(key.time_secs);
+    }
     let num_keys = shot.keyframes.len();
+    let num_optics = shot.keyframes.iter().filter(|key| key.optics.is_exposing()).count();
     let num_eased = shot.keyframes.iter().filter(|key| key.easing != Easing::Linear).count();
     let num_intents = shot.keyframes.iter().filter(|key| key.intent.is_some()).count();
     let num_lines = shot.report.len();
@@ -136,6 +143,10 @@ fn sampled_shot(shot: &Shot, track: &PoseTrack) -> Result<Encoded, ExportError> 
     let dropped = [
         (num_eased, format!("the easings of {num_eased} of {num_keys} keys are in the times of the sampled keys")),
         (num_intents, format!("the intents of {num_intents} of {num_keys} keys do not apply to sampled keys")),
+        (
+            num_optics,
+            format!("the f-stops and shutter angles of {num_optics} of {num_keys} keys are not in sampled keys"),
+        ),
         (num_lines, format!("the report does not apply to sampled keys (lines: {num_lines})")),
         (clearance, "the clearance proof does not apply to sampled keys".to_owned()),
     ];

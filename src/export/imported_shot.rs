@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::ExportError;
 use super::track::{DEFAULT_FOV_Y_DEG, DEFAULT_FPS, DEFAULT_SIZE_PX, LensSide, PoseFrame, PoseTrack};
-use cinesplat_trajectory::{Easing, Keyframe, SceneRef, Shot};
+use cinesplat_trajectory::{Easing, EffectRequest, Keyframe, LENS_EFFECT, LensModel, SceneRef, Shot};
 
 /// Largest distance of an even stamp from its place, s.
 const EVEN_SECS: f64 = 1e-3;
@@ -90,8 +90,15 @@ pub(super) fn shot_of(track: &PoseTrack, settings: &ImportSettings) -> Result<(S
     let last_secs = keyframes.last().map_or(0.0, |key| key.time_secs);
     let duration_secs = last_secs + rate.own.filter(|_| rate.is_sampled).map_or(0.0, f64::recip);
     let scene = SceneRef { up, ..SceneRef::default() };
-    let shot = Shot { scene, ..Shot::from_keyframes(size_px.into(), fps, duration_secs, keyframes) };
+    let effects = track.lens_model.iter().map(lens_effect).collect();
+    let shot = Shot { scene, effects, ..Shot::from_keyframes(size_px.into(), fps, duration_secs, keyframes) };
     Ok((shot.validated()?, lines))
+}
+
+/// The effect that shows the lens of a file.
+fn lens_effect(lens: &LensModel) -> EffectRequest {
+    let settings = lens.own_values().into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+    EffectRequest { kind: LENS_EFFECT.to_owned(), because: "the lens of the file".to_owned(), settings, runs: None }
 }
 
 /// The track in order of time and without poses that stand there twice, and a line for each of both. Frames with cuts

@@ -1,4 +1,7 @@
-//! What a pinhole lens with a centered principal point cannot hold of the lenses in a file.
+//! What the lenses in a file have that a pinhole with a centered principal point has not: one lens of all images is kept
+//! whole, of several that differ the losses are said.
+
+use cinesplat_trajectory::LensModel;
 
 /// The largest losses of the lenses of a file so far.
 #[derive(Debug, Clone, Default)]
@@ -13,6 +16,19 @@ pub(super) struct LensLosses {
     stretch: f64,
     /// A lens model that is no pinhole, even without distortion.
     model: Option<String>,
+    /// The lens of the images so far.
+    lens: SoFar,
+}
+
+/// The lens of some images.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+enum SoFar {
+    #[default]
+    None,
+    One(LensModel),
+    Several,
+    /// One of them cannot be shown.
+    Unknown,
 }
 
 /// Offsets and ratios below this are rounding.
@@ -55,14 +71,38 @@ impl LensLosses {
         }
     }
 
+    /// Notes the lens of an image; `None` for one that no [`LensModel`] shows.
+    pub(super) fn lens(&mut self, lens: Option<LensModel>) {
+        self.lens = match (self.lens, lens) {
+            (SoFar::Unknown, _) | (_, None) => SoFar::Unknown,
+            (SoFar::None, Some(lens)) => SoFar::One(lens),
+            (SoFar::One(known), Some(lens)) if known == lens => self.lens,
+            _ => SoFar::Several,
+        };
+    }
+
+    /// The lens of all images, if it is distorted and each one has the same.
+    pub(super) fn lens_model(&self) -> Option<LensModel> {
+        match self.lens {
+            SoFar::One(lens) if lens.is_bent() && lens.fault().is_none() => Some(lens),
+            _ => None,
+        }
+    }
+
     /// Whether pixels lie elsewhere than those of a pinhole.
     pub(super) fn is_distorted(&self) -> bool {
         self.model.is_some() || self.distortion.as_ref().is_some_and(|(_, value)| value.abs() > MIN_DISTORTION)
     }
 
-    /// One line per loss, with its amount.
+    /// One line per loss, with its amount; none where the lens is kept.
     pub(super) fn into_lines(self) -> Vec<String> {
         let mut lines = Vec::new();
+        if self.lens_model().is_some() {
+            return lines;
+        }
+        if self.lens == SoFar::Several && self.is_distorted() {
+            lines.push("the images have different lenses, and a path without cuts has one".to_owned());
+        }
         if let Some(name) = self.model {
             lines.push(format!("the lens model {name:.40} is read as a pinhole of the same focal length"));
         }

@@ -1,14 +1,20 @@
 //! LichtFeld Studio timelines, version 4: per key seconds, position, quaternion (w x y z, OpenGL camera axes), focal
 //! length in mm for a frame 24 mm high, and one of four easings.
 //!
+//! Poses are in the program's own world, which is the scene file's turned by half a turn about x (since April 2026; its
+//! `--render-camera-path` since September 2026).
+//!
 //! The program joins positions with a uniform Catmull-Rom spline and stores numbers as f32. Its easings are linear and
 //! cubic: a shot with others is written with a key per frame.
+
+use glam::DVec3;
 
 use super::ExportError;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
-use super::opengl::{from_opengl_rotation, opengl_rotation};
+use super::opengl::{HALF_TURN_X, from_opengl_rotation, opengl_rotation};
 use super::track::{PoseFrame, PoseTrack, fov_y_or_default};
+use cinesplat_geometry::Pose;
 use cinesplat_trajectory::Easing;
 
 const VERSION: u32 = 4;
@@ -35,17 +41,24 @@ pub(super) fn eased(easing: Easing, t: f64) -> f64 {
     }
 }
 
+/// A pose in the program's world from one in the scene file's world, or back: half a turn about x.
+fn turned(pose: &Pose) -> Pose {
+    let DVec3 { x, y, z } = pose.position;
+    Pose::new(DVec3::new(x, -y, -z), HALF_TURN_X * pose.rotation)
+}
+
 pub(super) fn focal_mm(fov_y_rad: f64) -> f64 {
     FRAME_HEIGHT_MM / 2.0 / (fov_y_rad / 2.0).tan()
 }
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let keyframes = track.since_start().map(|(secs, frame)| {
-        let [x, y, z, w] = opengl_rotation(&frame.pose).to_array();
+        let pose = turned(&frame.pose);
+        let [x, y, z, w] = opengl_rotation(&pose).to_array();
         let easing = EASINGS.iter().position(|easing| *easing == frame.easing).unwrap_or(0);
         object([
             ("time", secs.into()),
-            ("position", frame.pose.position.into()),
+            ("position", pose.position.into()),
             ("rotation", Json::list([w, x, y, z])),
             ("focal_length_mm", focal_mm(fov_y_or_default(frame)).into()),
             ("easing", easing.into()),
@@ -85,6 +98,6 @@ fn read_key(node: &Node) -> Result<PoseFrame, ExportError> {
     Ok(PoseFrame {
         fov_y_rad: focal.transpose()?.map(|mm| 2.0 * (FRAME_HEIGHT_MM / 2.0 / mm).atan()),
         easing: EASINGS.get(easing as usize).copied().unwrap_or(Easing::Linear),
-        ..PoseFrame::new(node.field("time", "seconds")?.number()?, from_opengl_rotation(position, rotation))
+        ..PoseFrame::new(node.field("time", "seconds")?.number()?, turned(&from_opengl_rotation(position, rotation)))
     })
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::format::Format;
 use super::track::{PoseFrame, PoseTrack};
-use super::{lichtfeld, opengl};
+use super::{lichtfeld, opengl, supersplat};
 use cinesplat_geometry::LevelFrame;
 use cinesplat_trajectory::Easing;
 
@@ -47,6 +47,9 @@ pub(super) fn losses(format: Format, track: &PoseTrack) -> Vec<String> {
         ));
     }
     lines.extend(out_of_range(format, track));
+    if format == Format::Supersplat {
+        lines.extend(supersplat::beyond_editors(track));
+    }
     lines
 }
 

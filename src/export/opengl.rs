@@ -6,7 +6,7 @@ use super::format::Format;
 use cinesplat_geometry::Pose;
 
 /// Half a turn about x: OpenCV camera axes from OpenGL ones; its own inverse up to the sign.
-const HALF_TURN_X: DQuat = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
+pub(super) const HALF_TURN_X: DQuat = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
 
 /// The rotation of `world_from_camera` with OpenGL camera axes.
 pub(super) fn opengl_rotation(pose: &Pose) -> DQuat {

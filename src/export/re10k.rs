@@ -1,5 +1,5 @@
 //! Camera files of RealEstate10K, which CameraCtrl also reads: an optional line with the address of the film, then lines of
-//! microseconds, `fx fy cx cy` over the image's size, two numbers that are 0 (distortion in other programs' files), and `camera_from_world` (3 x 4, row-major)
+//! microseconds, `fx fy cx cy` over the image's size, two numbers that are 0 (`k1 k2` in other programs' files), and `camera_from_world` (3 x 4, row-major)
 //! with OpenCV camera axes.
 
 use glam::DMat3;
@@ -10,6 +10,7 @@ use super::json_read::matrix_from_rows;
 use super::lens_losses::LensLosses;
 use super::track::{PoseFrame, PoseTrack};
 use cinesplat_geometry::Pose;
+use cinesplat_trajectory::LensModel;
 
 /// Columns of a line.
 pub(super) const COLUMNS: usize = 19;
@@ -36,11 +37,22 @@ pub(super) fn read(text: &str) -> Result<PoseTrack, ExportError> {
         losses.principal_point_frac([cx - 0.5, cy - 0.5]);
         losses.distortion("k1", v[5]);
         losses.distortion("k2", v[6]);
+        // Pixels are square: the offsets are over the height.
+        let value = |name: &str| match name {
+            "k1" => Some(v[5]),
+            "k2" => Some(v[6]),
+            "center_x" => Some((cx - 0.5) * fy / fx),
+            "center_y" => Some(cy - 0.5),
+            _ => None,
+        };
+        losses.lens(Some(LensModel::of_values(value)));
         frames.push(PoseFrame {
             fov_y_rad: Some(2.0 * (0.5 / fy).atan()),
             matrix: Some(DMat3::from_mat4(camera_from_world).transpose()),
             ..PoseFrame::new(v[0] / MICROS, inverse.inverse())
         });
     }
-    Ok(PoseTrack { stated_aspect, timed: true, unread: losses.into_lines(), ..PoseTrack::untimed(frames) })
+    let lens_model = losses.lens_model();
+    let unread = losses.into_lines();
+    Ok(PoseTrack { stated_aspect, timed: true, lens_model, unread, ..PoseTrack::untimed(frames) })
 }

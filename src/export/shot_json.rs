@@ -13,6 +13,7 @@ use super::effects_json;
 use super::euler_edits;
 use super::json_read::{self, Node};
 use super::json_write::{Json, object};
+use super::lens_json;
 use super::look_at;
 pub use super::look_at::FindObject;
 use cinesplat_geometry::{LevelAngles, LevelFrame, Pose};
@@ -42,7 +43,7 @@ const TOP_KEYS: [&str; 14] = [
 ];
 const SCENE_KEYS: [&str; 3] = ["path", "sha256", "up"];
 const MODEL_KEYS: [&str; 2] = ["name", "sha256"];
-const KEYFRAME_KEYS: [&str; 12] = [
+const KEYFRAME_KEYS: [&str; 13] = [
     "time_secs",
     "position",
     "rotation_xyzw",
@@ -51,6 +52,7 @@ const KEYFRAME_KEYS: [&str; 12] = [
     "focus_distance",
     "f_stop",
     "shutter_angle_deg",
+    "lens",
     "easing",
     "cut",
     "intent",
@@ -154,6 +156,7 @@ fn unknown_keys(root: &Node, keyframes: &[Node]) -> UnknownKeys {
     }
     for node in keyframes {
         node.note_unknown(&KEYFRAME_KEYS, &mut unknown);
+        node.optional("lens").iter().for_each(|lens| lens.note_unknown(&lens_json::KEYS, &mut unknown));
         node.optional("euler_deg").iter().for_each(|euler| euler.note_unknown(&EULER_KEYS, &mut unknown));
         let look_at = node.optional("look_at").filter(|look_at| look_at.text().is_err() && look_at.items().is_err());
         look_at.iter().for_each(|look_at| look_at.note_unknown(&look_at::KEYS, &mut unknown));
@@ -218,6 +221,7 @@ fn read_keyframe(node: &Node, find: &FindObject<'_>) -> Result<Keyframe, ExportE
         optics: KeyOptics {
             f_stop: node.optional("f_stop").map(|f_stop| f_stop.number()).transpose()?,
             shutter_angle_rad: node.optional("shutter_angle_deg").map(|a| a.number()).transpose()?.map(f64::to_radians),
+            lens: node.optional("lens").map(|lens| lens_json::read(&lens)).transpose()?,
         },
         easing: node.optional("easing").map_or(Ok(Easing::Smooth), |easing| easing.choice())?,
         cut: node.optional("cut").map_or(Ok(false), |cut| cut.flag())?,
@@ -332,6 +336,7 @@ fn keyframe_json(key: &Keyframe, euler: Option<LevelAngles>) -> Json {
     fields.extend([("fov_y_deg", key.fov_y_rad.to_degrees().into()), ("focus_distance", key.focus_distance.into())]);
     fields.extend(key.optics.f_stop.map(|f_stop| ("f_stop", f_stop.into())));
     fields.extend(key.optics.shutter_angle_rad.map(|angle| ("shutter_angle_deg", angle.to_degrees().into())));
+    fields.extend(key.optics.lens.map(|lens| ("lens", lens_json::write(&lens))));
     fields.extend([("easing", key.easing.as_ref().into()), ("cut", key.cut.into())]);
     if let Some(intent) = &key.intent {
         fields.extend(intent.look_at.as_ref().map(|target| ("look_at", look_at::write(target))));

@@ -3,7 +3,10 @@
 use glam::DVec3;
 
 use super::key_slopes::{CameraValues, KeySlopes, key_slopes, values};
+use super::nerfstudio_spline::ViewerCurve;
 use super::opengl::from_opengl_rotation;
+use super::supersplat::{self, Views};
+use super::track::PoseFrame;
 use super::{ExportError, Format, PoseTrack, lichtfeld};
 use cinesplat_geometry::rotation;
 use cinesplat_trajectory::Shot;
@@ -11,26 +14,42 @@ use cinesplat_trajectory::Shot;
 /// How a program joins keys.
 enum Curve {
     /// Straight lines, and rotations at constant speed.
-    Linear,
-    /// A cubic spline through the keys whose slope at a key is that between its neighbors; of rotations the same, by
-    /// components.
-    Spline,
+    Linear(Lens),
+    /// A cubic spline through positions, targets and fields of view, whose slope at a key is that between its neighbors.
+    TargetSpline(Views),
+    /// That of nerfstudio's viewer.
+    Viewer(ViewerCurve),
     /// Cubic curves with the slopes of the film at the keys; of rotations the same, by components; of lenses the focal
     /// lengths.
     Bezier(Vec<KeySlopes>),
-    /// Positions by that spline with a key's easing, keys counting as evenly spaced; rotations and lens straight.
+    /// Positions by a uniform Catmull-Rom spline with a key's easing; rotations and focal lengths straight.
     EasedSpline,
 }
 
-fn curve_of(format: Format, shot: &Shot) -> Result<Option<Curve>, ExportError> {
-    Ok(match format {
-        Format::Gltf | Format::Usd => Some(Curve::Linear),
-        Format::Nerfstudio | Format::Supersplat => Some(Curve::Spline),
-        Format::Lichtfeld => Some(Curve::EasedSpline),
-        Format::Blender => Some(Curve::Bezier(key_slopes(shot)?)),
+/// What of a lens changes at constant speed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Lens {
+    FieldOfView,
+    FocalLength,
+}
+
+/// The keys that a format's program reads, and how it joins them; `None` if the program draws no curve.
+fn curve_of(format: Format, shot: &Shot) -> Result<Option<(Vec<PoseFrame>, Curve)>, ExportError> {
+    let keys = PoseTrack::keyframes(shot);
+    let curve = match format {
+        Format::Gltf => Curve::Linear(Lens::FieldOfView),
+        Format::Usd => Curve::Linear(Lens::FocalLength),
+        Format::Nerfstudio => {
+            let curve = ViewerCurve::new(&keys.frames);
+            return Ok(curve.map(|curve| (keys.frames, Curve::Viewer(curve))));
+        }
+        Format::Supersplat => return Ok(Some((supersplat::held(&keys), Curve::TargetSpline(Views::of(&keys))))),
+        Format::Lichtfeld => Curve::EasedSpline,
+        Format::Blender => Curve::Bezier(key_slopes(shot)?),
         // The rest holds poses alone.
-        _ => None,
-    })
+        _ => return Ok(None),
+    };
+    Ok(Some((keys.frames, curve)))
 }
 
 /// A line about the largest difference between the film and the curve of a format's program through the keys alone; `None`
@@ -39,14 +58,13 @@ fn curve_of(format: Format, shot: &Shot) -> Result<Option<Curve>, ExportError> {
 /// # Errors
 /// [`ExportError::BadShot`] if the shot is not usable.
 pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, ExportError> {
-    let Some(curve) = curve_of(format, shot)? else { return Ok(None) };
+    let Some((keys, curve)) = curve_of(format, shot)? else { return Ok(None) };
     let film = PoseTrack::sampled(shot, None)?;
-    let keys = PoseTrack::keyframes(shot);
     let (mut moved, mut turned, mut zoomed, mut worst_secs) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
     for frame in &film.frames {
-        let after = keys.frames.partition_point(|key| key.time_secs <= frame.time_secs);
-        let (Some(from), true) = (after.checked_sub(1), after < keys.frames.len()) else { continue };
-        if keys.frames[after].cut {
+        let after = keys.partition_point(|key| key.time_secs <= frame.time_secs);
+        let (Some(from), true) = (after.checked_sub(1), after < keys.len()) else { continue };
+        if keys[after].cut {
             continue;
         }
         let (position, turn, fov) = between(&curve, &keys, from, frame.time_secs);
@@ -58,8 +76,8 @@ pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, Export
         zoomed = zoomed.max((fov - frame.fov_y_rad.unwrap_or(fov)).abs());
     }
     let what = match curve {
-        Curve::Linear => "lines",
-        Curve::Spline | Curve::EasedSpline => "its own spline",
+        Curve::Linear(_) => "lines",
+        Curve::TargetSpline(_) | Curve::Viewer(_) | Curve::EasedSpline => "its own spline",
         Curve::Bezier(_) => "Bezier curves of the film's slopes",
     };
     let (program, exact) = match format {
@@ -77,16 +95,19 @@ pub(super) fn line(format: Format, shot: &Shot) -> Result<Option<String>, Export
 }
 
 /// Position, rotation and field of view at a time between key `from` and the next.
-fn between(curve: &Curve, keys: &PoseTrack, from: usize, time_secs: f64) -> (DVec3, glam::DQuat, f64) {
-    let frames = &keys.frames;
+fn between(curve: &Curve, frames: &[PoseFrame], from: usize, time_secs: f64) -> (DVec3, glam::DQuat, f64) {
     let (a, b) = (&frames[from], &frames[from + 1]);
     let span = b.time_secs - a.time_secs;
     let t = if span > 0.0 { (time_secs - a.time_secs) / span } else { 0.0 };
     let fov = |idx: usize| frames[idx].fov_y_rad.unwrap_or(1.0);
+    // Focal lengths over half the frame's height.
+    let focal = |idx: usize| 1.0 / (fov(idx) / 2.0).tan();
+    let zoomed = |t: f64| 2.0 * (1.0 / (focal(from) + (focal(from + 1) - focal(from)) * t)).atan();
     match curve {
-        Curve::Linear => {
+        Curve::Linear(lens) => {
             let pose = a.pose.between(&b.pose, t);
-            (pose.position, pose.rotation, fov(from) + (fov(from + 1) - fov(from)) * t)
+            let even = fov(from) + (fov(from + 1) - fov(from)) * t;
+            (pose.position, pose.rotation, if *lens == Lens::FocalLength { zoomed(t) } else { even })
         }
         Curve::Bezier(slopes) => {
             let [low, high] = [(from, slopes[from].after), (from + 1, slopes[from + 1].before)]
@@ -105,20 +126,13 @@ fn between(curve: &Curve, keys: &PoseTrack, from: usize, time_secs: f64) -> (DVe
                 + high * (t * (1.0 + t * (4.0 - 3.0 * t)))
                 + before * (t * (t * (2.0 - t) - 1.0))
                 + after * (t * t * (t - 1.0));
-            let turn = rotation::slerp(a.pose.rotation, b.pose.rotation, t);
-            // The file holds focal lengths.
-            let focal = |idx: usize| 1.0 / (fov(idx) / 2.0).tan();
-            let lens = focal(from) + (focal(from + 1) - focal(from)) * t;
-            (point / 2.0, turn, 2.0 * (1.0 / lens).atan())
+            (point / 2.0, rotation::slerp(a.pose.rotation, b.pose.rotation, t), zoomed(t))
         }
-        Curve::Spline => {
-            let turns = rotation::aligned(&frames.iter().map(|frame| frame.pose.rotation).collect::<Vec<_>>());
-            let values = |idx: usize| -> [f64; 8] {
-                let (p, q) = (frames[idx].pose.position, turns[idx]);
-                [p.x, p.y, p.z, q.x, q.y, q.z, q.w, fov(idx)]
-            };
-            let v = hermite(&values, frames.len(), |idx| frames[idx].time_secs, from, t);
-            (DVec3::new(v[0], v[1], v[2]), glam::DQuat::from_xyzw(v[3], v[4], v[5], v[6]).normalize(), v[7])
+        Curve::Viewer(curve) => curve.at(time_secs),
+        Curve::TargetSpline(views) => {
+            let values = hermite(&|idx| views.values(&frames[idx]), frames, from, t);
+            let (pose, fov) = views.camera(values).unwrap_or((a.pose, fov(from)));
+            (pose.position, pose.rotation, fov)
         }
     }
 }
@@ -150,16 +164,11 @@ fn cubic(low: (CameraValues, CameraValues), high: (CameraValues, CameraValues), 
 }
 
 /// The cubic Hermite curve from key `from` to the next, with slopes between neighbors, at a fraction `t`.
-fn hermite(
-    values: &impl Fn(usize) -> [f64; 8],
-    count: usize,
-    time_of: impl Fn(usize) -> f64,
-    from: usize,
-    t: f64,
-) -> [f64; 8] {
+fn hermite<const N: usize>(values: &impl Fn(usize) -> [f64; N], frames: &[PoseFrame], from: usize, t: f64) -> [f64; N] {
+    let time_of = |idx: usize| frames[idx].time_secs;
     let span = time_of(from + 1) - time_of(from);
-    let slope = |idx: usize| -> [f64; 8] {
-        let (low, high) = (idx.saturating_sub(1), (idx + 1).min(count - 1));
+    let slope = |idx: usize| -> [f64; N] {
+        let (low, high) = (idx.saturating_sub(1), (idx + 1).min(frames.len() - 1));
         let secs = time_of(high) - time_of(low);
         let (a, b) = (values(low), values(high));
         std::array::from_fn(|k| if secs > 0.0 { (b[k] - a[k]) / secs * span } else { 0.0 })

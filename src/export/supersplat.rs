@@ -35,17 +35,14 @@ fn vertical_fov(larger_fov_rad: f64, aspect: f64) -> f64 {
 
 pub(super) fn write(track: &PoseTrack) -> String {
     let fps = track.fps.unwrap_or(DEFAULT_FPS);
-    let aspect = track.aspect();
-    let distance = target_distance(track);
-    let target =
-        |frame: &PoseFrame| frame.pose.position + frame.pose.forward() * frame.focus_distance.unwrap_or(distance);
+    let views = Views::of(track);
     let keys = keys_with_holds(track, fps);
     let positions = keys.iter().flat_map(|(_, frame)| turned(frame.pose.position).to_array());
-    let targets = keys.iter().flat_map(|(_, frame)| turned(target(frame)).to_array());
+    let targets = keys.iter().flat_map(|(_, frame)| turned(views.target(frame)).to_array());
     // The viewer's spline returns to the first key after the last one: the animation ends at the last.
     let last_secs = keys.last().map_or(0.0, |(time, _)| time / fps);
     let duration_secs = if last_secs > 0.0 { last_secs } else { 1.0 / fps };
-    let fov_deg = |frame: &PoseFrame| larger_fov(fov_y_or_default(frame), aspect).to_degrees();
+    let fov_deg = |frame: &PoseFrame| larger_fov(fov_y_or_default(frame), views.aspect).to_degrees();
     let keyframes = object([
         ("times", Json::list(keys.iter().map(|(time, _)| *time))),
         (
@@ -69,7 +66,7 @@ pub(super) fn write(track: &PoseTrack) -> String {
     let initial = track.frames.first().map(|frame| {
         let pose = object([
             ("position", turned(frame.pose.position).into()),
-            ("target", turned(target(frame)).into()),
+            ("target", turned(views.target(frame)).into()),
             ("fov", fov_deg(frame).into()),
         ]);
         object([("initial", pose)])
@@ -88,12 +85,18 @@ pub(super) fn write(track: &PoseTrack) -> String {
     .pretty()
 }
 
+/// A time in frames without the rounding of its seconds: the program's check of settings takes whole numbers alone.
+fn frame_number(time: f64) -> f64 {
+    const ROUNDING: f64 = 1e-6;
+    if (time - time.round()).abs() < ROUNDING { time.round() } else { time }
+}
+
 /// Each frame with its time in frames. Around a cut the poses on both sides are repeated within an instant, so that the
 /// viewer's spline neither sweeps from one to the other nor swings beside them.
 fn keys_with_holds(track: &PoseTrack, fps: f64) -> Vec<(f64, &PoseFrame)> {
     let mut keys: Vec<(f64, &PoseFrame)> = Vec::with_capacity(track.frames.len());
     for (secs, frame) in track.since_start() {
-        let time = secs * fps;
+        let time = frame_number(secs * fps);
         match keys.last().copied().filter(|_| frame.cut) {
             Some((_, before)) => {
                 keys.extend([(time - 2.0 * HOLD_FRAMES, before), (time - HOLD_FRAMES, before)]);
@@ -103,6 +106,22 @@ fn keys_with_holds(track: &PoseTrack, fps: f64) -> Vec<(f64, &PoseFrame)> {
         }
     }
     keys
+}
+
+/// A line about what the viewer plays and its check of what editors write refuses: fractions of frames and of rates.
+pub(super) fn beyond_editors(track: &PoseTrack) -> Option<String> {
+    let fps = track.fps.unwrap_or(DEFAULT_FPS);
+    let is_between = |(secs, _): (f64, &PoseFrame)| frame_number(secs * fps).fract() != 0.0;
+    let reasons = [
+        (fps.fract() != 0.0, format!("{fps} frames per second")),
+        (track.frames.iter().any(|frame| frame.cut), "the keys that hold both sides of a cut".to_owned()),
+        (track.since_start().any(is_between), "keys between frames".to_owned()),
+    ];
+    let reasons: Vec<String> = reasons.into_iter().filter(|(is_so, _)| *is_so).map(|(_, reason)| reason).collect();
+    let line = || {
+        format!("supersplat's viewer plays {}; its check for editors takes whole frames alone", reasons.join(" and "))
+    };
+    (!reasons.is_empty()).then(line)
 }
 
 /// The frames without the repeated poses around cuts, which are marked as cuts.
@@ -143,6 +162,48 @@ fn effects_off() -> Json {
         ("vignette", off(&[("intensity", 0.0), ("inner", 0.0), ("outer", 0.0), ("curvature", 1.0)])),
         ("fringing", off(&[("intensity", 0.0)])),
     ])
+}
+
+/// The numbers of a view that the viewer's spline joins: position, target, field of view along the larger side in rad.
+pub(super) type ViewValues = [f64; 7];
+
+/// How the frames of a track become views.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Views {
+    /// Distance of the targets of frames without a focus distance.
+    distance: f64,
+    aspect: f64,
+}
+
+impl Views {
+    pub(super) fn of(track: &PoseTrack) -> Self {
+        Self { distance: target_distance(track), aspect: track.aspect() }
+    }
+
+    /// The point that a frame looks at, in the scene file's world.
+    fn target(&self, frame: &PoseFrame) -> DVec3 {
+        frame.pose.position + frame.pose.forward() * frame.focus_distance.unwrap_or(self.distance)
+    }
+
+    /// The view of a frame, in the scene file's world.
+    pub(super) fn values(&self, frame: &PoseFrame) -> ViewValues {
+        let (p, t) = (frame.pose.position, self.target(frame));
+        [p.x, p.y, p.z, t.x, t.y, t.z, larger_fov(fov_y_or_default(frame), self.aspect)]
+    }
+
+    /// Pose and vertical field of view in rad of a view in the scene file's world; `None` without a direction.
+    pub(super) fn camera(&self, [px, py, pz, tx, ty, tz, fov]: ViewValues) -> Option<(Pose, f64)> {
+        let pose = Pose::look_at(DVec3::new(px, py, pz), DVec3::new(tx, ty, tz), DVec3::NEG_Y, None).ok()?;
+        Some((pose, vertical_fov(fov, self.aspect)))
+    }
+}
+
+/// The keys of a track with those around its cuts, at their times in seconds.
+pub(super) fn held(track: &PoseTrack) -> Vec<PoseFrame> {
+    let fps = track.fps.unwrap_or(DEFAULT_FPS);
+    let start = track.frames.first().map_or(0.0, |first| first.time_secs);
+    let at = |(time, frame): (f64, &PoseFrame)| PoseFrame { time_secs: start + time / fps, ..frame.clone() };
+    keys_with_holds(track, fps).into_iter().map(at).collect()
 }
 
 /// Distance of targets without a focus distance: the extent of the path, or 1 for a stationary camera.

@@ -1,7 +1,7 @@
 use glam::{DMat3, DVec3};
 
 use cinesplat_geometry::{Intrinsics, Pose};
-use cinesplat_trajectory::{CameraPath, Easing, Keyframe, Shot, TrajectoryError};
+use cinesplat_trajectory::{CameraPath, Easing, Keyframe, LensModel, Shot, TrajectoryError};
 
 /// Vertical field of view of a shot whose file states none, degrees.
 pub(super) const DEFAULT_FOV_Y_DEG: f64 = 50.0;
@@ -38,6 +38,8 @@ pub struct PoseTrack {
     pub lenses: Vec<ImageLens>,
     /// Whether the file states a lens distortion that a pinhole leaves out.
     pub is_distorted: bool,
+    /// The lens of all images, of a file that states one with a distortion.
+    pub lens_model: Option<LensModel>,
     /// One line per thing in the file that was not read.
     pub unread: Vec<String>,
 }
@@ -134,6 +136,7 @@ impl PoseTrack {
             images: Vec::new(),
             lenses: Vec::new(),
             is_distorted: false,
+            lens_model: None,
             unread: Vec::new(),
         }
     }

@@ -57,6 +57,10 @@ impl Effect for Background {
         false
     }
 
+    fn is_local(&self) -> bool {
+        true
+    }
+
     fn is_transparent(&self) -> bool {
         self.is_transparent
     }

@@ -246,6 +246,10 @@ impl Effect for DepthOfField {
         true
     }
 
+    fn is_local(&self) -> bool {
+        true
+    }
+
     fn measured(&self, first: &FrameFacts<'_>) -> Result<Option<Arc<dyn Effect>>, RenderError> {
         Ok(Some(Arc::new(self.settled(first)?)))
     }
@@ -262,7 +266,7 @@ impl Effect for DepthOfField {
 
     fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         let lens = self.lens(moment);
-        let between = Budget::of(moment.render.quality).between_lens(samples);
+        let between = moment.budget.between_lens(samples);
         next(&moment.exposed(|exposing| exposing.lens = lens, (samples, between)))
     }
 }

@@ -115,6 +115,11 @@ pub trait Effect: Debug + Send + Sync {
         false
     }
 
+    /// Whether its picture of a part of the frame is that part of its picture of the whole frame.
+    fn is_local(&self) -> bool {
+        false
+    }
+
     /// Pictures' worth of work that the samples of a frame take.
     fn num_pictures(&self, samples: u32) -> u32 {
         samples

@@ -58,6 +58,10 @@ impl Effect for Fog {
         false
     }
 
+    fn is_local(&self) -> bool {
+        true
+    }
+
     fn apply(&self, moment: &Moment<'_>, _: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         let color = Vec3::from(self.color.map(|part| part as f32));
         let fog = Some(render::Fog { color, density: self.density });

@@ -53,6 +53,7 @@ mod lens_flare;
 mod light;
 mod moment;
 mod motion_blur;
+mod opencv;
 mod optics;
 mod panorama;
 mod plan;

@@ -8,7 +8,7 @@ use super::planned::Sampling;
 use super::samples::Between;
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{RenderSettings, SubFrame, ThinLens};
-use cinesplat_trajectory::Keyframe;
+use cinesplat_trajectory::{Keyframe, LensModel};
 use glam::DVec3;
 
 /// Where a shot's cameras come from.
@@ -66,6 +66,8 @@ pub struct Moment<'a> {
     pub camera: Camera,
     /// How the picture is rendered.
     pub render: RenderSettings,
+    /// The errors that its effects may make: those of the quality of `render`, unless the plan says otherwise.
+    pub budget: Budget,
     /// How the lens and the shutter expose it.
     pub exposing: Exposing,
     /// The shot.
@@ -81,6 +83,7 @@ impl<'a> Moment<'a> {
             time_secs,
             camera: (take.camera_at)(time_secs),
             render: *render,
+            budget: Budget::of(render.quality),
             exposing: Exposing::SHARP,
             take,
         }
@@ -130,13 +133,12 @@ impl<'a> Moment<'a> {
             None => self.camera,
         };
         let lens = lens.map(|lens| ThinLens { squeeze, ..lens });
-        let budget = Budget::of(self.render.quality);
         let taken = LensAndShutter { camera_at: &camera_at, lens };
         let (samples, moves) = (samples as usize, shutter_secs.is_some());
         if is_even && between == Between::Sharp && samples > 1 {
             return Sampling::Sweep(Box::new(taken.even_sweep(samples, moves)));
         }
-        taken.sampling(samples, (between, moves), &budget)
+        taken.sampling(samples, (between, moves), &self.budget)
     }
 
     /// Time from one frame to the next.
@@ -145,19 +147,36 @@ impl<'a> Moment<'a> {
     }
 }
 
-/// Lens fields of keyframes as functions of time: linear between keys that have the field, except across a cut.
+/// Lens fields of keyframes as functions of time: linear between keys that have the field, except across a cut; the lens
+/// itself is the same from cut to cut.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OpticsTrack {
     /// Times and values of f-stop, shutter angle (radians) and focus distance (scene units); a cut is `true` where its
     /// key begins.
     keys: Vec<(f64, bool, [Option<f64>; 3])>,
+    /// The lens of each part from cut to cut, and when the part begins.
+    lenses: Vec<(f64, Option<LensModel>)>,
 }
 
 impl OpticsTrack {
     /// The track of some keyframes.
     pub fn new(keyframes: &[Keyframe]) -> Self {
         let fields = |key: &Keyframe| [key.optics.f_stop, key.optics.shutter_angle_rad, key.focus_distance];
-        Self { keys: keyframes.iter().map(|key| (key.time_secs, key.cut, fields(key))).collect() }
+        let mut lenses: Vec<(f64, Option<LensModel>)> = Vec::new();
+        for key in keyframes {
+            match lenses.last_mut() {
+                // The keys of a part agree.
+                Some((_, lens)) if !key.cut => *lens = lens.or(key.optics.lens),
+                _ => lenses.push((key.time_secs, key.optics.lens)),
+            }
+        }
+        Self { keys: keyframes.iter().map(|key| (key.time_secs, key.cut, fields(key))).collect(), lenses }
+    }
+
+    /// The lens of the part around a time; `None` if its keyframes state none.
+    pub fn lens(&self, time_secs: f64) -> Option<LensModel> {
+        let after = self.lenses.partition_point(|(begins, _)| *begins <= time_secs);
+        self.lenses.get(after.saturating_sub(1)).and_then(|(_, lens)| *lens)
     }
 
     /// The f-stop at a time; `None` if no keyframe has one.

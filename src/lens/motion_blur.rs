@@ -73,6 +73,10 @@ impl Effect for MotionBlur {
         true
     }
 
+    fn is_local(&self) -> bool {
+        true
+    }
+
     fn error_if_skipped(&self, frame: &FrameFacts<'_>, budget: &Budget) -> Result<Loss, RenderError> {
         let ends = self.shutter_secs(&frame.moment).map(|time_secs| frame.moment.at(time_secs).camera);
         let motion_px = frame.blur_extent(&SplatBlur { lens: None, motion: Some(ends) })?.motion_px;
@@ -81,7 +85,7 @@ impl Effect for MotionBlur {
 
     fn apply(&self, moment: &Moment<'_>, samples: u32, next: Next<'_>) -> Result<Picture, RenderError> {
         let shutter_secs = Some(self.shutter_secs(moment));
-        let between = Budget::of(moment.render.quality).between_motion(samples);
+        let between = moment.budget.between_motion(samples);
         next(&moment.exposed(|exposing| exposing.shutter_secs = shutter_secs, (samples, between)))
     }
 }

@@ -25,6 +25,8 @@ pub struct EffectPlan {
     first_frame: usize,
     /// See [`EffectPlan::forced`].
     is_forced: bool,
+    /// The errors that its frames may have; `None` for those of the quality that they are rendered at.
+    budget: Option<Budget>,
 }
 
 /// An effect of a film.
@@ -44,7 +46,7 @@ pub struct PlannedEffect {
 }
 
 impl EffectPlan {
-    /// Asks every effect on every frame what leaving it out would cost.
+    /// Asks every effect on every frame what leaving it out would cost, against the budget of the quality.
     ///
     /// # Errors
     /// Those of the renderer, where the answer depends on what is seen.
@@ -54,7 +56,20 @@ impl EffectPlan {
         frames: Range<usize>,
         (renderer, render): (&Renderer<'_>, &RenderSettings),
     ) -> Result<Self, RenderError> {
-        let budget = Budget::of(render.quality);
+        Self::within(Budget::of(render.quality), called, take, frames, (renderer, render))
+    }
+
+    /// As [`EffectPlan::of`], against another budget: [`EffectPlan::expose`] takes the samples that it asks for.
+    ///
+    /// # Errors
+    /// Those of [`EffectPlan::of`].
+    pub fn within(
+        budget: Budget,
+        called: &[CalledEffect],
+        take: Take<'_>,
+        frames: Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<Self, RenderError> {
         let mut is_inside = false;
         let camera = (take.camera_at)(0.0);
         let planned = |called: &CalledEffect| {
@@ -67,7 +82,7 @@ impl EffectPlan {
         };
         let mut effects: Vec<PlannedEffect> = called.iter().map(planned).collect();
         if effects.is_empty() {
-            return Ok(Self { effects, first_frame: frames.start, is_forced: false });
+            return Ok(Self { effects, first_frame: frames.start, ..Self::default() });
         }
         let inside_at = |time_secs: f64| {
             let camera = (take.camera_at)(time_secs);
@@ -79,7 +94,8 @@ impl EffectPlan {
         let is_changed = called.iter().filter(changes).count() > 1;
         let facts_of = |frame_idx: usize| {
             [take, inside].map(|take| {
-                let mut facts = FrameFacts::new(Moment::of_frame(take, frame_idx, render), renderer);
+                let mut facts =
+                    FrameFacts::new(Moment { budget, ..Moment::of_frame(take, frame_idx, render) }, renderer);
                 facts.is_changed = is_changed;
                 facts
             })
@@ -99,7 +115,7 @@ impl EffectPlan {
                 planned.states.push(planned.effect.state(&facts.moment));
             }
         }
-        Ok(Self { effects, first_frame: frames.start, is_forced: false })
+        Ok(Self { effects, first_frame: frames.start, is_forced: false, budget: Some(budget) })
     }
 
     /// The plan in which every effect runs on every frame, with the samples of the frame that needs most in every part of it:
@@ -183,14 +199,36 @@ impl EffectPlan {
         others.iter().map(pictures).fold(shared, u32::saturating_mul)
     }
 
+    /// Whether lens or shutter take several samples of a frame.
+    pub fn is_sampled(&self, frame_idx: usize) -> bool {
+        self.layers(frame_idx).iter().any(|(effect, samples)| effect.shares_samples() && *samples > 1)
+    }
+
     /// The picture of a moment with the effects that run on its frame.
     ///
     /// # Errors
     /// Those of the renderer.
     pub fn expose(&self, moment: &Moment<'_>, renderer: &Renderer<'_>) -> Result<Picture, RenderError> {
+        expose(&self.layers(moment.frame_idx), &self.allowed(moment), renderer)
+    }
+
+    /// As [`EffectPlan::expose`], of a part of the frame: the principal point of the moment's camera is as far outside of it as
+    /// the part is off. Effects that need the whole frame are left out ([`Effect::is_local`]).
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn expose_part(&self, moment: &Moment<'_>, renderer: &Renderer<'_>) -> Result<Picture, RenderError> {
+        let mut layers = self.layers(moment.frame_idx);
+        layers.retain(|(effect, _)| effect.is_local());
+        expose(&layers, &self.allowed(moment), renderer)
+    }
+
+    /// The moment with the errors that its frame may have.
+    fn allowed<'a>(&self, moment: &Moment<'a>) -> Moment<'a> {
         let mut moment = moment.clone();
         moment.exposing.is_even |= self.is_forced;
-        expose(&self.layers(moment.frame_idx), &moment, renderer)
+        moment.budget = self.budget.unwrap_or(moment.budget);
+        moment
     }
 
     /// Writes the plan into a shot: settings, frames, samples, and the number that decided.

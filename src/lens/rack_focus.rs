@@ -55,6 +55,10 @@ impl Effect for RackFocus {
         true
     }
 
+    fn is_local(&self) -> bool {
+        true
+    }
+
     fn measured(&self, first: &FrameFacts<'_>) -> Result<Option<Arc<dyn Effect>>, RenderError> {
         Ok(Some(Arc::new(Self(self.0.opened_between(first).settled(first)?))))
     }

@@ -21,6 +21,30 @@ pub(super) fn margin_db(quality: Quality) -> f64 {
     }
 }
 
+/// How a frame is rendered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Level {
+    /// The quality.
+    pub(super) quality: Quality,
+    /// Whether its effects take the samples of `reference`.
+    pub(super) is_finest: bool,
+}
+
+impl Level {
+    /// A quality with its own samples.
+    pub(super) fn of(quality: Quality) -> Self {
+        Self { quality, is_finest: false }
+    }
+
+    /// Between `final` and `reference`: the former with the samples of the latter.
+    pub(super) const FINEST: Self = Self { quality: Quality::Final, is_finest: true };
+
+    /// Place in order of accuracy.
+    pub(super) fn rank(self) -> (u8, bool) {
+        (rank(self.quality), self.is_finest)
+    }
+}
+
 /// Place of a quality in order of accuracy.
 pub(super) fn rank(quality: Quality) -> u8 {
     // The variants are declared in this order.

@@ -11,6 +11,7 @@ mod curve;
 mod easing;
 mod error;
 mod leg;
+mod lens_model;
 mod pace;
 mod path;
 mod profile;
@@ -25,6 +26,7 @@ pub use camera_state::CameraState;
 pub use clearance::{ClearanceFailure, ClearanceProof};
 pub use easing::Easing;
 pub use error::TrajectoryError;
+pub use lens_model::{LENS_EFFECT, LensModel, LensProjection};
 pub use path::CameraPath;
 pub use profile::ramp_secs;
 pub use shot::{

@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{ClearanceProof, Easing, Move, ShotAngle, ShotSize, TrajectoryError};
+use super::{ClearanceProof, Easing, LensModel, Move, ShotAngle, ShotSize, TrajectoryError};
 use cinesplat_geometry::Pose;
 
 /// Most keyframes of a shot: 55 minutes with a key per frame at 30 frames per second.
@@ -82,13 +82,24 @@ pub struct Keyframe {
     pub intent: Option<Intent>,
 }
 
-/// What a key says about the lens and the shutter. JSON keys `f_stop` and `shutter_angle_deg`, additions to version 1.
+/// What a key says about the lens and the shutter. JSON keys `f_stop`, `shutter_angle_deg` and `lens`, additions to version
+/// 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KeyOptics {
     /// Focal length over the diameter of the aperture; `None` = not set here.
     pub f_stop: Option<f64>,
     /// Share of the frame's time that the shutter is open, as an angle of a full turn; `None` = not set here.
     pub shutter_angle_rad: Option<f64>,
+    /// The lens from the cut before the key to the one after it; `None` = not set here. Keys between two cuts that state a
+    /// lens state the same one.
+    pub lens: Option<LensModel>,
+}
+
+impl KeyOptics {
+    /// Whether the key sets the aperture or the shutter.
+    pub fn is_exposing(&self) -> bool {
+        self.f_stop.is_some() || self.shutter_angle_rad.is_some()
+    }
 }
 
 /// The purpose of a key, and of the segment that starts at it.
@@ -203,6 +214,14 @@ impl Shot {
         frame_idx as f64 / self.fps
     }
 
+    /// The lens that the keyframes state for the part around a time, from cut to cut.
+    pub fn lens_at(&self, time_secs: f64) -> Option<LensModel> {
+        let is_begun = |key: &Keyframe| key.time_secs <= time_secs;
+        let begin = self.keyframes.iter().rposition(|key| key.cut && is_begun(key)).unwrap_or(0);
+        let after = self.keyframes.iter().skip(begin + 1).take_while(|key| !key.cut);
+        self.keyframes.get(begin).into_iter().chain(after).find_map(|key| key.optics.lens)
+    }
+
     /// One line per surprise in the times of a valid shot: keys after the end of the film, a film without length.
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = Vec::new();
@@ -242,8 +261,29 @@ impl Shot {
                 }
             }
         }
+        check_lenses(&self.keyframes)?;
         Ok(self)
     }
+}
+
+/// Refuses two lenses between two cuts: a lens is changed only where the camera stops.
+fn check_lenses(keyframes: &[Keyframe]) -> Result<(), TrajectoryError> {
+    let mut stated: Option<(usize, LensModel)> = None;
+    for (index, key) in keyframes.iter().enumerate() {
+        stated = stated.filter(|_| !key.cut);
+        let Some(lens) = key.optics.lens else { continue };
+        let bad = |found, expected| Err(TrajectoryError::BadValue { index, field: "lens", found, expected });
+        if let Some((found, expected)) = lens.fault() {
+            return bad(found.to_string(), expected);
+        }
+        match stated {
+            Some((first, other)) if other != lens => {
+                return bad(format!("another lens than that of keyframe {first}"), "one lens from cut to cut");
+            }
+            _ => stated = stated.or(Some((index, lens))),
+        }
+    }
+    Ok(())
 }
 
 fn check_shot_values(shot: &Shot) -> Result<(), TrajectoryError> {
@@ -284,7 +324,7 @@ fn check_keyframe(index: usize, key: &Keyframe) -> Result<(), TrajectoryError> {
     if let Some(found) = key.focus_distance.filter(|distance| !(*distance > 0.0 && distance.is_finite())) {
         return bad("focus_distance", found.to_string(), "above 0, or null");
     }
-    let KeyOptics { f_stop, shutter_angle_rad } = key.optics;
+    let KeyOptics { f_stop, shutter_angle_rad, .. } = key.optics;
     if let Some(found) = f_stop.filter(|f_stop| !(*f_stop >= 0.1 && *f_stop <= 1000.0)) {
         return bad("f_stop", found.to_string(), "0.1..1000, or null");
     }

@@ -61,13 +61,13 @@ def angle(a, b):
 
 
 def worst(found, truth):
-    """Largest errors of positions, rotations and lenses (degrees)."""
+    """Largest errors of positions, rotations and lenses (degrees; None without)."""
     _, turns, places, lenses = found
     _, true_turns, true_places, true_lenses = truth
     assert len(turns) == len(true_turns), f"{len(turns)} poses of {len(true_turns)}"
     moved = max(np.linalg.norm(a - b) for a, b in zip(places, true_places))
     spun = max(angle(a, b) for a, b in zip(turns, true_turns))
-    zoomed = max((abs(a - b) for a, b in zip(lenses, true_lenses)), default=0.0) if true_lenses else 0.0
+    zoomed = max(abs(a - b) for a, b in zip(lenses, true_lenses)) if true_lenses else None
     return moved, spun, zoomed
 
 
@@ -249,18 +249,28 @@ def check_ros(program, folder):
             yield f"ROS, /tf:{frames}", path.name, len(found[0]), worst(found, true)
 
 
+def shown(error):
+    return "-" if error is None else "0" if error == 0 else f"{error:.0e}".replace("e-0", "e-")
+
+
 def main():
     program = sys.argv[1]
     is_good = True
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(sys.argv[2] if len(sys.argv) > 2 else temporary)
         folder.mkdir(parents=True, exist_ok=True)
-        print("| what | file | poses | position off | rotation off, deg | lens off, deg |")
-        print("|---|---|---:|---:|---:|---:|")
+        found = {}
         for check in (check_usd, check_ros):
-            for what, kind, num, errors in check(program, folder):
-                is_good &= all(error <= most for error, most in zip(errors, MAX_OFF))
-                print(f"| {what} | {kind} | {num} | " + " | ".join(f"{error:.1g}" for error in errors) + " |", flush=True)
+            for what, *row in check(program, folder):
+                found.setdefault(what, []).append(row)
+        print("| what | files | poses | position off | rotation off, deg | lens off, deg |")
+        print("|---|---|---:|---:|---:|---:|")
+        for what, rows in found.items():
+            files, counts, errors = zip(*rows)
+            # The lens is in all files of a kind, or in none.
+            errors = [None if None in column else max(column) for column in zip(*errors)]
+            is_good &= all(error is None or error <= most for error, most in zip(errors, MAX_OFF))
+            print(f"| {what} | {', '.join(files)} | {max(counts)} | " + " | ".join(map(shown, errors)) + " |")
     sys.exit(0 if is_good else 1)
 
 

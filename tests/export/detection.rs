@@ -363,14 +363,14 @@ fn pictures_out_of_order_are_told() {
     assert!(names[1].ends_with("(1.png is behind 9.png)"), "{}", names[1]);
 }
 
-/// A fisheye lens without distortion coefficients used to be a pinhole without a word.
+/// A lens of another projection without distortion coefficients used to be a pinhole without a word.
 #[test]
 fn lens_models_that_are_no_pinhole_are_told() {
-    let text = r#"{"camera_model":"OPENCV_FISHEYE","fl_y":700,"w":1000,"h":700,"frames":[{"transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}]}"#;
+    let text = r#"{"camera_model":"EQUIRECTANGULAR","fl_y":700,"w":1000,"h":700,"frames":[{"transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}]}"#;
     let (path, _folder) = file("transforms.json", text.as_bytes());
     assert_eq!(
         read(&path, None).unwrap().track.unread,
-        ["the lens model OPENCV_FISHEYE is read as a pinhole of the same focal length"]
+        ["the lens model EQUIRECTANGULAR is read as a pinhole of the same focal length"]
     );
 }
 

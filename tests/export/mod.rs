@@ -8,6 +8,7 @@ mod detection;
 mod gltf_usd;
 mod hostile;
 mod imported_shots;
+mod lichtfeld;
 mod nerfstudio;
 mod other_readers;
 mod parents;

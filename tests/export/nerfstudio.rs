@@ -110,6 +110,21 @@ fn keyframes_stand_beside_a_path_of_every_frame() {
     assert!(lines.iter().any(is_said), "{lines:?}");
 }
 
+/// The line said 16.14 degrees for another spline. The numbers are those of nerfstudio 1.1.5 itself: the largest
+/// differences between the film and what its viewer makes of the file (`tests/exchange/in_nerfstudio.py viewer`).
+#[test]
+fn the_viewers_curve_is_said_to_stray_as_it_does() {
+    let mut joined = with_cut();
+    joined.keyframes[2].cut = false;
+    let (_, lines, _folder) = there_and_back(&joined, Format::Nerfstudio, "a.json", Content::Keyframes);
+    let strays = "up to 0.5412 scene units (at 0.58 s), 18.27 degrees and a field of view 2.03 degrees off the film";
+    assert!(lines.iter().any(|line| line.contains(strays)), "{lines:?}");
+    joined.keyframes.drain(2..);
+    let (_, lines, _folder) = there_and_back(&joined, Format::Nerfstudio, "a.json", Content::Keyframes);
+    let strays = "0.67 degrees and a field of view 0.53 degrees off the film";
+    assert!(lines.iter().any(|line| line.contains(strays)), "{lines:?}");
+}
+
 #[test]
 fn a_transition_switch_that_is_no_flag_is_an_error() {
     let (_, _, folder) = there_and_back(&with_cut(), Format::Nerfstudio, "a.json", Content::Keyframes);

@@ -261,18 +261,25 @@ fn kitti_with_times_in_the_lines_or_beside() {
 
 #[test]
 fn what_a_lens_loses_is_said_with_its_amount() {
-    let lens = r#""w":200,"h":100,"fl_x":88,"fl_y":80,"cx":103,"cy":54,"k1":-0.05,"p2":0.001"#;
+    // Without distortion the path is that of a pinhole.
+    let lens = r#""w":200,"h":100,"fl_x":88,"fl_y":80,"cx":103,"cy":54"#;
     let matrix = "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]";
-    let (path, _folder) =
-        file("transforms.json", format!(r#"{{{lens},"frames":[{{"transform_matrix":{matrix}}}]}}"#).as_bytes());
+    let frames = format!(r#""frames":[{{"transform_matrix":{matrix}}}]"#);
+    let (path, _folder) = file("transforms.json", format!("{{{lens},{frames}}}").as_bytes());
+    insta::assert_snapshot!(read(&path, None).unwrap().track.unread.join("\n"), @r"
+    the principal point, up to 5.00 px from the image's center, is not read
+    the horizontal focal length, +10.000 % off the vertical one, is not read
+    ");
+    let (path, _folder) = file("transforms.json", format!(r#"{{{lens},"k1":-0.05,"k4":0.001,{frames}}}"#).as_bytes());
     insta::assert_snapshot!(read(&path, None).unwrap().track.unread.join("\n"), @r"
     the principal point, up to 5.00 px from the image's center, is not read
     the lens distortion is not read (largest coefficient: k1 -0.0500)
     the horizontal focal length, +10.000 % off the vertical one, is not read
     ");
     let (path, folder) = file("images.txt", b"1 1 0 0 0 0 0 0 1 a.png\n\n");
-    std::fs::write(folder.path().join("cameras.txt"), "1 SIMPLE_RADIAL 200 100 80 103 54 0.02\n").unwrap();
+    std::fs::write(folder.path().join("cameras.txt"), "1 FOV 200 100 80 80 103 54 0.02\n").unwrap();
     insta::assert_snapshot!(read(&path, None).unwrap().track.unread.join("\n"), @r"
+    the lens model FOV is read as a pinhole of the same focal length
     the principal point, up to 5.00 px from the image's center, is not read
     the lens distortion is not read (largest coefficient: a parameter 0.0200)
     ");

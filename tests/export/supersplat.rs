@@ -5,7 +5,7 @@ use cinesplat::geometry::Pose;
 use glam::DVec3;
 use serde_json::Value;
 
-use super::sample_shot::{file, key, shot, there_and_back};
+use super::sample_shot::{file, key, shot, there_and_back, with_cut};
 
 /// Two level keys in a world with y down.
 fn level_shot() -> cinesplat::trajectory::Shot {
@@ -43,7 +43,7 @@ fn the_animation_ends_at_its_last_key_and_jumps_at_a_cut() {
     cut.keyframes.push(cinesplat::trajectory::Keyframe { cut: true, ..aside });
     cut.duration_secs = 2.0;
     let (imported, warnings, folder) = there_and_back(&cut, Format::Supersplat, "settings.json", Content::Sampled);
-    assert!(warnings.iter().all(|line| !line.contains("cut")), "{warnings:?}");
+    assert!(warnings.iter().all(|line| !line.contains("holds no cuts")), "{warnings:?}");
     let text = std::fs::read_to_string(folder.path().join("settings.json")).unwrap();
     let track = &serde_json::from_str::<Value>(&text).unwrap()["animTracks"][0];
     let times: Vec<f64> =
@@ -54,6 +54,23 @@ fn the_animation_ends_at_its_last_key_and_jumps_at_a_cut() {
     assert_eq!(times.iter().filter(|time| (*time - 36.0).abs() < 0.01).count(), 4);
     let cuts: Vec<usize> = (0..48).filter(|idx| imported.track.frames[*idx].cut).collect();
     assert_eq!((cuts, imported.track.frames.len()), (vec![36], 48));
+}
+
+/// The viewer's check of settings refused 31.000000000000004, which is 31 / 30 s at 30 frames per second.
+#[test]
+fn frames_have_whole_numbers() {
+    let thirty = cinesplat::trajectory::Shot { fps: 30.0, duration_secs: 4.0, ..level_shot() };
+    let (_, _, folder) = there_and_back(&thirty, Format::Supersplat, "settings.json", Content::Sampled);
+    let text = std::fs::read_to_string(folder.path().join("settings.json")).unwrap();
+    let times = &serde_json::from_str::<Value>(&text).unwrap()["animTracks"][0]["keyframes"]["times"];
+    let expected: Vec<f64> = (0..120).map(f64::from).collect();
+    assert_eq!(times, &Value::from(expected));
+    // What it refuses else is said.
+    let odd = cinesplat::trajectory::Shot { fps: 29.97, ..thirty };
+    let (_, warnings, _folder) = there_and_back(&odd, Format::Supersplat, "settings.json", Content::Keyframes);
+    let line = "supersplat's viewer plays 29.97 frames per second and keys between frames; its check for editors takes whole \
+                frames alone";
+    assert!(warnings.iter().any(|warning| warning == line), "{warnings:?}");
 }
 
 #[test]
@@ -95,6 +112,17 @@ fn roll_is_lost_with_a_warning_that_says_how_much() {
     rolled.keyframes[1].pose.rotation *= turn;
     let (_, warnings, _folder) = there_and_back(&rolled, Format::Supersplat, "settings.json", Content::Keyframes);
     assert!(warnings.iter().any(|line| line.contains("no roll: up to 10.0 degrees")), "{warnings:?}");
+}
+
+/// The line said 16.14 degrees: the viewer's spline joins targets, not rotations. The numbers are those of its own code:
+/// the largest differences between the film and supersplat-viewer 1.36.2 (`tests/exchange/in_supersplat.mjs`).
+#[test]
+fn the_viewers_spline_of_targets_is_said_to_stray_as_it_does() {
+    let mut joined = with_cut();
+    joined.keyframes[2].cut = false;
+    let (_, lines, _folder) = there_and_back(&joined, Format::Supersplat, "settings.json", Content::Keyframes);
+    let strays = "up to 0.4259 scene units (at 0.67 s), 46.49 degrees and a field of view 2.02 degrees off the film";
+    assert!(lines.iter().any(|line| line.contains(strays)), "{lines:?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod exposure;
 mod focus;
 mod hard_cases;
 mod optics;
+mod own_lens;
 mod pictures;
 mod shake;
 mod stand;

@@ -145,7 +145,7 @@ fn a_forecast_covers_every_quality_and_predicts_the_accuracy_of_other_frames() {
         assert!(forecast.render_time > Duration::ZERO && forecast.worst_psnr_db <= forecast.psnr_db + 1e-9);
         assert!(forecast.film_time >= forecast.render_time && forecast.memory_bytes > 0);
         let render = RenderSettings { quality: forecast.quality, ..settings().render };
-        let checked = checked_psnr_db(&renderer, &shot, &FilmSettings { render, ..settings() }).unwrap();
+        let checked = checked_psnr_db(&renderer, &shot, (&FilmSettings { render, ..settings() }, false)).unwrap();
         // `reference` is exact: both are infinite.
         let is_near = checked == forecast.psnr_db || (checked - forecast.psnr_db).abs() < 1.5;
         assert!(is_near, "{}: {checked} dB, predicted {}", forecast.quality.as_ref(), forecast.psnr_db);

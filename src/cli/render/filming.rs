@@ -73,7 +73,9 @@ impl Args {
         times.add(Phase::Encode, report.encode_time);
         film_report::print_times(&times, &report, start.elapsed());
         film_report::print_effects(&report);
-        let psnr_db = pipeline::checked_psnr_db(renderer, shot, &settings)?;
+        // The figure is that of most frames.
+        let is_finest = 2 * report.num_finest > report.qualities.len();
+        let psnr_db = pipeline::checked_psnr_db(renderer, shot, (&settings, is_finest))?;
         let summary = film_report::compare(&predicted, &report, psnr_db);
         if self.json {
             console::data(&format!("{summary:#}\n"))?;
@@ -125,10 +127,6 @@ impl Args {
         } else {
             let promised = pipeline::promised(renderer, shot, &self.output, settings, requirements)?;
             console::warnings(&promised.doubt);
-            let called = pipeline::called_effects(shot, &settings.effects, 1.0).effects;
-            if self.min_psnr.is_some() && called.iter().any(|called| called.effect.develops()) {
-                console::note("--min-psnr is that of the picture before its effects; they get at least `final`");
-            }
             settings.promise = Some(promised.promise);
             match self.kept_quality() {
                 // Frames of an earlier run began with another quality, and go on with it.

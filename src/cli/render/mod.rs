@@ -54,9 +54,8 @@ pub(super) struct Args {
     budget: Option<Duration>,
     /// Least PSNR of the worst frame in dB; chooses the quality [default: none]
     ///
-    /// The fastest quality but `draft` whose worst frame is this close to `reference`. Frames are checked while the film is
-    /// made, and rendered better where they fall short. The decibels are of the picture before its effects; a film with
-    /// effects gets at least `final`.
+    /// The fastest quality but `draft` whose worst frame, with its effects, is this close to `reference`. Frames are checked
+    /// while the film is made, and rendered better where they fall short.
     #[arg(long, value_name = "DB", help_heading = heading::PICTURE, value_parser = parse_decibels, conflicts_with = "quality")]
     min_psnr: Option<f64>,
     /// Print predicted and measured figures as JSON

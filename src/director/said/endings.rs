@@ -53,7 +53,7 @@ pub(crate) fn near_to_size(linked: &Linked, steps: &mut [Step]) {
         let plain = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
         let is_open = step.end == plain && step.start.subjects == step.end.subjects;
         if is_close && is_open && !words.iter().any(|word| OPENS.contains(word)) {
-            step.end = std::mem::replace(&mut step.start, Framing::default());
+            step.end = std::mem::take(&mut step.start);
         }
     }
 }
@@ -165,8 +165,7 @@ pub(crate) fn glide_in_and_out(linked: &Linked, steps: &mut [Step]) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_glide = |word: &&str| GLIDES.iter().any(|verb| is_form(word, verb));
         let glides = |list: &[&str]| {
-            let leads =
-                |at: usize| list.contains(&words[at]) && words[..at].iter().rev().take(3).any(|word| is_glide(&word));
+            let leads = |at: usize| list.contains(&words[at]) && words[..at].iter().rev().take(3).any(is_glide);
             (0..words.len()).any(leads)
         };
         let is_denied = words.iter().any(|word| matches!(*word, "no" | "not" | "'t" | "never" | "without" | "dont"));

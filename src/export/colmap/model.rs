@@ -8,6 +8,7 @@ use super::super::lens_losses::LensLosses;
 use super::super::name_order::by_name;
 use super::super::track::{DEFAULT_FPS, DEFAULT_SIZE_PX, ImageLens, PoseFrame, PoseTrack, fov_y_or_default};
 use cinesplat_geometry::{Intrinsics, Pose};
+use cinesplat_trajectory::LensModel;
 
 /// Relative difference of focal lengths that are rounding of one lens.
 const SAME_FOCAL: f64 = 1e-9;
@@ -51,6 +52,41 @@ impl CameraModel {
         }
     }
 
+    /// Names of the parameters behind the principal point, as those of a [`LensModel`]; `None` for a model that it does not
+    /// show.
+    fn coefficients(self) -> Option<(f64, &'static [&'static str])> {
+        match self {
+            Self::SimplePinhole | Self::Pinhole => Some((0.0, &[])),
+            Self::SimpleRadial => Some((0.0, &["k1"])),
+            Self::Radial => Some((0.0, &["k1", "k2"])),
+            Self::Opencv => Some((0.0, &["k1", "k2", "p1", "p2"])),
+            Self::FullOpencv => Some((0.0, &["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"])),
+            Self::SimpleRadialFisheye => Some((1.0, &["k1"])),
+            Self::RadialFisheye => Some((1.0, &["k1", "k2"])),
+            Self::OpencvFisheye => Some((1.0, &["k1", "k2", "k3", "k4"])),
+            Self::Fov | Self::ThinPrismFisheye => None,
+        }
+    }
+
+    /// The lens with these parameters, of an image of this height.
+    fn lens_model(
+        self,
+        params: &[f64],
+        [off_x_px, off_y_px]: [f64; 2],
+        (stretch, height_px): (f64, f64),
+    ) -> Option<LensModel> {
+        let (fisheye, names) = self.coefficients()?;
+        let coefficients = params.get(self.focal_y_idx() + 3..)?;
+        let value = |name: &str| match name {
+            "fisheye" => Some(fisheye),
+            "center_x" => Some(off_x_px / height_px),
+            "center_y" => Some(off_y_px / height_px),
+            "stretch" => Some(stretch),
+            _ => coefficients.get(names.iter().position(|known| *known == name)?).copied(),
+        };
+        Some(LensModel::of_values(value))
+    }
+
     /// Index of the vertical focal length: 0 where both directions share one parameter.
     fn focal_y_idx(self) -> usize {
         match self {
@@ -83,6 +119,8 @@ pub(super) struct ModelCamera {
     /// The parameter of the lens distortion with the largest magnitude.
     pub(super) distortion: f64,
     pub(super) model: CameraModel,
+    /// The lens; `None` for one that no [`LensModel`] shows.
+    lens_model: Option<LensModel>,
 }
 
 impl ModelCamera {
@@ -97,6 +135,7 @@ impl ModelCamera {
             off_center_px: [0.0; 2],
             distortion: 0.0,
             model: CameraModel::Pinhole,
+            lens_model: Some(LensModel::default()),
         }
     }
 
@@ -108,11 +147,14 @@ impl ModelCamera {
         let num_focal = model.focal_y_idx() + 1;
         let [cx, cy] = [params.get(num_focal)?, params.get(num_focal + 1)?];
         let distortion = params[num_focal + 2..].iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let stretch = params[0] / focal_y_px;
+        let off_center_px = [cx - f64::from(size.0) / 2.0, cy - f64::from(size.1) / 2.0];
         usable.then_some(Self {
-            stretch: params[0] / focal_y_px,
-            off_center_px: [cx - f64::from(size.0) / 2.0, cy - f64::from(size.1) / 2.0],
+            stretch,
+            off_center_px,
             distortion: distortion.unwrap_or(0.0),
             model,
+            lens_model: model.lens_model(params, off_center_px, (stretch, f64::from(size.1))),
             ..Self::pinhole(id, size.0, size.1, focal_y_px)
         })
     }
@@ -169,11 +211,12 @@ pub(super) fn track(mut images: Vec<ModelImage>, cameras: &[ModelCamera]) -> Res
         losses.focal_px(camera.stretch, 1.0);
         losses.distortion("a parameter", camera.distortion);
         losses.model(camera.model.into());
+        losses.lens(camera.lens_model);
     }
-    let is_distorted = losses.is_distorted();
+    let (is_distorted, lens_model) = (losses.is_distorted(), losses.lens_model());
     let images = images.into_iter().map(|image| image.name).collect();
     let unread = losses.into_lines();
-    Ok(PoseTrack { size_px, images, lenses, is_distorted, unread, ..PoseTrack::untimed(frames) })
+    Ok(PoseTrack { size_px, images, lenses, is_distorted, lens_model, unread, ..PoseTrack::untimed(frames) })
 }
 
 /// Cameras and images of a track. A new camera starts wherever the field of view changes; ids count from 1.

@@ -4,8 +4,10 @@ use std::time::Instant;
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::film::cameras::path_camera;
 use cinesplat_geometry::Camera;
-use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, EffectPlan, Moment, OpticsTrack, Picture, Take};
-use cinesplat_render::{RenderError, RenderSettings, Renderer, Rgb8Frame};
+use cinesplat_lens::{
+    Budget, Call, Called, CalledEffect, Calls, EffectChoice, EffectPlan, Moment, OpticsTrack, Picture, Take,
+};
+use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer, Rgb8Frame};
 use cinesplat_trajectory::{CameraPath, EffectRequest, Shot, TrajectoryError};
 
 /// Size of a scene over its near plane, where the scene itself is not at hand.
@@ -22,6 +24,18 @@ pub fn called_effects(shot: &Shot, choice: &EffectChoice, scene_size: f64) -> Ca
     let seed = shot.seed;
     Called::of(choice, &Calls { calls: &calls, forbidden: &[], moves: &[], keyframes, scene_size, seed })
 }
+
+/// Frames that a film renders, at least one.
+#[derive(Debug, Clone)]
+pub(in crate::pipeline) struct MovingFrames {
+    /// Their numbers in the shot, ascending.
+    pub(in crate::pipeline) numbers: Vec<usize>,
+    /// Their cameras.
+    pub(in crate::pipeline) cameras: Vec<Camera>,
+}
+
+/// How the effects of some frames are planned.
+type PlanOf<'a> = fn(&Filmed<'a>, Range<usize>, (&Renderer<'_>, &RenderSettings)) -> Result<EffectPlan, RenderError>;
 
 /// The camera of a shot, frame by frame, with its effects.
 pub(in crate::pipeline) struct Filmed<'a> {
@@ -47,9 +61,9 @@ impl<'a> Filmed<'a> {
         self.camera_at(self.shot.frame_time_secs(frame_idx))
     }
 
-    /// Cameras of the frames that a film renders. Frames with the camera of the frame before, and with effects
-    /// in the same state, are not rendered again.
-    pub(in crate::pipeline) fn moving_cameras(&self, frames: Range<usize>) -> Vec<Camera> {
+    /// The frames that a film renders. Frames with the camera of the frame before, and with effects in the same state, are
+    /// not rendered again.
+    pub(in crate::pipeline) fn moving_frames(&self, frames: Range<usize>) -> MovingFrames {
         let seen = |frame_idx: usize| {
             self.with_take(|take| {
                 let moment = Moment::of_frame(take, frame_idx, &RenderSettings::default());
@@ -58,9 +72,10 @@ impl<'a> Filmed<'a> {
                 (moment.camera, states)
             })
         };
-        let mut seen: Vec<_> = frames.map(seen).collect();
-        seen.dedup_by(|next, last| last == next && next.1.is_some());
-        seen.into_iter().map(|(camera, _)| camera).collect()
+        let mut seen: Vec<_> = frames.map(|frame_idx| (frame_idx, seen(frame_idx))).collect();
+        seen.dedup_by(|(_, next), (_, last)| last == next && next.1.is_some());
+        let (numbers, cameras) = seen.into_iter().map(|(frame_idx, (camera, _))| (frame_idx, camera)).unzip();
+        MovingFrames { numbers, cameras }
     }
 
     fn camera_at(&self, time_secs: f64) -> Camera {
@@ -93,6 +108,16 @@ impl<'a> Filmed<'a> {
         self.with_take(|take| EffectPlan::of(&self.called, take, frames, (renderer, render)))
     }
 
+    /// As [`Filmed::plan`], with the samples of `reference` whatever the quality of `render`.
+    pub(in crate::pipeline) fn plan_finest(
+        &self,
+        frames: Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<EffectPlan, RenderError> {
+        let budget = Budget::of(Quality::Reference);
+        self.with_take(|take| EffectPlan::within(budget, &self.called, take, frames, (renderer, render)))
+    }
+
     /// A frame with the effects that run on it.
     pub(in crate::pipeline) fn expose(
         &self,
@@ -101,6 +126,16 @@ impl<'a> Filmed<'a> {
         (renderer, render): (&Renderer<'_>, &RenderSettings),
     ) -> Result<Picture, RenderError> {
         self.with_take(|take| plan.expose(&Moment::of_frame(take, frame_idx, render), renderer))
+    }
+
+    /// A part of a frame, whose camera is given, with those effects that work on parts.
+    pub(in crate::pipeline) fn expose_part(
+        &self,
+        plan: &EffectPlan,
+        (frame_idx, part): (usize, Camera),
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<Picture, RenderError> {
+        self.with_take(|take| plan.expose_part(&Moment::of_frame(take, frame_idx, render).with_camera(part), renderer))
     }
 
     /// A frame in 8 bits. Without effects the plain renderer makes it.
@@ -120,20 +155,42 @@ impl<'a> Filmed<'a> {
 
     /// Time of a frame with the effects over that of a plain one, as a mean over the film. Frames are planned at even
     /// positions. Those with the fewest samples, the most, and the middle one are measured; the others lie between
-    /// them: samples share work, so that time does not grow in proportion.
+    /// them: samples share work, so that time does not grow in proportion. `reference`, which shares nothing, is not measured.
     pub(in crate::pipeline) fn cost_factor(
         &self,
         frames: &Range<usize>,
         (renderer, render): (&Renderer<'_>, &RenderSettings),
     ) -> Result<f64, RenderError> {
-        if !self.called.iter().any(|called| called.effect.develops()) {
+        if !self.develops() {
             return Ok(1.0);
         }
-        let num = NUM_COSTED.min(frames.len()).max(1);
+        if render.quality == Quality::Reference {
+            let render = RenderSettings { quality: Quality::Final, ..*render };
+            let pictures = self.mean_pictures(frames, (renderer, &render))?;
+            return Ok(self.cost_factor(frames, (renderer, &render))?.max(pictures));
+        }
+        self.cost_of(Self::plan, frames, (renderer, render))
+    }
+
+    /// As [`Filmed::cost_factor`], with the samples of `reference`.
+    pub(in crate::pipeline) fn finest_factor(
+        &self,
+        frames: &Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<f64, RenderError> {
+        self.cost_of(Self::plan_finest, frames, (renderer, render))
+    }
+
+    fn cost_of(
+        &self,
+        plan_of: PlanOf<'a>,
+        frames: &Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<f64, RenderError> {
+        let num = costed(frames).len();
         let mut planned = Vec::new();
-        for idx in 0..num {
-            let frame_idx = frames.start + (2 * idx + 1) * frames.len() / (2 * num);
-            let plan = self.plan(frame_idx..frame_idx + 1, (renderer, render))?;
+        for frame_idx in costed(frames) {
+            let plan = plan_of(self, frame_idx..frame_idx + 1, (renderer, render))?;
             if !plan.is_plain(frame_idx) {
                 planned.push((plan.num_samples(frame_idx), frame_idx, plan));
             }
@@ -149,6 +206,20 @@ impl<'a> Filmed<'a> {
         }
         let with_effects: f64 = planned.iter().map(|(samples, ..)| between(&measured, *samples)).sum();
         Ok(((num - planned.len()) as f64 + with_effects) / num as f64)
+    }
+
+    /// Pictures that a frame takes with the samples of `reference`, as a mean over the film.
+    fn mean_pictures(
+        &self,
+        frames: &Range<usize>,
+        (renderer, render): (&Renderer<'_>, &RenderSettings),
+    ) -> Result<f64, RenderError> {
+        let num_pictures = |frame_idx: usize| -> Result<f64, RenderError> {
+            let plan = self.plan_finest(frame_idx..frame_idx + 1, (renderer, render))?;
+            Ok(f64::from(plan.num_samples(frame_idx)))
+        };
+        let pictures: Vec<f64> = costed(frames).map(num_pictures).collect::<Result<_, _>>()?;
+        Ok(pictures.iter().sum::<f64>() / pictures.len() as f64)
     }
 
     /// Time of a frame with effects over that of the plain frame.
@@ -176,6 +247,13 @@ impl<'a> Filmed<'a> {
     pub(in crate::pipeline) fn requests(called: &Called) -> Vec<EffectRequest> {
         called.effects.iter().map(CalledEffect::request).collect()
     }
+}
+
+/// The frames that are examined for the cost of effects, at least one: at even positions.
+fn costed(frames: &Range<usize>) -> impl ExactSizeIterator<Item = usize> {
+    let (start, len) = (frames.start, frames.len());
+    let num = NUM_COSTED.min(len).max(1);
+    (0..num).map(move |idx| start + (2 * idx + 1) * len / (2 * num))
 }
 
 /// The factor of a frame with this many samples, on a line through measured numbers of samples and factors; factors of

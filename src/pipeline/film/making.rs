@@ -12,7 +12,7 @@ use super::watch::QualityWatch;
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::job::{Kept, Picture};
 use crate::pipeline::panic_point::panic_point;
-use crate::pipeline::promise::rank;
+use crate::pipeline::promise::Level;
 use cinesplat_geometry::Camera;
 use cinesplat_lens::EffectPlan;
 use cinesplat_render::{Quality, RenderSettings, Renderer, Rgb8Frame};
@@ -39,8 +39,12 @@ pub(super) struct FrameMaker<'a> {
     /// Decides the quality of every frame; `None` = that of the settings.
     watch: Option<QualityWatch<'a>>,
     qualities: Vec<(usize, Quality)>,
-    /// Plans of the effects at other qualities than that of the settings, from their first frame on, by rank.
-    plans: BTreeMap<u8, EffectPlan>,
+    /// How the last frame was rendered.
+    level: Level,
+    /// Frames whose effects took the samples of `reference` at another quality.
+    num_finest: usize,
+    /// Plans of the effects at other levels than that of the settings, from their first frame on, by rank.
+    plans: BTreeMap<(u8, bool), EffectPlan>,
 }
 
 /// A finished frame.
@@ -76,6 +80,8 @@ impl<'a> FrameMaker<'a> {
             render_time: Duration::ZERO,
             watch: None,
             qualities: Vec::new(),
+            level: Level::of(settings.quality),
+            num_finest: 0,
             plans: BTreeMap::new(),
         }
     }
@@ -104,8 +110,7 @@ impl<'a> FrameMaker<'a> {
             return Ok(made);
         }
         // The same camera gives the same picture, unless an effect changes it with time or begins or ends here.
-        let last_quality = self.qualities.last().map_or(self.settings.quality, |(_, quality)| *quality);
-        let effects = self.plans.get(&rank(last_quality)).unwrap_or(self.effects);
+        let effects = self.plans.get(&self.level.rank()).unwrap_or(self.effects);
         let may_repeat = |last: usize| effects.repeats(frame_idx, last);
         let is_same = |(last, _, seen): &(usize, _, Camera)| *seen == camera && may_repeat(*last);
         let repeated = self.last.take().filter(is_same).map(|(_, picture, _)| picture);
@@ -120,6 +125,7 @@ impl<'a> FrameMaker<'a> {
         (report.num_kept, report.num_damaged) = (self.num_kept, self.num_damaged);
         report.render_time = self.render_time;
         report.qualities.clone_from(&self.qualities);
+        report.num_finest = self.num_finest;
     }
 
     /// The frame, if the job folder holds it undamaged.
@@ -139,18 +145,23 @@ impl<'a> FrameMaker<'a> {
         panic_point("render", frame_idx);
         rayon::join(|| (), || panic_point("worker", frame_idx));
         let mut frame = self.free_frame();
-        let quality = self.watch.as_mut().map_or(Ok(self.settings.quality), |watch| watch.quality_of(frame_idx))?;
+        let allowed = Level::of(self.settings.quality);
+        let level = self.watch.as_mut().map_or(Ok(allowed), |watch| watch.level_of(frame_idx))?;
+        let quality = level.quality;
+        self.level = level;
+        self.num_finest += usize::from(level.is_finest);
         self.qualities.push((frame_idx, quality));
         let start = Instant::now();
         let (renderer, settings) = (self.renderer, &RenderSettings { quality, ..*self.settings });
-        if let Some(watch) = self.watch.as_ref().filter(|_| quality != self.settings.quality)
+        if let Some(watch) = self.watch.as_ref().filter(|_| level != allowed)
             && !self.effects.effects.is_empty()
-            && !self.plans.contains_key(&rank(quality))
+            && !self.plans.contains_key(&level.rank())
         {
-            let plan = self.filmed.plan(watch.rest_from(frame_idx), (renderer, settings))?;
-            self.plans.insert(rank(quality), plan);
+            let plan = if level.is_finest { Filmed::plan_finest } else { Filmed::plan };
+            let plan = plan(self.filmed, watch.rest_from(frame_idx), (renderer, settings))?;
+            self.plans.insert(level.rank(), plan);
         }
-        let effects = self.plans.get(&rank(quality)).unwrap_or(self.effects);
+        let effects = self.plans.get(&level.rank()).unwrap_or(self.effects);
         let picture = match self.form {
             Form::Planes => {
                 self.filmed.render_rgb8(effects, frame_idx, (renderer, settings), &mut frame)?;

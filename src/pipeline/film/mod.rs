@@ -5,6 +5,7 @@
 //! same bytes as that of a run that nothing disturbed.
 
 mod cameras;
+mod compared;
 mod effects;
 mod encoding;
 mod form;
@@ -17,7 +18,8 @@ mod watch;
 mod whole;
 
 pub use cameras::camera_at;
-pub(super) use effects::Filmed;
+pub(super) use compared::{Compared, Found};
+pub(super) use effects::{Filmed, MovingFrames};
 pub use effects::{called_effects, complete_effects, plan_effects};
 pub use part::film_part;
 pub use report::{FilmProgress, FilmReport};

@@ -41,6 +41,8 @@ pub struct FilmReport {
     pub total_time: Duration,
     /// Each frame that was rendered, with its quality. A frame with the camera of the one before is not rendered again.
     pub qualities: Vec<(usize, Quality)>,
+    /// Frames whose effects took the samples of `reference` at another quality, to keep a least PSNR.
+    pub num_finest: usize,
     /// The effects, and the frames that they ran on.
     pub effects: EffectPlan,
 }
@@ -69,6 +71,7 @@ impl FilmReport {
             encode_time: Duration::ZERO,
             total_time: Duration::ZERO,
             qualities: Vec::new(),
+            num_finest: 0,
             effects: EffectPlan::default(),
         }
     }

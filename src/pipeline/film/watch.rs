@@ -3,13 +3,15 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 use strum::VariantArray;
 
+use super::compared::{Compared, Found};
 use super::effects::Filmed;
-use crate::pipeline::accuracy::{at, mean_square, psnr_db};
-use crate::pipeline::promise::{Pace, Promise, margin_db, rank};
+use crate::pipeline::accuracy::psnr_db;
+use crate::pipeline::promise::{Level, Pace, Promise, margin_db, rank};
 use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
 use cinesplat_trajectory::Shot;
 
-/// Frames from one check of the accuracy to the next.
+/// Frames from one check of the accuracy to the next, where no effects change them. The error of samples changes from frame to
+/// frame with their number.
 const CHECK_STEP: usize = 8;
 /// Frames whose time is compared with the forecast.
 const NUM_RECENT: usize = 8;
@@ -22,19 +24,18 @@ const REST_RESERVE_SECS: f64 = 0.15;
 
 /// Keeps the promises of a film while it is made: decides the quality of every frame before it is rendered.
 ///
-/// For a least PSNR, frames at even distances and at cuts are compared with `final` ahead of the frames between them; where
-/// one falls short, the frames beside it get the next better quality. For a deadline, the time of the last frames tells
+/// For a least PSNR, frames at even distances and at cuts are compared ahead of the frames between them with `final` and, if
+/// they have effects, with the samples of `reference`; where one falls short, the frames beside it get the next better
+/// quality. For a deadline, the time of the last frames tells
 /// how much slower than forecast the machine is; the film steps down as soon as the rest would be late, and stays there.
 pub(super) struct QualityWatch<'a> {
-    renderer: &'a Renderer<'a>,
-    filmed: &'a Filmed<'a>,
-    settings: &'a RenderSettings,
+    compared: Compared<'a>,
     promise: &'a Promise,
     frames: Range<usize>,
     /// Frames that are checked, in order; the first and the last frame among them.
     checks: Vec<usize>,
-    /// Mean square difference to `final` of checked frames.
-    differences: BTreeMap<(usize, u8), f64>,
+    /// Mean square difference of checked frames to those of `reference`, by the rank of their level.
+    differences: BTreeMap<(usize, (u8, bool)), f64>,
     /// The best quality that time allows.
     allowed: Quality,
     /// Measured and forecast seconds of the last frames: of rendering, and of the film.
@@ -51,11 +52,9 @@ impl<'a> QualityWatch<'a> {
         promise: &'a Promise,
     ) -> Self {
         Self {
-            renderer,
-            filmed,
-            settings,
+            compared: Compared { renderer, filmed, settings },
             promise,
-            checks: checked_frames(shot, &frames),
+            checks: checked_frames(shot, &frames, if filmed.develops() { 1 } else { CHECK_STEP }),
             frames,
             differences: BTreeMap::new(),
             allowed: settings.quality,
@@ -70,12 +69,13 @@ impl<'a> QualityWatch<'a> {
         frame_idx..self.frames.end
     }
 
-    /// The quality of a frame. Frames are asked for in order.
-    pub(super) fn quality_of(&mut self, frame_idx: usize) -> Result<Quality, RenderError> {
+    /// How a frame is rendered. Frames are asked for in order.
+    pub(super) fn level_of(&mut self, frame_idx: usize) -> Result<Level, RenderError> {
         if let Some(deadline) = self.promise.deadline {
             self.step_down(frame_idx, deadline);
         }
-        self.promise.min_psnr_db.map_or(Ok(self.allowed), |least| self.least_sufficient(frame_idx, least))
+        let allowed = Level::of(self.allowed);
+        self.promise.min_psnr_db.map_or(Ok(allowed), |least| self.least_sufficient(frame_idx, least))
     }
 
     /// Takes account of the time of a frame.
@@ -92,49 +92,62 @@ impl<'a> QualityWatch<'a> {
         self.num_timed += 1;
     }
 
-    /// The least accurate quality, from the one that time allows, with which the checks beside a frame have the least PSNR.
-    fn least_sufficient(&mut self, frame_idx: usize, least_db: f64) -> Result<Quality, RenderError> {
+    /// The least accurate level, from the quality that time allows, with which the checks beside a frame have the least PSNR.
+    fn least_sufficient(&mut self, frame_idx: usize, least_db: f64) -> Result<Level, RenderError> {
         let after = self.checks.partition_point(|check| *check < frame_idx);
         let beside = [after.saturating_sub(1), after].map(|at| self.checks.get(at).copied());
         // A check that is behind is not asked for again.
         if let Some(from) = beside[0] {
             self.differences.retain(|(check, _), _| *check >= from);
         }
-        // Checks compare plain pictures: how close effects come to those of `reference` is not known.
-        let floor = if self.filmed.develops() { Quality::Final } else { Quality::Draft };
-        let allowed = rank(self.allowed).max(rank(floor));
-        for quality in Quality::VARIANTS.iter().copied().filter(|quality| rank(*quality) >= allowed) {
-            let needed_db = least_db + margin_db(quality);
-            let is_sufficient = match quality {
-                Quality::Reference => true,
-                _ if self.promise.final_db < needed_db => false,
-                Quality::Final => true,
-                _ => {
-                    let mut worst_db = f64::INFINITY;
-                    for check in beside.iter().flatten() {
-                        let difference = self.difference(*check, quality)?;
-                        worst_db = worst_db.min(psnr_db(std::iter::once(difference), self.promise.final_db));
-                    }
-                    worst_db >= needed_db
-                }
-            };
-            if is_sufficient {
-                return Ok(quality);
+        let allowed = rank(self.allowed);
+        let levels = Quality::VARIANTS.iter().copied().map(Level::of);
+        let mut levels: Vec<Level> = levels.filter(|level| rank(level.quality) >= allowed).collect();
+        // Without effects there are no samples.
+        if self.compared.filmed.develops() && self.allowed != Quality::Reference {
+            levels.insert(levels.len() - 1, Level::FINEST);
+        }
+        for level in levels {
+            let needed_db = least_db + margin_db(level.quality);
+            if level.quality == Quality::Reference {
+                return Ok(level);
+            }
+            if self.promise.final_db < needed_db {
+                continue;
+            }
+            let mut worst_db = f64::INFINITY;
+            for check in beside.iter().flatten() {
+                let difference = self.difference(*check, level)?;
+                worst_db = worst_db.min(psnr_db(std::iter::once(difference), self.promise.final_db));
+            }
+            // Where every frame is checked, the margin for those between checks is not needed.
+            if worst_db >= if self.compared.filmed.develops() { least_db } else { needed_db } {
+                return Ok(level);
             }
         }
-        Ok(Quality::Reference)
+        Ok(Level::of(Quality::Reference))
     }
 
-    /// Mean square difference of a frame to `final`.
-    fn difference(&mut self, frame_idx: usize, quality: Quality) -> Result<f64, RenderError> {
-        if let Some(known) = self.differences.get(&(frame_idx, rank(quality))) {
+    /// Mean square difference of a frame to that of `reference`, apart from that of `final` without effects.
+    fn difference(&mut self, frame_idx: usize, level: Level) -> Result<f64, RenderError> {
+        let key = |level: Level| (frame_idx, level.rank());
+        if let Some(known) = self.differences.get(&key(level)) {
             return Ok(*known);
         }
-        let camera = self.filmed.camera(frame_idx);
-        let best = self.renderer.render(&camera, &at(self.settings, Quality::Final))?;
-        let found = mean_square(&self.renderer.render(&camera, &at(self.settings, quality))?, &best);
-        self.differences.insert((frame_idx, rank(quality)), found);
-        Ok(found)
+        if self.compared.filmed.develops() {
+            // `draft` is never enough, and nothing is missing from `reference`.
+            let qualities = [Quality::Standard, Quality::Final];
+            let found = self.compared.found(frame_idx, &qualities)?;
+            let bounds = qualities.map(Level::of).into_iter().zip(found.iter().map(Found::bound));
+            self.differences.extend(bounds.map(|(level, bound)| (key(level), bound)));
+            self.differences.insert(key(Level::FINEST), self.compared.floor(frame_idx)?);
+        } else if level.quality == Quality::Final {
+            return Ok(0.0);
+        } else {
+            let found = self.compared.mean_square(frame_idx, level.quality, &self.compared.best(frame_idx)?)?;
+            self.differences.insert(key(level), found);
+        }
+        Ok(self.differences.get(&key(level)).copied().unwrap_or(f64::INFINITY))
     }
 
     /// Lowers the allowed quality if the rest of the film, from a frame on, would not be whole by the deadline.
@@ -174,14 +187,14 @@ impl<'a> QualityWatch<'a> {
     }
 }
 
-/// Frames at even distances, the first and the last one, and the two at every cut.
-fn checked_frames(shot: &Shot, frames: &Range<usize>) -> Vec<usize> {
+/// Frames `step` apart, the first and the last one, and the two at every cut.
+fn checked_frames(shot: &Shot, frames: &Range<usize>, step: usize) -> Vec<usize> {
     let after_cut = |time_secs: f64| (0..shot.num_frames()).find(|idx| shot.frame_time_secs(*idx) >= time_secs - 1e-9);
     let cuts = shot.keyframes.iter().filter(|key| key.cut).filter_map(|key| after_cut(key.time_secs));
     let beside = cuts.flat_map(|idx| [idx.saturating_sub(1), idx]);
     let last = frames.end.saturating_sub(1);
     let mut checks: Vec<usize> =
-        frames.clone().step_by(CHECK_STEP).chain([last]).chain(beside).filter(|idx| frames.contains(idx)).collect();
+        frames.clone().step_by(step).chain([last]).chain(beside).filter(|idx| frames.contains(idx)).collect();
     checks.sort_unstable();
     checks.dedup();
     checks

@@ -2,8 +2,8 @@
 //!
 //! Enters: a renderer, a shot, film settings. Leaves: one [`Forecast`] per quality. Time: a few consecutive frames are
 //! rendered and encoded like the film, which gives seconds per stage and unit of work. Small pictures along the whole path
-//! count the work. [`FilmCost`] combines renderer and encoder, which run in parallel. Accuracy: the same frames are
-//! compared with `final`, and `final` with `reference` on a small crop.
+//! count the work. [`FilmCost`] combines renderer and encoder, which run in parallel. Accuracy: the same frames, with their
+//! effects, are compared with `final` and the samples of `reference`, and `final` with `reference` on a small crop.
 
 mod accuracy;
 mod cost;
@@ -18,14 +18,14 @@ use strum::VariantArray;
 pub use cost::{FilmCost, TimeCost, num_cores};
 pub use promised::{Promised, promised};
 
-use super::accuracy::{at, mean_square, psnr_db};
+use super::accuracy::{at, psnr_db};
 use super::error::PipelineError;
-use super::film::{self, FilmSettings, Filmed, camera_at};
+use super::film::{self, Compared, FilmSettings, Filmed, Found};
 use super::promise::{Pace, PathProfile, margin_db};
 use accuracy::ReferenceSample;
 use cinesplat_geometry::Camera;
 use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer};
-use cinesplat_trajectory::{CameraPath, Shot};
+use cinesplat_trajectory::Shot;
 use cinesplat_video::{VideoFormat, VideoSettings, encoder_delay_frames};
 use sample::{Sampler, Samples, TimeLimit};
 
@@ -110,15 +110,16 @@ fn forecast_within(
     let limit = TimeLimit::new(limit_secs);
     let frames = settings.frames.of_film(shot.num_frames())?;
     let with_effects = Filmed::new(shot, &settings.effects, &settings.render)?;
-    let cameras = with_effects.moving_cameras(frames.clone());
-    let sampler = Sampler { renderer, cameras: &cameras, settings: &settings.render };
+    let moving = with_effects.moving_frames(frames.clone());
+    let sampler = Sampler { renderer, moving: &moving, settings: &settings.render };
+    let compared = Compared { renderer, filmed: &with_effects, settings: &settings.render };
     let timed = timed_qualities(qualities);
     let mut samples = vec![Samples::default(); timed.len()];
 
     let run = sampler.run(0.5, sampler.num_encoded());
     let filmed = timed.iter().position(|quality| *quality == Quality::Standard).unwrap_or(0);
     let pictures = sampler.render_run(run, timed[filmed], &mut samples[filmed])?;
-    let num_still = frames.len() - cameras.len();
+    let num_still = frames.len() - moving.cameras.len();
     let counts_still = num_still as f64 > STILL_FRAC * frames.len() as f64;
     let mut encodings: Vec<Encoding> = Vec::new();
     for &quality in qualities {
@@ -142,9 +143,9 @@ fn forecast_within(
     let mean_work = sample::mean_work(&path_work);
     // Nothing was blended into any picture along the path.
     let is_empty = mean_work[3] <= 0.0;
-    sample_further(&sampler, &timed, &mut samples, &limit)?;
+    sample_further((&sampler, &compared), &timed, &mut samples, &limit)?;
 
-    // Each quality takes samples of its own; those of `reference` are as many as those of `final`.
+    // Each quality takes samples of its own.
     let factor_at = |quality: Quality| with_effects.cost_factor(&frames, (renderer, &at(&settings.render, quality)));
     let factors: Vec<f64> = timed.iter().map(|&quality| factor_at(quality)).collect::<Result<_, _>>()?;
     let with_encoder = |quality: Quality, render: TimeCost| {
@@ -152,7 +153,7 @@ fn forecast_within(
         let (num_ahead, [first_encode, encode, still_encode]) =
             encoding.map_or_else(Default::default, |encoding| (encoding.num_ahead, encoding.costs));
         let held_bytes = encoding.map_or(0, Encoding::held_bytes);
-        let (num_frames, num_rendered, num_cores) = (frames.len(), cameras.len(), num_cores());
+        let (num_frames, num_rendered, num_cores) = (frames.len(), moving.cameras.len(), num_cores());
         let cost =
             FilmCost { num_frames, num_rendered, render, first_encode, encode, still_encode, num_ahead, num_cores };
         (cost, renderer.memory_bytes() + held_bytes)
@@ -171,7 +172,7 @@ fn forecast_within(
     let mut forecasts: Vec<Forecast> =
         timed.iter().zip(&samples).zip(&factors).filter(is_wanted).map(of_fast).collect();
     if qualities.contains(&Quality::Reference) {
-        let factor = factor_at(Quality::Final)?;
+        let factor = factor_at(Quality::Reference)?;
         let more = mean_work[3] / sampler.work_at(middle)?[3].max(1.0);
         let wall_secs = exact.reference_secs(renderer, middle, &settings.render)? * more;
         let cpu_secs = wall_secs * rayon::current_num_threads().min(num_cores()) as f64;
@@ -183,13 +184,19 @@ fn forecast_within(
     Ok(forecasts)
 }
 
-/// PSNR in dB against [`Quality::Reference`], over a few frames that a forecast does not sample.
+/// PSNR in dB against [`Quality::Reference`], with effects, over a few frames that a forecast does not sample. `is_finest` says
+/// whether the effects took the samples of `reference` ([`super::FilmReport::num_finest`]).
 ///
 /// # Errors
 /// As [`forecast`].
-pub fn checked_psnr_db(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSettings) -> Result<f64, PipelineError> {
+pub fn checked_psnr_db(
+    renderer: &Renderer<'_>,
+    shot: &Shot,
+    (settings, is_finest): (&FilmSettings, bool),
+) -> Result<f64, PipelineError> {
     let render = &settings.render;
-    let path = CameraPath::new(shot)?;
+    let filmed = Filmed::new(shot, &settings.effects, render)?;
+    let compared = Compared { renderer, filmed: &filmed, settings: render };
     let frames = settings.frames.of_film(shot.num_frames())?;
     if render.quality == Quality::Reference {
         return Ok(f64::INFINITY);
@@ -198,10 +205,12 @@ pub fn checked_psnr_db(renderer: &Renderer<'_>, shot: &Shot, settings: &FilmSett
     let mut final_db = f64::INFINITY;
     for frac in CHECKED_FRACS {
         let frame_idx = frames.start + ((frames.len() - 1) as f64 * frac).round() as usize;
-        let camera = camera_at(&path, shot, frame_idx);
-        let best = renderer.render(&camera, &RenderSettings { quality: Quality::Final, ..*render })?;
-        mean_squares.push(mean_square(&renderer.render(&camera, render)?, &best));
-        final_db = final_db.min(ReferenceSample::of(renderer, &camera, render)?.final_db);
+        if is_finest {
+            mean_squares.push(compared.floor(frame_idx)?);
+        } else {
+            mean_squares.extend(compared.found(frame_idx, &[render.quality])?.iter().map(Found::mean));
+        }
+        final_db = final_db.min(ReferenceSample::of(renderer, &filmed.camera(frame_idx), render)?.final_db);
     }
     Ok(psnr_db(mean_squares.into_iter(), final_db))
 }
@@ -258,6 +267,16 @@ impl Forecast {
                 profile,
             },
         }
+    }
+
+    /// The forecast of a film that takes longer, where it is the renderer that does.
+    fn slowed(mut self, more: Duration) -> Self {
+        let factor = 1.0 + more.as_secs_f64() / self.film_time.as_secs_f64().max(1e-9);
+        self.film_time += more;
+        self.render_time += more;
+        self.pace.render_secs *= factor;
+        self.pace.film_secs *= factor;
+        self
     }
 
     /// One phrase, such as `standard 23.1 s, 55.2 dB (worst 54.8), 0.31 GB`.
@@ -331,24 +350,24 @@ fn timed_qualities(wanted: &[Quality]) -> Vec<Quality> {
 
 /// Compares the middle frame with `final`. Then times and compares frames at further positions while time is left.
 fn sample_further(
-    sampler: &Sampler<'_>,
+    (sampler, compared): (&Sampler<'_>, &Compared<'_>),
     qualities: &[Quality],
     samples: &mut [Samples],
     limit: &TimeLimit,
 ) -> Result<(), RenderError> {
     let start = Instant::now();
-    sampler.compare(&sampler.run(0.5, 1)[0], qualities, samples)?;
+    sampler.compare(compared, 0.5, qualities, samples)?;
     let rendered: f64 = samples.iter().map(|samples| samples.mean_secs() * TIMED_RUN as f64).sum();
     let round_secs = start.elapsed().as_secs_f64() + rendered;
     for frac in FURTHER_FRACS {
         let run: &[Camera] = sampler.run(frac, TIMED_RUN);
-        if !limit.allows(round_secs) || run.len() == sampler.cameras.len() {
+        if !limit.allows(round_secs) || run.len() == sampler.moving.cameras.len() {
             break;
         }
         for (samples, &quality) in samples.iter_mut().zip(qualities) {
             sampler.render_run(run, quality, samples)?;
         }
-        sampler.compare(&run[run.len() - 1], qualities, samples)?;
+        sampler.compare(compared, frac, qualities, samples)?;
     }
     Ok(())
 }

@@ -1,13 +1,14 @@
 //! A film with requirements: the quality to begin with, and what to watch while it is made.
 
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::worst::sample_worst;
 use super::{Forecast, Requirements, SAMPLED_BUDGET_FRAC, TIME_LIMIT_SECS, TIME_MARGIN, choose, forecast_within};
+use crate::pipeline::accuracy::at;
 use crate::pipeline::error::PipelineError;
-use crate::pipeline::film::{FilmSettings, Filmed};
-use crate::pipeline::promise::Promise;
+use crate::pipeline::film::{Compared, FilmSettings, Filmed};
+use crate::pipeline::promise::{Promise, margin_db};
 use cinesplat_render::{Quality, Renderer};
 use cinesplat_trajectory::Shot;
 
@@ -44,15 +45,10 @@ pub fn promised(
     // No check of some frames shows that all frames of `draft` are good enough.
     let qualities = [Quality::Draft, Quality::Standard, Quality::Final];
     let mut forecasts = at(if requirements.min_psnr_db.is_some() { &qualities[1..] } else { &qualities })?;
-    if requirements.min_psnr_db.is_some() {
-        let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
-        let cameras = filmed.moving_cameras(settings.frames.of_film(shot.num_frames())?);
-        sample_worst(renderer, &cameras, &settings.render, &mut forecasts)?;
-        if filmed.develops() {
-            // Plain pictures are compared: how close effects of less than `final` come to those of `reference` is not known.
-            forecasts.retain(|forecast| forecast.quality == Quality::Final);
-        }
-    }
+    let final_db = match requirements.min_psnr_db {
+        Some(least_db) => sample_frames((renderer, shot), settings, least_db, &mut forecasts)?,
+        None => f64::INFINITY,
+    };
     if requirements.may_need_reference(&forecasts) {
         forecasts.extend(at(&[Quality::Reference])?);
     }
@@ -68,11 +64,10 @@ pub fn promised(
         wanted: quality.as_ref().to_owned(),
         reachable: "a quality without a forecast".to_owned(),
     })?;
-    let of_final = forecasts.iter().find(|forecast| forecast.quality == Quality::Final);
     let promise = Promise {
         min_psnr_db: requirements.min_psnr_db,
         deadline: requirements.budget.map(|budget| start + budget),
-        final_db: of_final.map_or(f64::INFINITY, |forecast| forecast.worst_psnr_db),
+        final_db,
         paces: forecasts.iter().map(|forecast| forecast.pace).collect(),
     };
     let doubt = left.and_then(|left| {
@@ -91,4 +86,33 @@ pub fn promised(
         })
     });
     Ok(Promised { forecast: chosen, promise, doubt })
+}
+
+/// Looks for the frames with the largest errors. Where `final` falls short for the sake of its effects, and its samples are
+/// enough when there are as many as those of `reference`, its forecast becomes one with these. Returns the PSNR of `final`
+/// without effects, dB.
+fn sample_frames(
+    (renderer, shot): (&Renderer<'_>, &Shot),
+    settings: &FilmSettings,
+    least_db: f64,
+    forecasts: &mut [Forecast],
+) -> Result<f64, PipelineError> {
+    let filmed = Filmed::new(shot, &settings.effects, &settings.render)?;
+    let frames = settings.frames.of_film(shot.num_frames())?;
+    let moving = filmed.moving_frames(frames.clone());
+    let compared = Compared { renderer, filmed: &filmed, settings: &settings.render };
+    let worst = sample_worst(&compared, &moving, forecasts)?;
+    let is_short = |forecast: &Forecast| forecast.worst_psnr_db < least_db + margin_db(forecast.quality);
+    for forecast in forecasts {
+        if forecast.quality == Quality::Final && is_short(forecast) && worst.finest_db > forecast.worst_psnr_db {
+            let render = at(&settings.render, Quality::Final);
+            let factors = [Filmed::cost_factor, Filmed::finest_factor];
+            let [few, many] = factors.map(|factor| factor(&filmed, &frames, (renderer, &render)));
+            *forecast = forecast.slowed(forecast.render_time.mul_f64((many? / few?.max(1e-9) - 1.0).max(0.0)));
+            forecast.worst_psnr_db = worst.finest_db;
+            forecast.psnr_db = forecast.psnr_db.max(worst.finest_db);
+        }
+        *forecast = forecast.slowed(Duration::from_secs_f64(worst.check_secs * moving.cameras.len() as f64));
+    }
+    Ok(worst.final_db)
 }

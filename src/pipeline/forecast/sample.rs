@@ -4,10 +4,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::cost::TimeCost;
-use crate::pipeline::accuracy::{at, mean_square};
+use crate::pipeline::accuracy::at;
+use crate::pipeline::film::{Compared, MovingFrames};
 use crate::pipeline::promise::{NUM_PLACES, PathProfile};
 use cinesplat_geometry::Camera;
-use cinesplat_render::{Frame, Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
+use cinesplat_render::{Quality, RenderError, RenderSettings, Renderer, Rgb8Frame, StageTimes, WorkCounts};
 use cinesplat_video::{VideoError, VideoSettings, encode_and_discard};
 
 /// Side of the small pictures over that of the film.
@@ -26,8 +27,8 @@ pub(super) type StageWork = [f64; 4];
 /// Renders samples of a film.
 pub(super) struct Sampler<'a> {
     pub(super) renderer: &'a Renderer<'a>,
-    /// Cameras of the frames that are rendered, at least one.
-    pub(super) cameras: &'a [Camera],
+    /// The frames that are rendered.
+    pub(super) moving: &'a MovingFrames,
     pub(super) settings: &'a RenderSettings,
 }
 
@@ -49,24 +50,30 @@ pub(super) struct Samples {
 impl Sampler<'_> {
     /// Number of frames of the encoded run: fewer if they are larger.
     pub(super) fn num_encoded(&self) -> usize {
-        let intrinsics = self.cameras[0].intrinsics;
+        let intrinsics = self.moving.cameras[0].intrinsics;
         let num_pixels = intrinsics.width as usize * intrinsics.height as usize;
         (ENCODED_PX / num_pixels.max(1)).clamp(ENCODED_FRAMES.0, ENCODED_FRAMES.1)
     }
 
     /// Up to `num` consecutive frames around position `frac` of the film.
     pub(super) fn run(&self, frac: f64, num: usize) -> &[Camera] {
-        let num = num.min(self.cameras.len());
-        let middle = (self.cameras.len() as f64 * frac) as usize;
-        let start = middle.saturating_sub(num / 2).min(self.cameras.len() - num);
-        &self.cameras[start..start + num]
+        let cameras = &self.moving.cameras;
+        let num = num.min(cameras.len());
+        let start = self.place(frac).saturating_sub(num / 2).min(cameras.len() - num);
+        &cameras[start..start + num]
+    }
+
+    /// The frame at position `frac` of the film, of those that are rendered.
+    fn place(&self, frac: f64) -> usize {
+        ((self.moving.cameras.len() as f64 * frac) as usize).min(self.moving.cameras.len() - 1)
     }
 
     /// Work per frame at even positions of the film, in order.
     pub(super) fn path_work(&self) -> Result<Vec<StageWork>, RenderError> {
-        let num = NUM_PLACES.min(self.cameras.len());
-        let place = |idx: usize| (self.cameras.len() - 1) * idx / (num - 1).max(1);
-        (0..num).map(|idx| self.work_at(&self.cameras[place(idx)])).collect()
+        let cameras = &self.moving.cameras;
+        let num = NUM_PLACES.min(cameras.len());
+        let place = |idx: usize| (cameras.len() - 1) * idx / (num - 1).max(1);
+        (0..num).map(|idx| self.work_at(&cameras[place(idx)])).collect()
     }
 
     /// Work of one frame.
@@ -102,23 +109,17 @@ impl Sampler<'_> {
         Ok(frames)
     }
 
-    /// Adds the difference of each quality to `final` at one frame.
+    /// Adds the difference of each quality to the best frame, at position `frac` of the film.
     pub(super) fn compare(
         &self,
-        camera: &Camera,
+        compared: &Compared<'_>,
+        frac: f64,
         qualities: &[Quality],
         samples: &mut [Samples],
     ) -> Result<(), RenderError> {
-        let mut frame = Frame::default();
-        let best = self.renderer.render(camera, &at(self.settings, Quality::Final))?;
-        for (samples, &quality) in samples.iter_mut().zip(qualities) {
-            if quality == Quality::Final {
-                samples.mean_squares.push(0.0);
-                continue;
-            }
-            self.renderer.render_into(camera, &at(self.settings, quality), &mut frame)?;
-            samples.mean_squares.push(mean_square(&frame, &best));
-        }
+        let frame_idx = self.moving.numbers[self.place(frac)];
+        let found = compared.found(frame_idx, qualities)?;
+        samples.iter_mut().zip(found).for_each(|(samples, found)| samples.mean_squares.push(found.mean()));
         Ok(())
     }
 }
