@@ -6,6 +6,7 @@
 use glam::Vec3;
 
 use super::groups::VoxelGroup;
+use super::loose::inside_frac;
 use super::pieces::contacts;
 use super::standing::{extent, owners};
 use super::voxels::VoxelGrid;
@@ -38,11 +39,4 @@ pub(crate) fn absorb_backs(grid: &VoxelGrid, flats: Vec<Vec<usize>>, groups: &mu
         }
     }
     others
-}
-
-/// Share of some voxels inside a box.
-fn inside_frac(grid: &VoxelGrid, voxels: &[usize], (low, high): (Vec3, Vec3)) -> f32 {
-    let (low, high) = (low - 2.0 * grid.cell, high + 2.0 * grid.cell);
-    let is_inside = |p: Vec3| p.cmpge(low).all() && p.cmple(high).all();
-    voxels.iter().filter(|&&v| is_inside(grid.voxels[v].position)).count() as f32 / voxels.len().max(1) as f32
 }

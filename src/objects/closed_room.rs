@@ -10,6 +10,7 @@ use super::background::structure;
 use super::flats::flats;
 use super::floating::join_floating;
 use super::groups::VoxelGroup;
+use super::loose::join_loose;
 use super::patches::{add_patches, take_patches};
 use super::pieces::{attach, contacts, diagonal, split};
 use super::planes::ScenePlane;
@@ -32,6 +33,9 @@ const SPLIT_FRAC: f64 = 0.42;
 /// Least number of voxels of a thing on a top.
 const MIN_ON_TOP: usize = 8;
 
+/// Least number of Gaussians of a thing: what a few large ones fill between the cells of a sparse wall is none.
+const MIN_GAUSSIANS: f32 = 24.0;
+
 /// Share of a group inside the box of another group from which it is a part of that group.
 const INSIDE_FRAC: f64 = 0.85;
 
@@ -50,9 +54,10 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     let mut tops = tops(grid, &is_free);
     tops.iter().flat_map(|top| &top.voxels).for_each(|&voxel| is_free[voxel] = false);
     let free: Vec<usize> = (0..is_free.len()).filter(|&voxel| is_free[voxel]).collect();
+    let on_top = owners(grid, tops.iter().map(|top| &top.voxels));
+    let bodies = bodies(grid, &free, &tops, settings);
     let patches = take_patches(grid, &mut tops);
-    let flats = flats(grid, planes, &is_structure);
-    let (flats, mut bodies) = with_reliefs(grid, flats, bodies(grid, &free, &tops, settings));
+    let (flats, mut bodies) = with_reliefs(grid, flats(grid, planes, &is_structure), bodies);
     add_patches(grid, patches, &mut bodies);
     let max_diagonal = BACKGROUND_FRAC * settings.resolution;
     let bodies = join_floating(grid, &bodies, &tops, (&is_structure, planes));
@@ -60,23 +65,30 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     let things = things.voxels.into_iter().zip(things.is_surface);
     let mut groups: Vec<VoxelGroup> =
         things.map(|(voxels, is_surface)| VoxelGroup::whole(voxels, is_surface)).collect();
-    let on_top = owners(grid, tops.iter().map(|top| &top.voxels));
     groups.retain(|group| {
         let least = if is_on_top(grid, &group.voxels, &on_top) { MIN_ON_TOP } else { settings.min_voxels };
         group.voxels.len() >= least
+            && has_shape(grid, &group.voxels)
             && (group.is_surface || diagonal(grid, group.voxels.iter().copied()) <= max_diagonal)
     });
+    join_loose(grid, &mut groups);
     let flats = absorb_backs(grid, flats, &mut groups);
     nest(grid, &mut groups, SPLIT_FRAC * settings.resolution);
-    groups.extend(windows.into_iter().chain(flats).map(|voxels| VoxelGroup::whole(voxels, false)));
+    let flat = windows.into_iter().chain(flats).filter(|voxels| has_shape(grid, voxels));
+    groups.extend(flat.map(|voxels| VoxelGroup::whole(voxels, false)));
     groups
+}
+
+/// Whether a group has enough Gaussians to show a shape.
+fn has_shape(grid: &VoxelGrid, voxels: &[usize]) -> bool {
+    voxels.iter().map(|&v| grid.voxels[v].num_centers).sum::<f32>() >= MIN_GAUSSIANS
 }
 
 /// Whether a small group stands on a top: what stands somewhere is no floater.
 fn is_on_top(grid: &VoxelGrid, voxels: &[usize], on_top: &[usize]) -> bool {
     let touches = |&&v: &&usize| {
         let level = grid.voxels[v].key[1];
-        grid.neighbors(v, 1).any(|other| on_top[other] != usize::MAX && grid.voxels[other].key[1] < level)
+        grid.neighbors(v, 1).any(|other| on_top[other] != usize::MAX && grid.voxels[other].key[1] <= level)
     };
     let num_touching = voxels.iter().filter(touches).count();
     num_touching >= 3 || num_touching * 3 >= voxels.len()

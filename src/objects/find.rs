@@ -14,7 +14,7 @@ use super::grouping::group;
 use super::groups::VoxelGroup;
 use super::naming;
 use super::object::{Object, ObjectSet};
-use super::planes::{ScenePlane, find_planes, room_box};
+use super::planes::{ScenePlane, find_planes, is_closed_room, room_box};
 use super::settings::FindSettings;
 use super::standing;
 use super::voxels::{Voxel, VoxelGrid};
@@ -22,6 +22,12 @@ use cinesplat_scene::Scene;
 
 /// Size of a room over the scene size below which the room decides the size of the cells.
 const SMALL_ROOM_FRAC: f64 = 0.85;
+
+/// Cells of a closed room, over those of other captures of its size. Its surfaces are plain, so that plates, mirrors and the
+/// frames of windows, which are about as thick as a cell, come apart from tables and walls. At 1 the things of 20 generated
+/// rooms overlapped the true ones by .80, at 1.27 by .84; at 1.5 more rugs were lost, and half again as many scraps were
+/// things.
+const CLOSED_ROOM_FINENESS: f64 = 1.27;
 
 /// Finds the objects of a scene. Ids count from 1 in order of prominence: size, weighted by the difference between the
 /// object's color and the scene's mean color. The same scene and settings give the same objects.
@@ -36,9 +42,9 @@ pub fn find(scene: &Scene, settings: &FindSettings) -> ObjectSet {
     if !(cell > 0.0 && cell.is_finite()) {
         return ObjectSet::default();
     }
-    let (grid, planes) = voxels_and_planes(scene, cell, settings);
+    let (grid, planes, settings) = voxels_and_planes(scene, cell, settings);
     let limit = settings.max_objects.min(usize::from(u16::MAX));
-    let ranked = ranked(&grid, group(&grid, &planes, settings), limit);
+    let ranked = ranked(&grid, group(&grid, &planes, &settings), limit);
     let labels = gaussian_labels(scene, &grid, &ranked);
     let of_id = |id: u32| {
         ranked.get(id as usize - 1).map_or(Traits::default(), |group| Traits {
@@ -58,9 +64,9 @@ struct Traits {
     name: Option<&'static str>,
 }
 
-/// The voxels of a scene and its planes. In a room that is much smaller than the scene, because windows show what lies far
-/// outside, the cells are smaller.
-fn voxels_and_planes(scene: &Scene, cell: f64, settings: &FindSettings) -> (VoxelGrid, Vec<ScenePlane>) {
+/// The voxels of a scene and its planes, and the settings for cells of their size. In a closed room the cells are smaller,
+/// and smaller still if the room is much smaller than the scene, because windows show what lies far outside.
+fn voxels_and_planes(scene: &Scene, cell: f64, settings: &FindSettings) -> (VoxelGrid, Vec<ScenePlane>, FindSettings) {
     let center = scene.bounds().center();
     let of_cell = |cell: f64| {
         let grid = VoxelGrid::new(&scene.gaussians, cell, center, boxes::upright_axes(scene.up));
@@ -68,14 +74,17 @@ fn voxels_and_planes(scene: &Scene, cell: f64, settings: &FindSettings) -> (Voxe
         (grid, planes)
     };
     let found = of_cell(cell);
-    let room = room_box(&found.1).map(|(low, high)| f64::from((high - low).length()) / settings.resolution.max(1.0));
-    match room {
-        Some(smaller) if smaller < SMALL_ROOM_FRAC * cell && smaller > 0.0 => {
-            let finer = of_cell(smaller);
-            if room_box(&finer.1).is_some() { finer } else { found }
+    if let Some((low, high)) = room_box(&found.1).filter(|_| is_closed_room(&found.1)) {
+        let room = f64::from((high - low).length()) / settings.resolution.max(1.0);
+        let size = if room < SMALL_ROOM_FRAC * cell && room > 0.0 { room } else { cell };
+        let (grid, planes) = of_cell(size / CLOSED_ROOM_FINENESS);
+        if is_closed_room(&planes) {
+            let resolution = settings.resolution * CLOSED_ROOM_FINENESS;
+            let finer = FindSettings { resolution, ..settings.clone() };
+            return (grid, planes, finer);
         }
-        _ => found,
     }
+    (found.0, found.1, settings.clone())
 }
 
 /// The objects of given labels (one id per Gaussian): every id above 0 becomes an object with a box and a descriptive

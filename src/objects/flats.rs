@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::Vec3;
+use glam::{Vec3, Vec3Swizzles};
 
 use super::color;
 use super::planes::{PlaneKind, ScenePlane};
@@ -45,6 +45,9 @@ const MIN_RIM: f32 = 0.6;
 /// Height over the floor up to which a thing on a wall stands on it, cells.
 const FOOT_CELLS: i32 = 5;
 
+/// Width of the trims along the ends of a wall, cells.
+const TRIM_CELLS: i32 = 3;
+
 /// Share of a thing's cells that stand out from the wall, under which it must differ in hue.
 const MIN_RAISED: f32 = 0.3;
 
@@ -56,6 +59,13 @@ const SHARED_FRAC: f32 = 0.5;
 
 /// Largest share of a rug at the border of its floor.
 const MAX_OUTER: f32 = 0.45;
+
+/// Least lightness of sunlight on a floor over the floor's, least chroma in the floor's hue over what light alone would
+/// give, and largest share of its rectangle: patches of generated rooms had 31 to 54, .47 to .73 and .60 to .89, rugs as
+/// light .12 to .37 and .87 to 1.
+const SUNLIT_LIGHTNESS: f32 = 30.0;
+const SUNLIT_CHROMA: f32 = 0.42;
+const SUNLIT_FILL: f32 = 0.92;
 
 /// The first and the last cell along both axes.
 pub(crate) type Rectangle = ([i32; 2], [i32; 2]);
@@ -148,14 +158,27 @@ impl<'a> PlaneCells<'a> {
         [along.dot(p).floor() as i32, across.dot(p).floor() as i32]
     }
 
+    /// The cells that stand out from a wall, without its ends: skirting boards and cornices run along them, and connect
+    /// doors with everything else.
+    fn raised_apart(&self) -> BTreeSet<[i32; 2]> {
+        let keys: Vec<[i32; 2]> = self.cells.keys().copied().collect();
+        let (low, high) = rectangle(&keys);
+        let inner = (low.map(|v| v + TRIM_CELLS), high.map(|v| v - TRIM_CELLS));
+        self.raised.iter().copied().filter(|key| is_in(*key, inner)).collect()
+    }
+
     /// The outline of a region where it is one of a thing: `is_relief` where its cells stand out from the wall.
     fn outline_of_thing(&self, keys: &[[i32; 2]], is_relief: bool) -> Option<Vec<[i32; 2]>> {
-        let bounds = rectangle(keys);
+        let mut bounds = rectangle(keys);
+        let lowest = self.cells.keys().map(|key| key[1]).min().unwrap_or(0);
+        let is_at_foot = self.is_wall() && bounds.0[1] <= lowest + FOOT_CELLS;
+        let stands = is_at_foot && is_relief;
+        if stands {
+            bounds.0[1] = lowest;
+        }
         if is_strip(bounds) || area(bounds) > MAX_SHARE * self.cells.len() as f32 {
             return None;
         }
-        let lowest = self.cells.keys().map(|key| key[1]).min().unwrap_or(0);
-        let stands = self.is_wall() && is_relief && bounds.0[1] <= lowest + FOOT_CELLS;
         let mut outline = outline(keys, bounds, stands);
         outline.retain(|key| self.cells.contains_key(key));
         if outline.len() < MIN_CELLS || (outline.len() as f32) < MIN_FILL * area(bounds) {
@@ -166,12 +189,15 @@ impl<'a> PlaneCells<'a> {
         };
         let differs = self.differing.contains(&keys[0]);
         let is_apart = differs && share(&self.differing) >= MIN_FILL;
-        let is_thing = if self.is_wall() {
+        let is_thing = if is_at_foot && share(&self.raised) < MIN_RAISED {
+            // The wall behind furniture, in its shade.
+            false
+        } else if self.is_wall() {
             // The glass of a mirror may have the color of the wall around it: its rim differs.
             let is_rim = differs && keys.len() as f32 >= MIN_RIM * rim(bounds);
             is_rim || (is_apart && (share(&self.raised) >= MIN_RAISED || self.has_hue(&outline)))
         } else {
-            is_apart && !self.is_border(&outline)
+            is_apart && !self.is_border(&outline) && !self.is_sunlit(&outline, bounds)
         };
         is_thing.then_some(outline)
     }
@@ -183,10 +209,25 @@ impl<'a> PlaneCells<'a> {
         num_outer as f32 > MAX_OUTER * outline.len() as f32
     }
 
+    /// Whether the cells of a floor are only lit by the sun: much lighter, of the floor's own hue, and no upright rectangle.
+    fn is_sunlit(&self, outline: &[[i32; 2]], bounds: Rectangle) -> bool {
+        let lit = self.color_of(outline);
+        // Light scales all of L + 16, a and b alike, but highlights are paler.
+        let scale = (lit.x + 16.0) / (self.color_lab.x + 16.0);
+        let (own, floor) = (lit.yz(), self.color_lab.yz());
+        let is_floor_hue = own.dot(floor) >= SUNLIT_CHROMA * scale * floor.length_squared();
+        let is_slanted = (outline.len() as f32) < SUNLIT_FILL * area(bounds);
+        lit.x - self.color_lab.x > SUNLIT_LIGHTNESS && is_floor_hue && is_slanted
+    }
+
+    fn color_of(&self, outline: &[[i32; 2]]) -> Vec3 {
+        let voxels: Vec<usize> = outline.iter().filter_map(|key| self.cells.get(key)).flatten().copied().collect();
+        mean_color(self.grid, &voxels)
+    }
+
     /// Whether the cells differ from the plane in hue and chroma: shadows differ in lightness alone.
     fn has_hue(&self, outline: &[[i32; 2]]) -> bool {
-        let voxels: Vec<usize> = outline.iter().filter_map(|key| self.cells.get(key)).flatten().copied().collect();
-        let step = mean_color(self.grid, &voxels) - self.color_lab;
+        let step = self.color_of(outline) - self.color_lab;
         step.y.hypot(step.z) > CHROMA_DIFFERENCE
     }
 }
@@ -196,7 +237,7 @@ fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[V
     // A rug has several colors; what hangs on a wall is one region of color, or stands out from it.
     let regions: Vec<(Vec<[i32; 2]>, bool)> = if all.is_wall() {
         let regions = regions.iter().map(|region| (region.iter().map(|&v| all.key(v)).collect(), false));
-        regions.chain(components(all.raised.clone()).into_iter().map(|keys| (keys, true))).collect()
+        regions.chain(components(all.raised_apart()).into_iter().map(|keys| (keys, true))).collect()
     } else {
         components(all.differing.clone()).into_iter().map(|keys| (keys, false)).collect()
     };

@@ -6,7 +6,7 @@ use super::background::structure;
 use super::groups::VoxelGroup;
 use super::parts::divide;
 use super::pieces::{drop_lumps, isolated_objects};
-use super::planes::{PlaneKind, ScenePlane, room_box};
+use super::planes::{PlaneKind, ScenePlane, is_closed_room};
 use super::settings::FindSettings;
 use super::voxels::VoxelGrid;
 use super::{closed_room, open_room};
@@ -14,8 +14,7 @@ use super::{closed_room, open_room};
 /// Groups the voxels of a scene into objects, by the kind of capture: a closed room has a floor, and a ceiling or
 /// walls on four sides; an open room has walls; every other capture shows single things, each a connected component.
 pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSettings) -> Vec<VoxelGroup> {
-    let has_walls = planes.iter().any(|plane| plane.kind == PlaneKind::Wall);
-    if has_walls && room_box(planes).is_some() {
+    if is_closed_room(planes) {
         return to_detail(grid, closed_room::group(grid, planes, settings), settings, 2);
     }
     if planes.iter().any(|plane| matches!(plane.kind, PlaneKind::Wall | PlaneKind::Ceiling)) {

@@ -278,6 +278,11 @@ fn is_at_side(wall: &ScenePlane, (low, high): (Vec3, Vec3)) -> bool {
     wall.height((low + high) / 2.0) > (1.0 - 2.0 * SIDE_FRAC) * half
 }
 
+/// Whether planes are those of a closed room: a floor, a ceiling and walls.
+pub(crate) fn is_closed_room(planes: &[ScenePlane]) -> bool {
+    planes.iter().any(|plane| plane.kind == PlaneKind::Wall) && room_box(planes).is_some()
+}
+
 /// Corners of the box between the largest floor and the largest ceiling; `None` without both. What is seen through windows
 /// lies outside.
 pub(crate) fn room_box(planes: &[ScenePlane]) -> Option<(Vec3, Vec3)> {

@@ -32,6 +32,14 @@ const RIM_CELLS: f32 = 3.5;
 /// Share of the longer side of a top's box along which its own upright stands.
 const UPRIGHT_FRAC: f32 = 0.4;
 
+/// Least share of the edge of a seat and of its backrest that lie above each other, and largest thickness of the backrest
+/// over that edge.
+const BACK_SHARED: f32 = 0.7;
+const BACK_THIN: f32 = 0.35;
+
+/// Largest side of a seat, cells.
+const SEAT_CELLS: f32 = 24.0;
+
 /// Largest color difference between a top and its own upright.
 const SAME_COLOR: f32 = 9.0;
 
@@ -78,6 +86,10 @@ pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top], max_di
             sets.join(only, num_bodies + t);
             continue;
         }
+        let floats = |&body: &usize| !contacts.contains_key(&body) && seat.is_backrest(grid, &measured[body]);
+        (0..num_bodies).filter(floats).for_each(|body| {
+            sets.join(body, num_bodies + t);
+        });
         for (&body, contact) in contacts {
             let carries = if rests(body) {
                 seat.is_upright(&measured[body], contact)
@@ -96,6 +108,7 @@ pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top], max_di
 /// A body, measured.
 struct Body {
     lowest: f32,
+    bounds: (Vec3, Vec3),
     color_lab: Vec3,
     sides: Vec3,
 }
@@ -103,13 +116,19 @@ struct Body {
 impl Body {
     fn new(grid: &VoxelGrid, voxels: &[usize]) -> Self {
         let (low, high) = extent(grid, voxels);
-        Self { lowest: lowest(grid, voxels), color_lab: mean_color(grid, voxels), sides: high - low }
+        Self {
+            lowest: lowest(grid, voxels),
+            bounds: (low, high),
+            color_lab: mean_color(grid, voxels),
+            sides: high - low,
+        }
     }
 }
 
 /// A top, measured.
 struct Seat {
     height: f32,
+    bounds: (Vec3, Vec3),
     color_lab: Vec3,
     sides: Vec3,
     /// Contacts with all bodies under it.
@@ -120,7 +139,13 @@ impl Seat {
     fn new(grid: &VoxelGrid, top: &Top, contacts: &BTreeMap<usize, Contact>) -> Self {
         let (low, high) = extent(grid, &top.voxels);
         let total_below = contacts.values().map(|contact| contact.below).sum();
-        Self { height: top.height, color_lab: mean_color(grid, &top.voxels), sides: high - low, total_below }
+        Self {
+            height: top.height,
+            bounds: (low, high),
+            color_lab: mean_color(grid, &top.voxels),
+            sides: high - low,
+            total_below,
+        }
     }
 
     /// Whether a body that touches the top stands on it.
@@ -134,6 +159,26 @@ impl Seat {
         let longer = |sides: Vec3| sides.x.max(sides.z);
         let is_long = longer(body.sides) >= UPRIGHT_FRAC * longer(self.sides);
         at_rim && is_long && color::difference(body.color_lab, self.color_lab) < SAME_COLOR
+    }
+
+    /// Whether a body that does not touch the top is its backrest, held by posts that are thinner than a cell: it is about
+    /// as long as one edge of the top, and thin above that edge.
+    fn is_backrest(&self, grid: &VoxelGrid, body: &Body) -> bool {
+        let ((low, high), (bottom, top)) = (self.bounds, body.bounds);
+        let gap = bottom.y - self.height;
+        let is_above = |along: usize, across: usize| {
+            let edge = high[along] - low[along];
+            let shared = high[along].min(top[along]) - low[along].max(bottom[along]);
+            let middle = f32::midpoint(bottom[across], top[across]);
+            let beside = (middle - low[across]).abs().min((middle - high[across]).abs());
+            shared >= BACK_SHARED * edge
+                && shared >= BACK_SHARED * body.sides[along]
+                && body.sides[across] <= BACK_THIN * edge
+                && beside <= RIM_CELLS * grid.cell
+                && gap <= edge
+        };
+        let is_seat = (high.x - low.x).max(high.z - low.z) <= SEAT_CELLS * grid.cell;
+        is_seat && gap > 0.0 && (is_above(0, 2) || is_above(2, 0))
     }
 
     /// Whether a body under the top carries it. `under_frac`: the share of the body under the top.

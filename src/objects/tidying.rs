@@ -9,6 +9,7 @@ use glam::Vec3;
 
 use super::color;
 use super::groups::VoxelGroup;
+use super::loose::join_loose;
 use super::planes::{PlaneKind, ScenePlane};
 use super::standing::{extent, mean_color, owners};
 use super::voxels::{Voxel, VoxelGrid};
@@ -73,12 +74,22 @@ const BLOB_CELLS: f32 = 66.0;
 const WISP_DENSITY: f32 = 0.345;
 const WISP_CELLS: f32 = 40.0;
 
+/// The same of a wash, which a capture did not see well, and least share of blurred voxels in it.
+const WASH_DENSITY: f32 = 0.2;
+const WASH_BLURRED: f32 = 0.5;
+const WASH_CELLS: f32 = 100.0;
+
+/// Share of its box that a seam between things fills, and share of it that touches them.
+const SEAM_FILL: f32 = 0.04;
+const SEAM_TOUCHING: f32 = 0.95;
+
 /// Thickness of a wall over the room's extent, and share of the room's length and height that it covers.
 const WALL_THICKNESS: f32 = 0.15;
 const WALL_COVERED: f32 = 0.6;
 
 /// The groups without fragments and scraps.
-pub(crate) fn tidy(grid: &VoxelGrid, planes: &[ScenePlane], groups: Vec<VoxelGroup>) -> Vec<VoxelGroup> {
+pub(crate) fn tidy(grid: &VoxelGrid, planes: &[ScenePlane], mut groups: Vec<VoxelGroup>) -> Vec<VoxelGroup> {
+    join_loose(grid, &mut groups);
     let all: Vec<usize> = (0..grid.voxels.len()).collect();
     let mut pieces: Vec<Piece> = groups.into_iter().map(|group| Piece::new(grid, group)).collect();
     let room = extent(grid, &all);
@@ -89,6 +100,7 @@ pub(crate) fn tidy(grid: &VoxelGrid, planes: &[ScenePlane], groups: Vec<VoxelGro
             break;
         }
     }
+    dissolve_seams(grid, &mut pieces);
     let density = mean(grid, all.into_iter(), |voxel| voxel.num_centers);
     let is_kept = |piece: &Piece| !piece.is_wall && !is_scrap(grid, planes, piece) && !is_blurred(grid, piece, density);
     pieces.into_iter().filter(is_kept).map(|piece| piece.group).collect()
@@ -225,6 +237,38 @@ fn merge(grid: &VoxelGrid, pieces: &mut [Piece], (from, to): (usize, usize), own
     pieces[to] = Piece { is_wall, ..Piece::new(grid, VoxelGroup { voxels, is_surface, parent, name }) };
 }
 
+/// Gives the voxels of every seam to the things on its sides, such as the fronts of a row of cupboards.
+fn dissolve_seams(grid: &VoxelGrid, pieces: &mut Vec<Piece>) {
+    let owner = owners(grid, pieces.iter().map(|piece| &piece.group.voxels));
+    let sides = |seam: usize, voxel: usize| {
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        let others = grid.neighbors(voxel, REACH).map(|other| owner[other]);
+        others
+            .filter(|&other| other != usize::MAX && other != seam)
+            .for_each(|other| *counts.entry(other).or_default() += 1);
+        counts.into_iter().max_by_key(|&(other, count)| (count, std::cmp::Reverse(other))).map(|(other, _)| other)
+    };
+    for seam in 0..pieces.len() {
+        let piece = &pieces[seam];
+        let is_thin = piece.len() as f32 <= SEAM_FILL * piece.sides(grid).iter().product::<f32>();
+        if piece.group.is_surface || piece.is_wall || piece.len() < SCRAP_VOXELS || !is_thin {
+            continue;
+        }
+        let beside: Vec<Option<usize>> = piece.group.voxels.iter().map(|&voxel| sides(seam, voxel)).collect();
+        if (beside.iter().flatten().count() as f32) < SEAM_TOUCHING * piece.len() as f32 {
+            continue;
+        }
+        let moved = std::mem::take(&mut pieces[seam].group.voxels);
+        for (voxel, side) in moved.into_iter().zip(beside) {
+            if let Some(side) = side {
+                pieces[side].group.voxels.push(voxel);
+            }
+        }
+    }
+    pieces.retain(|piece| piece.len() > 0);
+    pieces.iter_mut().for_each(|piece| piece.bounds = extent(grid, &piece.group.voxels));
+}
+
 /// Whether a piece is a trim or a small scrap on a wall or the floor.
 fn is_scrap(grid: &VoxelGrid, planes: &[ScenePlane], piece: &Piece) -> bool {
     let [a, b, _] = piece.sides(grid);
@@ -244,7 +288,8 @@ fn is_blurred(grid: &VoxelGrid, piece: &Piece, density: f32) -> bool {
     let size = (piece.bounds.1 - piece.bounds.0).length() / grid.cell;
     let is_blob = blurred > MAX_BLURRED && sparseness < BLOB_DENSITY && size < BLOB_CELLS;
     let is_wisp = sparseness < WISP_DENSITY && size < WISP_CELLS;
-    is_blob || is_wisp || of(&|voxel| voxel.sigma) / grid.cell > MAX_BLUR * size
+    let is_wash = blurred > WASH_BLURRED && sparseness < WASH_DENSITY && size < WASH_CELLS;
+    is_blob || is_wisp || is_wash || of(&|voxel| voxel.sigma) / grid.cell > MAX_BLUR * size
 }
 
 fn mean(grid: &VoxelGrid, voxels: impl ExactSizeIterator<Item = usize>, value: impl Fn(&Voxel) -> f32) -> f32 {

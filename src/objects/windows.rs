@@ -30,6 +30,9 @@ const MIN_OPEN: f32 = 0.4;
 const MAX_BEFORE: f32 = 0.6;
 const MIN_BEHIND: f32 = 0.3;
 
+/// Width of the rim of the holes, cells: it is frame, even where it lies in its wall.
+const RIM_CELLS: i32 = 1;
+
 /// Width of the frame around the holes, cells.
 const FRAME_CELLS: i32 = 4;
 
@@ -101,13 +104,13 @@ fn window(
         return None;
     }
     let grown = |by: i32| (low.map(|v| v - by), high.map(|v| v + by));
-    let (outer, inner) = (grown(FRAME_CELLS), bounds);
+    let (outer, inner) = (grown(FRAME_CELLS), grown(RIM_CELLS));
     let members = cells.near.iter().filter(|(key, _)| is_in(**key, outer)).flat_map(|(key, voxels)| {
-        let is_glass = is_in(*key, inner);
+        let is_own = is_in(*key, inner);
         voxels
             .iter()
             .copied()
-            .filter(move |&v| is_glass || wall.height(grid.voxels[v].position) > RELIEF_CELLS * grid.cell)
+            .filter(move |&v| is_own || wall.height(grid.voxels[v].position) > RELIEF_CELLS * grid.cell)
     });
     Some(members.collect())
 }
