@@ -153,6 +153,7 @@ def failing_writes(program, kind):
             codes[ended.returncode] += 1
             expected = {0} if kind in ("eintr", "short") else {0, 74, 73}
             row.check(ended.returncode in expected, f"{name}, call {call}: exit {ended.returncode}: {ended.stderr[-300:]}")
+            row.check(ended.returncode != 0 or files(folder) == sorted(whole), f"{name}, call {call}: outputs are missing")
             for path in files(folder):
                 row.check(path in whole and (folder.path / path).read_bytes() == whole[path], f"{name}, call {call}: {path}")
             folder.clear()
