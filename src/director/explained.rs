@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use cinesplat_language::{Mention, NamedObject, Word, end_of, is_listed, stem, tokenize};
 
 use crate::names::FoundMention;
+use crate::said::abbreviated_size;
 
 /// Points mentions of one thing at the thing that an earlier mention named by the same words and more, as `the drawers`
 /// after `the pink drawers`, though the scene has a `drawer chest` too. A name that is exactly another thing's stays.
@@ -164,10 +165,7 @@ pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut V
     }
 }
 
-/// Abbreviations of shot sizes, which are no part of a name: `EWS ship`.
-const SIZES: &str = "ecu xcu bcu cu mcu ms mls mws ls ws fs els ews vws";
-
-/// Takes abbreviations of shot sizes off the beginnings of mentions.
+/// Takes abbreviations of shot sizes, which are no part of a name, off the beginnings of mentions: `EWS ship`.
 pub(crate) fn drop_sizes(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {
     for found in found {
         let mention = &mut found.mention;
@@ -177,7 +175,7 @@ pub(crate) fn drop_sizes(prompt: &str, objects: &[NamedObject], found: &mut [Fou
             labels.any(|label| tokenize(label).iter().any(|part| part.text == word))
         };
         if let [first, second, ..] = &words[..]
-            && is_listed(SIZES, &first.text)
+            && abbreviated_size(&first.text).is_some()
             && !is_named(&first.text)
         {
             mention.bytes[0] += second.span[0];

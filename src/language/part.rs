@@ -72,6 +72,11 @@ impl Linked {
         self.slots.get(slot_of(word, OBJECT)?).copied()
     }
 
+    /// Whether a word is the placeholder of an object, or of a group that it belongs to.
+    pub fn names(&self, word: &str, id: u32) -> bool {
+        self.slot_at(word).is_some_and(|slot| self.expanded(&[slot]).contains(&id))
+    }
+
     /// Whether a word is the placeholder of a quantity.
     pub fn is_quantity(&self, word: &str) -> bool {
         slot_of(word, QUANTITY).is_some_and(|slot| slot < self.quantities.len())

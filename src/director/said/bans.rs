@@ -23,7 +23,7 @@ const NAMES: [(Motion, &[&str]); 5] = [
     (Motion::Zoom, &["zoom", "lens", "fov", "focal"]),
     (Motion::Rise, &["rise", "height", "altitude", "climb"]),
 ];
-const SENTENCE_ENDS: [&str; 4] = [".", ";", "!", "?"];
+pub(super) const SENTENCE_ENDS: [&str; 4] = [".", ";", "!", "?"];
 
 /// Takes back bans of what a step asks for: those that no words say, and those that only the words of another step say.
 /// A ban in the words of the same step stays: it is a contradiction.

@@ -7,6 +7,7 @@ use cinesplat_trajectory::{Move, ShotSize};
 
 use super::bans::asks_for;
 use super::directions::is_form;
+use super::openings::OPENS;
 
 /// Words that add a thing to what is seen.
 const INCLUDES: [&str; 5] = ["incl", "including", "include", "includes", "plus"];
@@ -40,10 +41,6 @@ pub(crate) fn include_named(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
-/// Words of how a film begins.
-const OPENS: [&str; 10] =
-    ["from", "start", "starts", "starting", "begin", "begins", "beginning", "open", "opens", "opening"];
-
 /// Ends a way to its subject on a close picture that the network begins it with, where no words open on it: `get in really
 /// close to the anvil`.
 pub(crate) fn near_to_size(linked: &Linked, steps: &mut [Step]) {
@@ -52,7 +49,7 @@ pub(crate) fn near_to_size(linked: &Linked, steps: &mut [Step]) {
         let is_close = matches!(step.start.size, Some(ShotSize::CloseUp | ShotSize::ExtremeCloseUp));
         let plain = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
         let is_open = step.end == plain && step.start.subjects == step.end.subjects;
-        if is_close && is_open && !words.iter().any(|word| OPENS.contains(word)) {
+        if is_close && is_open && !words.iter().any(|word| *word == "from" || OPENS.contains(word)) {
             step.end = std::mem::take(&mut step.start);
         }
     }

@@ -29,6 +29,7 @@ use cinesplat_language::{Linked, Senses};
 
 pub(crate) use bans::asks_for;
 pub(crate) use directions::is_form;
+pub(crate) use openings::abbreviated_size;
 
 use crate::direction::Direction;
 use crate::error::DirectorError;

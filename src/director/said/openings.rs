@@ -24,19 +24,23 @@ const SIZES: [(&str, ShotSize); 14] = [
     ("vws", ShotSize::ExtremeLong),
 ];
 
+/// The size that a word abbreviates.
+pub(crate) fn abbreviated_size(word: &str) -> Option<ShotSize> {
+    SIZES.iter().find(|(name, _)| *name == word).map(|(_, size)| *size)
+}
+
 /// Opens and ends a travel or a zoom on the sizes that an arrow between them says: `MCU > CU on the cup`.
 pub(crate) fn take_sizes(linked: &Linked, steps: &mut [Step]) {
     let changes_size = |step: &&mut Step| {
         matches!(step.movement, Move::PushIn | Move::PullOut | Move::ZoomIn | Move::ZoomOut | Move::Follow)
     };
-    let size = |word: &str| SIZES.iter().find(|(name, _)| *name == word).map(|(_, size)| *size);
     for step in steps.iter_mut().filter(changes_size) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_arrow = |word: &&&str| matches!(**word, "to" | "into" | "-" | ">" | "\u{2192}" | "\u{2013}");
-        let sizes = words.iter().enumerate().filter_map(|(at, word)| Some((at, size(word)?)));
+        let sizes = words.iter().enumerate().filter_map(|(at, word)| Some((at, abbreviated_size(word)?)));
         let pairs = sizes.filter_map(|(at, first)| {
             let arrows = words[at + 1..].iter().take(3).take_while(is_arrow).count();
-            let second = words.get(at + 1 + arrows).and_then(|word| size(word)).filter(|_| arrows > 0)?;
+            let second = words.get(at + 1 + arrows).and_then(|word| abbreviated_size(word)).filter(|_| arrows > 0)?;
             Some([first, second])
         });
         let nears = matches!(step.movement, Move::PushIn | Move::ZoomIn);
@@ -61,7 +65,7 @@ pub(crate) fn size_rests(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.movement == Move::Static) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let sizes = words.iter().enumerate();
-        let mut sizes = sizes.filter_map(|(at, word)| Some((at, SIZES.iter().find(|(name, _)| name == word)?.1)));
+        let mut sizes = sizes.filter_map(|(at, word)| Some((at, abbreviated_size(word)?)));
         let (Some((at, size)), None) = (sizes.next(), sizes.next()) else { continue };
         let shown = words[at + 1..].iter().find(|word| !matches!(**word, "on" | "of" | "the" | "a"));
         let shown = shown.and_then(|word| linked.slot_at(word));
@@ -74,7 +78,8 @@ pub(crate) fn size_rests(linked: &Linked, steps: &mut [Step]) {
 }
 
 /// Words that open the film, and the size of the picture that they open on.
-const OPENS: [&str; 9] = ["start", "starts", "starting", "begin", "begins", "beginning", "open", "opens", "opening"];
+pub(super) const OPENS: [&str; 9] =
+    ["start", "starts", "starting", "begin", "begins", "beginning", "open", "opens", "opening"];
 const OPENING_SIZES: [(&str, ShotSize); 5] = [
     ("tight", ShotSize::CloseUp),
     ("close", ShotSize::CloseUp),

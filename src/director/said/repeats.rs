@@ -143,11 +143,7 @@ fn arrives_again(linked: &Linked, first: &Step, second: &Step) -> bool {
     };
     let names_once = |id: &u32| {
         let words = linked.texts_in([0, usize::MAX]);
-        words
-            .iter()
-            .filter(|word| linked.slot_at(word).is_some_and(|slot| linked.expanded(&[slot]).contains(id)))
-            .count()
-            < 2
+        words.iter().filter(|word| linked.names(word, *id)).count() < 2
     };
     matches!(second.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown)
         && *second == plain

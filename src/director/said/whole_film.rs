@@ -5,7 +5,8 @@ use cinesplat_language::Linked;
 use cinesplat_operator::{Framing, Program, Speed, Step};
 use cinesplat_trajectory::Move;
 
-const SENTENCE_ENDS: [&str; 4] = [".", ";", "!", "?"];
+use super::bans::SENTENCE_ENDS;
+
 /// Words that limit a ban to a moment.
 const MOMENTS: [&str; 11] =
     ["first", "yet", "until", "till", "start", "beginning", "opening", "end", "last", "then", "before"];
@@ -19,8 +20,7 @@ pub(crate) fn keep_uncut(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_uncut = |id: &u32| {
-            let is_thing = |word: &str| linked.slot_at(word).is_some_and(|slot| linked.expanded(&[slot]).contains(id));
-            let Some(at) = words.iter().rposition(|word| is_thing(word)) else { return false };
+            let Some(at) = words.iter().rposition(|word| linked.names(word, *id)) else { return false };
             let behind = || words[at + 1..].iter().take_while(|word| !SENTENCE_ENDS.contains(word)).take(10);
             behind().any(|word| CUT_OFF.contains(word)) && behind().any(|word| matches!(*word, "not" | "never" | "'t"))
         };
@@ -62,13 +62,11 @@ pub(crate) fn avoid_throughout(linked: &Linked, program: &mut Program) {
 /// Whether a sentence that names nothing before this thing rules it out, or one that says so of the whole film.
 fn is_banned_throughout(linked: &Linked, id: u32) -> bool {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
-    let slot = |at: usize| linked.slot_at(words[at]);
-    let is_thing = |at: &usize| slot(*at).is_some_and(|slot| linked.expanded(&[slot]).contains(&id));
-    let Some(at) = (0..words.len()).rev().find(is_thing) else { return false };
+    let Some(at) = words.iter().rposition(|word| linked.names(word, id)) else { return false };
     let from = (0..at).rev().find(|at| SENTENCE_ENDS.contains(&words[*at])).map_or(0, |end| end + 1);
     let to = (at..words.len()).find(|at| SENTENCE_ENDS.contains(&words[*at])).unwrap_or(words.len());
     let has = |list: &[&str]| words[from..to].iter().any(|word| list.contains(word));
-    let is_first = (from..at).all(|at| slot(at).is_none());
+    let is_first = words[from..at].iter().all(|word| linked.slot_at(word).is_none());
     !has(&MOMENTS) && (is_first || has(&EVER))
 }
 

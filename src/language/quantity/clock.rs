@@ -161,11 +161,9 @@ const FRAMES_PER_SEC: f64 = 24.0;
 
 /// Frames a second that the words state (`25 fps`), or the usual ones.
 pub(crate) fn frames_per_sec(words: &[Word]) -> f64 {
-    let stated = (1..words.len()).find_map(|at| {
-        let rate: f64 = word_at(words, at - 1).parse().ok()?;
-        (word_at(words, at) == "fps" && (1.0..=240.0).contains(&rate)).then_some(rate)
-    });
-    stated.unwrap_or(FRAMES_PER_SEC)
+    // Every frame number asks for the rate: words are compared before a number is parsed.
+    let mut rates = words.windows(2).filter(|pair| pair[1].text == "fps").filter_map(|pair| pair[0].text.parse().ok());
+    rates.find(|rate| (1.0..=240.0).contains(rate)).unwrap_or(FRAMES_PER_SEC)
 }
 
 /// The frame number `f72` at word `i`, two words, in seconds.
