@@ -20,6 +20,7 @@ mod euler_edits;
 mod euroc;
 mod format;
 mod gltf;
+mod hermite;
 mod import;
 mod imported_shot;
 mod inria;

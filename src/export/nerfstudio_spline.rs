@@ -6,6 +6,7 @@
 
 use glam::{DQuat, DVec3, DVec4};
 
+use super::hermite::hermite_weights;
 use super::track::{PoseFrame, fov_y_or_default};
 use cinesplat_geometry::rotation;
 
@@ -118,6 +119,6 @@ fn rates(times: &[f64]) -> Vec<f64> {
 
 /// The cubic curve between two points with slopes at both.
 fn cubic(a: DVec4, slope_a: DVec4, b: DVec4, slope_b: DVec4, t: f64) -> DVec4 {
-    let (t2, t3) = (t * t, t * t * t);
-    a * (2.0 * t3 - 3.0 * t2 + 1.0) + slope_a * (t3 - 2.0 * t2 + t) + b * (3.0 * t2 - 2.0 * t3) + slope_b * (t3 - t2)
+    let [of_a, of_slope_a, of_b, of_slope_b] = hermite_weights(t);
+    a * of_a + slope_a * of_slope_a + b * of_b + slope_b * of_slope_b
 }

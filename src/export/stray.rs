@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::hermite::hermite_weights;
 use super::key_slopes::{CameraValues, KeySlopes, key_slopes, values};
 use super::nerfstudio_spline::ViewerCurve;
 use super::opengl::from_opengl_rotation;
@@ -154,13 +155,8 @@ fn cubic(low: (CameraValues, CameraValues), high: (CameraValues, CameraValues), 
             (b[k], db[k]) = (-b[k], -db[k]);
         }
     }
-    let (t2, t3) = (t * t, t * t * t);
-    std::array::from_fn(|k| {
-        a[k] * (2.0 * t3 - 3.0 * t2 + 1.0)
-            + secs * da[k] * (t3 - 2.0 * t2 + t)
-            + b[k] * (3.0 * t2 - 2.0 * t3)
-            + secs * db[k] * (t3 - t2)
-    })
+    let [of_a, of_da, of_b, of_db] = hermite_weights(t);
+    std::array::from_fn(|k| a[k] * of_a + secs * da[k] * of_da + b[k] * of_b + secs * db[k] * of_db)
 }
 
 /// The cubic Hermite curve from key `from` to the next, with slopes between neighbors, at a fraction `t`.
@@ -174,11 +170,6 @@ fn hermite<const N: usize>(values: &impl Fn(usize) -> [f64; N], frames: &[PoseFr
         std::array::from_fn(|k| if secs > 0.0 { (b[k] - a[k]) / secs * span } else { 0.0 })
     };
     let (a, b, da, db) = (values(from), values(from + 1), slope(from), slope(from + 1));
-    let (t2, t3) = (t * t, t * t * t);
-    std::array::from_fn(|k| {
-        a[k] * (2.0 * t3 - 3.0 * t2 + 1.0)
-            + da[k] * (t3 - 2.0 * t2 + t)
-            + b[k] * (3.0 * t2 - 2.0 * t3)
-            + db[k] * (t3 - t2)
-    })
+    let [of_a, of_da, of_b, of_db] = hermite_weights(t);
+    std::array::from_fn(|k| a[k] * of_a + da[k] * of_da + b[k] * of_b + db[k] * of_db)
 }

@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec4};
 
 use super::super::ExportError;
+use super::super::hermite::hermite_weights;
 use super::super::json_read::Node;
 use super::accessor::{size, values};
 use super::constants::CUT_SECS;
@@ -93,13 +94,8 @@ impl Channel {
 /// The cubic between two values with tangents per second, at a fraction of the time between them: section "Cubic spline
 /// interpolation" of the specification of glTF 2.0.
 fn spline([a, b]: [&[f64]; 2], [leaving, arriving]: [&[f64]; 2], secs: f64, t: f64) -> Vec<f64> {
-    let (t2, t3) = (t * t, t * t * t);
-    let part = |k: usize| {
-        a[k] * (2.0 * t3 - 3.0 * t2 + 1.0)
-            + secs * leaving[k] * (t3 - 2.0 * t2 + t)
-            + b[k] * (3.0 * t2 - 2.0 * t3)
-            + secs * arriving[k] * (t3 - t2)
-    };
+    let [of_a, of_leaving, of_b, of_arriving] = hermite_weights(t);
+    let part = |k: usize| a[k] * of_a + secs * leaving[k] * of_leaving + b[k] * of_b + secs * arriving[k] * of_arriving;
     (0..a.len()).map(part).collect()
 }
 
