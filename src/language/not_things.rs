@@ -30,8 +30,13 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
     let Some(first) = words.iter().position(|word| (from..to).contains(&word.span[0])) else { return false };
     let end = words.iter().rposition(|word| (from..to).contains(&word.span[0])).map_or(first, |last| last + 1);
     let is_phrase = || word_at(&words, first) == "that" && end == first + 1;
+    // `The best place on earth`.
+    let is_world = first > 1
+        && matches!(word_at(&words, first - 1), "on" | "in" | "the")
+        && words[first..end].iter().all(|word| is_listed("earth world universe", &word.text));
     let is_taken_back = first > 0 && is_listed(TAKEN_BACK, word_at(&words, first - 1)) && is_phrase();
     is_taken_back
+        || is_world
         || is_color_of_look(&words, [first, end])
         || is_plate(&words, [first, end])
         || is_term(&words[first..end], objects)

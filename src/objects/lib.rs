@@ -28,6 +28,7 @@ mod grouping;
 mod groups;
 mod kept_points;
 mod lifting;
+mod lone;
 mod loose;
 mod mask;
 mod naming;

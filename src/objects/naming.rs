@@ -80,6 +80,13 @@ fn typical_color(gaussians: &Gaussians, members: &[usize]) -> Vec3 {
     color::median(&colors)
 }
 
+/// Whether a label is a description of [`describe`], not a name.
+pub(crate) fn is_description(label: &str) -> bool {
+    let unnumbered = label.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == ' ');
+    let last = unnumbered.rsplit(' ').next().unwrap_or_default();
+    ["object", "box", "panel", "surface"].contains(&last)
+}
+
 /// Makes equal labels unique: numbers all except the first one from 2 on, in order of id.
 pub(crate) fn make_unique(objects: &mut [Object]) {
     let labels: Vec<String> = objects.iter().map(|object| object.label.clone()).collect();

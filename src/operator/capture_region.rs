@@ -15,6 +15,11 @@ use cinesplat_scene::Bounds;
 
 /// Share of all directions in which the best viewpoint must see matter for the scene to count as indoor.
 const INDOOR_HIT_FRAC: f64 = 0.5;
+/// Share of the directions around it, those whose sine above the horizon is in this range, in which it must see matter too,
+/// and rays over the whole sphere of which these are taken.
+const AROUND_FRAC: f64 = 0.25;
+const AROUND_SIN: std::ops::Range<f64> = -0.1..0.6;
+const AROUND_RAYS: usize = 240;
 /// Least sine of the angle below the horizon of rays that look for the floor.
 const STEEP_SIN: f64 = 0.8;
 /// Points on surfaces by which it is told how much of the scene a place sees.
@@ -155,7 +160,9 @@ fn viewpoints(
     scored.par_iter_mut().for_each(|(score, _, p)| *score *= 0.1 + grounded_frac(matter, *p, frame.up, size, 48));
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
     match scored.first() {
-        Some(&(best, hit_frac, first)) if hit_frac >= INDOOR_HIT_FRAC => {
+        Some(&(best, hit_frac, first))
+            if hit_frac >= INDOOR_HIT_FRAC && around_frac(matter, first, frame.up, size) >= AROUND_FRAC =>
+        {
             let good: Vec<DVec3> =
                 scored.iter().filter(|s| s.0 >= 0.4 * best && s.1 >= 0.8 * hit_frac).map(|s| s.2).collect();
             (spread_out(first, &good, matter), true)
@@ -192,6 +199,14 @@ fn openness(matter: &OpacityGrid, point: DVec3, size: f64) -> (f64, f64) {
     let covariance = hits.iter().map(|&hit| outer(hit - mean)).fold(DMat3::ZERO, |sum, m| sum + m) * (1.0 / count);
     let spread = covariance.determinant().max(0.0).powf(1.0 / 6.0);
     (hits.len() as f64 / rays.len() as f64, spread / size)
+}
+
+/// Share of the directions from just below the horizon to well above it that meet matter: ground below a thing is no room.
+fn around_frac(matter: &OpacityGrid, point: DVec3, up: DVec3, size: f64) -> f64 {
+    let level = |ray: &DVec3| AROUND_SIN.contains(&ray.dot(up));
+    let rays: Vec<DVec3> = sphere_directions(AROUND_RAYS).into_iter().filter(level).collect();
+    let hits = rays.iter().filter(|&&ray| matter.hit_distance(point, ray, size).is_some()).count();
+    hits as f64 / rays.len().max(1) as f64
 }
 
 /// Share of a point's hits that have ground below the space before them. A capture contains the floor in front of a

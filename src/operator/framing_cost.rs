@@ -1,7 +1,9 @@
 //! What the framing of a segment's ends is worth: subjects that the edge of the frame cuts, and turns that hardly show.
 
+use glam::DVec3;
+
 use super::constraint::{Constraint, ConstraintKind, Scope};
-use super::framing::in_frame_frac;
+use super::framing::{extent_frac, frame_position, in_frame_frac};
 use super::motion::MotionSegment;
 use super::world::World;
 use cinesplat_trajectory::{CameraState, Move};
@@ -24,7 +26,42 @@ const WIDENED_COST: f64 = 2.5;
 /// Cost of the framing at the ends of a segment.
 pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
     let turned = short_turn_cost(world, segment, states);
-    cut_cost(world, segment, states) + turned + widened_cost(segment) + approach_cost(segment, states)
+    let sized = cut_cost(world, segment, states) + small_cost(world, segment, states);
+    sized + turned + widened_cost(segment) + approach_cost(segment, states)
+}
+
+/// Size of a subject in the frame, the larger of its shares of width and height, below which it is small in the best
+/// picture of it; and what a speck costs.
+const LEAST_FIT: f64 = 0.42;
+const SMALL_COST: f64 = 1.1;
+
+/// Cost of a subject that is small in every picture that is about it, where the words state no size.
+fn small_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    if segment.is_join {
+        return 0.0;
+    }
+    let ends = [(Scope::Start, &states[0]), (Scope::End, &states[states.len() - 1])];
+    let small = |constraint: &Constraint| {
+        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
+        let Some(subject) = world.subject(id) else { return 0.0 };
+        let about = ends.iter().filter(|(scope, _)| constraint.scope.covers(*scope));
+        if about.clone().any(|(scope, _)| is_sized(&segment.constraints, id, *scope)) {
+            return 0.0;
+        }
+        let largest = about.map(|(_, state)| extent_frac(world, state, &subject.corners).max_element());
+        (1.0 - largest.fold(0.0, f64::max) / LEAST_FIT).max(0.0)
+    };
+    SMALL_COST * segment.constraints.iter().map(small).fold(0.0, f64::max)
+}
+
+/// Whether the words state how large a subject is, or what else the picture has to hold.
+fn is_sized(constraints: &[Constraint], id: u32, scope: Scope) -> bool {
+    let states_size = |constraint: &Constraint| match &constraint.kind {
+        ConstraintKind::Height(target, _) | ConstraintKind::Distance(target, _) => target.ids.contains(&id),
+        ConstraintKind::InFrame(..) | ConstraintKind::FieldOfView(_) => true,
+        _ => false,
+    };
+    constraints.iter().any(|constraint| constraint.scope.covers(scope) && states_size(constraint))
 }
 
 /// Cost of a way to a thing that ends farther from it than it begins, and the factor on the distance at which it costs as
@@ -67,7 +104,8 @@ fn cut_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f
     if matches!(segment.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown) {
         return 0.0;
     }
-    let ends = [(Scope::Start, &states[0]), (Scope::End, &states[states.len() - 1])];
+    let middle = &states[states.len() / 2];
+    let ends = [(Scope::Start, &states[0]), (Scope::All, middle), (Scope::End, &states[states.len() - 1])];
     let cut_at = |constraint: &Constraint| {
         let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
         let Some(subject) = world.subject(id) else { return 0.0 };
@@ -77,10 +115,29 @@ fn cut_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f
         let holds = |(scope, _): &&(Scope, &CameraState)| {
             constraint.scope.covers(*scope) && !is_to_be_cut(&segment.constraints, id, *scope)
         };
-        let cut = |(_, state): &(Scope, &CameraState)| 1.0 - in_frame_frac(world, state, &subject.points, EDGE);
+        let cut = |(_, state): &(Scope, &CameraState)| {
+            let beyond = 1.0 - in_frame_frac(world, state, &subject.points, EDGE);
+            CUT_COST * beyond + shaved_cost(world, state, &subject.points)
+        };
         ends.iter().filter(holds).map(cut).fold(0.0, f64::max)
     };
-    CUT_COST * segment.constraints.iter().map(cut_at).fold(0.0, f64::max)
+    segment.constraints.iter().map(cut_at).fold(0.0, f64::max)
+}
+
+/// Cost of a subject whose chin or feet the frame shaves while there is room on the other side, and the room, over the
+/// frame's height, from which on it costs as much.
+const SHAVED_COST: f64 = 0.8;
+const SPARE_ROOM: f64 = 0.08;
+/// Margin above and below a subject that leaves it untouched, over the frame's height.
+const HEADROOM: f64 = 0.025;
+
+/// Cost of a subject that touches the upper or the lower edge while it is away from the other one.
+fn shaved_cost(world: &World, state: &CameraState, points: &[DVec3]) -> f64 {
+    let heights = points.iter().filter_map(|&point| frame_position(world, state, point)).map(|(at, _)| at.y);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let (below, above) = (low + 0.5 - HEADROOM, 0.5 - HEADROOM - high);
+    let (least, most) = (below.min(above), below.max(above));
+    if least >= 0.0 || most <= 0.0 { 0.0 } else { SHAVED_COST * (most.min(-2.0 * least) / SPARE_ROOM).min(1.0) }
 }
 
 /// Whether the words ask for a picture that a subject does not fit in.

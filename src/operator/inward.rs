@@ -14,7 +14,7 @@ use cinesplat_geometry::{LevelAngles, Pose};
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Void of a picture from which on a film is turned.
-const LEAST_VOID: f64 = 0.12;
+const LEAST_VOID: f64 = 0.04;
 /// Turns that are tried, as shares of the frame's width and of its height by which the picture moves.
 const TURNS: [[f64; 2]; 12] = [
     [-0.05, 0.0],
@@ -31,7 +31,7 @@ const TURNS: [[f64; 2]; 12] = [
     [0.08, 0.08],
 ];
 /// Cost by which a turn must be better.
-const LEAST_GAIN: f64 = 0.08;
+const LEAST_GAIN: f64 = 0.05;
 /// Steepest pitch of a view that is turned, radians: near the vertical a turn is a roll.
 const MAX_PITCH_RAD: f64 = 1.2;
 

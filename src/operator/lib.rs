@@ -43,6 +43,7 @@ mod program;
 mod realize;
 mod report;
 mod route;
+mod safer;
 mod search;
 mod settings;
 mod sighting;

@@ -30,6 +30,11 @@ const OUTDOOR_WEIGHTS: [f64; 3] = [0.1, 0.0, 0.3];
 /// Cost of matter close before the lens in every ray of the worst picture, and of more than [`MAX_BLOCKED`] there.
 const BLOCKED_COST: f64 = 1.2;
 const EXCESS_BLOCKED_COST: f64 = 1.0;
+/// Distance below which matter is foreground, over the middle distance of a picture; the share of a picture that
+/// foreground frames without harm; and the cost of one that it fills.
+const FOREGROUND_FRAC: f64 = 0.33;
+const FREE_FOREGROUND: f64 = 0.1;
+const FOREGROUND_COST: f64 = 1.6;
 /// Cost of a room without depth.
 const SHALLOW_COST: f64 = 0.25;
 /// Cost of a camera below furniture.
@@ -40,6 +45,7 @@ const UNDER_COST: f64 = 4.0;
 struct Picture {
     void: f64,
     blocked: f64,
+    foreground: f64,
     shallow: f64,
 }
 
@@ -56,12 +62,14 @@ pub(super) fn pictures_cost(world: &World, states: &[CameraState]) -> f64 {
     let mean = |share: fn(&Picture) -> f64| pictures.iter().map(share).sum::<f64>() / pictures.len() as f64;
     let [of_worst, of_excess, of_mean] = if world.is_indoor() { ROOM_WEIGHTS } else { OUTDOOR_WEIGHTS };
     let (void, blocked) = (worst(|p| p.void), worst(|p| p.blocked));
+    let foreground = (worst(|p| p.foreground) - FREE_FOREGROUND).max(0.0);
     let shallow = if world.is_indoor() { SHALLOW_COST * mean(|p| p.shallow) } else { 0.0 };
     let sum = of_worst * void
         + of_excess * excess(void, MAX_VOID)
         + of_mean * mean(|p| p.void)
         + BLOCKED_COST * blocked
         + EXCESS_BLOCKED_COST * excess(blocked, MAX_BLOCKED)
+        + FOREGROUND_COST * foreground
         + shallow;
     MAX_COST * (sum / MAX_COST).tanh()
 }
@@ -148,6 +156,7 @@ fn picture(world: &World, state: &CameraState, (columns, rows): (u32, u32)) -> P
     let (near, shallow) = (NEAR_FRAC * world.bounds.size(), SHALLOW_FRAC * world.bounds.size());
     let each = 1.0 / f64::from(columns * rows);
     let mut out = Picture::default();
+    let mut distances = Vec::with_capacity((columns * rows) as usize);
     for column in 0..columns {
         for row in 0..rows {
             let at = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
@@ -155,11 +164,17 @@ fn picture(world: &World, state: &CameraState, (columns, rows): (u32, u32)) -> P
             match world.hit_distance(state.pose.position, camera.ray(at)) {
                 None => out.void += each,
                 Some(distance) => {
+                    distances.push(distance);
                     out.blocked += if distance < near { each } else { 0.0 };
                     out.shallow += if distance < shallow { each } else { 0.0 };
                 }
             }
         }
+    }
+    distances.sort_by(f64::total_cmp);
+    if let Some(middle) = distances.get(distances.len() / 2) {
+        out.foreground =
+            each * distances.iter().filter(|distance| **distance < FOREGROUND_FRAC * middle).count() as f64;
     }
     out
 }

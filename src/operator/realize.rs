@@ -8,19 +8,30 @@ use super::dutch;
 use super::ends::bettered;
 use super::flow::{Flow, Joint, is_left_out, joints, tightened, without_stops};
 use super::forbidden;
+use super::framing::extent_frac;
 use super::handles::{MAX_FREE_FILM_SECS, handles, settle};
 use super::inward::turned_inward;
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
-use super::program::{Framing, Program, Step};
+use super::program::{Amount, Framing, Program, Step};
 use super::report;
+use super::safer::safer_programs;
 use super::search::{Candidate, SearchProblem, best_candidates};
 use super::settings::{SolveLevel, SolveSettings};
 use super::sighting::{Sighting, sightings};
 use super::suggestion::StepCameras;
 use super::world::World;
-use cinesplat_trajectory::{CameraPath, ClearanceProof, Keyframe, Move, ReportLine, retime};
+use cinesplat_trajectory::{CameraPath, CameraState, ClearanceProof, Keyframe, Move, ReportLine, retime};
 
+/// Tries, and films, of the search for one that gives words up, over those of the first search.
+const SAFER_TRIES: f64 = 0.5;
+const SAFER_FINALISTS: usize = 2;
+/// Largest size of a thing in the frame, over the frame's, while a camera circles it.
+const SQUEEZED: f64 = 1.1;
+/// Distance from matter, over the camera's radius, below which a film goes through it; and the share of a segment in the
+/// captured region below which it leaves the room, and not only the estimate of where that ends.
+const SAFE_RADII: f64 = 0.25;
+const SAFE_CAPTURED_FRAC: f64 = 0.7;
 /// Shortest time into which a stated total duration compresses the segments of free length.
 const MIN_FREE_SECS: f64 = 0.3;
 
@@ -41,6 +52,9 @@ pub struct Solution {
     pub clearance: ClearanceProof,
     /// The cost that the search minimized. Below 3, every constraint was met during the search.
     pub cost: f64,
+    /// Whether the camera stays in the room and clear of matter at every moment, and does not squeeze in between a thing and
+    /// a wall to get around it.
+    pub is_safe: bool,
 }
 
 /// Solves a program: keyframes whose path carries out every step.
@@ -76,9 +90,41 @@ pub fn finalists(
     } else {
         program
     };
-    let program = &as_filmed(program);
-    let candidates = best_candidates(&SearchProblem { world, program, suggestions }, settings, num);
-    candidates.into_iter().map(|candidate| solution(world, (program, prompt), candidate, settings)).collect()
+    let solved = |program: &Program, settings: &SolveSettings, num: usize| -> Vec<Solution> {
+        let program = &as_filmed(program);
+        let candidates = best_candidates(&SearchProblem { world, program, suggestions }, settings, num);
+        candidates.into_iter().map(|candidate| solution(world, (program, prompt), candidate, settings)).collect()
+    };
+    let asked = solved(program, settings, num);
+    if settings.level == SolveLevel::Off || asked.iter().all(|solution| solution.is_safe) {
+        return asked;
+    }
+    let sooner = SolveSettings { tries_factor: SAFER_TRIES * settings.tries_factor, ..*settings };
+    safe_solutions(program, prompt, asked, &|safer| solved(safer, &sooner, num.min(SAFER_FINALISTS)))
+}
+
+/// Solutions that stay in the room and clear of matter: those of the program, or else of one that gives up the words that
+/// lead through a wall, one after the other. The solutions of the program itself where none is safe.
+fn safe_solutions(
+    program: &Program,
+    prompt: &str,
+    mut asked: Vec<Solution>,
+    solved: &dyn Fn(&Program) -> Vec<Solution>,
+) -> Vec<Solution> {
+    if asked.iter().any(|solution| solution.is_safe) {
+        // A film that leaves the room is no alternative.
+        asked.retain(|solution| solution.is_safe);
+        return asked;
+    }
+    for (safer, given_up) in safer_programs(program, prompt) {
+        let mut others = solved(&safer);
+        others.retain(|solution| solution.is_safe);
+        if !others.is_empty() {
+            others.iter_mut().for_each(|solution| solution.report.extend(given_up.iter().cloned()));
+            return others;
+        }
+    }
+    asked
 }
 
 /// The finished film of a candidate: detours, times, keyframes, certificate and report.
@@ -110,13 +156,33 @@ fn solution(
     let wanted_secs = program.duration_secs.or_else(|| too_long(&segments, handles));
     let (flow, segments, keys, clearance) = filmed(world, program, (segments, wanted_secs), (joints, handles));
     let path = CameraPath::fine(keys.clone(), world.frame);
-    let mut report = report::report(world, (program, prompt), (&segments, &flow.spans), &path, settings.level);
+    let (mut report, captured) =
+        report::report(world, (program, prompt), (&segments, &flow.spans), &path, settings.level);
+    let least = SAFE_RADII * clearance.camera_radius;
+    let is_clear = clearance.failure.is_none_or(|failure| failure.distance >= least);
+    let stays = captured >= SAFE_CAPTURED_FRAC || !world.is_indoor();
+    let is_safe = is_clear && stays && !segments.iter().any(|segment| squeezes(world, program, segment));
     report.extend(detours::clearance_lines(world, (program, prompt), (&segments, &flow.spans), &detours, &clearance));
     report.extend(forbidden::lines(world, program, &segments, &keys));
     report.extend(settings.slant.map(|slant| dutch::report_line(world, &segments, slant)));
     let step_keys = step_keys(&flow.segments, program.steps.len());
     let sightings = sightings(&segments, &flow.spans, flow.secs());
-    Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance }
+    Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance, is_safe }
+}
+
+/// Whether a camera circles a thing, whose size and how far around the words leave open, so closely that the thing does not fit the picture.
+fn squeezes(world: &World, program: &Program, segment: &MotionSegment) -> bool {
+    let circles = matches!(segment.movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
+        && !segment.is_join;
+    let is_free = |step: &&Step| !matches!(step.amount, Some(Amount::Degrees(_)));
+    let Some(step) = program.steps.get(segment.step).filter(|_| circles).filter(is_free) else { return false };
+    let ends = [&step.end, &step.start];
+    let is_sized =
+        |framing: &&Framing| framing.size.is_some() || framing.height_frac.is_some() || framing.distance.is_some();
+    let subject = ends.iter().find_map(|framing| world.subject(*framing.subjects.first()?));
+    let Some(subject) = subject.filter(|_| !ends.iter().any(is_sized)) else { return false };
+    let size = |state: &CameraState| extent_frac(world, state, &subject.corners).max_element();
+    segment.states.iter().map(size).fold(0.0, f64::max) > SQUEEZED
 }
 
 /// The film of the segments in the wanted time, the segments as long as they are in it, its keyframes, and their

@@ -17,14 +17,15 @@ const NUM_SAMPLES: usize = 49;
 /// estimated from the matter alone and the estimate flickers at its boundary.
 const MIN_CAPTURED_FRAC: f64 = 0.9;
 
-/// The report of a film: every constraint of every segment on its span of the path, and the captured region.
+/// The report of a film: every constraint of every segment on its span of the path, and the captured region, with the share
+/// of the path inside it.
 pub(super) fn report(
     world: &World,
     (program, prompt): (&Program, &str),
     (segments, spans): (&[MotionSegment], &[[f64; 2]]),
     path: &CameraPath,
     level: SolveLevel,
-) -> Vec<ReportLine> {
+) -> (Vec<ReportLine>, f64) {
     let mut lines: Vec<ReportLine> = Vec::new();
     let mut captured = 1.0_f64;
     for (segment, &[from, to]) in segments.iter().zip(spans) {
@@ -54,7 +55,7 @@ pub(super) fn report(
             note: "the camera sees back sides of surfaces or leaves the captured region".to_owned(),
         });
     }
-    lines
+    (lines, captured)
 }
 
 /// The words of the prompt that a segment comes from, or else the name of its move.

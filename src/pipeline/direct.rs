@@ -2,12 +2,13 @@ use super::choose_film::{Critique, FilmChoice, choose_film};
 use super::clearance::reach_of;
 use super::error::PipelineError;
 use super::interpreter::Interpreter;
+use super::lone_thing::{self, names};
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use super::slant::slant_of;
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
-use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, NamedObject, forbidding_words};
+use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, forbidding_words};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
 use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, Step, World};
@@ -115,8 +116,9 @@ pub fn direct(
     settings: &DirectSettings,
 ) -> Result<Directed, PipelineError> {
     let mut times = PhaseTimes::default();
-    let linked = times.measure(Phase::Direct, || interpreter.director.link(prompt, &names(objects)))?;
-    let objects = times.measure(Phase::Objects, || with_clouds(scene, objects, &linked))?;
+    let (linked, objects) =
+        times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects))?;
+    let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();
     let context =
         SceneContext { objects: &objects.objects, up: scene.up, center: bounds.center(), size: bounds.size() };
@@ -192,10 +194,6 @@ pub fn stated_size<'a>(prompt: &'a str, objects: &ObjectSet) -> Option<([u32; 2]
     let shape = cinesplat_language::frame_shape(prompt, &names(objects))?;
     let [start, end] = shape.bytes;
     Some((shape.size_px(DirectSettings::default().height), prompt.get(start..end).unwrap_or_default()))
-}
-
-fn names(objects: &ObjectSet) -> Vec<NamedObject> {
-    objects.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect()
 }
 
 /// The objects; those that the network reads have clouds.

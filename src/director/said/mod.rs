@@ -2,6 +2,7 @@
 
 mod amounts;
 mod bans;
+mod briefs;
 mod circles;
 mod directions;
 mod dolly_zoom;
@@ -111,6 +112,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
 
 /// Corrects a direction by what the words say plainly of several of its parts.
 pub(crate) fn take_said_of_all(linked: &Linked, direction: &mut Direction) {
+    briefs::film_briefs(linked, direction);
     let steps = &mut direction.program.steps;
     endings::include_named(linked, steps);
     whole_film::keep_uncut(linked, steps);

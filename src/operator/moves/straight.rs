@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::passes::gate;
 use super::standing_view::stands;
+use super::turns::is_along;
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
 use crate::framing::{Fill, Target, bearing_of, distance_for, frame_position, in_frame_frac};
 use crate::motion::MotionSegment;
@@ -238,6 +239,10 @@ fn frame_depth(context: &StepContext, state: &CameraState, point: DVec3) -> Opti
     frame_position(context.world, state, point).map(|(_, depth)| depth)
 }
 
+/// Size of the subject of a slide, and that of one along which the camera slides, from one end of it to the other.
+const SLIDE_FILL: (f64, f64) = (0.36, 0.66);
+const ALONG_SLIDE_FILL: (f64, f64) = (1.1, 1.8);
+
 /// A slide in a direction: from the start target to the end target, or past a target.
 /// `way_to` gives the travel that brings a target to the frame's middle.
 fn slide(
@@ -257,7 +262,7 @@ fn slide(
         if travels { context.opening_target() } else { passed.clone().unwrap_or_else(|| context.main_target()) };
     let (mut segments, mut first) = match (&context.before, &context.start) {
         (Some(before), None) => (Vec::new(), *before),
-        _ => context.opened_on(&target, (0.36, 0.66)),
+        _ => context.opened_on(&target, if is_along(context) { ALONG_SLIDE_FILL } else { SLIDE_FILL }),
     };
     let placed = context.before.is_some() || stands(&context.standing());
     if !placed && direction.is_vertical() && context.step.start.angle.is_none() && !target.ids.is_empty() {

@@ -332,7 +332,7 @@ const OVERLOOK_TILT_FROM: f64 = 0.75;
 const ALONG_FILL: (f64, f64) = (1.4, 2.2);
 
 /// Whether the view turns from one end of a subject to the other.
-fn is_along(context: &StepContext) -> bool {
+pub(super) fn is_along(context: &StepContext) -> bool {
     let (start, end) = (&context.step.start, &context.step.end);
     let free = start.size.is_none() && end.size.is_none() && !start.whole && !end.whole;
     free && start.part != end.part && start.part != SubjectPart::Middle && end.part != SubjectPart::Middle

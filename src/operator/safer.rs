@@ -1,0 +1,102 @@
+//! Programs that give up what leads a camera through matter or out of the room.
+//!
+//! Enters: a program whose films are not safe. Leaves: the same program without the words that say from which side, over
+//! which way or how far around a thing, the fewest given up first, with report lines that say what was given up.
+
+use super::program::{Amount, Program, Step};
+use cinesplat_trajectory::{Move, ReportLine};
+
+/// Longest circle around a thing that stands at a wall, degrees, one try after the other.
+const ARCS_DEG: [f64; 2] = [120.0, 60.0];
+
+/// Gives up some words of a step; what, or `None` where the step has none of them.
+type GiveUp = dyn Fn(&mut Step) -> Option<&'static str>;
+
+/// Programs in the order in which they are to be tried, each with what it gives up. Each gives up more than the one before;
+/// ones that change nothing are left out.
+pub(super) fn safer_programs(program: &Program, prompt: &str) -> Vec<(Program, Vec<ReportLine>)> {
+    let ways: [&dyn Fn(&mut Step) -> Option<&'static str>; 4] =
+        [&drop_places, &|step| shorten(step, ARCS_DEG[0]), &|step| shorten(step, ARCS_DEG[1]), &drop_pass];
+    let (mut safer, mut lines) = (program.clone(), Vec::new());
+    let mut tries = Vec::new();
+    for way in ways {
+        let given_up: Vec<ReportLine> =
+            safer.steps.iter_mut().filter_map(|step| way(step).map(|what| line(prompt, step, what))).collect();
+        if !given_up.is_empty() {
+            lines.extend(given_up);
+            tries.push((safer.clone(), lines.clone()));
+        }
+    }
+    tries
+}
+
+/// Gives up the sides, heights and distances from which a step sees its subjects.
+fn drop_places(step: &mut Step) -> Option<&'static str> {
+    let mut is_dropped = false;
+    for framing in [&mut step.start, &mut step.end] {
+        is_dropped |= framing.side.take().is_some();
+        is_dropped |= framing.height.take().is_some();
+        is_dropped |= framing.distance.take().is_some();
+    }
+    is_dropped.then_some("the side, height or distance that the words state")
+}
+
+/// Goes less far around a thing.
+fn shorten(step: &mut Step, most_deg: f64) -> Option<&'static str> {
+    let circles = matches!(step.movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight);
+    let is_long = match step.amount {
+        Some(Amount::Degrees(degrees)) => degrees > most_deg,
+        Some(Amount::Large) => true,
+        None => matches!(step.movement, Move::OrbitLeft | Move::OrbitRight),
+        Some(_) => false,
+    };
+    if !circles || !is_long {
+        return None;
+    }
+    step.amount = Some(Amount::Degrees(most_deg));
+    Some("the angle that the words state")
+}
+
+/// Goes straight where the words lead past, over or through something.
+fn drop_pass(step: &mut Step) -> Option<&'static str> {
+    step.via.take().map(|_| "the way that the words state")
+}
+
+fn line(prompt: &str, step: &Step, what: &str) -> ReportLine {
+    let words = step.words.and_then(|[from, to]| prompt.get(from..to)).map(str::trim).unwrap_or_default();
+    let clause = if words.is_empty() { step.movement.as_ref().to_owned() } else { words.to_owned() };
+    ReportLine {
+        clause,
+        wanted: what.to_owned(),
+        got: 0.0,
+        met: false,
+        note: "given up: it leads through matter or out of what was captured".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Framing, SubjectSide};
+
+    #[test]
+    fn each_safer_program_gives_up_more_and_says_so() {
+        let end = Framing { subjects: vec![3], side: Some(SubjectSide::FromBack), ..Framing::default() };
+        let step = Step { end, amount: Some(Amount::Degrees(360.0)), ..Step::of(Move::OrbitLeft) };
+        let program = Program { steps: vec![step, Step::of(Move::PushIn)], ..Program::default() };
+        let tries = safer_programs(&program, "");
+        let found: Vec<(bool, Option<Amount>, usize)> = tries
+            .iter()
+            .map(|(safer, lines)| (safer.steps[0].end.side.is_some(), safer.steps[0].amount, lines.len()))
+            .collect();
+        assert_eq!(
+            found,
+            [
+                (false, Some(Amount::Degrees(360.0)), 1),
+                (false, Some(Amount::Degrees(120.0)), 2),
+                (false, Some(Amount::Degrees(60.0)), 3),
+            ]
+        );
+        assert!(tries.iter().all(|(safer, _)| safer.steps[1] == program.steps[1]));
+    }
+}

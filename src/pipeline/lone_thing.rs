@@ -1,0 +1,98 @@
+//! The one thing of a scan, called by the words of a prompt.
+//!
+//! A person who scans a skull says `the skull`, whatever description a search gave to it. Where nobody has named the only
+//! thing of a scene, what a prompt names and the scene lacks is that thing.
+
+use std::borrow::Cow;
+use std::cmp::Reverse;
+
+use super::error::PipelineError;
+use cinesplat_director::Director;
+use cinesplat_language::{Linked, NamedObject, Things, Word, is_listed, tokenize};
+use cinesplat_objects::ObjectSet;
+
+/// What a thing stands on: rarely what a scan is about.
+const GROUNDS: [&str; 10] =
+    ["soil", "ground", "floor", "earth", "grass", "table", "stand", "pedestal", "plinth", "background"];
+
+/// A prompt with its mentions, and the objects with the label that the prompt gives to the only thing.
+pub(super) fn link<'a>(
+    director: &Director,
+    prompt: &str,
+    objects: &'a ObjectSet,
+) -> Result<(Linked, Cow<'a, ObjectSet>), PipelineError> {
+    let unnamed = objects.unnamed_whole().map(|whole| (whole.id, whole.label.clone()));
+    let named = match &unnamed {
+        Some((id, description)) => name_of_whole(director, prompt, objects)?.map(|name| (*id, description, name)),
+        None => None,
+    };
+    let Some((id, description, name)) = named else {
+        return Ok((director.link(prompt, &names(objects))?, Cow::Borrowed(objects)));
+    };
+    let mut renamed = objects.clone();
+    for object in renamed.objects.iter_mut().filter(|object| object.id == id) {
+        object.label.clone_from(&name);
+    }
+    // Words for its parts are known once its name is.
+    let mut linked = director.link(prompt, &names(&renamed))?;
+    let mut taken = vec![name];
+    for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
+        group.members = vec![id];
+        taken.push(group.name.clone());
+    }
+    let warnings = taken.iter().map(|name| {
+        format!("\"{name}\" is taken for <obj-{id}> {description}, the only thing of this scene that has no name")
+    });
+    linked.warnings.extend(warnings);
+    Ok((linked, Cow::Owned(renamed)))
+}
+
+/// What a prompt calls the thing of a scan: of the names that neither it nor its parts have, that of a kind of things, of one
+/// thing, and not of what it stands on, the one that is said most often. `None` where every name is known.
+fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Result<Option<String>, PipelineError> {
+    let all = names(objects);
+    // Nothing is known without objects.
+    let linked = director.link(prompt, &[])?;
+    let stems = |text: &str| -> Vec<String> { tokenize(text).into_iter().map(|word| word.stem).collect() };
+    let known: Vec<String> = all.iter().flat_map(|object| stems(&object.label)).collect();
+    let is_known = |name: &str| stems(name).last().is_none_or(|head| known.contains(head));
+    let said = stems(prompt);
+    let mut found: Vec<String> =
+        linked.missing_groups().map(|group| plain_name(&group.name)).filter(|name| !is_known(name)).collect();
+    let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty();
+    let words = tokenize(prompt);
+    let is_determined = |at: usize| {
+        let before = words[at.saturating_sub(2)..at].iter();
+        before.into_iter().any(|word| is_listed("the a an this that my our your his her its", &word.text))
+    };
+    let is_name = |at: &usize| is_kind(&words[*at].text) && !is_known(&words[*at].text) && is_determined(*at);
+    for word in (0..words.len()).filter(is_name).map(|at| &words[at]) {
+        if !found.iter().any(|name| stems(name).contains(&word.stem)) {
+            found.push(word.text.clone());
+        }
+    }
+    found.sort_by_key(|name| {
+        let words = tokenize(name);
+        let head = words.last();
+        let times = said.iter().filter(|word| head.is_some_and(|head| head.stem == **word)).count();
+        let is_plural = head.is_some_and(|head| head.stem != head.text);
+        let is_ground = words.iter().any(|word| GROUNDS.contains(&word.stem.as_str()));
+        (is_ground, !head.is_some_and(|head| is_kind(&head.text)), is_plural, Reverse(times))
+    });
+    Ok(found.first().cloned())
+}
+
+/// A name without what says how much of the thing is meant and where it is: `whole guitar on its stand` is the guitar.
+fn plain_name(name: &str) -> String {
+    let words = tokenize(name);
+    let is_amount = |word: &Word| is_listed("whole entire full complete all", &word.text);
+    let is_place = |word: &Word| is_listed("on in at with from by of under beside", &word.text);
+    let front = words.iter().skip_while(|word| is_amount(word)).take_while(|word| !is_place(word));
+    let front: Vec<&str> = front.map(|word| word.text.as_str()).collect();
+    if front.is_empty() { name.to_owned() } else { front.join(" ") }
+}
+
+/// The objects by their labels.
+pub(super) fn names(objects: &ObjectSet) -> Vec<NamedObject> {
+    objects.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect()
+}
