@@ -15,7 +15,7 @@ type GiveUp = dyn Fn(&mut Step) -> Option<&'static str>;
 /// Programs in the order in which they are to be tried, each with what it gives up. Each gives up more than the one before;
 /// ones that change nothing are left out.
 pub(super) fn safer_programs(program: &Program, prompt: &str) -> Vec<(Program, Vec<ReportLine>)> {
-    let ways: [&dyn Fn(&mut Step) -> Option<&'static str>; 4] =
+    let ways: [&GiveUp; 4] =
         [&drop_places, &|step| shorten(step, ARCS_DEG[0]), &|step| shorten(step, ARCS_DEG[1]), &drop_pass];
     let (mut safer, mut lines) = (program.clone(), Vec::new());
     let mut tries = Vec::new();
