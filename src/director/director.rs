@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use cinesplat_language::{
-    Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, end_of, is_no_thing, link_parts,
+    Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_parts, part_of,
     scenery, tokenize, without_arrows, without_camera_settings, without_frame_shape, without_tolerances,
 };
 use cinesplat_objects::Object;
@@ -11,13 +11,16 @@ use cinesplat_operator::{Program, StepCameras};
 use cinesplat_trajectory::{CameraState, ModelRef};
 use glam::{DQuat, DVec3, Vec3};
 
+use crate::acting::acts;
 use crate::beats::direct_beats;
 use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
 use crate::compositions::direct_composed;
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
-use crate::explained::{absorb_places, drop_sizes, name_by_label_words, own_parts, point_back, point_ones};
+use crate::explained::{
+    absorb_places, drop_sizes, name_by_label_words, name_by_parts, own_parts, point_back, point_ones,
+};
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
@@ -25,6 +28,7 @@ use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::said::{take_said, take_said_of_all};
+use crate::times::ListedTimes;
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -105,7 +109,10 @@ impl Director {
         absorb_places(prompt, objects, &mut found);
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);
-        own_parts(prompt, objects, &mut found);
+        own_parts(prompt, objects, &mut found)?;
+        name_by_parts(prompt, objects, &mut found)?;
+        let acts = acts(prompt, objects, &mut found)?;
+        let prompt = &*blanked(prompt, &acts);
         let parts: Vec<[usize; 2]> = found.iter().map(|found| found.mention.bytes).collect();
         let are_effects = are_effect_phrases(prompt, &parts)?;
         // The scene lacks no `bloom`, and the bike is not meant by it either: it is what the lens makes.
@@ -113,12 +120,12 @@ impl Director {
             |(found, is_effect): &(&FoundMention, bool)| !is_effect || has_word_of_name(prompt, found, objects);
         let things = found.iter().zip(are_effects).filter(is_thing);
         let mentions: Vec<Mention> = things.map(|(found, _)| found.mention.clone()).collect();
-        let end = |mention: &Mention| {
-            let [id] = mention.ids[..] else { return None };
-            let label = objects.iter().find(|object| object.id == id).map(|object| object.label.as_str())?;
-            end_of(prompt.get(mention.bytes[0]..mention.bytes[1])?, label)
+        let part = |mention: &Mention| {
+            let [id] = mention.ids[..] else { return Ok(None) };
+            let label = objects.iter().find(|object| object.id == id).map_or("", |object| object.label.as_str());
+            part_of(prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default(), label)
         };
-        let mut linked = Linked { scenery, ..link_parts(prompt, &mentions, &end)? };
+        let mut linked = Linked { scenery, acts, ..link_parts(prompt, &mentions, &part)? };
         for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
             let words = |found: &&FoundMention| {
                 let [start, end] = found.mention.bytes;
@@ -144,11 +151,18 @@ impl Director {
     /// [`DirectorError::NotFinite`] when the network outputs a position that is not finite ·
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
-        let mut direction = direct_composed(linked, &|linked, subjects| match &linked.timeline {
-            Some(timeline) => direct_beats(linked, timeline, subjects, &|part| self.direct_corrected(part, scene)),
-            None => self.direct_corrected(linked, scene),
-        })?;
+        let times = ListedTimes::of(linked);
+        let timeless = times.as_ref().and_then(|times| times.without(linked));
+        let mut direction =
+            direct_composed(timeless.as_ref().unwrap_or(linked), &|linked, subjects| match &linked.timeline {
+                Some(timeline) => direct_beats(linked, timeline, subjects, &|part| self.direct_corrected(part, scene)),
+                None => self.direct_corrected(linked, scene),
+            })?;
+        if let Some(times) = times {
+            times.write(&mut direction);
+        }
         take_said_of_all(linked, &mut direction);
+        direction.unmet.extend(&linked.acts);
         Ok(direction)
     }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::{Mention, NamedObject, Word, end_of, is_listed, stem, tokenize};
+use cinesplat_language::{LanguageError, Mention, NamedObject, Word, is_listed, own_part_at, part_of, stem, tokenize};
 
 use crate::names::FoundMention;
 use crate::said::abbreviated_size;
@@ -69,20 +69,73 @@ pub(crate) fn point_ones(prompt: &str, objects: &[NamedObject], found: &mut [Fou
 
 /// Takes a part that the scene lacks for one of the only thing that there is, or that the prompt names: `the two sockets`
 /// of the skull.
-pub(crate) fn own_parts(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {
+///
+/// # Errors
+/// [`LanguageError::BadData`] for a damaged list of parts.
+pub(crate) fn own_parts(
+    prompt: &str,
+    objects: &[NamedObject],
+    found: &mut [FoundMention],
+) -> Result<(), LanguageError> {
     let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
     named.dedup();
     let only = match (&named[..], objects) {
         ([id], _) => *id,
         ([], [object]) => object.id,
-        _ => return,
+        _ => return Ok(()),
     };
-    let Some(whole) = label(objects, only).map(str::to_owned) else { return };
+    let Some(whole) = label(objects, only).map(str::to_owned) else { return Ok(()) };
     for part in found.iter_mut().filter(|found| found.mention.ids.is_empty()) {
-        if end_of(said(prompt, &part.mention), &whole).is_some() {
+        if part_of(said(prompt, &part.mention), &whole)?.is_some() {
             part.mention.ids = vec![only];
         }
     }
+    Ok(())
+}
+
+/// Links words that name nothing yet, where they are a part that things of one kind have: `the left earcup` of headphones.
+///
+/// # Errors
+/// [`LanguageError::BadData`] for a damaged list of parts.
+pub(crate) fn name_by_parts(
+    prompt: &str,
+    objects: &[NamedObject],
+    found: &mut Vec<FoundMention>,
+) -> Result<(), LanguageError> {
+    let words = tokenize(prompt);
+    let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
+    for at in 1..words.len() {
+        let overlaps = |found: &FoundMention, to: usize| {
+            let [start, end] = found.mention.bytes;
+            start < words[to - 1].span[1] && words[at].span[0] < end
+        };
+        if !is_listed(POINTS, text(at - 1)) {
+            continue;
+        }
+        let mut owners = Vec::new();
+        for object in objects {
+            let own = own_part_at(&words[at..words.len().min(at + 3)], &object.label)?;
+            owners.extend(own.map(|len| (object.id, at + len)));
+        }
+        let before = |id: &u32| {
+            found.iter().rposition(|found| found.mention.bytes[0] < words[at].span[0] && found.mention.ids == [*id])
+        };
+        // Of several things with such a part the one named last is meant.
+        let owner = match owners[..] {
+            [owner] => Some(owner),
+            _ => owners.iter().filter(|(id, _)| before(id).is_some()).max_by_key(|(id, _)| before(id)).copied(),
+        };
+        let Some((id, to)) = owner else { continue };
+        let is_alone = text(to).chars().all(|letter| !letter.is_alphanumeric())
+            || is_listed(BEHIND, text(to))
+            || text(to).starts_with("fill");
+        if is_alone && !found.iter().any(|found| overlaps(found, to)) {
+            let mention = Mention { bytes: [words[at - 1].span[0], words[to - 1].span[1]], ids: vec![id] };
+            let place = found.partition_point(|found| found.mention.bytes[0] < mention.bytes[0]);
+            found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+        }
+    }
+    Ok(())
 }
 
 /// Words that say where a thing is, and words that may stand beside them.

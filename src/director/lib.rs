@@ -15,6 +15,7 @@
 //!
 //! Only this crate and `training` use candle, and only this crate uses tokenizers.
 
+mod acting;
 mod beats;
 mod calibration;
 pub mod codes;
@@ -34,6 +35,7 @@ pub mod names;
 pub mod network;
 mod said;
 mod tensor_file;
+mod times;
 
 pub use calibration::Calibration;
 pub use decoding::Choice;
@@ -43,3 +45,4 @@ pub use error::DirectorError;
 pub use frame::SceneFrame;
 pub use model_files::ModelFiles;
 pub use names::{FoundMention, Names, NamesFiles};
+pub use said::take_levels;

@@ -8,7 +8,9 @@
 //! Before anything else shorthand becomes plain words (`Z/I 24-70` = `zoom in 24 to 70`; `prompts/shorthand.txt`), and
 //! misspelled words of command are mended ([`plain_words`]). After it idioms become the words of the trade (`let the
 //! mug slide past from right to left` = `truck right past the mug`; `prompts/idioms.txt`). A prompt that says part by
-//! part what happens when is a [`Timeline`], and the director reads it part by part.
+//! part what happens when is a [`Timeline`], and the director reads it part by part. Heights that people name (`at knee height`;
+//! `prompts/heights.txt`) and parts of things (`the sole`; `prompts/parts.txt`) are told by [`Linked::spoken_heights`] and
+//! [`part_of`].
 //!
 //! # Notation of programs
 //!
@@ -84,10 +86,10 @@ mod chain;
 mod corrections;
 mod edit_distance;
 mod effects;
-mod ends;
 mod error;
 mod forbidding;
 mod frame_shape;
+mod heights;
 mod idioms;
 mod inflection;
 mod known_words;
@@ -107,6 +109,7 @@ mod quantity;
 mod rates;
 mod scenery;
 mod senses;
+mod thing_parts;
 mod things;
 mod timeline;
 mod tokenizer;
@@ -117,10 +120,10 @@ pub use blanks::blanked;
 pub use chain::without_arrows;
 pub use edit_distance::edit_distance;
 pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
-pub use ends::end_of;
 pub use error::LanguageError;
 pub use forbidding::forbidding_words;
 pub use frame_shape::{FrameShape, frame_shape, without_frame_shape};
+pub use heights::SpokenHeight;
 pub use inflection::{VerbForm, inflect, stem};
 pub use known_words::GRAMMAR_TEXT;
 pub use lexicon::{Lexicon, WordList};
@@ -140,6 +143,7 @@ pub use quantity::{Quantity, QuantityKind};
 pub use rates::Rate;
 pub use scenery::scenery;
 pub use senses::{Senses, sense_names};
+pub use thing_parts::{PartPlace, own_part_at, part_of};
 pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
 pub use timeline::{Beat, BeatLength, Timeline};
 pub use tokenizer::{Word, is_listed, tokenize};

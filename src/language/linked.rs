@@ -1,6 +1,7 @@
 //! A prompt whose objects and quantities are placeholders.
 
 use super::quantity::Quantity;
+use super::thing_parts::PartPlace;
 use super::timeline::Timeline;
 use super::unknown::UnknownName;
 
@@ -35,6 +36,11 @@ pub struct Linked {
     pub quantities: Vec<Quantity>,
     /// Bytes of the mentions that say all of a thing: `the whole curtain`, `all of the sideboard`.
     pub wholes: Vec<[usize; 2]>,
+    /// Bytes of the mentions that name a part of a thing by a word of its own (`the sole`), and where it sits.
+    pub parts: Vec<([usize; 2], PartPlace)>,
+    /// Bytes of the clauses in which a thing of the scene is told to act (`make the cat jump`), which are no words of the
+    /// list.
+    pub acts: Vec<[usize; 2]>,
     /// Names that match no object.
     pub unknown: Vec<UnknownName>,
     /// The parts of a prompt that says part by part what happens when.

@@ -7,6 +7,7 @@ use super::error::LanguageError;
 use super::linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, without_article};
 use super::plain::plain_words;
 use super::quantity::quantity_at;
+use super::thing_parts::PartPlace;
 use super::timeline::timeline;
 use super::tokenizer::{Word, is_listed, span_of, tokenize, word_at};
 
@@ -45,18 +46,18 @@ pub fn check_prompt(prompt: &str) -> Result<(), LanguageError> {
 /// - [`LanguageError::TooManyObjects`]: more than [`MAX_SLOTS`].
 /// - [`LanguageError::BadData`]: an embedded list is malformed.
 pub fn link_mentions(prompt: &str, mentions: &[Mention]) -> Result<Linked, LanguageError> {
-    link_parts(prompt, mentions, &|_| None)
+    link_parts(prompt, mentions, &|_| Ok(None))
 }
 
-/// [`link_mentions`], where some mentions name an end or side of their one object by a word of its own (`the headstock`):
-/// `end_of` gives `top`, `bottom`, `front` or `back` for them, and the words are `the top of <obj-0>`.
+/// [`link_mentions`], where some mentions name a part of their one object by a word of its own (`the headstock`):
+/// `part_of` says where it sits. For ends and for front and back the words are `the top of <obj-0>`.
 ///
 /// # Errors
 /// Those of [`link_mentions`].
 pub fn link_parts(
     prompt: &str,
     mentions: &[Mention],
-    end_of: &dyn Fn(&Mention) -> Option<&'static str>,
+    part_of: &dyn Fn(&Mention) -> Result<Option<PartPlace>, LanguageError>,
 ) -> Result<Linked, LanguageError> {
     check_prompt(prompt)?;
     let mention_at = |at: usize| mentions.iter().find(|mention| (mention.bytes[0]..mention.bytes[1]).contains(&at));
@@ -74,11 +75,15 @@ pub fn link_parts(
             let inside = |word: &&Word| span_of(std::slice::from_ref(*word))[0] < mention.bytes[1];
             let len = words[i..].iter().take_while(inside).count().max(1);
             let slot = linked.slot_of(mention, prompt)?;
-            if let Some(end) = end_of(mention) {
-                ["the", end, "of"].iter().for_each(|word| linked.append(word, &words[i..i + len]));
-                linked.append(&format!("<obj-{slot}>"), &words[i..i + len]);
-            } else {
-                linked.append_mention(slot, &words[i..i + len], mention.ids.len() == 1);
+            let part = part_of(mention)?;
+            linked.parts.extend(part.map(|part| (span_of(&words[i..i + len]), part)));
+            match part.map(|part| part.place) {
+                Some(end @ ("top" | "bottom" | "front" | "back")) => {
+                    ["the", end, "of"].iter().for_each(|word| linked.append(word, &words[i..i + len]));
+                    linked.append(&format!("<obj-{slot}>"), &words[i..i + len]);
+                }
+                Some(_) => linked.append(&format!("<obj-{slot}>"), &words[i..i + len]),
+                None => linked.append_mention(slot, &words[i..i + len], mention.ids.len() == 1),
             }
             i += len;
             continue;

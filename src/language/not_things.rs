@@ -1,6 +1,8 @@
 //! Words that look like the name of a thing and name none: colors of a look (`teal and orange grade`), terms of the trade
-//! (`reference plate`, `the objective`, `none of the axes`), the `that` of `scratch that`.
+//! (`reference plate`, `the objective`, `none of the axes`), heights (`at table height`), what is as smooth as silk, the
+//! `that` of `scratch that`.
 
+use super::heights::is_level_name;
 use super::mention::Mention;
 use super::names::NamedObject;
 use super::tokenizer::{Word, is_listed, tokenize, word_at};
@@ -40,6 +42,8 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_color_of_look(&words, [first, end])
         || is_plate(&words, [first, end])
         || is_term(&words[first..end], objects)
+        || is_level(&words, [first, end])
+        || is_smoothness(&words, [first, end])
 }
 
 /// `gold and black palette`, `teal & orange grade`: colors alone, and what has them behind.
@@ -57,6 +61,31 @@ fn is_color_of_look(words: &[Word], [first, end]: [usize; 2]) -> bool {
 fn is_plate(words: &[Word], [first, end]: [usize; 2]) -> bool {
     let is_pair = |at: usize| word_at(words, at) == "plate" && at > 0 && is_listed(PLATES, word_at(words, at - 1));
     (first..end).any(is_pair) && (first..end).all(|at| is_pair(at) || is_listed(PLATES, word_at(words, at)))
+}
+
+/// What is smooth in words of a thing that it is not: `silky smooth`, `smooth as butter`.
+const SMOOTH: &str =
+    "silk silky butter buttery glass glassy velvet velvety cream creamy satin satiny honey treacle ice icy water";
+
+/// `silky smooth`, `smooth as silk`: how a camera moves.
+fn is_smoothness(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let is_all = (first..end).all(|at| {
+        let word = word_at(words, at);
+        is_listed(SMOOTH, word) || word.starts_with("smooth") || matches!(word, "as" | "like" | "a")
+    });
+    let is_smooth = |at: usize| word_at(words, at).starts_with("smooth");
+    let before =
+        || (first.saturating_sub(2)..first).any(is_smooth) && matches!(word_at(words, first - 1), "as" | "like");
+    first < end && is_all && ((first..=end).any(is_smooth) || before())
+}
+
+/// `At table height`: a height that people know, and no thing, unless it has an article (`at the height of the table`).
+fn is_level(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let names = words.get(first..end).unwrap_or_default();
+    let is_known = names.last().is_some_and(|word| is_level_name(&word.text)) && names.len() == 1;
+    let is_height = |at: usize| matches!(word_at(words, at), "height" | "level");
+    let inside = names.len() == 2 && is_height(first + 1) && is_level_name(word_at(words, first));
+    is_known && is_height(end) || inside
 }
 
 /// A term alone, where no object of the scene is called so.
@@ -86,6 +115,16 @@ mod tests {
         assert!(!is_none("push in on the gold skull", "gold skull"));
         assert!(!is_none("pan from the teal one to the light", "teal one"));
         assert!(!is_none("the yellow, then the light", "yellow"));
+    }
+
+    #[test]
+    fn heights_and_smoothness_are_no_things() {
+        assert!(is_none("push in at table height", "table"));
+        assert!(!is_none("push in at the table height", "the table"));
+        assert!(!is_none("push in on the table", "table"));
+        assert!(is_none("silky smooth orbit", "silky"));
+        assert!(is_none("push in, smooth as silk", "silk"));
+        assert!(!is_none("push in on the silk", "silk"));
     }
 
     #[test]

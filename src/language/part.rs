@@ -34,6 +34,7 @@ impl Linked {
         let mut part = Self {
             groups: self.groups.clone(),
             wholes: self.wholes.clone(),
+            parts: self.parts.clone(),
             unknown: self.unknown.clone(),
             ..Self::default()
         };

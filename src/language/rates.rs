@@ -2,7 +2,7 @@
 
 use super::linked::Linked;
 use super::numerals::number_word;
-use super::quantity::{QuantityKind, unit};
+use super::quantity::{QuantityKind, rate_of, unit};
 
 /// A stated speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +16,12 @@ pub struct Rate {
 }
 
 impl Linked {
+    /// The rate of frames that the words state, or the usual one, per second.
+    pub fn frames_per_sec(&self) -> f64 {
+        let words: Vec<&str> = self.tokens_text.split(' ').collect();
+        rate_of(words.windows(2).map(|pair| [pair[0], pair[1]]))
+    }
+
     /// The speeds that the words state, in their order.
     pub fn rates(&self) -> Vec<Rate> {
         let words: Vec<&str> = self.tokens_text.split(' ').collect();

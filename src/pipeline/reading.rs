@@ -1,6 +1,6 @@
 //! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
 
-use cinesplat_director::{Direction, SceneContext};
+use cinesplat_director::{Direction, SceneContext, take_levels};
 use cinesplat_language::{EffectMention, Linked, effect_mentions, forbidding_words, tokenize};
 use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
@@ -122,6 +122,7 @@ pub fn read(
 ) -> Result<Reading, PipelineError> {
     let effects = effect_mentions(prompt, &linked)?;
     let mut direction = interpreter.direct(prompt, &linked, scene)?;
+    take_levels(&linked, &mut direction)?;
     let stays = stated::apply(prompt, linked.timeline.as_ref(), &mut direction.program);
     retain_steps(&mut direction, &stays);
     merge_holds(&linked, &mut direction);

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::beats::program;
 
 /// The program for a prompt in a scene of these things.
-fn program_of(labels: &[&str], prompt: &str) -> String {
+pub(super) fn program_of(labels: &[&str], prompt: &str) -> String {
     let placed = |(idx, label): (usize, &&str)| {
         let center = DVec3::new(idx as f64 - 2.0, 0.5, -1.0 - (idx % 2) as f64);
         Object::from_box(1 + idx as u32, label, center, DVec3::new(0.3, 0.5, 0.2))

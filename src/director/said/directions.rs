@@ -35,7 +35,7 @@ const BETWEEN: [&str; 24] = [
     "shot",
 ];
 /// Words after `left` and `right` that make them a place: `left of the door`.
-const PLACES: [&str; 16] = [
+pub(super) const PLACES: [&str; 16] = [
     "of", "side", "half", "third", "edge", "hand", "corner", "end", "wall", "one", "part", "here", "there", "behind",
     "above", "after",
 ];

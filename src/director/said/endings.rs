@@ -1,13 +1,13 @@
 //! What the words say of the last picture of a move: `until the table is in, including the lantern`, `up high so we see the
 //! whole camp`, `then zoom out again`.
 
-use cinesplat_language::Linked;
-use cinesplat_operator::{Framing, Motion, Step};
+use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_operator::{Amount, Framing, Motion, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
 use super::bans::asks_for;
 use super::directions::is_form;
-use super::openings::OPENS;
+use super::openings::{OPENS, abbreviated_size};
 
 /// Words that add a thing to what is seen.
 const INCLUDES: [&str; 5] = ["incl", "including", "include", "includes", "plus"];
@@ -169,6 +169,50 @@ pub(crate) fn glide_in_and_out(linked: &Linked, steps: &mut [Step]) {
         let (back, forth) = (glides(&BACKWARD), glides(&FORWARD));
         if back != forth && !is_denied && !step.end.subjects.is_empty() && step.duration_secs.is_none() {
             step.movement = if back { Move::PullOut } else { Move::PushIn };
+        }
+    }
+}
+
+/// Words that lead to where a way ends, and words of a distance behind its length.
+const STOPS: [&str; 9] = ["stop", "stops", "stopping", "end", "ending", "halt", "to", "within", "until"];
+const AWAYS: [&str; 4] = ["away", "short", "off", "from"];
+
+/// Ends a way in as far from its subject as the words say: `approach it, stopping half a meter away`.
+pub(crate) fn stop_short(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::PushIn | Move::Follow)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let lengths = words.iter().enumerate().filter_map(|(at, word)| {
+            let length = linked.quantity_at(word).filter(|quantity| quantity.kind == QuantityKind::Units)?;
+            let stops = words[..at].iter().rev().take(4).any(|word| STOPS.contains(word));
+            let is_away = words.get(at + 1).is_some_and(|word| AWAYS.contains(word))
+                && words.get(at + 2).is_none_or(|word| !matches!(*word, "the" | "floor" | "ground"));
+            (stops && is_away).then_some(length.value)
+        });
+        let lengths: Vec<f64> = lengths.collect();
+        let ([length], None, false) = (&lengths[..], step.end.distance, step.end.subjects.is_empty()) else { continue };
+        step.end.distance = Some(*length);
+        step.amount =
+            step.amount.filter(|amount| !matches!(amount, Amount::Units(units) if (units - length).abs() < 1e-9));
+    }
+}
+
+/// Words of what is not one thing.
+const ROOMS: [&str; 12] =
+    ["room", "everything", "all", "whole", "scene", "place", "space", "set", "full", "entire", "general", "wide"];
+
+/// Shows what the step before shows where a zoom or a way in or out states a size of nothing: `tilt up the statue, then pull
+/// out to WS`.
+pub(crate) fn keep_shown(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let shown = steps[nth - 1].end.subjects.clone();
+        let step = &mut steps[nth];
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let leads = matches!(step.movement, Move::PushIn | Move::PullOut | Move::ZoomIn | Move::ZoomOut);
+        let is_open = step.end.subjects.is_empty() && step.end.size.is_some() && step.start.subjects.is_empty();
+        let is_plain = words.iter().any(|word| abbreviated_size(word).is_some())
+            && !words.iter().any(|word| ROOMS.contains(word) || linked.slot_at(word).is_some());
+        if leads && is_open && is_plain && !step.cut && step.via.is_none() {
+            step.end.subjects = shown;
         }
     }
 }

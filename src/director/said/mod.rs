@@ -7,10 +7,13 @@ mod circles;
 mod directions;
 mod dolly_zoom;
 mod endings;
+mod fills;
 mod fixed;
 mod heights;
 mod lengths;
+mod levels;
 mod moods;
+mod named_times;
 mod open;
 mod openings;
 mod places;
@@ -20,6 +23,8 @@ mod repeats;
 mod rests;
 mod senses;
 mod sides;
+mod small_moves;
+mod stands;
 mod stillness;
 mod taken_back;
 mod together;
@@ -30,6 +35,7 @@ use cinesplat_language::{Linked, Senses};
 
 pub(crate) use bans::asks_for;
 pub(crate) use directions::is_form;
+pub use levels::take_levels;
 pub(crate) use openings::abbreviated_size;
 
 use crate::direction::Direction;
@@ -105,6 +111,14 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
     fixed::stay_put(linked, &mut direction.program);
+    endings::stop_short(linked, &mut direction.program.steps);
+    endings::keep_shown(linked, &mut direction.program.steps);
+    fills::fill_with_only(linked, &mut direction.program.steps);
+    fills::close_on_parts(linked, &mut direction.program.steps);
+    small_moves::move_rests(linked, &mut direction.program.steps);
+    small_moves::turn_only(linked, &mut direction.program.steps);
+    stands::stand_at_opening(linked, &mut direction.program.steps);
+    stands::open_on_sides(linked, &mut direction.program.steps);
     heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
     Ok(())
@@ -119,5 +133,8 @@ pub(crate) fn take_said_of_all(linked: &Linked, direction: &mut Direction) {
     whole_film::keep_or_avoid(linked, steps);
     whole_film::take_pace(linked, steps);
     whole_film::size_each(linked, steps);
+    whole_film::keep_throughout(linked, &mut direction.program);
     whole_film::avoid_throughout(linked, &mut direction.program);
+    named_times::take_named_times(linked, &mut direction.program);
+    named_times::merge_named_speeds(linked, direction);
 }

@@ -68,7 +68,7 @@ fn taken_back_at<'a>(words: &[&'a str], at: usize) -> Option<&'a str> {
 }
 
 /// Whether a word names a move.
-fn names(word: &str, movement: Move) -> bool {
+pub(super) fn names(word: &str, movement: Move) -> bool {
     let is = |verb: &str| is_form(word, verb);
     match movement {
         Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => is("orbit") || is("circle") || is("arc"),
@@ -82,6 +82,8 @@ fn names(word: &str, movement: Move) -> bool {
         Move::PushIn => is("push") || is("dolly"),
         Move::PullOut => is("pull"),
         Move::Handheld => is("shake") || is("handheld"),
+        Move::TruckLeft | Move::TruckRight => is("truck") || is("slide") || is("track"),
+        Move::Static => is("hold"),
         _ => false,
     }
 }

@@ -59,6 +59,38 @@ pub(crate) fn avoid_throughout(linked: &Linked, program: &mut Program) {
     }
 }
 
+/// Words of a sentence that keeps a thing in view, and of what it is kept in.
+const HOLDS: [&str; 6] = ["keep", "keeping", "have", "hold", "stays", "stay"];
+const VIEWS: [&str; 8] = ["view", "frame", "shot", "sight", "picture", "screen", "visible", "image"];
+const DENIED: [&str; 8] = ["out", "not", "never", "no", "'t", "off", "without", "away"];
+
+/// Keeps in view, in every step that does not show it, what a sentence of its own keeps there throughout: `keep the car in view
+/// all the time`.
+pub(crate) fn keep_throughout(linked: &Linked, program: &mut Program) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    for sentence in words.split(|word| SENTENCE_ENDS.contains(word)) {
+        let has = |list: &[&str]| sentence.iter().any(|word| list.contains(word));
+        let always = has(&EVER)
+            || sentence
+                .windows(3)
+                .any(|three| matches!(three, ["all", "the", "time" | "way"] | ["at", "all", "times"]));
+        let named: Vec<u32> = sentence.iter().filter_map(|word| linked.slot_at(word)).collect();
+        let opens = sentence.iter().take(3).any(|word| HOLDS.contains(word) || linked.slot_at(word).is_some());
+        if !(opens && has(&HOLDS) && has(&VIEWS) && always && !has(&DENIED)) || named.len() != 1 {
+            continue;
+        }
+        for id in linked.expanded(&named) {
+            for step in
+                program.steps.iter_mut().filter(|step| !step.end.subjects.contains(&id) && !step.avoid.contains(&id))
+            {
+                if !step.keep.contains(&id) && !step.start.subjects.contains(&id) {
+                    step.keep.push(id);
+                }
+            }
+        }
+    }
+}
+
 /// Whether a sentence that names nothing before this thing rules it out, or one that says so of the whole film.
 fn is_banned_throughout(linked: &Linked, id: u32) -> bool {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
@@ -104,10 +136,32 @@ const FAST: [&str; 7] = ["fast", "quick", "quickly", "snappy", "brisk", "briskly
 
 /// Gives all steps without a speed the one that a sentence says of the film.
 pub(crate) fn take_pace(linked: &Linked, steps: &mut [Step]) {
-    let Some(speed) = pace(&linked.tokens_text.split(' ').collect::<Vec<_>>()) else { return };
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let Some(speed) = pace(&words).or_else(|| crawls(&words).then_some(Speed::Slow)) else { return };
     for step in steps.iter_mut().filter(|step| step.speed == Speed::Normal && step.movement != Move::Static) {
         step.speed = speed;
     }
+}
+
+/// Phrases that make all slow, alone in a clause or behind `all of it`, `everything`.
+const CRAWLS: [&[&str]; 6] = [
+    &["at", "a", "crawl"],
+    &["at", "a", "snail", "'s", "pace"],
+    &["in", "slow", "motion"],
+    &["at", "walking", "pace"],
+    &["dead", "slow"],
+    &["super", "slow"],
+];
+
+/// Whether a sentence says of all that it is slow: `all of it at a crawl`.
+fn crawls(words: &[&str]) -> bool {
+    words.split(|word| SENTENCE_ENDS.contains(word)).any(|sentence| {
+        let is_of_all = matches!(sentence.first(), Some(&("all" | "everything" | "whole")))
+            || sentence
+                .windows(2)
+                .any(|pair| matches!(pair, ["whole", "thing" | "film" | "way" | "time"] | ["all", "of"]));
+        is_of_all && (0..sentence.len()).any(|at| CRAWLS.iter().any(|said| sentence[at..].starts_with(said)))
+    })
 }
 
 /// The speed that a sentence says of all: it begins with `keep it slow` or `all slow`.

@@ -162,7 +162,12 @@ const FRAMES_PER_SEC: f64 = 24.0;
 /// Frames a second that the words state (`25 fps`), or the usual ones.
 pub(crate) fn frames_per_sec(words: &[Word]) -> f64 {
     // Every frame number asks for the rate: words are compared before a number is parsed.
-    let mut rates = words.windows(2).filter(|pair| pair[1].text == "fps").filter_map(|pair| pair[0].text.parse().ok());
+    rate_of(words.windows(2).map(|pair| [pair[0].text.as_str(), pair[1].text.as_str()]))
+}
+
+/// The rate of frames that pairs of words in a row state, or the usual one.
+pub(crate) fn rate_of<'a>(pairs: impl Iterator<Item = [&'a str; 2]>) -> f64 {
+    let mut rates = pairs.filter(|pair| pair[1] == "fps").filter_map(|pair| pair[0].parse().ok());
     rates.find(|rate| (1.0..=240.0).contains(rate)).unwrap_or(FRAMES_PER_SEC)
 }
 

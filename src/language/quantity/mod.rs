@@ -30,7 +30,7 @@ use super::tokenizer::{Word, word_at};
 use context::HEDGES;
 use kind::Found;
 
-pub(crate) use clock::{Instant, InstantForm, frames_per_sec, instant_at, link_at};
+pub(crate) use clock::{Instant, InstantForm, frames_per_sec, instant_at, link_at, rate_of};
 pub(crate) use context::is_joined;
 pub use kind::{Quantity, QuantityKind};
 pub(super) use unit::is_unread_number;

@@ -269,7 +269,8 @@ fn list_number_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, u32)
     let at = i + usize::from(is_named);
     let word = words.get(at)?;
     let number = match word.text.parse::<u32>() {
-        Ok(number) if word.text.len() <= 2 => number,
+        // `Frame 48` is a time.
+        Ok(number) if word.text.len() <= 2 && (number <= 20 || word_at(words, i) != "frame") => number,
         _ if is_named => (1..=20).find(|number| number_word(*number) == Some(word.text.as_str()))?,
         _ => return None,
     };

@@ -1,0 +1,93 @@
+//! Pictures that a thing fills: `until only the trophy is in frame`, `until nothing else is in frame`, and parts of things,
+//! which are small: `the badge of the car`.
+
+use cinesplat_language::{Linked, PartPlace};
+use cinesplat_operator::{Framing, Step, SubjectPart, SubjectSide};
+use cinesplat_trajectory::{Move, ShotSize};
+
+use super::openings::OPENS;
+
+/// Words that say that a thing alone is in the frame.
+const ALONE: [&[&str]; 2] = [&["nothing", "else", "is", "in", "frame"], &["is", "in", "frame"]];
+
+/// Ends on an extreme close-up where nothing but the subject is left in the frame.
+pub(crate) fn fill_with_only(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| nears(step.movement)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_only = |at: usize| {
+            let is_thing = words[at] == "only" && words.get(at + 1).is_some_and(|word| linked.slot_at(word).is_some());
+            words[at..].starts_with(ALONE[0]) || is_thing && words[at + 2..].starts_with(ALONE[1])
+        };
+        let is_open = step.end.height_frac.is_none() && !step.end.whole && step.end.subjects.len() < 2;
+        if is_open && (0..words.len()).any(is_only) {
+            step.end.size = Some(ShotSize::ExtremeCloseUp);
+        }
+    }
+}
+
+/// Shows the part of a thing that the words name, close where it is small, and closer where it fills the frame: `push in until
+/// the sole fills the frame`.
+pub(crate) fn close_on_parts(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words: Vec<(&str, [usize; 2])> = linked.words_in(step.words.unwrap_or_default()).collect();
+        let part_at = |at: usize| {
+            let (word, span) = words[at];
+            let (_, part) = linked.parts.iter().find(|(bytes, _)| bytes[0] <= span[0] && span[1] <= bytes[1])?;
+            Some((at, linked.slot_at(word)?, *part))
+        };
+        let parts: Vec<(usize, u32, PartPlace)> = (0..words.len()).filter_map(part_at).collect();
+        let [(at, id, part)] = parts[..] else { continue };
+        let opens = words[..at].iter().rev().take(5).any(|(word, _)| *word == "from" || OPENS.contains(word));
+        let says = |wanted: &[&str]| words.iter().any(|(word, _)| wanted.contains(word));
+        let fills = says(&["fills", "fill", "filling"]) && says(&["frame", "screen", "picture"]);
+        let ids = linked.expanded(&[id]);
+        if opens && step.movement != Move::Static {
+            if step.start.subjects == ids {
+                show_part(&mut step.start, part, false);
+            }
+            continue;
+        }
+        // The words name nothing else.
+        let names_other = words.iter().filter_map(|(word, _)| linked.slot_at(word)).any(|other| other != id);
+        if step.end.subjects.is_empty() && nears(step.movement) && !names_other && step.end.size.is_none() {
+            step.end.subjects.clone_from(&ids);
+        }
+        if step.end.subjects == ids && nears(step.movement) {
+            show_part(&mut step.end, part, fills);
+            // A rest shows the side that the move before it arrives at.
+            let side = match part.place {
+                "front" => Some(SubjectSide::FromFront),
+                "back" => Some(SubjectSide::FromBack),
+                _ => None,
+            };
+            step.end.side = step.end.side.or(side.filter(|_| step.movement != Move::Static));
+        }
+    }
+}
+
+/// Whether a move leads to its subject, or rests on it.
+fn nears(movement: Move) -> bool {
+    matches!(movement, Move::PushIn | Move::ZoomIn | Move::Static | Move::Follow | Move::DollyZoomIn)
+}
+
+fn show_part(framing: &mut Framing, part: PartPlace, fills: bool) {
+    let end = match part.place {
+        "top" => SubjectPart::Top,
+        "bottom" => SubjectPart::Bottom,
+        "left" => SubjectPart::Left,
+        "right" => SubjectPart::Right,
+        _ => SubjectPart::Middle,
+    };
+    // The words of ends say themselves where to look.
+    if framing.part == SubjectPart::Middle && (part.is_small || matches!(part.place, "left" | "right")) {
+        framing.part = end;
+    }
+    let is_free = framing.size.is_none() && framing.height_frac.is_none() && !framing.whole;
+    match () {
+        () if fills && part.is_small && framing.size.is_none_or(|size| size == ShotSize::CloseUp) => {
+            framing.size = Some(ShotSize::ExtremeCloseUp);
+        }
+        () if is_free && part.is_small => framing.size = Some(ShotSize::CloseUp),
+        () => {}
+    }
+}

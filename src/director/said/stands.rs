@@ -1,0 +1,103 @@
+//! Where the camera stands and how it sees its subject when the film begins: `start at the window looking in`, `low, front of
+//! the car`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Pass, Step, SubjectSide, Via};
+use cinesplat_trajectory::{Move, ShotAngle};
+
+use super::openings::OPENS;
+
+/// Words of a place, before what stands there.
+const AT: [&str; 8] = ["at", "in", "by", "beside", "inside", "near", "from", "on"];
+/// Words that look away from it.
+const INWARD: [&str; 7] = ["in", "inside", "inward", "inwards", "out", "back", "into"];
+
+/// Stands at the thing from which the words look at something else.
+pub(crate) fn stand_at_opening(linked: &Linked, steps: &mut [Step]) {
+    let Some(step) = steps.first_mut() else { return };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let place_at = |at: usize| {
+        let id = linked.slot_at(words[at])?;
+        let opens = words[..at].iter().rev().take(4).any(|word| OPENS.contains(word) || *word == "standing");
+        let is_at = words[..at].iter().rev().find(|word| **word != "the").is_some_and(|word| AT.contains(word));
+        let looks = words.get(at + 1).is_some_and(|word| matches!(*word, "looking" | "facing" | "peering" | "gazing"));
+        let way = words.get(at + 2).copied().unwrap_or_default();
+        let mut behind = words[at + 1..].iter().skip(1).take(3);
+        let sees =
+            if INWARD.contains(&way) { Some(None) } else { behind.find_map(|word| linked.slot_at(word)).map(Some) };
+        (opens && is_at && looks).then_some(()).and(sees).map(|seen| (id, seen))
+    };
+    let Some((id, seen)) = (0..words.len()).find_map(place_at) else { return };
+    let place = linked.expanded(&[id]);
+    if step.end.subjects == place && step.movement != Move::Static {
+        return;
+    }
+    if step.start.subjects == place {
+        step.start = Framing::default();
+    }
+    if step.end.subjects == place {
+        step.end = Framing::default();
+    }
+    let seen = seen.map(|seen| linked.expanded(&[seen])).unwrap_or_default();
+    let framing = if step.movement == Move::Static { &mut step.end } else { &mut step.start };
+    if framing.subjects.is_empty() && step.movement != Move::PushIn {
+        framing.subjects = seen;
+    }
+    step.via = Some(Via { how: Pass::From, objects: place });
+}
+
+/// Sides by their words.
+const SIDES: [(&[&str], SubjectSide); 3] = [
+    (&["front", "nose", "face"], SubjectSide::FromFront),
+    (&["back", "rear", "tail"], SubjectSide::FromBack),
+    (&["side", "profile"], SubjectSide::FromSide),
+];
+const ANGLES: [(&str, ShotAngle); 3] =
+    [("low", ShotAngle::Low), ("high", ShotAngle::High), ("overhead", ShotAngle::Overhead)];
+/// Words that may stand before a side that opens a picture.
+const BEFORE: [&str; 12] =
+    [",", "low", "high", "the", "wide", "close", "tight", "medium", ":", "start", "begin", "open"];
+
+/// Opens on a side of the subject that the words name before any move: `low, front of the car, creeping in`.
+pub(crate) fn open_on_sides(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let Some((side, id, at)) = side_of(linked, &words) else { continue };
+        let ids = linked.expanded(&[id]);
+        let angle = ANGLES.iter().find(|(name, _)| words[..at].contains(name)).map(|(_, angle)| *angle);
+        let rests = step.movement == Move::Static;
+        let mut framing = if rests { step.end.clone() } else { step.start.clone() };
+        let shows = framing.subjects == ids || framing.subjects.is_empty() && step.end.subjects == ids;
+        if !shows {
+            continue;
+        }
+        framing.subjects.clone_from(&ids);
+        framing.side = Some(side);
+        framing.angle = framing.angle.or(angle.filter(|_| step.end.angle.is_none() || !rests));
+        if rests {
+            step.end = framing;
+        } else {
+            // Of a way round, the side of its end is another one.
+            step.start = framing;
+        }
+    }
+}
+
+/// The side that the words begin with, whose it is, and where they say it.
+fn side_of(linked: &Linked, words: &[&str]) -> Option<(SubjectSide, u32, usize)> {
+    let said = (0..words.len()).take(8).find_map(|at| {
+        let side = SIDES.iter().find(|(names, _)| names.contains(&words[at])).map(|(_, side)| *side)?;
+        let of = words.get(at + 1).is_some_and(|word| *word == "of");
+        let id = words[at + 1..].iter().skip(1).take(2).find_map(|word| linked.slot_at(word))?;
+        of.then_some((side, id, at))
+    });
+    let from = words.iter().enumerate().take(14).find_map(|(at, word)| {
+        let id = linked.slot_at(word)?;
+        let name = words.get(at + 1..at + 4).filter(|next| next[..2] == ["from", "the"])?[2];
+        let side = SIDES[..2].iter().find(|(names, _)| names.contains(&name)).map(|(_, side)| *side)?;
+        let is_shot = at > 1 && words[at - 1] == "of" && words[at - 2] == "shot";
+        let ends = words.get(at + 4).is_none_or(|word| matches!(*word, "," | "." | ";" | "then" | "and"));
+        (is_shot && ends).then_some((side, id, at))
+    });
+    said.filter(|(_, _, at)| words[..*at].iter().all(|word| BEFORE.contains(word))).or(from)
+}
