@@ -4,8 +4,8 @@
 //! Nobody who writes a brief wants a photo, or what the network makes up from words of other things. The film goes slowly
 //! towards what the brief is about.
 
-use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Framing, Speed, Step};
+use cinesplat_language::{Linked, Quantity, QuantityKind, is_listed};
+use cinesplat_operator::{Amount, Framing, Speed, Step};
 use cinesplat_trajectory::Move;
 
 use super::bans::SENTENCE_ENDS;
@@ -24,14 +24,15 @@ const VERBS: [&str; 66] = [
 /// Other words of cameras, pictures and ways.
 const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu ws ms wide wider medium tight tighter macro \
     angle view views overhead bird's top-down eye-level low high framing static tripod locked fixed handheld steadicam drone \
-    gimbal lens zoom dutch pov establishing turntable degrees clockwise anticlockwise counterclockwise closer nearer towards \
+    gimbal lens zoom pov establishing turntable degrees clockwise anticlockwise counterclockwise closer nearer towards \
     toward around round past along through cut cuts camera stills photo photograph picture snapshot frozen motionless \
     backwards forwards backward forward sideways left right away";
 /// Verbs whose `up` or `down` is no way: `somewhere you'd never get up`.
 const NO_WAYS: &str = "get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
     stand stands hang make made dress dressed tidy tidied grown let calm slow settle";
 /// Words with which another word is one of cameras: `look at`, `open on`, `come closer`.
-const LEADS: [(&str, &str); 8] = [
+const LEADS: [(&str, &str); 9] = [
+    ("dutch", "angle angles tilt"),
     ("look", "at into out over back"),
     ("open", "on with wide"),
     ("come", "in over to"),
@@ -52,6 +53,8 @@ const OPEN_PROBABILITY: f64 = 0.25;
 const HEROES: &str = "hero product star subject main focal centerpiece centrepiece point protagonist mostly";
 /// Words by which a thing comes last.
 const SECRETS: &str = "secret surprise payoff";
+/// Angle of a turn to a thing that is out of the picture at first, degrees.
+const SURPRISE_DEG: f64 = 80.0;
 /// Words that show one thing after the other.
 const IN_TURN: &str = "each every turn another";
 /// Words of a place as a whole.
@@ -71,7 +74,10 @@ pub(crate) fn film_briefs(linked: &Linked, direction: &mut Direction) {
     let rests = matches!(&direction.program.steps[..], [step] if is_rest(step));
     let is_made_up = direction.certainty.iter().any(|step| step.probability < MADE_UP);
     let is_loose = rests || is_made_up && !direction.program.steps.is_empty();
-    if !is_loose || linked.timeline.is_some() || !is_brief(&words) {
+    // Angles and lengths are what a camera keeps.
+    let measures = |quantity: &Quantity| quantity.kind != QuantityKind::Seconds;
+    let is_measured = linked.quantities.iter().any(measures);
+    if !is_loose || linked.timeline.is_some() || is_measured || !is_brief(&words) {
         return;
     }
     let subjects = subjects(linked, &words);
@@ -151,9 +157,10 @@ fn about(subjects: &[u32], words: &[&str]) -> Vec<Step> {
     let until_end = words.windows(3).any(|three| three == ["until", "the", "end"]);
     let framed = |ids: &[u32]| Framing { subjects: ids.to_vec(), ..Framing::default() };
     match subjects {
+        // From beside it, far enough that it comes last.
         [id] if has(SECRETS) || until_end => {
-            let hidden = Framing { hidden: true, ..framed(&[*id]) };
-            vec![Step { start: hidden, end: framed(&[*id]), either_way: true, ..Step::of(Move::PanRight) }]
+            let amount = Some(Amount::Degrees(SURPRISE_DEG));
+            vec![Step { end: framed(&[*id]), either_way: true, amount, ..Step::of(Move::PanRight) }]
         }
         [id] => vec![Step { end: framed(&[*id]), ..Step::of(Move::PushIn) }],
         [_, _] if !has(IN_TURN) => {
