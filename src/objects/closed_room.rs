@@ -11,6 +11,7 @@ use super::flats::flats;
 use super::floating::join_floating;
 use super::groups::VoxelGroup;
 use super::loose::join_loose;
+use super::neighbors::separate;
 use super::patches::{add_patches, take_patches};
 use super::pieces::{attach, contacts, diagonal, split};
 use super::planes::ScenePlane;
@@ -60,8 +61,9 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     let (flats, mut bodies) = with_reliefs(grid, flats(grid, planes, &is_structure), bodies);
     add_patches(grid, patches, &mut bodies);
     let max_diagonal = BACKGROUND_FRAC * settings.resolution;
+    let bodies = separate(grid, bodies, &tops);
     let bodies = join_floating(grid, &bodies, &tops, (&is_structure, planes));
-    let things = standing::join(grid, &bodies, &tops, max_diagonal);
+    let things = standing::join(grid, &bodies, &tops, (&is_structure, max_diagonal));
     let things = things.voxels.into_iter().zip(things.is_surface);
     let mut groups: Vec<VoxelGroup> =
         things.map(|(voxels, is_surface)| VoxelGroup::whole(voxels, is_surface)).collect();

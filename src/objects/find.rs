@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::borders::Borders;
 use super::boxes;
 use super::color;
 use super::grouping::group;
@@ -16,8 +17,7 @@ use super::naming;
 use super::object::{Object, ObjectSet};
 use super::planes::{ScenePlane, find_planes, is_closed_room, room_box};
 use super::settings::FindSettings;
-use super::standing;
-use super::voxels::{Voxel, VoxelGrid};
+use super::voxels::VoxelGrid;
 use cinesplat_scene::Scene;
 
 /// Size of a room over the scene size below which the room decides the size of the cells.
@@ -156,41 +156,15 @@ fn gaussian_labels(scene: &Scene, grid: &VoxelGrid, groups: &[VoxelGroup]) -> Ve
             ids[voxel] = i as u16 + 1;
         }
     }
-    let colors: Vec<Vec3> = groups.iter().map(|group| standing::mean_color(grid, &group.voxels)).collect();
+    let borders = Borders::new(grid, &ids);
     let label = |i: usize| {
         let local = grid.to_local(scene.gaussians.mean_world(i));
         match grid.find(grid.key_at(local)) {
-            Some(voxel) => above(grid, (voxel, &ids), &colors, || color::lab(scene.gaussians.base_color(i))),
+            Some(voxel) => borders.id(voxel, local, || color::lab(scene.gaussians.base_color(i))),
             None => nearest_around(grid, local).map_or(0, |voxel| ids[voxel]),
         }
     };
     (0..scene.gaussians.len()).into_par_iter().map(label).collect()
-}
-
-/// Color difference from which a Gaussian in a top belongs to what stands on the top.
-const FOOT_DIFFERENCE: f32 = 8.0;
-
-/// The id of a Gaussian in a voxel. A cell of a top also holds the foot of what stands on it: the Gaussian belongs to what
-/// stands there where its color is more like that.
-fn above(grid: &VoxelGrid, (voxel, ids): (usize, &[u16]), colors: &[Vec3], color: impl Fn() -> Vec3) -> u16 {
-    let own = ids[voxel];
-    let Voxel { key, normal, level, .. } = grid.voxels[voxel];
-    let Some(own_color) = usize::from(own).checked_sub(1).map(|group| colors[group]) else { return own };
-    if normal.y.abs() < 0.9 && level < 0.8 {
-        return own;
-    }
-    let over = grid.neighbors(voxel, 1).filter(|&other| grid.voxels[other].key[1] > key[1] && ids[other] > 0);
-    let mut others: Vec<u16> = over.map(|other| ids[other]).filter(|&id| id != own).collect();
-    others.sort_unstable();
-    others.dedup();
-    if others.is_empty() {
-        return own;
-    }
-    let color = color();
-    let difference = |id: u16| color::difference(color, colors[usize::from(id) - 1]);
-    let nearest = others.into_iter().min_by(|&a, &b| difference(a).total_cmp(&difference(b)));
-    let is_foot = |&id: &u16| difference(id) + FOOT_DIFFERENCE < color::difference(color, own_color);
-    nearest.filter(is_foot).unwrap_or(own)
 }
 
 /// The voxel whose matter is nearest to a position, among the voxels next to the position's cell.

@@ -11,6 +11,7 @@ use super::color;
 use super::planes::{PlaneKind, ScenePlane};
 use super::segmentation::split_by_color;
 use super::standing::mean_color;
+use super::valleys::cut;
 use super::voxels::VoxelGrid;
 
 /// Least difference in hue and chroma, and in lightness, between a plane and a thing on it (CIE Lab). Light and shadow
@@ -20,6 +21,10 @@ const LIGHTNESS_DIFFERENCE: f32 = 24.0;
 
 /// Height over its wall from which a voxel belongs to a thing on it, cells: less than the thickness of a picture.
 const RELIEF_CELLS: f32 = 0.4;
+
+/// The same over a floor, less than the pile of a rug: at least so many median distances of the floor from its own height.
+const PILE_CELLS: f32 = 0.15;
+const NUM_DEVIATIONS: f32 = 5.0;
 
 /// Scale and least size of the regions of one color on a plane.
 const SCALE: f32 = 140.0;
@@ -115,6 +120,8 @@ struct PlaneCells<'a> {
     differing: BTreeSet<[i32; 2]>,
     /// Cells that stand out from a wall.
     raised: BTreeSet<[i32; 2]>,
+    /// Height of every cell over its wall.
+    heights: BTreeMap<[i32; 2], f32>,
 }
 
 impl<'a> PlaneCells<'a> {
@@ -124,18 +131,23 @@ impl<'a> PlaneCells<'a> {
         let is_plane = |v: usize| plane.kind == PlaneKind::Wall || plane.is_border(grid.voxels[v].position);
         let of_plane = voxels.iter().filter(|&&v| is_plane(v));
         let color_lab = most_frequent(&of_plane.map(|&v| grid.voxels[v].color_lab).collect::<Vec<Vec3>>())?;
-        let mut heights: Vec<f32> = voxels.iter().map(|&v| plane.height(grid.voxels[v].position)).collect();
-        let middle = heights.len() / 2;
-        let level = *heights.select_nth_unstable_by(middle, f32::total_cmp).1;
-        let is_proud = |v: usize| plane.height(grid.voxels[v].position) - level > RELIEF_CELLS * grid.cell;
+        let height = |v: usize| plane.height(grid.voxels[v].position);
+        let level = median(voxels.iter().copied().filter(|&v| is_plane(v)).map(height));
+        let deviation = median(voxels.iter().copied().filter(|&v| is_plane(v)).map(|v| (height(v) - level).abs()));
+        let least = if plane.kind == PlaneKind::Wall { RELIEF_CELLS } else { PILE_CELLS };
+        let relief = (least * grid.cell).max(NUM_DEVIATIONS * deviation).min(RELIEF_CELLS * grid.cell);
+        let is_raised = |v: usize| height(v) - level > relief;
         let (cells, differing, raised) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
-        let mut all = Self { grid, plane, color_lab, cells, differing, raised };
+        let mut all = Self { grid, plane, color_lab, cells, differing, raised, heights: BTreeMap::new() };
         for region in regions {
             let differs = differs(mean_color(grid, region) - color_lab);
             for &v in region {
                 let key = all.key(v);
-                let is_raised = all.is_wall() && is_proud(v);
+                let is_raised = is_raised(v);
                 all.cells.entry(key).or_default().push(v);
+                let height = height(v) - level;
+                let highest = all.heights.entry(key).or_insert(0.0);
+                *highest = highest.max(height);
                 if is_raised {
                     all.raised.insert(key);
                 }
@@ -197,9 +209,22 @@ impl<'a> PlaneCells<'a> {
             let is_rim = differs && keys.len() as f32 >= MIN_RIM * rim(bounds);
             is_rim || (is_apart && (share(&self.raised) >= MIN_RAISED || self.has_hue(&outline)))
         } else {
-            is_apart && !self.is_border(&outline) && !self.is_sunlit(&outline, bounds)
+            let lies = is_relief || share(&self.raised) >= MIN_FILL;
+            !self.is_border(&outline) && (lies || (is_apart && !self.is_sunlit(&outline, bounds)))
         };
         is_thing.then_some(outline)
+    }
+
+    /// The outlines of the things of a region: more than one where the wall is seen between them.
+    fn outlines_of_things(&self, keys: &[[i32; 2]], is_relief: bool) -> Vec<Vec<[i32; 2]>> {
+        let Some(whole) = self.outline_of_thing(keys, is_relief) else { return Vec::new() };
+        let sides = self.is_wall().then(|| cut(keys, rectangle(keys), &self.heights)).flatten();
+        let sides = sides.filter(|sides| sides.iter().all(|keys| keys.len() >= MIN_CELLS / 2));
+        let apart = sides.map(|sides| sides.map(|keys| self.outlines_of_things(&keys, is_relief)));
+        match apart.filter(|apart| apart.iter().all(|outlines| !outlines.is_empty())) {
+            Some(apart) => apart.into_iter().flatten().collect(),
+            None => vec![whole],
+        }
     }
 
     /// Whether much of a region lies at the border of its floor: a part of a floor of two colors, not a rug.
@@ -239,11 +264,12 @@ fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[V
         let regions = regions.iter().map(|region| (region.iter().map(|&v| all.key(v)).collect(), false));
         regions.chain(components(all.raised_apart()).into_iter().map(|keys| (keys, true))).collect()
     } else {
-        components(all.differing.clone()).into_iter().map(|keys| (keys, false)).collect()
+        let differing = components(all.differing.clone()).into_iter().map(|keys| (keys, false));
+        differing.chain(components(all.raised.clone()).into_iter().map(|keys| (keys, true))).collect()
     };
     let large = regions.iter().filter(|(keys, _)| keys.len() >= MIN_CELLS / 2);
     let mut outlines: Vec<Vec<[i32; 2]>> =
-        large.filter_map(|(keys, is_relief)| all.outline_of_thing(keys, *is_relief)).collect();
+        large.flat_map(|(keys, is_relief)| all.outlines_of_things(keys, *is_relief)).collect();
     outlines.sort_by_key(|outline| (std::cmp::Reverse(outline.len()), outline.first().copied()));
     let mut things = Vec::new();
     for outline in outlines {
@@ -253,6 +279,13 @@ fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[V
         }
     }
     if things.len() > MAX_THINGS { Vec::new() } else { things }
+}
+
+/// The median of some values; 0 for none.
+fn median(values: impl Iterator<Item = f32>) -> f32 {
+    let mut values: Vec<f32> = values.collect();
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f32::total_cmp).1 }
 }
 
 /// Whether a color step (CIE Lab) is that between two things.

@@ -52,6 +52,8 @@ pub(crate) fn join_floating(
     let carrier = |body: usize| match hold(grid, &bodies[body], (body, &owner)) {
         Hold::Body(carrier) => Some(carrier).filter(|&carrier| lowest[carrier] < lowest[body]),
         Hold::Nothing => foot_below(grid, &extents, body).or_else(|| beside(grid, &bodies[body], (body, &owner))),
+        // The crown of a plant in a corner leans on the walls.
+        Hold::Wall => foot_below(grid, &extents, body).filter(|_| is_round(extents[body])),
         Hold::Fixed => None,
     };
     let carriers: Vec<Option<usize>> = (0..bodies.len()).into_par_iter().map(carrier).collect();
@@ -71,8 +73,10 @@ const LEVEL_CELLS: f32 = 1.5;
 
 /// What holds a body.
 enum Hold {
-    /// A top or the structure.
+    /// A top, the floor or the ceiling.
     Fixed,
+    /// A wall.
+    Wall,
     /// The other body that its lower part touches most.
     Body(usize),
     /// Its lower part touches nothing.
@@ -83,8 +87,10 @@ enum Hold {
 fn hold(grid: &VoxelGrid, voxels: &[usize], (body, owner): (usize, &[usize])) -> Hold {
     let (low, high) = extent(grid, voxels);
     let end = low.y + FOOT_FRAC * (high.y - low.y);
-    if is_hung(grid, voxels, owner) {
-        return Hold::Fixed;
+    match hung(grid, voxels, owner) {
+        Hung::Above => return Hold::Fixed,
+        Hung::Wall => return Hold::Wall,
+        Hung::Not => {}
     }
     let foot: Vec<usize> = voxels.iter().copied().filter(|&v| grid.voxels[v].position.y <= end).collect();
     for reach in GAPS {
@@ -141,19 +147,36 @@ fn foot_below(grid: &VoxelGrid, extents: &[(Vec3, Vec3)], body: usize) -> Option
     (0..extents.len()).filter(is_foot).max_by(|&a, &b| extents[a].1.y.total_cmp(&extents[b].1.y).then(b.cmp(&a)))
 }
 
-/// Whether a body hangs on a wall, or from what is level above it.
-fn is_hung(grid: &VoxelGrid, voxels: &[usize], owner: &[usize]) -> bool {
+/// Least depth of a round body over its width.
+const ROUND_FRAC: f32 = 0.5;
+
+/// Whether a body is about as deep as wide: what hangs on a wall is flat.
+fn is_round((low, high): (Vec3, Vec3)) -> bool {
+    let sides = high - low;
+    sides.x.min(sides.z) >= ROUND_FRAC * sides.x.max(sides.z)
+}
+
+/// How a body hangs.
+enum Hung {
+    /// What is level above it.
+    Above,
+    Wall,
+    Not,
+}
+
+/// What a body hangs on.
+fn hung(grid: &VoxelGrid, voxels: &[usize], owner: &[usize]) -> Hung {
     let mut num_near = 0;
     for &voxel in voxels {
         let y = grid.voxels[voxel].key[1];
         let mut is_near = false;
         for other in grid.neighbors(voxel, HUNG_CELLS) {
             if owner[other] == FIXED && grid.voxels[other].key[1] > y {
-                return true;
+                return Hung::Above;
             }
             is_near |= owner[other] == WALL;
         }
         num_near += usize::from(is_near);
     }
-    num_near as f32 >= HUNG_FRAC * voxels.len() as f32
+    if num_near as f32 >= HUNG_FRAC * voxels.len() as f32 { Hung::Wall } else { Hung::Not }
 }

@@ -1,4 +1,4 @@
-//! Flat things on tops: plates, keyboards, place mats.
+//! Flat things in tops: place mats, cooktops.
 //!
 //! Enters: tops, and the bodies of a room. Leaves: the bodies with the patches of the tops that differ from them in color. A
 //! patch under a body is the body's own foot, or else a body with the small ones that lie on it.
@@ -42,42 +42,28 @@ pub(crate) fn take_patches(grid: &VoxelGrid, tops: &mut [Top]) -> Vec<Vec<usize>
 fn patches(grid: &VoxelGrid, top: &mut Top) -> Vec<Vec<usize>> {
     let colors: Vec<Vec3> = top.voxels.iter().map(|&v| grid.voxels[v].color_lab).collect();
     let Some(top_color) = most_frequent(&colors) else { return Vec::new() };
-    let mut cells = TopCells::new();
+    let mut cells: BTreeMap<[i32; 2], Vec<usize>> = BTreeMap::new();
     let mut differing: BTreeSet<[i32; 2]> = BTreeSet::new();
-    let mut regions: Vec<Vec<[i32; 2]>> = Vec::new();
     for region in split_by_color(grid, &top.voxels, SCALE, MIN_REGION) {
         let is_apart = differs(mean_color(grid, &region) - top_color);
-        let mut keys = BTreeSet::new();
         for &v in &region {
             let [x, _, z] = grid.voxels[v].key;
             cells.entry([x, z]).or_default().push(v);
-            keys.insert([x, z]);
+            if is_apart {
+                differing.insert([x, z]);
+            }
         }
-        if is_apart {
-            differing.extend(&keys);
-        }
-        regions.push(keys.into_iter().collect());
     }
-    let mut taken: BTreeSet<[i32; 2]> = BTreeSet::new();
     let mut patches = Vec::new();
-    let mut take = |keys: &[[i32; 2]], is_differing: &dyn Fn(&[i32; 2]) -> bool| {
-        let bounds = rectangle(keys);
-        let mut outline = outline(keys, bounds, false);
-        outline.retain(|key| cells.contains_key(key));
-        let num_differing = outline.iter().filter(|key| is_differing(key)).count() as f32;
-        let is_solid = num_differing >= MIN_FILL * outline.len() as f32 && is_compact(bounds, outline.len());
-        let is_free = outline.iter().all(|key| !taken.contains(key));
-        if is_solid && is_free && outline.len() as f32 <= MAX_SHARE * cells.len() as f32 {
-            patches.push(outline.iter().flat_map(|key| cells[key].iter().copied()).collect::<Vec<usize>>());
-            taken.extend(outline);
-        }
-    };
     for keys in components_within(differing.clone(), 1) {
-        take(&keys, &|key| differing.contains(key));
-    }
-    // Lamps and shade change the color of a top, so that a patch may touch a part of it that differs as well.
-    for keys in regions.iter().filter(|keys| keys.len() >= MIN_CELLS && is_apart(grid, &cells, keys)) {
-        take(keys, &|key| keys.binary_search(key).is_ok());
+        let bounds = rectangle(&keys);
+        let mut outline = outline(&keys, bounds, false);
+        outline.retain(|key| cells.contains_key(key));
+        let num_differing = outline.iter().filter(|key| differing.contains(*key)).count() as f32;
+        let is_solid = num_differing >= MIN_FILL * outline.len() as f32 && is_compact(bounds, outline.len());
+        if is_solid && outline.len() as f32 <= MAX_SHARE * cells.len() as f32 {
+            patches.push(outline.into_iter().flat_map(|key| cells[&key].iter().copied()).collect::<Vec<usize>>());
+        }
     }
     if patches.len() > MAX_PATCHES {
         return Vec::new();
@@ -85,26 +71,6 @@ fn patches(grid: &VoxelGrid, top: &mut Top) -> Vec<Vec<usize>> {
     let taken: BTreeSet<usize> = patches.iter().flatten().copied().collect();
     top.voxels.retain(|voxel| !taken.contains(voxel));
     patches
-}
-
-/// The voxels of a top by their position in it.
-type TopCells = BTreeMap<[i32; 2], Vec<usize>>;
-
-/// Width of the surroundings of a region, cells.
-const AROUND_CELLS: i32 = 2;
-
-/// Whether a region, sorted, differs from its surroundings on the top.
-fn is_apart(grid: &VoxelGrid, cells: &TopCells, keys: &[[i32; 2]]) -> bool {
-    let (low, high) = rectangle(keys);
-    let (low, high) = (low.map(|v| v - AROUND_CELLS), high.map(|v| v + AROUND_CELLS));
-    let all = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |z| [x, z]));
-    let (inside, around): (Vec<_>, Vec<_>) =
-        all.filter(|key| cells.contains_key(key)).partition(|key| keys.binary_search(key).is_ok());
-    let color = |of: &[[i32; 2]]| {
-        let voxels: Vec<usize> = of.iter().flat_map(|key| cells[key].iter().copied()).collect();
-        mean_color(grid, &voxels)
-    };
-    !around.is_empty() && differs(color(&inside) - color(&around))
 }
 
 fn is_compact(bounds: Rectangle, num_cells: usize) -> bool {

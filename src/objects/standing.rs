@@ -18,6 +18,9 @@ const SUNK_CELLS: f32 = 1.6;
 /// Least share of the contacts of a top with all bodies under it that its carrier has.
 const CARRIER_FRAC: f32 = 0.15;
 
+/// Largest height of a foot over the floor, cells.
+const FOOT_CELLS: i32 = 3;
+
 /// Share of a body's contacts with the top that it touches most from below, under which it carries no other top: the
 /// apron of a table touches the seats of the chairs under it.
 const MAIN_FRAC: f32 = 0.2;
@@ -37,6 +40,12 @@ const UPRIGHT_FRAC: f32 = 0.4;
 const BACK_SHARED: f32 = 0.7;
 const BACK_THIN: f32 = 0.35;
 
+/// Least height of a backrest over the length of that edge.
+const BACK_HEIGHT: f32 = 0.5;
+
+/// Least distance by which what stands in a top reaches beyond it, cells.
+const OVERHANG_CELLS: f32 = 1.0;
+
 /// Largest side of a seat, cells.
 const SEAT_CELLS: f32 = 24.0;
 
@@ -45,6 +54,10 @@ const SAME_COLOR: f32 = 9.0;
 
 /// Least overlap of the footprints of two tops that are boards of one shelf.
 const SAME_FOOTPRINT: f32 = 0.75;
+
+/// Largest thickness of a board, cells, and least share of its underside under it.
+const BOARD_CELLS: f32 = 3.0;
+const UNDERSIDE_INSIDE: f32 = 0.9;
 
 /// Bodies and tops joined into things.
 pub(crate) struct Things {
@@ -66,7 +79,12 @@ struct Contact {
 
 /// Joins every top with the bodies that carry it. Things larger than `max_diagonal` (cells), such as a row of counters,
 /// come apart again.
-pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top], max_diagonal: f64) -> Things {
+pub(crate) fn join(
+    grid: &VoxelGrid,
+    bodies: &[Vec<usize>],
+    tops: &[Top],
+    (is_structure, max_diagonal): (&[bool], f64),
+) -> Things {
     let num_bodies = bodies.len();
     let owner = owners(grid, bodies);
     let measured: Vec<Body> = bodies.iter().map(|voxels| Body::new(grid, voxels)).collect();
@@ -82,7 +100,8 @@ pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top], max_di
         let seat = Seat::new(grid, top, contacts);
         let rests = |body: usize| seat.holds(grid, &measured[body]);
         // A foot carries one thing and stands on the floor.
-        if let Some(only) = contacts.keys().next().copied().filter(|&only| contacts.len() == 1 && rests(only)) {
+        let only = contacts.keys().next().copied().filter(|&only| contacts.len() == 1 && rests(only));
+        if let Some(only) = only.filter(|_| is_on_structure(grid, top, is_structure)) {
             sets.join(only, num_bodies + t);
             continue;
         }
@@ -93,6 +112,8 @@ pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top], max_di
         for (&body, contact) in contacts {
             let carries = if rests(body) {
                 seat.is_upright(&measured[body], contact)
+                    || seat.is_backrest(grid, &measured[body])
+                    || seat.is_overhung(grid, &measured[body])
             } else {
                 let is_main = contact.below as f32 >= MAIN_FRAC * most_below[body] as f32;
                 is_main && seat.is_carried(contact, || under_frac(grid, &bodies[body], top))
@@ -103,6 +124,15 @@ pub(crate) fn join(grid: &VoxelGrid, bodies: &[Vec<usize>], tops: &[Top], max_di
         }
     }
     assemble(grid, bodies, tops, (&mut sets, max_diagonal))
+}
+
+/// Whether a top lies on the structure: the foot of a lamp on the floor.
+fn is_on_structure(grid: &VoxelGrid, top: &Top, is_structure: &[bool]) -> bool {
+    let lies = |&&voxel: &&usize| {
+        let level = grid.voxels[voxel].key[1];
+        grid.neighbors(voxel, FOOT_CELLS).any(|other| is_structure[other] && grid.voxels[other].key[1] < level)
+    };
+    top.voxels.iter().filter(lies).count() * 2 >= top.voxels.len()
 }
 
 /// A body, measured.
@@ -161,8 +191,8 @@ impl Seat {
         at_rim && is_long && color::difference(body.color_lab, self.color_lab) < SAME_COLOR
     }
 
-    /// Whether a body that does not touch the top is its backrest, held by posts that are thinner than a cell: it is about
-    /// as long as one edge of the top, and thin above that edge.
+    /// Whether a body is the backrest of the top, which may be held by posts that are thinner than a cell: it is about as
+    /// long as one edge of the top, and thin above that edge.
     fn is_backrest(&self, grid: &VoxelGrid, body: &Body) -> bool {
         let ((low, high), (bottom, top)) = (self.bounds, body.bounds);
         let gap = bottom.y - self.height;
@@ -176,9 +206,17 @@ impl Seat {
                 && body.sides[across] <= BACK_THIN * edge
                 && beside <= RIM_CELLS * grid.cell
                 && gap <= edge
+                && body.sides.y >= BACK_HEIGHT * edge
         };
         let is_seat = (high.x - low.x).max(high.z - low.z) <= SEAT_CELLS * grid.cell;
         is_seat && gap > 0.0 && (is_above(0, 2) || is_above(2, 0))
+    }
+
+    /// Whether a body on the top reaches beyond it on all sides: the crown of a plant, on the soil in its pot.
+    fn is_overhung(&self, grid: &VoxelGrid, body: &Body) -> bool {
+        let ((low, high), (bottom, top)) = (self.bounds, body.bounds);
+        let over = |axis: usize| (low[axis] - bottom[axis]).min(top[axis] - high[axis]);
+        over(0).min(over(2)) > OVERHANG_CELLS * grid.cell
     }
 
     /// Whether a body under the top carries it. `under_frac`: the share of the body under the top.
@@ -191,8 +229,16 @@ impl Seat {
 /// Joins the boards of a shelf: tops over each other with nearly the same footprint.
 fn join_boards(grid: &VoxelGrid, tops: &[Top], num_bodies: usize, sets: &mut DisjointSets) {
     let boxes: Vec<(Vec3, Vec3)> = tops.iter().map(|top| extent(grid, &top.voxels)).collect();
+    let is_underside = |lower: usize, upper: usize| {
+        let gap = tops[upper].height - tops[lower].height;
+        let (a, b) = (boxes[lower], boxes[upper]);
+        gap > 0.0 && gap <= BOARD_CELLS * grid.cell && footprint_area(a) <= footprint_area(b) && is_above(a, b)
+    };
+    let is_same = |a: usize, b: usize| {
+        footprint_overlap(boxes[a], boxes[b]) >= SAME_FOOTPRINT || is_underside(a, b) || is_underside(b, a)
+    };
     for t in 0..tops.len() {
-        for other in (0..t).filter(|&other| footprint_overlap(boxes[t], boxes[other]) >= SAME_FOOTPRINT) {
+        for other in (0..t).filter(|&other| is_same(t, other)) {
             sets.join(num_bodies + t, num_bodies + other);
         }
     }
@@ -200,9 +246,18 @@ fn join_boards(grid: &VoxelGrid, tops: &[Top], num_bodies: usize, sets: &mut Dis
 
 /// Overlap of two boxes seen from above: intersection over union.
 fn footprint_overlap(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> f32 {
-    let area = |(low, high): (Vec3, Vec3)| (high.x - low.x).max(0.0) * (high.z - low.z).max(0.0);
-    let shared = area((a.0.max(b.0), a.1.min(b.1)));
-    shared / (area(a) + area(b) - shared).max(f32::MIN_POSITIVE)
+    let shared = footprint_area((a.0.max(b.0), a.1.min(b.1)));
+    shared / (footprint_area(a) + footprint_area(b) - shared).max(f32::MIN_POSITIVE)
+}
+
+fn footprint_area((low, high): (Vec3, Vec3)) -> f32 {
+    (high.x - low.x).max(0.0) * (high.z - low.z).max(0.0)
+}
+
+/// Whether the underside of a board lies under the board, and under half of it at least.
+fn is_above(under: (Vec3, Vec3), board: (Vec3, Vec3)) -> bool {
+    let shared = footprint_area((under.0.max(board.0), under.1.min(board.1)));
+    shared >= UNDERSIDE_INSIDE * footprint_area(under) && shared >= 0.5 * footprint_area(board)
 }
 
 /// The things of the sets of bodies and tops.

@@ -5,6 +5,7 @@
 
 use glam::Vec3;
 
+use super::relief::Surface;
 use super::voxels::VoxelGrid;
 
 /// Least upward component of the normal of a level voxel.
@@ -25,8 +26,8 @@ const MIN_VOXELS: usize = 60;
 /// Growth of a top beyond the voxels with a level normal, cells.
 const GROWTH_CELLS: i32 = 3;
 
-/// Heights, relative to a top, between which all voxels over its footprint belong to it, cells.
-const SLAB_CELLS: (f32, f32) = (-1.6, 0.6);
+/// Depth under a top down to which all voxels over its footprint belong to it, cells.
+const SLAB_CELLS: f32 = 1.6;
 
 /// One top.
 pub(crate) struct Top {
@@ -69,17 +70,19 @@ pub(crate) fn tops(grid: &VoxelGrid, is_free: &[bool]) -> Vec<Top> {
             at += 1;
         }
         if voxels.len() >= MIN_VOXELS && roughness(grid, &voxels) <= MAX_ROUGHNESS * grid.cell {
-            let height = sum / voxels.len() as f32;
-            tops.push(Top { voxels, height });
+            tops.push((Surface::new(grid, &voxels), voxels));
         } else {
             voxels.into_iter().for_each(|voxel| taken[voxel] = false);
         }
     }
-    tops.sort_by_key(|top| std::cmp::Reverse(top.voxels.len()));
-    for top in &mut tops {
-        grow(grid, top, &mut taken);
+    tops.sort_by_key(|(_, voxels)| std::cmp::Reverse(voxels.len()));
+    for (surface, voxels) in &mut tops {
+        voxels.retain(|&voxel| {
+            taken[voxel] = !surface.is_raised(grid.voxels[voxel].position);
+            taken[voxel]
+        });
     }
-    tops
+    tops.into_iter().map(|(surface, voxels)| grow(grid, &surface, voxels, &mut taken)).collect()
 }
 
 /// Standard deviation of the heights of some voxels.
@@ -89,25 +92,26 @@ fn roughness(grid: &VoxelGrid, voxels: &[usize]) -> f32 {
     (heights().map(|y| (y - mean).powi(2)).sum::<f32>() / voxels.len().max(1) as f32).sqrt()
 }
 
-fn grow(grid: &VoxelGrid, top: &mut Top, taken: &mut [bool]) {
+fn grow(grid: &VoxelGrid, surface: &Surface, mut voxels: Vec<usize>, taken: &mut [bool]) -> Top {
     let mut columns: Vec<[i32; 2]> = Vec::new();
-    for &voxel in &top.voxels {
+    for &voxel in &voxels {
         let [x, _, z] = grid.voxels[voxel].key;
         let steps = || -GROWTH_CELLS..=GROWTH_CELLS;
         columns.extend(steps().flat_map(|dx| steps().map(move |dz| [x + dx, z + dz])));
     }
     columns.sort_unstable();
     columns.dedup();
-    let (low, high) = (top.height + SLAB_CELLS.0 * grid.cell, top.height + SLAB_CELLS.1 * grid.cell);
-    let level = grid.key_at(Vec3::new(0.0, top.height, 0.0))[1];
+    let level = grid.key_at(surface.middle)[1];
     for [x, z] in columns {
         for y in level - 2..=level + 1 {
             let Some(voxel) = grid.find([x, y, z]).filter(|&v| !taken[v]) else { continue };
-            if (low..=high).contains(&grid.voxels[voxel].position.y) {
+            let p = grid.voxels[voxel].position;
+            if surface.height(p) >= -SLAB_CELLS * grid.cell && !surface.is_raised(p) {
                 taken[voxel] = true;
-                top.voxels.push(voxel);
+                voxels.push(voxel);
             }
         }
     }
-    top.voxels.sort_unstable();
+    voxels.sort_unstable();
+    Top { voxels, height: surface.middle.y }
 }
