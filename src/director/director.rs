@@ -90,7 +90,8 @@ impl Director {
     ///
     /// # Errors
     /// [`DirectorError::Language`] for a prompt that is empty, too long, or names too many objects or a number that no
-    /// object has · [`DirectorError::Compute`] when a tensor operation fails.
+    /// object has · [`DirectorError::NotFinite`] when the weights of the network of names are damaged ·
+    /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn link(&self, prompt: &str, objects: &[NamedObject]) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
         let prompt = &*without_frame_shape(prompt, objects);
@@ -147,9 +148,9 @@ impl Director {
     /// The program that the prompt requests, and one camera per key. The same input gives the same output.
     ///
     /// # Errors
-    /// [`DirectorError::PromptTooLong`] · [`DirectorError::EmptyPrompt`] · [`DirectorError::BadScene`] ·
-    /// [`DirectorError::NotFinite`] when the network outputs a position that is not finite ·
-    /// [`DirectorError::Compute`] when a tensor operation fails.
+    /// [`DirectorError::PromptTooLong`] · [`DirectorError::EmptyPrompt`] · [`DirectorError::BadScene`], also when a camera's
+    /// position is not finite · [`DirectorError::NotFinite`] when the weights are damaged · [`DirectorError::Compute`] when a
+    /// tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
         let times = ListedTimes::of(linked);
         let timeless = times.as_ref().and_then(|times| times.without(linked));
@@ -256,7 +257,10 @@ fn cameras(poses: &[PoseCode], frame: &SceneFrame) -> Result<Vec<(f64, CameraSta
     for code in poses {
         let pose = frame.world_pose(Vec3::from(code.position).as_dvec3(), code.rotation_6d.map(f64::from), fallback);
         if !pose.position.is_finite() {
-            return Err(DirectorError::NotFinite { field: "position", found: code.position[0] });
+            return Err(DirectorError::BadScene {
+                found: format!("a camera at {}", pose.position),
+                expected: "an extent whose cameras have finite positions",
+            });
         }
         if !cameras.is_empty() {
             time_secs += f64::from(code.log_wait).exp_m1();

@@ -58,11 +58,13 @@ pub enum DirectorError {
     /// The network failed to compute.
     #[error("the network failed: {0}")]
     Compute(#[from] candle_core::Error),
-    /// An output of the network is not finite.
-    #[error("network output {field} is {found}, expected a finite number")]
+    /// An output of a network is not finite: its weights are damaged.
+    #[error("{file}: the network's {output} hold {found}, expected finite numbers")]
     NotFinite {
+        /// The file of the network's weights.
+        file: &'static str,
         /// The output.
-        field: &'static str,
+        output: &'static str,
         /// The value.
         found: f32,
     },

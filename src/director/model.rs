@@ -5,7 +5,7 @@ use crate::error::DirectorError;
 use crate::inputs::Vocabulary;
 use crate::model_files::{ModelFiles, bad_tokenizer};
 use crate::network::{ModelConfig, Network, Parameters};
-use crate::tensor_file::bad_weights;
+use crate::tensor_file::{bad_weights, reason};
 
 /// A network with its vocabulary.
 #[derive(Debug, Clone)]
@@ -35,7 +35,7 @@ impl Model {
         }
         let mut parameters = Parameters::Stored { tensors: files.tensors()? };
         let network = Network::new(&mut parameters, &manifest.config)
-            .map_err(|error| bad_weights(&error, &"the tensors of the description"))?;
+            .map_err(|error| bad_weights(&reason(&error), &"the tensors of the description"))?;
         match parameters {
             Parameters::Stored { tensors } if !tensors.is_empty() => {
                 let names: Vec<String> = tensors.into_keys().collect();

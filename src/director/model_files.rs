@@ -12,13 +12,10 @@ use cinesplat_files::{FileError, Limits, sha256_hex};
 
 use crate::calibration::Calibration;
 use crate::error::DirectorError;
-use crate::inputs::Vocabulary;
+use crate::inputs::{TOKENIZER_FILE, Vocabulary};
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::network::ModelConfig;
 use crate::tensor_file::{WEIGHTS_FILE, bad, bad_weights, pack_tensors, read_tensors};
-
-/// Name of the file with the vocabulary.
-const TOKENIZER_FILE: &str = "director.tokenizer.json";
 
 /// The bytes of the three files of a model. Nothing is checked before the parts are read.
 #[derive(Debug, Clone)]

@@ -106,6 +106,22 @@ pub(crate) fn pack_tensors(tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>) -
     safetensors::serialize(views, metadata).map_err(|error| failed(&error))
 }
 
+/// What failed, in one line: where `RUST_BACKTRACE` is set, candle's errors end with a stack.
+pub(crate) fn reason(error: &candle_core::Error) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_owned()
+}
+
+/// Checks that an output of the network of `file` is finite.
+///
+/// # Errors
+/// [`DirectorError::NotFinite`]
+pub(crate) fn check_finite(file: &'static str, output: &'static str, values: &[f32]) -> Result<(), DirectorError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(found) => Err(DirectorError::NotFinite { file, output, found: *found }),
+        None => Ok(()),
+    }
+}
+
 /// The error for a bad weights file.
 pub(crate) fn bad_weights(found: &dyn std::fmt::Display, expected: &dyn std::fmt::Display) -> DirectorError {
     bad(&WEIGHTS_FILE, found, expected)

@@ -124,16 +124,20 @@ fn tokenizer(path: &Path, content: &Content) -> Result<Tokenizer, ReaderError> {
     }
     let bytes = cinesplat_files::read(&beside, Limits::DEFAULT.text_bytes)?;
     let bad = |found: &str| ReaderError::bad_model(&beside, "the tokenizer", &found, &"a tokenizer.json of this model");
-    check_tokenizer(&bytes).map_err(|found| bad(&found))?;
-    Tokenizer::from_bytes(bytes).map_err(|error| bad(&format!("damaged: {error}")))
+    let json = checked_tokenizer(&bytes).map_err(|found| bad(&found))?;
+    let mut tokenizer = Tokenizer::from_bytes(json).map_err(|error| bad(&format!("damaged: {error}")))?;
+    // Texts are neither cut nor filled up, whatever the file says.
+    tokenizer.with_truncation(None).map_err(|error| bad(&error.to_string()))?.with_padding(None);
+    Ok(tokenizer)
 }
 
-/// Refuses what the package `tokenizers` panics at: a text that is no JSON, and the packed tables of characters of other
-/// families, where they are damaged.
-fn check_tokenizer(bytes: &[u8]) -> Result<(), String> {
+/// The JSON of a tokenizer, where keys stand once. Refuses what the package `tokenizers` panics at: a text that is no JSON, and
+/// the packed tables of characters of other families, where they are damaged.
+fn checked_tokenizer(bytes: &[u8]) -> Result<String, String> {
     let json: serde_json::Value = serde_json::from_slice(bytes).map_err(|error| format!("damaged: {error}"))?;
-    let has_table = json.get("normalizer").is_some_and(|normalizer| normalizer.to_string().contains("\"Precompiled\""));
-    if has_table { Err("with a packed table of characters".to_owned()) } else { Ok(()) }
+    let normalizer = json.get("normalizer").map(serde_json::Value::to_string).unwrap_or_default();
+    let has_table = ["\"Precompiled\"", "\"precompiled_charsmap\""].iter().any(|table| normalizer.contains(table));
+    if has_table { Err("with a packed table of characters".to_owned()) } else { Ok(json.to_string()) }
 }
 
 /// Checks that every answer can be written and that the network knows every token.

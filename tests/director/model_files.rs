@@ -6,9 +6,13 @@ use std::path::Path;
 
 use cinesplat::director::inputs::Vocabulary;
 use cinesplat::director::network::{BertConfig, ModelConfig, Network, Parameters};
-use cinesplat::director::{Director, ModelFiles};
+use cinesplat::director::{Director, ModelFiles, SceneContext};
+use cinesplat::files::sha256_hex;
 use cinesplat::language::sense_names;
 use cinesplat::training::{TrainSettings, train};
+use glam::DVec3;
+
+use crate::cli::run;
 
 /// The folder of a model that was trained for one step.
 fn model() -> tempfile::TempDir {
@@ -80,24 +84,51 @@ fn weights_that_change_after_they_were_read_change_nothing() {
     assert_eq!(format!("{:?}", linked(&director)), format!("{:?}", linked(&again)));
 }
 
+/// Writes a file of a model, and its hash into the description of the model.
+fn write_with_hash(folder: &Path, file: &str, bytes: &[u8]) {
+    let before = sha256_hex(&std::fs::read(folder.join(file)).unwrap());
+    std::fs::write(folder.join(file), bytes).unwrap();
+    let manifest = folder.join("director.json");
+    let text = std::fs::read_to_string(&manifest).unwrap().replace(&before, &sha256_hex(bytes));
+    std::fs::write(&manifest, text).unwrap();
+}
+
 #[test]
 fn infinite_weights_are_rejected_even_if_the_hash_fits() {
-    use sha2::{Digest, Sha256};
     let model = model();
-    let path = model.path().join("director.safetensors");
-    let mut bytes = std::fs::read(&path).unwrap();
-    let hex =
-        |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().concat();
-    let before = hex(&bytes);
+    let mut bytes = std::fs::read(model.path().join("director.safetensors")).unwrap();
     // The last value becomes infinity: 0x7c00 in half precision, little-endian.
     let end = bytes.len();
     bytes[end - 2..].copy_from_slice(&[0x00, 0x7c]);
-    std::fs::write(&path, &bytes).unwrap();
-    let manifest = model.path().join("director.json");
-    let text = std::fs::read_to_string(&manifest).unwrap().replace(&before, &hex(&bytes));
-    std::fs::write(&manifest, text).unwrap();
+    write_with_hash(model.path(), "director.safetensors", &bytes);
     let error = Director::load(model.path()).unwrap_err();
     assert!(error.to_string().contains("inf") && error.to_string().contains("finite"), "{error}");
+}
+
+#[test]
+fn weights_whose_outputs_overflow_are_bad_data_and_no_program() {
+    for (damaged, expected) in [("intent.", "scores of a key"), ("pose.", "poses")] {
+        let model = model();
+        let tensors = ModelFiles::read(model.path()).unwrap().tensors().unwrap();
+        let changed = tensors.iter().map(|(name, tensor)| {
+            let is_damaged = name.starts_with(damaged) && name.ends_with(".weight");
+            (name.clone(), if is_damaged { (tensor.sign().unwrap() * 3e38).unwrap() } else { tensor.clone() })
+        });
+        let path = model.path().join("changed.safetensors");
+        candle_core::safetensors::save(&changed.collect(), &path).unwrap();
+        write_with_hash(model.path(), "director.safetensors", &std::fs::read(&path).unwrap());
+        let director = Director::load(model.path()).unwrap();
+        let linked = director.link("push in slowly, then pan left", &[]).unwrap();
+        let scene = SceneContext { objects: &[], up: DVec3::Y, center: DVec3::ZERO, size: 4.0 };
+        let error = director.direct(&linked, &scene).unwrap_err();
+        assert_eq!(error.code(), "MODEL-NOT-FINITE");
+        assert!(
+            error.to_string().starts_with(&format!("director.safetensors: the network's {expected} hold")),
+            "{error}"
+        );
+        let output = run(model.path(), &["read", "-p", "push in slowly, then pan left", "--model", "."]);
+        assert_eq!(output.status.code(), Some(65));
+    }
 }
 
 #[test]

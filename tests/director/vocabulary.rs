@@ -1,6 +1,7 @@
 //! The vocabulary: training, JSON, special tokens.
 
 use cinesplat::director::inputs::Vocabulary;
+use serde_json::json;
 
 fn trained() -> Vocabulary {
     let lines = ["push in on <obj-0> slowly", "pan left from <obj-0> to <obj-1>", "orbit <obj-1> in <qty-0>"];
@@ -24,6 +25,28 @@ fn a_tokenizer_without_the_special_tokens_is_rejected() {
     assert_eq!(error.code(), "MODEL-BAD");
     assert!(error.to_string().contains("<obj-7>"), "{error}");
     assert_eq!(Vocabulary::from_json(b"{}").unwrap_err().code(), "MODEL-BAD");
+}
+
+#[test]
+fn a_tokenizer_with_parts_of_other_programs_is_rejected() {
+    let json: serde_json::Value = serde_json::from_str(&trained().to_json().unwrap()).unwrap();
+    let with = |place: &str, value: serde_json::Value| {
+        let mut json = json.clone();
+        *json.pointer_mut(place).unwrap() = value;
+        Vocabulary::from_json(json.to_string().as_bytes()).unwrap_err().to_string()
+    };
+    let table = json!({"type": "Precompiled", "precompiled_charsmap": "AQAAAAA="});
+    let padding = json!({"strategy": {"Fixed": 1_000_000_000}, "direction": "Right", "pad_to_multiple_of": null,
+        "pad_id": 0, "pad_type_id": 0, "pad_token": "<pad>"});
+    let expected =
+        "director.tokenizer.json: /normalizer/type: found \"Precompiled\", expected Lowercase or BertNormalizer";
+    assert_eq!(with("/normalizer", table.clone()), expected);
+    assert!(with("/padding", padding).contains("/padding: found {"));
+    assert!(with("/decoder", json!({"type": "Fuse"})).contains("/decoder"));
+    assert!(with("/model/type", json!("Unigram")).contains("/model/type"));
+    // The first of two normalizers is not read.
+    let twice = json.to_string().replacen('{', &format!("{{\"normalizer\":{table},"), 1);
+    Vocabulary::from_json(twice.as_bytes()).unwrap();
 }
 
 #[test]

@@ -21,7 +21,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "faults"))
-from run import shot
+from bench import shot
 from cluster import Cluster
 
 SCENE = "synth:tabletop:1:0.3"

@@ -20,11 +20,13 @@ impl From<DirectorError> for Failure {
             DirectorError::Read { source, .. } => {
                 (Exit::of_read(&source), "check the path given with --model, or leave it out for the built-in weights")
             }
-            DirectorError::BadModel { .. } | DirectorError::IdBeyondVocabulary { .. } => (
+            DirectorError::BadModel { .. }
+            | DirectorError::IdBeyondVocabulary { .. }
+            | DirectorError::NotFinite { .. } => (
                 Exit::BadData,
                 "leave --model out for the built-in weights, or train them again with `cinesplat train`",
             ),
-            DirectorError::Compute(_) | DirectorError::NotFinite { .. } => {
+            DirectorError::Compute(_) => {
                 (Exit::Fault, "this is a fault of cinesplat: please report it with the prompt")
             }
         };

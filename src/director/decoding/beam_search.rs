@@ -4,14 +4,19 @@
 //! that names a move should be in the span of a step. If the greedy keys omit one (such as the second of three clauses), a
 //! beam search maximizes log-likelihood less a penalty per omission. The same input gives the same keys.
 
-use candle_core::{Device, Result, Tensor};
+use candle_core::{Device, Tensor};
 
 use super::coverage::omissions;
 use super::key_choice::{ChosenKey, KeyCertainty, ScoreRow, WordRules, best_key, best_keys};
 use crate::codes::{Field, KeyCode, NEXT_STOP, POSE_WIDTH, PoseCode, previous_poses};
+use crate::error::DirectorError;
 use crate::inputs::Prompt;
 use crate::keys::MAX_KEYS;
 use crate::network::{Dropout, KeyBatch, Memory, ModelConfig, Network, PromptBatch, anchor_objects};
+use crate::tensor_file::{WEIGHTS_FILE, check_finite};
+
+/// A result of the director.
+type Result<T> = std::result::Result<T, DirectorError>;
 
 /// Number of sequences that the beam holds.
 const BEAM_WIDTH: usize = 6;
@@ -99,6 +104,7 @@ fn keys_of_words(
         decoded = encoded.beam_search()?;
     }
     let unmet = network.unmet(&encoded.memory)?.squeeze(0)?.to_vec2::<f32>()?; // [tokens, 2]
+    unmet.iter().try_for_each(|scores| check_finite(WEIGHTS_FILE, "scores of unmet words", scores))?;
     decoded.unmet = unmet.iter().map(|scores| matches!(scores[..], [said, unsaid] if unsaid > said)).collect();
     let choices = decoded.certainties.iter().flat_map(|certainty| &certainty.choices);
     let log_likelihood: f64 = choices.map(|(_, probability)| probability.max(1e-9).ln()).sum();
@@ -182,6 +188,7 @@ impl<'a> EncodedPrompt<'a> {
             let previous = Tensor::from_vec(previous, (1, keys.len(), POSE_WIDTH + 1), &Device::Cpu)?; // [1, keys, POSE_WIDTH + 1]
             let out = self.network.poses(&key_batch, &states, &previous, &self.memory, &off)?;
             let out = out.narrow(1, key_idx, 1)?.flatten_all()?.to_vec1::<f32>()?;
+            check_finite(WEIGHTS_FILE, "poses", &out)?;
             let anchor = anchor.and_then(|idx| self.prompt.objects.get(idx)).map(|object| object.center.as_vec3());
             poses.push(pose_code(&out, anchor.unwrap_or_default().to_array()));
         }
@@ -189,10 +196,9 @@ impl<'a> EncodedPrompt<'a> {
     }
 }
 
-/// Pose of the pose head's output, whose position is relative to `anchor`. Values are clamped to a plausible range;
-/// a value that is not finite becomes 0.
+/// Pose of the pose head's output, whose position is relative to `anchor`. Values are clamped to a plausible range.
 fn pose_code(out: &[f32], anchor: [f32; 3]) -> PoseCode {
-    let within = |value: f32, limit: f32| if value.is_finite() { value.clamp(-limit, limit) } else { 0.0 };
+    let within = |value: f32, limit: f32| value.clamp(-limit, limit);
     PoseCode {
         position: std::array::from_fn(|axis| anchor[axis] + within(out[axis], 4.0)),
         rotation_6d: std::array::from_fn(|idx| within(out[3 + idx], 10.0)),

@@ -13,9 +13,11 @@ use crate::codes::{
     AMOUNT_QUANTITY, AVOID_POINTER, Field, KEEP_POINTER, KeyCode, LENS_FOCAL, LENS_FOV, LOOK_AT, LOOK_POINTER,
     MAX_SUBJECTS, NEXT_CUT, NEXT_SEGMENT, NEXT_STOP, OBJECT_POINTERS, QUANTITY_POINTERS, QuantityRole,
 };
+use crate::error::DirectorError;
 use crate::inputs::Prompt;
 use crate::keys::MAX_KEYS;
 use crate::network::Scores;
+use crate::tensor_file::{WEIGHTS_FILE, check_finite};
 
 /// Weight of the word span of a key in its log-likelihood, as in the training loss.
 const WORDS_WEIGHT: f64 = 0.3;
@@ -57,14 +59,22 @@ pub(super) struct ScoreRow {
 
 impl ScoreRow {
     /// The row of a batch of one prompt and one key.
-    pub(super) fn of(scores: &Scores) -> candle_core::Result<Self> {
-        Ok(Self {
+    ///
+    /// # Errors
+    /// [`DirectorError::NotFinite`] · [`DirectorError::Compute`]
+    pub(super) fn of(scores: &Scores) -> Result<Self, DirectorError> {
+        let row = Self {
             classes: scores.classes.flatten_all()?.to_vec1()?,
             objects: scores.objects.reshape((OBJECT_POINTERS, ()))?.to_vec2()?,
             quantities: scores.quantities.reshape((QUANTITY_POINTERS, ()))?.to_vec2()?,
             words: scores.words.reshape((2, ()))?.to_vec2()?,
             film_length: scores.film_length.flatten_all()?.to_vec1()?,
-        })
+        };
+        let pointers = row.objects.iter().chain(&row.quantities).chain(&row.words);
+        for scores in pointers.chain([&row.classes, &row.film_length]) {
+            check_finite(WEIGHTS_FILE, "scores of a key", scores)?;
+        }
+        Ok(row)
     }
 }
 

@@ -15,4 +15,4 @@ pub use text::encode_text;
 pub use vocabulary::{NUM_OBJECT_SLOTS, Vocabulary, object_token};
 
 pub(crate) use objects::other_objects;
-pub(crate) use vocabulary::{NUM_SPECIAL_TOKENS, PAD};
+pub(crate) use vocabulary::{NUM_SPECIAL_TOKENS, PAD, TOKENIZER_FILE};

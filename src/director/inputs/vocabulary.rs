@@ -11,6 +11,8 @@ use tokenizers::Tokenizer;
 use super::merges;
 use crate::error::DirectorError;
 
+/// Name of the file with the vocabulary.
+pub(crate) const TOKENIZER_FILE: &str = "director.tokenizer.json";
 /// Number of identifiers `<obj-0>`.. that a prompt's objects are mapped onto.
 pub const NUM_OBJECT_SLOTS: usize = cinesplat_language::MAX_SLOTS;
 /// Number of identifiers `<qty-0>`.. that a prompt's quantities are mapped onto.
@@ -129,14 +131,18 @@ impl Vocabulary {
     /// Reads a vocabulary from the JSON of `tokenizers`.
     ///
     /// # Errors
-    /// [`DirectorError::BadModel`] when the JSON is not a tokenizer, or a special token does not have its fixed id.
+    /// [`DirectorError::BadModel`] when the JSON is not a tokenizer, has a part that this program does not write, or a special
+    /// token does not have its fixed id.
     pub fn from_json(json: &[u8]) -> Result<Self, DirectorError> {
-        let tokenizer = Tokenizer::from_bytes(json).map_err(|error| bad(&error))?;
+        let json: Value = serde_json::from_slice(json).map_err(|error| bad(&error))?;
+        check_parts(&json)?;
+        // What was checked is what is read: in the file a key may stand twice.
+        let tokenizer = Tokenizer::from_bytes(json.to_string()).map_err(|error| bad(&error))?;
         for (id, text) in special_tokens().into_iter().enumerate() {
             let found = tokenizer.token_to_id(&text);
             if found != Some(id as u32) {
                 return Err(DirectorError::BadModel {
-                    part: format!("tokenizer: {text}"),
+                    part: format!("{TOKENIZER_FILE}: {text}"),
                     found: found.map_or("none".into(), |id| format!("id {id}")),
                     expected: format!("id {id}"),
                 });
@@ -191,6 +197,35 @@ impl Vocabulary {
     }
 }
 
+/// Refuses parts of a tokenizer that this program does not write. The package `tokenizers` has many more: it panics at damaged
+/// tables of characters, and fills texts up to any length.
+fn check_parts(json: &Value) -> Result<(), DirectorError> {
+    const NONE: [&str; 5] = ["/truncation", "/padding", "/post_processor", "/decoder", "/model/dropout"];
+    const TYPES: [(&str, [&str; 2]); 3] = [
+        ("/normalizer/type", ["Lowercase", "BertNormalizer"]),
+        ("/pre_tokenizer/type", ["Whitespace", "BertPreTokenizer"]),
+        ("/model/type", ["BPE", "WordPiece"]),
+    ];
+    let is_none = |place: &&str| json.pointer(place).is_none_or(Value::is_null);
+    if let Some(place) = NONE.iter().find(|place| !is_none(place)) {
+        return Err(bad_part(place, json, "null"));
+    }
+    let is_known = |(place, types): &&(&str, [&str; 2])| {
+        json.pointer(place).and_then(Value::as_str).is_some_and(|found| types.contains(&found))
+    };
+    match TYPES.iter().find(|part| !is_known(part)) {
+        Some((place, types)) => Err(bad_part(place, json, &types.join(" or "))),
+        None => Ok(()),
+    }
+}
+
+/// The error for the value at a place of a tokenizer's JSON.
+fn bad_part(place: &str, json: &Value, expected: &str) -> DirectorError {
+    // A value may be long, and of the file.
+    let found: String = json.pointer(place).map_or("nothing".into(), Value::to_string).chars().take(60).collect();
+    DirectorError::BadModel { part: format!("{TOKENIZER_FILE}: {place}"), found, expected: expected.to_owned() }
+}
+
 /// A special token in the tokenizer's JSON.
 fn added_token(text: &str, id: u32) -> Value {
     let off = false;
@@ -210,7 +245,7 @@ fn special_tokens() -> Vec<String> {
 
 fn bad(error: &dyn std::fmt::Display) -> DirectorError {
     DirectorError::BadModel {
-        part: "tokenizer".into(),
+        part: TOKENIZER_FILE.into(),
         found: error.to_string(),
         expected: "a byte-pair tokenizer of this program".into(),
     }

@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
-use candle_core::Result;
-
 use super::batch::{MentionBatch, SentenceBatch};
+use super::files::WEIGHTS_FILE;
 use super::mention_input::{MentionInput, says_place};
 use super::network::{NUM_TAGS, NamesNetwork};
 use super::sentence::Sentence;
+use crate::error::DirectorError;
 use crate::network::Dropout;
+use crate::tensor_file::check_finite;
 
 /// Least probability that a mention's thing is missing.
 const MISSING_THRESHOLD: f64 = 0.5;
@@ -33,23 +34,25 @@ pub struct DecodedMention {
 /// The mentions of a sentence, in order.
 ///
 /// # Errors
-/// A candle error when a tensor operation fails.
-pub fn decode(network: &NamesNetwork, sentence: &Sentence) -> Result<Vec<DecodedMention>> {
+/// [`DirectorError::NotFinite`] when the weights are damaged · [`DirectorError::Compute`] when a tensor operation fails.
+pub fn decode(network: &NamesNetwork, sentence: &Sentence) -> Result<Vec<DecodedMention>, DirectorError> {
     if sentence.words.is_empty() {
         return Ok(Vec::new());
     }
     let batch = SentenceBatch::new(&[sentence])?;
     let states = network.states(&batch, &Dropout::off())?;
     let tags = network.tags(&states)?.to_vec2::<f32>()?;
+    tags.iter().try_for_each(|scores| check_finite(WEIGHTS_FILE, "tags", scores))?;
     let mut found: Vec<DecodedMention> = Vec::new();
     for (words, tagged) in spans(&tags, sentence) {
         let earlier: Vec<Vec<usize>> = found.iter().map(|mention| mention.objects.clone()).collect();
         let input = MentionInput::new(sentence, words.clone(), &earlier);
         let mention_batch = MentionBatch::new(&[(0, &input)], &[sentence], &batch)?;
         let scores = network.point(&states, &mention_batch, &Dropout::off())?;
-        let objects: Vec<f64> = scores.objects.to_vec2::<f32>()?.iter().map(|row| yes(row)).collect();
-        let scored = objects[..sentence.scene.objects.len()].to_vec();
-        let missing = scores.missing.to_vec2::<f32>()?.first().map_or(0.0, |row| yes(row));
+        let (objects, missing) = (scores.objects.to_vec2::<f32>()?, scores.missing.to_vec2::<f32>()?);
+        objects.iter().chain(&missing).try_for_each(|row| check_finite(WEIGHTS_FILE, "scores of objects", row))?;
+        let scored: Vec<f64> = objects.iter().take(sentence.scene.objects.len()).map(|row| yes(row)).collect();
+        let missing = missing.first().map_or(0.0, |row| yes(row));
         let (objects, pointed) = choose(&scored, missing);
         let objects = if input.is_plural() { objects } else { one_of(sentence, objects, &scored) };
         let objects = named_one(sentence, &words, objects);

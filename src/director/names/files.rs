@@ -12,9 +12,10 @@ use super::network::{NamesConfig, NamesNetwork};
 use crate::error::DirectorError;
 use crate::model_files::{check_hash, read_capped};
 use crate::network::Parameters;
-use crate::tensor_file::{bad, pack_tensors, read_tensors};
+use crate::tensor_file::{bad, pack_tensors, read_tensors, reason};
 
-const WEIGHTS_FILE: &str = "names.safetensors";
+/// Name of the file with the weights.
+pub(super) const WEIGHTS_FILE: &str = "names.safetensors";
 const MANIFEST_FILE: &str = "names.json";
 /// `format` of the description.
 const FORMAT: &str = "cinesplat.names";
@@ -117,7 +118,7 @@ impl NamesFiles {
         check_hash(WEIGHTS_FILE, &self.weights, &manifest.weights_sha256)?;
         let mut parameters = Parameters::Stored { tensors: self.tensors()? };
         let network = NamesNetwork::new(&mut parameters, &manifest.config)
-            .map_err(|error| bad(&WEIGHTS_FILE, &error, &"the tensors of the description"))?;
+            .map_err(|error| bad(&WEIGHTS_FILE, &reason(&error), &"the tensors of the description"))?;
         match parameters {
             Parameters::Stored { tensors } if !tensors.is_empty() => {
                 let names: Vec<String> = tensors.into_keys().collect();

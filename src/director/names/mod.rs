@@ -80,8 +80,8 @@ impl Names {
     /// The mentions of a prompt, in order. A prompt longer than 400 words is read up to there.
     ///
     /// # Errors
-    /// [`DirectorError::Language`] when the embedded lexicon is malformed · [`DirectorError::Compute`] when a tensor
-    /// operation fails.
+    /// [`DirectorError::Language`] when the embedded lexicon is malformed · [`DirectorError::NotFinite`] when the weights are
+    /// damaged · [`DirectorError::Compute`] when a tensor operation fails.
     pub fn mentions(&self, prompt: &str, objects: &[NamedObject]) -> Result<Vec<FoundMention>, DirectorError> {
         let labels: BTreeSet<String> =
             objects.iter().flat_map(|object| tokenize(&object.label)).map(|word| word.stem).collect();
