@@ -214,7 +214,8 @@ pub fn output_files(path: &Path, format: Format, layout: Layout) -> Vec<PathBuf>
     ["cameras", "images", "points3D"].map(|name| folder.join(format!("{name}.{extension}"))).to_vec()
 }
 
-/// Checks before any work that the files of an export can be created. The folder of a COLMAP model may be missing.
+/// Checks before any work that the files of an export can be created. The folder of a COLMAP model may be missing. A model in
+/// the other layout counts as existing: programs would read it in place of the new one.
 ///
 /// # Errors
 /// [`FileError::Exists`], [`FileError::Create`] of the first file that cannot be created.
@@ -222,7 +223,10 @@ pub fn check_output(path: &Path, format: Format, layout: Layout, existing: Exist
     if format == Format::Colmap && !colmap_folder(path).exists() {
         return Ok(());
     }
-    output_files(path, format, layout).iter().try_for_each(|file| cinesplat_files::check_free(file, existing))
+    let other = if layout == Layout::Binary { Layout::Text } else { Layout::Binary };
+    let in_other = if format == Format::Colmap { output_files(path, format, other) } else { Vec::new() };
+    let files = output_files(path, format, layout);
+    files.iter().chain(&in_other).try_for_each(|file| cinesplat_files::check_free(file, existing))
 }
 
 /// Writes a shot to `path` and returns one line per property that the format cannot hold.

@@ -29,7 +29,8 @@ impl Existing {
 /// A file under a temporary name in the folder of its target. Committing it renames it to the target; dropping it before
 /// that removes it.
 ///
-/// A target that is no regular file (`/dev/stdout`, a FIFO) is written directly.
+/// A target that is no regular file (a device, a FIFO) is written directly, and so is a name of an open file such as
+/// `/dev/stdout`, whatever that file is.
 #[derive(Debug)]
 pub struct NewFile {
     target: PathBuf,
@@ -51,7 +52,8 @@ impl NewFile {
     pub fn create(target: &Path, existing: Existing) -> Result<Self, FileError> {
         let failed = |source| FileError::Create { path: target.to_owned(), source };
         let content = if is_special(target) {
-            Content::Special(File::options().write(true).open(target).map_err(failed)?)
+            // What an open file holds already stays: that is what the shell's `>>` means.
+            Content::Special(File::options().append(is_open_file(target)).write(true).open(target).map_err(failed)?)
         } else {
             check_free(target, existing)?;
             temporary(target, folder_of(target)).map_err(failed)?
@@ -172,9 +174,15 @@ pub fn check_free(path: &Path, existing: Existing) -> Result<(), FileError> {
     }
 }
 
-/// Whether a path leads to a device, a pipe or a socket.
+/// Whether a path leads to a device, a pipe, a socket or an open file.
 pub(crate) fn is_special(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
+    fs::metadata(path).is_ok_and(|found| !found.is_dir() && (!found.is_file() || is_open_file(path)))
+}
+
+/// Whether a path is a name that the system gives to open files: an entry of `/dev` (`/dev/stdout`), or of `/proc/self/fd`,
+/// which is what `/dev/fd` leads to. Such a link must not be replaced by a file.
+fn is_open_file(path: &Path) -> bool {
+    folder_of(path).canonicalize().is_ok_and(|folder| folder == Path::new("/dev") || folder.starts_with("/proc"))
 }
 
 /// Longest name that a temporary name repeats, bytes. Most file systems allow 255, and a temporary name has 13 more.

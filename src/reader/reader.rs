@@ -1,3 +1,4 @@
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, Read, Seek};
 use std::path::Path;
@@ -115,6 +116,15 @@ fn tokenizer(path: &Path, content: &Content) -> Result<Tokenizer, ReaderError> {
     let beside = cinesplat_files::beside(path, TOKENIZER_FILE);
     if kind == "gpt2" {
         let expected = "tokens and merges of a byte-level tokenizer";
+        let strings = |key: &str| match content.metadata.get(key) {
+            Some(Value::Array(values)) => {
+                values.iter().filter_map(|value| value.to_string().ok()).map(String::as_str).collect()
+            }
+            _ => Vec::new(),
+        };
+        let merges = strings("tokenizer.ggml.merges").into_iter().map(|merge| merge.split_once(' '));
+        check_merges(&strings("tokenizer.ggml.tokens").into_iter().collect(), merges)
+            .map_err(|found| ReaderError::bad_model(path, "the tokenizer", &found, &expected))?;
         return Tokenizer::from_gguf(content)
             .map_err(|error| ReaderError::bad_model(path, "the tokenizer", &format!("damaged: {error}"), &expected));
     }
@@ -137,7 +147,40 @@ fn checked_tokenizer(bytes: &[u8]) -> Result<String, String> {
     let json: serde_json::Value = serde_json::from_slice(bytes).map_err(|error| format!("damaged: {error}"))?;
     let normalizer = json.get("normalizer").map(serde_json::Value::to_string).unwrap_or_default();
     let has_table = ["\"Precompiled\"", "\"precompiled_charsmap\""].iter().any(|table| normalizer.contains(table));
-    if has_table { Err("with a packed table of characters".to_owned()) } else { Ok(json.to_string()) }
+    if has_table {
+        return Err("with a packed table of characters".to_owned());
+    }
+    if json
+        .pointer("/model/continuing_subword_prefix")
+        .is_some_and(|prefix| !matches!(prefix.as_str(), None | Some("")))
+    {
+        return Err("with marks of inner tokens".to_owned());
+    }
+    let tokens = json.pointer("/model/vocab").and_then(serde_json::Value::as_object);
+    let tokens = tokens.into_iter().flat_map(|tokens| tokens.keys().map(String::as_str)).collect();
+    let merges = json.pointer("/model/merges").and_then(serde_json::Value::as_array).into_iter().flatten();
+    check_merges(&tokens, merges.map(merged))?;
+    Ok(json.to_string())
+}
+
+/// The two tokens of a merge, which is an array or, in older files, a text with a space.
+fn merged(merge: &serde_json::Value) -> Option<(&str, &str)> {
+    match merge.as_array().map(Vec::as_slice) {
+        Some([left, right]) => left.as_str().zip(right.as_str()),
+        _ => merge.as_str()?.split_once(' '),
+    }
+}
+
+/// Refuses merges that make no token: the package `tokenizers` panics at those that are longer than all tokens.
+fn check_merges<'a>(
+    tokens: &HashSet<&str>,
+    mut merges: impl Iterator<Item = Option<(&'a str, &'a str)>>,
+) -> Result<(), String> {
+    let makes_token = |(left, right): (&str, &str)| tokens.contains(format!("{left}{right}").as_str());
+    match merges.position(|merge| !merge.is_some_and(makes_token)) {
+        Some(idx) => Err(format!("with merge {idx}, which makes no token")),
+        None => Ok(()),
+    }
 }
 
 /// Checks that every answer can be written and that the network knows every token.

@@ -382,6 +382,12 @@ fn a_colmap_model_goes_into_a_new_folder_and_is_overwritten_only_when_asked() {
     assert_eq!(fs::read_to_string(&images).unwrap(), "mine");
     assert!(run(folder.path(), &[&export[..], &["--overwrite"]].concat()).status.success());
     assert_ne!(fs::read_to_string(&images).unwrap(), "mine");
+    // A model in the other layout, which programs read first.
+    fs::create_dir(folder.path().join("binary")).unwrap();
+    fs::write(folder.path().join("binary/images.bin"), "mine").unwrap();
+    let beside = ["export", "shot.json", "--to", "colmap", "-o", "binary"];
+    assert_eq!(run(folder.path(), &beside).status.code(), Some(73));
+    assert_eq!(fs::read_dir(folder.path().join("binary")).unwrap().count(), 1);
 }
 
 #[test]

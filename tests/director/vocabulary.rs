@@ -43,7 +43,14 @@ fn a_tokenizer_with_parts_of_other_programs_is_rejected() {
     assert_eq!(with("/normalizer", table.clone()), expected);
     assert!(with("/padding", padding).contains("/padding: found {"));
     assert!(with("/decoder", json!({"type": "Fuse"})).contains("/decoder"));
+    assert!(with("/model/vocab/push", json!(4)).contains("/model/vocab: "), "an id twice");
+    assert!(with("/model/merges/0", json!(["push", "u"])).contains("/model/merges/0: found [\"push\",\"u\"]"));
+    assert!(with("/model/merges/0", json!(["slowly", "##q"])).contains("expected two tokens that make a third"));
     assert!(with("/model/type", json!("Unigram")).contains("/model/type"));
+    // The package that reads tokenizers panics at this one.
+    let damaged = include_bytes!("../fuzz/seeds/vocabulary/decoder.json");
+    let error = Vocabulary::from_json(damaged).unwrap_err();
+    assert!(error.to_string().starts_with("director.tokenizer.json: found key must be a string"), "{error}");
     // The first of two normalizers is not read.
     let twice = json.to_string().replacen('{', &format!("{{\"normalizer\":{table},"), 1);
     Vocabulary::from_json(twice.as_bytes()).unwrap();

@@ -69,6 +69,25 @@ fn new_files_have_the_permissions_of_any_new_file_and_special_files_are_written_
     assert!(!fs::metadata("/dev/null").unwrap().is_file());
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_name_of_an_open_file_is_written_and_never_replaced() {
+    use std::os::fd::AsRawFd;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("redirected");
+    fs::write(&path, "before ").unwrap();
+    let open = fs::File::options().append(true).open(&path).unwrap();
+    let name = format!("/dev/fd/{}", open.as_raw_fd());
+    write(Path::new(&name), b"after", Existing::Replace).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "before after");
+    // A link to it in a folder of its own is replaced as any link.
+    let link = folder.path().join("link");
+    std::os::unix::fs::symlink(&path, &link).unwrap();
+    write(&link, b"new", Existing::Replace).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "before after");
+    assert_eq!(fs::read_to_string(&link).unwrap(), "new");
+}
+
 #[test]
 fn outputs_that_cannot_be_are_refused_before_any_work() {
     let folder = tempfile::tempdir().unwrap();

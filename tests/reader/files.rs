@@ -72,7 +72,7 @@ fn a_model_that_cannot_be_run_is_refused_with_what_was_expected() {
     insta::assert_snapshot!(refusal(&with_keys(&[("qwen2.attention.head_count", Some(Value::U32(0)))])), @"READER-BAD: tiny.gguf: qwen2.attention.head_count is 0 of type U32, expected a 32-bit number from 1 to 256");
     insta::assert_snapshot!(refusal(&with_keys(&[("qwen2.attention.head_count_kv", Some(Value::U32(1)))])), @"READER-BAD: tiny.gguf: blk.0.attn_k.weight is [32, 64], expected [16, 64]");
     insta::assert_snapshot!(refusal(&with_keys(&[("tokenizer.ggml.model", text("llama"))])), @"READER-BAD: tiny.gguf: tokenizer.ggml.model is llama, expected gpt2, or a file tokenizer.json beside the model");
-    insta::assert_snapshot!(refusal(&with_keys(&[("tokenizer.ggml.tokens", Some(Value::Array(vec![])))])), @"READER-BAD: tiny.gguf: the tokenizer is damaged: Token `t` out of vocabulary, expected tokens and merges of a byte-level tokenizer");
+    insta::assert_snapshot!(refusal(&with_keys(&[("tokenizer.ggml.tokens", Some(Value::Array(vec![])))])), @"READER-BAD: tiny.gguf: the tokenizer is with merge 0, which makes no token, expected tokens and merges of a byte-level tokenizer");
 }
 
 #[test]

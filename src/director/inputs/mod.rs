@@ -6,6 +6,7 @@ mod move_words;
 mod objects;
 mod prompt;
 mod text;
+mod tokenizer_parts;
 mod vocabulary;
 
 pub use grounding::Grounding;
@@ -15,4 +16,5 @@ pub use text::encode_text;
 pub use vocabulary::{NUM_OBJECT_SLOTS, Vocabulary, object_token};
 
 pub(crate) use objects::other_objects;
-pub(crate) use vocabulary::{NUM_SPECIAL_TOKENS, PAD, TOKENIZER_FILE};
+pub(crate) use tokenizer_parts::TOKENIZER_FILE;
+pub(crate) use vocabulary::{NUM_SPECIAL_TOKENS, PAD};

@@ -9,10 +9,9 @@ use serde_json::{Value, json};
 use tokenizers::Tokenizer;
 
 use super::merges;
+use super::tokenizer_parts::{TOKENIZER_FILE, check_parts};
 use crate::error::DirectorError;
 
-/// Name of the file with the vocabulary.
-pub(crate) const TOKENIZER_FILE: &str = "director.tokenizer.json";
 /// Number of identifiers `<obj-0>`.. that a prompt's objects are mapped onto.
 pub const NUM_OBJECT_SLOTS: usize = cinesplat_language::MAX_SLOTS;
 /// Number of identifiers `<qty-0>`.. that a prompt's quantities are mapped onto.
@@ -195,35 +194,6 @@ impl Vocabulary {
             None => Ok(tokens),
         }
     }
-}
-
-/// Refuses parts of a tokenizer that this program does not write. The package `tokenizers` has many more: it panics at damaged
-/// tables of characters, and fills texts up to any length.
-fn check_parts(json: &Value) -> Result<(), DirectorError> {
-    const NONE: [&str; 5] = ["/truncation", "/padding", "/post_processor", "/decoder", "/model/dropout"];
-    const TYPES: [(&str, [&str; 2]); 3] = [
-        ("/normalizer/type", ["Lowercase", "BertNormalizer"]),
-        ("/pre_tokenizer/type", ["Whitespace", "BertPreTokenizer"]),
-        ("/model/type", ["BPE", "WordPiece"]),
-    ];
-    let is_none = |place: &&str| json.pointer(place).is_none_or(Value::is_null);
-    if let Some(place) = NONE.iter().find(|place| !is_none(place)) {
-        return Err(bad_part(place, json, "null"));
-    }
-    let is_known = |(place, types): &&(&str, [&str; 2])| {
-        json.pointer(place).and_then(Value::as_str).is_some_and(|found| types.contains(&found))
-    };
-    match TYPES.iter().find(|part| !is_known(part)) {
-        Some((place, types)) => Err(bad_part(place, json, &types.join(" or "))),
-        None => Ok(()),
-    }
-}
-
-/// The error for the value at a place of a tokenizer's JSON.
-fn bad_part(place: &str, json: &Value, expected: &str) -> DirectorError {
-    // A value may be long, and of the file.
-    let found: String = json.pointer(place).map_or("nothing".into(), Value::to_string).chars().take(60).collect();
-    DirectorError::BadModel { part: format!("{TOKENIZER_FILE}: {place}"), found, expected: expected.to_owned() }
 }
 
 /// A special token in the tokenizer's JSON.
