@@ -26,7 +26,7 @@ const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu w
     angle view views overhead bird's top-down eye-level low high framing static tripod locked lock-off lockoff fixed off-axis front side profile foreground sharp handheld steadicam drone \
     gimbal lens zoom pov establishing turntable degrees clockwise anticlockwise counterclockwise closer nearer towards \
     toward around round past along through cut cuts camera stills photo photograph picture snapshot frozen motionless \
-    backwards forwards backward forward sideways left right away";
+    first then next finally backwards forwards backward forward sideways left right away";
 /// Verbs whose `up` or `down` is no way: `somewhere you'd never get up`.
 const NO_WAYS: &str = "get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
     stand stands hang make made dress dressed tidy tidied grown let calm slow settle";
@@ -200,6 +200,7 @@ mod tests {
         assert!(brief(
             "i want the bedroom to feel like somewhere you 'd never get up on a sunday . <obj-0> is the hero"
         ));
+        assert!(!brief("no wait not <obj-0> , <obj-1> first and then <obj-0> and nice and slow"));
         assert!(!brief("show <obj-0>"));
         assert!(!brief("i want you to come closer to <obj-0> , moody and slow"));
         assert!(!brief("a moody wide shot of <obj-0> in the morning light"));
