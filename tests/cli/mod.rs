@@ -5,6 +5,7 @@ mod errors;
 mod farm;
 mod films;
 mod leftovers;
+mod lone_thing;
 mod map;
 mod memory;
 mod paths;
