@@ -181,7 +181,7 @@ those of undisturbed runs.
 {table(["fault", "tried", "result", "row", "date", "commit"], lines_of(False))}
 
 `make check-slurm`: films of 240 frames by real `sbatch` on two virtual nodes of one machine, compared with the film that one
-thread makes. On 2026-11-28 builds and tests ran beside it, some six programs per core: those times say little about speedup.
+thread makes.
 
 {table(["fault", "tried", "result", "date", "commit"], kept["slurm"])}
 

@@ -1,6 +1,6 @@
 """Films on a cluster that loses tasks and nodes, compared with a film that one machine makes.
 
-Usage: python3 tests/slurm/check.py target/release/cinesplat [--frames 240]
+Usage: python3 tests/slurm/check.py target/release/cinesplat [--frames 240] [--quality reference --only undisturbed]
 
 Prints a table for `tests/reliability.md`. Exits with 1 if a film differs or a frame was lost. `tests/slurm/cluster.py` says
 what it needs.
@@ -32,15 +32,15 @@ NUM_KILLED = 4
 class Bench:
     """A folder that all nodes share, with a shot and the film that one machine makes of it."""
 
-    def __init__(self, program, num_frames):
-        self.program, self.num_frames, self.faults = program, num_frames, []
+    def __init__(self, program, num_frames, quality):
+        self.program, self.num_frames, self.quality, self.faults = program, num_frames, quality, []
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="cinesplat-farm-"))
         atexit.register(shutil.rmtree, self.folder, ignore_errors=True)
         self.children = []
         atexit.register(self.end_children)
         self.film, self.job = self.folder / "film.mp4", self.folder / "film.mp4.job"
         (self.folder / "shot.json").write_text(json.dumps({**shot(num_frames / 30, 30), "scene": {"path": SCENE, "up": [0, 1, 0]}}))
-        self.words = [SCENE, "--shot", "shot.json", "--size", "960x540", "-o", "film.mp4"]
+        self.words = [SCENE, "--shot", "shot.json", "--size", "960x540", "--quality", quality, "-o", "film.mp4"]
         start = time.monotonic()
         subprocess.run([program, "render", *self.words, "--threads", "1"], cwd=self.folder, check=True, capture_output=True)
         self.secs = time.monotonic() - start
@@ -93,7 +93,7 @@ class Bench:
 def undisturbed(bench, cluster):
     start = time.monotonic()
     child = bench.farm("--slurm", "--parts", "4", "--keep-frames")
-    bench.row("Slurm, two nodes, nothing disturbed", "4 tasks", child, start)
+    bench.row(f"Slurm, two nodes, nothing disturbed, {bench.quality} quality", "4 tasks", child, start)
 
 
 def killed_tasks(bench, cluster):
@@ -199,9 +199,10 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--frames", type=int, default=240)
+    parser.add_argument("--quality", default="standard", help="reference frames take long enough to show the speedup")
     parser.add_argument("--only", nargs="*")
     arguments = parser.parse_args()
-    bench = Bench(os.path.abspath(arguments.program), arguments.frames)
+    bench = Bench(os.path.abspath(arguments.program), arguments.frames, arguments.quality)
     print("| fault | tried | result |\n|---|---|---|", flush=True)
     with Cluster() as cluster:
         for row in (undisturbed, killed_tasks, crashed_node, stopped_farm, held, left_alone, refused):
