@@ -5,6 +5,7 @@
 
 use cinesplat_language::{LanguageError, Mention, NamedObject, Word, is_listed, part_of, tokenize};
 
+use crate::explained::insert_mention;
 use crate::names::FoundMention;
 use crate::said::is_form;
 
@@ -114,9 +115,8 @@ fn point_to_actor(
                 let is_part = is_own && part_of(&part, label)?.is_some();
                 let to = if is_part { at + 1 } else { at };
                 if is_part || !is_own {
-                    let mention = Mention { bytes: [words[at].span[0], words[to].span[1]], ids: ids.to_vec() };
-                    let place = found.partition_point(|found| found.mention.bytes[0] < mention.bytes[0]);
-                    found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+                    let bytes = [words[at].span[0], words[to].span[1]];
+                    insert_mention(found, Mention { bytes, ids: ids.to_vec() });
                 }
             }
             None => {}

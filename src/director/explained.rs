@@ -105,10 +105,6 @@ pub(crate) fn name_by_parts(
     let words = tokenize(prompt);
     let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
     for at in 1..words.len() {
-        let overlaps = |found: &FoundMention, to: usize| {
-            let [start, end] = found.mention.bytes;
-            start < words[to - 1].span[1] && words[at].span[0] < end
-        };
         if !is_listed(POINTS, text(at - 1)) {
             continue;
         }
@@ -129,10 +125,8 @@ pub(crate) fn name_by_parts(
         let is_alone = text(to).chars().all(|letter| !letter.is_alphanumeric())
             || is_listed(BEHIND, text(to))
             || text(to).starts_with("fill");
-        if is_alone && !found.iter().any(|found| overlaps(found, to)) {
-            let mention = Mention { bytes: [words[at - 1].span[0], words[to - 1].span[1]], ids: vec![id] };
-            let place = found.partition_point(|found| found.mention.bytes[0] < mention.bytes[0]);
-            found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+        if is_alone && !is_linked(found, [words[at].span[0], words[to - 1].span[1]]) {
+            insert_mention(found, Mention { bytes: [words[at - 1].span[0], words[to - 1].span[1]], ids: vec![id] });
         }
     }
     Ok(())
@@ -254,20 +248,25 @@ pub(crate) fn name_by_label_words(prompt: &str, objects: &[NamedObject], found: 
         let word = &words[at];
         let is_alone = text(at + 1).chars().all(|letter| !letter.is_alphanumeric()) || is_listed(BEHIND, text(at + 1));
         let is_name = is_listed(POINTS, text(at - 1)) && is_alone && !word.after_hyphen && word.is_alphabetic();
-        let is_linked = found.iter().any(|found| {
-            let [start, end] = found.mention.bytes;
-            start < word.span[1] && word.span[0] < end
-        });
-        if !is_name || is_linked || word.text.len() < 4 || is_listed(LOOSE, &word.text) {
+        if !is_name || is_linked(found, word.span) || word.text.len() < 4 || is_listed(LOOSE, &word.text) {
             continue;
         }
         let has = |object: &&NamedObject| content(&object.label).contains(&stem(&word.text));
         let mut named = objects.iter().filter(has);
         let (Some(object), None) = (named.next(), named.next()) else { continue };
-        let mention = Mention { bytes: [words[at - 1].span[0], word.span[1]], ids: vec![object.id] };
-        let place = found.partition_point(|found| found.mention.bytes[0] < mention.bytes[0]);
-        found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+        insert_mention(found, Mention { bytes: [words[at - 1].span[0], word.span[1]], ids: vec![object.id] });
     }
+}
+
+/// Puts a mention that the words make sure of in its place among the others.
+pub(crate) fn insert_mention(found: &mut Vec<FoundMention>, mention: Mention) {
+    let place = found.partition_point(|found| found.mention.bytes[0] < mention.bytes[0]);
+    found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+}
+
+/// Whether a mention has some of these bytes of the prompt.
+fn is_linked(found: &[FoundMention], [from, to]: [usize; 2]) -> bool {
+    found.iter().any(|found| found.mention.bytes[0] < to && from < found.mention.bytes[1])
 }
 
 /// The words of a mention.

@@ -69,10 +69,6 @@ pub(crate) fn name(color_lab: Vec3) -> &'static str {
 
 /// Median of some colors, channel by channel; black for none.
 pub(crate) fn median(colors: &[Vec3]) -> Vec3 {
-    let channel = |channel: usize| {
-        let mut values: Vec<f32> = colors.iter().map(|color| color[channel]).collect();
-        let middle = values.len() / 2;
-        if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f32::total_cmp).1 }
-    };
+    let channel = |channel: usize| super::median::median(colors.iter().map(|color| color[channel]));
     Vec3::new(channel(0), channel(1), channel(2))
 }

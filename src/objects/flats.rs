@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::{Vec3, Vec3Swizzles};
 
 use super::color;
+use super::median::median;
 use super::planes::{PlaneKind, ScenePlane};
 use super::segmentation::split_by_color;
 use super::standing::mean_color;
@@ -279,13 +280,6 @@ fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[V
         }
     }
     if things.len() > MAX_THINGS { Vec::new() } else { things }
-}
-
-/// The median of some values; 0 for none.
-fn median(values: impl Iterator<Item = f32>) -> f32 {
-    let mut values: Vec<f32> = values.collect();
-    let middle = values.len() / 2;
-    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f32::total_cmp).1 }
 }
 
 /// Whether a color step (CIE Lab) is that between two things.

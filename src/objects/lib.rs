@@ -32,6 +32,7 @@ mod lifting;
 mod lone;
 mod loose;
 mod mask;
+mod median;
 mod naming;
 mod neighbors;
 mod object;

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
+use super::median::median;
 use super::voxels::VoxelGrid;
 
 /// Width of the bins of heights, cells.
@@ -48,10 +49,7 @@ impl Surface {
             plane.fit(points.iter().copied(), reach * grid.cell);
         }
         let near = points.iter().map(|&p| plane.height(p).abs()).filter(|off| *off <= FIT_CELLS[0] * grid.cell);
-        let mut off: Vec<f32> = near.collect();
-        let middle = off.len() / 2;
-        let deviation = if off.is_empty() { 0.0 } else { *off.select_nth_unstable_by(middle, f32::total_cmp).1 };
-        plane.relief = (NUM_DEVIATIONS * deviation / grid.cell).clamp(RELIEF_CELLS.0, RELIEF_CELLS.1) * grid.cell;
+        plane.relief = (NUM_DEVIATIONS * median(near) / grid.cell).clamp(RELIEF_CELLS.0, RELIEF_CELLS.1) * grid.cell;
         plane
     }
 

@@ -113,8 +113,9 @@ pub(super) fn clearance_lines(
     detours: &[Detour],
     proof: &ClearanceProof,
 ) -> Vec<ReportLine> {
-    let words =
-        |segment: &MotionSegment| clause(prompt, program.steps.get(segment.step).and_then(|step| step.words), segment);
+    let words = |segment: &MotionSegment| {
+        clause(prompt, program.steps.get(segment.step).and_then(|step| step.words), segment.movement)
+    };
     let failed = proof.failure.map(|failure| segment_at((segments, spans), failure.from_secs).0);
     let around = |detour: &Detour| {
         let (segment, num_inner) = (segments.get(detour.segment)?, detour.found.ok()?);

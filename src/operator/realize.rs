@@ -170,10 +170,10 @@ fn solution(
     Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance, is_safe }
 }
 
-/// Whether a camera circles a thing, whose size and how far around the words leave open, so closely that the thing does not fit the picture.
+/// Whether a camera circles a thing, whose size and how far around the words leave open, so closely that the thing does not
+/// fit the picture.
 fn squeezes(world: &World, program: &Program, segment: &MotionSegment) -> bool {
-    let circles = matches!(segment.movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
-        && !segment.is_join;
+    let circles = segment.movement.is_circular() && !segment.is_join;
     let is_free = |step: &&Step| !matches!(step.amount, Some(Amount::Degrees(_)));
     let Some(step) = program.steps.get(segment.step).filter(|_| circles).filter(is_free) else { return false };
     let ends = [&step.end, &step.start];

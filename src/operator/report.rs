@@ -8,7 +8,7 @@ use super::program::Program;
 use super::settings::SolveLevel;
 use super::wording::wording;
 use super::world::World;
-use cinesplat_trajectory::{CameraPath, CameraState, ReportLine};
+use cinesplat_trajectory::{CameraPath, CameraState, Move, ReportLine};
 
 /// Samples per segment on which constraints are measured.
 const NUM_SAMPLES: usize = 49;
@@ -38,7 +38,7 @@ pub(super) fn report(
             let measured = measure(world, constraint, &states, usize::MAX);
             let met = measured.violation <= 0.0;
             lines.push(ReportLine {
-                clause: clause(prompt, words, segment),
+                clause: clause(prompt, words, segment.movement),
                 wanted: wording(world, constraint),
                 got: measured.value,
                 met,
@@ -58,10 +58,10 @@ pub(super) fn report(
     (lines, captured)
 }
 
-/// The words of the prompt that a segment comes from, or else the name of its move.
-pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, segment: &MotionSegment) -> String {
+/// The words of the prompt that a move comes from, or else its name.
+pub(super) fn clause(prompt: &str, words: Option<[usize; 2]>, movement: Move) -> String {
     let text = words.and_then(|[from, to]| prompt.get(from..to)).map(str::trim).unwrap_or_default();
-    if text.is_empty() { segment.movement.as_ref().to_owned() } else { text.to_owned() }
+    if text.is_empty() { movement.as_ref().to_owned() } else { text.to_owned() }
 }
 
 fn unmet_note(has_words: bool, level: SolveLevel) -> String {

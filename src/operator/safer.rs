@@ -4,6 +4,7 @@
 //! which way or how far around a thing, the fewest given up first, with report lines that say what was given up.
 
 use super::program::{Amount, Program, Step};
+use super::report::clause;
 use cinesplat_trajectory::{Move, ReportLine};
 
 /// Longest circle around a thing that stands at a wall, degrees, one try after the other.
@@ -43,14 +44,13 @@ fn drop_places(step: &mut Step) -> Option<&'static str> {
 
 /// Goes less far around a thing.
 fn shorten(step: &mut Step, most_deg: f64) -> Option<&'static str> {
-    let circles = matches!(step.movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight);
     let is_long = match step.amount {
         Some(Amount::Degrees(degrees)) => degrees > most_deg,
         Some(Amount::Large) => true,
         None => matches!(step.movement, Move::OrbitLeft | Move::OrbitRight),
         Some(_) => false,
     };
-    if !circles || !is_long {
+    if !step.movement.is_circular() || !is_long {
         return None;
     }
     step.amount = Some(Amount::Degrees(most_deg));
@@ -63,10 +63,8 @@ fn drop_pass(step: &mut Step) -> Option<&'static str> {
 }
 
 fn line(prompt: &str, step: &Step, what: &str) -> ReportLine {
-    let words = step.words.and_then(|[from, to]| prompt.get(from..to)).map(str::trim).unwrap_or_default();
-    let clause = if words.is_empty() { step.movement.as_ref().to_owned() } else { words.to_owned() };
     ReportLine {
-        clause,
+        clause: clause(prompt, step.words, step.movement),
         wanted: what.to_owned(),
         got: 0.0,
         met: false,

@@ -1,8 +1,8 @@
 use super::choose_film::{Critique, FilmChoice, choose_film};
 use super::clearance::reach_of;
 use super::error::PipelineError;
-use super::interpreter::Interpreter;
-use super::lone_thing::{self, names};
+use super::interpreter::{Interpreter, names};
+use super::lone_thing;
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use super::slant::slant_of;
@@ -191,7 +191,7 @@ pub fn shot_of(scene: &Scene, prompt: &str, solution: Solution, settings: &Direc
 /// The frame size of the shape that a prompt states, such as `portrait`, and the words that state it; its shorter side is
 /// that of the default size.
 pub fn stated_size<'a>(prompt: &'a str, objects: &ObjectSet) -> Option<([u32; 2], &'a str)> {
-    let shape = cinesplat_language::frame_shape(prompt, &names(objects))?;
+    let shape = cinesplat_language::frame_shape(prompt, &names(&objects.objects))?;
     let [start, end] = shape.bytes;
     Some((shape.size_px(DirectSettings::default().height), prompt.get(start..end).unwrap_or_default()))
 }

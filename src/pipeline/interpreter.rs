@@ -2,6 +2,7 @@
 
 use cinesplat_director::{Direction, Director, SceneContext, StepCertainty};
 use cinesplat_language::{Linked, NamedObject};
+use cinesplat_objects::Object;
 use cinesplat_reader::{Question, Reader};
 use cinesplat_trajectory::ModelRef;
 
@@ -50,11 +51,15 @@ impl Interpreter {
 /// The prompt with the objects that it names, the scene's others, and the things that the scene lacks.
 fn question(prompt: &str, linked: &Linked, scene: &SceneContext<'_>) -> Question {
     let named = linked.expanded(&linked.slots);
-    let mut objects: Vec<NamedObject> =
-        scene.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+    let mut objects = names(scene.objects);
     objects.sort_by_key(|object| (!named.contains(&object.id), object.id));
     objects.truncate(cinesplat_reader::MAX_OBJECTS);
     objects.sort_by_key(|object| object.id);
     let missing = linked.missing_groups().map(|group| NamedObject { id: group.id, label: group.name.clone() });
     Question::new(prompt, &objects, &missing.collect::<Vec<_>>())
+}
+
+/// Objects by their labels.
+pub(super) fn names(objects: &[Object]) -> Vec<NamedObject> {
+    objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect()
 }

@@ -7,8 +7,9 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 
 use super::error::PipelineError;
+use super::interpreter::names;
 use cinesplat_director::Director;
-use cinesplat_language::{Linked, NamedObject, Things, Word, is_listed, tokenize};
+use cinesplat_language::{Linked, Things, Word, is_listed, tokenize};
 use cinesplat_objects::ObjectSet;
 
 /// What a thing stands on: rarely what a scan is about.
@@ -21,20 +22,18 @@ pub(super) fn link<'a>(
     prompt: &str,
     objects: &'a ObjectSet,
 ) -> Result<(Linked, Cow<'a, ObjectSet>), PipelineError> {
-    let unnamed = objects.unnamed_whole().map(|whole| (whole.id, whole.label.clone()));
-    let named = match &unnamed {
-        Some((id, description)) => name_of_whole(director, prompt, objects)?.map(|name| (*id, description, name)),
-        None => None,
+    let whole = objects.unnamed_whole();
+    let name = whole.map(|_| name_of_whole(director, prompt, objects)).transpose()?.flatten();
+    let (Some(whole), Some(name)) = (whole, name) else {
+        return Ok((director.link(prompt, &names(&objects.objects))?, Cow::Borrowed(objects)));
     };
-    let Some((id, description, name)) = named else {
-        return Ok((director.link(prompt, &names(objects))?, Cow::Borrowed(objects)));
-    };
+    let (id, description) = (whole.id, &whole.label);
     let mut renamed = objects.clone();
     for object in renamed.objects.iter_mut().filter(|object| object.id == id) {
         object.label.clone_from(&name);
     }
     // Words for its parts are known once its name is.
-    let mut linked = director.link(prompt, &names(&renamed))?;
+    let mut linked = director.link(prompt, &names(&renamed.objects))?;
     let mut taken = vec![name];
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
         group.members = vec![id];
@@ -50,13 +49,11 @@ pub(super) fn link<'a>(
 /// What a prompt calls the thing of a scan: of the names that neither it nor its parts have, that of a kind of things, of one
 /// thing, and not of what it stands on, the one that is said most often. `None` where every name is known.
 fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Result<Option<String>, PipelineError> {
-    let all = names(objects);
     // Nothing is known without objects.
     let linked = director.link(prompt, &[])?;
     let stems = |text: &str| -> Vec<String> { tokenize(text).into_iter().map(|word| word.stem).collect() };
-    let known: Vec<String> = all.iter().flat_map(|object| stems(&object.label)).collect();
+    let known: Vec<String> = objects.objects.iter().flat_map(|object| stems(&object.label)).collect();
     let is_known = |name: &str| stems(name).last().is_none_or(|head| known.contains(head));
-    let said = stems(prompt);
     let mut found: Vec<String> =
         linked.missing_groups().map(|group| plain_name(&group.name)).filter(|name| !is_known(name)).collect();
     let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty();
@@ -72,11 +69,11 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         }
     }
     found.sort_by_key(|name| {
-        let words = tokenize(name);
-        let head = words.last();
-        let times = said.iter().filter(|word| head.is_some_and(|head| head.stem == **word)).count();
+        let named = tokenize(name);
+        let head = named.last();
+        let times = words.iter().filter(|word| head.is_some_and(|head| head.stem == word.stem)).count();
         let is_plural = head.is_some_and(|head| head.stem != head.text);
-        let is_ground = words.iter().any(|word| GROUNDS.contains(&word.stem.as_str()));
+        let is_ground = named.iter().any(|word| GROUNDS.contains(&word.stem.as_str()));
         (is_ground, !head.is_some_and(|head| is_kind(&head.text)), is_plural, Reverse(times))
     });
     Ok(found.first().cloned())
@@ -90,9 +87,4 @@ fn plain_name(name: &str) -> String {
     let front = words.iter().skip_while(|word| is_amount(word)).take_while(|word| !is_place(word));
     let front: Vec<&str> = front.map(|word| word.text.as_str()).collect();
     if front.is_empty() { name.to_owned() } else { front.join(" ") }
-}
-
-/// The objects by their labels.
-pub(super) fn names(objects: &ObjectSet) -> Vec<NamedObject> {
-    objects.objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect()
 }

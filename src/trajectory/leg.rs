@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::curve::{PositionCurve, RotationCurve};
 use super::track::Track;
-use super::{CameraState, Keyframe, Move};
+use super::{CameraState, Keyframe};
 use cinesplat_geometry::{LevelFrame, Pose, rotation};
 
 /// Number of chords that measure the length of a segment. The error falls with its square (4e-7 of a 45 degree arc).
@@ -32,7 +32,7 @@ impl LegKind {
     pub(super) fn between(a: &Keyframe, b: &Keyframe, has_up: bool, least: f64) -> Self {
         if a.pose.position.distance(b.pose.position) > least {
             return match a.intent.as_ref().and_then(|intent| Some((intent.movement?, intent.pivot?))) {
-                Some((movement, pivot)) if has_up && is_circular(movement) => Self::Arc(pivot),
+                Some((movement, pivot)) if has_up && movement.is_circular() => Self::Arc(pivot),
                 _ => Self::Travel,
             };
         }
@@ -44,10 +44,6 @@ impl LegKind {
             Self::Hold
         }
     }
-}
-
-fn is_circular(movement: Move) -> bool {
-    matches!(movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
 }
 
 /// A smooth curve through the keys of a leg, with a table of its length.

@@ -72,6 +72,11 @@ impl Move {
         matches!(self, Self::PanLeft | Self::PanRight | Self::TiltUp | Self::TiltDown | Self::WhipPan)
     }
 
+    /// Whether the camera goes around its subject: orbits and arcs.
+    pub fn is_circular(self) -> bool {
+        matches!(self, Self::OrbitLeft | Self::OrbitRight | Self::ArcLeft | Self::ArcRight)
+    }
+
     /// The same move in the other direction; `None` for a move without one.
     pub fn opposite(self) -> Option<Self> {
         let pairs = [

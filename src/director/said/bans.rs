@@ -2,7 +2,6 @@
 
 use cinesplat_language::Linked;
 use cinesplat_operator::{Motion, Program, Step};
-use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
 
@@ -66,11 +65,6 @@ fn said_at(linked: &Linked, names: &[&str]) -> Vec<[usize; 2]> {
     (0..words.len()).filter(is_ban).map(sentence).collect()
 }
 
-/// Whether a move turns the camera around its subject.
-fn circles(movement: Move) -> bool {
-    matches!(movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
-}
-
 /// Rules out turns where the words do (`no rotation`), and tilts and rolls where a turn is about the vertical axis and
 /// nothing else.
 pub(crate) fn rule_out_turns(linked: &Linked, program: &mut Program) {
@@ -87,7 +81,7 @@ pub(crate) fn rule_out_turns(linked: &Linked, program: &mut Program) {
     });
     let bans_turns = words.windows(2).any(|pair| matches!(pair, ["no" | "without" | "zero", "rotation" | "rotations"]));
     let turns = |step: &Step| [Motion::Pan, Motion::Tilt, Motion::Roll].iter().any(|motion| asks_for(step, *motion));
-    let may_turn = program.steps.iter().all(|step| !turns(step) && !circles(step.movement));
+    let may_turn = program.steps.iter().all(|step| !turns(step) && !step.movement.is_circular());
     if bans_turns && may_turn && !program.forbidden.contains(&Motion::Turn) {
         program.forbidden.push(Motion::Turn);
     }

@@ -15,7 +15,7 @@ use crate::motion::MotionSegment;
 use crate::program::{Framing, Look};
 use crate::view::aimed;
 use cinesplat_geometry::{Pose, rotation};
-use cinesplat_trajectory::{CameraState, Move};
+use cinesplat_trajectory::CameraState;
 
 /// Keys of a path along which the camera looks.
 const NUM_KEYS: usize = 9;
@@ -56,16 +56,12 @@ fn look_at(context: &StepContext, segment: &mut MotionSegment, point: DVec3, nam
     for state in &mut segment.states {
         *state = aimed(context.world, state, point);
     }
-    if !is_circular(segment.movement) {
+    if !segment.movement.is_circular() {
         segment.pivot = Some(point);
     }
     free_the_view(segment, None);
     let kind = ConstraintKind::LookAt(point, name, OFF_CENTER);
     segment.constraints.push(Constraint { kind, scope: Scope::All });
-}
-
-fn is_circular(movement: Move) -> bool {
-    matches!(movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
 }
 
 fn look_along(context: &StepContext, segment: &mut MotionSegment, sign: f64) {
@@ -75,7 +71,7 @@ fn look_along(context: &StepContext, segment: &mut MotionSegment, sign: f64) {
     if segment.states.len() < NUM_KEYS {
         segment.states = evenly_spaced(context.world, segment, NUM_KEYS);
     }
-    let goal = (sign > 0.0 && !is_circular(segment.movement)).then(|| context.end.clone()).flatten();
+    let goal = (sign > 0.0 && !segment.movement.is_circular()).then(|| context.end.clone()).flatten();
     let count = segment.states.len() - 1;
     let tangents: Vec<Option<DVec3>> = (0..=count).map(|i| tangent(&segment.states, i)).collect();
     let up = context.world.frame.up;
@@ -89,7 +85,7 @@ fn look_along(context: &StepContext, segment: &mut MotionSegment, sign: f64) {
             None => along,
         };
     }
-    if !is_circular(segment.movement) {
+    if !segment.movement.is_circular() {
         segment.pivot = None;
     }
     free_the_view(segment, goal.as_ref());
