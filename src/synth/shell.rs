@@ -80,8 +80,6 @@ pub(super) struct Shell {
     pub(super) flooring: Flooring,
     /// Finish of the back wall; the other walls are painted.
     pub(super) finish: Finish,
-    /// Whether the ceiling is visible; it blocks light in either case.
-    pub(super) ceiling: bool,
     /// Factor of the color of the view through the windows.
     pub(super) outside: Vec3,
 }

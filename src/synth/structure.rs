@@ -24,11 +24,7 @@ impl Shell {
         }
         let (x, z) = (2.0 * self.half.x + LAP, 2.0 * self.half.y + LAP);
         let white = Material::plain(Vec3::new(0.8, 0.79, 0.76));
-        if self.ceiling {
-            asset.block([0.0, self.height + 0.05, 0.0], [x, 0.1, z], 0.0, white).only(faces::BOTTOM).cell_scale(2.2);
-        } else {
-            asset.block([0.0, self.height + 0.05, 0.0], [x, 0.1, z], 0.0, white).only(0);
-        }
+        asset.block([0.0, self.height + 0.05, 0.0], [x, 0.1, z], 0.0, white).only(faces::BOTTOM).cell_scale(2.2);
         for opening in &self.openings {
             self.add_view(&mut asset, opening, rng);
         }
@@ -80,11 +76,9 @@ impl Shell {
         side.block([0.0, 0.05, 0.004], [length, 0.1, 0.02], 0.005, material)
             .only(faces::FRONT | faces::TOP)
             .stretched(2.0);
-        if self.ceiling {
-            side.block([0.0, self.height - 0.03, 0.01], [length, 0.06, 0.03], 0.012, material)
-                .only(faces::FRONT | faces::BOTTOM)
-                .stretched(2.0);
-        }
+        side.block([0.0, self.height - 0.03, 0.01], [length, 0.06, 0.03], 0.012, material)
+            .only(faces::FRONT | faces::BOTTOM)
+            .stretched(2.0);
         if finish == Finish::Paneled && openings.is_empty() {
             side.block([0.0, 0.98, 0.006], [length, 0.045, 0.03], 0.01, material)
                 .only(faces::FRONT | faces::TOP | faces::BOTTOM)

@@ -68,5 +68,7 @@ pub(super) fn draw_shell(rng: &mut SceneRng, room_type: RoomType, daylight: Dayl
         Daylight::Evening => Vec3::new(0.1, 0.14, 0.26),
     };
     let height = rng.range(2.65, 2.95);
-    Shell { half, height, openings, flooring: rng.pick(&floors), finish, ceiling: rng.chance(0.88), outside }
+    // Decides nothing any more; the draw keeps the rooms of each seed as they are.
+    rng.chance(0.88);
+    Shell { half, height, openings, flooring: rng.pick(&floors), finish, outside }
 }
