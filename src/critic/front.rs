@@ -59,17 +59,75 @@ fn front(subject: &Subject, frame: &LevelFrame) -> Result<Option<DVec3>, RenderE
     // A face is seen from several sides: the front is the middle of those that show more than others.
     let excess = |side: usize| (worths[side] - mean).max(0.0).powi(2);
     let toward = (0..NUM_SIDES).map(|side| direction(side) * excess(side)).sum::<DVec3>();
-    Ok(toward.try_normalize().filter(|_| best > LEAST_CONTRAST * mean))
+    let Some(toward) = toward.try_normalize().filter(|_| best > LEAST_CONTRAST * mean) else { return Ok(None) };
+    Ok(Some(faced(&renderer, subject, frame, toward)?))
+}
+
+/// Largest angle between the side that shows the most and the front, degrees, and the step between the sides that are
+/// tried.
+const MOST_TURN_DEG: i32 = 60;
+const TURN_STEP_DEG: usize = 6;
+/// Symmetry of the front over the median of the sides that are tried: what is alike from everywhere faces nowhere.
+const LEAST_SYMMETRY: f64 = 1.06;
+
+/// The direction near the side that shows the most from which a thing is its own mirror image, as faces are; that side
+/// itself where none is.
+fn faced(renderer: &Renderer<'_>, subject: &Subject, frame: &LevelFrame, toward: DVec3) -> Result<DVec3, RenderError> {
+    let azimuth = frame.azimuth(toward);
+    let mut tried = Vec::new();
+    for turn_deg in (-MOST_TURN_DEG..=MOST_TURN_DEG).step_by(TURN_STEP_DEG) {
+        let direction = frame.direction(azimuth + f64::from(turn_deg).to_radians());
+        if let Some(picture) = picture_from(renderer, subject, direction, frame.up)? {
+            tried.push((symmetry(&picture), direction));
+        }
+    }
+    tried.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (Some((most, direction)), Some((median, _))) = (tried.first(), tried.get(tried.len() / 2)) else {
+        return Ok(toward);
+    };
+    Ok(if *most > LEAST_SYMMETRY * median { *direction } else { toward })
+}
+
+/// How alike a picture of a thing and its mirror image are, 0..=1: the share of the pixels of either that show the thing in
+/// both, each by how alike its luminances are.
+fn symmetry(frame: &Frame) -> f64 {
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    let luminance = |i: usize| picture::luminance([frame.rgb[3 * i], frame.rgb[3 * i + 1], frame.rgb[3 * i + 2]]);
+    let is_solid = |x: usize, y: usize| frame.transmittance[y * width + x] < SOLID;
+    let solid = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| is_solid(x, y));
+    let (sum, count) = solid.clone().fold((0, 0), |(sum, count), (x, _)| (sum + x, count + 1));
+    if count == 0 {
+        return 0.0;
+    }
+    // Twice the column of the middle.
+    let axis = 2 * sum / count;
+    let alike = solid.filter_map(|(x, y)| {
+        let mirrored = axis.checked_sub(x).filter(|mirrored| *mirrored < width && is_solid(*mirrored, y))?;
+        let (a, b) = (luminance(y * width + x), luminance(y * width + mirrored));
+        Some(1.0 - (a - b).abs() / (a + b).max(1e-6))
+    });
+    let alike: Vec<f64> = alike.collect();
+    alike.iter().sum::<f64>() / (2 * count - alike.len()).max(1) as f64
 }
 
 /// Detail and light of one side, over the pixels that show the thing, and the number of these pixels.
 fn seen_from(renderer: &Renderer<'_>, subject: &Subject, toward: DVec3, up: DVec3) -> Result<[f64; 2], RenderError> {
+    Ok(picture_from(renderer, subject, toward, up)?.map_or([0.0; 2], |picture| shown(&picture)))
+}
+
+/// The picture of a thing from one side; `None` where there is no such view.
+fn picture_from(
+    renderer: &Renderer<'_>,
+    subject: &Subject,
+    toward: DVec3,
+    up: DVec3,
+) -> Result<Option<Frame>, RenderError> {
     let distance = DISTANCE * subject.radius;
     let eye = subject.center + (toward + up * RISE).normalize_or_zero() * distance;
-    let Ok(pose) = Pose::look_at(eye, subject.center, up, None) else { return Ok([0.0; 2]) };
+    let Ok(pose) = Pose::look_at(eye, subject.center, up, None) else { return Ok(None) };
     let intrinsics = Intrinsics::from_fov_y(SIZE_PX, SIZE_PX, FOV_DEG.to_radians());
     let settings = RenderSettings { quality: Quality::Draft, near: 0.01 * distance, ..RenderSettings::default() };
-    Ok(shown(&renderer.render(&Camera { pose, intrinsics }, &settings)?))
+    renderer.render(&Camera { pose, intrinsics }, &settings).map(Some)
 }
 
 fn shown(frame: &Frame) -> [f64; 2] {

@@ -162,7 +162,7 @@ impl Director {
         if let Some(times) = times {
             times.write(&mut direction);
         }
-        take_said_of_all(linked, &mut direction);
+        take_said_of_all(linked, scene.objects, &mut direction);
         direction.unmet.extend(&linked.acts);
         Ok(direction)
     }

@@ -82,6 +82,7 @@
 //! the notation byte by byte: whatever it lets pass parses.
 
 mod blanks;
+mod borne;
 mod chain;
 mod corrections;
 mod edit_distance;

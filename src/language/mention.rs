@@ -12,7 +12,7 @@ use super::timeline::timeline;
 use super::tokenizer::{Word, is_listed, span_of, tokenize, word_at};
 
 /// Least id of a group. Objects have ids up to 65,535.
-const FIRST_GROUP: u32 = 1 << 20;
+pub(crate) const FIRST_GROUP: u32 = 1 << 20;
 
 /// A mention of objects in a prompt.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -113,7 +113,7 @@ const PARTS: &str = "top tops bottom bottoms foot feet base head tip tips crown 
 const FRACTIONS: &str = "half halves third";
 const WHICH: &str = "top bottom left right upper lower middle front back";
 /// Words of a mention that say all of the thing.
-const WHOLES: &str = "whole entire all complete";
+const WHOLES: &str = "whole entire all complete full";
 /// First words of what a mention chooses from: `the middle of the three`.
 const CHOICES: &str = "them these those all both two three four five six seven eight nine ten";
 
@@ -135,6 +135,13 @@ fn part_behind(words: &[Word]) -> usize {
     }
 }
 
+/// The side that a mention of one thing names with a pronoun: `its left side`.
+fn own_side(words: &[Word]) -> Option<&'static str> {
+    let [owner, side, name] = words else { return None };
+    let is_own = is_listed("its his her their", &owner.text) && is_listed("side flank profile", &name.text);
+    ["left", "right"].into_iter().find(|known| is_own && side.text == *known)
+}
+
 impl Linked {
     /// The slot of a mention's object or group, a new one at its first mention.
     fn slot_of(&mut self, mention: &Mention, prompt: &str) -> Result<usize, LanguageError> {
@@ -154,6 +161,11 @@ impl Linked {
 
     /// Appends a mention. The words that name a part of one thing stay, because they say where to look.
     fn append_mention(&mut self, slot: usize, words: &[Word], is_one: bool) {
+        if is_one && let Some(side) = own_side(words) {
+            ["the", side, "side", "of"].iter().for_each(|word| self.append(word, words));
+            self.append(&format!("<obj-{slot}>"), words);
+            return;
+        }
         let before = if is_one { part_before(words) } else { 0 };
         let behind = if is_one && before == 0 { part_behind(words) } else { 0 };
         let (part, rest) = words.split_at(before);

@@ -9,6 +9,7 @@ mod absorbing;
 mod agreement;
 pub mod alpha_shape;
 mod background;
+mod bearing;
 mod borders;
 mod boxes;
 mod by_name;

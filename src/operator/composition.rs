@@ -127,8 +127,14 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     let is_flat = height < FLAT_FRAC * narrow;
     let is_thin = narrow < FLAT_FRAC * height;
     let is_level = |at: f64| at > 0.75 * eye;
+    let borne = target.ids.first().and_then(|id| world.subject(*id)).and_then(|subject| subject.borne_heights);
+    let bears = borne.is_some_and(|[surface, _]| {
+        let height = surface - world.floor_height();
+        BEARING_HEIGHTS.contains(&(height / eye))
+    });
     match (is_flat, world.is_indoor()) {
         (true, _) => (28.0, 42.0),
+        (false, true) if bears => (15.0, 32.0),
         (false, true) if bottom > 0.85 * eye => (-6.0, 6.0),
         (false, true) if is_level(bottom.midpoint(top)) || (is_thin && is_level(top)) => (-2.0, 8.0),
         (false, true) if top > 0.8 * eye => (1.0, 11.0),
@@ -139,6 +145,9 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     }
 }
 
+/// Height of a surface with things on it, over that of a standing person's eyes, at which it is looked down on: a table or
+/// a desk, and no bed.
+const BEARING_HEIGHTS: std::ops::Range<f64> = 0.38..0.7;
 /// Thickness of a flat thing over its other extents.
 const FLAT_FRAC: f64 = 0.3;
 

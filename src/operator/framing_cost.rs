@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::constraint::{Constraint, ConstraintKind, Scope};
 use super::framing::{extent_frac, frame_position, in_frame_frac};
 use super::motion::MotionSegment;
-use super::world::World;
+use super::world::{Subject, World};
+use cinesplat_geometry::rotation;
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Cost of a subject that is wholly out of the frame at an end, over what of it is cut.
@@ -27,7 +28,91 @@ const WIDENED_COST: f64 = 2.5;
 pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
     let turned = short_turn_cost(world, segment, states);
     let sized = cut_cost(world, segment, states) + small_cost(world, segment, states);
-    sized + turned + widened_cost(segment) + approach_cost(segment, states)
+    let composed = slide_turn_cost(world, segment, states)
+        + askew_cost(world, segment, states)
+        + off_wall_side_cost(world, segment, states);
+    sized + turned + widened_cost(segment) + approach_cost(segment, states) + composed
+}
+
+/// Cost of a turn on the way from one thing to another on the same table, and the turns at which it begins and is
+/// reached, degrees.
+const SLIDE_TURN_COST: f64 = 0.9;
+const SLIDE_TURN_DEG: (f64, f64) = (25.0, 90.0);
+/// Distance from the frame's middle up to which a thing is what a way sets out from.
+const AMID: f64 = 0.25;
+
+/// Cost of a way from thing to thing on one table that turns: who stands before a table slides along it.
+fn slide_turn_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    if segment.movement != Move::Follow || segment.is_join {
+        return 0.0;
+    }
+    let goal = segment.constraints.iter().find_map(|constraint| match constraint.kind {
+        ConstraintKind::Unoccluded(id, _) if constraint.scope == Scope::End => world.subject(id),
+        _ => None,
+    });
+    let Some(goal) = goal.filter(|goal| goal.bearer.is_some()) else { return 0.0 };
+    let (first, last) = (&states[0], &states[states.len() - 1]);
+    let beside = |subject: &Subject| subject.bearer == goal.bearer && subject.center != goal.center;
+    if !world.subjects_amid(first, AMID).any(beside) {
+        return 0.0;
+    }
+    let yaw = |state: &CameraState| world.frame.angles(state.pose.rotation).yaw_rad;
+    let turn_deg = rotation::short_turn(yaw(last) - yaw(first)).abs().to_degrees();
+    let (least, most) = SLIDE_TURN_DEG;
+    SLIDE_TURN_COST * ((turn_deg - least) / (most - least)).clamp(0.0, 1.0)
+}
+
+/// Cost of seeing what stands at a wall along the wall, and the angles from its front at which it begins and is reached,
+/// degrees.
+const ALONG_WALL_COST: f64 = 0.8;
+const ALONG_WALL_DEG: (f64, f64) = (42.0, 80.0);
+
+/// Cost of pictures that see what stands at a wall from beside it, where no words ask for a side: nobody looks at a bookshelf
+/// along its wall.
+fn off_wall_side_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let goes_round = segment.movement.is_circular() || matches!(segment.movement, Move::FlyThrough | Move::Reveal);
+    let is_sided = |constraint: &Constraint| matches!(constraint.kind, ConstraintKind::FromSide(..));
+    if goes_round || segment.is_join || segment.constraints.iter().any(is_sided) {
+        return 0.0;
+    }
+    let off = |constraint: &Constraint| {
+        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
+        let Some(subject) = world.subject(id) else { return 0.0 };
+        let Some(front_rad) = subject.wall_side_rad else { return 0.0 };
+        let beside = |state: &CameraState| {
+            let azimuth = world.frame.azimuth(state.pose.position - subject.center);
+            let (least, most) = ALONG_WALL_DEG;
+            let off_deg = rotation::short_turn(azimuth - front_rad).abs().to_degrees();
+            ((off_deg - least) / (most - least)).clamp(0.0, 1.0)
+        };
+        let ends = [states[0], states[states.len() - 1]];
+        constraint.scope.of(&ends).iter().map(beside).fold(0.0, f64::max)
+    };
+    ALONG_WALL_COST * segment.constraints.iter().map(off).fold(0.0, f64::max)
+}
+
+/// Cost of a picture from straight above that shows its subject askew, and the pitch from which on a view is one, radians.
+const ASKEW_COST: f64 = 0.7;
+const STRAIGHT_DOWN_RAD: f64 = -1.2;
+/// Length of a subject over its breadth from which on it lies along the frame's width or its height.
+const OBLONG: f64 = 1.15;
+
+/// Cost of looking straight down on an oblong thing whose sides are not those of the frame.
+fn askew_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let turns = segment.movement.is_circular() || matches!(segment.movement, Move::RollCw | Move::RollCcw);
+    let last = &states[states.len() - 1];
+    if turns || segment.is_join || world.frame.angles(last.pose.rotation).pitch_rad > STRAIGHT_DOWN_RAD {
+        return 0.0;
+    }
+    let askew = |constraint: &Constraint| {
+        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
+        let Some(subject) = world.subject(id) else { return 0.0 };
+        let [long, short] = subject.level_axes(world.frame.up);
+        let along = world.frame.horizontal(last.pose.right()).normalize_or_zero().dot(long.normalize_or_zero()).abs();
+        let off_rad = along.clamp(0.0, 1.0).acos().min(along.clamp(0.0, 1.0).asin());
+        if long.length() > OBLONG * short.length() { off_rad / std::f64::consts::FRAC_PI_4 } else { 0.0 }
+    };
+    ASKEW_COST * segment.constraints.iter().map(askew).fold(0.0, f64::max)
 }
 
 /// Size of a subject in the frame, the larger of its shares of width and height, below which it is small in the best
@@ -51,7 +136,38 @@ fn small_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
         let largest = about.map(|(_, state)| extent_frac(world, state, &subject.corners).max_element());
         (1.0 - largest.fold(0.0, f64::max) / LEAST_FIT).max(0.0)
     };
-    SMALL_COST * segment.constraints.iter().map(small).fold(0.0, f64::max)
+    let smallest = segment.constraints.iter().map(small).fold(0.0, f64::max);
+    SMALL_COST * smallest.max(loose_frac(world, segment, &states[states.len() - 1]))
+}
+
+/// Size of what the last picture has to hold as a whole, in the frame, below which the picture is loose.
+const LEAST_WHOLE: f64 = 0.55;
+
+/// How far the last picture is from being filled by what it has to hold as a whole, 0..=1.
+fn loose_frac(world: &World, segment: &MotionSegment, last: &CameraState) -> f64 {
+    let sized = |constraint: &Constraint| {
+        matches!(
+            constraint.kind,
+            ConstraintKind::Height(..) | ConstraintKind::Distance(..) | ConstraintKind::FieldOfView(_)
+        )
+    };
+    if segment.constraints.iter().any(sized) {
+        return 0.0;
+    }
+    let held = segment.constraints.iter().filter(|constraint| constraint.scope == Scope::End);
+    let corners: Vec<DVec3> = held
+        .filter_map(|constraint| match &constraint.kind {
+            ConstraintKind::InFrame(ids, _) => Some(ids),
+            _ => None,
+        })
+        .flatten()
+        .filter_map(|id| world.subject(*id))
+        .flat_map(|subject| subject.corners.iter().copied())
+        .collect();
+    if corners.is_empty() {
+        return 0.0;
+    }
+    (1.0 - extent_frac(world, last, &corners).max_element() / LEAST_WHOLE).max(0.0)
 }
 
 /// Whether the words state how large a subject is, or what else the picture has to hold.

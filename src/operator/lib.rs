@@ -51,7 +51,9 @@ mod simultaneous;
 mod steadiness;
 mod stops;
 mod suggestion;
+mod underside;
 mod view;
+mod wall_side;
 mod wording;
 mod world;
 

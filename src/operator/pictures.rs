@@ -195,7 +195,7 @@ pub(super) fn under_furniture_cost(world: &World, constraints: &[Constraint], st
 }
 
 /// Whether a constraint asks for a camera near the floor or below something.
-fn asks_low(kind: &ConstraintKind) -> bool {
+pub(super) fn asks_low(kind: &ConstraintKind) -> bool {
     match kind {
         ConstraintKind::Pitch((low, _)) => *low > 0.0,
         ConstraintKind::CameraHeight(_) => true,

@@ -9,12 +9,15 @@ use glam::DVec3;
 use super::capture_region::CaptureRegion;
 use super::clearance::ClearanceIndex;
 use super::facets::Facets;
+use super::framing::off_center;
 use super::grid::Grid;
 use super::lookout::{Lookout, Thing};
 use super::opacity_grid::OpacityGrid;
+use super::wall_side::wall_side;
 use cinesplat_geometry::{GeometryError, LevelFrame};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
+use cinesplat_trajectory::CameraState;
 
 /// Height of a standing person's eyes above the floor, over the scene size: 1.5 m in a room of 5 by 5 by 2.6 m.
 const EYE_FRAC: f64 = 0.2;
@@ -85,6 +88,13 @@ pub(super) struct Subject {
     pub(super) facets: Facets,
     /// Azimuth of its front, seen from its middle, where that is known.
     pub(super) front_rad: Option<f64>,
+    /// Heights along up of the surface on which other things stand and of the highest of them; `None` where nothing
+    /// stands on it.
+    pub(super) borne_heights: Option<[f64; 2]>,
+    /// Id of the thing on which it stands.
+    pub(super) bearer: Option<u32>,
+    /// Azimuth of its free side, seen from its middle, where it stands at a wall.
+    pub(super) wall_side_rad: Option<f64>,
     /// All Gaussians except its own: what can occlude it.
     others: OpacityGrid,
 }
@@ -104,7 +114,12 @@ impl World {
             .objects
             .iter()
             .filter(|object| ids.contains(&object.id))
-            .map(|object| (object.id, Subject::of(gaussians, object, &objects.labels_of(object.id), &matter.grid)))
+            .map(|object| {
+                let borne_heights = objects.borne_heights(object.id, frame.up);
+                let bearer = objects.bearer_of(object.id, frame.up);
+                let subject = Subject::of(gaussians, object, &objects.labels_of(object.id), &matter.grid);
+                (object.id, Subject { borne_heights, bearer, ..subject })
+            })
             .collect();
         let camera_radius = default_camera_radius(&bounds);
         let things =
@@ -112,7 +127,7 @@ impl World {
         let bottom = frame.height(bounds.core_min).min(frame.height(bounds.core_max));
         let floor = if region.indoor { region.floor_height(&matter) } else { None };
         let floor_height = floor.map_or(bottom, |floor| floor.max(bottom));
-        Ok(Self {
+        let mut world = Self {
             frame,
             bounds,
             floor_height,
@@ -127,7 +142,10 @@ impl World {
             things,
             lookouts: OnceLock::new(),
             standing_places: OnceLock::new(),
-        })
+        };
+        let sides: Vec<Option<f64>> = world.subjects.values().map(|subject| wall_side(&world, subject)).collect();
+        world.subjects.values_mut().zip(sides).for_each(|(subject, side)| subject.wall_side_rad = side);
+        Ok(world)
     }
 
     /// The subject with an object id.
@@ -140,6 +158,12 @@ impl World {
         let [radius, before] = self.ball;
         self.ball = [radius, before + reach];
         self.camera_radius = radius + self.ball[1];
+    }
+
+    /// The subjects that the camera shows near the middle of the frame, within `most_off` of its width and height.
+    pub(super) fn subjects_amid(&self, state: &CameraState, most_off: f64) -> impl Iterator<Item = &Subject> {
+        let state = *state;
+        self.subjects.values().filter(move |subject| off_center(self, &state, subject.center) <= most_off)
     }
 
     /// Says which way the front of a subject faces, by a direction from its middle.
@@ -294,6 +318,9 @@ impl Subject {
             points,
             facets,
             front_rad: None,
+            borne_heights: None,
+            bearer: None,
+            wall_side_rad: None,
             others,
         }
     }

@@ -11,9 +11,9 @@ use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, forbidding_words};
 use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
-use cinesplat_operator::{Program, Solution, SolveLevel, SolveSettings, Step, World};
+use cinesplat_operator::{Pass, Program, Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
-use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot};
+use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot, ShotAngle};
 
 /// Settings of a shot beyond its prompt.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,6 +93,23 @@ pub struct StepReading {
     pub weakest: (&'static str, f64),
 }
 
+/// Takes a low camera along things on a table for one at their level: from below there is only the table.
+fn level_with_things(program: &mut Program, objects: &ObjectSet, up: glam::DVec3) {
+    let bears = |id: &u32| objects.borne_heights(*id, up).is_some();
+    for step in &mut program.steps {
+        let along = step.via.as_ref().is_some_and(|via| via.how == Pass::Along && via.objects.iter().any(bears));
+        for framing in [&mut step.start, &mut step.end] {
+            let bearer = framing.subjects.first().and_then(|id| objects.bearer_of(*id, up));
+            let are_borne = framing.subjects.len() > 1
+                && bearer.is_some()
+                && framing.subjects.iter().all(|id| objects.bearer_of(*id, up) == bearer);
+            if framing.angle == Some(ShotAngle::Low) && (along || are_borne) {
+                framing.angle = Some(ShotAngle::EyeLevel);
+            }
+        }
+    }
+}
+
 /// Gives every object without a sparse cloud one. The director needs these clouds.
 ///
 /// # Errors
@@ -116,8 +133,9 @@ pub fn direct(
     settings: &DirectSettings,
 ) -> Result<Directed, PipelineError> {
     let mut times = PhaseTimes::default();
-    let (linked, objects) =
+    let (mut linked, objects) =
         times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects))?;
+    linked.name_what_stands(prompt, &|id| objects.things_on(id, scene.up.normalize_or_zero()));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();
     let context =
@@ -125,6 +143,7 @@ pub fn direct(
     let Reading { linked, mut direction, effects, problems } =
         times.measure(Phase::Direct, || read(prompt, linked, interpreter, &context))?;
     refuse_missing(&linked, &direction)?;
+    level_with_things(&mut direction.program, &objects, scene.up.normalize_or_zero());
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }

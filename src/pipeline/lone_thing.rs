@@ -16,6 +16,10 @@ use cinesplat_objects::ObjectSet;
 const GROUNDS: [&str; 10] =
     ["soil", "ground", "floor", "earth", "grass", "table", "stand", "pedestal", "plinth", "background"];
 
+/// Words that make the name before them one of a kind of shop or film.
+const WARES: &str =
+    "shop store brand company catalogue catalog film video clip ad advert commercial shot collection lover fan";
+
 /// A prompt with its mentions, and the objects with the label that the prompt gives to the only thing.
 pub(super) fn link<'a>(
     director: &Director,
@@ -62,7 +66,13 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         let before = words[at.saturating_sub(2)..at].iter();
         before.into_iter().any(|word| is_listed("the a an this that my our your his her its", &word.text))
     };
-    let is_name = |at: &usize| is_kind(&words[*at].text) && !is_known(&words[*at].text) && is_determined(*at);
+    // `Our plant shop` is a shop.
+    let is_alone =
+        |at: usize| words.get(at + 1).is_none_or(|next| !is_kind(&next.text) && !is_listed(WARES, &next.text));
+    let is_name = |at: &usize| {
+        let word = &words[*at].text;
+        is_kind(word) && !is_listed(WARES, word) && !is_known(word) && is_determined(*at) && is_alone(*at)
+    };
     for word in (0..words.len()).filter(is_name).map(|at| &words[at]) {
         if !found.iter().any(|name| stems(name).contains(&word.stem)) {
             found.push(word.text.clone());

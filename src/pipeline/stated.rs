@@ -9,10 +9,43 @@ use cinesplat_operator::{Framing, Program, Step};
 use cinesplat_trajectory::Move;
 
 /// Words of an entry of a timeline that holds a picture.
-const HOLDS: [&str; 30] = [
-    "hold", "holds", "holding", "freeze", "freezes", "frozen", "stay", "stays", "staying", "still", "static", "lock",
-    "locked", "pause", "pauses", "wait", "waits", "rest", "rests", "land", "lands", "settle", "settles", "stop",
-    "stops", "keep", "keeps", "remain", "linger", "lingers",
+const HOLDS: [&str; 36] = [
+    "sit",
+    "sits",
+    "park",
+    "parked",
+    "motionless",
+    "unmoving",
+    "hold",
+    "holds",
+    "holding",
+    "freeze",
+    "freezes",
+    "frozen",
+    "stay",
+    "stays",
+    "staying",
+    "still",
+    "static",
+    "lock",
+    "locked",
+    "pause",
+    "pauses",
+    "wait",
+    "waits",
+    "rest",
+    "rests",
+    "land",
+    "lands",
+    "settle",
+    "settles",
+    "stop",
+    "stops",
+    "keep",
+    "keeps",
+    "remain",
+    "linger",
+    "lingers",
 ];
 
 /// Corrects a program by what the words of its steps state. Says for each step whether it stays: a picture that several

@@ -5,6 +5,7 @@
 //! towards what the brief is about.
 
 use cinesplat_language::{Linked, Quantity, QuantityKind, is_listed};
+use cinesplat_objects::Object;
 use cinesplat_operator::{Amount, Framing, Speed, Step};
 use cinesplat_trajectory::Move;
 
@@ -13,13 +14,14 @@ use super::directions::is_form;
 use crate::direction::{Direction, StepCertainty};
 
 /// Verbs of what a camera does, in any form.
-const VERBS: [&str; 66] = [
-    "push", "pull", "dolly", "zoom", "pan", "tilt", "truck", "track", "crane", "boom", "jib", "pedestal", "orbit",
-    "circle", "arc", "roll", "fly", "glide", "drift", "slide", "sweep", "swoop", "travel", "rise", "climb", "ascend",
-    "descend", "sink", "lower", "raise", "lift", "approach", "retreat", "follow", "walk", "enter", "move", "float",
-    "creep", "crawl", "pivot", "swing", "spin", "rotate", "revolve", "turn", "whirl", "reveal", "hold", "rest",
-    "pause", "linger", "stop", "start", "begin", "finish", "land", "fade", "focus", "rack", "widen", "frame", "whip",
-    "settle", "nudge", "wander",
+const VERBS: [&str; 76] = [
+    "soar", "dive", "plunge", "skim", "hover", "sail", "dart", "chase", "skate", "ride", "push", "pull", "dolly",
+    "zoom", "pan", "tilt", "truck", "track", "crane", "boom", "jib", "pedestal", "orbit", "circle", "arc", "roll",
+    "fly", "glide", "drift", "slide", "sweep", "swoop", "travel", "rise", "climb", "ascend", "descend", "sink",
+    "lower", "raise", "lift", "approach", "retreat", "follow", "walk", "enter", "move", "float", "creep", "crawl",
+    "pivot", "swing", "spin", "rotate", "revolve", "turn", "whirl", "reveal", "hold", "rest", "pause", "linger",
+    "stop", "start", "begin", "finish", "land", "fade", "focus", "rack", "widen", "frame", "whip", "settle", "nudge",
+    "wander",
 ];
 /// Other words of cameras, pictures and ways.
 const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu ws ms wide wider medium tight tighter macro \
@@ -31,7 +33,8 @@ const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu w
 const NO_WAYS: &str = "get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
     stand stands hang make made dress dressed tidy tidied grown let calm slow settle";
 /// Words with which another word is one of cameras: `look at`, `open on`, `come closer`.
-const LEADS: [(&str, &str); 9] = [
+const LEADS: [(&str, &str); 10] = [
+    ("head", "for over to towards toward into off out"),
     ("dutch", "angle angles tilt"),
     ("look", "at into out over back"),
     ("open", "on with wide"),
@@ -46,6 +49,8 @@ const LEADS: [(&str, &str); 9] = [
 const FEWEST_WORDS: usize = 8;
 /// Certainty of a step below which a reading of a brief is made up.
 const MADE_UP: f64 = 0.2;
+/// The same where it is one step.
+const ONE_MADE_UP: f64 = 0.3;
 /// Certainty of what a brief leaves open.
 const OPEN_PROBABILITY: f64 = 0.25;
 
@@ -55,6 +60,9 @@ const HEROES: &str = "hero product star subject main focal centerpiece centrepie
 const SECRETS: &str = "secret surprise payoff";
 /// Angle of a turn to a thing that is out of the picture at first, degrees.
 const SURPRISE_DEG: f64 = 80.0;
+/// Words of a thing that is to be seen from more than one side.
+const WARES: &str =
+    "product shop store brand catalogue catalog webshop sell selling sale sculpture statue figurine model toy";
 /// Words that show one thing after the other.
 const IN_TURN: &str = "each every turn another";
 /// Words of a place as a whole.
@@ -68,11 +76,12 @@ const LIVELY: &str = "fast punchy energetic dynamic snappy lively quick action";
 const NOT: &str = "not never 't without no hide avoid nobody nothing";
 
 /// Replaces a picture at rest, or a reading that is hardly sure, of a brief.
-pub(crate) fn film_briefs(linked: &Linked, direction: &mut Direction) {
+pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
     let is_rest = |step: &Step| step.movement == Move::Static && step.with.is_empty() && !step.end.whole;
     let rests = matches!(&direction.program.steps[..], [step] if is_rest(step));
-    let is_made_up = direction.certainty.iter().any(|step| step.probability < MADE_UP);
+    let least = if direction.program.steps.len() == 1 { ONE_MADE_UP } else { MADE_UP };
+    let is_made_up = direction.certainty.iter().any(|step| step.probability < least);
     let is_loose = rests || is_made_up && !direction.program.steps.is_empty();
     // Angles and lengths are what a camera keeps.
     let measures = |quantity: &Quantity| quantity.kind != QuantityKind::Seconds;
@@ -80,7 +89,7 @@ pub(crate) fn film_briefs(linked: &Linked, direction: &mut Direction) {
     if !is_loose || linked.timeline.is_some() || is_measured || !is_brief(&words) {
         return;
     }
-    let subjects = subjects(linked, &words);
+    let subjects = without_parts(subjects(linked, &words), objects);
     if subjects.iter().any(|id| linked.missing(*id).is_some()) {
         return;
     }
@@ -114,7 +123,11 @@ pub(crate) fn film_briefs(linked: &Linked, direction: &mut Direction) {
 fn is_brief(words: &[&str]) -> bool {
     let leads = |at: usize| {
         let next = words.get(at + 1).copied().unwrap_or_default();
-        LEADS.iter().any(|(word, ways)| is_form(words[at], word) && is_listed(ways, next))
+        // `A proper look at it` is no way of the camera.
+        let is_noun = words[..at].iter().rev().take(2).any(|word| is_listed("a an the proper good better", word));
+        LEADS
+            .iter()
+            .any(|(word, ways)| is_form(words[at], word) && is_listed(ways, next) && !(is_noun && *word == "look"))
     };
     let is_camera = |at: usize| {
         let word = words[at];
@@ -141,6 +154,14 @@ fn subjects(linked: &Linked, words: &[&str]) -> Vec<u32> {
     all
 }
 
+/// The things but those that are parts of another one of them: a palm, its pot and its leaves are the palm.
+fn without_parts(mut subjects: Vec<u32>, objects: &[Object]) -> Vec<u32> {
+    let all = subjects.clone();
+    let whole_of = |id: u32| objects.iter().find(|object| object.id == id).and_then(|object| object.parent);
+    subjects.retain(|id| !whole_of(*id).is_some_and(|whole| all.contains(&whole)));
+    subjects
+}
+
 /// What a sentence says is not to be seen.
 fn denied(linked: &Linked, words: &[&str]) -> Vec<u32> {
     let slots = (0..words.len()).filter_map(|at| {
@@ -162,6 +183,7 @@ fn about(subjects: &[u32], words: &[&str]) -> Vec<Step> {
             let amount = Some(Amount::Degrees(SURPRISE_DEG));
             vec![Step { end: framed(&[*id]), either_way: true, amount, ..Step::of(Move::PanRight) }]
         }
+        [id] if has(WARES) => vec![Step { end: framed(&[*id]), either_way: true, ..Step::of(Move::ArcRight) }],
         [id] => vec![Step { end: framed(&[*id]), ..Step::of(Move::PushIn) }],
         [_, _] if !has(IN_TURN) => {
             vec![Step { end: Framing { whole: true, ..framed(subjects) }, ..Step::of(Move::PushIn) }]

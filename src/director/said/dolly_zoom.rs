@@ -80,12 +80,15 @@ pub(crate) fn keep_said_lens(linked: &Linked, steps: &mut [Step]) {
 /// Whether a verb of the camera is followed by one of the ways: `tracks slowly backwards`, `pulling away`, but not `the
 /// background pulls away`.
 fn says_travel(words: &[&str], ways: &[&str]) -> bool {
+    // The zoom of a dolly zoom is the camera's.
+    let is_other =
+        |word: &str, at: usize| OTHERS.contains(&word) && !(word == "zoom" && at > 0 && words[at - 1] == "dolly");
     (0..words.len()).any(|at| {
         let behind = words.get(at + 1..).unwrap_or_default().iter().take(2);
         let before = &words[at.saturating_sub(NUM_BEFORE)..at];
         TRAVELS.iter().any(|verb| is_form(words[at], verb))
             && behind.into_iter().any(|word| ways.contains(word))
-            && !before.iter().any(|word| OTHERS.contains(word))
+            && !before.iter().zip(at.saturating_sub(NUM_BEFORE)..).any(|(word, at)| is_other(word, at))
     })
 }
 

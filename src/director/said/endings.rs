@@ -73,6 +73,17 @@ pub(crate) fn show_whole(linked: &Linked, steps: &mut [Step]) {
         if is_open && words.any(is_whole) {
             framing.whole = true;
         }
+        // `Start with the full sideboard in view, then move in on the vase`.
+        let first = linked.expanded(&step.start.subjects);
+        let mut words = linked.words_in([from, to]);
+        let is_first_whole = |(word, span): (&str, [usize; 2])| {
+            let id = linked.slot_at(word).filter(|_| linked.wholes.contains(&span));
+            id.is_some_and(|id| linked.expanded(&[id]) == first)
+        };
+        let is_open = step.start.size.is_none() && step.start.height_frac.is_none() && !step.start.hidden;
+        if is_open && !first.is_empty() && first != subjects && words.any(is_first_whole) {
+            step.start.whole = true;
+        }
     }
 }
 

@@ -12,9 +12,12 @@ const FIXED: [&str; 8] = ["fixed", "locked", "constant", "unchanged", "static", 
 /// Words between them.
 const BETWEEN: [&str; 6] = ["is", "stays", "remains", "kept", "held", "be"];
 /// Phrases of the same meaning.
-const PHRASES: [&[&str]; 6] = [
+const PHRASES: [&[&str]; 9] = [
     &["stays", "put"],
     &["stay", "put"],
+    &["same", "spot"],
+    &["only", "the", "head", "moves"],
+    &["just", "the", "head", "moves"],
     &["stays", "where", "it", "is"],
     &["no", "translation"],
     &["zero", "translation"],
@@ -38,8 +41,10 @@ pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
     if !(0..words.len()).any(|at| is_fixed(&words, at) && !is_of_thing(at)) || words.iter().any(is_travel) {
         return;
     }
+    let zooms = words.iter().any(|word| is_form(word, "zoom") || *word == "lens");
     for step in &mut program.steps {
-        turn_instead(step);
+        let own = linked.texts_in(step.words.unwrap_or_default());
+        turn_instead(step, zooms, &own);
     }
     if !program.steps.iter().any(travels) && !program.forbidden.contains(&Motion::Travel) {
         program.forbidden.push(Motion::Travel);
@@ -60,12 +65,19 @@ fn is_fixed(words: &[&str], at: usize) -> bool {
     (stated || phrase.is_some()) && !goes_on
 }
 
-fn turn_instead(step: &mut Step) {
+/// Turns what would travel, or zooms where the words of the film do; `words` are the step's.
+fn turn_instead(step: &mut Step, zooms: bool, words: &[&str]) {
+    let between = !step.start.subjects.is_empty() && step.start.subjects != step.end.subjects;
     let leads = !step.end.subjects.is_empty() && step.via.is_none() && step.with.is_empty() && !step.returns;
     let turn = match step.movement {
         Move::Follow => (Move::PanRight, true),
         Move::CraneUp | Move::PedestalUp => (Move::TiltUp, false),
         Move::CraneDown | Move::PedestalDown => (Move::TiltDown, false),
+        Move::PullOut if zooms => (Move::ZoomOut, false),
+        Move::PushIn if zooms => (Move::ZoomIn, false),
+        Move::PushIn | Move::PullOut if between && words.contains(&"up") => (Move::TiltUp, false),
+        Move::PushIn | Move::PullOut if between && words.contains(&"down") => (Move::TiltDown, false),
+        Move::PushIn | Move::PullOut if between => (Move::PanRight, true),
         _ => return,
     };
     if leads && step.end.height.is_none() && step.amount.is_none() {

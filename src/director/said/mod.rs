@@ -3,6 +3,7 @@
 mod amounts;
 mod bans;
 mod briefs;
+mod carriers;
 mod circles;
 mod directions;
 mod dolly_zoom;
@@ -32,6 +33,7 @@ mod until;
 mod whole_film;
 
 use cinesplat_language::{Linked, Senses};
+use cinesplat_objects::Object;
 
 pub(crate) use bans::asks_for;
 pub(crate) use directions::is_form;
@@ -105,6 +107,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     open::turn_by_parts(linked, steps);
     openings::level_frontal_views(linked, steps);
     openings::hide_at_first(linked, steps);
+    openings::square_to_walls(linked, steps);
     directions::rise_to_things(linked, steps);
     lengths::take_film_length(linked, &mut direction.program);
     rates::take_rates(linked, direction);
@@ -117,6 +120,9 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     fills::close_on_parts(linked, &mut direction.program.steps);
     small_moves::move_rests(linked, &mut direction.program.steps);
     small_moves::turn_only(linked, &mut direction.program.steps);
+    carriers::carry_tilts(linked, &mut direction.program.steps);
+    carriers::pan_as_said(linked, &mut direction.program.steps);
+    carriers::rest_on_source(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     heights::begin_at_height(linked, &mut direction.program.steps);
@@ -125,8 +131,9 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
 }
 
 /// Corrects a direction by what the words say plainly of several of its parts.
-pub(crate) fn take_said_of_all(linked: &Linked, direction: &mut Direction) {
-    briefs::film_briefs(linked, direction);
+pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
+    briefs::film_briefs(linked, objects, direction);
+    carriers::flow_without_cuts(&mut direction.program);
     let steps = &mut direction.program.steps;
     endings::include_named(linked, steps);
     whole_film::keep_uncut(linked, steps);

@@ -4,6 +4,7 @@ use cinesplat_language::{LanguageError, Linked, Senses};
 use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
+use super::directions::is_form;
 use super::senses::says;
 
 /// Abbreviations of shot sizes.
@@ -144,6 +145,20 @@ pub(crate) fn level_frontal_views(linked: &Linked, steps: &mut [Step]) {
 
 /// Words by which a thing that is not to go out of view stays in it.
 const STAYS: [&str; 7] = ["leaving", "leaves", "leave", "losing", "lose", "out", "ever"];
+
+/// Takes a look back at a wall that the lens is only square to: `crab left, lens square to the wall`.
+pub(crate) fn square_to_walls(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.look.is_some()) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_square = words.windows(2).any(|pair| {
+            matches!(pair, ["square" | "squared" | "perpendicular" | "parallel" | "flat", "to" | "on" | "against"])
+        });
+        let looks = words.iter().any(|word| ["look", "face", "aim", "point"].iter().any(|verb| is_form(word, verb)));
+        if is_square && !looks {
+            step.look = None;
+        }
+    }
+}
 
 /// Hides what the first picture lacks by its words and a slide shows at its end: `only the curtain, no chair in sight. Then
 /// we slide to the right and the armchair enters`.

@@ -167,15 +167,23 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let subject = passed(context).filter(|_| context.before.is_none())?;
     let world = context.world;
     let framing = Framing { subjects: context.step.via.as_ref()?.objects.clone(), ..context.opening_framing() };
+    let borne = subject.borne_heights.map(|heights| slab_of(context, subject, heights));
     let target = Target::of(world, &framing)?;
+    let target = borne.map_or(target.clone(), |(aim, corners)| {
+        let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
+        Target { aim, corners, radius, ..target }
+    });
+    let bears = subject.borne_heights.is_some();
     let [long, _] = subject.level_axes(world.frame.up);
     let aside = long.cross(world.frame.up).normalize_or_zero();
     let front = world.frame.direction(front_azimuth(world, subject.center));
     let aside = if (front.dot(aside) < 0.0) == (context.parameters[4] > 0.75) { aside } else { -aside };
-    let elevation_rad = framing.elevation_deg.unwrap_or(lerp((0.0, 20.0), context.parameters[1])).to_radians();
+    let elevation_deg = lerp(if bears { BORNE_ELEVATION_DEG } else { (0.0, 20.0) }, context.parameters[1]);
+    let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = Bearing { azimuth_rad: world.frame.azimuth(aside), elevation_rad };
     let fill = stated_fill(&framing, context.parameters[2]);
-    let fill = fill.unwrap_or_else(|| Fill::Height(lerp((0.3, 0.7), context.parameters[2])));
+    let fill_frac = if bears { BORNE_FILL } else { (0.3, 0.7) };
+    let fill = fill.unwrap_or_else(|| Fill::Height(lerp(fill_frac, context.parameters[2])));
     let fov_deg = framing.lens.map_or(NORMAL_LENS_DEG, lens_fov_deg);
     let fov_y_rad = lerp(fov_deg, context.parameters[3]).to_radians();
     let middle = view_from(world, (&target, &framing), bearing, fill, fov_y_rad);
@@ -188,6 +196,25 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
         .requiring(Scope::All, ConstraintKind::Travel(direction, target.aim, 0.02))
         .requiring(Scope::All, ConstraintKind::InFrame(target.ids.iter().take(1).copied().collect(), 0.2));
     Some(vec![context.constrained_at_end(context.constrained_at_start(require_visible(segment, &target, Scope::All)))])
+}
+
+/// Elevation of a camera that slides along things on a table, degrees, and their height in the frame.
+const BORNE_ELEVATION_DEG: (f64, f64) = (4.0, 16.0);
+const BORNE_FILL: (f64, f64) = (0.5, 0.85);
+/// Depth of a tabletop that belongs to the picture of the things on it, over their height.
+const TABLETOP_DEPTH: f64 = 0.3;
+
+/// The things on a subject as the target of a view: what to aim at, and the corners of the space that they take up.
+fn slab_of(context: &StepContext, subject: &Subject, [surface, top]: [f64; 2]) -> (DVec3, Vec<DVec3>) {
+    let frame = &context.world.frame;
+    let height = (top - surface).max(0.5 * subject.reach(frame.up));
+    let at = |point: DVec3, height: f64| point + frame.up * (height - frame.height(point));
+    let [long, short] = subject.level_axes(frame.up);
+    let heights = [surface - TABLETOP_DEPTH * height, surface + height];
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
+        .iter()
+        .flat_map(|(a, b)| heights.map(|height| at(subject.center + long * *a + short * *b, height)));
+    (at(subject.center, heights[0].midpoint(heights[1])), corners.collect())
 }
 
 /// Starts behind an object that hides the subject and slides out from behind it, aimed at the subject. `None` where the

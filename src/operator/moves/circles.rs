@@ -154,6 +154,8 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
 
 /// Elevation of the camera from which on a descent is a swoop, degrees: straight down it would come down on its subject.
 const SWOOP_FROM_DEG: f64 = 50.0;
+/// Share of its height above its subject by which a camera that looks straight down sinks.
+const OVERHEAD_DESCENT: (f64, f64) = (0.32, 0.5);
 /// Intervals between the keyframes of a swoop.
 const SWOOP_KEYS: u32 = 8;
 /// Largest size of the subject at the end of a swoop, where the words state none.
@@ -271,6 +273,9 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
         Some(Amount::Slight) => sign * 0.22 * distance,
         Some(Amount::Large) => sign * 1.2 * distance,
         _ if to_height.is_some_and(|rise| rise * sign > 0.0) => to_height.unwrap_or_default(),
+        _ if start > SWOOP_FROM_DEG && !upward && context.step.end.angle == Some(ShotAngle::Overhead) => {
+            -frame.height(away) * lerp(OVERHEAD_DESCENT, context.parameters[6])
+        }
         _ => (level.length() * elevation.clamp(-70.0, 70.0).to_radians().tan()) - frame.height(away),
     };
     // The jib swings toward the subject as it rises.

@@ -25,6 +25,11 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
         && !stands(&context.standing())
     {
         (Vec::new(), open_first(context, &target, inward, fill))
+    } else if let Some(before) =
+        context.before.filter(|_| takes_in(context, inward).is_some() && context.start.is_none())
+    {
+        // The step before may have turned away from what it began with.
+        (Vec::new(), before)
     } else {
         context.opened_on(&target, fill)
     };
@@ -33,12 +38,17 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let distance = first.pose.position.distance(target.aim);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
     let last = if inward { last } else { within_room(context, &first, distance, last) };
+    let taken_in = takes_in(context, inward);
+    let last = taken_in.map_or(last, |end| settled_on(context, [&first, &last], &target, end));
     let segment = context.segment(vec![first, last]);
     let wanted = if inward { (0.0, 0.76) } else { (1.32, f64::INFINITY) };
     let subtle = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_) | Amount::Factor(_)));
     let segment =
         if subtle { segment } else { segment.requiring(Scope::All, ConstraintKind::DistanceRatio(target.aim, wanted)) };
-    let segment = segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.17));
+    let segment = match taken_in {
+        Some(end) => segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.2)),
+        None => segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.17)),
+    };
     let mut segment = context.constrained_at_end(context.constrained_at_start(segment));
     if !inward && context.step.end.whole && context.step.start.whole == context.step.end.whole {
         segment = segment.requiring(Scope::End, ConstraintKind::InFrame(context.step.end.subjects.clone(), 0.97));
@@ -59,6 +69,42 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     segments.push(require_visible(segment, &target, Scope::All));
     segments
 }
+
+/// What a pull-out goes back to take in: the whole of another thing than it sets out from, or of the thing of which the step
+/// before showed a part.
+fn takes_in<'a>(context: &'a StepContext, inward: bool) -> Option<&'a Target> {
+    let end = context.end.as_ref().filter(|_| !inward && context.step.end.whole)?;
+    let start = context.start.as_ref();
+    let is_other =
+        start.is_some_and(|start| start.ids.first() != end.ids.first()) || start.is_none() && context.before.is_some();
+    (is_other && context.step.end.subjects.len() == 1).then_some(end)
+}
+
+/// The end of a pull-out with its aim on what it takes in, as far as a camera that backs away turns; farther back where that
+/// is not in the picture.
+fn settled_on(context: &StepContext, [first, last]: [&CameraState; 2], left: &Target, end: &Target) -> CameraState {
+    let forbidden = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
+    let turned = |state: &CameraState| aimed(context.world, state, end.aim);
+    let turn_rad = turned(last).pose.forward().angle_between(last.pose.forward());
+    if turn_rad > MOST_SETTLING_RAD || context.forbidden.iter().any(forbidden) {
+        return *last;
+    }
+    let way = last.pose.position - first.pose.position;
+    let distance = |state: &CameraState| state.pose.position.distance(left.aim);
+    let is_whole = |state: &CameraState| {
+        in_frame_frac(context.world, state, &end.corners, 0.03) >= 1.0
+            && distance(state) > LEAST_RATIO * distance(first)
+    };
+    // Aimed at its middle, a thing fits from nearer by.
+    let share = |i: u32| 0.35 + 0.05 * f64::from(i);
+    let nearer = (0..=13).map(|i| turned(&moved(first, way * share(i)))).find(is_whole);
+    nearer.map_or_else(|| turned(last), |view| with_fov(&view, last.fov_y_rad))
+}
+
+/// Least distance at the end of a pull-out over that at its start.
+const LEAST_RATIO: f64 = 1.36;
+/// Largest turn of a pull-out to what it takes in, radians.
+const MOST_SETTLING_RAD: f64 = 0.8;
 
 /// Whether a pull-out ends, and does not start, at its view: in a room without a subject the way back is a wall.
 fn backs_into_view(context: &StepContext, target: &Target, inward: bool) -> bool {

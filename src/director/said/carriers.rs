@@ -1,0 +1,109 @@
+//! Whether the camera travels or turns, by the verb that carries it: `float up to its headstock` is no tilt, and `pan across
+//! to the guitar` no walk.
+
+use cinesplat_language::{Linked, is_listed};
+use cinesplat_operator::{Framing, Motion, Pass, Program, Step};
+use cinesplat_trajectory::{Move, ShotSize};
+
+use super::directions::is_form;
+
+/// Verbs of a camera that goes up or down itself.
+const CARRIES: [&str; 12] =
+    ["float", "drift", "glide", "travel", "climb", "ride", "fly", "sail", "soar", "ascend", "descend", "slide"];
+/// Words between them and the way.
+const BETWEEN: [&str; 10] =
+    ["slowly", "gently", "smoothly", "softly", "straight", "right", "gracefully", "on", "all", "steadily"];
+/// Words of a turn on the spot, besides forms of `tilt` and `pan`.
+const TURNS: &str = "tilt tilts tilted tilting look looks looking gaze gazes gazing eye eyes glance glances head lens pan pans \
+    panning pivot pivots swivel angle angled angling nod tripod spot";
+/// Words of a way over the ground.
+const TRAVELS: [&str; 17] = [
+    "walk", "dolly", "track", "truck", "push", "pull", "fly", "glide", "slide", "drift", "travel", "go", "move",
+    "orbit", "circle", "follow", "crane",
+];
+
+/// Makes a tilt a rise or a descent where the words carry the camera up or down and name no turn.
+pub(crate) fn carry_tilts(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::TiltUp | Move::TiltDown)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_carried = |way: &[&str]| (0..words.len()).any(|at| carries(&words, at, way));
+        if words.iter().any(|word| is_listed(TURNS, word)) {
+            continue;
+        }
+        step.movement = match step.movement {
+            Move::TiltUp if is_carried(&["up", "upward", "upwards"]) => Move::PedestalUp,
+            Move::TiltDown if is_carried(&["down", "downward", "downwards"]) => Move::PedestalDown,
+            movement => movement,
+        };
+    }
+}
+
+/// Whether a verb at word `at` carries the camera one of the ways.
+fn carries(words: &[&str], at: usize, ways: &[&str]) -> bool {
+    let is_verb = CARRIES.iter().any(|verb| is_form(words[at], verb));
+    let num_between = words[at + 1..].iter().take(3).take_while(|word| BETWEEN.contains(word)).count();
+    is_verb && words.get(at + 1 + num_between).is_some_and(|word| ways.contains(word))
+}
+
+/// Turns on the spot where the words pan to a thing and travel nowhere.
+pub(crate) fn pan_as_said(linked: &Linked, steps: &mut [Step]) {
+    let travels = |step: &Step| matches!(step.movement, Move::Follow | Move::TruckLeft | Move::TruckRight);
+    for step in steps.iter_mut().filter(|step| travels(step) && step.via.is_none() && step.with.is_empty()) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let pans = words.iter().any(|word| is_form(word, "pan"));
+        // `Let go of it`.
+        let is_let = |at: usize| at > 0 && is_form(words[at - 1], "let");
+        let goes = (0..words.len()).any(|at| !is_let(at) && TRAVELS.iter().any(|verb| is_form(words[at], verb)));
+        if pans && !goes && !step.end.subjects.is_empty() {
+            let is_left = words.contains(&"left");
+            step.either_way = !is_left && !words.contains(&"right");
+            step.movement = if is_left { Move::PanLeft } else { Move::PanRight };
+        }
+    }
+}
+
+/// Shows what a picture at rest was read to be seen from, where no words say where the camera is: `00:07-00:10 sit on TV`.
+pub(crate) fn rest_on_source(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static && step.end == Framing::default()) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_source = step.via.as_ref().is_some_and(|via| via.how == Pass::From);
+        let says_place = words.iter().any(|word| is_listed("from behind over at by beside near stand", word));
+        if is_source && !says_place {
+            step.end.subjects = step.via.take().map(|via| via.objects).unwrap_or_default();
+        }
+    }
+}
+
+/// Goes from picture to picture of a list where the words rule out cuts: `no cuts: 1) rack, wide 2) mug, tight`.
+pub(crate) fn flow_without_cuts(program: &mut Program) {
+    if !program.forbidden.contains(&Motion::Cut) {
+        return;
+    }
+    for nth in 1..program.steps.len() {
+        let (before, rest) = program.steps.split_at_mut(nth);
+        let (Some(before), Some(step)) = (before.last(), rest.first_mut()) else { continue };
+        let is_other = !step.end.subjects.is_empty() && before.end.subjects != step.end.subjects;
+        let is_plain = step.movement == Move::Static && step.start == Framing::default() && step.via.is_none();
+        let is_sized = step.end.size.is_some_and(|size| Some(size) != before.end.size || size < ShotSize::Medium);
+        if is_plain && is_other && is_sized && step.with.is_empty() && step.duration_secs.is_none() {
+            (step.movement, step.cut) = (Move::Follow, false);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn some_verbs_carry_the_camera_up() {
+        let up = |text: &str| {
+            let words: Vec<&str> = text.split(' ').collect();
+            (0..words.len()).any(|at| carries(&words, at, &["up"]))
+        };
+        assert!(up("from the foot of <obj-0> we float up to its headstock"));
+        assert!(up("travel slowly up the neck"));
+        assert!(!up("run the eye up <obj-0>"));
+        assert!(!up("float over to <obj-0> and look up"));
+    }
+}
