@@ -67,6 +67,10 @@ fn front(subject: &Subject, frame: &LevelFrame) -> Result<Option<DVec3>, RenderE
 /// tried.
 const MOST_TURN_DEG: i32 = 60;
 const TURN_STEP_DEG: usize = 6;
+/// Share of its symmetry that a side loses that is as far from the one that shows the most as any that is tried, and the area
+/// of a side over that one's below which it is an edge.
+const FAR_LOSS: f64 = 0.1;
+const LEAST_AREA: f64 = 0.8;
 /// Symmetry of the front over the median of the sides that are tried: what is alike from everywhere faces nowhere.
 const LEAST_SYMMETRY: f64 = 1.06;
 
@@ -74,11 +78,16 @@ const LEAST_SYMMETRY: f64 = 1.06;
 /// itself where none is.
 fn faced(renderer: &Renderer<'_>, subject: &Subject, frame: &LevelFrame, toward: DVec3) -> Result<DVec3, RenderError> {
     let azimuth = frame.azimuth(toward);
+    let [_, seen_area] = seen_from(renderer, subject, toward, frame.up)?;
     let mut tried = Vec::new();
     for turn_deg in (-MOST_TURN_DEG..=MOST_TURN_DEG).step_by(TURN_STEP_DEG) {
         let direction = frame.direction(azimuth + f64::from(turn_deg).to_radians());
         if let Some(picture) = picture_from(renderer, subject, direction, frame.up)? {
-            tried.push((symmetry(&picture), direction));
+            let near = 1.0 - FAR_LOSS * f64::from(turn_deg.abs()) / f64::from(MOST_TURN_DEG);
+            let [_, area] = shown(&picture);
+            if area >= LEAST_AREA * seen_area {
+                tried.push((symmetry(&picture) * near, direction));
+            }
         }
     }
     tried.sort_by(|a, b| b.0.total_cmp(&a.0));

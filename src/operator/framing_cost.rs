@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::constraint::{Constraint, ConstraintKind, Scope};
-use super::framing::{extent_frac, frame_position, in_frame_frac};
+use super::framing::{extent_frac, frame_position, in_frame_frac, off_center};
 use super::motion::MotionSegment;
+use super::wall_side::wall_side;
 use super::world::{Subject, World};
 use cinesplat_geometry::rotation;
 use cinesplat_trajectory::{CameraState, Move};
@@ -52,8 +53,11 @@ fn slide_turn_cost(world: &World, segment: &MotionSegment, states: &[CameraState
     });
     let Some(goal) = goal.filter(|goal| goal.bearer.is_some()) else { return 0.0 };
     let (first, last) = (&states[0], &states[states.len() - 1]);
-    let beside = |subject: &Subject| subject.bearer == goal.bearer && subject.center != goal.center;
-    if !world.subjects_amid(first, AMID).any(beside) {
+    let beside = |subject: &Subject| {
+        let is_amid = || off_center(world, first, subject.center) <= AMID;
+        subject.bearer == goal.bearer && subject.center != goal.center && is_amid()
+    };
+    if !world.subjects().any(beside) {
         return 0.0;
     }
     let yaw = |state: &CameraState| world.frame.angles(state.pose.rotation).yaw_rad;
@@ -78,7 +82,7 @@ fn off_wall_side_cost(world: &World, segment: &MotionSegment, states: &[CameraSt
     let off = |constraint: &Constraint| {
         let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
         let Some(subject) = world.subject(id) else { return 0.0 };
-        let Some(front_rad) = subject.wall_side_rad else { return 0.0 };
+        let Some(front_rad) = wall_side(world, subject) else { return 0.0 };
         let beside = |state: &CameraState| {
             let azimuth = world.frame.azimuth(state.pose.position - subject.center);
             let (least, most) = ALONG_WALL_DEG;

@@ -16,6 +16,10 @@ const LEAST_SIZE: f64 = 0.3;
 /// Azimuth of the free side of a thing at a wall, seen from its middle; `None` of one that stands free, in a corner or in a
 /// niche, and out of doors.
 pub(super) fn wall_side(world: &World, subject: &Subject) -> Option<f64> {
+    *subject.wall_side_rad.get_or_init(|| found(world, subject))
+}
+
+fn found(world: &World, subject: &Subject) -> Option<f64> {
     let up = world.frame.up;
     let [long, short] = subject.level_axes(up);
     let eye = world.eye_height();

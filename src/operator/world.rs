@@ -9,15 +9,12 @@ use glam::DVec3;
 use super::capture_region::CaptureRegion;
 use super::clearance::ClearanceIndex;
 use super::facets::Facets;
-use super::framing::off_center;
 use super::grid::Grid;
 use super::lookout::{Lookout, Thing};
 use super::opacity_grid::OpacityGrid;
-use super::wall_side::wall_side;
 use cinesplat_geometry::{GeometryError, LevelFrame};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
-use cinesplat_trajectory::CameraState;
 
 /// Height of a standing person's eyes above the floor, over the scene size: 1.5 m in a room of 5 by 5 by 2.6 m.
 const EYE_FRAC: f64 = 0.2;
@@ -93,8 +90,9 @@ pub(super) struct Subject {
     pub(super) borne_heights: Option<[f64; 2]>,
     /// Id of the thing on which it stands.
     pub(super) bearer: Option<u32>,
-    /// Azimuth of its free side, seen from its middle, where it stands at a wall.
-    pub(super) wall_side_rad: Option<f64>,
+    /// Azimuth of its free side, seen from its middle, where it stands at a wall. [`wall_side`](super::wall_side::wall_side)
+    /// finds it where it is first needed.
+    pub(super) wall_side_rad: OnceLock<Option<f64>>,
     /// All Gaussians except its own: what can occlude it.
     others: OpacityGrid,
 }
@@ -127,7 +125,7 @@ impl World {
         let bottom = frame.height(bounds.core_min).min(frame.height(bounds.core_max));
         let floor = if region.indoor { region.floor_height(&matter) } else { None };
         let floor_height = floor.map_or(bottom, |floor| floor.max(bottom));
-        let mut world = Self {
+        Ok(Self {
             frame,
             bounds,
             floor_height,
@@ -142,10 +140,7 @@ impl World {
             things,
             lookouts: OnceLock::new(),
             standing_places: OnceLock::new(),
-        };
-        let sides: Vec<Option<f64>> = world.subjects.values().map(|subject| wall_side(&world, subject)).collect();
-        world.subjects.values_mut().zip(sides).for_each(|(subject, side)| subject.wall_side_rad = side);
-        Ok(world)
+        })
     }
 
     /// The subject with an object id.
@@ -160,10 +155,9 @@ impl World {
         self.camera_radius = radius + self.ball[1];
     }
 
-    /// The subjects that the camera shows near the middle of the frame, within `most_off` of its width and height.
-    pub(super) fn subjects_amid(&self, state: &CameraState, most_off: f64) -> impl Iterator<Item = &Subject> {
-        let state = *state;
-        self.subjects.values().filter(move |subject| off_center(self, &state, subject.center) <= most_off)
+    /// All subjects, in order of id.
+    pub(super) fn subjects(&self) -> impl Iterator<Item = &Subject> {
+        self.subjects.values()
     }
 
     /// Says which way the front of a subject faces, by a direction from its middle.
@@ -320,7 +314,7 @@ impl Subject {
             front_rad: None,
             borne_heights: None,
             bearer: None,
-            wall_side_rad: None,
+            wall_side_rad: OnceLock::new(),
             others,
         }
     }

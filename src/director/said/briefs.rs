@@ -96,6 +96,13 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     let has = |list: &str| words.iter().any(|word| is_listed(list, word));
     let of_place = has(PLACES) && (subjects.is_empty() || has(SPACES));
     let mut steps = if of_place || subjects.is_empty() { vec![look_about()] } else { about(&subjects, &words) };
+    // The same move, of which the network may have read more.
+    if let ([read], [brief]) = (&direction.program.steps[..], &steps[..])
+        && read.movement == brief.movement
+        && read.end.subjects == brief.end.subjects
+    {
+        return;
+    }
     let speed = match (has(CALM), has(LIVELY)) {
         (true, false) => Speed::Slow,
         (false, true) => Speed::Fast,
