@@ -15,6 +15,7 @@ mod places;
 mod proof;
 mod route;
 mod sides;
+mod tables;
 mod viewpoints;
 
 use cinesplat::objects::{Object, ObjectSet};

@@ -12,17 +12,36 @@ const FIXED: [&str; 8] = ["fixed", "locked", "constant", "unchanged", "static", 
 /// Words between them.
 const BETWEEN: [&str; 6] = ["is", "stays", "remains", "kept", "held", "be"];
 /// Phrases of the same meaning.
-const PHRASES: [&[&str]; 9] = [
+const PHRASES: [&[&str]; 24] = [
     &["stays", "put"],
     &["stay", "put"],
     &["same", "spot"],
+    &["one", "spot"],
+    &["on", "the", "spot"],
     &["only", "the", "head", "moves"],
     &["just", "the", "head", "moves"],
+    &["tripod", "head"],
+    &["tripod", "'s", "nailed"],
+    &["tripod", "is", "nailed"],
+    &["feet", "stay"],
+    &["feet", "planted"],
+    &["feet", "don", "'t", "move"],
+    &["feet", "do", "not", "move"],
+    &["no", "walking"],
+    &["not", "walking"],
+    &["without", "walking"],
+    &["no", "travel"],
+    &["no", "travelling"],
+    &["no", "traveling"],
     &["stays", "where", "it", "is"],
     &["no", "translation"],
     &["zero", "translation"],
     &["without", "translation"],
 ];
+/// Verbs of a turn, behind which `in place` is on the spot.
+const TURNS: [&str; 8] = ["rotate", "turn", "pivot", "spin", "swivel", "pan", "tilt", "revolve"];
+/// Words that deny the verb behind them.
+const DENIALS: [&str; 8] = ["no", "not", "without", "zero", "never", "'t", "dont", "nor"];
 /// Verbs by which a rise or a way is one whatever else is said.
 const TRAVELS: [&str; 13] = [
     "crane", "pedestal", "boom", "jib", "dolly", "truck", "travel", "walk", "fly", "orbit", "slide", "rise", "descend",
@@ -37,14 +56,19 @@ const OTHERS: [&str; 8] = ["its", "their", "screen", "same", "'s", "subject", "s
 pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
     let is_of_thing = |at: usize| at > 0 && linked.slot_at(words[at - 1]).is_some();
-    let is_travel = |word: &&str| TRAVELS.iter().any(|verb| is_form(word, verb));
-    if !(0..words.len()).any(|at| is_fixed(&words, at) && !is_of_thing(at)) || words.iter().any(is_travel) {
+    // `No dolly` is none.
+    let is_denied = |at: usize| words[at.saturating_sub(2)..at].iter().any(|word| DENIALS.contains(word));
+    let is_travel = |at: &usize| TRAVELS.iter().any(|verb| is_form(words[*at], verb)) && !is_denied(*at);
+    if !(0..words.len()).any(|at| is_fixed(&words, at) && !is_of_thing(at)) || (0..words.len()).any(|at| is_travel(&at))
+    {
         return;
     }
     let zooms = words.iter().any(|word| is_form(word, "zoom") || *word == "lens");
+    let mut shown: Vec<u32> = Vec::new();
     for step in &mut program.steps {
         let own = linked.texts_in(step.words.unwrap_or_default());
-        turn_instead(step, zooms, &own);
+        turn_instead(step, &shown, zooms, &own);
+        shown.clone_from(if step.end.subjects.is_empty() { &step.start.subjects } else { &step.end.subjects });
     }
     if !program.steps.iter().any(travels) && !program.forbidden.contains(&Motion::Travel) {
         program.forbidden.push(Motion::Travel);
@@ -58,31 +82,50 @@ fn is_fixed(words: &[&str], at: usize) -> bool {
     if at > 0 && OTHERS.contains(&words[at - 1]) {
         return false;
     }
+    let turns_in_place = words[at..].starts_with(&["in", "place"])
+        && words[at.saturating_sub(2)..at].iter().any(|word| TURNS.iter().any(|verb| is_form(word, verb)));
     let phrase = PHRASES.iter().find(|phrase| words[at..].starts_with(phrase));
     let stated = PLACES.contains(&words[at]) && words.get(at + 1 + between).is_some_and(|word| FIXED.contains(word));
     let end = phrase.map_or(at + 2 + between, |phrase| at + phrase.len());
     let goes_on = words.iter().skip(end).take(2).any(|word| AFTERWARDS.contains(word));
-    (stated || phrase.is_some()) && !goes_on
+    (stated || phrase.is_some() || turns_in_place) && !goes_on
 }
 
-/// Turns what would travel, or zooms where the words of the film do; `words` are the step's.
-fn turn_instead(step: &mut Step, zooms: bool, words: &[&str]) {
-    let between = !step.start.subjects.is_empty() && step.start.subjects != step.end.subjects;
+/// Turns what would travel to another thing than the one that is `shown`, and zooms where it would go nearer to that one;
+/// `words` are the step's.
+fn turn_instead(step: &mut Step, shown: &[u32], zooms: bool, words: &[&str]) {
     let leads = !step.end.subjects.is_empty() && step.via.is_none() && step.with.is_empty() && !step.returns;
-    let turn = match step.movement {
-        Move::Follow => (Move::PanRight, true),
+    if !leads || step.end.height.is_some() || step.amount.is_some() && !step.movement.is_circular() {
+        return;
+    }
+    let begins_with = if step.start.subjects.is_empty() { shown } else { &step.start.subjects };
+    let is_other = !begins_with.is_empty() && begins_with != step.end.subjects;
+    let says = |list: &[&str]| words.iter().any(|word| list.contains(word));
+    let (up, down) = (says(&["up", "upward", "upwards"]), says(&["down", "downward", "downwards"]));
+    let (left, right) =
+        (says(&["left", "anticlockwise", "counterclockwise", "counter-clockwise"]), says(&["right", "clockwise"]));
+    // The way to another thing.
+    let turn = match (up && !down, down && !up, left && !right, right && !left) {
+        (_, _, true, _) => (Move::PanLeft, false),
+        (_, _, _, true) => (Move::PanRight, false),
+        (true, ..) => (Move::TiltUp, false),
+        (_, true, ..) => (Move::TiltDown, false),
+        _ => (Move::PanRight, true),
+    };
+    (step.movement, step.either_way) = match step.movement {
+        Move::Follow => turn,
         Move::CraneUp | Move::PedestalUp => (Move::TiltUp, false),
         Move::CraneDown | Move::PedestalDown => (Move::TiltDown, false),
-        Move::PullOut if zooms => (Move::ZoomOut, false),
-        Move::PushIn if zooms => (Move::ZoomIn, false),
-        Move::PushIn | Move::PullOut if between && words.contains(&"up") => (Move::TiltUp, false),
-        Move::PushIn | Move::PullOut if between && words.contains(&"down") => (Move::TiltDown, false),
-        Move::PushIn | Move::PullOut if between => (Move::PanRight, true),
-        _ => return,
+        Move::PullOut if zooms && !is_other => (Move::ZoomOut, false),
+        Move::PushIn if !is_other => (Move::ZoomIn, false),
+        Move::PushIn | Move::PullOut if is_other => turn,
+        Move::Static if is_other && !step.start.subjects.is_empty() => turn,
+        movement if is_other && movement.is_circular() => {
+            step.amount = None;
+            turn
+        }
+        movement => (movement, step.either_way),
     };
-    if leads && step.end.height.is_none() && step.amount.is_none() {
-        (step.movement, step.either_way) = turn;
-    }
 }
 
 /// Whether a step moves the camera from its place.
