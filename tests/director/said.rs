@@ -305,3 +305,31 @@ fn half_way_around_is_half_a_circle() {
     let found = program("can u go round the vase like half way and then stop");
     assert!(found.contains("amount=180deg"), "{found}");
 }
+
+#[test]
+fn a_camera_on_the_spot_turns_and_zooms() {
+    let found = program("No walking: start at the vase and go up to the television, just the head moves.");
+    assert!(found.contains("tilt-up") && found.contains("no=travel"), "{found}");
+    let found =
+        program("Television. Then down to the vase. All from one spot, and then make the vase bigger with the lens.");
+    assert!(!found.contains("push-in") && !found.contains("crane") && !found.contains("follow"), "{found}");
+    let found = program("Rotate in place clockwise from the vase to the armchair.");
+    assert!(found.starts_with("pan-right"), "{found}");
+}
+
+#[test]
+fn the_verb_says_whether_the_camera_travels() {
+    let found = program("From the foot of the curtain we float up to its top.");
+    assert!(found.contains("pedestal-up") || found.contains("crane-up"), "{found}");
+    let found =
+        program("Swing round the vase to the left, a quarter turn, then let go of it and pan across to the armchair.");
+    assert!(found.contains("pan-right") && !found.contains("follow"), "{found}");
+    let found = program("Vertigo effect on the vase with the camera travelling backwards.");
+    assert!(found.starts_with("dolly-zoom-out"), "{found}");
+}
+
+#[test]
+fn a_list_without_cuts_goes_from_picture_to_picture() {
+    let found = program("SHOT LIST (one continuous take, no cuts): 1) sideboard, wide 2) vase, tight");
+    assert!(found.contains("follow end=") && !found.contains("cut /"), "{found}");
+}

@@ -90,10 +90,12 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
         return;
     }
     let subjects = without_parts(subjects(linked, &words), objects);
-    if subjects.iter().any(|id| linked.missing(*id).is_some()) {
+    let has = |list: &str| words.iter().any(|word| is_listed(list, word));
+    let (missing, subjects): (Vec<u32>, Vec<u32>) = subjects.iter().partition(|id| linked.missing(**id).is_some());
+    // `I scanned the flat before I gave the keys back` is about the flat; what else is missing cannot be filmed.
+    if !missing.is_empty() && subjects.is_empty() && !has(PLACES) {
         return;
     }
-    let has = |list: &str| words.iter().any(|word| is_listed(list, word));
     let of_place = has(PLACES) && (subjects.is_empty() || has(SPACES));
     let mut steps = if of_place || subjects.is_empty() { vec![look_about()] } else { about(&subjects, &words) };
     // The same move, of which the network may have read more.

@@ -12,12 +12,11 @@ const FIXED: [&str; 8] = ["fixed", "locked", "constant", "unchanged", "static", 
 /// Words between them.
 const BETWEEN: [&str; 6] = ["is", "stays", "remains", "kept", "held", "be"];
 /// Phrases of the same meaning.
-const PHRASES: [&[&str]; 24] = [
+const PHRASES: [&[&str]; 23] = [
     &["stays", "put"],
     &["stay", "put"],
     &["same", "spot"],
     &["one", "spot"],
-    &["on", "the", "spot"],
     &["only", "the", "head", "moves"],
     &["just", "the", "head", "moves"],
     &["tripod", "head"],
@@ -43,8 +42,9 @@ const TURNS: [&str; 8] = ["rotate", "turn", "pivot", "spin", "swivel", "pan", "t
 /// Words that deny the verb behind them.
 const DENIALS: [&str; 8] = ["no", "not", "without", "zero", "never", "'t", "dont", "nor"];
 /// Verbs by which a rise or a way is one whatever else is said.
-const TRAVELS: [&str; 13] = [
-    "crane", "pedestal", "boom", "jib", "dolly", "truck", "travel", "walk", "fly", "orbit", "slide", "rise", "descend",
+const TRAVELS: [&str; 15] = [
+    "push", "pull", "crane", "pedestal", "boom", "jib", "dolly", "truck", "travel", "walk", "fly", "orbit", "slide",
+    "rise", "descend",
 ];
 /// Words after which the camera stays for a while only.
 const AFTERWARDS: [&str; 6] = ["then", "until", "for", "before", "while", "first"];
@@ -76,19 +76,35 @@ pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
     }
 }
 
+/// Turns what would travel in steps that are said to turn on the spot: `rotate in place from the vase to the chair`.
+pub(crate) fn turn_in_place(linked: &Linked, steps: &mut [Step]) {
+    let mut shown: Vec<u32> = Vec::new();
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_place =
+            |at: usize| words[at..].starts_with(&["in", "place"]) || words[at..].starts_with(&["on", "the", "spot"]);
+        let turns = |at: usize| {
+            let before = words[at.saturating_sub(3)..at].iter();
+            is_place(at) && before.into_iter().any(|word| TURNS.iter().any(|verb| is_form(word, verb)))
+        };
+        if (0..words.len()).any(turns) {
+            turn_instead(step, &shown, false, &words);
+        }
+        shown.clone_from(if step.end.subjects.is_empty() { &step.start.subjects } else { &step.end.subjects });
+    }
+}
+
 /// Whether the words from word `at` on say that the camera stays where it is.
 fn is_fixed(words: &[&str], at: usize) -> bool {
     let between = words[at + 1..].iter().take(2).take_while(|word| BETWEEN.contains(word)).count();
     if at > 0 && OTHERS.contains(&words[at - 1]) {
         return false;
     }
-    let turns_in_place = words[at..].starts_with(&["in", "place"])
-        && words[at.saturating_sub(2)..at].iter().any(|word| TURNS.iter().any(|verb| is_form(word, verb)));
     let phrase = PHRASES.iter().find(|phrase| words[at..].starts_with(phrase));
     let stated = PLACES.contains(&words[at]) && words.get(at + 1 + between).is_some_and(|word| FIXED.contains(word));
     let end = phrase.map_or(at + 2 + between, |phrase| at + phrase.len());
     let goes_on = words.iter().skip(end).take(2).any(|word| AFTERWARDS.contains(word));
-    (stated || phrase.is_some() || turns_in_place) && !goes_on
+    (stated || phrase.is_some()) && !goes_on
 }
 
 /// Turns what would travel to another thing than the one that is `shown`, and zooms where it would go nearer to that one;
@@ -114,6 +130,7 @@ fn turn_instead(step: &mut Step, shown: &[u32], zooms: bool, words: &[&str]) {
     };
     (step.movement, step.either_way) = match step.movement {
         Move::Follow => turn,
+        Move::PanLeft | Move::PanRight if says(&["clockwise", "anticlockwise", "counterclockwise"]) => turn,
         Move::CraneUp | Move::PedestalUp => (Move::TiltUp, false),
         Move::CraneDown | Move::PedestalDown => (Move::TiltDown, false),
         Move::PullOut if zooms && !is_other => (Move::ZoomOut, false),

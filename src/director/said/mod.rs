@@ -114,6 +114,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
     fixed::stay_put(linked, &mut direction.program);
+    fixed::turn_in_place(linked, &mut direction.program.steps);
     endings::stop_short(linked, &mut direction.program.steps);
     endings::keep_shown(linked, &mut direction.program.steps);
     fills::fill_with_only(linked, &mut direction.program.steps);
