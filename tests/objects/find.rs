@@ -204,6 +204,15 @@ fn pictures_beside_each_other_are_apart() {
     }
 }
 
+/// A large level leaf was a top from which the leaves below it hung, so that the crown stood apart from its pot.
+#[test]
+fn a_plant_with_a_level_leaf_is_one_object() {
+    let overlaps = overlaps(SynthKind::Room, 24);
+    for name in ["cream potted plant 1", "cream potted plant 2"] {
+        assert!(overlaps[name] > 0.9, "{name}: {overlaps:?}");
+    }
+}
+
 /// Without a ceiling a room was searched as if it were one cluttered heap, in which what is seen through windows
 /// counted.
 #[test]
