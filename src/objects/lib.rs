@@ -38,6 +38,7 @@ mod neighbors;
 mod object;
 mod open_background;
 mod open_room;
+mod outlines;
 mod parts;
 mod patches;
 mod photo;

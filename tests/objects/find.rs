@@ -204,6 +204,15 @@ fn pictures_beside_each_other_are_apart() {
     }
 }
 
+/// Pictures that hang a cell apart, one above the other, were one: every cell between them holds an edge of one of them.
+#[test]
+fn pictures_above_each_other_are_apart() {
+    let overlaps = overlaps(SynthKind::Room, 38);
+    for name in ["picture 1", "picture 2", "picture 3"] {
+        assert!(overlaps[name] > 0.85, "{name}: {overlaps:?}");
+    }
+}
+
 /// A large level leaf was a top from which the leaves below it hung, so that the crown stood apart from its pot.
 #[test]
 fn a_plant_with_a_level_leaf_is_one_object() {
