@@ -52,6 +52,7 @@ mod segmentation;
 mod settings;
 mod sheet;
 mod sheet_html;
+mod shelves;
 mod silhouettes;
 mod standing;
 mod structure;

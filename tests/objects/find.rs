@@ -213,6 +213,15 @@ fn pictures_above_each_other_are_apart() {
     }
 }
 
+/// The board of a shelf on a wall, its books and its ornaments were one thing each.
+#[test]
+fn a_wall_shelf_is_one_object_with_what_stands_on_it() {
+    for seed in [2, 21] {
+        let overlaps = overlaps(SynthKind::Room, seed);
+        assert!(overlaps["wall shelf"] > 0.9, "room {seed}: {overlaps:?}");
+    }
+}
+
 /// A large level leaf was a top from which the leaves below it hung, so that the crown stood apart from its pot.
 #[test]
 fn a_plant_with_a_level_leaf_is_one_object() {
