@@ -17,6 +17,7 @@ use super::pieces::{attach, contacts, diagonal, split};
 use super::planes::ScenePlane;
 use super::segmentation::components;
 use super::settings::FindSettings;
+use super::shelves::fill_shelves;
 use super::standing::{self, owners};
 use super::tops::{Top, tops};
 use super::voxels::VoxelGrid;
@@ -76,6 +77,7 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     join_loose(grid, &mut groups);
     let flats = absorb_backs(grid, flats, &mut groups);
     nest(grid, &mut groups, SPLIT_FRAC * settings.resolution);
+    fill_shelves(grid, planes, &tops, &mut groups);
     let flat = windows.into_iter().chain(flats).filter(|voxels| has_shape(grid, voxels));
     groups.extend(flat.map(|voxels| VoxelGroup::whole(voxels, false)));
     groups

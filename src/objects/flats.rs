@@ -9,6 +9,7 @@ use glam::{Vec3, Vec3Swizzles};
 
 use super::color;
 use super::median::median;
+use super::outlines::{Rectangle, area, components_within, holds_several, is_in, outline, rectangle, sides};
 use super::planes::{PlaneKind, ScenePlane};
 use super::segmentation::split_by_color;
 use super::standing::mean_color;
@@ -73,8 +74,11 @@ const SUNLIT_LIGHTNESS: f32 = 30.0;
 const SUNLIT_CHROMA: f32 = 0.42;
 const SUNLIT_FILL: f32 = 0.92;
 
-/// The first and the last cell along both axes.
-pub(crate) type Rectangle = ([i32; 2], [i32; 2]);
+/// Height of the valley between two things on a wall over the lower one's, of things that hang and of those that stand on the
+/// floor. Between pictures that hang a cell apart it was .57 to .66, because the cells of the valley hold their edges too;
+/// inside pictures at least .74.
+const HUNG_VALLEY: f32 = 0.7;
+const STANDING_VALLEY: f32 = 0.5;
 
 /// Limit on the things of one plane: a pattern of tiles has more.
 const MAX_THINGS: usize = 14;
@@ -180,14 +184,23 @@ impl<'a> PlaneCells<'a> {
         self.raised.iter().copied().filter(|key| is_in(*key, inner)).collect()
     }
 
+    /// The lowest row of cells.
+    fn foot(&self) -> i32 {
+        self.cells.keys().map(|key| key[1]).min().unwrap_or(0)
+    }
+
+    /// Whether a rectangle on a wall reaches down to its foot.
+    fn is_at_foot(&self, bounds: Rectangle) -> bool {
+        self.is_wall() && bounds.0[1] <= self.foot() + FOOT_CELLS
+    }
+
     /// The outline of a region where it is one of a thing: `is_relief` where its cells stand out from the wall.
     fn outline_of_thing(&self, keys: &[[i32; 2]], is_relief: bool) -> Option<Vec<[i32; 2]>> {
         let mut bounds = rectangle(keys);
-        let lowest = self.cells.keys().map(|key| key[1]).min().unwrap_or(0);
-        let is_at_foot = self.is_wall() && bounds.0[1] <= lowest + FOOT_CELLS;
+        let is_at_foot = self.is_at_foot(bounds);
         let stands = is_at_foot && is_relief;
         if stands {
-            bounds.0[1] = lowest;
+            bounds.0[1] = self.foot();
         }
         if is_strip(bounds) || area(bounds) > MAX_SHARE * self.cells.len() as f32 {
             return None;
@@ -219,7 +232,10 @@ impl<'a> PlaneCells<'a> {
     /// The outlines of the things of a region: more than one where the wall is seen between them.
     fn outlines_of_things(&self, keys: &[[i32; 2]], is_relief: bool) -> Vec<Vec<[i32; 2]>> {
         let Some(whole) = self.outline_of_thing(keys, is_relief) else { return Vec::new() };
-        let sides = self.is_wall().then(|| cut(keys, rectangle(keys), &self.heights)).flatten();
+        let bounds = rectangle(keys);
+        // A door has valleys between its panels.
+        let deepest = if self.is_at_foot(bounds) { STANDING_VALLEY } else { HUNG_VALLEY };
+        let sides = self.is_wall().then(|| cut(keys, bounds, &self.heights, deepest)).flatten();
         let sides = sides.filter(|sides| sides.iter().all(|keys| keys.len() >= MIN_CELLS / 2));
         let apart = sides.map(|sides| sides.map(|keys| self.outlines_of_things(&keys, is_relief)));
         match apart.filter(|apart| apart.iter().all(|outlines| !outlines.is_empty())) {
@@ -260,17 +276,22 @@ impl<'a> PlaneCells<'a> {
 
 fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let Some(mut all) = PlaneCells::new(grid, plane, voxels, regions) else { return Vec::new() };
-    // A rug has several colors; what hangs on a wall is one region of color, or stands out from it.
-    let regions: Vec<(Vec<[i32; 2]>, bool)> = if all.is_wall() {
-        let regions = regions.iter().map(|region| (region.iter().map(|&v| all.key(v)).collect(), false));
-        regions.chain(components(all.raised_apart()).into_iter().map(|keys| (keys, true))).collect()
-    } else {
-        let differing = components(all.differing.clone()).into_iter().map(|keys| (keys, false));
-        differing.chain(components(all.raised.clone()).into_iter().map(|keys| (keys, true))).collect()
+    let outlines_of = |regions: Vec<Vec<[i32; 2]>>, is_relief: bool| -> Vec<Vec<[i32; 2]>> {
+        let large = regions.iter().filter(|keys| keys.len() >= MIN_CELLS / 2);
+        large.flat_map(|keys| all.outlines_of_things(keys, is_relief)).collect()
     };
-    let large = regions.iter().filter(|(keys, _)| keys.len() >= MIN_CELLS / 2);
-    let mut outlines: Vec<Vec<[i32; 2]>> =
-        large.flat_map(|(keys, is_relief)| all.outlines_of_things(keys, *is_relief)).collect();
+    // A rug has several colors; what hangs on a wall is one region of color, or stands out from it.
+    let (raised, colored) = if all.is_wall() {
+        let regions = regions.iter().map(|region| region.iter().map(|&v| all.key(v)).collect()).collect();
+        (components(all.raised_apart()), regions)
+    } else {
+        (components(all.raised.clone()), components(all.differing.clone()))
+    };
+    let (raised, mut outlines) = (outlines_of(raised, true), outlines_of(colored, false));
+    if all.is_wall() {
+        outlines.retain(|outline| all.is_at_foot(rectangle(outline)) || !holds_several(outline, &raised, MIN_FILL));
+    }
+    outlines.extend(raised);
     outlines.sort_by_key(|outline| (std::cmp::Reverse(outline.len()), outline.first().copied()));
     let mut things = Vec::new();
     for outline in outlines {
@@ -287,14 +308,6 @@ pub(crate) fn differs(step: Vec3) -> bool {
     step.y.hypot(step.z) > CHROMA_DIFFERENCE || step.x.abs() > LIGHTNESS_DIFFERENCE
 }
 
-pub(crate) fn sides((low, high): Rectangle) -> [f32; 2] {
-    [0, 1].map(|axis| (high[axis] - low[axis] + 1) as f32)
-}
-
-pub(crate) fn area(rectangle: Rectangle) -> f32 {
-    sides(rectangle).iter().product()
-}
-
 /// Number of cells around the inside of a rectangle.
 fn rim(rectangle: Rectangle) -> f32 {
     2.0 * sides(rectangle).iter().sum::<f32>()
@@ -304,32 +317,6 @@ fn rim(rectangle: Rectangle) -> f32 {
 fn is_strip(rectangle: Rectangle) -> bool {
     let [a, b] = sides(rectangle);
     a.min(b) < STRIP_CELLS || a.max(b) > STRIP_RATIO * a.min(b)
-}
-
-/// The cells in a rectangle that lie between others of their row and between others of their column: a ring becomes a
-/// disc. The rim of a thing that stands on the floor is open below.
-pub(crate) fn outline(keys: &[[i32; 2]], rectangle: Rectangle, stands: bool) -> Vec<[i32; 2]> {
-    let spans = |axis: usize| {
-        let mut spans: BTreeMap<i32, (i32, i32)> = BTreeMap::new();
-        for key in keys.iter().filter(|key| is_in(**key, rectangle)) {
-            let span = spans.entry(key[axis]).or_insert((key[1 - axis], key[1 - axis]));
-            *span = (span.0.min(key[1 - axis]), span.1.max(key[1 - axis]));
-        }
-        spans
-    };
-    let (mut columns, rows) = (spans(0), spans(1));
-    if stands {
-        columns.values_mut().for_each(|span| span.0 = rectangle.0[1]);
-    }
-    let holds = |span: Option<&(i32, i32)>, value: i32| span.is_some_and(|span| (span.0..=span.1).contains(&value));
-    let (low, high) = rectangle;
-    let all = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
-    all.filter(|&[x, y]| holds(columns.get(&x), y) && holds(rows.get(&y), x)).collect()
-}
-
-/// Whether a cell lies in a rectangle.
-pub(crate) fn is_in(key: [i32; 2], (low, high): Rectangle) -> bool {
-    (0..2).all(|axis| (low[axis]..=high[axis]).contains(&key[axis]))
 }
 
 /// The mean of the fullest bin of colors (10 units of CIE Lab) and its neighbors.
@@ -346,34 +333,4 @@ pub(crate) fn most_frequent(colors: &[Vec3]) -> Option<Vec3> {
 /// The connected components of some cells.
 fn components(open: BTreeSet<[i32; 2]>) -> Vec<Vec<[i32; 2]>> {
     components_within(open, 1)
-}
-
-/// The components of some cells; those of one component are at most `reach` cells apart along both axes.
-pub(crate) fn components_within(mut open: BTreeSet<[i32; 2]>, reach: i32) -> Vec<Vec<[i32; 2]>> {
-    let mut components = Vec::new();
-    while let Some(start) = open.pop_first() {
-        let mut component = vec![start];
-        let mut at = 0;
-        while at < component.len() {
-            let [x, y] = component[at];
-            let steps = || -reach..=reach;
-            let around = steps().flat_map(|dx| steps().map(move |dy| [x + dx, y + dy]));
-            component.extend(around.filter(|key| open.remove(key)).collect::<Vec<_>>());
-            at += 1;
-        }
-        components.push(component);
-    }
-    components
-}
-
-/// The rectangle of some cells without their outermost 2 % on every side.
-pub(crate) fn rectangle(keys: &[[i32; 2]]) -> Rectangle {
-    let ends = |axis: usize| {
-        let mut values: Vec<i32> = keys.iter().map(|key| key[axis]).collect();
-        values.sort_unstable();
-        let cut = values.len() / 50;
-        (values[cut], values[values.len() - 1 - cut])
-    };
-    let (x, y) = (ends(0), ends(1));
-    ([x.0, y.0], [x.1, y.1])
 }

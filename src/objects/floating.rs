@@ -19,9 +19,10 @@ const FOOT_FRAC: f32 = 0.3;
 /// Distances, cells, over which a body that touches nothing else is joined with the body below it.
 const GAPS: [i32; 2] = [3, 6];
 
-/// Owner of a voxel of a floor, a ceiling or a top, and of a wall.
+/// Owner of a voxel of a floor or a ceiling, of a wall, and of a top.
 const FIXED: usize = usize::MAX - 1;
 const WALL: usize = usize::MAX - 2;
+const TOP: usize = usize::MAX - 3;
 
 /// Share of a body's voxels near a wall from which it hangs on the wall: leaves only brush it.
 const HUNG_FRAC: f32 = 0.25;
@@ -38,7 +39,7 @@ pub(crate) fn join_floating(
     (is_structure, planes): (&[bool], &[ScenePlane]),
 ) -> Vec<Vec<usize>> {
     let mut owner = owners(grid, bodies);
-    tops.iter().flat_map(|top| &top.voxels).for_each(|&voxel| owner[voxel] = FIXED);
+    tops.iter().flat_map(|top| &top.voxels).for_each(|&voxel| owner[voxel] = TOP);
     let is_level = |voxel: usize| {
         let p = grid.voxels[voxel].position;
         let level = |plane: &&ScenePlane| matches!(plane.kind, PlaneKind::Floor | PlaneKind::Ceiling);
@@ -51,6 +52,10 @@ pub(crate) fn join_floating(
     let extents: Vec<(Vec3, Vec3)> = bodies.iter().map(|body| extent(grid, body)).collect();
     let carrier = |body: usize| match hold(grid, &bodies[body], (body, &owner)) {
         Hold::Body(carrier) => Some(carrier).filter(|&carrier| lowest[carrier] < lowest[body]),
+        Hold::BodyUnderTop(carrier) => Some(carrier).filter(|&carrier| {
+            let is_upright = is_on_axis(grid, extents[carrier], extents[body]) && is_round(extents[body]);
+            lowest[carrier] < lowest[body] && is_upright
+        }),
         Hold::Nothing => foot_below(grid, &extents, body).or_else(|| beside(grid, &bodies[body], (body, &owner))),
         // The crown of a plant in a corner leans on the walls.
         Hold::Wall => foot_below(grid, &extents, body).filter(|_| is_round(extents[body])),
@@ -79,6 +84,8 @@ enum Hold {
     Wall,
     /// The other body that its lower part touches most.
     Body(usize),
+    /// The same, and a top lies on the body: an apron and a leg of one table, or a crown with a large level leaf and its pot.
+    BodyUnderTop(usize),
     /// Its lower part touches nothing.
     Nothing,
 }
@@ -87,28 +94,29 @@ enum Hold {
 fn hold(grid: &VoxelGrid, voxels: &[usize], (body, owner): (usize, &[usize])) -> Hold {
     let (low, high) = extent(grid, voxels);
     let end = low.y + FOOT_FRAC * (high.y - low.y);
-    match hung(grid, voxels, owner) {
-        Hung::Above => return Hold::Fixed,
+    let is_under_top = match hung(grid, voxels, owner) {
+        Hung::Ceiling => return Hold::Fixed,
         Hung::Wall => return Hold::Wall,
-        Hung::Not => {}
-    }
+        Hung::Top => true,
+        Hung::Not => false,
+    };
     let foot: Vec<usize> = voxels.iter().copied().filter(|&v| grid.voxels[v].position.y <= end).collect();
     for reach in GAPS {
         let touched = touched(grid, &foot, (body, owner), reach);
-        if touched.contains_key(&FIXED) {
+        if is_fixed(&touched) {
             return Hold::Fixed;
         }
         if let Some(other) = most(&touched) {
-            return Hold::Body(other);
+            return if is_under_top { Hold::BodyUnderTop(other) } else { Hold::Body(other) };
         }
     }
-    Hold::Nothing
+    if is_under_top { Hold::Fixed } else { Hold::Nothing }
 }
 
 /// The other body that all of a body touches most.
 fn beside(grid: &VoxelGrid, voxels: &[usize], own: (usize, &[usize])) -> Option<usize> {
     let touched = touched(grid, voxels, own, GAPS[1]);
-    most(&touched).filter(|_| !touched.contains_key(&FIXED))
+    most(&touched).filter(|_| !is_fixed(&touched))
 }
 
 /// The number of contacts with every other owner but walls.
@@ -121,8 +129,12 @@ fn touched(grid: &VoxelGrid, part: &[usize], (body, owner): (usize, &[usize]), r
     touched
 }
 
+fn is_fixed(touched: &BTreeMap<usize, usize>) -> bool {
+    touched.contains_key(&FIXED) || touched.contains_key(&TOP)
+}
+
 fn most(touched: &BTreeMap<usize, usize>) -> Option<usize> {
-    let bodies = touched.iter().filter(|(other, _)| **other != FIXED);
+    let bodies = touched.iter().filter(|(other, _)| ![FIXED, TOP].contains(*other));
     bodies.max_by_key(|&(&other, &count)| (count, std::cmp::Reverse(other))).map(|(&other, _)| other)
 }
 
@@ -134,17 +146,21 @@ const MAX_GAP: f32 = 1.5;
 
 /// The body under a body that touches nothing, on the same upright axis: the foot of a lamp whose pole was not captured.
 fn foot_below(grid: &VoxelGrid, extents: &[(Vec3, Vec3)], body: usize) -> Option<usize> {
-    let level = |v: Vec3| Vec3::new(v.x, 0.0, v.z);
     let (low, high) = extents[body];
-    let width = level(high - low).length();
     let is_foot = |&other: &usize| {
-        let (bottom, top) = extents[other];
-        let apart = level(low + high - bottom - top).length() / 2.0;
-        let is_narrow = level(top - bottom).length() <= 1.2 * width;
-        let is_near = low.y - top.y <= MAX_GAP * (high.y - low.y);
-        other != body && top.y < low.y && is_near && is_narrow && apart <= ALIGNED_FRAC * width + grid.cell
+        let top = extents[other].1.y;
+        let is_near = low.y - top <= MAX_GAP * (high.y - low.y);
+        other != body && top < low.y && is_near && is_on_axis(grid, extents[other], extents[body])
     };
     (0..extents.len()).filter(is_foot).max_by(|&a, &b| extents[a].1.y.total_cmp(&extents[b].1.y).then(b.cmp(&a)))
+}
+
+/// Whether a foot is about as wide as the body over it at most, on the same upright axis.
+fn is_on_axis(grid: &VoxelGrid, (bottom, top): (Vec3, Vec3), (low, high): (Vec3, Vec3)) -> bool {
+    let level = |v: Vec3| Vec3::new(v.x, 0.0, v.z);
+    let width = level(high - low).length();
+    let apart = level(low + high - bottom - top).length() / 2.0;
+    level(top - bottom).length() <= 1.2 * width && apart <= ALIGNED_FRAC * width + grid.cell
 }
 
 /// Least depth of a round body over its width.
@@ -158,25 +174,35 @@ fn is_round((low, high): (Vec3, Vec3)) -> bool {
 
 /// How a body hangs.
 enum Hung {
-    /// What is level above it.
-    Above,
+    /// On the ceiling above it.
+    Ceiling,
     Wall,
+    /// A top lies on it.
+    Top,
     Not,
 }
 
 /// What a body hangs on.
 fn hung(grid: &VoxelGrid, voxels: &[usize], owner: &[usize]) -> Hung {
-    let mut num_near = 0;
+    let (mut num_near, mut is_under_top) = (0, false);
     for &voxel in voxels {
         let y = grid.voxels[voxel].key[1];
         let mut is_near = false;
         for other in grid.neighbors(voxel, HUNG_CELLS) {
-            if owner[other] == FIXED && grid.voxels[other].key[1] > y {
-                return Hung::Above;
+            let is_above = grid.voxels[other].key[1] > y;
+            if owner[other] == FIXED && is_above {
+                return Hung::Ceiling;
             }
+            is_under_top |= owner[other] == TOP && is_above;
             is_near |= owner[other] == WALL;
         }
         num_near += usize::from(is_near);
     }
-    if num_near as f32 >= HUNG_FRAC * voxels.len() as f32 { Hung::Wall } else { Hung::Not }
+    if is_under_top {
+        Hung::Top
+    } else if num_near as f32 >= HUNG_FRAC * voxels.len() as f32 {
+        Hung::Wall
+    } else {
+        Hung::Not
+    }
 }

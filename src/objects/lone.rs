@@ -10,12 +10,16 @@ impl ObjectSet {
     /// The thing that a scan of one thing shows, where nobody has named it yet: the only object of its size, with a
     /// description for a label. `None` for rooms, for several things, and for a thing with a name.
     pub fn unnamed_whole(&self) -> Option<&Object> {
+        self.only_whole().filter(|whole| naming::is_description(&whole.label))
+    }
+
+    /// The object that holds most of the Gaussians of all objects; `None` where no one does.
+    pub(crate) fn only_whole(&self) -> Option<&Object> {
         let members = self.members();
         let count = |object: &Object| members.get(&object.id).map_or(0, Vec::len);
         let labeled = self.labels.iter().filter(|label| **label > 0).count();
         let whole = self.objects.iter().filter(|object| object.parent.is_none()).max_by_key(|object| count(object))?;
-        let is_most = labeled > 0 && count(whole) as f64 >= WHOLE_FRAC * labeled as f64;
-        (is_most && naming::is_description(&whole.label)).then_some(whole)
+        (labeled > 0 && count(whole) as f64 >= WHOLE_FRAC * labeled as f64).then_some(whole)
     }
 }
 

@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3;
 
-use super::flats::{Rectangle, area, components_within, differs, most_frequent, outline, rectangle, sides};
+use super::flats::{differs, most_frequent};
+use super::outlines::{Rectangle, area, components_within, outline, rectangle, sides};
 use super::segmentation::split_by_color;
 use super::standing::{extent, mean_color, owners};
 use super::tops::Top;

@@ -5,15 +5,14 @@
 
 use std::collections::BTreeMap;
 
-/// Height of the valley between two things on a wall over the lower one's.
-const MAX_VALLEY: f32 = 0.5;
-
 /// The two sides of a region with a straight valley across, in which it stands out from the wall far less than on
-/// both sides. `low` and `high` are the first and the last cell along both axes.
+/// both sides: at most `max_valley` times as far as on the lower side. `low` and `high` are the first and the last cell along
+/// both axes.
 pub(crate) fn cut(
     keys: &[[i32; 2]],
     (low, high): ([i32; 2], [i32; 2]),
     heights: &BTreeMap<[i32; 2], f32>,
+    max_valley: f32,
 ) -> Option<[Vec<[i32; 2]>; 2]> {
     let lowest_of = |axis: usize| {
         // Lines without voxels have the height of the line before.
@@ -38,7 +37,7 @@ pub(crate) fn cut(
         depths.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))
     };
     let lowest = (0..2).filter_map(lowest_of).min_by(|a, b| a.0.total_cmp(&b.0));
-    let (_, axis, line) = lowest.filter(|&(depth, ..)| depth <= MAX_VALLEY)?;
+    let (_, axis, line) = lowest.filter(|&(depth, ..)| depth <= max_valley)?;
     let apart = keys.iter().copied().filter(|key| key[axis] != line);
     let (one, two): (Vec<_>, Vec<_>) = apart.partition(|key| key[axis] < line);
     Some([one, two])

@@ -110,9 +110,14 @@ impl<'a> ViewpointSearch<'a> {
         best.1
     }
 
-    /// Whether one object is most of the scene.
+    /// Whether one object is most of the scene. The curtains or the window of a room may be as long as the scene.
     fn shows_one_thing(&self) -> bool {
-        self.set.objects.iter().any(|object| object.parent.is_none() && 2.0 * object.radius() > SINGLE_FRAC * self.size)
+        let is_large = |object: &Object| object.parent.is_none() && 2.0 * object.radius() > SINGLE_FRAC * self.size;
+        if self.set.labels.iter().any(|label| *label > 0) {
+            self.set.only_whole().is_some_and(is_large)
+        } else {
+            self.set.objects.iter().any(is_large)
+        }
     }
 
     /// The camera outside the scene that shows most of the objects.

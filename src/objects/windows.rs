@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3;
 
-use super::flats::{Rectangle, area, components_within, is_in, is_seen, rectangle, sides};
+use super::flats::is_seen;
+use super::outlines::{Rectangle, area, components_within, is_in, rectangle, sides};
 use super::planes::{PlaneKind, ScenePlane};
 use super::voxels::VoxelGrid;
 

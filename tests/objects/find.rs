@@ -204,6 +204,33 @@ fn pictures_beside_each_other_are_apart() {
     }
 }
 
+/// Pictures that hang a cell apart, one above the other, were one: every cell between them holds an edge of one of them.
+#[test]
+fn pictures_above_each_other_are_apart() {
+    let overlaps = overlaps(SynthKind::Room, 38);
+    for name in ["picture 1", "picture 2", "picture 3"] {
+        assert!(overlaps[name] > 0.85, "{name}: {overlaps:?}");
+    }
+}
+
+/// The board of a shelf on a wall, its books and its ornaments were one thing each.
+#[test]
+fn a_wall_shelf_is_one_object_with_what_stands_on_it() {
+    for seed in [2, 21] {
+        let overlaps = overlaps(SynthKind::Room, seed);
+        assert!(overlaps["wall shelf"] > 0.9, "room {seed}: {overlaps:?}");
+    }
+}
+
+/// A large level leaf was a top from which the leaves below it hung, so that the crown stood apart from its pot.
+#[test]
+fn a_plant_with_a_level_leaf_is_one_object() {
+    let overlaps = overlaps(SynthKind::Room, 24);
+    for name in ["cream potted plant 1", "cream potted plant 2"] {
+        assert!(overlaps[name] > 0.9, "{name}: {overlaps:?}");
+    }
+}
+
 /// Without a ceiling a room was searched as if it were one cluttered heap, in which what is seen through windows
 /// counted.
 #[test]

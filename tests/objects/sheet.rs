@@ -80,6 +80,33 @@ fn a_scene_without_objects_has_an_overview() {
     assert_eq!(image.width(), 5 * 70 + 6);
 }
 
+/// A curtain as long as the room counted as the only thing of its scan, which the overview showed from outside.
+#[test]
+fn a_room_with_a_long_curtain_is_seen_from_inside() {
+    let mut gaussians = Gaussians::default();
+    let pale = Vec3::new(0.8, 0.78, 0.74);
+    push_box(&mut gaussians, DVec3::ZERO, DVec3::new(2.5, 0.0, 2.0), 0.06, pale);
+    push_box(&mut gaussians, DVec3::new(0.0, 1.2, -2.0), DVec3::new(2.5, 1.2, 0.0), 0.06, pale);
+    for x in [-2.5, 2.5] {
+        push_box(&mut gaussians, DVec3::new(x, 1.2, 0.0), DVec3::new(0.0, 1.2, 2.0), 0.06, pale);
+    }
+    let mut labels = vec![0; gaussians.len()];
+    let curtain = DVec3::new(0.0, 1.2, -1.9);
+    push_box(&mut gaussians, curtain, DVec3::new(2.3, 1.1, 0.04), 0.1, Vec3::new(0.2, 0.3, 0.6));
+    labels.resize(gaussians.len(), 1);
+    for (id, x) in [(2, -1.4), (3, 0.0), (4, 1.4)] {
+        push_box(&mut gaussians, DVec3::new(x, 0.4, -1.0), DVec3::splat(0.35), 0.03, Vec3::new(0.7, 0.1, 0.1));
+        labels.resize(gaussians.len(), id);
+    }
+    let scene = scene_of(gaussians);
+    let set = objects::from_labels(&scene, labels);
+    let settings = SheetSettings { tile_width_px: 64, ..SheetSettings::default() };
+    let overview = sheet(&scene, &set, &settings).unwrap().overview;
+    let num_void = overview.pixels().filter(|pixel| pixel.0.iter().all(|value| *value < 3)).count();
+    let num_pixels = (overview.width() * overview.height()) as usize;
+    assert!(num_void * 5 < 2 * num_pixels, "{num_void} of {num_pixels} pixels show nothing");
+}
+
 #[test]
 fn a_scene_without_extent_is_an_error() {
     let error = sheet(&scene_of(Gaussians::default()), &ObjectSet::default(), &SheetSettings::default()).unwrap_err();
