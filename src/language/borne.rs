@@ -110,21 +110,21 @@ impl Linked {
         group.is_some_and(|group| group.name.split_whitespace().last().is_some_and(|name| is_listed(THINGS, name)))
     }
 
+    /// Id of the group of some things, a new one where they are none yet; `bytes` are its words.
+    fn group_named(&mut self, prompt: &str, bytes: [usize; 2], members: Vec<u32>) -> u32 {
+        if let Some(group) = self.groups.iter().find(|group| group.members == members) {
+            return group.id;
+        }
+        let id = FIRST_GROUP + self.groups.len() as u32;
+        let name = prompt.get(bytes[0]..bytes[1]).unwrap_or_default().trim().to_owned();
+        self.groups.push(Group { id, members, name, nearest: Vec::new() });
+        id
+    }
+
     /// Puts a mention of `members` in the place of some words.
     fn replace(&mut self, prompt: &str, [from, to]: [usize; 2], members: Vec<u32>) {
         let bytes = [self.spans[from][0], self.spans[to - 1][1]];
-        let id = match members[..] {
-            [id] => id,
-            _ => {
-                let same = self.groups.iter().find(|group| group.members == members).map(|group| group.id);
-                same.unwrap_or_else(|| {
-                    let id = FIRST_GROUP + self.groups.len() as u32;
-                    let name = prompt.get(bytes[0]..bytes[1]).unwrap_or_default().trim().to_owned();
-                    self.groups.push(Group { id, members, name, nearest: Vec::new() });
-                    id
-                })
-            }
-        };
+        let id = if let [id] = members[..] { id } else { self.group_named(prompt, bytes, members) };
         let slot = self.slots.iter().position(|known| *known == id).unwrap_or(self.slots.len());
         if slot == self.slots.len() {
             if slot >= MAX_SLOTS {

@@ -27,7 +27,8 @@ impl Target {
     pub(super) fn of(world: &World, framing: &Framing) -> Option<Self> {
         let subjects: Vec<&Subject> = framing.subjects.iter().filter_map(|&id| world.subject(id)).collect();
         let first = *subjects.first()?;
-        let joint = framing.whole && subjects.len() > 1;
+        // Many things are one picture; two may be one after the other.
+        let joint = subjects.len() > if framing.whole { 1 } else { 2 };
         let corners: Vec<DVec3> = if joint {
             subjects.iter().flat_map(|s| s.corners.iter().copied()).collect()
         } else {

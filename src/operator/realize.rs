@@ -15,7 +15,7 @@ use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
 use super::program::{Amount, Framing, Program, Step};
 use super::report;
-use super::safer::safer_programs;
+use super::safer::{look_around, safer_programs};
 use super::search::{Candidate, SearchProblem, best_candidates};
 use super::settings::{SolveLevel, SolveSettings};
 use super::sighting::{Sighting, sightings};
@@ -32,6 +32,9 @@ const SQUEEZED: f64 = 1.1;
 /// captured region below which it leaves the room, and not only the estimate of where that ends.
 const SAFE_RADII: f64 = 0.25;
 const SAFE_CAPTURED_FRAC: f64 = 0.7;
+/// The same share below which a camera that goes through matter goes through a wall, and one that does not is outside.
+const THROUGH_WALL_FRAC: f64 = 0.5;
+const OUTSIDE_FRAC: f64 = 0.15;
 /// Shortest time into which a stated total duration compresses the segments of free length.
 const MIN_FREE_SECS: f64 = 0.3;
 
@@ -55,6 +58,8 @@ pub struct Solution {
     /// Whether the camera stays in the room and clear of matter at every moment, and does not squeeze in between a thing and
     /// a wall to get around it.
     pub is_safe: bool,
+    /// Whether the camera goes through a wall of the room, or stays outside.
+    pub leaves_room: bool,
 }
 
 /// Solves a program: keyframes whose path carries out every step.
@@ -100,7 +105,18 @@ pub fn finalists(
         return asked;
     }
     let sooner = SolveSettings { tries_factor: SAFER_TRIES * settings.tries_factor, ..*settings };
-    safe_solutions(program, prompt, asked, &|safer| solved(safer, &sooner, num.min(SAFER_FINALISTS)))
+    let solved = |safer: &Program| solved(safer, &sooner, num.min(SAFER_FINALISTS));
+    let solutions = safe_solutions(program, prompt, asked, &solved);
+    let is_thorough = settings.level == SolveLevel::Full;
+    if !is_thorough || !solutions.iter().all(|solution| solution.leaves_room) {
+        return solutions;
+    }
+    // Nobody keeps a film of the outside of a room's walls.
+    let (around, given_up) = look_around(program, prompt);
+    let mut others = solved(&around);
+    others.retain(|solution| solution.is_safe);
+    others.iter_mut().for_each(|solution| solution.report.extend(given_up.iter().cloned()));
+    if others.is_empty() { solutions } else { others }
 }
 
 /// Solutions that stay in the room and clear of matter: those of the program, or else of one that gives up the words that
@@ -161,13 +177,25 @@ fn solution(
     let least = SAFE_RADII * clearance.camera_radius;
     let is_clear = clearance.failure.is_none_or(|failure| failure.distance >= least);
     let stays = captured >= SAFE_CAPTURED_FRAC || !world.is_indoor();
+    let leaves = captured < if is_clear { OUTSIDE_FRAC } else { THROUGH_WALL_FRAC };
+    let leaves_room = world.is_indoor() && leaves;
     let is_safe = is_clear && stays && !segments.iter().any(|segment| squeezes(world, program, segment));
     report.extend(detours::clearance_lines(world, (program, prompt), (&segments, &flow.spans), &detours, &clearance));
     report.extend(forbidden::lines(world, program, &segments, &keys));
     report.extend(settings.slant.map(|slant| dutch::report_line(world, &segments, slant)));
     let step_keys = step_keys(&flow.segments, program.steps.len());
     let sightings = sightings(&segments, &flow.spans, flow.secs());
-    Solution { sightings, keyframes: keys, duration_secs: flow.secs(), report, step_keys, cost, clearance, is_safe }
+    Solution {
+        sightings,
+        keyframes: keys,
+        duration_secs: flow.secs(),
+        report,
+        step_keys,
+        cost,
+        clearance,
+        is_safe,
+        leaves_room,
+    }
 }
 
 /// Whether a camera circles a thing, whose size and how far around the words leave open, so closely that the thing does not

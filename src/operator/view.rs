@@ -124,6 +124,9 @@ pub(super) fn opening_view(
     // A subject that must not be seen is hidden by what is in the way.
     let free = framing.distance.is_none() && framing.lens.is_none() && !framing.hidden;
     let view = if free { in_front_of_matter(world, target, bearing, view) } else { view };
+    let sized = framing.size.is_some() || framing.height_frac.is_some() || framing.whole;
+    let is_lens_alone = framing.lens.is_some() && framing.distance.is_none() && !framing.hidden && !sized;
+    let view = if is_lens_alone { before_wall(world, target, view) } else { view };
     let lies = free && framing.height.is_none() && framing.elevation_deg.is_none();
     let view = if lies { above_floor(world, target, framing.angle, view) } else { view };
     aimed_at_side(world, target, framing.part, view)
@@ -168,6 +171,20 @@ fn in_front_of_matter(world: &World, target: &Target, bearing: Bearing, view: Ca
     let tan = if steep { tan.min(widest) } else { tan };
     let fits = free > LEAST_SPACE * start && free < distance && tan <= widest;
     if fits { with_fov(&moved(&view, away * (free - distance)), 2.0 * tan.atan()) } else { view }
+}
+
+/// The view in a room through a stated lens, brought nearer where a wall or furniture is between the camera and its target,
+/// which then is larger in the picture.
+fn before_wall(world: &World, target: &Target, view: CameraState) -> CameraState {
+    if !world.is_indoor() {
+        return view;
+    }
+    let away = -view.pose.forward();
+    let start = target.corners.iter().map(|c| (*c - target.aim).dot(away)).fold(0.0, f64::max) + world.camera_radius;
+    let distance = view.pose.position.distance(target.aim);
+    let free = world.hit_distance(target.aim + away * start, away).map_or(distance, |free| start + free);
+    let free = free - 2.0 * world.camera_radius;
+    if free > LEAST_SPACE * start && free < distance { moved(&view, away * (free - distance)) } else { view }
 }
 
 /// The view of a room, raised to the floor where it would lie under it: as low as a camera can lie, nearer for the

@@ -35,10 +35,9 @@ fn found(world: &World, subject: &Subject) -> Option<f64> {
     };
     let is_wall = |way: DVec3| free(way).iter().all(|distance| *distance < AT_WALL * eye);
     let is_open = |way: DVec3| free(way).iter().any(|distance| *distance > FREE * eye);
-    let ways = [short, -short, long, -long].map(|way| way.normalize_or_zero());
+    let ways = [short, -short, long, -long].map(DVec3::normalize_or_zero);
     let walls: Vec<DVec3> = ways.iter().copied().filter(|way| is_wall(*way)).collect();
     // In a corner the long side is the front.
     let back = *walls.first()?;
-    let is_front = |back: DVec3| !walls.contains(&-back) && is_open(-back);
-    is_front(back).then(|| world.frame.azimuth(-back))
+    (!walls.contains(&-back) && is_open(-back)).then(|| world.frame.azimuth(-back))
 }

@@ -10,12 +10,14 @@ use super::error::PipelineError;
 use super::interpreter::names;
 use cinesplat_director::Director;
 use cinesplat_language::{Linked, Things, Word, is_listed, tokenize};
-use cinesplat_objects::ObjectSet;
+use cinesplat_objects::{Object, ObjectSet};
 
 /// What a thing stands on: rarely what a scan is about.
 const GROUNDS: [&str; 10] =
     ["soil", "ground", "floor", "earth", "grass", "table", "stand", "pedestal", "plinth", "background"];
 
+/// Labels of parts that are only places.
+const PLACES: &str = "top base bottom middle front back";
 /// Words that make the name before them one of a kind of shop or film.
 const WARES: &str =
     "shop store brand company catalogue catalog film video clip ad advert commercial shot collection lover fan";
@@ -36,8 +38,10 @@ pub(super) fn link<'a>(
     for object in renamed.objects.iter_mut().filter(|object| object.id == id) {
         object.label.clone_from(&name);
     }
-    // Words for its parts are known once its name is.
-    let mut linked = director.link(prompt, &names(&renamed.objects))?;
+    // Words for its parts are known once its name is; `the top of the skull` says where to look at it.
+    let is_place = |object: &&Object| object.parent == Some(id) && is_listed(PLACES, &object.label);
+    let of_kinds: Vec<Object> = renamed.objects.iter().filter(|object| !is_place(object)).cloned().collect();
+    let mut linked = director.link(prompt, &names(&of_kinds))?;
     let mut taken = vec![name];
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
         group.members = vec![id];

@@ -318,6 +318,19 @@ fn a_camera_on_the_spot_turns_and_zooms() {
 }
 
 #[test]
+fn a_look_straight_down_begins_overhead() {
+    let found = program("Look straight down on the vase, then come down in front of it and stop face to face");
+    assert!(found.contains("overhead"), "{found}");
+}
+
+#[test]
+fn every_side_is_a_full_circle() {
+    let found =
+        program("Visitors can't walk round the vase, so the film must do it. Every side legible, neutral, no drama.");
+    assert!(found.contains("orbit") && (found.contains("360") || found.contains("large")), "{found}");
+}
+
+#[test]
 fn the_verb_says_whether_the_camera_travels() {
     let found = program("From the foot of the curtain we float up to its top.");
     assert!(found.contains("pedestal-up") || found.contains("crane-up"), "{found}");

@@ -73,3 +73,12 @@ fn a_number_with_its_point_first_is_a_word() {
     assert_eq!(link_mentions(".0-", &[]).unwrap().tokens_text, ".0");
     assert!(link_mentions(" -, !", &[]).is_err());
 }
+
+#[test]
+fn a_side_with_a_pronoun_is_a_side_of_the_thing() {
+    let prompt = "Orbit the skull from the front to its left side, slowly.";
+    let mentions = [mention(prompt, "the skull", &[3]), mention(prompt, "its left side", &[3])];
+    let linked = link_mentions(prompt, &mentions).unwrap();
+    assert_eq!(linked.tokens_text, "orbit <obj-0> from the front to the left side of <obj-0> , slowly .");
+    assert_eq!(linked.tokens_text.split(' ').count(), linked.spans.len());
+}

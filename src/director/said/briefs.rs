@@ -86,7 +86,7 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     // Angles and lengths are what a camera keeps.
     let measures = |quantity: &Quantity| quantity.kind != QuantityKind::Seconds;
     let is_measured = linked.quantities.iter().any(measures);
-    if !is_loose || linked.timeline.is_some() || is_measured || !is_brief(&words) {
+    if !is_loose || linked.timeline.is_some() || is_measured || !is_brief(&said(linked, &words)) {
         return;
     }
     let subjects = without_parts(subjects(linked, &words), objects);
@@ -128,6 +128,15 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     direction.program.steps = steps;
 }
 
+/// The words but those that stand for a part of a thing: `the back` of an armchair is no way.
+fn said<'a>(linked: &Linked, words: &[&'a str]) -> Vec<&'a str> {
+    let spans = &linked.spans;
+    let stands_for_part = |at: usize| {
+        (at + 1..words.len().min(at + 5)).any(|next| spans.get(next) == spans.get(at) && words[next].starts_with('<'))
+    };
+    (0..words.len()).filter(|at| !stands_for_part(*at)).map(|at| words[at]).collect()
+}
+
 /// Whether words say nothing of what a camera does.
 fn is_brief(words: &[&str]) -> bool {
     let leads = |at: usize| {
@@ -140,7 +149,11 @@ fn is_brief(words: &[&str]) -> bool {
     };
     let is_camera = |at: usize| {
         let word = words[at];
-        let is_verb = VERBS.iter().any(|verb| is_form(word, verb)) && !is_listed("resting movement", word);
+        // `Arm rests` are no rest.
+        let is_part = word == "rests"
+            && at > 0
+            && (is_listed("arm head foot back", words[at - 1]) || words[at - 1].starts_with('<'));
+        let is_verb = VERBS.iter().any(|verb| is_form(word, verb)) && !is_listed("resting movement", word) && !is_part;
         let before = words[at.saturating_sub(2)..at].iter();
         let is_way = matches!(word, "up" | "down") && !before.into_iter().any(|word| is_listed(NO_WAYS, word));
         is_verb || is_listed(WORDS, word) || leads(at) || is_way

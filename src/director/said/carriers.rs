@@ -2,10 +2,11 @@
 //! to the guitar` no walk.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Framing, Motion, Pass, Program, Step};
+use cinesplat_operator::{Amount, Framing, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
 use super::directions::is_form;
+use crate::direction::Direction;
 
 /// Verbs of a camera that goes up or down itself.
 const CARRIES: [&str; 12] =
@@ -22,8 +23,16 @@ const TRAVELS: [&str; 17] = [
     "orbit", "circle", "follow", "crane",
 ];
 
+/// Gives the steps the moves that their verbs carry, and shows what they were read to pass or to be seen from.
+pub(crate) fn carry_as_said(linked: &Linked, steps: &mut [Step]) {
+    carry_tilts(linked, steps);
+    pan_as_said(linked, steps);
+    rest_on_source(linked, steps);
+    reveal_passed(steps);
+}
+
 /// Makes a tilt a rise or a descent where the words carry the camera up or down and name no turn.
-pub(crate) fn carry_tilts(linked: &Linked, steps: &mut [Step]) {
+fn carry_tilts(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::TiltUp | Move::TiltDown)) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_carried = |way: &[&str]| (0..words.len()).any(|at| carries(&words, at, way));
@@ -46,7 +55,7 @@ fn carries(words: &[&str], at: usize, ways: &[&str]) -> bool {
 }
 
 /// Turns on the spot where the words pan to a thing and travel nowhere.
-pub(crate) fn pan_as_said(linked: &Linked, steps: &mut [Step]) {
+fn pan_as_said(linked: &Linked, steps: &mut [Step]) {
     let travels = |step: &Step| matches!(step.movement, Move::Follow | Move::TruckLeft | Move::TruckRight);
     for step in steps.iter_mut().filter(|step| travels(step) && step.via.is_none() && step.with.is_empty()) {
         let words = linked.texts_in(step.words.unwrap_or_default());
@@ -63,7 +72,7 @@ pub(crate) fn pan_as_said(linked: &Linked, steps: &mut [Step]) {
 }
 
 /// Shows what a picture at rest was read to be seen from, where no words say where the camera is: `00:07-00:10 sit on TV`.
-pub(crate) fn rest_on_source(linked: &Linked, steps: &mut [Step]) {
+fn rest_on_source(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.movement == Move::Static && step.end == Framing::default()) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_source = step.via.as_ref().is_some_and(|via| via.how == Pass::From);
@@ -71,6 +80,50 @@ pub(crate) fn rest_on_source(linked: &Linked, steps: &mut [Step]) {
         if is_source && !says_place {
             step.end.subjects = step.via.take().map(|via| via.objects).unwrap_or_default();
         }
+    }
+}
+
+/// Reveals what a reveal without a subject was read to pass.
+fn reveal_passed(steps: &mut [Step]) {
+    let shows_nothing = |step: &&mut Step| {
+        step.movement == Move::Reveal && step.start.subjects.is_empty() && step.end.subjects.is_empty()
+    };
+    for step in steps.iter_mut().filter(shows_nothing) {
+        step.end.subjects = step.via.take().map(|via| via.objects).unwrap_or_default();
+    }
+}
+
+/// Phrases of all sides of a thing.
+const ALL_SIDES: [&[&str]; 9] = [
+    &["every", "side"],
+    &["every", "angle"],
+    &["all", "sides"],
+    &["all", "angles"],
+    &["each", "side"],
+    &["from", "all", "around"],
+    &["from", "all", "round"],
+    &["whole", "way", "round"],
+    &["whole", "way", "around"],
+];
+/// Certainty of a picture at rest below which it may be one that the words do not ask for.
+const UNSURE: f64 = 0.5;
+
+/// Goes once around a thing of which the words want every side, where a picture at rest was read: `visitors can't walk round
+/// it, so the film must do it for them. Every side legible`.
+pub(crate) fn show_all_sides(linked: &Linked, direction: &mut Direction) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let is_sure = direction.certainty.iter().any(|step| step.probability >= UNSURE);
+    let says = (0..words.len()).any(|at| ALL_SIDES.iter().any(|said| words[at..].starts_with(said)));
+    if let [step] = &mut direction.program.steps[..]
+        && step.movement == Move::Static
+        && step.with.is_empty()
+        && !step.end.subjects.is_empty()
+        && says
+        && !is_sure
+    {
+        step.end = Framing { subjects: std::mem::take(&mut step.end.subjects), ..Framing::default() };
+        (step.movement, step.either_way, step.amount) = (Move::OrbitRight, true, Some(Amount::Degrees(360.0)));
+        direction.step_cameras.clear();
     }
 }
 

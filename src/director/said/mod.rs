@@ -108,6 +108,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::level_frontal_views(linked, steps);
     openings::hide_at_first(linked, steps);
     openings::square_to_walls(linked, steps);
+    openings::begin_straight_above(linked, steps);
     directions::rise_to_things(linked, steps);
     lengths::take_film_length(linked, &mut direction.program);
     rates::take_rates(linked, direction);
@@ -121,9 +122,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     fills::close_on_parts(linked, &mut direction.program.steps);
     small_moves::move_rests(linked, &mut direction.program.steps);
     small_moves::turn_only(linked, &mut direction.program.steps);
-    carriers::carry_tilts(linked, &mut direction.program.steps);
-    carriers::pan_as_said(linked, &mut direction.program.steps);
-    carriers::rest_on_source(linked, &mut direction.program.steps);
+    carriers::carry_as_said(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     heights::begin_at_height(linked, &mut direction.program.steps);
@@ -135,6 +134,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     briefs::film_briefs(linked, objects, direction);
     carriers::flow_without_cuts(&mut direction.program);
+    carriers::show_all_sides(linked, direction);
     let steps = &mut direction.program.steps;
     endings::include_named(linked, steps);
     whole_film::keep_uncut(linked, steps);

@@ -1,7 +1,7 @@
 //! What the words say of the first picture.
 
 use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::{Framing, Step};
+use cinesplat_operator::{Framing, Step, SubjectPart};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::directions::is_form;
@@ -145,6 +145,28 @@ pub(crate) fn level_frontal_views(linked: &Linked, steps: &mut [Step]) {
 
 /// Words by which a thing that is not to go out of view stays in it.
 const STAYS: [&str; 7] = ["leaving", "leaves", "leave", "losing", "lose", "out", "ever"];
+
+/// Begins straight above what the first words look straight down on: `look straight down on the skull, then come down in
+/// front of it`.
+pub(crate) fn begin_straight_above(linked: &Linked, steps: &mut [Step]) {
+    let Some(step) = steps.first_mut() else { return };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let opening = words.iter().take_while(|word| !matches!(**word, "," | "." | ";" | "then" | "and"));
+    let opening: Vec<&str> = opening.copied().collect();
+    let looks = opening.iter().any(|word| is_form(word, "look") || is_form(word, "start") || is_form(word, "begin"));
+    let is_straight = opening
+        .windows(2)
+        .any(|pair| matches!(pair, ["straight" | "directly" | "vertically", "down" | "above" | "overhead"]));
+    let sinks = matches!(step.movement, Move::CraneDown | Move::PedestalDown);
+    let is_open = step.start.angle.is_none() && step.start.elevation_deg.is_none() && step.start.height.is_none();
+    if sinks && looks && is_straight && is_open && step.end.angle != Some(ShotAngle::Overhead) {
+        (step.movement, step.start.angle) = (Move::CraneDown, Some(ShotAngle::Overhead));
+        step.start.part = SubjectPart::Middle;
+        if step.start.subjects.is_empty() {
+            step.start.subjects.clone_from(&step.end.subjects);
+        }
+    }
+}
 
 /// Takes a look back at a wall that the lens is only square to: `crab left, lens square to the wall`.
 pub(crate) fn square_to_walls(linked: &Linked, steps: &mut [Step]) {

@@ -360,11 +360,18 @@ fn is_composed(framing: &Framing) -> bool {
 
 /// The segment with the first two subjects of a target required to be visible.
 pub(super) fn require_visible(mut segment: MotionSegment, target: &Target, scope: Scope) -> MotionSegment {
+    if target.ids.len() > 2 && scope == Scope::All {
+        // Of many things some hide others all the way around.
+        return segment.requiring(scope, ConstraintKind::InFrame(target.ids.clone(), MANY_IN_FRAME));
+    }
     for &id in target.ids.iter().take(2) {
         segment = segment.requiring(scope, ConstraintKind::Unoccluded(id, VISIBLE_FRAC));
     }
     segment
 }
+
+/// Share of each of many things that stays in the frame.
+const MANY_IN_FRAME: f64 = 0.7;
 
 /// Range of the vertical field of view of a normal view, degrees: 35 to 60 mm on full frame, which renders rooms and
 /// objects with a natural perspective.
