@@ -15,7 +15,7 @@ use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
 use super::program::{Amount, Framing, Program, Step};
 use super::report;
-use super::safer::{look_around, safer_programs};
+use super::safer::{indoor_programs, safer_programs};
 use super::search::{Candidate, SearchProblem, best_candidates};
 use super::settings::{SolveLevel, SolveSettings};
 use super::sighting::{Sighting, sightings};
@@ -112,11 +112,7 @@ pub fn finalists(
         return solutions;
     }
     // Nobody keeps a film of the outside of a room's walls.
-    let (around, given_up) = look_around(program, prompt);
-    let mut others = solved(&around);
-    others.retain(|solution| solution.is_safe);
-    others.iter_mut().for_each(|solution| solution.report.extend(given_up.iter().cloned()));
-    if others.is_empty() { solutions } else { others }
+    safest(indoor_programs(program, prompt), &solved).unwrap_or(solutions)
 }
 
 /// Solutions that stay in the room and clear of matter: those of the program, or else of one that gives up the words that
@@ -132,15 +128,20 @@ fn safe_solutions(
         asked.retain(|solution| solution.is_safe);
         return asked;
     }
-    for (safer, given_up) in safer_programs(program, prompt) {
-        let mut others = solved(&safer);
+    safest(safer_programs(program, prompt), solved).unwrap_or(asked)
+}
+
+/// The safe solutions of the first program that has some, with the lines of what it gives up.
+fn safest(
+    programs: Vec<(Program, Vec<ReportLine>)>,
+    solved: &dyn Fn(&Program) -> Vec<Solution>,
+) -> Option<Vec<Solution>> {
+    programs.into_iter().find_map(|(program, given_up)| {
+        let mut others = solved(&program);
         others.retain(|solution| solution.is_safe);
-        if !others.is_empty() {
-            others.iter_mut().for_each(|solution| solution.report.extend(given_up.iter().cloned()));
-            return others;
-        }
-    }
-    asked
+        others.iter_mut().for_each(|solution| solution.report.extend(given_up.iter().cloned()));
+        (!others.is_empty()).then_some(others)
+    })
 }
 
 /// The finished film of a candidate: detours, times, keyframes, certificate and report.
