@@ -95,7 +95,8 @@ impl Linked {
         let bearer_at = skip(place + 1, TOP);
         let word = *words.get(bearer_at)?;
         let slot = match word {
-            "it" | "there" => words[..at].iter().rev().find_map(|word| slot_of(word, OBJECT))?,
+            // `Looking down at what is on it` looks down at it.
+            "it" | "there" if !is_what => words[..at].iter().rev().find_map(|word| slot_of(word, OBJECT))?,
             _ => slot_of(word, OBJECT)?,
         };
         let bearer = self.slots.get(slot).copied()?;

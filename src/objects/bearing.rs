@@ -10,7 +10,7 @@ const TOP_FRAC: f64 = 0.08;
 /// Distance of a thing's middle from that of what bears it, over the bearer's half extents, both level.
 const INSIDE: f64 = 1.02;
 /// Height of a thing over that of what bears it from which on the two stand beside each other.
-const MOST_HEIGHT: f64 = 2.5;
+const MOST_HEIGHT: f64 = 4.0;
 
 impl ObjectSet {
     /// The things that stand on an object or in it, by their boxes, in order of id; `up` is the world's up, of length 1.
@@ -69,7 +69,7 @@ fn stands(bearer: &Object, thing: &Object, up: DVec3) -> Option<Where> {
     let level = bearer.rotation.conjugate() * (apart - up * apart.dot(up));
     let is_over = level.abs().cmple(bearer.half_extents * INSIDE + 1e-9).all();
     let is_smaller = thing.half_extents.max_element() < bearer.half_extents.max_element();
-    if !is_over || !is_smaller || height > MOST_HEIGHT * bearer_height.max(height / MOST_HEIGHT / 4.0) {
+    if !is_over || !is_smaller || height > MOST_HEIGHT * bearer_height {
         return None;
     }
     if (foot - top).abs() <= FOOT_FRAC * height + TOP_FRAC * bearer_height {

@@ -134,7 +134,7 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     });
     match (is_flat, world.is_indoor()) {
         (true, _) => (28.0, 42.0),
-        (false, true) if bears => (15.0, 32.0),
+        (false, true) if bears => (12.0, 26.0),
         (false, true) if bottom > 0.85 * eye => (-6.0, 6.0),
         (false, true) if is_level(bottom.midpoint(top)) || (is_thin && is_level(top)) => (-2.0, 8.0),
         (false, true) if top > 0.8 * eye => (1.0, 11.0),

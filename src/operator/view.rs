@@ -159,10 +159,7 @@ fn in_front_of_matter(world: &World, target: &Target, bearing: Bearing, view: Ca
         return view;
     }
     let away = -view.pose.forward();
-    let start = target.corners.iter().map(|c| (*c - target.aim).dot(away)).fold(0.0, f64::max) + world.camera_radius;
-    let distance = view.pose.position.distance(target.aim);
-    let free = world.hit_distance(target.aim + away * start, away).map_or(distance, |free| start + free);
-    let free = free - 2.0 * world.camera_radius;
+    let (start, distance, free) = space_before(world, target, &view);
     let steep = bearing.elevation_rad > STEEP_DEG.to_radians();
     let widest_deg: f64 = if steep { WIDEST_STEEP_DEG } else { WIDEST_DEG };
     let widest = (widest_deg / 2.0).to_radians().tan();
@@ -173,6 +170,16 @@ fn in_front_of_matter(world: &World, target: &Target, bearing: Bearing, view: Ca
     if fits { with_fov(&moved(&view, away * (free - distance)), 2.0 * tan.atan()) } else { view }
 }
 
+/// Distances from a target's aim toward a camera: to before its near side, to the camera, and to where a camera has room
+/// before the first matter on the way.
+fn space_before(world: &World, target: &Target, view: &CameraState) -> (f64, f64, f64) {
+    let away = -view.pose.forward();
+    let start = target.corners.iter().map(|c| (*c - target.aim).dot(away)).fold(0.0, f64::max) + world.camera_radius;
+    let distance = view.pose.position.distance(target.aim);
+    let free = world.hit_distance(target.aim + away * start, away).map_or(distance, |free| start + free);
+    (start, distance, free - 2.0 * world.camera_radius)
+}
+
 /// The view in a room through a stated lens, brought nearer where a wall or furniture is between the camera and its target,
 /// which then is larger in the picture.
 fn before_wall(world: &World, target: &Target, view: CameraState) -> CameraState {
@@ -180,10 +187,7 @@ fn before_wall(world: &World, target: &Target, view: CameraState) -> CameraState
         return view;
     }
     let away = -view.pose.forward();
-    let start = target.corners.iter().map(|c| (*c - target.aim).dot(away)).fold(0.0, f64::max) + world.camera_radius;
-    let distance = view.pose.position.distance(target.aim);
-    let free = world.hit_distance(target.aim + away * start, away).map_or(distance, |free| start + free);
-    let free = free - 2.0 * world.camera_radius;
+    let (start, distance, free) = space_before(world, target, &view);
     if free > LEAST_SPACE * start && free < distance { moved(&view, away * (free - distance)) } else { view }
 }
 

@@ -12,6 +12,8 @@ const FREE: f64 = 0.9;
 const LEVELS: [f64; 3] = [-0.2, 0.3, 0.8];
 /// Size of a thing over the height of a standing person's eyes below which it stands on something and not at a wall.
 const LEAST_SIZE: f64 = 0.3;
+/// Half the length of a thing over that height below which its sides are not told from its box.
+const LEAST_BREADTH: f64 = 0.2;
 
 /// Azimuth of the free side of a thing at a wall, seen from its middle; `None` of one that stands free, in a corner or in a
 /// niche, and out of doors.
@@ -24,7 +26,9 @@ fn found(world: &World, subject: &Subject) -> Option<f64> {
     let [long, short] = subject.level_axes(up);
     let eye = world.eye_height();
     let foot = world.height_above_floor(subject.center) - subject.reach(up);
-    if !world.is_indoor() || subject.radius < LEAST_SIZE * eye || foot > LEAST_SIZE * eye {
+    // A guitar on its stand faces where it was turned to.
+    let is_narrow = long.length() < LEAST_BREADTH * eye;
+    if !world.is_indoor() || is_narrow || subject.radius < LEAST_SIZE * eye || foot > LEAST_SIZE * eye {
         return None;
     }
     let half_height = subject.reach(up);

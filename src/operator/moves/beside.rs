@@ -167,13 +167,12 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let subject = passed(context).filter(|_| context.before.is_none())?;
     let world = context.world;
     let framing = Framing { subjects: context.step.via.as_ref()?.objects.clone(), ..context.opening_framing() };
-    let borne = subject.borne_heights.map(|heights| slab_of(context, subject, heights));
     let target = Target::of(world, &framing)?;
-    let target = borne.map_or(target.clone(), |(aim, corners)| {
-        let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
-        Target { aim, corners, radius, ..target }
-    });
-    let bears = subject.borne_heights.is_some();
+    let fill = stated_fill(&framing, context.parameters[2]);
+    // A stated size is that of the table itself.
+    let borne = subject.borne_heights.filter(|_| fill.is_none());
+    let bears = borne.is_some();
+    let target = if let Some(heights) = borne { things_on(context, subject, heights, target) } else { target };
     let [long, _] = subject.level_axes(world.frame.up);
     let aside = long.cross(world.frame.up).normalize_or_zero();
     let front = world.frame.direction(front_azimuth(world, subject.center));
@@ -181,7 +180,6 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let elevation_deg = lerp(if bears { BORNE_ELEVATION_DEG } else { (0.0, 20.0) }, context.parameters[1]);
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = Bearing { azimuth_rad: world.frame.azimuth(aside), elevation_rad };
-    let fill = stated_fill(&framing, context.parameters[2]);
     let fill_frac = if bears { BORNE_FILL } else { (0.3, 0.7) };
     let fill = fill.unwrap_or_else(|| Fill::Height(lerp(fill_frac, context.parameters[2])));
     let fov_deg = framing.lens.map_or(NORMAL_LENS_DEG, lens_fov_deg);
@@ -204,8 +202,8 @@ const BORNE_FILL: (f64, f64) = (0.5, 0.85);
 /// Depth of a tabletop that belongs to the picture of the things on it, over their height.
 const TABLETOP_DEPTH: f64 = 0.3;
 
-/// The things on a subject as the target of a view: what to aim at, and the corners of the space that they take up.
-fn slab_of(context: &StepContext, subject: &Subject, [surface, top]: [f64; 2]) -> (DVec3, Vec<DVec3>) {
+/// The target of a view of a subject with the space that the things on it take up in place of the subject's own.
+fn things_on(context: &StepContext, subject: &Subject, [surface, top]: [f64; 2], target: Target) -> Target {
     let frame = &context.world.frame;
     let height = (top - surface).max(0.5 * subject.reach(frame.up));
     let at = |point: DVec3, height: f64| point + frame.up * (height - frame.height(point));
@@ -214,7 +212,9 @@ fn slab_of(context: &StepContext, subject: &Subject, [surface, top]: [f64; 2]) -
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
         .iter()
         .flat_map(|(a, b)| heights.map(|height| at(subject.center + long * *a + short * *b, height)));
-    (at(subject.center, heights[0].midpoint(heights[1])), corners.collect())
+    let (aim, corners) = (at(subject.center, heights[0].midpoint(heights[1])), corners.collect::<Vec<_>>());
+    let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
+    Target { aim, corners, radius, ..target }
 }
 
 /// Starts behind an object that hides the subject and slides out from behind it, aimed at the subject. `None` where the
