@@ -94,8 +94,10 @@ fn under_limit(folder: &std::path::Path, kilobytes: usize, line: &str) -> (Optio
 fn a_program_that_barely_starts_ends_with_its_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let info = |kilobytes| under_limit(folder.path(), kilobytes, &format!("info {SMALL_SCENE}"));
-    // Below that, the system's loader ends it, or a library that aborts while it is loaded, or there is no room for a stack.
-    let aborts = |code: Option<i32>, said: &str| code.is_none() && (said.is_empty() || said.contains("GLib"));
+    // Below that, the system's loader ends it, or a library that aborts while it is loaded, or the C library, or there is no
+    // room for a stack.
+    let is_of_library = |said: &str| said.contains("GLib") || said.starts_with("Fatal glibc error");
+    let aborts = |code: Option<i32>, said: &str| code.is_none() && (said.is_empty() || is_of_library(said));
     let starts = |code: Option<i32>, said: &str| code != Some(127) && !aborts(code, said);
     let is_above = |kilobytes: &usize| {
         let (code, said) = info(*kilobytes);
