@@ -82,13 +82,13 @@ impl Linked {
     /// Words for things, for where they are, and a mention of what bears them, or `it` for the mention before.
     fn spelled_out(&self, words: &[&str], at: usize) -> Option<Borne> {
         let is_what =
-            words[at] == "what" && words.get(at + 1).is_some_and(|next| is_listed("'s is stands sits lies", next));
+            words[at] == "what" && words.get(at + 1).is_some_and(|next| is_listed("'s s is stands sits lies", next));
         if !is_listed(THINGS, words[at]) && !is_what && !self.is_unknown_thing(words[at]) {
             return None;
         }
         let skip =
             |from: usize, list: &str| from + words[from..].iter().take_while(|word| is_listed(list, word)).count();
-        let place = skip(at + 1, if is_what { "'s is stands sits lies" } else { BETWEEN });
+        let place = skip(at + 1, if is_what { "'s s is stands sits lies" } else { BETWEEN });
         if !words.get(place).is_some_and(|word| is_listed(WHERE, word)) {
             return None;
         }

@@ -95,7 +95,7 @@ mod tests {
             boxed(5, "lamp over the table", [0.0, 1.8, 0.0], [0.2, 0.2, 0.2]),
             boxed(6, "chair", [1.2, 0.45, 0.0], [0.25, 0.45, 0.25]),
             Object { parent: Some(2), ..boxed(7, "stem", [0.3, 0.85, 0.1], [0.02, 0.1, 0.02]) },
-            boxed(8, "drawer", [0.4, 0.55, 0.0], [0.2, 0.1, 0.3]),
+            boxed(8, "drawer", [0.4, 0.45, 0.0], [0.2, 0.1, 0.3]),
         ];
         ObjectSet { objects, labels: Vec::new() }
     }
