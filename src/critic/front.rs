@@ -78,18 +78,19 @@ const LEAST_SYMMETRY: f64 = 1.06;
 /// itself where none is.
 fn faced(renderer: &Renderer<'_>, subject: &Subject, frame: &LevelFrame, toward: DVec3) -> Result<DVec3, RenderError> {
     let azimuth = frame.azimuth(toward);
-    let [_, seen_area] = seen_from(renderer, subject, toward, frame.up)?;
-    let mut tried = Vec::new();
+    // Turn, symmetry, area and direction of every side; the one without a turn shows the most.
+    let mut sides = Vec::new();
     for turn_deg in (-MOST_TURN_DEG..=MOST_TURN_DEG).step_by(TURN_STEP_DEG) {
         let direction = frame.direction(azimuth + f64::from(turn_deg).to_radians());
         if let Some(picture) = picture_from(renderer, subject, direction, frame.up)? {
             let near = 1.0 - FAR_LOSS * f64::from(turn_deg.abs()) / f64::from(MOST_TURN_DEG);
             let [_, area] = shown(&picture);
-            if area >= LEAST_AREA * seen_area {
-                tried.push((symmetry(&picture) * near, direction));
-            }
+            sides.push((turn_deg, symmetry(&picture) * near, area, direction));
         }
     }
+    let most_area = sides.iter().find(|(turn_deg, ..)| *turn_deg == 0).map_or(0.0, |(_, _, area, _)| *area);
+    let broad = sides.into_iter().filter(|(_, _, area, _)| *area >= LEAST_AREA * most_area);
+    let mut tried: Vec<(f64, DVec3)> = broad.map(|(_, symmetry, _, direction)| (symmetry, direction)).collect();
     tried.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (Some((most, direction)), Some((median, _))) = (tried.first(), tried.get(tried.len() / 2)) else {
         return Ok(toward);

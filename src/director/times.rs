@@ -3,7 +3,7 @@
 //!
 //! Enters: a linked prompt. Leaves: the prompt without them, and their lengths for the steps that are read in it.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::Linked;
 use cinesplat_operator::Framing;
 use cinesplat_trajectory::Move;
 
@@ -90,21 +90,18 @@ fn steps_words(direction: &Direction) -> Option<[usize; 2]> {
 
 /// A list of two or more times that ends a sentence.
 fn list(linked: &Linked, words: &[&str]) -> Option<ListedTimes> {
-    let secs = |word: &str| linked.quantity_at(word).filter(|q| q.kind == QuantityKind::Seconds).map(|q| q.value);
-    let number =
-        |word: &str| secs(word).or_else(|| word.parse::<f64>().ok().filter(|value| (0.1..=120.0).contains(value)));
-    let begins = |at: usize| number(words[at]).is_some() && (at == 0 || BEFORE.contains(&words[at - 1]));
+    let begins = |at: usize| linked.listed_secs_at(words[at]).is_some() && (at == 0 || BEFORE.contains(&words[at - 1]));
     let list_at = |from: usize| {
         let (mut to, mut values) = (from, Vec::new());
         while to < words.len() {
             let links =
                 words[to..].iter().take(2).take_while(|word| !values.is_empty() && LINKS.contains(word)).count();
-            let Some(value) = words.get(to + links).and_then(|word| number(word)) else { break };
+            let Some(value) = words.get(to + links).and_then(|word| linked.listed_secs_at(word)) else { break };
             values.push(value);
             to += links + 1;
         }
         let ends = to == words.len() || BEHIND.contains(&words[to]) && words[to] != ",";
-        let is_timed = to > from && secs(words[to - 1]).is_some();
+        let is_timed = to > from && linked.secs_at(words[to - 1]).is_some();
         (values.len() > 1 && ends && is_timed && values.iter().all(|value| *value > 0.0)).then_some((to, values))
     };
     let (from, (to, values)) = (0..words.len()).filter(|at| begins(*at)).find_map(|at| Some((at, list_at(at)?)))?;

@@ -1,7 +1,7 @@
 //! What stands on a thing, said without names: `the things on the table`, `everything on the shelf`, `the objects on it`.
 
-use super::linked::{Group, Linked, MAX_SLOTS, OBJECT, slot_of};
-use super::mention::FIRST_GROUP;
+use super::linked::{Linked, OBJECT, slot_of};
+use super::mention::Mention;
 use super::tokenizer::{is_listed, tokenize};
 
 /// Words for things of any kind.
@@ -13,6 +13,8 @@ const BEFORE: &str =
 /// Words between them and the word for where they are.
 const BETWEEN: &str = "that which is are 's sitting standing lying resting arranged placed laid set out scattered displayed \
     gathered lined up all right currently there";
+/// Words behind `what`.
+const STANDS: &str = "'s s is stands sits lies";
 /// Words for where they are.
 const WHERE: &str = "on in upon atop across inside over";
 /// Words between that and what bears them.
@@ -81,14 +83,13 @@ impl Linked {
 
     /// Words for things, for where they are, and a mention of what bears them, or `it` for the mention before.
     fn spelled_out(&self, words: &[&str], at: usize) -> Option<Borne> {
-        let is_what =
-            words[at] == "what" && words.get(at + 1).is_some_and(|next| is_listed("'s s is stands sits lies", next));
+        let is_what = words[at] == "what" && words.get(at + 1).is_some_and(|next| is_listed(STANDS, next));
         if !is_listed(THINGS, words[at]) && !is_what && !self.is_unknown_thing(words[at]) {
             return None;
         }
         let skip =
             |from: usize, list: &str| from + words[from..].iter().take_while(|word| is_listed(list, word)).count();
-        let place = skip(at + 1, if is_what { "'s s is stands sits lies" } else { BETWEEN });
+        let place = skip(at + 1, if is_what { STANDS } else { BETWEEN });
         if !words.get(place).is_some_and(|word| is_listed(WHERE, word)) {
             return None;
         }
@@ -111,28 +112,10 @@ impl Linked {
         group.is_some_and(|group| group.name.split_whitespace().last().is_some_and(|name| is_listed(THINGS, name)))
     }
 
-    /// Id of the group of some things, a new one where they are none yet; `bytes` are its words.
-    fn group_named(&mut self, prompt: &str, bytes: [usize; 2], members: Vec<u32>) -> u32 {
-        if let Some(group) = self.groups.iter().find(|group| group.members == members) {
-            return group.id;
-        }
-        let id = FIRST_GROUP + self.groups.len() as u32;
-        let name = prompt.get(bytes[0]..bytes[1]).unwrap_or_default().trim().to_owned();
-        self.groups.push(Group { id, members, name, nearest: Vec::new() });
-        id
-    }
-
-    /// Puts a mention of `members` in the place of some words.
+    /// Puts a mention of `members` in the place of some words; the words stay where the prompt has no slot left.
     fn replace(&mut self, prompt: &str, [from, to]: [usize; 2], members: Vec<u32>) {
         let bytes = [self.spans[from][0], self.spans[to - 1][1]];
-        let id = if let [id] = members[..] { id } else { self.group_named(prompt, bytes, members) };
-        let slot = self.slots.iter().position(|known| *known == id).unwrap_or(self.slots.len());
-        if slot == self.slots.len() {
-            if slot >= MAX_SLOTS {
-                return;
-            }
-            self.slots.push(id);
-        }
+        let Ok(slot) = self.slot_of(&Mention { bytes, ids: members }, prompt) else { return };
         let placeholder = format!("{OBJECT}{slot}>");
         let mut words: Vec<&str> = self.tokens_text.split(' ').collect();
         words.splice(from..to, [placeholder.as_str()]);

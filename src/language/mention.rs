@@ -12,7 +12,7 @@ use super::timeline::timeline;
 use super::tokenizer::{Word, is_listed, span_of, tokenize, word_at};
 
 /// Least id of a group. Objects have ids up to 65,535.
-pub(crate) const FIRST_GROUP: u32 = 1 << 20;
+const FIRST_GROUP: u32 = 1 << 20;
 
 /// A mention of objects in a prompt.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -79,10 +79,9 @@ pub fn link_parts(
             linked.parts.extend(part.map(|part| (span_of(&words[i..i + len]), part)));
             match part.map(|part| part.place) {
                 Some(end @ ("top" | "bottom" | "front" | "back")) => {
-                    ["the", end, "of"].iter().for_each(|word| linked.append(word, &words[i..i + len]));
-                    linked.append(&format!("<obj-{slot}>"), &words[i..i + len]);
+                    linked.append_part(&["the", end, "of"], slot, &words[i..i + len]);
                 }
-                Some(_) => linked.append(&format!("<obj-{slot}>"), &words[i..i + len]),
+                Some(_) => linked.append_part(&[], slot, &words[i..i + len]),
                 None => linked.append_mention(slot, &words[i..i + len], mention.ids.len() == 1),
             }
             i += len;
@@ -144,7 +143,7 @@ fn own_side(words: &[Word]) -> Option<&'static str> {
 
 impl Linked {
     /// The slot of a mention's object or group, a new one at its first mention.
-    fn slot_of(&mut self, mention: &Mention, prompt: &str) -> Result<usize, LanguageError> {
+    pub(crate) fn slot_of(&mut self, mention: &Mention, prompt: &str) -> Result<usize, LanguageError> {
         let id = match mention.ids[..] {
             [id] => id,
             _ => self.group_of(mention, prompt),
@@ -162,8 +161,7 @@ impl Linked {
     /// Appends a mention. The words that name a part of one thing stay, because they say where to look.
     fn append_mention(&mut self, slot: usize, words: &[Word], is_one: bool) {
         if is_one && let Some(side) = own_side(words) {
-            ["the", side, "side", "of"].iter().for_each(|word| self.append(word, words));
-            self.append(&format!("<obj-{slot}>"), words);
+            self.append_part(&["the", side, "side", "of"], slot, words);
             return;
         }
         let before = if is_one { part_before(words) } else { 0 };
@@ -176,6 +174,12 @@ impl Linked {
         }
         self.append(&format!("<obj-{slot}>"), thing);
         part_of_thing.iter().for_each(|word| self.append(&word.text, std::slice::from_ref(word)));
+    }
+
+    /// Appends the words of a part and the thing whose it is, which stand for the words of a mention.
+    fn append_part(&mut self, part: &[&str], slot: usize, words: &[Word]) {
+        part.iter().for_each(|word| self.append(word, words));
+        self.append(&format!("<obj-{slot}>"), words);
     }
 
     /// Id of the group of a mention. Two things that the scene lacks are the same if their words are.

@@ -1,10 +1,13 @@
 //! A part of a linked prompt as a prompt of its own.
 
 use super::linked::{Linked, OBJECT, QUANTITY, slot_of};
-use super::quantity::Quantity;
+use super::quantity::{Quantity, QuantityKind};
 
 /// Pronouns that stand for the subject of the part before.
 const PRONOUNS: [&str; 5] = ["it", "them", "that", "this", "those"];
+
+/// Bare numbers that are times in a list of times, seconds.
+const LISTED_SECS: std::ops::RangeInclusive<f64> = 0.1..=120.0;
 
 impl Linked {
     /// The words that begin in `bytes`, with their objects and quantities numbered anew. In a part that names no
@@ -86,6 +89,18 @@ impl Linked {
     /// The quantity that a placeholder stands for.
     pub fn quantity_at(&self, word: &str) -> Option<Quantity> {
         self.quantities.get(slot_of(word, QUANTITY)?).copied()
+    }
+
+    /// The seconds that a placeholder stands for.
+    pub fn secs_at(&self, word: &str) -> Option<f64> {
+        let quantity = self.quantity_at(word).filter(|quantity| quantity.kind == QuantityKind::Seconds)?;
+        Some(quantity.value)
+    }
+
+    /// The seconds that a word of a list of times says, where a bare number is one, too.
+    pub fn listed_secs_at(&self, word: &str) -> Option<f64> {
+        let number = || word.parse().ok().filter(|value| LISTED_SECS.contains(value));
+        self.secs_at(word).or_else(number)
     }
 
     /// The id that stands for some objects: that of an object, or of a group that the prompt names.

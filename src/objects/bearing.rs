@@ -17,9 +17,7 @@ impl ObjectSet {
     /// Parts of the object and parts of other things are none.
     pub fn things_on(&self, id: u32, up: DVec3) -> Vec<u32> {
         let Some(bearer) = self.get(id) else { return Vec::new() };
-        let is_borne =
-            |thing: &&Object| thing.parent.is_none() && thing.id != id && stands(bearer, thing, up).is_some();
-        self.objects.iter().filter(is_borne).map(|thing| thing.id).collect()
+        self.borne(bearer, up).map(|(thing, _)| thing.id).collect()
     }
 
     /// Heights along up of the surface on which things stand that are on an object, and of the highest of them, scene
@@ -27,13 +25,17 @@ impl ObjectSet {
     /// length 1.
     pub fn borne_heights(&self, id: u32, up: DVec3) -> Option<[f64; 2]> {
         let bearer = self.get(id)?;
-        let is_on_top = |thing: &&Object| {
-            thing.parent.is_none() && thing.id != id && stands(bearer, thing, up) == Some(Where::OnTop)
-        };
-        let heights: Vec<[f64; 2]> = self.objects.iter().filter(is_on_top).map(|thing| extent(thing, up)).collect();
+        let on_top = self.borne(bearer, up).filter(|(_, place)| *place == Where::OnTop);
+        let heights: Vec<[f64; 2]> = on_top.map(|(thing, _)| extent(thing, up)).collect();
         let foot = heights.iter().map(|[foot, _]| foot).sum::<f64>() / heights.len() as f64;
         let top = heights.iter().map(|[_, top]| *top).fold(foot, f64::max);
         (!heights.is_empty()).then_some([foot, top])
+    }
+
+    /// The things that stand on or in an object, and where; no parts.
+    fn borne<'a>(&'a self, bearer: &'a Object, up: DVec3) -> impl Iterator<Item = (&'a Object, Where)> {
+        let things = self.objects.iter().filter(|thing| thing.parent.is_none() && thing.id != bearer.id);
+        things.filter_map(move |thing| Some((thing, stands(bearer, thing, up)?)))
     }
 
     /// The thing on which another one stands, the smallest of several. `up` is the world's up, of length 1.

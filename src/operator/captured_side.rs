@@ -3,8 +3,8 @@
 
 use cinesplat_geometry::rotation;
 
-use super::constraint::{Constraint, ConstraintKind};
-use super::world::World;
+use super::constraint::Constraint;
+use super::world::{Subject, World};
 use cinesplat_trajectory::CameraState;
 
 /// Share of a subject's surface that faces the camera below which its captured side faces away. A closed thing shows
@@ -31,8 +31,7 @@ const EDGE_COST: f64 = 1.6;
 /// Cost of cameras that see a flat subject edge-on, where it has to be visible: a picture on a wall from beside it.
 fn edge_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let edge_of = |constraint: &Constraint| {
-        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
-        let Some(subject) = world.subject(id) else { return 0.0 };
+        let Some(subject) = constraint.shown(world) else { return 0.0 };
         let picked = constraint.scope.of(ends);
         let breadth = |state: &CameraState| subject.facets.breadth(subject.center, state.pose.position, world.frame.up);
         let lack = picked.iter().filter_map(breadth).map(|breadth| (1.0 - breadth / LEAST_BREADTH).max(0.0));
@@ -44,8 +43,7 @@ fn edge_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) ->
 /// Cost of cameras that see a subject, where it has to be visible, from the side that was not captured.
 fn back_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let front_of = |constraint: &Constraint| {
-        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 1.0 };
-        let Some(subject) = world.subject(id) else { return 1.0 };
+        let Some(subject) = constraint.shown(world) else { return 1.0 };
         let picked = constraint.scope.of(ends).iter();
         picked.filter_map(|state| subject.facets.front_frac(state.pose.position)).fold(1.0, f64::min)
     };
@@ -55,12 +53,8 @@ fn back_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) ->
 
 /// Cost of showing a thing that has a front from elsewhere: nothing else tells which side to show.
 fn off_front_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
-    let front = constraints.iter().find_map(|constraint| match constraint.kind {
-        ConstraintKind::Unoccluded(id, _) => {
-            world.subject(id).and_then(|subject| Some((subject.center, subject.front_rad?)))
-        }
-        _ => None,
-    });
+    let faced = |subject: &Subject| Some((subject.center, subject.front_rad?));
+    let front = constraints.iter().find_map(|constraint| constraint.shown(world).and_then(faced));
     let Some((center, front_rad)) = front else { return 0.0 };
     let off = |state: &CameraState| {
         let azimuth = world.frame.azimuth(state.pose.position - center);

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::framing::Target;
 use super::program::{FramePlace, Motion, Pass, SubjectSide};
+use super::world::{Subject, World};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 /// A constraint on the frames of a segment.
@@ -100,6 +101,14 @@ pub(super) enum ConstraintKind {
     Also(Move, DVec3),
     /// The segment does not contain a motion. The report lists it once for the whole film.
     Without(Motion),
+}
+
+impl Constraint {
+    /// The subject that has to be visible, if that is the requirement.
+    pub(super) fn shown<'a>(&self, world: &'a World) -> Option<&'a Subject> {
+        let ConstraintKind::Unoccluded(id, _) = self.kind else { return None };
+        world.subject(id)
+    }
 }
 
 /// Distance from a place of the frame that counts as there, over the frame's width and height.

@@ -47,10 +47,8 @@ fn slide_turn_cost(world: &World, segment: &MotionSegment, states: &[CameraState
     if segment.movement != Move::Follow || segment.is_join {
         return 0.0;
     }
-    let goal = segment.constraints.iter().find_map(|constraint| match constraint.kind {
-        ConstraintKind::Unoccluded(id, _) if constraint.scope == Scope::End => world.subject(id),
-        _ => None,
-    });
+    let mut at_end = segment.constraints.iter().filter(|constraint| constraint.scope == Scope::End);
+    let goal = at_end.find_map(|constraint| constraint.shown(world));
     let Some(goal) = goal.filter(|goal| goal.bearer.is_some()) else { return 0.0 };
     let (first, last) = (&states[0], &states[states.len() - 1]);
     let beside = |subject: &Subject| {
@@ -80,8 +78,7 @@ fn off_wall_side_cost(world: &World, segment: &MotionSegment, states: &[CameraSt
         return 0.0;
     }
     let off = |constraint: &Constraint| {
-        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
-        let Some(subject) = world.subject(id) else { return 0.0 };
+        let Some(subject) = constraint.shown(world) else { return 0.0 };
         let Some(front_rad) = wall_side(world, subject) else { return 0.0 };
         let beside = |state: &CameraState| {
             let azimuth = world.frame.azimuth(state.pose.position - subject.center);
@@ -109,8 +106,7 @@ fn askew_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
         return 0.0;
     }
     let askew = |constraint: &Constraint| {
-        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
-        let Some(subject) = world.subject(id) else { return 0.0 };
+        let Some(subject) = constraint.shown(world) else { return 0.0 };
         let [long, short] = subject.level_axes(world.frame.up);
         let along = world.frame.horizontal(last.pose.right()).normalize_or_zero().dot(long.normalize_or_zero()).abs();
         let off_rad = along.clamp(0.0, 1.0).acos().min(along.clamp(0.0, 1.0).asin());

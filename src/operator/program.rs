@@ -147,6 +147,11 @@ impl Step {
         }
     }
 
+    /// A turn over the place, in either direction.
+    pub fn look_around() -> Self {
+        Self { either_way: true, ..Self::of(Move::PanRight) }
+    }
+
     /// A step of one move, with everything else unspecified.
     pub fn of(movement: Move) -> Self {
         Self {

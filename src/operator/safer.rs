@@ -21,14 +21,18 @@ pub(super) fn safer_programs(program: &Program, prompt: &str) -> Vec<(Program, V
     let (mut safer, mut lines) = (program.clone(), Vec::new());
     let mut tries = Vec::new();
     for way in ways {
-        let given_up: Vec<ReportLine> =
-            safer.steps.iter_mut().filter_map(|step| way(step).map(|what| line(prompt, step, what))).collect();
+        let given_up = give_up(&mut safer, prompt, way);
         if !given_up.is_empty() {
             lines.extend(given_up);
             tries.push((safer.clone(), lines.clone()));
         }
     }
     tries
+}
+
+/// Gives up some words of every step that has them; the lines of what.
+fn give_up(program: &mut Program, prompt: &str, way: &GiveUp) -> Vec<ReportLine> {
+    program.steps.iter_mut().filter_map(|step| way(step).map(|what| line(prompt, step, what))).collect()
 }
 
 /// Gives up the sides, heights and distances from which a step sees its subjects.
@@ -77,17 +81,14 @@ fn show_first(step: &mut Step) -> Option<&'static str> {
 /// up: the first of several things, and then a look around the room.
 pub(super) fn indoor_programs(program: &Program, prompt: &str) -> Vec<(Program, Vec<ReportLine>)> {
     let mut single = program.clone();
-    let steps = single.steps.iter_mut();
-    let lines: Vec<ReportLine> =
-        steps.filter_map(|step| show_first(step).map(|what| line(prompt, step, what))).collect();
+    let lines = give_up(&mut single, prompt, &show_first);
     let single = (!lines.is_empty()).then_some((single, lines));
     single.into_iter().chain([look_around(program, prompt)]).collect()
 }
 
 fn look_around(program: &Program, prompt: &str) -> (Program, Vec<ReportLine>) {
     let lines = program.steps.iter().map(|step| line(prompt, step, "a camera in the room")).collect();
-    let turn = Step { either_way: true, ..Step::of(Move::PanRight) };
-    (Program { steps: vec![turn], duration_secs: program.duration_secs, ..Program::default() }, lines)
+    (Program { steps: vec![Step::look_around()], duration_secs: program.duration_secs, ..Program::default() }, lines)
 }
 
 fn line(prompt: &str, step: &Step, what: &str) -> ReportLine {

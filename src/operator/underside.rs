@@ -1,6 +1,6 @@
 //! Cameras below what things stand on: of a table nobody wants to see the underside.
 
-use super::constraint::{Constraint, ConstraintKind};
+use super::constraint::Constraint;
 use super::pictures::asks_low;
 use super::world::World;
 use cinesplat_trajectory::CameraState;
@@ -18,8 +18,7 @@ pub(super) fn underside_cost(world: &World, constraints: &[Constraint], states: 
     }
     let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
     let below = |constraint: &Constraint| {
-        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
-        let Some(subject) = world.subject(id) else { return 0.0 };
+        let Some(subject) = constraint.shown(world) else { return 0.0 };
         let Some([surface, _]) = subject.borne_heights else { return 0.0 };
         let lack = |state: &CameraState| {
             let eye = state.pose.position;

@@ -135,7 +135,8 @@ pub fn direct(
     let mut times = PhaseTimes::default();
     let (mut linked, objects) =
         times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects))?;
-    linked.name_what_stands(prompt, &|id| objects.things_on(id, scene.up.normalize_or_zero()));
+    let up = scene.up.normalize_or_zero();
+    linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();
     let context =
@@ -143,7 +144,7 @@ pub fn direct(
     let Reading { linked, mut direction, effects, problems } =
         times.measure(Phase::Direct, || read(prompt, linked, interpreter, &context))?;
     refuse_missing(&linked, &direction)?;
-    level_with_things(&mut direction.program, &objects, scene.up.normalize_or_zero());
+    level_with_things(&mut direction.program, &objects, up);
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }

@@ -4,49 +4,14 @@
 //! words state. A timeline (`0-3s wide on the table, 3-6s the lamp close`) lists pictures by their times: an entry that
 //! is read as a picture is one to show, at first a still one, and then one to which the camera travels.
 
-use cinesplat_language::{Beat, Timeline};
+use cinesplat_language::{Beat, Timeline, is_listed};
 use cinesplat_operator::{Framing, Program, Step};
 use cinesplat_trajectory::Move;
 
 /// Words of an entry of a timeline that holds a picture.
-const HOLDS: [&str; 36] = [
-    "sit",
-    "sits",
-    "park",
-    "parked",
-    "motionless",
-    "unmoving",
-    "hold",
-    "holds",
-    "holding",
-    "freeze",
-    "freezes",
-    "frozen",
-    "stay",
-    "stays",
-    "staying",
-    "still",
-    "static",
-    "lock",
-    "locked",
-    "pause",
-    "pauses",
-    "wait",
-    "waits",
-    "rest",
-    "rests",
-    "land",
-    "lands",
-    "settle",
-    "settles",
-    "stop",
-    "stops",
-    "keep",
-    "keeps",
-    "remain",
-    "linger",
-    "lingers",
-];
+const HOLDS: &str = "sit sits park parked motionless unmoving hold holds holding freeze freezes frozen stay stays staying \
+    still static lock locked pause pauses wait waits rest rests land lands settle settles stop stops \
+    keep keeps remain linger lingers";
 
 /// Corrects a program by what the words of its steps state. Says for each step whether it stays: a picture that several
 /// steps describe is one step.
@@ -133,5 +98,5 @@ fn show(step: &mut Step, others: &[Framing], travels: bool, secs: Option<f64>) {
 
 fn holds(text: &str) -> bool {
     let text = text.to_lowercase();
-    text.split(|c: char| !c.is_alphanumeric()).any(|word| HOLDS.contains(&word))
+    text.split(|c: char| !c.is_alphanumeric()).any(|word| is_listed(HOLDS, word))
 }

@@ -89,7 +89,8 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     if !is_loose || linked.timeline.is_some() || is_measured || !is_brief(&said(linked, &words)) {
         return;
     }
-    let subjects = without_parts(subjects(linked, &words), objects);
+    let denied = denied(linked, &words);
+    let subjects = without_parts(subjects(linked, &words, &denied), objects);
     let has = |list: &str| words.iter().any(|word| is_listed(list, word));
     let (missing, subjects): (Vec<u32>, Vec<u32>) = subjects.iter().partition(|id| linked.missing(**id).is_some());
     // `I scanned the flat before I gave the keys back` is about the flat; what else is missing cannot be filmed.
@@ -97,7 +98,7 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
         return;
     }
     let of_place = has(PLACES) && (subjects.is_empty() || has(SPACES));
-    let mut steps = if of_place || subjects.is_empty() { vec![look_about()] } else { about(&subjects, &words) };
+    let mut steps = if of_place || subjects.is_empty() { vec![Step::look_around()] } else { about(&subjects, &words) };
     // The same move, of which the network may have read more.
     if let ([read], [brief]) = (&direction.program.steps[..], &steps[..])
         && read.movement == brief.movement
@@ -112,10 +113,9 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     };
     let from = direction.program.steps.iter().filter_map(|step| step.words).map(|[from, _]| from).min();
     let to = direction.program.steps.iter().filter_map(|step| step.words).map(|[_, to]| to).max();
-    let avoid = denied(linked, &words);
     for step in &mut steps {
         (step.speed, step.words) = (speed, from.zip(to).map(|(from, to)| [from, to]));
-        step.avoid.extend(avoid.iter().filter(|id| !subjects.contains(id)));
+        step.avoid.extend(denied.iter().filter(|id| !subjects.contains(id)));
     }
     let certainty = |step: &Step| StepCertainty {
         probability: OPEN_PROBABILITY,
@@ -161,8 +161,8 @@ fn is_brief(words: &[&str]) -> bool {
     words.len() >= FEWEST_WORDS && !(0..words.len()).any(is_camera)
 }
 
-/// What a brief is about, in order of mention: the thing that it calls the hero, or else all that it names.
-fn subjects(linked: &Linked, words: &[&str]) -> Vec<u32> {
+/// What a brief is about, in order of mention: the thing that it calls the hero, or else all that it names but what is `denied`.
+fn subjects(linked: &Linked, words: &[&str], denied: &[u32]) -> Vec<u32> {
     let sentences = words.split(|word| SENTENCE_ENDS.contains(word) || *word == ",");
     let named = |words: &[&str]| -> Vec<u32> {
         let slots: Vec<u32> = words.iter().filter_map(|word| linked.slot_at(word)).collect();
@@ -170,7 +170,6 @@ fn subjects(linked: &Linked, words: &[&str]) -> Vec<u32> {
     };
     let is_hero = |words: &&[&str]| words.iter().any(|word| is_listed(HEROES, word)) && !named(words).is_empty();
     let heroes = sentences.clone().find(is_hero).map(named);
-    let denied = denied(linked, words);
     let mut all = heroes.unwrap_or_else(|| named(words));
     all.retain(|id| !denied.contains(id));
     all
@@ -219,11 +218,6 @@ fn about(subjects: &[u32], words: &[&str]) -> Vec<Step> {
         }
         [] => Vec::new(),
     }
-}
-
-/// A slow look over the place.
-fn look_about() -> Step {
-    Step { either_way: true, ..Step::of(Move::PanRight) }
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::{Amount, Framing, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
-use super::directions::is_form;
+use super::directions::{is_form, place_behind, says_any};
+use super::small_moves::pan_as_said;
 use crate::direction::Direction;
 
 /// Verbs of a camera that goes up or down itself.
@@ -26,7 +27,7 @@ const TRAVELS: [&str; 17] = [
 /// Gives the steps the moves that their verbs carry, and shows what they were read to pass or to be seen from.
 pub(crate) fn carry_as_said(linked: &Linked, steps: &mut [Step]) {
     carry_tilts(linked, steps);
-    pan_as_said(linked, steps);
+    pan_to_things(linked, steps);
     rest_on_source(linked, steps);
     reveal_passed(steps);
 }
@@ -50,12 +51,11 @@ fn carry_tilts(linked: &Linked, steps: &mut [Step]) {
 /// Whether a verb at word `at` carries the camera one of the ways.
 fn carries(words: &[&str], at: usize, ways: &[&str]) -> bool {
     let is_verb = CARRIES.iter().any(|verb| is_form(words[at], verb));
-    let num_between = words[at + 1..].iter().take(3).take_while(|word| BETWEEN.contains(word)).count();
-    is_verb && words.get(at + 1 + num_between).is_some_and(|word| ways.contains(word))
+    is_verb && words.get(place_behind(words, at, &BETWEEN)).is_some_and(|word| ways.contains(word))
 }
 
 /// Turns on the spot where the words pan to a thing and travel nowhere.
-fn pan_as_said(linked: &Linked, steps: &mut [Step]) {
+fn pan_to_things(linked: &Linked, steps: &mut [Step]) {
     let travels = |step: &Step| matches!(step.movement, Move::Follow | Move::TruckLeft | Move::TruckRight);
     for step in steps.iter_mut().filter(|step| travels(step) && step.via.is_none() && step.with.is_empty()) {
         let words = linked.texts_in(step.words.unwrap_or_default());
@@ -64,9 +64,7 @@ fn pan_as_said(linked: &Linked, steps: &mut [Step]) {
         let is_let = |at: usize| at > 0 && is_form(words[at - 1], "let");
         let goes = (0..words.len()).any(|at| !is_let(at) && TRAVELS.iter().any(|verb| is_form(words[at], verb)));
         if pans && !goes && !step.end.subjects.is_empty() {
-            let is_left = words.contains(&"left");
-            step.either_way = !is_left && !words.contains(&"right");
-            step.movement = if is_left { Move::PanLeft } else { Move::PanRight };
+            pan_as_said(step, &words);
         }
     }
 }
@@ -78,7 +76,7 @@ fn rest_on_source(linked: &Linked, steps: &mut [Step]) {
         let is_source = step.via.as_ref().is_some_and(|via| via.how == Pass::From);
         let says_place = words.iter().any(|word| is_listed("from behind over at by beside near stand", word));
         if is_source && !says_place {
-            step.end.subjects = step.via.take().map(|via| via.objects).unwrap_or_default();
+            show_passed(step);
         }
     }
 }
@@ -88,9 +86,12 @@ fn reveal_passed(steps: &mut [Step]) {
     let shows_nothing = |step: &&mut Step| {
         step.movement == Move::Reveal && step.start.subjects.is_empty() && step.end.subjects.is_empty()
     };
-    for step in steps.iter_mut().filter(shows_nothing) {
-        step.end.subjects = step.via.take().map(|via| via.objects).unwrap_or_default();
-    }
+    steps.iter_mut().filter(shows_nothing).for_each(show_passed);
+}
+
+/// Ends a step on what it passes instead of passing it.
+fn show_passed(step: &mut Step) {
+    step.end.subjects = step.via.take().map(|via| via.objects).unwrap_or_default();
 }
 
 /// Phrases of all sides of a thing.
@@ -113,7 +114,7 @@ const UNSURE: f64 = 0.5;
 pub(crate) fn show_all_sides(linked: &Linked, direction: &mut Direction) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
     let is_sure = direction.certainty.iter().any(|step| step.probability >= UNSURE);
-    let says = (0..words.len()).any(|at| ALL_SIDES.iter().any(|said| words[at..].starts_with(said)));
+    let says = says_any(&words, &ALL_SIDES);
     if let [step] = &mut direction.program.steps[..]
         && step.movement == Move::Static
         && step.with.is_empty()

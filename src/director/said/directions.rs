@@ -195,6 +195,16 @@ pub(crate) fn is_form(word: &str, verb: &str) -> bool {
         && !word.ends_with("ss")
 }
 
+/// The word behind a verb at word `at`, of up to three words between them.
+pub(super) fn place_behind(words: &[&str], at: usize, between: &[&str]) -> usize {
+    at + 1 + words[at + 1..].iter().take(3).take_while(|word| between.contains(word)).count()
+}
+
+/// Whether some words in a row are one of the phrases.
+pub(super) fn says_any(words: &[&str], phrases: &[&[&str]]) -> bool {
+    (0..words.len()).any(|at| phrases.iter().any(|phrase| words[at..].starts_with(phrase)))
+}
+
 /// Verbs of a family of moves, and its moves by direction.
 type Family = (&'static [&'static str], [(&'static str, Move); 2]);
 

@@ -61,27 +61,24 @@ pub(crate) fn show_whole(linked: &Linked, steps: &mut [Step]) {
         let shows = matches!(step.movement, Move::Static | Move::PushIn | Move::ZoomIn | Move::Reveal) || widens(step);
         let subjects = linked.expanded(&step.end.subjects);
         let [from, to] = step.words.filter(|_| shows).unwrap_or_default();
-        let is_whole = |(word, span): (&str, [usize; 2])| {
-            let id = linked.slot_at(word).filter(|_| linked.wholes.contains(&span));
-            id.is_some_and(|id| linked.expanded(&[id]) == subjects)
+        // Whether the words call some things whole.
+        let are_whole = |ids: &[u32]| {
+            linked.words_in([from, to]).any(|(word, span)| {
+                let id = linked.slot_at(word).filter(|_| linked.wholes.contains(&span));
+                id.is_some_and(|id| linked.expanded(&[id]) == ids)
+            })
         };
         // A way in begins with the whole of its subject.
         let nears = matches!(step.movement, Move::PushIn | Move::ZoomIn) && step.start.subjects == step.end.subjects;
-        let mut words = linked.words_in([from, to]);
         let framing = if nears { &mut step.start } else { &mut step.end };
         let is_open = framing.size.is_none() && framing.height_frac.is_none() && !framing.hidden;
-        if is_open && words.any(is_whole) {
+        if is_open && are_whole(&subjects) {
             framing.whole = true;
         }
         // `Start with the full sideboard in view, then move in on the vase`.
         let first = linked.expanded(&step.start.subjects);
-        let mut words = linked.words_in([from, to]);
-        let is_first_whole = |(word, span): (&str, [usize; 2])| {
-            let id = linked.slot_at(word).filter(|_| linked.wholes.contains(&span));
-            id.is_some_and(|id| linked.expanded(&[id]) == first)
-        };
         let is_open = step.start.size.is_none() && step.start.height_frac.is_none() && !step.start.hidden;
-        if is_open && !first.is_empty() && first != subjects && words.any(is_first_whole) {
+        if is_open && !first.is_empty() && first != subjects && are_whole(&first) {
             step.start.whole = true;
         }
     }

@@ -64,12 +64,7 @@ pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
         return;
     }
     let zooms = words.iter().any(|word| is_form(word, "zoom") || *word == "lens");
-    let mut shown: Vec<u32> = Vec::new();
-    for step in &mut program.steps {
-        let own = linked.texts_in(step.words.unwrap_or_default());
-        turn_instead(step, &shown, zooms, &own);
-        shown.clone_from(if step.end.subjects.is_empty() { &step.start.subjects } else { &step.end.subjects });
-    }
+    turn_steps(linked, &mut program.steps, zooms, |_| true);
     if !program.steps.iter().any(travels) && !program.forbidden.contains(&Motion::Travel) {
         program.forbidden.push(Motion::Travel);
         program.forbidden.sort_unstable();
@@ -78,17 +73,24 @@ pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
 
 /// Turns what would travel in steps that are said to turn on the spot: `rotate in place from the vase to the chair`.
 pub(crate) fn turn_in_place(linked: &Linked, steps: &mut [Step]) {
-    let mut shown: Vec<u32> = Vec::new();
-    for step in steps {
-        let words = linked.texts_in(step.words.unwrap_or_default());
+    turn_steps(linked, steps, false, |words| {
         let is_place =
             |at: usize| words[at..].starts_with(&["in", "place"]) || words[at..].starts_with(&["on", "the", "spot"]);
         let turns = |at: usize| {
             let before = words[at.saturating_sub(3)..at].iter();
             is_place(at) && before.into_iter().any(|word| TURNS.iter().any(|verb| is_form(word, verb)))
         };
-        if (0..words.len()).any(turns) {
-            turn_instead(step, &shown, false, &words);
+        (0..words.len()).any(turns)
+    });
+}
+
+/// Turns what would travel in the steps whose words ask for it; `zooms` says that the words of the film do.
+fn turn_steps(linked: &Linked, steps: &mut [Step], zooms: bool, is_asked: impl Fn(&[&str]) -> bool) {
+    let mut shown: Vec<u32> = Vec::new();
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        if is_asked(&words) {
+            turn_instead(step, &shown, zooms, &words);
         }
         shown.clone_from(if step.end.subjects.is_empty() { &step.start.subjects } else { &step.end.subjects });
     }

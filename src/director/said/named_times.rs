@@ -1,6 +1,6 @@
 //! Times of moves by their names: `5 seconds for the arc, 3 for the push`, `the pan takes 4 seconds and the zoom 2`.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::Linked;
 use cinesplat_operator::{Program, Speed};
 
 use super::bans::SENTENCE_ENDS;
@@ -58,10 +58,7 @@ pub(crate) fn merge_named_speeds(linked: &Linked, direction: &mut Direction) {
 
 /// The names of moves in a sentence and their times. A bare number behind a time of another move is one, too.
 fn timed_moves<'a>(linked: &Linked, words: &[&'a str]) -> Vec<(&'a str, f64)> {
-    let secs = |word: &str| linked.quantity_at(word).filter(|q| q.kind == QuantityKind::Seconds).map(|q| q.value);
-    let value =
-        |word: &str| secs(word).or_else(|| word.parse::<f64>().ok().filter(|value| (0.1..=120.0).contains(value)));
-    let is_timed = words.iter().any(|word| secs(word).is_some());
+    let is_timed = words.iter().any(|word| linked.secs_at(word).is_some());
     let is_plain = |word: &&&str| word.starts_with(char::is_alphabetic) || word.starts_with("<obj-");
     let named = |at: usize| {
         let behind = words
@@ -80,7 +77,7 @@ fn timed_moves<'a>(linked: &Linked, words: &[&'a str]) -> Vec<(&'a str, f64)> {
         behind.unwrap_or_else(before)
     };
     let times = words.iter().enumerate().filter(|_| is_timed);
-    times.filter_map(|(at, word)| Some((named(at)?, value(word)?))).collect()
+    times.filter_map(|(at, word)| Some((named(at)?, linked.listed_secs_at(word)?))).collect()
 }
 
 #[cfg(test)]

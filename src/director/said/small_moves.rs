@@ -5,7 +5,7 @@ use cinesplat_language::Linked;
 use cinesplat_operator::{Amount, Step};
 use cinesplat_trajectory::Move;
 
-use super::directions::{CORRECTIONS, PLACES, is_form};
+use super::directions::{CORRECTIONS, PLACES, is_form, place_behind, says_any};
 
 /// Verbs of a camera that goes somewhere, and words between them and where.
 const GOES: [&str; 11] =
@@ -52,8 +52,7 @@ pub(crate) fn move_rests(linked: &Linked, steps: &mut [Step]) {
 /// The way that a verb at word `at` leads.
 fn way_at(words: &[&str], at: usize) -> Option<Move> {
     let is_verb = GOES.iter().any(|verb| is_form(words[at], verb));
-    let num_between = words[at + 1..].iter().take(3).take_while(|word| BETWEEN.contains(word)).count();
-    let place = at + 1 + num_between;
+    let place = place_behind(words, at, &BETWEEN);
     let next = words.get(place + 1).copied().unwrap_or_default();
     // `Going up` is a rise, `go up to the door` a way.
     let goes_on = next.starts_with(|c: char| c == '<' || c.is_alphabetic());
@@ -73,13 +72,18 @@ pub(crate) fn turn_only(linked: &Linked, steps: &mut [Step]) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let behind = linked.words_in([step.words.unwrap_or_default()[1], usize::MAX]).map(|(word, _)| word);
         let near: Vec<&str> = words.iter().copied().chain(behind.take(4)).collect();
-        if (0..near.len()).any(|at| PANS.iter().any(|said| near[at..].starts_with(said))) {
-            let is_left = words.contains(&"left");
-            step.either_way = !is_left && !words.contains(&"right");
-            step.movement = if is_left { Move::PanLeft } else { Move::PanRight };
+        if says_any(&near, &PANS) {
+            pan_as_said(step, &words);
             step.with.clear();
         }
     }
+}
+
+/// Makes a step a pan in the direction that its words say, or in any where they say none.
+pub(super) fn pan_as_said(step: &mut Step, words: &[&str]) {
+    let is_left = words.contains(&"left");
+    step.either_way = !is_left && !words.contains(&"right");
+    step.movement = if is_left { Move::PanLeft } else { Move::PanRight };
 }
 
 #[cfg(test)]

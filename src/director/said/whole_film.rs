@@ -6,6 +6,7 @@ use cinesplat_operator::{Framing, Program, Speed, Step};
 use cinesplat_trajectory::Move;
 
 use super::bans::SENTENCE_ENDS;
+use super::directions::says_any;
 
 /// Words that limit a ban to a moment.
 const MOMENTS: [&str; 11] =
@@ -160,7 +161,7 @@ fn crawls(words: &[&str]) -> bool {
             || sentence
                 .windows(2)
                 .any(|pair| matches!(pair, ["whole", "thing" | "film" | "way" | "time"] | ["all", "of"]));
-        is_of_all && (0..sentence.len()).any(|at| CRAWLS.iter().any(|said| sentence[at..].starts_with(said)))
+        is_of_all && says_any(sentence, &CRAWLS)
     })
 }
 
