@@ -92,6 +92,16 @@ impl Linked {
         self.words_in(bytes).map(|(word, _)| word).collect()
     }
 
+    /// The words of the sentence in which some bytes begin, with the mark that ends it.
+    pub fn sentence_of(&self, bytes: [usize; 2]) -> Vec<&str> {
+        let words: Vec<(&str, [usize; 2])> = self.words_in([0, usize::MAX]).collect();
+        let ends = |(word, _): &(&str, [usize; 2])| matches!(*word, "." | "!" | "?" | ";");
+        let at = words.iter().position(|(_, span)| span[0] >= bytes[0]).unwrap_or(words.len());
+        let from = words[..at].iter().rposition(ends).map_or(0, |mark| mark + 1);
+        let to = words[at..].iter().position(ends).map_or(words.len(), |mark| at + mark + 1);
+        words[from..to].iter().map(|(word, _)| *word).collect()
+    }
+
     /// `ids` with each group replaced by its members, each once. A group without members stays.
     pub fn expanded(&self, ids: &[u32]) -> Vec<u32> {
         let mut out: Vec<u32> = Vec::new();

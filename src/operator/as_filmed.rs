@@ -1,14 +1,29 @@
 //! A program as a camera operator takes it: the same steps, put so that each is filmed as its words mean it.
 
 use cinesplat_trajectory::Move;
+use glam::DVec3;
 
 use crate::program::{Framing, Look, Pass, Program, Step, Via};
+use crate::world::World;
 
 /// The program with the move first where a step says `handheld` before it, with flights that set out from a thing at
-/// that thing, and with slides from thing to thing that look where they go.
-pub(super) fn as_filmed(program: &Program) -> Program {
+/// that thing, with ways in through a door that nothing lies behind as ways from the door, with flights over things to
+/// what the next step shows, and with slides from thing to thing that look where they go.
+pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
     let mut filmed = program.clone();
+    let next_ends: Vec<Option<Vec<u32>>> = program.steps.iter().skip(1).map(leads_to).collect();
     for (nth, step) in filmed.steps.iter_mut().enumerate() {
+        if let Some(Some(ids)) = next_ends.get(nth).filter(|_| flies_openly(step)) {
+            step.end.subjects.clone_from(ids);
+        }
+        if (nth == 0 || step.cut) && enters(world, step) {
+            if let Some(via) = &mut step.via {
+                via.how = Pass::From;
+            }
+            if step.end.subjects.is_empty() {
+                step.movement = Move::PushIn;
+            }
+        }
         if sways_first(step) {
             // The sway takes its time from the move.
             step.movement = step.with.remove(0);
@@ -25,6 +40,37 @@ pub(super) fn as_filmed(program: &Program) -> Program {
         }
     }
     filmed
+}
+
+/// What a step goes on to, where it begins with the picture that the step before leaves.
+fn leads_to(step: &Step) -> Option<Vec<u32>> {
+    let goes_on = !step.cut && step.start == Framing::default() && !step.end.subjects.is_empty();
+    goes_on.then(|| step.end.subjects.clone())
+}
+
+/// Whether a step flies over or between things and names nothing beyond them: `drift over the fruit and set down by the
+/// teapot` looks at the teapot as soon as the fruit is passed.
+fn flies_openly(step: &Step) -> bool {
+    let passes = step.via.as_ref().is_some_and(|via| matches!(via.how, Pass::Over | Pass::Between));
+    step.movement == Move::FlyThrough && passes && step.end == Framing::default() && step.look.is_none()
+}
+
+/// Distance before and behind a door at which a camera would stand, over its radius.
+const BESIDE_DOOR: f64 = 4.0;
+
+/// Whether a step comes in through a door behind which nothing was captured.
+fn enters(world: &World, step: &Step) -> bool {
+    let through = |via: &&Via| matches!(via.how, Pass::Through | Pass::Between) && via.objects.len() == 1;
+    let goes = matches!(step.movement, Move::FlyThrough | Move::PushIn | Move::Follow);
+    let Some(via) = step.via.as_ref().filter(through).filter(|_| goes && world.is_indoor()) else { return false };
+    let Some(door) = world.subject(via.objects[0]) else { return false };
+    let [_, short] = door.level_axes(world.frame.up);
+    let out = short.normalize_or_zero();
+    let stands = |way: DVec3| {
+        let point = door.center + way * (door.reach(way) + BESIDE_DOOR * world.camera_radius);
+        world.in_capture_region(point) && world.sees_front_faces(point) && world.beyond_corner_frac(point) <= 0.0
+    };
+    !(stands(out) && stands(-out))
 }
 
 /// Whether a step says `handheld` before its move. A whip pan and a reveal, whose first further move is their

@@ -9,7 +9,9 @@ use super::framing_cost::framing_cost;
 use super::measure::{SEARCH_POINTS, measure};
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pictures::{pictures_cost, under_furniture_cost};
+use super::posture::posture_cost;
 use super::underside::underside_cost;
+use super::vertigo::vertigo_cost;
 use super::world::World;
 use cinesplat_trajectory::{CameraPath, CameraState, Easing};
 
@@ -50,6 +52,7 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
     total += expensive.into_iter().map(charge_hidden).sum::<f64>();
     total += side_cost(world, &segment.constraints, &states) + underside_cost(world, &segment.constraints, &states);
     total += aside_cost(world, &states) + framing_cost(world, segment, &states);
+    total += posture_cost(world, segment, &states) + vertigo_cost(world, segment, &states);
     total + pictures_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
 }
 

@@ -34,6 +34,8 @@ pub(super) struct MotionSegment {
     pub(super) cut: bool,
     /// The segment only turns the camera to where the step's own motion starts.
     pub(super) is_join: bool,
+    /// The words state the angle from which the camera looks, or the height from which it does.
+    pub(super) is_angled: bool,
     /// Constraints on the segment's frames.
     pub(super) constraints: Vec<Constraint>,
 }
@@ -51,6 +53,7 @@ impl MotionSegment {
             easing: Easing::Smooth,
             cut: false,
             is_join: false,
+            is_angled: false,
             constraints: Vec::new(),
         }
     }

@@ -96,7 +96,7 @@ pub fn finalists(
         program
     };
     let solved = |program: &Program, settings: &SolveSettings, num: usize| -> Vec<Solution> {
-        let program = &as_filmed(program);
+        let program = &as_filmed(world, program);
         let candidates = best_candidates(&SearchProblem { world, program, suggestions }, settings, num);
         candidates.into_iter().map(|candidate| solution(world, (program, prompt), candidate, settings)).collect()
     };

@@ -14,14 +14,14 @@ use super::directions::is_form;
 use crate::direction::{Direction, StepCertainty};
 
 /// Verbs of what a camera does, in any form.
-const VERBS: [&str; 76] = [
+const VERBS: [&str; 78] = [
     "soar", "dive", "plunge", "skim", "hover", "sail", "dart", "chase", "skate", "ride", "push", "pull", "dolly",
     "zoom", "pan", "tilt", "truck", "track", "crane", "boom", "jib", "pedestal", "orbit", "circle", "arc", "roll",
     "fly", "glide", "drift", "slide", "sweep", "swoop", "travel", "rise", "climb", "ascend", "descend", "sink",
     "lower", "raise", "lift", "approach", "retreat", "follow", "walk", "enter", "move", "float", "creep", "crawl",
     "pivot", "swing", "spin", "rotate", "revolve", "turn", "whirl", "reveal", "hold", "rest", "pause", "linger",
     "stop", "start", "begin", "finish", "land", "fade", "focus", "rack", "widen", "frame", "whip", "settle", "nudge",
-    "wander",
+    "wander", "sneak", "tiptoe",
 ];
 /// Other words of cameras, pictures and ways.
 const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu ws ms wide wider medium tight tighter macro \
@@ -61,8 +61,8 @@ const SECRETS: &str = "secret surprise payoff";
 /// Angle of a turn to a thing that is out of the picture at first, degrees.
 const SURPRISE_DEG: f64 = 80.0;
 /// Words of a thing that is to be seen from more than one side.
-const WARES: &str =
-    "product shop store brand catalogue catalog webshop sell selling sale sculpture statue figurine model toy";
+const WARES: &str = "product shop store brand catalogue catalog webshop sell selling sale bestseller customers customer buyers sculpture \
+    statue figurine model toy";
 /// Words that show one thing after the other.
 const IN_TURN: &str = "each every turn another";
 /// Words of a place as a whole.
@@ -137,8 +137,13 @@ fn said<'a>(linked: &Linked, words: &[&'a str]) -> Vec<&'a str> {
     (0..words.len()).filter(|at| !stands_for_part(*at)).map(|at| words[at]).collect()
 }
 
-/// Whether words say nothing of what a camera does.
+/// Whether words say nothing of what a camera does, and are enough for a brief.
 fn is_brief(words: &[&str]) -> bool {
+    words.len() >= FEWEST_WORDS && !directs(words)
+}
+
+/// Whether words say something of what a camera does.
+pub(super) fn directs(words: &[&str]) -> bool {
     let leads = |at: usize| {
         let next = words.get(at + 1).copied().unwrap_or_default();
         // `A proper look at it` is no way of the camera.
@@ -158,7 +163,7 @@ fn is_brief(words: &[&str]) -> bool {
         let is_way = matches!(word, "up" | "down") && !before.into_iter().any(|word| is_listed(NO_WAYS, word));
         is_verb || is_listed(WORDS, word) || leads(at) || is_way
     };
-    words.len() >= FEWEST_WORDS && !(0..words.len()).any(is_camera)
+    (0..words.len()).any(is_camera)
 }
 
 /// What a brief is about, in order of mention: the thing that it calls the hero, or else all that it names but what is `denied`.

@@ -132,6 +132,8 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
 
 /// Corrects a direction by what the words say plainly of several of its parts.
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
+    moods::drop_stories(linked, direction);
+    places::leave_from(linked, direction);
     briefs::film_briefs(linked, objects, direction);
     carriers::flow_without_cuts(&mut direction.program);
     carriers::show_all_sides(linked, direction);

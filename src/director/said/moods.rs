@@ -4,6 +4,7 @@ use cinesplat_language::Linked;
 use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::Move;
 
+use super::briefs::directs;
 use crate::direction::Direction;
 
 /// Verbs that say what a thing is.
@@ -64,6 +65,32 @@ pub(crate) fn drop_statements(linked: &Linked, direction: &mut Direction) {
         let is_followed = nth + 1 < steps.len();
         if is_followed && is_plain(&steps[nth]) && is_statement(&linked.texts_in(steps[nth].words.unwrap_or_default()))
         {
+            direction.remove_step(nth);
+        }
+    }
+}
+
+/// Certainty of a step below which a sentence that only tells a story is none.
+const MADE_UP: f64 = 0.5;
+/// Verbs of stories, besides those that say what a thing is.
+const TOLD: [&str; 14] = [
+    "found", "turned", "became", "got", "bought", "made", "has", "have", "had", "thinks", "says", "loves", "wants",
+    "know",
+];
+
+/// Removes what the network makes up from sentences that tell why somebody wants a film, where another one says which: `My
+/// daughter found out what a telescope is for, and the dining room is a space station. Can you sneak up on the telescope?`
+pub(crate) fn drop_stories(linked: &Linked, direction: &mut Direction) {
+    let spans: Vec<[usize; 2]> = direction.program.steps.iter().map(|step| step.words.unwrap_or_default()).collect();
+    let sentences: Vec<Vec<&str>> = spans.iter().map(|span| linked.sentence_of(*span)).collect();
+    let is_asked = sentences.iter().any(|sentence| directs(sentence));
+    for nth in (0..spans.len()).rev() {
+        let tells = sentences[nth].iter().any(|word| COPULAS.contains(word) || TOLD.contains(word))
+            && sentences[nth].last().is_some_and(|word| ENDS.contains(word))
+            && !sentences[nth].iter().any(|word| PICTURES.contains(word))
+            && !directs(&sentences[nth]);
+        let is_sure = direction.certainty.get(nth).is_none_or(|step| step.probability >= MADE_UP);
+        if is_asked && tells && !is_sure {
             direction.remove_step(nth);
         }
     }

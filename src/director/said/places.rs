@@ -4,6 +4,9 @@ use cinesplat_language::Linked;
 use cinesplat_operator::{Amount, Framing, Motion, Pass, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
+use super::briefs::directs;
+use crate::direction::Direction;
+
 /// Words that say where a thing is, and the way past that the network may read into them.
 const PLACINGS: [(&[&str], Pass); 10] = [
     (&["under"], Pass::Under),
@@ -20,7 +23,9 @@ const PLACINGS: [(&[&str], Pass); 10] = [
 
 /// Removes ways past an object that only say which thing is meant: `push in on the cupboard under the tv`.
 pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
-    let may_pass = |step: &&mut Step| stays_before_subject(step.movement) || step.movement == Move::FlyThrough;
+    let may_pass = |step: &&mut Step| {
+        stays_before_subject(step.movement) || matches!(step.movement, Move::FlyThrough | Move::Follow)
+    };
     for step in steps.iter_mut().filter(may_pass) {
         let (Some(via), Some(words)) = (&step.via, step.words) else { continue };
         let words = linked.texts_in(words);
@@ -63,6 +68,24 @@ pub(crate) fn begin_at_source(linked: &Linked, steps: &mut [Step]) {
         if leaves && is_open && !words.contains(&"past") && (0..words.len()).any(leads_from) {
             step.start.subjects.clone_from(&via.objects);
             step.via = None;
+        }
+    }
+}
+
+/// Begins a move at what the words lead from before they say it: `From the mirror I want to go down to the cactus`.
+pub(crate) fn leave_from(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [source, step] = &direction.program.steps[nth - 1..=nth] else { continue };
+        let words = linked.texts_in(source.words.unwrap_or_default());
+        let is_source = words.first() == Some(&"from")
+            && !words.contains(&"to")
+            && !source.start.subjects.is_empty()
+            && source.end == Framing::default()
+            && source.via.is_none()
+            && !directs(&words[1..]);
+        if is_source && step.start == Framing::default() && !step.cut && step.end.subjects != source.start.subjects {
+            let one = Step { start: source.start.clone(), words: source.joint_words(step), ..step.clone() };
+            direction.join_steps(nth, one);
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::framing::Target;
 use crate::motion::MotionSegment;
 use crate::program::{Framing, Pass, Via};
+use cinesplat_trajectory::ShotAngle;
 
 /// Tolerance of a stated height in the frame, and of a stated distance, over itself.
 const HEIGHT_TOLERANCE: f64 = 0.15;
@@ -26,8 +27,12 @@ const KEPT_FRAC: f64 = 0.5;
 /// Adds the constraints of a step to its segments.
 pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
     let step = context.step;
+    let is_angled = [&step.start, &step.end].iter().any(|framing| {
+        matches!(framing.angle, Some(ShotAngle::High | ShotAngle::Overhead | ShotAngle::Low | ShotAngle::Worm))
+    });
     for segment in segments.iter_mut() {
         keep_and_avoid(context, segment);
+        segment.is_angled |= is_angled;
     }
     if let Some(own) = segments.iter_mut().rev().find(|segment| !segment.is_join) {
         add(own, Scope::Start, framing(context, &step.start, &context.opening_target()));

@@ -66,9 +66,25 @@ pub(super) fn standing_view(
     };
     let pose = Pose { position, rotation: glam::DQuat::IDENTITY };
     let fov_y_rad = lerp(fov_deg, standing.parameters[3]).to_radians();
-    let view = aimed(standing.world, &CameraState { pose, fov_y_rad, focus_distance: None }, target.aim);
+    let camera = CameraState { pose, fov_y_rad, focus_distance: None };
+    let view = aimed(
+        standing.world,
+        &camera,
+        if target.ids.is_empty() { into_room(standing, position, target) } else { target.aim },
+    );
     let view = filled(standing, target, framing, &view, fill, fov_deg);
     Some(aimed_at_side(standing.world, target, framing.part, view))
+}
+
+/// Steepest view down of somebody who stands and looks into a room, degrees.
+const INTO_ROOM_DEG: f64 = 7.0;
+
+/// The aim of somebody who stands at a place and looks at nothing in particular: toward the target, and nearly level.
+fn into_room(standing: &Standing, position: DVec3, target: &Target) -> DVec3 {
+    let frame = &standing.world.frame;
+    let away = target.aim - position;
+    let least = -frame.horizontal(away).length() * INTO_ROOM_DEG.to_radians().tan();
+    if standing.world.is_indoor() { target.aim + frame.up * (least - frame.height(away)).max(0.0) } else { target.aim }
 }
 
 /// A place beside an object, next to its box: toward the target, toward the middle of the scene, or anywhere. Parameters

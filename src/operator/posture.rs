@@ -1,0 +1,69 @@
+//! How a camera stands in a room: people film rooms from about the height of their eyes with a level lens, so that walls
+//! and shelves stay upright.
+
+use super::composition::natural_elevation_deg;
+use super::constraint::{Constraint, ConstraintKind};
+use super::framing::Target;
+use super::motion::MotionSegment;
+use super::program::{Framing, Pass};
+use super::world::World;
+use cinesplat_trajectory::{CameraState, Move};
+
+/// Cost of a camera above the eyes of a standing person, and the height over theirs at which it begins and is reached.
+const HIGH_COST: f64 = 0.9;
+const HIGH: (f64, f64) = (1.06, 1.45);
+/// Cost of uprights that lean, and the slope of those at the frame's side edges at which it begins and is reached.
+const LEAN_COST: f64 = 0.9;
+const LEAN: (f64, f64) = (0.12, 0.36);
+/// Elevation from which people see what lies flat or bears other things, degrees: from there on nobody minds uprights.
+const LOOKED_DOWN_DEG: f64 = 26.0;
+
+/// Cost of high places and of leaning uprights at the ends and in the middle of a segment, where no words ask for either.
+pub(super) fn posture_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let rises = matches!(
+        segment.movement,
+        Move::CraneUp
+            | Move::CraneDown
+            | Move::PedestalUp
+            | Move::PedestalDown
+            | Move::TiltUp
+            | Move::TiltDown
+            | Move::FlyThrough
+    );
+    let is_asked = |constraint: &Constraint| asks_for_height(&constraint.kind);
+    if !world.is_indoor() || segment.is_join || segment.is_angled || rises || segment.constraints.iter().any(is_asked) {
+        return 0.0;
+    }
+    let shown = || segment.constraints.iter().filter_map(|constraint| constraint.shown(world));
+    let is_looked_down_on = segment.constraints.iter().any(|constraint| {
+        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return false };
+        let target = Target::of(world, &Framing { subjects: vec![id], ..Framing::default() });
+        target.is_some_and(|target| natural_elevation_deg(world, &target).1 >= LOOKED_DOWN_DEG)
+    });
+    // What hangs high is filmed from its own height.
+    let top = shown().map(|subject| world.height_above_floor(subject.center)).fold(world.eye_height(), f64::max);
+    let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
+    let worst = |of: &dyn Fn(&CameraState) -> f64| ends.iter().map(|state| of(state)).fold(0.0, f64::max);
+    let share = |(least, most): (f64, f64), value: f64| ((value - least) / (most - least)).clamp(0.0, 1.0);
+    let high = worst(&|state| share(HIGH, world.height_above_floor(state.pose.position) / top));
+    let lean = worst(&|state| share(LEAN, lean(world, state)));
+    HIGH_COST * high + if is_looked_down_on { 0.0 } else { LEAN_COST * lean }
+}
+
+/// Slope of the projection of an upright at the frame's side edges: half the width on the plane at depth 1, by the tangent of
+/// the pitch.
+fn lean(world: &World, state: &CameraState) -> f64 {
+    let pitch_rad = world.frame.angles(state.pose.rotation).pitch_rad;
+    (state.fov_y_rad / 2.0).tan() * world.aspect.max(1.0) * pitch_rad.abs().min(1.4).tan()
+}
+
+fn asks_for_height(kind: &ConstraintKind) -> bool {
+    matches!(
+        kind,
+        ConstraintKind::Pitch(_)
+            | ConstraintKind::Elevation(..)
+            | ConstraintKind::CameraHeight(_)
+            | ConstraintKind::Placed(..)
+            | ConstraintKind::Passed(Pass::Over | Pass::Under | Pass::Through, _)
+    )
+}
