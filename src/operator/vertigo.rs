@@ -1,4 +1,4 @@
-//! Dolly zooms need something far behind their subject: a wall at its back does not move.
+//! What makes a dolly zoom: a subject that keeps its size, and something far behind it. A wall at its back does not move.
 
 use glam::DVec2;
 
@@ -12,18 +12,32 @@ use cinesplat_trajectory::{CameraState, Move};
 const FLAT_COST: f64 = 1.0;
 const LEAST_FAR: f64 = 0.5;
 const FAR: f64 = 2.2;
+/// Cost of a subject that swells: whose near side grows over its middle, which the lens keeps at its size; and the growth at
+/// which it begins and is reached.
+const SWOLLEN_COST: f64 = 1.2;
+const SWELLING: (f64, f64) = (1.05, 1.14);
 /// Columns and rows of rays.
 const RAYS: (u32, u32) = (8, 5);
 
-/// Cost of a dolly zoom whose background is hardly farther away than its subject.
+/// Cost of a dolly zoom that comes so close that its subject swells, or whose background is hardly farther away than that.
 pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
-    if !matches!(segment.movement, Move::DollyZoomIn | Move::DollyZoomOut) || !world.is_indoor() {
+    if !matches!(segment.movement, Move::DollyZoomIn | Move::DollyZoomOut) {
         return 0.0;
     }
-    let Some(aim) = segment.constraints.iter().find_map(|constraint| constraint.shown(world)) else { return 0.0 };
-    let distance = |state: &CameraState| state.pose.position.distance(aim.center);
+    let Some(subject) = segment.constraints.iter().find_map(|constraint| constraint.shown(world)) else { return 0.0 };
+    let distance = |state: &CameraState| state.pose.position.distance(subject.center);
     let (first, last) = (&states[0], &states[states.len() - 1]);
-    let near = if distance(first) < distance(last) { first } else { last };
+    let (near, far) = if distance(first) < distance(last) { (first, last) } else { (last, first) };
+    let reach = subject.reach(near.pose.forward());
+    // The near side at depth d - reach is larger than the middle at depth d by d / (d - reach).
+    let swelling = |state: &CameraState| distance(state) / (distance(state) - reach).max(1e-9);
+    let (least, most) = SWELLING;
+    let swollen = ((swelling(near) / swelling(far) - least) / (most - least)).clamp(0.0, 1.0);
+    SWOLLEN_COST * swollen + if world.is_indoor() { FLAT_COST * flat_frac(world, near, distance(near)) } else { 0.0 }
+}
+
+/// How far the background of a picture is from filling its share of the frame, 0..=1.
+fn flat_frac(world: &World, near: &CameraState, distance: f64) -> f64 {
     let height = 90.0;
     let width = (height * world.aspect).round().max(1.0);
     let intrinsics = Intrinsics::from_fov_y(width as u32, height as u32, near.fov_y_rad);
@@ -33,8 +47,8 @@ pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let is_far = |(column, row): &(u32, u32)| {
         let pixel = DVec2::new(at(*column, RAYS.0) * width, at(*row, RAYS.1) * height);
         let hit = world.hit_distance(near.pose.position, camera.ray(pixel));
-        hit.is_some_and(|hit| hit > FAR * distance(near))
+        hit.is_some_and(|hit| hit > FAR * distance)
     };
     let far = rays.filter(is_far).count() as f64 / f64::from(RAYS.0 * RAYS.1);
-    FLAT_COST * (1.0 - far / LEAST_FAR).max(0.0)
+    (1.0 - far / LEAST_FAR).max(0.0)
 }

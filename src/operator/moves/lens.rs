@@ -122,6 +122,7 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     // The limits of the lens shorten the travel, not the subject.
     let limit_tan = |deg: f64| (deg.to_radians() / 2.0).tan();
     let ratio = open.clamp(tan / limit_tan(LENS_LIMITS_DEG.1), tan / limit_tan(LENS_LIMITS_DEG.0));
+    let ratio = kept_in_shape(&target, &first, ratio);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
     let last = with_fov(&last, 2.0 * (tan / ratio).atan());
     let segment = context.segment(vec![first, last]);
@@ -132,4 +133,22 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     segment.movement = if inward { Move::DollyZoomIn } else { Move::DollyZoomOut };
     segments.push(require_visible(segment, &target, Scope::All));
     segments
+}
+
+/// Most by which the near side of a subject grows over its middle while the lens keeps the size of that.
+const MOST_SWELLING: f64 = 1.07;
+/// Least change of the distance of a dolly zoom.
+const LEAST_CHANGE: f64 = 0.7;
+
+/// The ratio of the distances of a dolly zoom, nearer to 1 where the nearer camera would be so close that the near side of
+/// the subject swells: a skull with its chin out of the frame has not kept its size.
+fn kept_in_shape(target: &Target, first: &CameraState, ratio: f64) -> f64 {
+    let distance = first.pose.position.distance(target.aim);
+    let toward = -first.pose.forward();
+    let reach = target.corners.iter().map(|corner| (*corner - target.aim).dot(toward)).fold(0.0, f64::max);
+    // The near side at depth d - reach is larger than the middle at depth d by d / (d - reach).
+    let swelling = |distance: f64| distance / (distance - reach).max(1e-9);
+    let least = reach / (1.0 - 1.0 / (MOST_SWELLING * swelling(distance)));
+    let is_near = ratio < 1.0 && distance * ratio < least;
+    if is_near { (least / distance).min(LEAST_CHANGE).max(ratio) } else { ratio }
 }
