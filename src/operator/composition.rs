@@ -130,8 +130,7 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     let borne = target.ids.first().and_then(|id| world.subject(*id)).and_then(|subject| subject.borne_heights);
     let bears = borne.is_some_and(|[surface, _]| {
         let height = surface - world.floor_height();
-        // What stands on the shelves of a bookcase is not looked down on.
-        BEARING_HEIGHTS.contains(&(height / eye)) && top < TALL_BEARER * eye
+        BEARING_HEIGHTS.contains(&(height / eye))
     });
     match (is_flat, world.is_indoor()) {
         (true, _) => (28.0, 42.0),
@@ -149,8 +148,6 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
 /// Height of a surface with things on it, over that of a standing person's eyes, at which it is looked down on: a table or
 /// a desk, and no bed.
 const BEARING_HEIGHTS: std::ops::Range<f64> = 0.38..0.7;
-/// Height of the top of what bears things, over that of those eyes, from which on it is a bookcase and no table.
-const TALL_BEARER: f64 = 0.85;
 /// Thickness of a flat thing over its other extents.
 const FLAT_FRAC: f64 = 0.3;
 

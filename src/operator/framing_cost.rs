@@ -133,8 +133,13 @@ fn small_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
         if about.clone().any(|(scope, _)| is_sized(&segment.constraints, id, *scope)) {
             return 0.0;
         }
-        let largest = about.map(|(_, state)| extent_frac(world, state, &subject.corners).max_element());
-        (1.0 - largest.fold(0.0, f64::max) / LEAST_FIT).max(0.0)
+        let sizes: Vec<f64> =
+            about.map(|(_, state)| extent_frac(world, state, &subject.corners).max_element()).collect();
+        let small = |size: f64| (1.0 - size / LEAST_FIT).max(0.0);
+        let largest = small(sizes.iter().copied().fold(0.0, f64::max));
+        // Around a lone thing there is nothing else to see.
+        let alone = if world.is_indoor() { 0.0 } else { small(sizes.iter().copied().fold(f64::INFINITY, f64::min)) };
+        largest.max(alone)
     };
     let smallest = segment.constraints.iter().map(small).fold(0.0, f64::max);
     SMALL_COST * smallest.max(loose_frac(world, segment, &states[states.len() - 1]))

@@ -1,7 +1,8 @@
 //! Cameras below what things stand on: of a table nobody wants to see the underside.
 
-use super::constraint::Constraint;
+use super::constraint::{Constraint, ConstraintKind};
 use super::pictures::asks_low;
+use super::program::Pass;
 use super::world::World;
 use cinesplat_trajectory::CameraState;
 
@@ -18,7 +19,11 @@ pub(super) fn underside_cost(world: &World, constraints: &[Constraint], states: 
     }
     let ends = [states[0], states[states.len() / 2], states[states.len() - 1]];
     let below = |constraint: &Constraint| {
-        let Some(subject) = constraint.shown(world) else { return 0.0 };
+        let along = match constraint.kind {
+            ConstraintKind::Passed(Pass::Along, id) => world.subject(id),
+            _ => None,
+        };
+        let Some(subject) = constraint.shown(world).or(along) else { return 0.0 };
         let Some([surface, _]) = subject.borne_heights else { return 0.0 };
         let lack = |state: &CameraState| {
             let eye = state.pose.position;

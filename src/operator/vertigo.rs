@@ -21,7 +21,8 @@ const RAYS: (u32, u32) = (8, 5);
 
 /// Cost of a dolly zoom that comes so close that its subject swells, or whose background is hardly farther away than that.
 pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
-    if !matches!(segment.movement, Move::DollyZoomIn | Move::DollyZoomOut) {
+    // Of a lone thing the swelling is all that there is to see.
+    if !matches!(segment.movement, Move::DollyZoomIn | Move::DollyZoomOut) || !world.is_indoor() {
         return 0.0;
     }
     let Some(subject) = segment.constraints.iter().find_map(|constraint| constraint.shown(world)) else { return 0.0 };
@@ -33,7 +34,7 @@ pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let swelling = |state: &CameraState| distance(state) / (distance(state) - reach).max(1e-9);
     let (least, most) = SWELLING;
     let swollen = ((swelling(near) / swelling(far) - least) / (most - least)).clamp(0.0, 1.0);
-    SWOLLEN_COST * swollen + if world.is_indoor() { FLAT_COST * flat_frac(world, near, distance(near)) } else { 0.0 }
+    SWOLLEN_COST * swollen + FLAT_COST * flat_frac(world, near, distance(near))
 }
 
 /// How far the background of a picture is from filling its share of the frame, 0..=1.

@@ -67,6 +67,9 @@ pub struct World {
     pub(super) standing_places: OnceLock<Vec<DVec3>>,
 }
 
+/// Height of the top of what bears things, over that of a standing person's eyes, from which on it is a bookcase.
+const TALL_BEARER: f64 = 0.85;
+
 /// An object that a shot can frame.
 pub(super) struct Subject {
     /// Name for reports.
@@ -125,7 +128,7 @@ impl World {
         let bottom = frame.height(bounds.core_min).min(frame.height(bounds.core_max));
         let floor = if region.indoor { region.floor_height(&matter) } else { None };
         let floor_height = floor.map_or(bottom, |floor| floor.max(bottom));
-        Ok(Self {
+        let mut world = Self {
             frame,
             bounds,
             floor_height,
@@ -140,7 +143,18 @@ impl World {
             things,
             lookouts: OnceLock::new(),
             standing_places: OnceLock::new(),
-        })
+        };
+        world.leave_shelves();
+        Ok(world)
+    }
+
+    /// Takes tall things for none that bear others: a bookcase is looked at, and not down on as a table is.
+    fn leave_shelves(&mut self) {
+        let tallest = TALL_BEARER * self.eye_height() + self.floor_height;
+        for subject in self.subjects.values_mut() {
+            let top = self.frame.height(subject.center) + subject.reach(self.frame.up);
+            subject.borne_heights = subject.borne_heights.filter(|_| top < tallest);
+        }
     }
 
     /// The subject with an object id.

@@ -38,13 +38,37 @@ pub(super) fn passing_beside(context: &StepContext) -> Option<Vec<MotionSegment>
         None => last_beside(context, subject, &first, &inner),
     };
     let positions = joined(context, subject, (first.pose.position, last.pose.position), &inner);
-    let states = states_along(context.world, (&first, &last), &positions);
+    let mut states = states_along(context.world, (&first, &last), &positions);
+    if how == Pass::Along {
+        look_along(context, subject, &mut states);
+    }
     let mut segment = context.constrained_at_end(context.constrained_at_start(context.segment(states)));
     if let Some(end) = &context.end {
         segment = segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.15));
         segment = require_visible(segment, end, Scope::End);
     }
     Some(vec![segment])
+}
+
+/// How far ahead on an object somebody looks who goes along it, over half its length.
+const AHEAD: f64 = 0.7;
+
+/// Turns the cameras of a way along an object, but those at ends that other words state, to it: to what stands on it a little ahead, as somebody looks
+/// who walks along a workbench.
+fn look_along(context: &StepContext, subject: &Subject, states: &mut [CameraState]) {
+    let frame = &context.world.frame;
+    let [long, _] = subject.level_axes(frame.up);
+    let Some(axis) = long.try_normalize() else { return };
+    let surface = subject.borne_heights.map_or(0.0, |[surface, _]| surface - frame.height(subject.center));
+    let [first, .., last] = states else { return };
+    let onward = (last.pose.position - first.pose.position).dot(axis).signum();
+    let is_open = context.before.is_none() && context.start.is_none();
+    let to = states.len() - usize::from(context.end.is_some());
+    for state in &mut states[usize::from(!is_open)..to] {
+        let along = (state.pose.position - subject.center).dot(axis) + onward * AHEAD * long.length();
+        let at = subject.center + axis * along.clamp(-long.length(), long.length()) + frame.up * surface;
+        *state = aimed(context.world, state, at);
+    }
 }
 
 /// The path from end to end: around the object to the inner points and away from them, and straight between those.

@@ -122,7 +122,7 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     // The limits of the lens shorten the travel, not the subject.
     let limit_tan = |deg: f64| (deg.to_radians() / 2.0).tan();
     let ratio = open.clamp(tan / limit_tan(LENS_LIMITS_DEG.1), tan / limit_tan(LENS_LIMITS_DEG.0));
-    let ratio = kept_in_shape(&target, &first, ratio);
+    let ratio = if context.world.is_indoor() { kept_in_shape(&target, &first, ratio) } else { ratio };
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
     let last = with_fov(&last, 2.0 * (tan / ratio).atan());
     let segment = context.segment(vec![first, last]);

@@ -1,0 +1,140 @@
+//! Ways that the words begin and end at things: `leave the door, drive past the chairs`, `then hover in front of the
+//! telescope`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Pass, Step, Via};
+use cinesplat_trajectory::Move;
+
+use super::directions::is_form;
+use crate::direction::Direction;
+
+/// Verbs of a camera that comes to a stop.
+const STOPS: [&str; 10] = ["stop", "halt", "hover", "brake", "park", "land", "finish", "settle", "arrive", "pull"];
+/// Verbs of a camera that goes its way with its eyes ahead, and words of one that slides.
+const DRIVES: [&str; 10] = ["drive", "walk", "ride", "run", "fly", "stroll", "wander", "cruise", "race", "march"];
+const SLIDES: [&str; 9] = ["truck", "slide", "crab", "track", "sideways", "sideway", "lateral", "left", "right"];
+/// Verbs of a camera that sets out from a thing.
+const LEAVES: [&str; 4] = ["leave", "exit", "depart", "start"];
+
+/// Lets ways begin and end at the things that the words name for it.
+pub(crate) fn go_between_stops(linked: &Linked, direction: &mut Direction) {
+    come_to_circle(linked, direction);
+    let steps = &mut direction.program.steps;
+    go_to_stop(linked, steps);
+    for step in steps {
+        drive_away(linked, step);
+    }
+}
+
+/// Comes to what a film circles first from where the words set out: `in from the door, one lap round the table`.
+fn come_to_circle(linked: &Linked, direction: &mut Direction) {
+    let Some(step) = direction.program.steps.first_mut().filter(|step| step.movement.is_circular()) else { return };
+    let plain = Framing { subjects: step.start.subjects.clone(), ..Framing::default() };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let source = match &step.via {
+        Some(via) if via.how == Pass::From => via.objects.clone(),
+        None if step.start == plain => plain.subjects,
+        _ => return,
+    };
+    let is_source = |at: usize| {
+        let next = words[at + 1..].iter().take(2);
+        let sets_out = words[at] == "from" || words[at] == "at" && at > 0 && is_form(words[at - 1], "start");
+        sets_out && next.into_iter().any(|word| source.iter().any(|id| linked.names(word, *id)))
+    };
+    let goes = !source.is_empty() && !step.end.subjects.is_empty() && source != step.end.subjects;
+    if !goes || !(0..words.len()).any(is_source) {
+        return;
+    }
+    (step.start, step.via) = (Framing::default(), None);
+    let end = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
+    let via = Some(Via { how: Pass::From, objects: source });
+    let way = Step { via, end, words: step.words, ..Step::of(Move::FlyThrough) };
+    direction.insert_rest(0, way);
+}
+
+/// Goes to the thing before which the words stop: a camera that only turned to it would not be in front of it.
+fn go_to_stop(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let shown = steps[nth - 1].end.subjects.clone();
+        let step = &mut steps[nth];
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_goal = |word: &&str| step.end.subjects.iter().any(|id| linked.names(word, *id));
+        let in_front = |at: usize| {
+            words[at..].starts_with(&["in", "front", "of"]) && words[at + 3..].iter().take(3).any(|word| is_goal(&word))
+        };
+        let stops = |at: usize| words[..at].iter().any(|word| STOPS.iter().any(|verb| is_form(word, verb)));
+        let is_other = !step.end.subjects.is_empty() && step.end.subjects != shown && !step.cut;
+        if step.movement == Move::Static && is_other && (0..words.len()).any(|at| in_front(at) && stops(at)) {
+            step.movement = Move::Follow;
+        }
+    }
+}
+
+/// Drives from the thing that the words leave, where the network reads a slide: nobody drives sideways.
+fn drive_away(linked: &Linked, step: &mut Step) {
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let has = |verbs: &[&str]| words.iter().any(|word| verbs.iter().any(|verb| is_form(word, verb)));
+    let is_slide = matches!(step.movement, Move::TruckLeft | Move::TruckRight);
+    let goes = !step.start.subjects.is_empty() && !step.end.subjects.is_empty();
+    if !is_slide || !goes || step.start.subjects == step.end.subjects || !has(&DRIVES) || has(&SLIDES) {
+        return;
+    }
+    (step.movement, step.either_way) = (Move::FlyThrough, false);
+    let leaves = |at: usize| {
+        let is_verb = words[at] == "from" || LEAVES.iter().any(|verb| is_form(words[at], verb));
+        let next = || words[at + 1..].iter().take(3);
+        is_verb && next().any(|word| step.start.subjects.iter().any(|id| linked.names(word, *id)))
+    };
+    if (0..words.len()).any(leaves) {
+        let objects = std::mem::take(&mut step.start.subjects);
+        step.via = Some(Via { how: Pass::From, objects });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_operator::Program;
+
+    fn directed(text: &str, steps: Vec<Step>) -> Vec<Step> {
+        let words = text.split(' ');
+        let spans: Vec<[usize; 2]> =
+            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1)])).collect();
+        let slots = vec![5, 7];
+        let linked = Linked { tokens_text: text.to_owned(), spans, slots, ..Linked::default() };
+        let steps = steps.into_iter().map(|step| Step { words: Some([0, text.len()]), ..step }).collect();
+        let program = Program { steps, ..Program::default() };
+        let mut direction = Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
+        go_between_stops(&linked, &mut direction);
+        direction.program.steps
+    }
+
+    fn about(id: u32) -> Framing {
+        Framing { subjects: vec![id], ..Framing::default() }
+    }
+
+    #[test]
+    fn a_film_that_sets_out_from_a_door_comes_to_what_it_circles() {
+        let orbit = Step { start: about(5), end: about(7), ..Step::of(Move::OrbitRight) };
+        let steps = directed("in from <obj-0> , one lap round <obj-1>", vec![orbit.clone()]);
+        assert_eq!(steps.iter().map(|step| step.movement).collect::<Vec<_>>(), [Move::FlyThrough, Move::OrbitRight]);
+        assert_eq!(steps[0].via, Some(Via { how: Pass::From, objects: vec![5] }));
+        assert_eq!(directed("orbit <obj-1> with <obj-0> behind it", vec![orbit]).len(), 1);
+    }
+
+    #[test]
+    fn a_stop_in_front_of_a_thing_is_a_way_to_it() {
+        let steps =
+            || vec![Step { end: about(5), ..Step::of(Move::PushIn) }, Step { end: about(7), ..Step::of(Move::Static) }];
+        assert_eq!(directed("in on <obj-0> , then hover in front of <obj-1>", steps())[1].movement, Move::Follow);
+        assert_eq!(directed("in on <obj-0> , then hold on <obj-1>", steps())[1].movement, Move::Static);
+    }
+
+    #[test]
+    fn who_drives_looks_where_he_goes() {
+        let truck = Step { start: about(5), end: about(7), ..Step::of(Move::TruckRight) };
+        let driven = directed("leave <obj-0> and drive to <obj-1>", vec![truck.clone()]);
+        assert_eq!((driven[0].movement, driven[0].start.subjects.len()), (Move::FlyThrough, 0));
+        assert_eq!(directed("slide from <obj-0> to <obj-1>", vec![truck])[0].movement, Move::TruckRight);
+    }
+}
