@@ -109,6 +109,7 @@ fn words_that_only_look_like_a_quantity_stay_words() {
         "30 cm per second",
         "at 5 km/h",
         "30% slower",
+        "30% off teapots this weekend",
         "200% of the screen",
         "the 3 chairs",
         "bottle 2",

@@ -34,7 +34,7 @@ pub(super) fn is_no_measure(words: &[Word], i: usize, unit_idx: usize, number: N
     letter || ordinal || is_negative || is_label || of_each || decade || matches!(unit_word, "count") && is_article
 }
 
-/// Whether a percentage at words `i..end` is none of the frame: `30% slower`, `the last 10 percent`.
+/// Whether a percentage at words `i..end` is none of the frame: `30% slower`, `the last 10 percent`, `30% off teapots`.
 pub(super) fn is_no_share(words: &[Word], i: usize, end: usize) -> bool {
     let compares = matches!(
         word_at(words, end),
@@ -54,7 +54,11 @@ pub(super) fn is_no_share(words: &[Word], i: usize, end: usize) -> bool {
             | "overlap"
             | "opacity"
     );
-    compares || matches!(word_before(words, i, 1), "last" | "first" | "remaining")
+    // `30% off teapots` is a price; `30% off center` is a place.
+    let is_price = word_at(words, end) == "off"
+        && !matches!(word_at(words, end + 1), "center" | "centre" | "axis" | "the" | "screen" | "frame" | "to")
+        || matches!(word_at(words, end), "discount" | "cheaper" | "sale" | "cotton" | "sure");
+    compares || is_price || matches!(word_before(words, i, 1), "last" | "first" | "remaining")
 }
 
 /// Whether the unit before word `i` is the first half of a speed: `/ s`, `per second`, `a second`.

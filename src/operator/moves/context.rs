@@ -12,7 +12,7 @@ use crate::pacing::factor;
 use crate::program::{Framing, Motion, Pass, Program, Step, SubjectSide};
 use crate::suggestion::StepCameras;
 use crate::view::{
-    CIRCLING_OVERHEAD_DEG, OVERHEAD_DEG, ViewRange, aimed, azimuth_across, broadside_azimuths, opening_view,
+    CIRCLING_OVERHEAD_DEG, OVERHEAD_DEG, ViewRange, aimed, azimuth_across, broadside_azimuths, lerp, opening_view,
 };
 use crate::world::World;
 use cinesplat_trajectory::{CameraState, Easing, Move, ShotSize};
@@ -128,7 +128,21 @@ impl<'a> StepContext<'a> {
             framing.size = Some(ShotSize::ExtremeLong);
         }
         self.inherit(&mut framing);
+        let is_level = framing.angle.is_none() && framing.height.is_none() && framing.elevation_deg.is_none();
+        if is_level && self.before.is_none() && self.backs_to_room() {
+            framing.elevation_deg = Some(lerp(BACKING_ELEVATION_DEG, self.parameters[1]));
+        }
         framing
+    }
+
+    /// Whether the step pulls out from a small thing to the room as a whole: where it begins, the camera looks nearly level
+    /// and through no long lens, or it would end under the ceiling and still see little.
+    pub(super) fn backs_to_room(&self) -> bool {
+        let end = &self.step.end;
+        let is_wide = end.subjects.is_empty() && matches!(end.size, Some(ShotSize::Long | ShotSize::ExtremeLong));
+        let left = self.start.as_ref().or(self.earlier.as_ref());
+        let is_small = |left: &Target| left.radius <= SMALL_FRAC * self.world.bounds.size();
+        self.step.movement == Move::PullOut && is_wide && self.world.is_indoor() && left.is_some_and(is_small)
     }
 
     /// The side of the passed object from which a truck that goes behind or in front of it sees it.
@@ -200,7 +214,11 @@ impl<'a> StepContext<'a> {
         let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
         let close = height.is_some_and(|height| height >= 0.8);
         // Close views use a long lens, so that the camera does not have to stand inside its subject.
-        let fov_deg = if close { (fov_deg.0.min(18.0), fov_deg.1.min(44.0)) } else { fov_deg };
+        let fov_deg = match (self.backs_to_room(), close) {
+            (true, _) => BACKING_LENS_DEG,
+            (false, true) => (fov_deg.0.min(18.0), fov_deg.1.min(44.0)),
+            (false, false) => fov_deg,
+        };
         // Around a lone thing there is nothing to see: it fills more of the picture.
         let fill = if self.world.is_indoor() { fill } else { (1.35 * fill.0, fill.1.max((1.2 * fill.1).min(0.9))) };
         let (fill, fov_deg) = self.widened(fill, fov_deg);
@@ -310,6 +328,12 @@ impl<'a> StepContext<'a> {
         segment
     }
 }
+
+/// Radius of a thing over the scene size up to which it is small in a room.
+const SMALL_FRAC: f64 = 0.12;
+/// Elevation of a camera that backs away from a small thing to show the room, and its vertical field of view, degrees.
+const BACKING_ELEVATION_DEG: (f64, f64) = (1.0, 14.0);
+const BACKING_LENS_DEG: (f64, f64) = (36.0, 52.0);
 
 /// A quantity of the view of a subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -180,7 +180,7 @@ fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, 
 fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let distance = first.pose.position.distance(target.aim);
     let open = if inward { lerp((0.36, 0.56), context.parameters[6]) } else { lerp((1.9, 3.3), context.parameters[6]) };
-    let by_size = size_ratio(context, target, first);
+    let by_size = room_ratio(context, target, first).or_else(|| size_ratio(context, target, first));
     let by_whole = || whole_ratio(context, first, distance);
     let stated = match context.step.amount {
         Some(Amount::Factor(factor)) => Some(factor),
@@ -191,6 +191,23 @@ fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, i
     };
     let ratio = stated.or(by_size).or_else(|| (!inward).then(by_whole).flatten()).unwrap_or(open);
     if inward { ratio.clamp(0.05, 0.97) } else { ratio.clamp(1.03, 12.0) }
+}
+
+/// Share of the free way behind a camera that a pull-out to the whole room goes.
+const BACK_SHARE: (f64, f64) = (0.5, 0.95);
+
+/// Distance ratio of a pull-out from a small thing to the room as a whole: as far back as the room goes. `None` for any
+/// other way, and where that is no longer than one to a long shot.
+fn room_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
+    if !context.backs_to_room() {
+        return None;
+    }
+    let world = context.world;
+    let behind = world.hit_distance(first.pose.position, -first.pose.forward())?;
+    let free = behind - WALL_RADII * world.camera_radius;
+    let distance = first.pose.position.distance(target.aim);
+    let ratio = 1.0 + lerp(BACK_SHARE, context.parameters[6]) * free / distance;
+    (ratio > size_ratio(context, target, first).unwrap_or(LEAST_RATIO)).then_some(ratio)
 }
 
 /// Distance ratio that gives the subject the wanted size at the end; `None` where the camera would move the other way.
