@@ -47,8 +47,10 @@ pub(super) fn posture_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let share = |(least, most): (f64, f64), value: f64| ((value - least) / (most - least)).clamp(0.0, 1.0);
     let high = worst(&|state| share(HIGH, world.height_above_floor(state.pose.position) / top));
     let lean = worst(&|state| share(LEAN, lean(world, state)));
-    // A view of a room as a whole looks down a little: its floor is worth more than its ceiling.
-    let may_lean = is_looked_down_on || shown().next().is_none();
+    // A view of a room as a whole looks down a little: its floor is worth more than its ceiling. A pan has one pitch for
+    // things of different heights.
+    let pans = matches!(segment.movement, Move::PanLeft | Move::PanRight | Move::WhipPan);
+    let may_lean = is_looked_down_on || pans || shown().next().is_none();
     HIGH_COST * high + if may_lean { 0.0 } else { LEAN_COST * lean }
 }
 

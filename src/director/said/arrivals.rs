@@ -2,11 +2,10 @@
 //! telescope`.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Framing, Pass, Step, Via};
+use cinesplat_operator::{Pass, Step, Via};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
-use crate::direction::Direction;
 
 /// Verbs of a camera that comes to a stop.
 const STOPS: [&str; 10] = ["stop", "halt", "hover", "brake", "park", "land", "finish", "settle", "arrive", "pull"];
@@ -17,39 +16,11 @@ const SLIDES: [&str; 9] = ["truck", "slide", "crab", "track", "sideways", "sidew
 const LEAVES: [&str; 4] = ["leave", "exit", "depart", "start"];
 
 /// Lets ways begin and end at the things that the words name for it.
-pub(crate) fn go_between_stops(linked: &Linked, direction: &mut Direction) {
-    come_to_circle(linked, direction);
-    let steps = &mut direction.program.steps;
+pub(crate) fn go_between_stops(linked: &Linked, steps: &mut [Step]) {
     go_to_stop(linked, steps);
     for step in steps {
         drive_away(linked, step);
     }
-}
-
-/// Comes to what a film circles first from where the words set out: `in from the door, one lap round the table`.
-fn come_to_circle(linked: &Linked, direction: &mut Direction) {
-    let Some(step) = direction.program.steps.first_mut().filter(|step| step.movement.is_circular()) else { return };
-    let plain = Framing { subjects: step.start.subjects.clone(), ..Framing::default() };
-    let words = linked.texts_in(step.words.unwrap_or_default());
-    let source = match &step.via {
-        Some(via) if via.how == Pass::From => via.objects.clone(),
-        None if step.start == plain => plain.subjects,
-        _ => return,
-    };
-    let is_source = |at: usize| {
-        let next = words[at + 1..].iter().take(2);
-        let sets_out = words[at] == "from" || words[at] == "at" && at > 0 && is_form(words[at - 1], "start");
-        sets_out && next.into_iter().any(|word| source.iter().any(|id| linked.names(word, *id)))
-    };
-    let goes = !source.is_empty() && !step.end.subjects.is_empty() && source != step.end.subjects;
-    if !goes || !(0..words.len()).any(is_source) {
-        return;
-    }
-    (step.start, step.via) = (Framing::default(), None);
-    let end = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
-    let via = Some(Via { how: Pass::From, objects: source });
-    let way = Step { via, end, words: step.words, ..Step::of(Move::FlyThrough) };
-    direction.insert_rest(0, way);
 }
 
 /// Goes to the thing before which the words stop: a camera that only turned to it would not be in front of it.
@@ -94,7 +65,7 @@ fn drive_away(linked: &Linked, step: &mut Step) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cinesplat_operator::Program;
+    use cinesplat_operator::Framing;
 
     fn directed(text: &str, steps: Vec<Step>) -> Vec<Step> {
         let words = text.split(' ');
@@ -102,24 +73,14 @@ mod tests {
             words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1)])).collect();
         let slots = vec![5, 7];
         let linked = Linked { tokens_text: text.to_owned(), spans, slots, ..Linked::default() };
-        let steps = steps.into_iter().map(|step| Step { words: Some([0, text.len()]), ..step }).collect();
-        let program = Program { steps, ..Program::default() };
-        let mut direction = Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
-        go_between_stops(&linked, &mut direction);
-        direction.program.steps
+        let mut steps: Vec<Step> =
+            steps.into_iter().map(|step| Step { words: Some([0, text.len()]), ..step }).collect();
+        go_between_stops(&linked, &mut steps);
+        steps
     }
 
     fn about(id: u32) -> Framing {
         Framing { subjects: vec![id], ..Framing::default() }
-    }
-
-    #[test]
-    fn a_film_that_sets_out_from_a_door_comes_to_what_it_circles() {
-        let orbit = Step { start: about(5), end: about(7), ..Step::of(Move::OrbitRight) };
-        let steps = directed("in from <obj-0> , one lap round <obj-1>", vec![orbit.clone()]);
-        assert_eq!(steps.iter().map(|step| step.movement).collect::<Vec<_>>(), [Move::FlyThrough, Move::OrbitRight]);
-        assert_eq!(steps[0].via, Some(Via { how: Pass::From, objects: vec![5] }));
-        assert_eq!(directed("orbit <obj-1> with <obj-0> behind it", vec![orbit]).len(), 1);
     }
 
     #[test]

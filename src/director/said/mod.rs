@@ -124,7 +124,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     small_moves::move_rests(linked, &mut direction.program.steps);
     small_moves::turn_only(linked, &mut direction.program.steps);
     carriers::carry_as_said(linked, &mut direction.program.steps);
-    arrivals::go_between_stops(linked, direction);
+    arrivals::go_between_stops(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     heights::begin_at_height(linked, &mut direction.program.steps);

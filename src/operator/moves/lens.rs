@@ -118,7 +118,10 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     };
     let distance = first.pose.position.distance(target.aim);
     let tan = (first.fov_y_rad / 2.0).tan();
-    let open = if inward { lerp((0.4, 0.56), context.parameters[6]) } else { lerp((1.8, 2.6), context.parameters[6]) };
+    // A lone thing swells from close by, which a room behind it does not need.
+    let (nearer, farther) =
+        if context.world.is_indoor() { ((0.4, 0.56), (1.8, 2.6)) } else { ((0.46, 0.66), (1.5, 2.3)) };
+    let open = lerp(if inward { nearer } else { farther }, context.parameters[6]);
     // The limits of the lens shorten the travel, not the subject.
     let limit_tan = |deg: f64| (deg.to_radians() / 2.0).tan();
     let ratio = open.clamp(tan / limit_tan(LENS_LIMITS_DEG.1), tan / limit_tan(LENS_LIMITS_DEG.0));
