@@ -7,12 +7,16 @@ use cinesplat_language::{Beat, BeatLength, Linked, Timeline};
 use cinesplat_operator::{Framing, Program, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
+use crate::compositions::leading_move;
 use crate::direction::Direction;
 use crate::error::DirectorError;
-use crate::said::asks_for;
+use crate::said::{asks_for, is_form};
 
 /// Words that begin a part that holds where the part before arrives.
 const LANDS: [&str; 6] = ["land", "lands", "settle", "settles", "rest", "rests"];
+
+/// Words of a part that rests.
+const HOLDS: [&str; 8] = ["hold", "static", "stay", "still", "rest", "pause", "freeze", "lock"];
 
 /// Reads the parts of `linked`, which is a timeline, each with `read`. The first part is about `subjects`, unless it or
 /// the introduction names others.
@@ -53,6 +57,10 @@ pub(crate) fn direct_beats(
         }
         land(&mut whole.program.steps, &direction.program.steps);
         carry_on(&mut direction, &mut subjects);
+        if is_moment(linked, timeline, beat, &direction.program.steps) && arrive(&mut whole, &direction, beat) {
+            lengths.push((whole.program.steps.len(), Some(0.0)));
+            continue;
+        }
         let stated = direction.program.duration_secs;
         if let Some(BeatLength::Share(share)) = beat.length {
             // The last part may state the length of the film, any other one its own.
@@ -97,7 +105,7 @@ pub(crate) fn direct_beats(
         let end = lengths.get(nth + 1).map_or(whole.program.steps.len(), |next| next.0);
         let secs = secs_of(beat, *stated, total_secs);
         all_timed &= secs.is_some();
-        if let Some(secs) = secs {
+        if let Some(secs) = secs.filter(|secs| *secs > 0.0) {
             spread(&mut whole.program.steps[*first..end], secs);
         }
     }
@@ -106,6 +114,41 @@ pub(crate) fn direct_beats(
         whole.program.duration_secs = None;
     }
     Ok(whole)
+}
+
+/// Whether a part is a picture of one moment, and no rest: `t=0 wide of the vase, t=4 close on it`. Its steps are given.
+fn is_moment(linked: &Linked, timeline: &Timeline, beat: &Beat, steps: &[Step]) -> bool {
+    let holds = linked.words_in(beat.bytes).any(|(word, _)| HOLDS.iter().any(|verb| is_form(word, verb)));
+    let is_last_code = timeline.beats.last() == Some(beat)
+        && beat.length.is_none()
+        && timeline.beats.iter().all(|other| !other.cut && (other == beat || other.secs().is_some()));
+    let rests = matches!(steps, [step] if step.movement == Move::Static && step.with.is_empty());
+    beat.secs() == Some(0.0) || is_last_code && rests && !holds
+}
+
+/// Ends the picture of the part before, which rests, at the picture of a moment: the way between them takes the time of that
+/// part. Says whether it does.
+fn arrive(whole: &mut Direction, moment: &Direction, beat: &Beat) -> bool {
+    let (Some(before), Some(picture)) = (whole.program.steps.last_mut(), moment.program.steps.last()) else {
+        return false;
+    };
+    let (start, end) = (&before.end, &picture.end);
+    let rests = before.movement == Move::Static && before.with.is_empty() && before.start == Framing::default();
+    if !rests || start.subjects.is_empty() || end.subjects.is_empty() || start == end {
+        return false;
+    }
+    let other = start.subjects != end.subjects;
+    let (movement, either_way) = leading_move(start, end, &whole.program.forbidden);
+    if !other && movement == Move::Static {
+        return false;
+    }
+    (before.movement, before.either_way) = if other { (Move::Follow, false) } else { (movement, either_way) };
+    before.start = std::mem::replace(&mut before.end, end.clone());
+    before.words = before.words.map(|[from, _]| [from, beat.bytes[1]]);
+    if let Some(certainty) = whole.certainty.last_mut() {
+        certainty.words = before.words;
+    }
+    true
 }
 
 /// Reads one part; pronouns stand for `antecedent`.

@@ -19,7 +19,7 @@ use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
 use crate::explained::{
-    absorb_places, drop_sizes, name_by_label_words, name_by_parts, own_parts, point_back, point_ones,
+    absorb_places, drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, own_parts, point_back, point_ones,
 };
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
@@ -110,6 +110,7 @@ impl Director {
         absorb_places(prompt, objects, &mut found);
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);
+        drop_first_ones(prompt, &mut found);
         own_parts(prompt, objects, &mut found)?;
         name_by_parts(prompt, objects, &mut found)?;
         let acts = acts(prompt, objects, &mut found)?;

@@ -67,6 +67,26 @@ pub(crate) fn point_ones(prompt: &str, objects: &[NamedObject], found: &mut [Fou
     }
 }
 
+/// Takes back mentions inside words that only say where a row of things begins, because they name no thing besides the row:
+/// `pan over all three easels, left one first`.
+pub(crate) fn drop_first_ones(prompt: &str, found: &mut Vec<FoundMention>) {
+    let words = tokenize(prompt);
+    let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
+    for at in 1..words.len() {
+        let begins = matches!(text(at), "left" | "right" | "leftmost" | "rightmost") && text(at + 1) == "one";
+        let leads = |back: usize| at.checked_sub(back).map_or("", text);
+        let article = 1 + usize::from(leads(1) == "the");
+        let starts = matches!(leads(article + 1), "starting" | "beginning")
+            && matches!(leads(article), "with" | "at" | "from" | "on");
+        if !begins || !(starts || text(at + 2) == "first") {
+            continue;
+        }
+        let [from, to] = [words[at].span[0], words[at + 1].span[1]];
+        let row = found.iter().any(|found| found.mention.bytes[1] <= from && found.mention.ids.len() > 1);
+        found.retain(|found| !row || found.mention.bytes[1] <= from || found.mention.bytes[0] >= to);
+    }
+}
+
 /// Takes a part that the scene lacks for one of the only thing that there is, or that the prompt names: `the two sockets`
 /// of the skull.
 ///

@@ -29,6 +29,11 @@ const CORRECTIONS: [&[&str]; 17] = [
 const MAX_DENIED: usize = 6;
 /// Marks that may stand among the words of a correction and around them.
 const MARKS: [&str; 8] = [",", ".", "-", ":", ";", "\u{2026}", "\u{2013}", "\u{2014}"];
+/// Verbs that begin a phrase which is said once more: `push in on the jar, scratch that, push in on the mug`.
+const VERBS: [&str; 28] = [
+    "push", "pull", "pan", "tilt", "zoom", "dolly", "truck", "track", "crane", "orbit", "circle", "arc", "go", "move",
+    "come", "look", "start", "end", "finish", "begin", "open", "fly", "rise", "turn", "swing", "slide", "hold", "show",
+];
 /// Words that say nothing about how a phrase is built.
 const FILLERS: [&str; 8] = ["the", "a", "an", "to", "of", "just", "rather", "it"];
 /// Words of a size.
@@ -114,8 +119,20 @@ fn correction_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
     };
     let end = CORRECTIONS.iter().find_map(end_of)?;
     let end = end + (end..words.len()).take_while(is_mark).count();
+    let end = end + denied_again(words, end);
     let before = (0..at).rev().take_while(is_mark).count();
     Some([at - before, end])
+}
+
+/// Number of the words that only say again what is taken back, with the marks behind them: `.. no wait, not the mug, the
+/// plates`.
+fn denied_again(words: &[&str], at: usize) -> usize {
+    let is_mark = |word: &&&str| MARKS.contains(*word);
+    let Some(rest) = words.get(at..).filter(|rest| rest.first() == Some(&"not")) else { return 0 };
+    let thing = 1 + rest[1..].iter().take_while(|word| FILLERS.contains(word) || PREPOSITIONS.contains(word)).count();
+    let marks = rest.iter().skip(thing + 1).take_while(is_mark).count();
+    let is_denied = rest.get(thing).is_some_and(|word| word.starts_with(OBJECT)) && marks > 0;
+    if is_denied { thing + 1 + marks } else { 0 }
 }
 
 /// The word before the correction from which on the words behind it replace what stands there: the last one that begins
@@ -124,6 +141,14 @@ fn replaced(before: &[&str], behind: &[&str]) -> Option<usize> {
     let kinds_from = |words: &[&str]| -> Vec<Option<Kind>> {
         words.iter().filter(|word| !FILLERS.contains(word)).take(2).map(|word| kind(word)).collect()
     };
+    // A verb is said once more with all that belongs to it.
+    let names =
+        |words: &[&str]| words.iter().take_while(|word| !MARKS.contains(word)).any(|word| word.starts_with(OBJECT));
+    let verb = behind.first().filter(|word| VERBS.contains(word) && names(behind));
+    let again = verb.and_then(|verb| before.iter().rposition(|word| word == verb));
+    if let Some(again) = again.filter(|again| names(&before[*again..])) {
+        return Some(again);
+    }
     let wanted = kinds_from(behind);
     let first = wanted.first().copied().flatten()?;
     let num = if first == Kind::Size || first == Kind::Preposition { 2 } else { 1 };
@@ -131,4 +156,39 @@ fn replaced(before: &[&str], behind: &[&str]) -> Option<usize> {
     (0..before.len()).rev().find(|&at| {
         !FILLERS.contains(&before[at]) && kinds_from(&before[at..]).get(..num).is_some_and(|found| found == wanted)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn corrected(text: &str) -> Option<String> {
+        let words: Vec<&str> = text.split(' ').collect();
+        let [from, to] = (0..words.len()).rev().find_map(|at| correction_at(&words, at))?;
+        let start = replaced(&words[..from], &words[to..])?;
+        Some([&words[..start], &words[to..]].concat().join(" "))
+    }
+
+    #[test]
+    fn a_verb_that_is_said_again_replaces_its_phrase() {
+        let push = Some("push in on <obj-1> , end on a close up".to_owned());
+        assert_eq!(corrected("push in on <obj-0> . . . scratch that , push in on <obj-1> , end on a close up"), push);
+        assert_eq!(
+            corrected("hold , then pan to <obj-0> , no wait , pan to <obj-1>").as_deref(),
+            Some("hold , then pan to <obj-1>")
+        );
+        assert_eq!(corrected("hold on <obj-0> , no wait , hold longer"), None);
+        assert_eq!(corrected("go left , no wait , go to <obj-0>"), None);
+    }
+
+    #[test]
+    fn what_is_taken_back_may_be_said_again() {
+        let plates = Some("go for <obj-1> beside it".to_owned());
+        assert_eq!(corrected("go for <obj-0> . . . no wait , not <obj-0> , <obj-1> beside it"), plates);
+        assert_eq!(
+            corrected("go for the <obj-0> , wait no , not on <obj-0> . <obj-1> beside it"),
+            plates.map(|text| text.replace("for", "for the"))
+        );
+        assert_eq!(corrected("go for <obj-0> , no wait , not so fast"), None);
+    }
 }

@@ -36,7 +36,12 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
     let is_world = first > 1
         && matches!(word_at(&words, first - 1), "on" | "in" | "the")
         && words[first..end].iter().all(|word| is_listed("earth world universe", &word.text));
-    let is_taken_back = first > 0 && is_listed(TAKEN_BACK, word_at(&words, first - 1)) && is_phrase();
+    // `Scratch that` or its first word alone.
+    let is_whole_phrase = end <= first + 2
+        && is_listed(TAKEN_BACK, word_at(&words, first))
+        && matches!(word_at(&words, first + 1), "that" | "this" | "it");
+    let is_taken_back =
+        is_whole_phrase || first > 0 && is_listed(TAKEN_BACK, word_at(&words, first - 1)) && is_phrase();
     is_taken_back
         || is_world
         || is_color_of_look(&words, [first, end])
@@ -44,6 +49,7 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_term(&words[first..end], objects)
         || is_level(&words, [first, end])
         || is_smoothness(&words, [first, end])
+        || is_mount(&words, [first, end])
 }
 
 /// `gold and black palette`, `teal & orange grade`: colors alone, and what has them behind.
@@ -77,6 +83,21 @@ fn is_smoothness(words: &[Word], [first, end]: [usize; 2]) -> bool {
     let before =
         || (first.saturating_sub(2)..first).any(is_smooth) && matches!(word_at(words, first - 1), "as" | "like");
     first < end && is_all && ((first..=end).any(is_smooth) || before())
+}
+
+/// What a camera stands on, and how it stays.
+const MOUNTS: &str = "base platform chassis mount column stand carriage head rig";
+const STAYS: &str = "fixed locked stationary static immobile clamped bolted parked stays remains";
+
+/// `Base fixed, pan and tilt only`: what the camera stands on, in a clause of its own.
+fn is_mount(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let names = &words[first..end];
+    let is_named = names.last().is_some_and(|word| is_listed(MOUNTS, &word.text))
+        && names.iter().rev().skip(1).all(|word| is_listed("the its robot camera", &word.text));
+    let begins =
+        first == 0 || matches!(word_at(words, first - 1), "." | "," | ";" | ":" | "(" | "the" | "with" | "and");
+    let stays = end + usize::from(matches!(word_at(words, end), "is" | "kept" | "must" | "held"));
+    is_named && begins && is_listed(STAYS, word_at(words, stays))
 }
 
 /// `At table height`: a height that people know, and no thing, unless it has an article (`at the height of the table`).
@@ -128,11 +149,22 @@ mod tests {
     }
 
     #[test]
+    fn what_the_camera_stands_on_is_no_thing() {
+        assert!(is_none("look at the mug. Base fixed, pan and tilt only", "Base"));
+        assert!(is_none("pan to the mug, the base is locked", "the base"));
+        assert!(!is_none("push in on the base", "the base"));
+        assert!(!is_none("start at the base cabinet, fixed lens", "the base cabinet"));
+        assert!(!is_none("look at the base", "the base"));
+    }
+
+    #[test]
     fn terms_of_the_trade_are_no_things() {
         assert!(is_none("Reference plate, locked off", "Reference plate"));
         assert!(is_none("none of the axes may translate", "none of the axes"));
         assert!(is_none("dwell 1 s at each target", "each target"));
         assert!(is_none("on the mug, scratch that, on the jar", "that"));
+        assert!(is_none("on the mug, scratch that, on the jar", "scratch"));
+        assert!(!is_none("on the scratch, then on the jar", "the scratch"));
         assert!(!is_none("look at the skull, then circle that", "that"));
         assert!(!is_none("hold on the plate", "plate"));
         assert!(!is_none("the skull is the target", "the skull"));

@@ -39,6 +39,9 @@ fn time_codes_last_until_the_next_and_the_last_may_end_the_film() {
     assert_eq!(beats("T+0 on the mug | T+3 pan right | T+6 land on the teapot | T+8 out"), expected);
     assert_eq!(beats("0:00 on the mug. 0:03 pan right. 0:06 land on the teapot. 0:08 end."), expected);
     assert_eq!(beats("0:00 wide. 0:04 push in."), ["wide (4 s)", "push in"]);
+    let moment = ["wide of the mug (4 s)", "close on it (0 s)", "hold (2 s)"];
+    assert_eq!(beats("t=0s wide of the mug. t=4s close on it. t=4 to t=6 hold. end."), moment);
+    assert_eq!(beats("0:00 wide of the mug, 0:04 close on it, 0:04-0:06 hold"), moment);
 }
 
 #[test]

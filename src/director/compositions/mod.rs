@@ -21,7 +21,8 @@ use crate::error::DirectorError;
 use clauses::{Clause, clauses};
 use instants::without_instants;
 use moments::Moment;
-use moves::{has_words, leading_move, names_move, turns_towards};
+pub(crate) use moves::leading_move;
+use moves::{has_words, names_move, turns_towards};
 use picture::Picture;
 
 /// A picture at a moment, with its bytes of the prompt.

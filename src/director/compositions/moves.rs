@@ -87,12 +87,18 @@ pub(super) fn names_move(linked: &Linked) -> bool {
         let next = words[at + 1..].iter().take(2);
         next.into_iter().any(|word| matches!(*word, "in" | "close" | "closer" | "near" | "nearer" | "away" | "back"))
     };
+    // `The slider moves to the right`.
+    let goes = |at: usize| {
+        let next = words[at + 1..].iter().take(3);
+        next.into_iter().any(|word| matches!(*word, "left" | "right" | "up" | "down" | "forward" | "backward"))
+    };
     let names = |at: usize| match words[at] {
         // `the lower third`, `the back wall`.
         "lower" => false,
         "back" => matches!(words.get(at + 1), Some(&("away" | "off" | "up" | "out"))),
         // `Get in close on the vase`.
         "get" | "come" | "go" | "move" if leads(at) => true,
+        word if is_form(word, "move") => goes(at),
         word => is_move_word(word),
     };
     (0..words.len()).any(|at| names(at) && !is_banned(at))
@@ -104,7 +110,7 @@ pub(super) fn has_words(linked: &Linked) -> bool {
 }
 
 /// The move from one picture to another, and whether its direction is open.
-pub(super) fn leading_move(start: &Framing, end: &Framing, forbidden: &[Motion]) -> (Move, bool) {
+pub(crate) fn leading_move(start: &Framing, end: &Framing, forbidden: &[Motion]) -> (Move, bool) {
     let forbids = |motions: &[Motion]| motions.iter().any(|motion| forbidden.contains(motion));
     let stays = forbids(&[Motion::Travel]);
     let pair = |of: &dyn Fn(&Framing) -> Option<f64>| of(start).zip(of(end)).filter(|(a, b)| (a - b).abs() > 1e-9);

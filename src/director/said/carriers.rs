@@ -32,10 +32,45 @@ pub(crate) fn carry_as_said(linked: &Linked, steps: &mut [Step]) {
     reveal_passed(steps);
 }
 
-/// Makes a tilt a rise or a descent where the words carry the camera up or down and name no turn.
+/// Verbs of somebody who carries the camera up or down, what is carried, and words between them.
+const LIFTS: [&str; 14] = [
+    "lift", "raise", "hoist", "lower", "drop", "bring", "move", "take", "boom", "jib", "push", "send", "elevate",
+    "rise",
+];
+const CAMERAS: [&str; 6] = ["camera", "cam", "lens", "rig", "it", "tripod"];
+const DETERMINERS: [&str; 4] = ["the", "my", "our", "your"];
+/// Words that rule out what stands behind them, and words between the two.
+const BANS: [&str; 8] = ["no", "not", "without", "never", "zero", "'t", "dont", "nor"];
+const BANNED: [&str; 10] = ["any", "a", "the", "pan", "panning", "or", "and", "do", "it", "camera"];
+
+/// Whether the words lift or lower the camera and rule out that it tilts: `lift the camera straight up to the teapot, no tilting`.
+fn lifts_level(words: &[&str]) -> bool {
+    let is_ban = |at: usize| {
+        let before = words[..at].iter().rev().take(4).find(|word| !BANNED.contains(word));
+        before.is_some_and(|word| BANS.contains(word))
+    };
+    let is_banned = (0..words.len()).any(|at| is_form(words[at], "tilt") && is_ban(at));
+    let is_lift = |at: usize| {
+        let thing = at + 1 + words[at + 1..].iter().take(1).take_while(|word| DETERMINERS.contains(word)).count();
+        LIFTS.iter().any(|verb| is_form(words[at], verb)) && words.get(thing).is_some_and(|word| CAMERAS.contains(word))
+    };
+    let moves = |at: usize| {
+        let camera = words[..at].iter().rev().take(2).any(|word| matches!(*word, "camera" | "cam"));
+        camera && ["lift", "rise", "lower", "drop", "climb", "sink"].iter().any(|verb| is_form(words[at], verb))
+    };
+    is_banned && (0..words.len()).any(|at| is_lift(at) || moves(at))
+}
+
+/// Makes a tilt a rise or a descent where the words carry the camera up or down and name no turn, or rule it out.
 fn carry_tilts(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::TiltUp | Move::TiltDown)) {
         let words = linked.texts_in(step.words.unwrap_or_default());
+        let behind = linked.words_in([step.words.unwrap_or_default()[1], usize::MAX]).map(|(word, _)| word);
+        let near: Vec<&str> = words.iter().copied().chain(behind.take(5)).collect();
+        if lifts_level(&near) {
+            step.movement = if step.movement == Move::TiltUp { Move::PedestalUp } else { Move::PedestalDown };
+            continue;
+        }
         let is_carried = |way: &[&str]| (0..words.len()).any(|at| carries(&words, at, way));
         if words.iter().any(|word| is_listed(TURNS, word)) {
             continue;
@@ -159,5 +194,16 @@ mod tests {
         assert!(up("travel slowly up the neck"));
         assert!(!up("run the eye up <obj-0>"));
         assert!(!up("float over to <obj-0> and look up"));
+    }
+
+    #[test]
+    fn a_tilt_that_is_ruled_out_lifts_the_camera() {
+        let lifts = |text: &str| lifts_level(&text.split(' ').collect::<Vec<_>>());
+        assert!(lifts("lift the camera straight up to <obj-0> , no tilting"));
+        assert!(lifts("the camera drops from <obj-0> to <obj-1> , without any tilt"));
+        assert!(lifts("raise it to <obj-0> , don 't tilt"));
+        assert!(!lifts("lift the camera 's gaze up to <obj-0>"));
+        assert!(!lifts("look up to <obj-0> , no panning , just tilt"));
+        assert!(!lifts("lift your eyes to <obj-0> , no tilting of the horizon"));
     }
 }

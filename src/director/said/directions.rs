@@ -3,7 +3,7 @@
 //! The network sometimes turns a direction around that is said plainly. Where the verb of a step's move is followed by a
 //! direction, the step takes it.
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, QuantityKind};
 use cinesplat_operator::{Motion, Step};
 use cinesplat_trajectory::Move;
 
@@ -186,6 +186,42 @@ pub(crate) fn rise_to_things(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words between a turn and the side to which it leads: `a quarter turn to camera left`.
+const SIDEWARD: [&str; 8] = ["camera", "cam", "the", "screen", "frame", "your", "our", "my"];
+/// Words of a way round.
+const ROUNDS: [&str; 10] = ["turn", "circle", "lap", "spiral", "around", "round", "it", "orbit", "arc", "loop"];
+
+/// Gives circles the way to which their words turn, where they name one alone.
+pub(crate) fn turn_to_sides(linked: &Linked, steps: &mut [Step]) {
+    for nth in 0..steps.len() {
+        let Some(span) = own_words(steps, nth).filter(|_| is_circle(steps[nth].movement)) else { continue };
+        let words = linked.texts_in(span);
+        let is_angle = |word: &str| linked.quantity_at(word).is_some_and(|q| q.kind == QuantityKind::Degrees);
+        let ways: Vec<bool> = (0..words.len()).filter_map(|at| side_of_turn(&words, at, &is_angle)).collect();
+        let is_left = |movement: Move| matches!(movement, Move::OrbitLeft | Move::ArcLeft);
+        let ([to_left], false) = (&ways[..], words.iter().any(|word| CORRECTIONS.contains(word))) else { continue };
+        let step = &mut steps[nth];
+        if is_left(step.movement) != *to_left {
+            step.movement = step.movement.opposite().unwrap_or(step.movement);
+        }
+        step.either_way = false;
+    }
+}
+
+fn is_circle(movement: Move) -> bool {
+    matches!(movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
+}
+
+/// Whether the side at word `at`, to which a turn leads, is the left one; `None` where no turn leads to it.
+fn side_of_turn(words: &[&str], at: usize, is_angle: &dyn Fn(&str) -> bool) -> Option<bool> {
+    let is_left = matches!(words[at], "left" | "right").then(|| words[at] == "left")?;
+    let next = words.get(at + 1).copied().unwrap_or_default();
+    let links = words[..at].iter().rev().take_while(|word| SIDEWARD.contains(word)).count();
+    let to = (at - links).checked_sub(1).filter(|to| matches!(words[*to], "to" | "toward" | "towards"))?;
+    let turns = words[..to].iter().next_back().is_some_and(|word| ROUNDS.contains(word) || is_angle(word));
+    (turns && !PLACES.contains(&next)).then_some(is_left)
+}
+
 /// Whether a word is a form of a verb: `pan`, `pans`, `panning`.
 pub(crate) fn is_form(word: &str, verb: &str) -> bool {
     let stem = verb.strip_suffix('e').unwrap_or(verb);
@@ -220,3 +256,21 @@ const FAMILIES: [Family; 10] = [
     (&["arc"], [("left", Move::ArcLeft), ("right", Move::ArcRight)]),
     (&["zoom"], [("in", Move::ZoomIn), ("out", Move::ZoomOut)]),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_leads_to_a_side() {
+        let side = |text: &str| {
+            let words: Vec<&str> = text.split(' ').collect();
+            (0..words.len()).find_map(|at| side_of_turn(&words, at, &|word| word == "<qty-0>"))
+        };
+        assert_eq!(side("spiral up around it , about <qty-0> to camera left , ending high"), Some(true));
+        assert_eq!(side("go around it to the right"), Some(false));
+        assert_eq!(side("a quarter turn to the left side of <obj-0>"), None);
+        assert_eq!(side("around it with <obj-1> to the left"), None);
+        assert_eq!(side("the chair on the left"), None);
+    }
+}

@@ -77,7 +77,9 @@ pub(crate) fn show_whole(linked: &Linked, steps: &mut [Step]) {
         }
         // `Start with the full sideboard in view, then move in on the vase`.
         let first = linked.expanded(&step.start.subjects);
-        let is_open = step.start.size.is_none() && step.start.height_frac.is_none() && !step.start.hidden;
+        // What is far and complete is both: `start far with the complete plant`.
+        let is_far = step.start.size.is_none_or(|size| size >= ShotSize::Long);
+        let is_open = is_far && step.start.height_frac.is_none() && !step.start.hidden;
         if is_open && !first.is_empty() && first != subjects && are_whole(&first) {
             step.start.whole = true;
         }

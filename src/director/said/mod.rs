@@ -19,6 +19,7 @@ mod named_times;
 mod open;
 mod openings;
 mod places;
+mod postures;
 mod ranges;
 mod rates;
 mod repeats;
@@ -31,6 +32,7 @@ mod stillness;
 mod taken_back;
 mod together;
 mod until;
+mod visits;
 mod whole_film;
 
 use cinesplat_language::{Linked, Senses};
@@ -51,6 +53,7 @@ use crate::error::DirectorError;
 pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Direction) -> Result<(), DirectorError> {
     let steps = &mut direction.program.steps;
     directions::take_said_directions(linked, steps);
+    directions::turn_to_sides(linked, steps);
     directions::part_twins(linked, steps);
     directions::reveal_sideways(linked, steps);
     dolly_zoom::take_said_dolly_zooms(linked, steps);
@@ -61,6 +64,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     places::begin_at_source(linked, steps);
     places::pass_pairs(linked, steps);
     places::complete_framings(steps);
+    places::place_ends(linked, steps);
     moods::drop_statements(linked, direction);
     repeats::merge_repeated(linked, senses, direction)?;
     amounts::leave_to_owner(linked, &mut direction.program.steps);
@@ -98,6 +102,8 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);
     rests::rest_on_each(linked, direction);
+    visits::visit_listed(linked, direction);
+    ranges::zoom_between_lenses(linked, direction);
     circles::close_circles(linked, direction);
     let steps = &mut direction.program.steps;
     circles::turn_all_round(linked, steps);
@@ -109,8 +115,15 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::level_frontal_views(linked, steps);
     openings::hide_at_first(linked, steps);
     openings::square_to_walls(linked, steps);
+    openings::slide_square(linked, steps);
     openings::begin_straight_above(linked, steps);
     directions::rise_to_things(linked, steps);
+    take_said_of_moves(linked, direction);
+    Ok(())
+}
+
+/// Corrects the moves of a direction, whose pictures are settled, by what the words say plainly.
+fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     lengths::take_film_length(linked, &mut direction.program);
     rates::take_rates(linked, direction);
     bans::drop_misplaced_bans(linked, &mut direction.program);
@@ -127,9 +140,9 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     arrivals::go_between_stops(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
+    postures::stand_low(linked, direction);
     heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
-    Ok(())
 }
 
 /// Corrects a direction by what the words say plainly of several of its parts.

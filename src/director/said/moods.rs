@@ -110,7 +110,14 @@ fn is_plain(step: &Step) -> bool {
 
 /// Whether words are whole sentences that say what something is, and nothing of a picture.
 fn is_statement(words: &[&str]) -> bool {
-    words.last().is_some_and(|word| ENDS.contains(word))
+    // `We're on the drawers` says where the film is.
+    let is_picture = words.windows(3).any(|three| {
+        matches!(three[0], "we" | "i" | "you")
+            && COPULAS.contains(&three[1])
+            && matches!(three[2], "on" | "at" | "with")
+    });
+    !is_picture
+        && words.last().is_some_and(|word| ENDS.contains(word))
         && words.iter().any(|word| COPULAS.contains(word))
         && !words.iter().any(|word| PICTURES.contains(word))
 }
@@ -127,5 +134,7 @@ mod tests {
         assert!(!states("<obj-0> is in the center of the frame ."));
         assert!(!states("<obj-0> is what we see first ."));
         assert!(!states("<obj-0> is big , then"));
+        assert!(!states("we 're on <obj-0> ."));
+        assert!(states("we are proud of <obj-0> ."));
     }
 }

@@ -1,7 +1,7 @@
 //! What the words say of the first picture.
 
 use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::{Framing, Step, SubjectPart};
+use cinesplat_operator::{Framing, Look, Step, SubjectPart};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::directions::is_form;
@@ -182,6 +182,39 @@ pub(crate) fn square_to_walls(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words of a lens that does not turn, what it points at, and words between the two.
+const LOCKED: [&str; 12] = [
+    "locked", "fixed", "lock", "dead", "straight", "square", "pointed", "pointing", "points", "aimed", "always",
+    "directly",
+];
+const AHEAD: [&str; 5] = ["ahead", "forward", "forwards", "front", "on"];
+const LENSES: [&str; 4] = ["lens", "camera", "cam", "optics"];
+
+/// Takes a look along a sideways slide back where the lens is only locked ahead: `crab left, lens locked dead ahead`. A person
+/// who slides to one side with the lens straight ahead does not turn to that side.
+pub(crate) fn slide_square(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::TruckLeft | Move::TruckRight)) {
+        let [from, to] = step.words.unwrap_or_default();
+        let behind = linked.words_in([to, usize::MAX]).map(|(word, _)| word).take(8);
+        let words: Vec<&str> = linked.texts_in([from, to]).into_iter().chain(behind).collect();
+        if step.look == Some(Look::Ahead) && locks_ahead(&words) {
+            step.look = None;
+        }
+    }
+}
+
+/// Whether words lock the lens straight ahead.
+fn locks_ahead(words: &[&str]) -> bool {
+    let is_way = |word: &&str| ["go", "travel", "move", "head", "walk"].iter().any(|verb| is_form(word, verb));
+    (0..words.len()).any(|at| {
+        let behind = &words[at + 1..words.len().min(at + 7)];
+        let locks = behind.windows(2).any(|pair| LOCKED.contains(&pair[0]) && AHEAD.contains(&pair[1]))
+            || behind.iter().any(|word| LOCKED[..3].contains(word))
+                && behind.iter().any(|word| AHEAD[..3].contains(word));
+        LENSES.contains(&words[at]) && locks && !behind.iter().any(is_way)
+    })
+}
+
 /// Hides what the first picture lacks by its words and a slide shows at its end: `only the curtain, no chair in sight. Then
 /// we slide to the right and the armchair enters`.
 pub(crate) fn hide_at_first(linked: &Linked, steps: &mut [Step]) {
@@ -246,7 +279,7 @@ fn senses_of_turn(movement: Move) -> Option<&'static [&'static str]> {
         Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight => {
             Some(&["around", "turn", "left", "right", "full", "half", "quarter"])
         }
-        Move::PanLeft | Move::PanRight => Some(&["turn", "left", "right", "whip"]),
+        Move::PanLeft | Move::PanRight => Some(&["turn", "left", "right", "whip", "around", "curve"]),
         Move::WhipPan => Some(&["turn", "left", "right", "whip", "fast"]),
         Move::TiltUp => Some(&["nod", "up", "lift"]),
         Move::TiltDown => Some(&["nod", "down"]),
@@ -314,4 +347,19 @@ pub(crate) fn temper_closeness(linked: &Linked, senses: &[Senses], steps: &mut [
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lens_that_is_locked_ahead_does_not_look_along() {
+        let locks = |text: &str| locks_ahead(&text.split(' ').collect::<Vec<_>>());
+        assert!(locks("crab left past <obj-0> , lens locked dead ahead"));
+        assert!(locks("slide right , camera pointing straight ahead the whole time"));
+        assert!(locks("truck left with the lens fixed forward"));
+        assert!(!locks("slide right , camera looking ahead to where we are going"));
+        assert!(!locks("truck left , the camera moves straight on"));
+    }
 }

@@ -1,7 +1,7 @@
 //! What the words say of where things are and how they are seen.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Amount, Framing, Motion, Pass, Step, SubjectPart};
+use cinesplat_operator::{Amount, FramePlace, Framing, Motion, Pass, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
 use super::briefs::directs;
@@ -144,6 +144,39 @@ fn stays_before_subject(movement: Move) -> bool {
     circles_or_nears || movement.looks_elsewhere()
 }
 
+/// Words behind a side of the frame.
+const THIRDS: [&str; 5] = ["third", "side", "edge", "half", "thirds"];
+
+/// Begins and ends at the places in the frame that the words name one after the other: `the chair on the right third. Slide until
+/// it sits on the left third`.
+pub(crate) fn place_ends(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.start.place.is_some() || step.end.place.is_some()) {
+        let same = !step.start.subjects.is_empty() && step.start.subjects == step.end.subjects;
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        if let Some([first, last]) = frame_sides(&words).filter(|_| same && step.start.place == step.end.place) {
+            (step.start.place, step.end.place) = (Some(first), Some(last));
+        }
+    }
+}
+
+/// The only two sides of the frame that the words name, in order.
+fn frame_sides(words: &[&str]) -> Option<[FramePlace; 2]> {
+    let side_at = |at: usize| {
+        let is_third = words.get(at + 1).is_some_and(|word| THIRDS.contains(word));
+        let is_of_thing =
+            words.get(at + 2) == Some(&"of") && !words[at + 3..].iter().take(2).any(|word| *word == "frame");
+        let before = words[..at].iter().rev().find(|word| **word != "the");
+        let is_placed = is_third && !is_of_thing && before.is_some_and(|word| matches!(*word, "on" | "in" | "at"));
+        match words[at] {
+            "left" if is_placed => Some(FramePlace::AtLeft),
+            "right" if is_placed => Some(FramePlace::AtRight),
+            _ => None,
+        }
+    };
+    let sides: Vec<FramePlace> = (0..words.len()).filter_map(side_at).collect();
+    matches!(sides[..], [first, last] if first != last).then(|| [sides[0], sides[1]])
+}
+
 /// Gives a framing that says how its subjects are seen, but not which, the subjects of the step's other framing, or
 /// what it passes: `tilt from the foot of the lamp post up to its lantern`.
 pub(crate) fn complete_framings(steps: &mut [Step]) {
@@ -151,12 +184,28 @@ pub(crate) fn complete_framings(steps: &mut [Step]) {
         let passed = step.via.as_ref().map(|via| via.objects.clone()).unwrap_or_default();
         let [start, end] = [&step.start, &step.end].map(|framing| framing.subjects.clone());
         let complete = |framing: &mut Framing, others: [&Vec<u32>; 2]| {
-            let is_seen = framing.part != SubjectPart::default() || framing.side.is_some();
+            let is_seen = framing.part != SubjectPart::default() || framing.side.is_some() || framing.place.is_some();
             if framing.subjects.is_empty() && is_seen {
                 framing.subjects = others.into_iter().find(|ids| !ids.is_empty()).cloned().unwrap_or_default();
             }
         };
         complete(&mut step.start, [&end, &passed]);
         complete(&mut step.end, [&start, &passed]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_sides_of_the_frame_are_its_first_and_its_last_place() {
+        let sides = |text: &str| frame_sides(&text.split(' ').collect::<Vec<_>>());
+        let across = Some([FramePlace::AtRight, FramePlace::AtLeft]);
+        assert_eq!(sides("<obj-0> on the right third . slide right until it sits on the left third"), across);
+        assert_eq!(sides("<obj-0> in the right half of the frame , then in the left half"), across);
+        assert_eq!(sides("<obj-0> on the right third . slide to the left"), None);
+        assert_eq!(sides("from <obj-0> on the left side of <obj-1> to the one on the right side"), None);
+        assert_eq!(sides("on the left third , then on the left third"), None);
     }
 }

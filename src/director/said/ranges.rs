@@ -5,6 +5,9 @@ use cinesplat_language::{Linked, Quantity, QuantityKind};
 use cinesplat_operator::{Amount, Framing, Lens, Step};
 use cinesplat_trajectory::Move;
 
+use super::directions::is_form;
+use crate::direction::Direction;
+
 /// Words between the two values besides `to` and arrows.
 const BETWEEN: [&str; 11] = ["at", "down", "up", "all", "the", "way", "vertical", "\u{B0}", "degrees", ":", "00"];
 /// Words about lenses and about where a subject is seen from, and how far from the values they stand.
@@ -56,6 +59,35 @@ pub(crate) fn take_ranges(linked: &Linked, steps: &mut [Step]) {
             QuantityKind::Degrees if says(&ELEVATIONS) => take_elevations(step, range.values),
             QuantityKind::Units if !says(&HEIGHTS) => take_distances(step, range.values),
             _ => {}
+        }
+    }
+}
+
+/// Words of a picture that rests for a while before a zoom.
+const HOLDS: [&str; 8] = ["hold", "rest", "stay", "wait", "pause", "linger", "static", "still"];
+
+/// Begins a zoom to a focal length at the one that the picture before it states, where nobody asks for a rest: `24 mil, the vase
+/// in the middle. Then zoom to an 85`.
+pub(crate) fn zoom_between_lenses(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [picture, zoom] = &direction.program.steps[nth - 1..=nth] else { continue };
+        let holds = linked.texts_in(picture.words.unwrap_or_default());
+        let holds = holds.iter().any(|word| HOLDS.iter().any(|verb| is_form(word, verb)));
+        let is_opening = picture.movement == Move::Static
+            && picture.with.is_empty()
+            && picture.start == Framing::default()
+            && picture.duration_secs.is_none()
+            && picture.end.lens.is_some()
+            && !holds;
+        let zooms = matches!(zoom.movement, Move::ZoomIn | Move::ZoomOut)
+            && zoom.end.lens.is_some()
+            && zoom.start == Framing::default()
+            && zoom.end.subjects == picture.end.subjects
+            && !zoom.cut;
+        if is_opening && zooms {
+            let one =
+                Step { start: picture.end.clone(), cut: picture.cut, words: picture.joint_words(zoom), ..zoom.clone() };
+            direction.join_steps(nth, one);
         }
     }
 }

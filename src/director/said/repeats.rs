@@ -75,11 +75,13 @@ fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
 }
 
 /// Words between things that are passed one after the other.
-const NEXT: [&str; 16] =
-    ["then", "the", "and", ",", "past", "next", "after", "that", "finally", ".", "lastly", ";", "on", "by", "a", "to"];
+const NEXT: [&str; 18] = [
+    "then", "the", "and", ",", "past", "next", "after", "that", "finally", ".", "lastly", ";", "on", "by", "a", "to",
+    "in", "turn",
+];
 
 /// Makes one way of steps that only name what is passed next: `track past the knives, then the plates, then the ladles`
-/// leads from the first of them to the last.
+/// leads from the first of them to the last, and so does `track past the knives, the plates and the ladles in turn`.
 pub(crate) fn pass_one_after_another(linked: &Linked, direction: &mut Direction) {
     let (mut nth, mut is_chain) = (1, false);
     while nth <= direction.program.steps.len() {
@@ -121,7 +123,13 @@ fn passing_both(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
         && !second.returns;
     let words = linked.texts_in(second.words?);
     let only_names = words.iter().all(|word| NEXT.contains(word) || linked.slot_at(word).is_some());
-    if !is_plain || !only_names || !is_same_move(first, second) || first.words == second.words {
+    // A list goes on; `to` and `on` lead to its end.
+    let lists = second.movement == Move::Follow
+        && matches!(first.movement, Move::TruckLeft | Move::TruckRight)
+        && !words.iter().any(|word| matches!(*word, "to" | "on" | "then"))
+        && says_past(linked, first);
+    let goes_on = lists || is_same_move(first, second);
+    if !is_plain || !only_names || !goes_on || first.words == second.words {
         return None;
     }
     let mut via = first.via.clone().filter(|via| matches!(via.how, Pass::Past | Pass::Along))?;
@@ -130,6 +138,11 @@ fn passing_both(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
     let new: Vec<u32> = next.iter().filter(|id| !via.objects.contains(id)).copied().collect();
     via.objects.extend(new);
     Some(Step { via: Some(via), words: first.joint_words(second), ..first.clone() })
+}
+
+/// Whether a step's words pass what it goes along.
+fn says_past(linked: &Linked, step: &Step) -> bool {
+    linked.texts_in(step.words.unwrap_or_default()).iter().any(|word| matches!(*word, "past" | "by" | "passing"))
 }
 
 /// Whether the second step turns to what the first one has just turned to, and says nothing else: `look at the lamp, then

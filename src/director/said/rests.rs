@@ -10,9 +10,9 @@ use crate::direction::Direction;
 const RESTS: [&str; 10] = ["hold", "pause", "stop", "rest", "dwell", "linger", "wait", "settle", "stay", "halt"];
 const EACH: [&str; 3] = ["each", "every", "all"];
 /// Words between the two.
-const BETWEEN: [&str; 16] = [
+const BETWEEN: [&str; 18] = [
     "on", "upon", "at", "for", "with", "a", "of", "in", "front", "there", "briefly", "shortly", "about", "the", "good",
-    "full",
+    "full", "facing", "beside",
 ];
 /// How long a rest is that has no length.
 const REST_SECS: f64 = 1.0;
@@ -27,9 +27,13 @@ pub(crate) fn rest_on_each(linked: &Linked, direction: &mut Direction) {
     let secs = stated.unwrap_or(REST_SECS);
     let byte = linked.spans.get(at).map_or(0, |span| span[0]);
     let steps = &mut direction.program.steps;
+    travel_between_rests(steps, stated);
     let arrives = |step: &Step| step.movement != Move::Static && !step.end.subjects.is_empty() && !step.returns;
-    let places = steps.iter().filter(|step| arrives(step)).count()
-        + usize::from(steps.first().is_some_and(|step| arrives(step) && !step.start.subjects.is_empty()));
+    let is_place = |step: &Step| {
+        let rests = step.movement == Move::Static && !step.end.subjects.is_empty();
+        rests || arrives(step) && !step.start.subjects.is_empty()
+    };
+    let places = steps.iter().filter(|step| arrives(step)).count() + usize::from(steps.first().is_some_and(is_place));
     if places < 2 {
         return;
     }
@@ -58,6 +62,22 @@ pub(crate) fn rest_on_each(linked: &Linked, direction: &mut Direction) {
         if arrives(&steps[nth]) && !rests && is_before && steps.len() < MAX_STEPS {
             let held = rest(&steps[nth].end, steps[nth].words);
             direction.insert_rest(nth + 1, held);
+        }
+    }
+}
+
+/// Travels to what the network holds behind another picture: each of a list of places is one to arrive at and to rest on, as in
+/// `waypoint A = guitar, B = palm, C = chest; dwell 2 s facing each`.
+fn travel_between_rests(steps: &mut [Step], stated: Option<f64>) {
+    for nth in 1..steps.len() {
+        let before = steps[nth - 1].end.subjects.clone();
+        let step = &mut steps[nth];
+        let plain = Framing { subjects: step.end.subjects.clone(), place: step.end.place, ..Framing::default() };
+        let is_other = !step.end.subjects.is_empty() && !before.is_empty() && step.end.subjects != before;
+        let is_open = step.duration_secs.is_none() || step.duration_secs == stated;
+        let rests = step.movement == Move::Static && step.with.is_empty() && !step.cut && step.via.is_none();
+        if rests && is_other && is_open && step.end == plain && step.start == Framing::default() {
+            (step.movement, step.duration_secs) = (Move::Follow, None);
         }
     }
 }
@@ -102,7 +122,24 @@ mod tests {
         assert!(rests("turn to <obj-0> then to <obj-1> , dwelling upon each item for no less than a second"));
         assert!(rests("a pause at each stage"));
         assert!(rests("stop briefly at every one"));
+        assert!(rests("dwell facing each one"));
         assert!(!rests("hold all the way"));
         assert!(!rests("show each of them"));
+    }
+
+    #[test]
+    fn each_place_is_one_to_arrive_at() {
+        let rest = |id: u32, secs: Option<f64>| Step {
+            end: Framing { subjects: vec![id], ..Framing::default() },
+            duration_secs: secs,
+            ..Step::of(Move::Static)
+        };
+        let moves = |mut steps: Vec<Step>| {
+            travel_between_rests(&mut steps, Some(2.0));
+            steps.iter().map(|step| step.movement).collect::<Vec<_>>()
+        };
+        assert_eq!(moves(vec![rest(1, Some(2.0)), rest(2, Some(2.0))]), [Move::Static, Move::Follow]);
+        assert_eq!(moves(vec![rest(1, None), rest(1, None)]), [Move::Static, Move::Static]);
+        assert_eq!(moves(vec![rest(1, None), rest(2, Some(5.0))]), [Move::Static, Move::Static]);
     }
 }

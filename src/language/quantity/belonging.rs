@@ -84,6 +84,11 @@ fn is_label(word: &str) -> bool {
     )
 }
 
+/// Whether a number after this word heads a shot list: `cam 3 - 9 sec`.
+pub(super) fn is_heading(word: &str) -> bool {
+    is_label(word) || matches!(word, "cam" | "camera" | "cut" | "unit" | "reel" | "clip" | "frame" | "panel")
+}
+
 /// Whether a number before this word is of a dimension that prompts cannot state.
 fn is_foreign_unit(word: &str) -> bool {
     matches!(

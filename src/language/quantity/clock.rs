@@ -2,7 +2,7 @@
 //!
 //! A span lasts from its start to its end. A time code alone lasts from the time code before it, or from 0:00.
 
-use super::belonging::is_counted;
+use super::belonging::{is_counted, is_heading};
 use super::context::{back, begins_clause, is_dash, is_joined, time_before, word_before};
 use super::kind::{Found, QuantityKind, found};
 use super::unit::time_scale;
@@ -69,6 +69,10 @@ fn span_at(words: &[Word], i: usize) -> Option<Found> {
 /// Whether `2 to 5 seconds` is a span and no estimate.
 fn is_certain(words: &[Word], i: usize, start: Instant, end: Instant) -> bool {
     let before = word_before(words, i, 1);
+    // `Shot 4 - 6 sec`: the first number is a name.
+    if is_heading(before) && is_dash(words, start.end) && start.secs > 0.0 {
+        return false;
+    }
     start.secs == 0.0
         || matches!(before, "from" | "between" | "t" | "time")
         || before == "(" && end.secs - start.secs > 1.0

@@ -86,7 +86,10 @@ fn is_alone(words: &[Word], i: usize, end: usize, value: f64) -> bool {
     let before = cause(words, i);
     let last = word_before(words, i, 1);
     let next = word_at(words, end);
-    let ends = ends_phrase(words, end) || matches!(next, "today" | "at" | "or" | "for" | "if" | "on");
+    let ends = ends_phrase(words, end)
+        || matches!(next, "today" | "at" | "or" | "for" | "if" | "on")
+        // `To an 85 over six seconds`.
+        || matches!(next, "over" | "in" | "within" | "during") && about_lenses;
     let article = matches!(before, "a" | "the" | "an");
     let preposition = matches!(
         word_before(words, after_hedges(words, i), 2),

@@ -1,5 +1,6 @@
 //! Numbers with a unit: `2.5 s`, `1,5 m`, `6'2"`, `a metre and a half`, `35 mm`.
 
+use super::belonging::is_heading;
 use super::context::{is_dash, is_joined, word_before};
 use super::kind::{Found, QuantityKind, found};
 use super::lookalike::{is_length, is_no_measure, is_no_share, is_rate};
@@ -115,10 +116,12 @@ fn is_and_half_of_unit(words: &[Word], i: usize) -> bool {
 /// The mean of `5 to 6` or `5 - 6` before a unit; `first` itself where no range begins.
 fn mean_of_range(words: &[Word], i: usize, first: Numeral) -> Numeral {
     let is_of_clock = word_before(words, i, 1) == ":" && is_joined(words, i);
-    if first.form != NumeralForm::Number || is_of_clock {
+    let next = i + first.len;
+    // `Cam 3 - 9 sec`: the first number is a name.
+    let is_name = is_dash(words, next) && is_heading(word_before(words, i, 1));
+    if first.form != NumeralForm::Number || is_of_clock || is_name {
         return first;
     }
-    let next = i + first.len;
     let link = usize::from(matches!(word_at(words, next), "to" | "or" | "," | "/"));
     let Some((len, value)) = cardinal_at(words, next + link) else { return first };
     let Some((_, kind, _)) = unit_at(words, next + link + len) else { return first };

@@ -26,7 +26,7 @@ pub struct Beat {
     pub bytes: [usize; 2],
     /// Byte at which its time begins.
     pub start: usize,
-    /// How long it lasts, where that is stated.
+    /// How long it lasts, where that is stated; 0 s for a picture of one moment.
     pub length: Option<BeatLength>,
     /// Whether it begins with a cut.
     pub cut: bool,
@@ -123,6 +123,8 @@ fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
     let in_order = stamps.windows(2).all(|pair| match (pair[0].kind, pair[1].kind) {
         (StampKind::Number(a), StampKind::Number(b)) => b == a + 1,
         (StampKind::Length(_) | StampKind::Share(_), _) => true,
+        // `t=4 we are in close-up. t=4 to t=6 nothing moves.`
+        (StampKind::Point(at), StampKind::Span(start, _)) if at > 0.0 => at <= start,
         (before, after) => before.start_secs() + 1e-3 < after.start_secs(),
     });
     match first.kind {
@@ -220,4 +222,21 @@ fn trimmed(words: &[Word], start: usize, end: usize) -> [usize; 2] {
         .iter()
         .rposition(|word| !matches!(word.text.as_str(), "," | "." | ";" | ":" | "/" | "(" | "["));
     [first, kept.map_or(first, |last| first + last + 1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mention::link_mentions;
+
+    #[test]
+    fn equations_are_time_codes_of_beats() {
+        let lengths = |prompt: &str| {
+            let timeline = link_mentions(prompt, &[]).unwrap().timeline;
+            timeline.map(|timeline| timeline.beats.iter().map(Beat::secs).collect::<Vec<_>>())
+        };
+        assert_eq!(lengths("t=0 on the mug. t=4 pan to the jar. t=8 end."), Some(vec![Some(4.0), Some(4.0)]));
+        let moment = Some(vec![Some(4.0), Some(0.0), Some(2.0)]);
+        assert_eq!(lengths("t=0s wide of the mug. t=4s close on it. t=4 to t=6 nothing moves. end."), moment);
+    }
 }

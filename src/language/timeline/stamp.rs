@@ -45,6 +45,10 @@ impl StampKind {
 pub(super) fn begins_item(prompt: &str, words: &[Word], i: usize) -> bool {
     let Some(before) = i.checked_sub(1).and_then(|at| words.get(at)) else { return true };
     let gap = words.get(i).and_then(|word| prompt.get(before.span[1]..word.span[0])).unwrap_or_default();
+    // `(1) t = 0-4 s` is an item by its number.
+    if before.text == ")" && is_equated(prompt, words, i) {
+        return false;
+    }
     // `T+3` and `2)` begin a part wherever they stand.
     let stands_out = match (word_at(words, i), word_at(words, i + 1)) {
         ("t", "+") => true,
@@ -57,6 +61,13 @@ pub(super) fn begins_item(prompt: &str, words: &[Word], i: usize) -> bool {
         || before.text == "#" && begins_item(prompt, words, i - 1)
         || matches!(before.text.as_str(), "," | "." | ";" | ":" | "/" | "!" | "?" | ")" | "then" | "and")
             && !is_joined(words, i)
+}
+
+/// Whether the prompt has `=` behind word `i`, as in `t=4`; it is no word.
+fn is_equated(prompt: &str, words: &[Word], i: usize) -> bool {
+    // Plain words for shorthand have the bytes of all of it.
+    let both = words.get(i).zip(words.get(i + 1)).and_then(|(word, next)| prompt.get(word.span[0]..next.span[1]));
+    both.is_some_and(|both| both.contains('='))
 }
 
 /// The stamp that begins at word `i`.
@@ -77,6 +88,7 @@ pub(super) fn stamp_at(prompt: &str, words: &[Word], i: usize) -> Option<Stamp> 
     }
     let start = match (word_at(words, i), word_at(words, i + 1)) {
         ("t", "+") => i + 2,
+        ("t", _) if is_equated(prompt, words, i) => i + 1,
         ("from" | "at" | "by" | "second" | "sec" | "secs" | "seconds" | "tc" | "timecode", _) => i + 1,
         _ => i,
     };
@@ -141,11 +153,15 @@ pub(super) fn cut_at(words: &[Word], i: usize) -> Option<Stamp> {
 /// A span of time that begins with `first`.
 fn span_from(words: &[Word], start: usize, first: Instant) -> Option<(usize, StampKind)> {
     let link = link_at(words, start, first)?;
-    let last = instant_at(words, first.end + link)?;
+    // `t=4 to t=6`.
+    let to = first.end + link;
+    let last = instant_at(words, to + usize::from(word_at(words, to) == "t"))?;
+    let is_code = start > 0 && word_at(words, start - 1) == "t";
     if other_unit(words, first.end) || other_unit(words, last.end) {
         return None;
     }
     let is_time = [first.form, last.form].iter().any(|form| *form != InstantForm::Bare)
+        || is_code
         || first.secs == 0.0
         || matches!(word_at(words, last.end), ":" | ")");
     (is_time && last.secs > first.secs).then_some((last.end, StampKind::Span(first.secs, last.secs)))
@@ -290,4 +306,27 @@ fn list_number_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, u32)
 /// Whether a space follows word `i`.
 fn is_followed_by_space(prompt: &str, words: &[Word], i: usize) -> bool {
     words.get(i).and_then(|word| prompt.get(word.span[1]..)).is_some_and(|rest| rest.starts_with(char::is_whitespace))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tokenizer::tokenize;
+
+    fn kinds(prompt: &str) -> Vec<StampKind> {
+        let words = tokenize(prompt);
+        let begins = (0..words.len()).filter(|at| begins_item(prompt, &words, *at));
+        begins.filter_map(|at| stamp_at(prompt, &words, at)).map(|stamp| stamp.kind).collect()
+    }
+
+    #[test]
+    fn time_codes_may_be_equations() {
+        let codes = [StampKind::Point(0.0), StampKind::Point(4.0)];
+        assert_eq!(kinds("t=0s wide of the mug. t=4s close on it"), codes);
+        assert_eq!(kinds("T = 0 on the mug; T = 4 pan to the jar"), codes);
+        assert_eq!(kinds("wide. t=4 to t=6 nothing moves")[0], StampKind::Span(4.0, 6.0));
+        assert_eq!(kinds("a t 4 tube"), []);
+        assert_eq!(kinds("at t = 4 only the mug is in shot"), []);
+        assert_eq!(kinds("(1) t = 0-4 s orbit")[..], [StampKind::Number(1)]);
+    }
 }

@@ -1,0 +1,59 @@
+//! How the camera stands, which is no move: `the guitar, camera down low, looking up at it`.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Framing, Speed, Step};
+use cinesplat_trajectory::Move;
+
+use super::directions::is_form;
+use crate::direction::Direction;
+
+/// Verbs of a camera that goes down, or is brought down.
+const SINKS: [&str; 24] = [
+    "lower", "drop", "sink", "descend", "crane", "boom", "jib", "pedestal", "come", "go", "get", "move", "dip", "duck",
+    "bring", "take", "travel", "float", "glide", "slide", "fall", "drift", "ease", "crouch",
+];
+/// What is down low, and words between it and `down low`.
+const CAMERAS: [&str; 6] = ["camera", "cam", "lens", "tripod", "we", "angle"];
+const BETWEEN: [&str; 9] = ["is", "are", "'re", "'s", "stays", "sits", "way", "right", "really"];
+
+/// Rests where the film begins with a camera that is down low and that nothing brings there. What rests behind it holds the same
+/// picture.
+pub(crate) fn stand_low(linked: &Linked, direction: &mut Direction) {
+    let Some(first) = direction.program.steps.first_mut() else { return };
+    let sinks = matches!(first.movement, Move::CraneDown | Move::PedestalDown);
+    let is_open = first.start == Framing::default() && first.with.is_empty() && first.amount.is_none();
+    if !sinks || !is_open || !stands_low(&linked.texts_in(first.words.unwrap_or_default())) {
+        return;
+    }
+    (first.movement, first.either_way, first.speed) = (Move::Static, false, Speed::Normal);
+    let [first, second, ..] = &direction.program.steps[..] else { return };
+    let goes_on = Step { words: second.words, duration_secs: second.duration_secs, ..Step::of(Move::Static) };
+    if *second == goes_on && first.duration_secs.is_none() {
+        let one = Step { duration_secs: second.duration_secs, words: first.joint_words(second), ..first.clone() };
+        direction.join_steps(1, one);
+    }
+}
+
+/// Whether the words say that the camera is down low, and nothing brings it there.
+fn stands_low(words: &[&str]) -> bool {
+    let is_low = |at: usize| {
+        let before = words[..at].iter().rev().find(|word| !BETWEEN.contains(word));
+        words[at..].starts_with(&["down", "low"]) && before.is_some_and(|word| CAMERAS.contains(word))
+    };
+    (0..words.len()).any(is_low) && !words.iter().any(|word| SINKS.iter().any(|verb| is_form(word, verb)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_camera_that_is_down_low_is_not_brought_there() {
+        let low = |text: &str| stands_low(&text.split(' ').collect::<Vec<_>>());
+        assert!(low("we want <obj-0> , camera down low looking up at it"));
+        assert!(low("on <obj-0> , the lens is way down low"));
+        assert!(!low("get the camera down low on <obj-0>"));
+        assert!(!low("come down low to <obj-0>"));
+        assert!(!low("<obj-0> is down low"));
+    }
+}
