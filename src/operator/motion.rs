@@ -13,6 +13,15 @@ pub(super) type StepParameters = [f64; NUM_PARAMETERS];
 /// Number of open parameters per step.
 pub(super) const NUM_PARAMETERS: usize = 8;
 
+/// Whether the words state the angle from which a camera looks: high, low, overhead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Angle {
+    /// They do not.
+    Free,
+    /// They do, at one end at least.
+    Stated,
+}
+
 /// A stretch of the film with one kind of motion.
 #[derive(Debug, Clone)]
 pub(super) struct MotionSegment {
@@ -34,8 +43,8 @@ pub(super) struct MotionSegment {
     pub(super) cut: bool,
     /// The segment only turns the camera to where the step's own motion starts.
     pub(super) is_join: bool,
-    /// The words state the angle from which the camera looks, or the height from which it does.
-    pub(super) is_angled: bool,
+    /// Whether the words state the angle from which the camera looks.
+    pub(super) angle: Angle,
     /// Constraints on the segment's frames.
     pub(super) constraints: Vec<Constraint>,
 }
@@ -53,7 +62,7 @@ impl MotionSegment {
             easing: Easing::Smooth,
             cut: false,
             is_join: false,
-            is_angled: false,
+            angle: Angle::Free,
             constraints: Vec::new(),
         }
     }

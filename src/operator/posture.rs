@@ -4,7 +4,7 @@
 use super::composition::natural_elevation_deg;
 use super::constraint::{Constraint, ConstraintKind};
 use super::framing::Target;
-use super::motion::MotionSegment;
+use super::motion::{Angle, MotionSegment};
 use super::program::{Framing, Pass};
 use super::world::World;
 use cinesplat_trajectory::{CameraState, Move};
@@ -31,7 +31,12 @@ pub(super) fn posture_cost(world: &World, segment: &MotionSegment, states: &[Cam
             | Move::FlyThrough
     );
     let is_asked = |constraint: &Constraint| asks_for_height(&constraint.kind);
-    if !world.is_indoor() || segment.is_join || segment.is_angled || rises || segment.constraints.iter().any(is_asked) {
+    if !world.is_indoor()
+        || segment.is_join
+        || segment.angle == Angle::Stated
+        || rises
+        || segment.constraints.iter().any(is_asked)
+    {
         return 0.0;
     }
     let shown = || segment.constraints.iter().filter_map(|constraint| constraint.shown(world));

@@ -11,7 +11,8 @@ use super::directions::is_form;
 const STOPS: [&str; 10] = ["stop", "halt", "hover", "brake", "park", "land", "finish", "settle", "arrive", "pull"];
 /// Verbs of a camera that goes its way with its eyes ahead, and words of one that slides.
 const DRIVES: [&str; 10] = ["drive", "walk", "ride", "run", "fly", "stroll", "wander", "cruise", "race", "march"];
-const SLIDES: [&str; 9] = ["truck", "slide", "crab", "track", "sideways", "sideway", "lateral", "left", "right"];
+const SLIDES: [&str; 10] =
+    ["truck", "slide", "crab", "track", "sideways", "sideway", "lateral", "left", "right", "along"];
 /// Verbs of a camera that sets out from a thing.
 const LEAVES: [&str; 4] = ["leave", "exit", "depart", "start"];
 
@@ -31,7 +32,7 @@ fn go_to_stop(linked: &Linked, steps: &mut [Step]) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_goal = |word: &&str| step.end.subjects.iter().any(|id| linked.names(word, *id));
         let in_front = |at: usize| {
-            words[at..].starts_with(&["in", "front", "of"]) && words[at + 3..].iter().take(3).any(|word| is_goal(&word))
+            words[at..].starts_with(&["in", "front", "of"]) && words[at + 3..].iter().take(3).any(is_goal)
         };
         let stops = |at: usize| words[..at].iter().any(|word| STOPS.iter().any(|verb| is_form(word, verb)));
         let is_other = !step.end.subjects.is_empty() && step.end.subjects != shown && !step.cut;

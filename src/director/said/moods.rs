@@ -88,7 +88,8 @@ pub(crate) fn drop_stories(linked: &Linked, direction: &mut Direction) {
         let tells = sentences[nth].iter().any(|word| COPULAS.contains(word) || TOLD.contains(word))
             && sentences[nth].last().is_some_and(|word| ENDS.contains(word))
             && !sentences[nth].iter().any(|word| PICTURES.contains(word))
-            && !directs(&sentences[nth]);
+            && !directs(&sentences[nth])
+            && !directs(&linked.texts_in(spans[nth]));
         let is_sure = direction.certainty.get(nth).is_none_or(|step| step.probability >= MADE_UP);
         if is_asked && tells && !is_sure {
             direction.remove_step(nth);
@@ -125,6 +126,36 @@ fn is_statement(words: &[&str]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::direction::StepCertainty;
+    use cinesplat_operator::Program;
+
+    /// How many steps are left of those that words are read as, each hardly sure.
+    fn left(texts: &[&str]) -> usize {
+        let mut linked = Linked { tokens_text: texts.join(" "), ..Linked::default() };
+        let mut steps = Vec::new();
+        for text in texts {
+            let from = linked.spans.last().map_or(0, |span| span[1] + 1);
+            for word in text.split(' ') {
+                let at = linked.spans.last().map_or(0, |span| span[1] + 1);
+                linked.spans.push([at, at + word.len()]);
+            }
+            let to = linked.spans.last().map_or(0, |span| span[1]);
+            steps.push(Step { words: Some([from, to]), ..Step::of(Move::Reveal) });
+        }
+        let unsure = |step: &Step| StepCertainty { probability: 0.1, weakest: ("move", 0.1), words: step.words };
+        let certainty = steps.iter().map(unsure).collect();
+        let program = Program { steps, ..Program::default() };
+        let mut direction = Direction { program, step_cameras: Vec::new(), certainty, unmet: Vec::new() };
+        drop_stories(&linked, &mut direction);
+        direction.program.steps.len()
+    }
+
+    #[test]
+    fn a_story_is_no_move_where_another_sentence_asks_for_one() {
+        assert_eq!(left(&["she found out what <obj-0> is for .", "sneak up on <obj-0> ."]), 1);
+        assert_eq!(left(&["we are a firefly . soar over <obj-0> ,", "and head for <obj-1> ."]), 2);
+        assert_eq!(left(&["she found out what <obj-0> is for .", "and <obj-1> is hers ."]), 2);
+    }
 
     #[test]
     fn what_a_thing_is_is_no_picture() {

@@ -6,7 +6,7 @@ use super::standing::require_shoulder;
 use crate::composition::lens_fov_deg;
 use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::framing::Target;
-use crate::motion::MotionSegment;
+use crate::motion::{Angle, MotionSegment};
 use crate::program::{Framing, Pass, Via};
 use cinesplat_trajectory::ShotAngle;
 
@@ -32,7 +32,9 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
     });
     for segment in segments.iter_mut() {
         keep_and_avoid(context, segment);
-        segment.is_angled |= is_angled;
+        if is_angled {
+            segment.angle = Angle::Stated;
+        }
     }
     if let Some(own) = segments.iter_mut().rev().find(|segment| !segment.is_join) {
         add(own, Scope::Start, framing(context, &step.start, &context.opening_target()));
