@@ -31,13 +31,29 @@ fn go_to_stop(linked: &Linked, steps: &mut [Step]) {
         let step = &mut steps[nth];
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_goal = |word: &&str| step.end.subjects.iter().any(|id| linked.names(word, *id));
-        let in_front = |at: usize| {
-            words[at..].starts_with(&["in", "front", "of"]) && words[at + 3..].iter().take(3).any(is_goal)
-        };
+        let in_front =
+            |at: usize| words[at..].starts_with(&["in", "front", "of"]) && words[at + 3..].iter().take(3).any(is_goal);
         let stops = |at: usize| words[..at].iter().any(|word| STOPS.iter().any(|verb| is_form(word, verb)));
         let is_other = !step.end.subjects.is_empty() && step.end.subjects != shown && !step.cut;
-        if step.movement == Move::Static && is_other && (0..words.len()).any(|at| in_front(at) && stops(at)) {
+        let pulls_up = |at: usize| {
+            is_form(words[at], "pull")
+                && matches!(words.get(at + 1..at + 3), Some(["up", "at" | "by" | "beside" | "in"]))
+        };
+        let rises = matches!(step.movement, Move::CraneUp | Move::PedestalUp) && step.start.subjects.is_empty();
+        let arrives = step.movement == Move::Static && (0..words.len()).any(|at| in_front(at) && stops(at))
+            || rises && (0..words.len()).any(pulls_up);
+        if is_other && arrives {
             step.movement = Move::Follow;
+        }
+        // `Retreat to the window`: it is behind the camera.
+        let backs = |at: usize| {
+            let is_verb = ["retreat", "withdraw"].iter().any(|verb| is_form(words[at], verb));
+            let is_back = words[at] == "back" && matches!(words.get(at + 1), Some(&("up" | "off" | "away")));
+            let to = at + 1 + usize::from(is_back);
+            (is_verb || is_back) && words.get(to) == Some(&"to") && words[to..].iter().take(3).any(is_goal)
+        };
+        if step.movement == Move::PullOut && is_other && !step.end.whole && (0..words.len()).any(backs) {
+            step.end.subjects.clear();
         }
     }
 }

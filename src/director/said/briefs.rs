@@ -4,10 +4,10 @@
 //! Nobody who writes a brief wants a photo, or what the network makes up from words of other things. The film goes slowly
 //! towards what the brief is about.
 
-use cinesplat_language::{Linked, Quantity, QuantityKind, is_listed};
+use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_objects::Object;
-use cinesplat_operator::{Amount, Framing, Speed, Step};
-use cinesplat_trajectory::Move;
+use cinesplat_operator::{Amount, Framing, Pass, Speed, Step, Via};
+use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::bans::SENTENCE_ENDS;
 use super::directions::is_form;
@@ -30,7 +30,7 @@ const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu w
     toward around round past along through cut cuts camera stills photo photograph picture snapshot frozen motionless \
     first then next finally backwards forwards backward forward sideways left right away";
 /// Verbs whose `up` or `down` is no way: `somewhere you'd never get up`.
-const NO_WAYS: &str = "get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
+const NO_WAYS: &str = "turns turned get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
     stand stands hang make made dress dressed tidy tidied grown let calm slow settle";
 /// Words with which another word is one of cameras: `look at`, `open on`, `come closer`.
 const LEADS: [(&str, &str); 10] = [
@@ -61,14 +61,15 @@ const SECRETS: &str = "secret surprise payoff";
 /// Angle of a turn to a thing that is out of the picture at first, degrees.
 const SURPRISE_DEG: f64 = 80.0;
 /// Words of a thing that is to be seen from more than one side.
-const WARES: &str = "product shop store brand catalogue catalog webshop sell selling sale bestseller customers customer buyers sculpture \
-    statue figurine model toy";
+const WARES: &str = "product shop store brand catalogue catalog webshop sell selling sale bestseller sculpture statue figurine model toy";
 /// Words that show one thing after the other.
 const IN_TURN: &str = "each every turn another";
 /// Words of a place as a whole.
 const PLACES: &str =
     "room bedroom kitchen bathroom lounge space flat apartment studio house home office interior place";
-const SPACES: &str = "space light spacious airy roomy bright layout size big large";
+const SPACES: &str = "space light spacious airy roomy bright layout size";
+/// Words of a thing that is to look large: it is seen from below.
+const GRAND: &str = "tall giant towering heroic hero-like monumental imposing mighty powerful colossal gigantic";
 /// Words of a calm film, and of a lively one.
 const CALM: &str = "slow slowly calm calmly lazy soft softly gentle gently quiet quietly moody elegant elegantly dreamy peaceful \
     serene cosy cozy tender sleepy hush hushed intimate";
@@ -78,15 +79,27 @@ const NOT: &str = "not never 't without no hide avoid nobody nothing";
 /// Replaces a picture at rest, or a reading that is hardly sure, of a brief.
 pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
-    let is_rest = |step: &Step| step.movement == Move::Static && step.with.is_empty() && !step.end.whole;
-    let rests = matches!(&direction.program.steps[..], [step] if is_rest(step));
+    let is_rest = |step: &Step| {
+        let is_timed = step.duration_secs.is_some() && direction.program.steps.len() > 1;
+        let holds_one = step.movement == Move::Static && step.with.is_empty() && !is_timed;
+        // Several things in one picture may be meant, where the words are not sold.
+        holds_one && (!step.end.whole || words.iter().any(|word| is_listed(WARES, word)))
+    };
+    let rests = !direction.program.steps.is_empty() && direction.program.steps.iter().all(is_rest);
     let least = if direction.program.steps.len() == 1 { ONE_MADE_UP } else { MADE_UP };
     let is_made_up = direction.certainty.iter().any(|step| step.probability < least);
     let is_loose = rests || is_made_up && !direction.program.steps.is_empty();
-    // Angles and lengths are what a camera keeps.
-    let measures = |quantity: &Quantity| quantity.kind != QuantityKind::Seconds;
-    let is_measured = linked.quantities.iter().any(measures);
-    if !is_loose || linked.timeline.is_some() || is_measured || !is_brief(&said(linked, &words)) {
+    // Angles and lengths are what a camera keeps, and no size that a thing is to seem.
+    let measures = |at: usize| {
+        let seems = words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word))
+            && words[..at].iter().rev().take(4).any(|word| is_listed("is was are were look looks like as", word));
+        linked.quantity_at(words[at]).is_some_and(|quantity| quantity.kind != QuantityKind::Seconds) && !seems
+    };
+    let is_measured = (0..words.len()).any(measures);
+    let said = said(linked, &words);
+    // Who sells a thing says what is to be seen of it: `wants the front, both sides and the back`.
+    let is_ware = rests && words.iter().any(|word| is_listed(WARES, word)) && !moves(&said);
+    if !is_loose || linked.timeline.is_some() || is_measured || !(is_brief(&said) || is_ware) {
         return;
     }
     let denied = denied(linked, &words);
@@ -98,7 +111,11 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
         return;
     }
     let of_place = has(PLACES) && (subjects.is_empty() || has(SPACES));
-    let mut steps = if of_place || subjects.is_empty() { vec![Step::look_around()] } else { about(&subjects, &words) };
+    let mut steps = match seen_from(linked, &words, &subjects) {
+        Some(place) => vec![Step { via: Some(Via { how: Pass::From, objects: place }), ..Step::look_around() }],
+        None if of_place || subjects.is_empty() => vec![Step::look_around()],
+        None => about(&mentioned(linked, &subjects), &words),
+    };
     // The same move, of which the network may have read more.
     if let ([read], [brief]) = (&direction.program.steps[..], &steps[..])
         && read.movement == brief.movement
@@ -106,7 +123,10 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     {
         return;
     }
-    let speed = match (has(CALM), has(LIVELY)) {
+    // `Not fast` is no wish for speed.
+    let is_wished =
+        |at: usize| is_listed(LIVELY, words[at]) && !words[..at].iter().rev().take(2).any(|word| is_listed(NOT, word));
+    let speed = match (has(CALM), (0..words.len()).any(is_wished)) {
         (true, false) => Speed::Slow,
         (false, true) => Speed::Fast,
         _ => Speed::Normal,
@@ -128,6 +148,23 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     direction.program.steps = steps;
 }
 
+/// The one thing that a brief is about where its words only say that it is seen from there: `just lie there staring at
+/// stuff. From the bed.`
+fn seen_from(linked: &Linked, words: &[&str], subjects: &[u32]) -> Option<Vec<u32>> {
+    let is_place = |at: usize| {
+        let id = linked.slot_at(words[at])?;
+        let begins = at < 2 || SENTENCE_ENDS.contains(&words[at - 2]);
+        let ends = words.get(at + 1).is_none_or(|word| SENTENCE_ENDS.contains(word) || *word == ",");
+        (at > 0 && words[at - 1] == "from" && begins && ends).then(|| linked.expanded(&[id]))
+    };
+    (0..words.len()).find_map(is_place).filter(|place| place == subjects)
+}
+
+/// The things by their mentions: several that one mention names are one picture.
+fn mentioned(linked: &Linked, subjects: &[u32]) -> Vec<Vec<u32>> {
+    linked.grouped(subjects).into_iter().map(|id| linked.expanded(&[id])).collect()
+}
+
 /// The words but those that stand for a part of a thing: `the back` of an armchair is no way.
 fn said<'a>(linked: &Linked, words: &[&'a str]) -> Vec<&'a str> {
     let spans = &linked.spans;
@@ -142,6 +179,23 @@ fn is_brief(words: &[&str]) -> bool {
     words.len() >= FEWEST_WORDS && !directs(words)
 }
 
+/// Whether words have a verb of what a camera does.
+fn moves(words: &[&str]) -> bool {
+    (0..words.len()).any(|at| is_camera_verb(words, at))
+}
+
+/// Whether the word at `at` is a verb of what a camera does.
+fn is_camera_verb(words: &[&str], at: usize) -> bool {
+    let word = words[at];
+    // `Arm rests` are no rest.
+    let is_part =
+        word == "rests" && at > 0 && (is_listed("arm head foot back", words[at - 1]) || words[at - 1].starts_with('<'));
+    // `Before everybody turns up`.
+    let comes = is_form(word, "turn") && words.get(at + 1).is_some_and(|next| is_listed("up out", next));
+    let is_verb = VERBS.iter().any(|verb| is_form(word, verb));
+    is_verb && !is_listed("resting movement", word) && !is_part && !comes
+}
+
 /// Whether words say something of what a camera does.
 pub(super) fn directs(words: &[&str]) -> bool {
     let leads = |at: usize| {
@@ -154,14 +208,9 @@ pub(super) fn directs(words: &[&str]) -> bool {
     };
     let is_camera = |at: usize| {
         let word = words[at];
-        // `Arm rests` are no rest.
-        let is_part = word == "rests"
-            && at > 0
-            && (is_listed("arm head foot back", words[at - 1]) || words[at - 1].starts_with('<'));
-        let is_verb = VERBS.iter().any(|verb| is_form(word, verb)) && !is_listed("resting movement", word) && !is_part;
         let before = words[at.saturating_sub(2)..at].iter();
         let is_way = matches!(word, "up" | "down") && !before.into_iter().any(|word| is_listed(NO_WAYS, word));
-        is_verb || is_listed(WORDS, word) || leads(at) || is_way
+        is_camera_verb(words, at) || is_listed(WORDS, word) || leads(at) || is_way
     };
     (0..words.len()).any(is_camera)
 }
@@ -188,36 +237,43 @@ fn without_parts(mut subjects: Vec<u32>, objects: &[Object]) -> Vec<u32> {
     subjects
 }
 
-/// What a sentence says is not to be seen.
+/// What a sentence says is not to be seen, and no other one names: `he can't try it` says nothing of what is seen.
 fn denied(linked: &Linked, words: &[&str]) -> Vec<u32> {
-    let slots = (0..words.len()).filter_map(|at| {
-        let id = linked.slot_at(words[at])?;
+    let is_denied = |at: usize| {
         let before = words[..at].iter().rev().take_while(|word| !SENTENCE_ENDS.contains(word)).take(4);
-        before.into_iter().any(|word| is_listed(NOT, word)).then_some(id)
-    });
-    linked.expanded(&slots.collect::<Vec<_>>())
+        before.into_iter().any(|word| is_listed(NOT, word))
+    };
+    let named = |wanted: bool| {
+        let slots = (0..words.len()).filter(|at| is_denied(*at) == wanted).filter_map(|at| linked.slot_at(words[at]));
+        linked.expanded(&slots.collect::<Vec<_>>())
+    };
+    let shown = named(false);
+    named(true).into_iter().filter(|id| !shown.contains(id)).collect()
 }
 
-/// The steps of a film about some things.
-fn about(subjects: &[u32], words: &[&str]) -> Vec<Step> {
+/// The steps of a film about some things, each of one or of several that are one picture.
+fn about(subjects: &[Vec<u32>], words: &[&str]) -> Vec<Step> {
     let has = |list: &str| words.iter().any(|word| is_listed(list, word));
     let until_end = words.windows(3).any(|three| three == ["until", "the", "end"]);
     let framed = |ids: &[u32]| Framing { subjects: ids.to_vec(), ..Framing::default() };
+    let together = || Framing { whole: true, ..framed(&subjects.concat()) };
+    let angle = has(GRAND).then_some(ShotAngle::Low);
     match subjects {
         // From beside it, far enough that it comes last.
-        [id] if has(SECRETS) || until_end => {
+        [ids] if has(SECRETS) || until_end => {
             let amount = Some(Amount::Degrees(SURPRISE_DEG));
-            vec![Step { end: framed(&[*id]), either_way: true, amount, ..Step::of(Move::PanRight) }]
+            vec![Step { end: framed(ids), either_way: true, amount, ..Step::of(Move::PanRight) }]
         }
-        [id] if has(WARES) => vec![Step { end: framed(&[*id]), either_way: true, ..Step::of(Move::ArcRight) }],
-        [id] => vec![Step { end: framed(&[*id]), ..Step::of(Move::PushIn) }],
-        [_, _] if !has(IN_TURN) => {
-            vec![Step { end: Framing { whole: true, ..framed(subjects) }, ..Step::of(Move::PushIn) }]
+        [ids] if has(WARES) => vec![Step { end: framed(ids), either_way: true, ..Step::of(Move::ArcRight) }],
+        [ids] => vec![Step { end: Framing { angle, ..framed(ids) }, ..Step::of(Move::PushIn) }],
+        [_, ..] if has(WARES) && !has(IN_TURN) => {
+            vec![Step { end: together(), either_way: true, ..Step::of(Move::ArcRight) }]
         }
+        [_, _] if !has(IN_TURN) => vec![Step { end: together(), ..Step::of(Move::PushIn) }],
         [first, rest @ ..] => {
-            let to = |(nth, id): (usize, &u32)| {
-                let start = if nth == 0 { framed(&[*first]) } else { Framing::default() };
-                Step { start, end: framed(&[*id]), ..Step::of(Move::Follow) }
+            let to = |(nth, ids): (usize, &Vec<u32>)| {
+                let start = if nth == 0 { framed(first) } else { Framing::default() };
+                Step { start, end: framed(ids), ..Step::of(Move::Follow) }
             };
             rest.iter().take(4).enumerate().map(to).collect()
         }
