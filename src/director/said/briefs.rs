@@ -30,7 +30,8 @@ const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu w
     toward around round past along through cut cuts camera stills photo photograph picture snapshot frozen motionless \
     first then next finally backwards forwards backward forward sideways left right away";
 /// Verbs whose `up` or `down` is no way: `somewhere you'd never get up`.
-const NO_WAYS: &str = "turns turned get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
+const NO_WAYS: &str = "turns turned \
+    get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
     stand stands hang make made dress dressed tidy tidied grown let calm slow settle";
 /// Words with which another word is one of cameras: `look at`, `open on`, `come closer`.
 const LEADS: [(&str, &str); 10] = [
@@ -61,7 +62,8 @@ const SECRETS: &str = "secret surprise payoff";
 /// Angle of a turn to a thing that is out of the picture at first, degrees.
 const SURPRISE_DEG: f64 = 80.0;
 /// Words of a thing that is to be seen from more than one side.
-const WARES: &str = "product shop store brand catalogue catalog webshop sell selling sale bestseller sculpture statue figurine model toy";
+const WARES: &str = "product shop store brand catalogue catalog webshop sell selling sale bestseller sculpture statue \
+    figurine model toy";
 /// Words that show one thing after the other.
 const IN_TURN: &str = "each every turn another";
 /// Words of a place as a whole.
@@ -69,7 +71,7 @@ const PLACES: &str =
     "room bedroom kitchen bathroom lounge space flat apartment studio house home office interior place";
 const SPACES: &str = "space light spacious airy roomy bright layout size";
 /// Words of a thing that is to look large: it is seen from below.
-const GRAND: &str = "tall giant towering heroic hero-like monumental imposing mighty powerful colossal gigantic";
+const GRAND: &str = "giant towering heroic hero-like monumental imposing mighty powerful colossal gigantic";
 /// Words of a calm film, and of a lively one.
 const CALM: &str = "slow slowly calm calmly lazy soft softly gentle gently quiet quietly moody elegant elegantly dreamy peaceful \
     serene cosy cozy tender sleepy hush hushed intimate";
@@ -82,7 +84,7 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     let is_rest = |step: &Step| {
         let is_timed = step.duration_secs.is_some() && direction.program.steps.len() > 1;
         let holds_one = step.movement == Move::Static && step.with.is_empty() && !is_timed;
-        // Several things in one picture may be meant, where the words are not sold.
+        // One picture of several things may be meant, but not by who sells them.
         holds_one && (!step.end.whole || words.iter().any(|word| is_listed(WARES, word)))
     };
     let rests = !direction.program.steps.is_empty() && direction.program.steps.iter().all(is_rest);
@@ -299,11 +301,24 @@ mod tests {
         assert!(brief(
             "i want the bedroom to feel like somewhere you 'd never get up on a sunday . <obj-0> is the hero"
         ));
+        assert!(brief("half an hour before everybody turns up for lunch , <obj-0> is on , people should miss her"));
         assert!(!brief("no wait not <obj-0> , <obj-1> first and then <obj-0> and nice and slow"));
         assert!(!brief("show <obj-0>"));
         assert!(!brief("i want you to come closer to <obj-0> , moody and slow"));
         assert!(!brief("a moody wide shot of <obj-0> in the morning light"));
         assert!(!brief("we open on <obj-0> , which has been waiting for its owner"));
         assert!(!brief("the room feels quiet as we are circling <obj-0> like a ghost"));
+    }
+
+    #[test]
+    fn what_is_sold_is_gone_around_and_a_group_is_one_picture() {
+        let moves = |subjects: &[Vec<u32>], text: &str| -> Vec<Move> {
+            let steps = about(subjects, &text.split(' ').collect::<Vec<_>>());
+            steps.iter().map(|step| step.movement).collect()
+        };
+        assert_eq!(moves(&[vec![1]], "<obj-0> is our bestseller"), [Move::ArcRight]);
+        assert_eq!(moves(&[vec![1], vec![2, 3]], "<obj-0> and <obj-1> from our shop"), [Move::ArcRight]);
+        assert_eq!(moves(&[vec![1]], "<obj-0> at rest"), [Move::PushIn]);
+        assert_eq!(moves(&[vec![1], vec![2, 3]], "<obj-0> and <obj-1> , each on its own"), [Move::Follow]);
     }
 }
