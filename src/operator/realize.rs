@@ -34,7 +34,7 @@ const SAFE_RADII: f64 = 0.25;
 const SAFE_CAPTURED_FRAC: f64 = 0.7;
 /// The same share below which a camera that goes through matter goes through a wall, and one that does not is outside.
 const THROUGH_WALL_FRAC: f64 = 0.5;
-const OUTSIDE_FRAC: f64 = 0.15;
+const OUTSIDE_FRAC: f64 = 0.25;
 /// Shortest time into which a stated total duration compresses the segments of free length.
 const MIN_FREE_SECS: f64 = 0.3;
 

@@ -253,6 +253,9 @@ fn denied(linked: &Linked, words: &[&str]) -> Vec<u32> {
     named(true).into_iter().filter(|id| !shown.contains(id)).collect()
 }
 
+/// Most things that one picture brings together.
+const MOST_TOGETHER: usize = 4;
+
 /// The steps of a film about some things, each of one or of several that are one picture.
 fn about(subjects: &[Vec<u32>], words: &[&str]) -> Vec<Step> {
     let has = |list: &str| words.iter().any(|word| is_listed(list, word));
@@ -271,7 +274,9 @@ fn about(subjects: &[Vec<u32>], words: &[&str]) -> Vec<Step> {
         [_, ..] if has(WARES) && !has(IN_TURN) => {
             vec![Step { end: together(), either_way: true, ..Step::of(Move::ArcRight) }]
         }
-        [_, _] if !has(IN_TURN) => vec![Step { end: together(), ..Step::of(Move::PushIn) }],
+        [_, _] if !has(IN_TURN) && subjects.concat().len() <= MOST_TOGETHER => {
+            vec![Step { end: together(), ..Step::of(Move::PushIn) }]
+        }
         [first, rest @ ..] => {
             let to = |(nth, ids): (usize, &Vec<u32>)| {
                 let start = if nth == 0 { framed(first) } else { Framing::default() };
