@@ -12,8 +12,9 @@ use cinesplat_trajectory::{CameraState, Move};
 /// Cost of a camera above the eyes of a standing person, and the height over theirs at which it begins and is reached.
 const HIGH_COST: f64 = 0.9;
 const HIGH: (f64, f64) = (1.06, 1.45);
-/// Cost of uprights that lean, and the slope of those at the frame's side edges at which it begins and is reached.
+/// Cost of uprights that lean, that in a pan, and the slope of those at the frame's side edges at which it begins and is reached.
 const LEAN_COST: f64 = 0.9;
+const PAN_LEAN_COST: f64 = 0.4;
 const LEAN: (f64, f64) = (0.12, 0.36);
 /// Elevation from which people see what lies flat or bears other things, degrees: from there on nobody minds uprights.
 const LOOKED_DOWN_DEG: f64 = 26.0;
@@ -55,8 +56,9 @@ pub(super) fn posture_cost(world: &World, segment: &MotionSegment, states: &[Cam
     // A view of a room as a whole looks down a little: its floor is worth more than its ceiling. A pan has one pitch for
     // things of different heights.
     let pans = matches!(segment.movement, Move::PanLeft | Move::PanRight | Move::WhipPan);
-    let may_lean = is_looked_down_on || pans || shown().next().is_none();
-    HIGH_COST * high + if may_lean { 0.0 } else { LEAN_COST * lean }
+    let may_lean = is_looked_down_on || shown().next().is_none();
+    let lean_cost = if pans { PAN_LEAN_COST } else { LEAN_COST };
+    HIGH_COST * high + if may_lean { 0.0 } else { lean_cost * lean }
 }
 
 /// Slope of the projection of an upright at the frame's side edges: half the width on the plane at depth 1, by the tangent of
