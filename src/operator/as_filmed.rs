@@ -11,10 +11,9 @@ use crate::world::World;
 /// what the next step shows, and with slides from thing to thing that look where they go.
 pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
     let mut filmed = program.clone();
-    let next_ends: Vec<Option<Vec<u32>>> = program.steps.iter().skip(1).map(leads_to).collect();
     for (nth, step) in filmed.steps.iter_mut().enumerate() {
-        if let Some(Some(ids)) = next_ends.get(nth).filter(|_| flies_openly(step)) {
-            step.end.subjects.clone_from(ids);
+        if let Some(next) = program.steps.get(nth + 1).filter(|next| flies_openly(step) && leads_on(next)) {
+            step.end.subjects.clone_from(&next.end.subjects);
         }
         if (nth == 0 || step.cut) && enters(world, step) {
             if let Some(via) = &mut step.via {
@@ -42,10 +41,9 @@ pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
     filmed
 }
 
-/// What a step goes on to, where it begins with the picture that the step before leaves.
-fn leads_to(step: &Step) -> Option<Vec<u32>> {
-    let goes_on = !step.cut && step.start == Framing::default() && !step.end.subjects.is_empty();
-    goes_on.then(|| step.end.subjects.clone())
+/// Whether a step begins with the picture that the step before leaves, and leads to another one.
+fn leads_on(step: &Step) -> bool {
+    !step.cut && step.start == Framing::default() && !step.end.subjects.is_empty()
 }
 
 /// Whether a step flies over or between things and names nothing beyond them: `drift over the fruit and set down by the

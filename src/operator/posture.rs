@@ -41,11 +41,6 @@ pub(super) fn posture_cost(world: &World, segment: &MotionSegment, states: &[Cam
         return 0.0;
     }
     let shown = || segment.constraints.iter().filter_map(|constraint| constraint.shown(world));
-    let is_looked_down_on = segment.constraints.iter().any(|constraint| {
-        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return false };
-        let target = Target::of(world, &Framing { subjects: vec![id], ..Framing::default() });
-        target.is_some_and(|target| natural_elevation_deg(world, &target).1 >= LOOKED_DOWN_DEG)
-    });
     // What hangs high is filmed from its own height.
     let top = shown().map(|subject| world.height_above_floor(subject.center)).fold(world.eye_height(), f64::max);
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
@@ -56,9 +51,16 @@ pub(super) fn posture_cost(world: &World, segment: &MotionSegment, states: &[Cam
     // A view of a room as a whole looks down a little: its floor is worth more than its ceiling. A pan has one pitch for
     // things of different heights.
     let pans = matches!(segment.movement, Move::PanLeft | Move::PanRight | Move::WhipPan);
-    let may_lean = is_looked_down_on || shown().next().is_none();
+    let may_lean = || shown().next().is_none() || segment.constraints.iter().any(|c| is_looked_down_on(world, c));
     let lean_cost = if pans { PAN_LEAN_COST } else { LEAN_COST };
-    HIGH_COST * high + if may_lean { 0.0 } else { lean_cost * lean }
+    HIGH_COST * high + if lean <= 0.0 || may_lean() { 0.0 } else { lean_cost * lean }
+}
+
+/// Whether a constraint wants a subject to be visible that people look down on.
+fn is_looked_down_on(world: &World, constraint: &Constraint) -> bool {
+    let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return false };
+    let target = Target::of(world, &Framing { subjects: vec![id], ..Framing::default() });
+    target.is_some_and(|target| natural_elevation_deg(world, &target).1 >= LOOKED_DOWN_DEG)
 }
 
 /// Slope of the projection of an upright at the frame's side edges: half the width on the plane at depth 1, by the tangent of

@@ -30,11 +30,15 @@ pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let (first, last) = (&states[0], &states[states.len() - 1]);
     let (near, far) = if distance(first) < distance(last) { (first, last) } else { (last, first) };
     let reach = subject.reach(near.pose.forward());
-    // The near side at depth d - reach is larger than the middle at depth d by d / (d - reach).
-    let swelling = |state: &CameraState| distance(state) / (distance(state) - reach).max(1e-9);
     let (least, most) = SWELLING;
-    let swollen = ((swelling(near) / swelling(far) - least) / (most - least)).clamp(0.0, 1.0);
+    let growth = swelling(distance(near), reach) / swelling(distance(far), reach);
+    let swollen = ((growth - least) / (most - least)).clamp(0.0, 1.0);
     SWOLLEN_COST * swollen + FLAT_COST * flat_frac(world, near, distance(near))
+}
+
+/// By how much the near side of a subject, `reach` before its middle, is larger in the picture than its middle.
+pub(super) fn swelling(distance: f64, reach: f64) -> f64 {
+    distance / (distance - reach).max(1e-9)
 }
 
 /// How far the background of a picture is from filling its share of the frame, 0..=1.

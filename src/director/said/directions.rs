@@ -194,7 +194,7 @@ const ROUNDS: [&str; 10] = ["turn", "circle", "lap", "spiral", "around", "round"
 /// Gives circles the way to which their words turn, where they name one alone.
 pub(crate) fn turn_to_sides(linked: &Linked, steps: &mut [Step]) {
     for nth in 0..steps.len() {
-        let Some(span) = own_words(steps, nth).filter(|_| is_circle(steps[nth].movement)) else { continue };
+        let Some(span) = own_words(steps, nth).filter(|_| steps[nth].movement.is_circular()) else { continue };
         let words = linked.texts_in(span);
         let is_angle = |word: &str| linked.quantity_at(word).is_some_and(|q| q.kind == QuantityKind::Degrees);
         let ways: Vec<bool> = (0..words.len()).filter_map(|at| side_of_turn(&words, at, &is_angle)).collect();
@@ -206,10 +206,6 @@ pub(crate) fn turn_to_sides(linked: &Linked, steps: &mut [Step]) {
         }
         step.either_way = false;
     }
-}
-
-fn is_circle(movement: Move) -> bool {
-    matches!(movement, Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight)
 }
 
 /// Whether the side at word `at`, to which a turn leads, is the left one; `None` where no turn leads to it.

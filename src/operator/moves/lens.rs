@@ -6,6 +6,7 @@ use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
+use crate::vertigo::swelling;
 use crate::view::{lerp, moved, stated_fill, with_fov};
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
@@ -149,9 +150,7 @@ fn kept_in_shape(target: &Target, first: &CameraState, ratio: f64) -> f64 {
     let distance = first.pose.position.distance(target.aim);
     let toward = -first.pose.forward();
     let reach = target.corners.iter().map(|corner| (*corner - target.aim).dot(toward)).fold(0.0, f64::max);
-    // The near side at depth d - reach is larger than the middle at depth d by d / (d - reach).
-    let swelling = |distance: f64| distance / (distance - reach).max(1e-9);
-    let least = reach / (1.0 - 1.0 / (MOST_SWELLING * swelling(distance)));
+    let least = reach / (1.0 - 1.0 / (MOST_SWELLING * swelling(distance, reach)));
     let is_near = ratio < 1.0 && distance * ratio < least;
     if is_near { (least / distance).min(LEAST_CHANGE).max(ratio) } else { ratio }
 }
