@@ -14,7 +14,7 @@ impl ObjectSet {
     }
 
     /// The object that holds most of the Gaussians of all objects; `None` where no one does.
-    pub(crate) fn only_whole(&self) -> Option<&Object> {
+    pub fn only_whole(&self) -> Option<&Object> {
         let members = self.members();
         let count = |object: &Object| members.get(&object.id).map_or(0, Vec::len);
         let labeled = self.labels.iter().filter(|label| **label > 0).count();

@@ -1,6 +1,6 @@
 //! A program as a camera operator takes it: the same steps, put so that each is filmed as its words mean it.
 
-use cinesplat_trajectory::Move;
+use cinesplat_trajectory::{Move, ShotAngle};
 use glam::DVec3;
 
 use crate::program::{Framing, Look, Pass, Program, Step, Via};
@@ -22,6 +22,12 @@ pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
             if step.end.subjects.is_empty() {
                 step.movement = Move::PushIn;
             }
+        }
+        if rises_above(step)
+            && let Some(via) = step.via.take()
+        {
+            step.end.subjects = via.objects;
+            step.end.angle = Some(ShotAngle::High);
         }
         if sways_first(step) {
             // The sway takes its time from the move.
@@ -51,6 +57,12 @@ fn leads_on(step: &Step) -> bool {
 fn flies_openly(step: &Step) -> bool {
     let passes = step.via.as_ref().is_some_and(|via| matches!(via.how, Pass::Over | Pass::Between));
     step.movement == Move::FlyThrough && passes && step.end == Framing::default() && step.look.is_none()
+}
+
+/// Whether a step rises from one thing to above others: `boom up from the lamp to above the bookcases` ends on those.
+fn rises_above(step: &Step) -> bool {
+    let over = step.via.as_ref().is_some_and(|via| via.how == Pass::Over && via.objects != step.start.subjects);
+    step.movement == Move::CraneUp && over && !step.start.subjects.is_empty() && step.end == Framing::default()
 }
 
 /// Distance before and behind a door at which a camera would stand, over its radius.

@@ -227,7 +227,7 @@ fn outer(v: DVec3) -> DMat3 {
 }
 
 /// Evenly distributed unit directions (Fibonacci spiral).
-fn sphere_directions(count: usize) -> Vec<DVec3> {
+pub(super) fn sphere_directions(count: usize) -> Vec<DVec3> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let direction = |i: usize| {
         let y = 1.0 - 2.0 * (i as f64 + 0.5) / count as f64;

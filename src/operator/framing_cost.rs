@@ -21,7 +21,7 @@ const EDGE: f64 = 0.01;
 /// Cost of a turn from one subject to another that does not change the picture.
 const SHORT_TURN_COST: f64 = 0.9;
 /// Angle of such a turn over the field of view from which on it costs nothing.
-const LEAST_TURN: f64 = 0.55;
+const LEAST_TURN: f64 = 0.75;
 /// Cost of a pull-out whose lens widens at all: nearly that of a violated constraint.
 const WIDENED_COST: f64 = 2.5;
 
@@ -32,7 +32,12 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let composed = slide_turn_cost(world, segment, states)
         + askew_cost(world, segment, states)
         + off_wall_side_cost(world, segment, states);
-    sized + turned + widened_cost(segment) + approach_cost(segment, states) + composed
+    sized
+        + turned
+        + soft_cost(world, segment, states)
+        + widened_cost(segment)
+        + approach_cost(segment, states)
+        + composed
 }
 
 /// Cost of a turn on the way from one thing to another on the same table, and the turns at which it begins and is
@@ -117,7 +122,7 @@ fn askew_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
 
 /// Size of a subject in the frame, the larger of its shares of width and height, below which it is small in the best
 /// picture of it; and what a speck costs.
-const LEAST_FIT: f64 = 0.42;
+const LEAST_FIT: f64 = 0.5;
 const SMALL_COST: f64 = 1.1;
 
 /// Cost of a subject that is small in every picture that is about it, where the words state no size.
@@ -143,6 +148,30 @@ fn small_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
     };
     let smallest = segment.constraints.iter().map(small).fold(0.0, f64::max);
     SMALL_COST * smallest.max(loose_frac(world, segment, &states[states.len() - 1]))
+}
+
+/// Size of the splats of a subject over the frame's height at which a picture begins to look painted, and at which it is a
+/// smear; and what that costs where the words state no size.
+const SOFT_FRAC: (f64, f64) = (14.0 / 720.0, 44.0 / 720.0);
+const SOFT_COST: f64 = 1.2;
+
+/// Cost of a subject so close that the capture does not hold, where nothing asks for that.
+fn soft_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let ends = [(Scope::Start, &states[0]), (Scope::End, &states[states.len() - 1])];
+    let soft = |constraint: &Constraint| {
+        let ConstraintKind::Unoccluded(id, _) = constraint.kind else { return 0.0 };
+        let Some(subject) = world.subject(id) else { return 0.0 };
+        let open = ends
+            .iter()
+            .filter(|(scope, _)| constraint.scope.covers(*scope) && !is_sized(&segment.constraints, id, *scope));
+        let frac = |state: &CameraState| {
+            let depth = state.pose.position.distance(subject.center).max(1e-9);
+            subject.splat_size / (2.0 * depth * (state.fov_y_rad / 2.0).tan())
+        };
+        open.map(|(_, state)| ((frac(state) - SOFT_FRAC.0) / (SOFT_FRAC.1 - SOFT_FRAC.0)).clamp(0.0, 1.0))
+            .fold(0.0, f64::max)
+    };
+    SOFT_COST * segment.constraints.iter().map(soft).fold(0.0, f64::max)
 }
 
 /// Size of what the last picture has to hold as a whole, in the frame, below which the picture is loose.

@@ -36,6 +36,7 @@ mod measure;
 mod motion;
 mod moves;
 mod opacity_grid;
+mod outline;
 mod pacing;
 mod passage;
 mod pictures;

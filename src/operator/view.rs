@@ -83,6 +83,31 @@ pub(super) fn size_fill(size: ShotSize, parameter: f64) -> Fill {
     Fill::Height(lerp((low * 0.93 + high * 0.07, low * 0.2 + high * 0.8), parameter))
 }
 
+/// Height of a lone thing, over the frame's, in a full shot: all of it, with a little room.
+const FULL_SHOT: (f64, f64) = (0.62, 0.88);
+const MOST_FULL: f64 = 0.95;
+
+/// Whether a framing is that of a full shot of a lone thing, from head to toe: around it there is nothing else to see.
+fn is_full_shot(world: &World, framing: &Framing) -> bool {
+    !world.is_indoor() && framing.whole && framing.size == Some(ShotSize::Long) && framing.height_frac.is_none()
+}
+
+/// Range of the height of a framing's subject over the frame's for a size. A long shot that holds the whole of it may come
+/// nearer where there is no room for more.
+pub(super) fn height_band_frac(framing: &Framing, size: ShotSize) -> (f64, f64) {
+    let (low, high) = size.height_band_frac();
+    let is_of_whole = framing.whole && size == ShotSize::Long;
+    (low, if is_of_whole { MOST_FULL } else { high })
+}
+
+/// The fill that a framing states, see [`stated_fill`], in a scene where a long shot of a whole thing may be a full shot.
+pub(super) fn fill_in(world: &World, framing: &Framing, parameter: f64) -> Option<Fill> {
+    if is_full_shot(world, framing) {
+        return Some(Fill::Fit(lerp(FULL_SHOT, parameter)));
+    }
+    stated_fill(framing, parameter)
+}
+
 /// The fill that a framing states: the height of its first subject, or else its size. `None` where it states neither.
 pub(super) fn stated_fill(framing: &Framing, parameter: f64) -> Option<Fill> {
     framing.height_frac.map(Fill::Height).or_else(|| framing.size.map(|size| size_fill(size, parameter)))

@@ -6,12 +6,13 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 
-use super::capture_region::CaptureRegion;
+use super::capture_region::{CaptureRegion, sphere_directions};
 use super::clearance::ClearanceIndex;
 use super::facets::Facets;
 use super::grid::Grid;
 use super::lookout::{Lookout, Thing};
 use super::opacity_grid::OpacityGrid;
+use super::outline::{outline, splat_size};
 use cinesplat_geometry::{GeometryError, LevelFrame};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_scene::{Bounds, Gaussians, SOLID_OPACITY};
@@ -33,6 +34,11 @@ const SKIN_FRAC: f64 = 0.05;
 /// Share of a scene's solid Gaussians from which on a subject is all that there is: what little else there is does not count
 /// as hiding it.
 const ALONE_FRAC: f64 = 0.85;
+/// Rays over the sphere for which void is looked for, the sine of the elevation up to which one is level, and the share of
+/// those that meet nothing from which on a room was captured in part.
+const OPEN_RAYS: usize = 96;
+const LEVEL_SIN: f64 = 0.5;
+const PARTIAL_FRAC: f64 = 0.08;
 /// Sample points per subject, for framing and visibility.
 const SUBJECT_POINTS: usize = 48;
 
@@ -65,6 +71,8 @@ pub struct World {
     pub(super) lookouts: OnceLock<Vec<Lookout>>,
     /// Free places at eye height in a room; [`standing_places`](super::lookouts::standing_places) finds them.
     pub(super) standing_places: OnceLock<Vec<DVec3>>,
+    /// Share of the level directions from the viewpoints that meet nothing, found when first asked for.
+    pub(super) open_frac: OnceLock<f64>,
 }
 
 /// Height of the top of what bears things, over that of a standing person's eyes, from which on it is a bookcase.
@@ -84,6 +92,10 @@ pub(super) struct Subject {
     pub(super) radius: f64,
     /// Sample points on it, world.
     pub(super) points: Vec<DVec3>,
+    /// Size of its splats, as far as they are seen.
+    pub(super) splat_size: f64,
+    /// Its outermost points, world.
+    pub(super) outline: Vec<DVec3>,
     /// Its surface as far as it was captured.
     pub(super) facets: Facets,
     /// Azimuth of its front, seen from its middle, where that is known.
@@ -143,6 +155,7 @@ impl World {
             things,
             lookouts: OnceLock::new(),
             standing_places: OnceLock::new(),
+            open_frac: OnceLock::new(),
         };
         world.leave_shelves();
         Ok(world)
@@ -167,6 +180,21 @@ impl World {
         let [radius, before] = self.ball;
         self.ball = [radius, before + reach];
         self.camera_radius = radius + self.ball[1];
+    }
+
+    /// Whether a good part of a room was not captured: from its viewpoints many directions end in void.
+    pub(super) fn is_partial(&self) -> bool {
+        self.is_indoor() && *self.open_frac.get_or_init(|| self.open_directions()) > PARTIAL_FRAC
+    }
+
+    /// Share of the level directions from the viewpoints that meet nothing.
+    fn open_directions(&self) -> f64 {
+        let is_level = |ray: &DVec3| self.frame.height(*ray).abs() < LEVEL_SIN;
+        let rays: Vec<DVec3> = sphere_directions(OPEN_RAYS).into_iter().filter(is_level).collect();
+        let eyes = self.viewpoints();
+        let is_open = |(eye, ray): &(DVec3, DVec3)| self.hit_distance(*eye, *ray).is_none();
+        let pairs = eyes.iter().flat_map(|&eye| rays.iter().map(move |&ray| (eye, ray)));
+        pairs.filter(is_open).count() as f64 / (rays.len() * eyes.len()).max(1) as f64
     }
 
     /// All subjects, in order of id.
@@ -312,6 +340,11 @@ impl Subject {
         } else {
             corners.clone()
         };
+        let outline = if solid.len() >= 20 {
+            outline(&solid.iter().map(|&i| gaussians.mean_world(i)).collect::<Vec<_>>())
+        } else {
+            corners.clone()
+        };
         let facets = Facets::of(gaussians, &solid, object.center, object.radius());
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !near[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
@@ -324,6 +357,8 @@ impl Subject {
             half_axes,
             radius: object.radius(),
             points,
+            splat_size: splat_size(gaussians, &solid),
+            outline,
             facets,
             front_rad: None,
             borne_heights: None,

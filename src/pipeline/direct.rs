@@ -145,6 +145,7 @@ pub fn direct(
         times.measure(Phase::Direct, || read(prompt, linked, interpreter, &context))?;
     refuse_missing(&linked, &direction)?;
     level_with_things(&mut direction.program, &objects, up);
+    lone_thing::show(&mut direction.program, &objects);
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }

@@ -11,6 +11,7 @@ use super::interpreter::names;
 use cinesplat_director::Director;
 use cinesplat_language::{Linked, Things, Word, is_listed, tokenize};
 use cinesplat_objects::{Object, ObjectSet};
+use cinesplat_operator::Program;
 
 /// What a thing stands on: rarely what a scan is about.
 const GROUNDS: [&str; 10] =
@@ -52,6 +53,18 @@ pub(super) fn link<'a>(
     });
     linked.warnings.extend(warnings);
     Ok((linked, Cow::Owned(renamed)))
+}
+
+/// Lets a program that names nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
+pub(super) fn show(program: &mut Program, objects: &ObjectSet) {
+    let only = || objects.objects.first().filter(|_| objects.objects.len() == 1);
+    let Some(whole) = only().or_else(|| objects.only_whole()) else { return };
+    if !program.object_ids().is_empty() {
+        return;
+    }
+    for step in &mut program.steps {
+        step.end.subjects = vec![whole.id];
+    }
 }
 
 /// What a prompt calls the thing of a scan: of the names that neither it nor its parts have, that of a kind of things, of one

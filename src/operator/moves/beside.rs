@@ -17,7 +17,7 @@ use crate::route::states_along;
 use crate::view::{aimed, distance_along, lerp, moved, stated_fill, view_from, with_fov};
 use crate::world::Subject;
 use cinesplat_geometry::{Pose, rotation};
-use cinesplat_trajectory::{CameraState, Move};
+use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
 /// The object that the step passes.
 fn passed<'a>(context: &StepContext<'a>) -> Option<&'a Subject> {
@@ -195,22 +195,34 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let fill = stated_fill(&framing, context.parameters[2]);
     // A stated size is that of the table itself.
     let borne = subject.borne_heights.filter(|_| fill.is_none());
-    let bears = borne.is_some();
-    let target = if let Some(heights) = borne { things_on(context, subject, heights, target) } else { target };
+    let named = named_along(context, subject).filter(|_| fill.is_none());
+    let (is_named, bears) = (named.is_some(), borne.is_some() || named.is_some());
+    let fill_frac = if bears { BORNE_FILL } else { (0.3, 0.7) };
+    let target = match (named, borne) {
+        (Some(named), _) => named,
+        (None, Some(heights)) => things_on(context, (subject, 1.0), heights, target),
+        (None, None) => target,
+    };
     let [long, _] = subject.level_axes(world.frame.up);
     let aside = long.cross(world.frame.up).normalize_or_zero();
     let front = world.frame.direction(front_azimuth(world, subject.center));
     let aside = if (front.dot(aside) < 0.0) == (context.parameters[4] > 0.75) { aside } else { -aside };
-    let elevation_deg = lerp(if bears { BORNE_ELEVATION_DEG } else { (0.0, 20.0) }, context.parameters[1]);
+    let angle = context.step.end.angle.or(framing.angle);
+    let elevation_deg = match angle {
+        Some(ShotAngle::EyeLevel | ShotAngle::Low) => LEVEL_ELEVATION_DEG,
+        _ if bears => BORNE_ELEVATION_DEG,
+        _ => (0.0, 20.0),
+    };
+    let elevation_deg = lerp(elevation_deg, context.parameters[1]);
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = Bearing { azimuth_rad: world.frame.azimuth(aside), elevation_rad };
-    let fill_frac = if bears { BORNE_FILL } else { (0.3, 0.7) };
+    let fill_frac = if is_named { NAMED_FILL } else { fill_frac };
     let fill = fill.unwrap_or_else(|| Fill::Height(lerp(fill_frac, context.parameters[2])));
     let fov_deg = framing.lens.map_or(NORMAL_LENS_DEG, lens_fov_deg);
     let fov_y_rad = lerp(fov_deg, context.parameters[3]).to_radians();
     let middle = view_from(world, (&target, &framing), bearing, fill, fov_y_rad);
     let sign = context.sign(if context.step.movement == Move::TruckLeft { -1.0 } else { 1.0 });
-    let half = middle.pose.right() * sign * long.length() * lerp((0.95, 1.1), context.parameters[6]);
+    let half = middle.pose.right() * sign * long.length() * lerp((0.84, 1.0), context.parameters[6]);
     let states = vec![moved(&middle, -half), moved(&middle, half)];
     let direction = if sign > 0.0 { TravelDirection::Right } else { TravelDirection::Left };
     let segment = context
@@ -220,6 +232,34 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     Some(vec![context.constrained_at_end(context.constrained_at_start(require_visible(segment, &target, Scope::All)))])
 }
 
+/// The things on or before a subject that a slide along it is to show, as one target; `None` where the words name none.
+fn named_along(context: &StepContext, along: &Subject) -> Option<Target> {
+    let world = context.world;
+    let ids = [&context.step.start, &context.step.end].into_iter().flat_map(|framing| &framing.subjects);
+    let things: Vec<&Subject> =
+        ids.filter_map(|&id| world.subject(id)).filter(|thing| thing.radius < MOST_NAMED * along.radius).collect();
+    let frame = &world.frame;
+    let heights = |thing: &Subject| {
+        let (middle, reach) = (frame.height(thing.center), thing.reach(frame.up));
+        (middle - reach, middle + reach)
+    };
+    let low = things.iter().map(|thing| heights(thing).0).reduce(f64::min)?;
+    let high = things.iter().map(|thing| heights(thing).1).reduce(f64::max)?;
+    // All of the table's length, at the height of the things on it.
+    let id = context.step.via.as_ref()?.objects.first().copied()?;
+    let framing = Framing { subjects: vec![id], ..Framing::default() };
+    let target = Target::of(world, &framing)?;
+    Some(things_on(context, (along, NAMED_DEPTH), [low, high], target))
+}
+
+/// Size of a thing that is shown along another one, over the size of that.
+const MOST_NAMED: f64 = 0.6;
+/// Share of a table's depth that such things take up, and their height in the frame.
+const NAMED_DEPTH: f64 = 0.4;
+const NAMED_FILL: (f64, f64) = (0.62, 0.95);
+/// Elevation of a camera that slides along at the height of things, degrees.
+const LEVEL_ELEVATION_DEG: (f64, f64) = (0.0, 7.0);
+
 /// Elevation of a camera that slides along things on a table, degrees, and their height in the frame.
 const BORNE_ELEVATION_DEG: (f64, f64) = (4.0, 16.0);
 const BORNE_FILL: (f64, f64) = (0.5, 0.85);
@@ -227,7 +267,12 @@ const BORNE_FILL: (f64, f64) = (0.5, 0.85);
 const TABLETOP_DEPTH: f64 = 0.3;
 
 /// The target of a view of a subject with the space that the things on it take up in place of the subject's own.
-fn things_on(context: &StepContext, subject: &Subject, [surface, top]: [f64; 2], target: Target) -> Target {
+fn things_on(
+    context: &StepContext,
+    (subject, depth): (&Subject, f64),
+    [surface, top]: [f64; 2],
+    target: Target,
+) -> Target {
     let frame = &context.world.frame;
     let height = (top - surface).max(0.5 * subject.reach(frame.up));
     let at = |point: DVec3, height: f64| point + frame.up * (height - frame.height(point));
@@ -235,7 +280,7 @@ fn things_on(context: &StepContext, subject: &Subject, [surface, top]: [f64; 2],
     let heights = [surface - TABLETOP_DEPTH * height, surface + height];
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
         .iter()
-        .flat_map(|(a, b)| heights.map(|height| at(subject.center + long * *a + short * *b, height)));
+        .flat_map(|(a, b)| heights.map(|height| at(subject.center + long * *a + short * (depth * *b), height)));
     let (aim, corners) = (at(subject.center, heights[0].midpoint(heights[1])), corners.collect::<Vec<_>>());
     let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
     Target { aim, corners, radius, ..target }
@@ -277,13 +322,14 @@ fn covered_view(context: &StepContext, cover: &Subject, target: &Target) -> Opti
 /// camera sees it, by at least the target's own extent.
 fn way_out(context: &StepContext, cover: &Subject, target: &Target, first: &CameraState) -> DVec3 {
     let frame = &context.world.frame;
-    let spare = lerp((0.9, 1.8), context.parameters[6]);
+    let spare = lerp((0.85, 1.35), context.parameters[6]);
     let level = |v: DVec3| frame.horizontal(v).length();
     let to_target = level(first.pose.position - target.aim);
     // The edge of the cover shifts across the target by the camera's travel times this share.
     let share = (level(cover.center - target.aim) / to_target).max(0.1);
     let right = frame.horizontal(first.pose.right()).normalize_or_zero();
-    let aside = right * (cover.reach(right) + target.radius) / share * spare;
+    let breadth = target.corners.iter().map(|corner| (*corner - target.aim).dot(right).abs()).fold(0.0, f64::max);
+    let aside = right * (cover.reach(right) + breadth) / share * spare;
     match context.step.with.first() {
         Some(Move::PedestalUp | Move::CraneUp | Move::TiltUp) => frame.up * (2.0 * cover.reach(frame.up)) * spare,
         Some(Move::TruckLeft | Move::PanLeft | Move::OrbitLeft | Move::ArcLeft) => -aside,

@@ -9,7 +9,7 @@ use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
-use crate::view::{aimed, lerp, moved, stated_fill, with_fov};
+use crate::view::{aimed, fill_in, lerp, moved, stated_fill, with_fov};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
@@ -19,7 +19,7 @@ const DEG_PER_KEY: f64 = 30.0;
 /// Circles the upright axis through the subject's center, at constant radius and height.
 pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
-    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.48, 0.78));
+    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.55, 0.88));
     let sign = context.sign(match context.step.movement {
         Move::OrbitLeft | Move::ArcLeft => 1.0,
         _ => -1.0,
@@ -113,6 +113,9 @@ fn orbit_deg(context: &StepContext) -> f64 {
     }
 }
 
+/// Size of what lies below a camera that sinks toward it from straight above: from as high as the room allows.
+const HIGH_FILL: (f64, f64) = (0.12, 0.4);
+
 /// Rises or sinks, aimed at the subject.
 pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
@@ -124,7 +127,8 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
         let view = context.view(&target, &opening_for_crane(context, upward), (0.42, 0.68), NORMAL_LENS_DEG);
         (Vec::new(), view)
     } else {
-        context.opened_on(&target, (0.42, 0.68))
+        let from_above = !upward && context.step.start.angle == Some(ShotAngle::Overhead);
+        context.opened_on(&target, if from_above { HIGH_FILL } else { (0.42, 0.68) })
     };
     let states = if swoops(context, &first, &target, upward) {
         swoop(context, &first, &target)
@@ -249,6 +253,21 @@ fn opening_for_crane(context: &StepContext, upward: bool) -> Framing {
 /// Least change of a crane's elevation, seen from its subject.
 const MIN_CRANE_DEG: f64 = 18.0;
 
+/// Whether a camera sinks straight down toward what lies below it, at an elevation seen from there.
+fn sinks_straight(context: &StepContext, start_deg: f64, upward: bool) -> bool {
+    start_deg > SWOOP_FROM_DEG && !upward && context.step.end.angle == Some(ShotAngle::Overhead)
+}
+
+/// Height above a target at which it has the size that the words state for the end, seen from where the camera is; `None`
+/// where they state none, and where that is no lower.
+fn sized_height(context: &StepContext, first: &CameraState, target: &Target) -> Option<f64> {
+    let fill = fill_in(context.world, &context.step.end, context.parameters[6])?;
+    let bearing = bearing_of(context.world, target.aim, first.pose.position);
+    let distance = distance_for(context.world, target, bearing, fill, first.fov_y_rad);
+    let away = first.pose.position - target.aim;
+    (distance < 0.9 * away.length()).then(|| context.world.frame.height(away) * distance / away.length())
+}
+
 /// The camera after it has risen or sunk, aimed at the target.
 fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: bool) -> CameraState {
     let frame = &context.world.frame;
@@ -273,7 +292,10 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
         Some(Amount::Slight) => sign * 0.22 * distance,
         Some(Amount::Large) => sign * 1.2 * distance,
         _ if to_height.is_some_and(|rise| rise * sign > 0.0) => to_height.unwrap_or_default(),
-        _ if start > SWOOP_FROM_DEG && !upward && context.step.end.angle == Some(ShotAngle::Overhead) => {
+        _ if sinks_straight(context, start, upward) && sized_height(context, first, target).is_some() => {
+            sized_height(context, first, target).unwrap_or_default() - frame.height(away)
+        }
+        _ if sinks_straight(context, start, upward) => {
             -frame.height(away) * lerp(OVERHEAD_DESCENT, context.parameters[6])
         }
         _ => (level.length() * elevation.clamp(-70.0, 70.0).to_radians().tan()) - frame.height(away),

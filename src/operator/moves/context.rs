@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::captured_view::captured_view;
 use super::room_view::{room_target, room_view, target_ahead};
 use super::standing_view::{Standing, standing_view};
 use crate::composition::lens_fov_deg;
@@ -12,7 +13,8 @@ use crate::pacing::factor;
 use crate::program::{Framing, Motion, Pass, Program, Step, SubjectSide};
 use crate::suggestion::StepCameras;
 use crate::view::{
-    CIRCLING_OVERHEAD_DEG, OVERHEAD_DEG, ViewRange, aimed, azimuth_across, broadside_azimuths, lerp, opening_view,
+    CIRCLING_OVERHEAD_DEG, OVERHEAD_DEG, ViewRange, aimed, azimuth_across, broadside_azimuths, height_band_frac, lerp,
+    opening_view,
 };
 use crate::world::World;
 use cinesplat_trajectory::{CameraState, Easing, Move, ShotSize};
@@ -206,6 +208,9 @@ impl<'a> StepContext<'a> {
         {
             return view;
         }
+        if let Some(view) = captured_view(self, target, framing, fill) {
+            return view;
+        }
         let mut azimuths_rad = self.azimuths_rad.clone();
         match self.world.known_front(target.center) {
             Some(front) => azimuths_rad.push(front),
@@ -220,7 +225,9 @@ impl<'a> StepContext<'a> {
             (false, false) => fov_deg,
         };
         // Around a lone thing there is nothing to see: it fills more of the picture.
-        let fill = if self.world.is_indoor() { fill } else { (1.35 * fill.0, fill.1.max((1.2 * fill.1).min(0.9))) };
+        let grows = self.step.with.iter().any(|second| matches!(second, Move::ZoomIn | Move::PushIn));
+        let roomy = self.world.is_indoor() || grows;
+        let fill = if roomy { fill } else { (1.35 * fill.0, fill.1.max((1.2 * fill.1).min(0.9))) };
         let (fill, fov_deg) = self.widened(fill, fov_deg);
         let overhead_deg = if self.leaves_zenith() { CIRCLING_OVERHEAD_DEG } else { OVERHEAD_DEG };
         let range = ViewRange { fill, fov_deg, azimuths_rad, overhead_deg };
@@ -304,7 +311,7 @@ impl<'a> StepContext<'a> {
     pub(super) fn constrained_at_end(&self, mut segment: MotionSegment) -> MotionSegment {
         let framing = &self.step.end;
         if let (Some(size), Some(end)) = (framing.size, self.end.as_ref().or(self.start.as_ref())) {
-            let (low, high) = size.height_band_frac();
+            let (low, high) = height_band_frac(framing, size);
             // A wide view without a subject shows the room: what the step leaves behind may be as small as it likes.
             let is_of_room = self.end.is_none() && matches!(size, ShotSize::Long | ShotSize::ExtremeLong);
             let band = (if is_of_room { 0.0 } else { low }, high);
@@ -320,7 +327,8 @@ impl<'a> StepContext<'a> {
     pub(super) fn constrained_at_start(&self, mut segment: MotionSegment) -> MotionSegment {
         let framing = &self.step.start;
         if let (Some(size), Some(start)) = (framing.size, &self.start) {
-            segment = segment.requiring(Scope::Start, ConstraintKind::Height(start.clone(), size.height_band_frac()));
+            segment =
+                segment.requiring(Scope::Start, ConstraintKind::Height(start.clone(), height_band_frac(framing, size)));
         }
         if framing.whole {
             segment = segment.requiring(Scope::Start, ConstraintKind::InFrame(framing.subjects.clone(), 0.97));

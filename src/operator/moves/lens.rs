@@ -7,7 +7,7 @@ use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
 use crate::vertigo::swelling;
-use crate::view::{lerp, moved, stated_fill, with_fov};
+use crate::view::{fill_in, lerp, moved, with_fov};
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Narrowest and widest vertical field of view that a move chooses, degrees.
@@ -67,7 +67,7 @@ fn ends_on_room(context: &StepContext) -> bool {
 fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let open = if inward { lerp((0.38, 0.56), context.parameters[6]) } else { lerp((1.7, 2.4), context.parameters[6]) };
     let height = extent_frac(context.world, first, &target.corners).y;
-    let by_size = stated_fill(&context.step.end, context.parameters[7]).map(|fill| match fill {
+    let by_size = fill_in(context.world, &context.step.end, context.parameters[7]).map(|fill| match fill {
         Fill::Height(wanted) | Fill::Fit(wanted) => height / wanted,
     });
     let by_lens = context.step.end.lens.map(|lens| {

@@ -4,12 +4,17 @@
 //! camera states carry out the move exactly.
 
 mod beside;
+mod captured_view;
 mod circles;
 mod compose;
 mod context;
+mod dolly;
+mod dolly_length;
+mod held_whole;
 mod lens;
 mod level;
 mod look;
+mod over_shoulder;
 mod overlook;
 mod passes;
 mod paths;
@@ -49,6 +54,7 @@ fn built(context: &StepContext) -> Vec<MotionSegment> {
         compose::rejoin(context, &mut segments);
     }
     scanned::fill_frame(context, &mut segments);
+    held_whole::hold_whole(context, &mut segments);
     level::keep_height(context, &mut segments);
     requirements::require(context, &mut segments);
     if let Some(first) = segments.first_mut() {
@@ -88,7 +94,7 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::FlyThrough | Move::PushIn | Move::PullOut | Move::Follow | Move::CraneUp | Move::CraneDown if passes => {
             passes::passing(context)
         }
-        Move::PushIn | Move::PullOut => straight::dolly(context),
+        Move::PushIn | Move::PullOut => dolly::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
         Move::PedestalUp if leads_aside(context) && !keeps_its_view(context) => {
             made_as(context, Move::CraneUp, circles::crane)

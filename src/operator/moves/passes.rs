@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::over_shoulder::over_shoulder;
 use super::paths::follow;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Target, off_center};
@@ -15,6 +16,9 @@ use cinesplat_trajectory::{CameraState, Move};
 /// Passes a gate, toward the end target: between two objects, over or under one, or through one.
 pub(super) fn passing(context: &StepContext) -> Vec<MotionSegment> {
     let Some(gate) = context.step.via.as_ref().and_then(|via| gate(context, via)) else { return follow(context) };
+    if let Some(segments) = over_shoulder(context) {
+        return segments;
+    }
     if let Some(subject) = backward_subject(context) {
         return backward(context, gate, &subject);
     }

@@ -11,7 +11,7 @@ use crate::detours::is_clear;
 use crate::framing::{Bearing, Fill, Target, bearing_of};
 use crate::motion::MotionSegment;
 use crate::program::{Framing, Motion};
-use crate::view::{lerp, moved, stated_fill, view_from};
+use crate::view::{fill_in, lerp, moved, view_from};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move, ShotAngle, ShotSize};
 
@@ -99,11 +99,11 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     };
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = unturned(context, first, Bearing { azimuth_rad, elevation_rad });
-    let fill = stated_fill(framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.45, 0.78), parameters[6])));
+    let fill = fill_in(world, framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.45, 0.78), parameters[6])));
     let loose = framing.whole && framing.height_frac.is_none();
     let fill = if loose { Fill::Fit(lerp((0.6, 0.88), parameters[6])) } else { fill };
     let view = view_from(world, (end, framing), bearing, fill, context.end_fov_rad(first));
-    if stated_fill(framing, parameters[6]).is_some() || framing.distance.is_some() || !world.is_indoor() {
+    if fill_in(world, framing, parameters[6]).is_some() || framing.distance.is_some() || !world.is_indoor() {
         return view;
     }
     // Somebody who walks up to a wall stops an arm's length and more before it.

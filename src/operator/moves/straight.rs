@@ -1,264 +1,17 @@
-//! Moves along a straight line without a turn: push in, pull out, truck, pedestal.
+//! Moves along a straight line across the view, without a turn: truck, pedestal.
 
 use glam::DVec3;
 
-use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::context::{StepContext, require_visible};
 use super::passes::gate;
 use super::standing_view::stands;
 use super::turns::is_along;
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
-use crate::framing::{Fill, Target, bearing_of, distance_for, frame_position, in_frame_frac};
+use crate::framing::{Target, frame_position};
 use crate::motion::MotionSegment;
-use crate::program::{Amount, Framing, Motion, Pass, SubjectPart};
-use crate::view::{LYING_RADII, aimed, distance_along, lerp, moved, stated_fill, with_fov};
-use cinesplat_trajectory::{CameraState, Move, ShotSize};
-
-/// Moves along the line to the subject, toward it or away from it.
-pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
-    let inward = (context.step.movement == Move::PushIn) != (context.step.either_way && context.parameters[5] < 0.5);
-    let target =
-        if inward { context.main_target() } else { context.start.clone().unwrap_or_else(|| pulled_from(context)) };
-    let fill = if inward { (0.24, 0.45) } else { (0.6, 0.95) };
-    let (mut segments, first) = if context.before.is_none()
-        && context.step.start.size.is_none()
-        && !context.step.start.whole
-        && !stands(&context.standing())
-    {
-        (Vec::new(), open_first(context, &target, inward, fill))
-    } else if let Some(before) =
-        context.before.filter(|_| takes_in(context, inward).is_some() && context.start.is_none())
-    {
-        // The step before may have turned away from what it began with.
-        (Vec::new(), before)
-    } else {
-        context.opened_on(&target, fill)
-    };
-    let ratio = distance_ratio(context, &target, &first, inward);
-    let first = if backs_into_view(context, &target, inward) { nearer(&first, &target, ratio) } else { first };
-    let distance = first.pose.position.distance(target.aim);
-    let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
-    let last = if inward { last } else { within_room(context, &first, distance, last) };
-    let taken_in = takes_in(context, inward);
-    let last = taken_in.map_or(last, |end| settled_on(context, [&first, &last], &target, end));
-    let segment = context.segment(vec![first, last]);
-    let wanted = if inward { (0.0, 0.76) } else { (1.32, f64::INFINITY) };
-    let subtle = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_) | Amount::Factor(_)));
-    let segment =
-        if subtle { segment } else { segment.requiring(Scope::All, ConstraintKind::DistanceRatio(target.aim, wanted)) };
-    let segment = match taken_in {
-        Some(end) => segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.2)),
-        None => segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.17)),
-    };
-    let mut segment = context.constrained_at_end(context.constrained_at_start(segment));
-    if !inward && context.step.end.whole && context.step.start.whole == context.step.end.whole {
-        segment = segment.requiring(Scope::End, ConstraintKind::InFrame(context.step.end.subjects.clone(), 0.97));
-    }
-    if !inward && context.step.end.whole && context.before.is_none() {
-        let left = target.ids.first();
-        let ids = &context.step.end.subjects;
-        let others: Vec<u32> = ids.iter().filter(|&id| Some(id) != left).copied().collect();
-        segment = segment.requiring(
-            Scope::Start,
-            ConstraintKind::NotWhole(if others.is_empty() { ids.clone() } else { others }, 0.6),
-        );
-    }
-    if !inward {
-        segment =
-            segment.requiring(Scope::End, ConstraintKind::InFrame(target.ids.iter().take(1).copied().collect(), 0.95));
-    }
-    segments.push(require_visible(segment, &target, Scope::All));
-    segments
-}
-
-/// What a pull-out goes back to take in: the whole of another thing than it sets out from, or of the thing of which the step
-/// before showed a part.
-fn takes_in<'a>(context: &'a StepContext, inward: bool) -> Option<&'a Target> {
-    let end = context.end.as_ref().filter(|_| !inward && context.step.end.whole)?;
-    let start = context.start.as_ref();
-    let is_other =
-        start.is_some_and(|start| start.ids.first() != end.ids.first()) || start.is_none() && context.before.is_some();
-    (is_other && context.step.end.subjects.len() == 1).then_some(end)
-}
-
-/// The end of a pull-out with its aim on what it takes in, as far as a camera that backs away turns; farther back where that
-/// is not in the picture.
-fn settled_on(context: &StepContext, [first, last]: [&CameraState; 2], left: &Target, end: &Target) -> CameraState {
-    let forbidden = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
-    let turned = |state: &CameraState| aimed(context.world, state, end.aim);
-    let turn_rad = turned(last).pose.forward().angle_between(last.pose.forward());
-    if turn_rad > MOST_SETTLING_RAD || context.forbidden.iter().any(forbidden) {
-        return *last;
-    }
-    let way = last.pose.position - first.pose.position;
-    let distance = |state: &CameraState| state.pose.position.distance(left.aim);
-    let is_whole = |state: &CameraState| {
-        in_frame_frac(context.world, state, &end.corners, 0.03) >= 1.0
-            && distance(state) > LEAST_RATIO * distance(first)
-    };
-    // Aimed at its middle, a thing fits from nearer by.
-    let share = |i: u32| 0.35 + 0.05 * f64::from(i);
-    let nearer = (0..=13).map(|i| turned(&moved(first, way * share(i)))).find(is_whole);
-    nearer.map_or_else(|| turned(last), |view| with_fov(&view, last.fov_y_rad))
-}
-
-/// Least distance at the end of a pull-out over that at its start.
-const LEAST_RATIO: f64 = 1.36;
-/// Largest turn of a pull-out to what it takes in, radians.
-const MOST_SETTLING_RAD: f64 = 0.8;
-
-/// Whether a pull-out ends, and does not start, at its view: in a room without a subject the way back is a wall.
-fn backs_into_view(context: &StepContext, target: &Target, inward: bool) -> bool {
-    !inward && target.ids.is_empty() && context.before.is_none() && context.world.is_indoor()
-}
-
-/// The end of a pull-out that goes on from another step and is to hold more: before the wall behind the camera where the way
-/// is much longer than the room, with a wider lens instead.
-fn within_room(context: &StepContext, first: &CameraState, distance: f64, last: CameraState) -> CameraState {
-    let world = context.world;
-    let is_open = context.before.is_some() && (context.step.end.whole || context.step.end.size.is_some());
-    let may_zoom = !context.forbidden.contains(&Motion::Zoom) && context.step.end.lens.is_none();
-    let way = last.pose.position.distance(first.pose.position);
-    let free = world.hit_distance(first.pose.position, -first.pose.forward()).unwrap_or(f64::INFINITY);
-    let free = (free - WALL_RADII * world.camera_radius).max(0.0);
-    let leaves = free < way && way > LONG_WAY * distance && !world.in_capture_region(last.pose.position);
-    if !world.is_indoor() || !is_open || !may_zoom || context.step.amount.is_some() || !leaves {
-        return last;
-    }
-    let tan = (first.fov_y_rad / 2.0).tan() * (distance + way) / (distance + free);
-    let tan = tan.min((WIDEST_DEG / 2.0).to_radians().tan()).max((first.fov_y_rad / 2.0).tan());
-    with_fov(&moved(first, -first.pose.forward() * free), 2.0 * tan.atan())
-}
-
-/// Way of a pull-out over its first distance from which on it is a flight out of the house.
-const LONG_WAY: f64 = 4.0;
-/// Distance of a camera from the wall behind it, over its radius, and the widest lens of a pull-out that ends there.
-const WALL_RADII: f64 = 3.0;
-const WIDEST_DEG: f64 = 78.0;
-
-/// The camera before a pull-out of a ratio that ends at `last`.
-fn nearer(last: &CameraState, target: &Target, ratio: f64) -> CameraState {
-    let distance = last.pose.position.distance(target.aim);
-    moved(last, last.pose.forward() * distance * (1.0 - 1.0 / ratio))
-}
-
-/// The target that a pull-out without a start framing pulls away from: that of an earlier step, else the first subject
-/// of its end.
-fn pulled_from(context: &StepContext) -> Target {
-    let first = Framing { subjects: context.step.end.subjects.iter().take(1).copied().collect(), ..Framing::default() };
-    let first = || Target::of(context.world, &first);
-    context.earlier.clone().or_else(first).unwrap_or_else(|| context.main_target())
-}
-
-/// Opening view of a dolly with a free start size. A push that ends at a stated size starts far enough away.
-fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, f64)) -> CameraState {
-    let framing = if context.start.is_some() || !inward { context.step.start.clone() } else { Framing::default() };
-    let angle = framing.angle.or(context.step.end.angle);
-    let mut framing = Framing { angle, ..framing };
-    context.inherit(&mut framing);
-    let stated = &context.step.end;
-    let sized = stated.size.is_some() || stated.height_frac.is_some() || stated.distance.is_some();
-    let nearer = context.step.start.height_frac.is_none() && context.step.start.distance.is_none();
-    if target.ids.is_empty() || !(inward && nearer && (sized || stated.height.is_some())) {
-        return context.view(target, &framing, fill, NORMAL_LENS_DEG);
-    }
-    // The camera at the end, moved back.
-    let end_framing = Framing {
-        size: stated.size,
-        height_frac: stated.height_frac,
-        distance: stated.distance,
-        height: stated.height,
-        ..framing
-    };
-    let fill = if sized { fill } else { (0.4, 0.8) };
-    let end = context.view(target, &end_framing, fill, NORMAL_LENS_DEG);
-    let distance = end.pose.position.distance(target.aim);
-    let back = lerp((1.4, 2.8), context.parameters[6]);
-    moved(&end, -end.pose.forward() * distance * back)
-}
-
-/// Distance at the end over that at the start.
-fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
-    let distance = first.pose.position.distance(target.aim);
-    let open = if inward { lerp((0.36, 0.56), context.parameters[6]) } else { lerp((1.9, 3.3), context.parameters[6]) };
-    let by_size = room_ratio(context, target, first).or_else(|| size_ratio(context, target, first));
-    let by_whole = || whole_ratio(context, first, distance);
-    let stated = match context.step.amount {
-        Some(Amount::Factor(factor)) => Some(factor),
-        Some(Amount::Units(units)) => Some(1.0 + if inward { -units / distance } else { units / distance }),
-        Some(Amount::Slight) => Some(if inward { 0.82 } else { 1.25 }),
-        Some(Amount::Large) => Some(if inward { 0.32 } else { 3.2 }),
-        _ => None,
-    };
-    let ratio = stated.or(by_size).or_else(|| (!inward).then(by_whole).flatten()).unwrap_or(open);
-    if inward { ratio.clamp(0.05, 0.97) } else { ratio.clamp(1.03, 12.0) }
-}
-
-/// Share of the free way behind a camera that a pull-out to the whole room goes.
-const BACK_SHARE: (f64, f64) = (0.5, 0.95);
-
-/// Distance ratio of a pull-out from a small thing to the room as a whole: as far back as the room goes. `None` for any
-/// other way, and where that is no longer than one to a long shot.
-fn room_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
-    if !context.backs_to_room() {
-        return None;
-    }
-    let world = context.world;
-    let behind = world.hit_distance(first.pose.position, -first.pose.forward())?;
-    let free = behind - WALL_RADII * world.camera_radius;
-    let distance = first.pose.position.distance(target.aim);
-    let ratio = 1.0 + lerp(BACK_SHARE, context.parameters[6]) * free / distance;
-    (ratio > size_ratio(context, target, first).unwrap_or(LEAST_RATIO)).then_some(ratio)
-}
-
-/// Distance ratio that gives the subject the wanted size at the end; `None` where the camera would move the other way.
-fn size_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
-    let inward = context.step.movement == Move::PushIn;
-    let (world, end) = (context.world, &context.step.end);
-    let subject = context.end.as_ref().unwrap_or(target);
-    let wide = matches!(end.size, Some(ShotSize::Long | ShotSize::ExtremeLong));
-    let parameter = match (wide && !inward, inward && context.before.is_none()) {
-        (true, _) => 0.55 + 0.45 * context.parameters[6],
-        // The parameter that chose the size from which the free start was moved back.
-        (false, true) => context.parameters[2],
-        (false, false) => context.parameters[6],
-    };
-    let bearing = bearing_of(world, subject.aim, first.pose.position);
-    let wanted = match (end.distance, stated_fill(end, parameter)) {
-        (Some(distance), _) => distance_along(world, subject, bearing, distance),
-        (None, Some(fill)) => {
-            let fill = match fill {
-                Fill::Height(height) if end.subjects.is_empty() && wide => Fill::Height(height.min(0.4)),
-                fill => fill,
-            };
-            distance_for(world, subject, bearing, fill, context.end_fov_rad(first))
-        }
-        (None, None) => return None,
-    };
-    let ratio = wanted / first.pose.position.distance(target.aim);
-    let exact = end.distance.is_some() || end.height_frac.is_some();
-    let least = if exact { 0.03 } else { 0.1 };
-    let is_consistent = if inward { ratio < 1.0 - least } else { ratio > 1.0 + least };
-    is_consistent.then_some(ratio)
-}
-
-/// Distance ratio at which all subjects of the end are in the frame; `None` where the end requires no whole subjects.
-fn whole_ratio(context: &StepContext, first: &CameraState, distance: f64) -> Option<f64> {
-    let end = context.end.as_ref().filter(|_| context.step.end.whole)?;
-    let ids = &context.step.end.subjects;
-    let corners: Vec<DVec3> = ids
-        .iter()
-        .filter_map(|&id| context.world.subject(id))
-        .flat_map(|s| s.corners.iter().copied())
-        .chain(end.corners.iter().copied())
-        .collect();
-    let back = |ratio: f64| moved(first, first.pose.forward() * distance * (1.0 - ratio));
-    let ratios = (0..40).map(|i| 1.32 * 1.07_f64.powi(i));
-    let spare = lerp((1.0, 1.2), context.parameters[7]);
-    ratios
-        .into_iter()
-        .find(|&ratio| in_frame_frac(context.world, &back(ratio), &corners, 0.02) >= 1.0)
-        .map(|ratio| ratio * spare)
-}
+use crate::program::{Amount, Framing, Pass, SubjectPart};
+use crate::view::{LYING_RADII, aimed, lerp, moved};
+use cinesplat_trajectory::{CameraState, Move};
 
 /// Slides sideways, past or along a subject.
 pub(super) fn truck(context: &StepContext) -> Vec<MotionSegment> {
@@ -331,6 +84,17 @@ fn slide(
     if !placed && direction.is_vertical() && context.step.start.angle.is_none() && !target.ids.is_empty() {
         first = leveled(context, &first, &target);
     }
+    if travels && !direction.is_vertical() {
+        let held = holding(context, &first, [&Some(target.clone()), &context.end, &passed]);
+        if held != first {
+            match (segments.last_mut(), context.before) {
+                (Some(join), _) => *join = context.join(join.states[0], held),
+                (None, Some(before)) => segments.push(context.join(before, held)),
+                (None, None) => {}
+            }
+            first = held;
+        }
+    }
     let distance = first.pose.position.distance(target.aim);
     let rise = rise_to_height(context, direction, &first);
     let way = match (&context.end, travels) {
@@ -377,6 +141,54 @@ fn slide(
     segments.push(context.constrained_at_end(context.constrained_at_start(segment)));
     segments
 }
+
+/// Height in the frame that things take up at most which a slide leads past.
+const MOST_PASSED: f64 = 0.86;
+/// Farthest that a slide steps back for them, over its distance.
+const MOST_BACK: f64 = 2.5;
+
+/// The first camera of a slide, farther back and higher or lower where a thing on the way would lose its head. A stated size
+/// or height stays.
+fn holding(context: &StepContext, first: &CameraState, shown: [&Option<Target>; 3]) -> CameraState {
+    let ends = [&context.step.start, &context.step.end];
+    let is_sized = |framing: &&Framing| {
+        framing.size.is_some()
+            || framing.height_frac.is_some()
+            || framing.height.is_some()
+            || framing.distance.is_some()
+    };
+    let frame = &context.world.frame;
+    if !context.world.is_indoor() || ends.iter().any(is_sized) {
+        return *first;
+    }
+    let forward = frame.horizontal(first.pose.forward()).normalize_or_zero();
+    let corners = || shown.iter().filter_map(|target| target.as_ref()).flat_map(|target| target.corners.iter());
+    let depth = |corner: &DVec3| (*corner - first.pose.position).dot(forward);
+    let is_large = |target: &&Option<Target>| {
+        target.as_ref().is_some_and(|target| target.radius > LARGE_FRAC * context.world.bounds.size())
+    };
+    if shown.iter().any(is_large) {
+        return *first;
+    }
+    let nearest = corners().map(depth).fold(f64::INFINITY, f64::min);
+    let (low, high) = corners()
+        .map(|corner| frame.height(*corner))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |a, at| (a.0.min(at), a.1.max(at)));
+    let needed = (high - low) / (2.0 * (first.fov_y_rad / 2.0).tan() * MOST_PASSED);
+    if nearest <= 0.0 || needed > (1.0 + MOST_BACK) * nearest {
+        return *first;
+    }
+    let depth = needed.max(nearest);
+    // What the view axis meets at the depth of the things is to be at the middle of their height, if they do not fit as it is.
+    let slope = frame.height(first.pose.forward()) / frame.horizontal(first.pose.forward()).length().max(1e-9);
+    let axis = frame.height(first.pose.position) + slope * depth;
+    let half = depth * (first.fov_y_rad / 2.0).tan() * MOST_PASSED;
+    let lift = (high - (axis + half)).max(0.0) + (low - (axis - half)).min(0.0);
+    moved(first, forward * (nearest - depth) + frame.up * lift)
+}
+
+/// Radius of a thing over the scene size from which on it is part of the room, which no picture has to hold.
+const LARGE_FRAC: f64 = 0.15;
 
 /// Distance from the frame's middle up to which a thing is in the picture, in frame heights or widths.
 const PICTURE_EDGE: f64 = 0.4;

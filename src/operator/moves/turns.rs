@@ -11,7 +11,7 @@ use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Target, extent_frac, frame_position, off_center};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing, SubjectPart};
-use crate::view::{aimed, aimed_at_side, lerp, with_fov};
+use crate::view::{aimed, aimed_at_side, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Easing, Move, ShotAngle};
 
@@ -305,7 +305,18 @@ const OPEN_FILL: (f64, f64) = (0.32, 0.66);
 /// stands behind other things is seen from few places. Parameter 7 chooses.
 fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> CameraState {
     if start.ids == end.ids && is_along(context) {
-        return context.view(start, &context.opening_framing(), ALONG_FILL, NORMAL_LENS_DEG);
+        let fill = if context.world.is_indoor() { ALONG_FILL } else { ALONG_LONE_FILL };
+        let view = context.view(start, &context.opening_framing(), fill, NORMAL_LENS_DEG);
+        let start_framing = &context.step.start;
+        let is_placed = start_framing.height.or(start_framing.elevation_deg).is_some() || start_framing.angle.is_some();
+        return if is_placed || stands(&context.standing()) {
+            view
+        } else {
+            between_heights(context, &view, [start, end])
+        };
+    }
+    if let Some(view) = before_both(context, [start, end]) {
+        return view;
     }
     let whip = context.step.movement == Move::WhipPan;
     let stated = [&context.step.start, &context.step.end].map(is_stated);
@@ -325,11 +336,47 @@ fn opened_on_either(context: &StepContext, start: &Target, end: &Target) -> Came
     aimed(context.world, &place, start.aim)
 }
 
+/// Distance aside of two things, over their difference of height, up to which one is above the other; the height of both
+/// together in the frame before which a tilt goes from the one to the other.
+const MOST_ASIDE: f64 = 0.5;
+const STACKED_FILL: (f64, f64) = (1.1, 1.7);
+
+/// The first camera of a tilt from one thing to another above or below it: straight before both, so near that the way from the
+/// one to the other is a turn. `None` for other turns and for stated framings.
+fn before_both(context: &StepContext, [start, end]: [&Target; 2]) -> Option<CameraState> {
+    let world = context.world;
+    let tilts = matches!(context.step.movement, Move::TiltUp | Move::TiltDown);
+    let apart = end.aim - start.aim;
+    let is_stacked = world.frame.horizontal(apart).length() < MOST_ASIDE * world.frame.height(apart).abs();
+    let is_sized = |framing: &Framing| is_stated(&Framing { part: SubjectPart::Middle, ..framing.clone() });
+    let stated = is_sized(&context.step.start) || is_sized(&context.step.end) || stands(&context.standing());
+    if !tilts || !is_stacked || stated || context.parameters[7] > OVERLOOK_TILT_FROM {
+        return None;
+    }
+    let corners: Vec<DVec3> = start.corners.iter().chain(&end.corners).copied().collect();
+    let aim = start.aim.midpoint(end.aim);
+    let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
+    let both = Target { aim, corners, radius, ..start.clone() };
+    let view = context.view(&both, &Framing::default(), STACKED_FILL, NORMAL_LENS_DEG);
+    Some(aimed(world, &view, start.aim))
+}
+
+/// The camera of a view of `start` at the height halfway to `end`, so that it is as near to the one as to the other: from the
+/// height of a guitar's body its head is small and seen from below.
+fn between_heights(context: &StepContext, view: &CameraState, [start, end]: [&Target; 2]) -> CameraState {
+    let frame = &context.world.frame;
+    let middle = frame.height(start.aim).midpoint(frame.height(end.aim));
+    let lift = middle - frame.height(view.pose.position);
+    aimed(context.world, &moved(view, frame.up * lift), start.aim)
+}
+
 /// Value of the parameter from which on somebody stands in the room and looks at both subjects: for pans and for tilts.
 const OVERLOOK_FROM: f64 = 0.6;
 const OVERLOOK_TILT_FROM: f64 = 0.75;
 /// Size of a subject along which the view turns, from one end to the other: more than the picture holds.
 const ALONG_FILL: (f64, f64) = (1.4, 2.2);
+/// The same for a lone thing, around which there is nothing to see.
+const ALONG_LONE_FILL: (f64, f64) = (2.0, 2.8);
 
 /// Whether the view turns from one end of a subject to the other.
 pub(super) fn is_along(context: &StepContext) -> bool {

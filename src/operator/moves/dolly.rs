@@ -1,0 +1,222 @@
+//! Moves along the line to a subject: push in and pull out.
+
+use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::dolly_length::{LEAST_RATIO, WALL_RADII, distance_ratio};
+use super::standing_view::stands;
+use crate::constraint::{ConstraintKind, Scope};
+use crate::framing::{Target, in_frame_frac};
+use crate::motion::MotionSegment;
+use crate::pictures::void_frac;
+use crate::program::{Amount, Framing, Motion};
+use crate::view::{aimed, lerp, moved, with_fov};
+use cinesplat_trajectory::{CameraState, Move};
+
+/// Moves along the line to the subject, toward it or away from it.
+pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
+    let inward = (context.step.movement == Move::PushIn) != (context.step.either_way && context.parameters[5] < 0.5);
+    let target =
+        if inward { context.main_target() } else { context.start.clone().unwrap_or_else(|| pulled_from(context)) };
+    let fill = match (inward, context.world.is_indoor()) {
+        (true, true) => (0.24, 0.45),
+        (true, false) => LONE_START,
+        (false, _) => (0.6, 0.95),
+    };
+    let (mut segments, first) = if context.before.is_none()
+        && context.step.start.size.is_none()
+        && !context.step.start.whole
+        && !stands(&context.standing())
+    {
+        (Vec::new(), open_first(context, &target, inward, fill))
+    } else if let Some(before) =
+        context.before.filter(|_| takes_in(context, inward).is_some() && context.start.is_none())
+    {
+        // The step before may have turned away from what it began with.
+        (Vec::new(), before)
+    } else {
+        context.opened_on(&target, fill)
+    };
+    let ratio = distance_ratio(context, &target, &first, inward);
+    let first = if backs_into_view(context, &target, inward) { nearer(&first, &target, ratio) } else { first };
+    let distance = first.pose.position.distance(target.aim);
+    let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
+    let last = if inward { last } else { within_room(context, &first, distance, last) };
+    let (first, last) = within_capture(context, &target, (first, last), inward);
+    let taken_in = takes_in(context, inward);
+    let last = taken_in.map_or(last, |end| settled_on(context, [&first, &last], &target, end));
+    let segment = context.segment(vec![first, last]);
+    let wanted = if inward { (0.0, 0.76) } else { (1.32, f64::INFINITY) };
+    let subtle = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_) | Amount::Factor(_)));
+    let segment =
+        if subtle { segment } else { segment.requiring(Scope::All, ConstraintKind::DistanceRatio(target.aim, wanted)) };
+    let segment = match taken_in {
+        Some(end) => segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.2)),
+        None => segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.17)),
+    };
+    let mut segment = context.constrained_at_end(context.constrained_at_start(segment));
+    if !inward && context.step.end.whole && context.step.start.whole == context.step.end.whole {
+        segment = segment.requiring(Scope::End, ConstraintKind::InFrame(context.step.end.subjects.clone(), 0.97));
+    }
+    if !inward && context.step.end.whole && context.before.is_none() {
+        let left = target.ids.first();
+        let ids = &context.step.end.subjects;
+        let others: Vec<u32> = ids.iter().filter(|&id| Some(id) != left).copied().collect();
+        segment = segment.requiring(
+            Scope::Start,
+            ConstraintKind::NotWhole(if others.is_empty() { ids.clone() } else { others }, 0.6),
+        );
+    }
+    if !inward {
+        segment =
+            segment.requiring(Scope::End, ConstraintKind::InFrame(target.ids.iter().take(1).copied().collect(), 0.95));
+    }
+    segments.push(require_visible(segment, &target, Scope::All));
+    segments
+}
+
+/// What a pull-out goes back to take in: the whole of another thing than it sets out from, or of the thing of which the step
+/// before showed a part.
+fn takes_in<'a>(context: &'a StepContext, inward: bool) -> Option<&'a Target> {
+    let end = context.end.as_ref().filter(|_| !inward && context.step.end.whole)?;
+    let start = context.start.as_ref();
+    let is_other =
+        start.is_some_and(|start| start.ids.first() != end.ids.first()) || start.is_none() && context.before.is_some();
+    (is_other && context.step.end.subjects.len() == 1).then_some(end)
+}
+
+/// The end of a pull-out with its aim on what it takes in, as far as a camera that backs away turns; farther back where that
+/// is not in the picture.
+fn settled_on(context: &StepContext, [first, last]: [&CameraState; 2], left: &Target, end: &Target) -> CameraState {
+    let forbidden = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
+    let turned = |state: &CameraState| aimed(context.world, state, end.aim);
+    let turn_rad = turned(last).pose.forward().angle_between(last.pose.forward());
+    if turn_rad > MOST_SETTLING_RAD || context.forbidden.iter().any(forbidden) {
+        return *last;
+    }
+    let way = last.pose.position - first.pose.position;
+    let distance = |state: &CameraState| state.pose.position.distance(left.aim);
+    let is_whole = |state: &CameraState| {
+        in_frame_frac(context.world, state, &end.corners, 0.03) >= 1.0
+            && distance(state) > LEAST_RATIO * distance(first)
+    };
+    // Aimed at its middle, a thing fits from nearer by.
+    let share = |i: u32| 0.35 + 0.05 * f64::from(i);
+    let nearer = (0..=13).map(|i| turned(&moved(first, way * share(i)))).find(is_whole);
+    nearer.map_or_else(|| turned(last), |view| with_fov(&view, last.fov_y_rad))
+}
+
+/// Largest turn of a pull-out to what it takes in, radians.
+const MOST_SETTLING_RAD: f64 = 0.8;
+
+/// Whether a pull-out ends, and does not start, at its view: in a room without a subject the way back is a wall.
+fn backs_into_view(context: &StepContext, target: &Target, inward: bool) -> bool {
+    !inward && target.ids.is_empty() && context.before.is_none() && context.world.is_indoor()
+}
+
+/// The end of a pull-out that goes on from another step and is to hold more: before the wall behind the camera where the way
+/// is much longer than the room, with a wider lens instead.
+fn within_room(context: &StepContext, first: &CameraState, distance: f64, last: CameraState) -> CameraState {
+    let world = context.world;
+    let is_open = context.before.is_some() && (context.step.end.whole || context.step.end.size.is_some());
+    let may_zoom = !context.forbidden.contains(&Motion::Zoom) && context.step.end.lens.is_none();
+    let way = last.pose.position.distance(first.pose.position);
+    let free = world.hit_distance(first.pose.position, -first.pose.forward()).unwrap_or(f64::INFINITY);
+    let free = (free - WALL_RADII * world.camera_radius).max(0.0);
+    let leaves = free < way && way > LONG_WAY * distance && !world.in_capture_region(last.pose.position);
+    if !world.is_indoor() || !is_open || !may_zoom || context.step.amount.is_some() || !leaves {
+        return last;
+    }
+    let tan = (first.fov_y_rad / 2.0).tan() * (distance + way) / (distance + free);
+    let tan = tan.min((WIDEST_DEG / 2.0).to_radians().tan()).max((first.fov_y_rad / 2.0).tan());
+    with_fov(&moved(first, -first.pose.forward() * free), 2.0 * tan.atan())
+}
+
+/// Way of a pull-out over its first distance from which on it is a flight out of the house.
+const LONG_WAY: f64 = 4.0;
+/// Widest lens of a pull-out that ends before the wall behind the camera.
+const WIDEST_DEG: f64 = 78.0;
+
+/// Void of the far end of a way in or out from which on the way is shortened, and the parts in which that is done.
+const LEAST_VOID: f64 = 0.08;
+const NUM_SHORTENED: i32 = 10;
+/// Least change of the distance that is left of such a way, nearer over farther.
+const SHORTENED_RATIO: f64 = 0.73;
+
+/// The ends of a way in a room, the far one brought nearer where it would show what was never captured: as much of the way as
+/// needed, while the way stays one. Stated ends and amounts stay.
+fn within_capture(
+    context: &StepContext,
+    target: &Target,
+    (first, last): (CameraState, CameraState),
+    inward: bool,
+) -> (CameraState, CameraState) {
+    let (far, near) = if inward { (first, last) } else { (last, first) };
+    let framing = if inward { &context.step.start } else { &context.step.end };
+    let is_open = *framing == Framing { subjects: framing.subjects.clone(), ..Framing::default() }
+        && context.step.amount.is_none()
+        && context.step.via.is_none()
+        && !target.ids.is_empty();
+    if !is_open || !context.world.is_indoor() || (inward && context.before.is_some()) {
+        return (first, last);
+    }
+    let void = void_frac(context.world, &far);
+    let distance = |state: &CameraState| state.pose.position.distance(target.aim);
+    if void < LEAST_VOID || far.fov_y_rad != near.fov_y_rad {
+        return (first, last);
+    }
+    let way = near.pose.position - far.pose.position;
+    let nearer = |i: i32| moved(&far, way * (f64::from(i) / f64::from(NUM_SHORTENED)));
+    let is_way = |state: &CameraState| distance(&near) <= SHORTENED_RATIO * distance(state);
+    let shortened: Vec<(f64, CameraState)> =
+        (1..NUM_SHORTENED).map(nearer).filter(is_way).map(|state| (void_frac(context.world, &state), state)).collect();
+    let fullest = shortened.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let full = shortened.iter().find(|(void, _)| *void < LEAST_VOID).or(fullest.filter(|(less, _)| *less < 0.8 * void));
+    match full {
+        Some((_, far)) if inward => (*far, last),
+        Some((_, far)) => (first, *far),
+        None => (first, last),
+    }
+}
+
+/// The camera before a pull-out of a ratio that ends at `last`.
+fn nearer(last: &CameraState, target: &Target, ratio: f64) -> CameraState {
+    let distance = last.pose.position.distance(target.aim);
+    moved(last, last.pose.forward() * distance * (1.0 - 1.0 / ratio))
+}
+
+/// The target that a pull-out without a start framing pulls away from: that of an earlier step, else the first subject
+/// of its end.
+fn pulled_from(context: &StepContext) -> Target {
+    let first = Framing { subjects: context.step.end.subjects.iter().take(1).copied().collect(), ..Framing::default() };
+    let first = || Target::of(context.world, &first);
+    context.earlier.clone().or_else(first).unwrap_or_else(|| context.main_target())
+}
+
+/// Opening view of a dolly with a free start size. A push that ends at a stated size starts far enough away.
+fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, f64)) -> CameraState {
+    let framing = if context.start.is_some() || !inward { context.step.start.clone() } else { Framing::default() };
+    let angle = framing.angle.or(context.step.end.angle);
+    let mut framing = Framing { angle, ..framing };
+    context.inherit(&mut framing);
+    let stated = &context.step.end;
+    let sized = stated.size.is_some() || stated.height_frac.is_some() || stated.distance.is_some();
+    let nearer = context.step.start.height_frac.is_none() && context.step.start.distance.is_none();
+    if target.ids.is_empty() || !(inward && nearer && (sized || stated.height.is_some())) {
+        return context.view(target, &framing, fill, NORMAL_LENS_DEG);
+    }
+    // The camera at the end, moved back.
+    let end_framing = Framing {
+        size: stated.size,
+        height_frac: stated.height_frac,
+        distance: stated.distance,
+        height: stated.height,
+        ..framing
+    };
+    let fill = if sized { fill } else { (0.4, 0.8) };
+    let end = context.view(target, &end_framing, fill, NORMAL_LENS_DEG);
+    let distance = end.pose.position.distance(target.aim);
+    let back = lerp((1.4, 2.8), context.parameters[6]);
+    moved(&end, -end.pose.forward() * distance * back)
+}
+
+/// Size from which a camera goes in on a lone thing, before the factor of such things.
+const LONE_START: (f64, f64) = (0.3, 0.42);

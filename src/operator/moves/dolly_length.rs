@@ -1,0 +1,109 @@
+//! How far a push goes in and a pull-out backs off.
+
+use glam::DVec3;
+
+use super::context::StepContext;
+use crate::framing::{Fill, Target, bearing_of, distance_for, extent_frac, in_frame_frac};
+use crate::program::Amount;
+use crate::view::{distance_along, fill_in, lerp, moved};
+use cinesplat_trajectory::{CameraState, Move, ShotSize};
+
+/// Least distance at the end of a pull-out over that at its start.
+pub(super) const LEAST_RATIO: f64 = 1.36;
+/// Distance of a camera from the wall behind it, over its radius.
+pub(super) const WALL_RADII: f64 = 3.0;
+/// Share of the frame that a lone thing fills at the end of a push toward it.
+const LONE_END: (f64, f64) = (0.8, 0.94);
+
+/// The distance ratio of a push toward a lone thing, at which it fills the picture; `None` in a room.
+fn filling_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
+    let alone = !context.world.is_indoor() && !target.ids.is_empty();
+    let now = extent_frac(context.world, first, &target.corners).max_element();
+    let ratio = now / lerp(LONE_END, context.parameters[6]);
+    (alone && ratio < 0.74).then_some(ratio.max(0.3))
+}
+
+/// Distance at the end over that at the start.
+pub(super) fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
+    let distance = first.pose.position.distance(target.aim);
+    let inner = || filling_ratio(context, target, first).unwrap_or(lerp((0.36, 0.56), context.parameters[6]));
+    let open = if inward { inner() } else { lerp((1.9, 3.3), context.parameters[6]) };
+    let by_size = room_ratio(context, target, first).or_else(|| size_ratio(context, target, first));
+    let by_whole = || whole_ratio(context, first, distance);
+    let stated = match context.step.amount {
+        Some(Amount::Factor(factor)) => Some(factor),
+        Some(Amount::Units(units)) => Some(1.0 + if inward { -units / distance } else { units / distance }),
+        Some(Amount::Slight) => Some(if inward { 0.82 } else { 1.25 }),
+        Some(Amount::Large) => Some(if inward { 0.32 } else { 3.2 }),
+        _ => None,
+    };
+    let ratio = stated.or(by_size).or_else(|| (!inward).then(by_whole).flatten()).unwrap_or(open);
+    if inward { ratio.clamp(0.05, 0.97) } else { ratio.clamp(1.03, 12.0) }
+}
+
+/// Share of the free way behind a camera that a pull-out to the whole room goes.
+const BACK_SHARE: (f64, f64) = (0.5, 0.95);
+
+/// Distance ratio of a pull-out from a small thing to the room as a whole: as far back as the room goes. `None` for any
+/// other way, and where that is no longer than one to a long shot.
+fn room_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
+    if !context.backs_to_room() {
+        return None;
+    }
+    let world = context.world;
+    let behind = world.hit_distance(first.pose.position, -first.pose.forward())?;
+    let free = behind - WALL_RADII * world.camera_radius;
+    let distance = first.pose.position.distance(target.aim);
+    let ratio = 1.0 + lerp(BACK_SHARE, context.parameters[6]) * free / distance;
+    (ratio > size_ratio(context, target, first).unwrap_or(LEAST_RATIO)).then_some(ratio)
+}
+
+/// Distance ratio that gives the subject the wanted size at the end; `None` where the camera would move the other way.
+fn size_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
+    let inward = context.step.movement == Move::PushIn;
+    let (world, end) = (context.world, &context.step.end);
+    let subject = context.end.as_ref().unwrap_or(target);
+    let wide = matches!(end.size, Some(ShotSize::Long | ShotSize::ExtremeLong));
+    let parameter = match (wide && !inward, inward && context.before.is_none()) {
+        (true, _) => 0.55 + 0.45 * context.parameters[6],
+        // The parameter that chose the size from which the free start was moved back.
+        (false, true) => context.parameters[2],
+        (false, false) => context.parameters[6],
+    };
+    let bearing = bearing_of(world, subject.aim, first.pose.position);
+    let wanted = match (end.distance, fill_in(world, end, parameter)) {
+        (Some(distance), _) => distance_along(world, subject, bearing, distance),
+        (None, Some(fill)) => {
+            let fill = match fill {
+                Fill::Height(height) if end.subjects.is_empty() && wide => Fill::Height(height.min(0.4)),
+                fill => fill,
+            };
+            distance_for(world, subject, bearing, fill, context.end_fov_rad(first))
+        }
+        (None, None) => return None,
+    };
+    let ratio = wanted / first.pose.position.distance(target.aim);
+    let exact = end.distance.is_some() || end.height_frac.is_some();
+    let least = if exact { 0.03 } else { 0.1 };
+    let is_consistent = if inward { ratio < 1.0 - least } else { ratio > 1.0 + least };
+    is_consistent.then_some(ratio)
+}
+
+/// Distance ratio at which all subjects of the end are in the frame; `None` where the end requires no whole subjects.
+fn whole_ratio(context: &StepContext, first: &CameraState, distance: f64) -> Option<f64> {
+    let end = context.end.as_ref().filter(|_| context.step.end.whole)?;
+    let ids = &context.step.end.subjects;
+    let corners: Vec<DVec3> = ids
+        .iter()
+        .filter_map(|&id| context.world.subject(id))
+        .flat_map(|s| s.corners.iter().copied())
+        .chain(end.corners.iter().copied())
+        .collect();
+    let back = |ratio: f64| moved(first, first.pose.forward() * distance * (1.0 - ratio));
+    let ratios = (0..40).map(|i| 1.32 * 1.07_f64.powi(i));
+    let spare = lerp((1.0, 1.2), context.parameters[7]);
+    ratios
+        .into_iter()
+        .find(|&ratio| in_frame_frac(context.world, &back(ratio), &corners, 0.02) >= 1.0)
+        .map(|ratio| ratio * spare)
+}

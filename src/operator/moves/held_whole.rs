@@ -1,0 +1,131 @@
+//! Framing along a move: what fits into the picture stays in it as a whole, with some room around it.
+//!
+//! A camera that goes in on the middle of a thing sees its near, lower half grow faster than its upper one, and one that
+//! circles it sees one arm swing out. An operator corrects that by a turn of a few degrees.
+//!
+//! Enters: the segments of a move, aimed at their subjects. Leaves: the same segments, each camera turned by as little as
+//! puts its subject back inside the frame. Parts, stated places, and moves that keep their direction stay as they are.
+
+use glam::{DVec2, DVec3};
+
+use super::compose::{is_same_camera, rejoin, turned_by};
+use super::context::StepContext;
+use crate::framing::frame_position;
+use crate::motion::MotionSegment;
+use crate::program::{Framing, Motion, SubjectPart};
+use cinesplat_trajectory::{CameraState, Move};
+
+/// Room between a subject and the edge of the frame, over the frame's width and height.
+const MARGIN: f64 = 0.045;
+/// Least turn that is worth it, over the frame.
+const LEAST_SHIFT: f64 = 0.004;
+/// Largest turn, over the frame: more would take the subject's middle out of the picture's.
+const MOST_SHIFT: f64 = 0.16;
+
+/// Turns the cameras of the step's own motion so that what fits is whole.
+pub(super) fn hold_whole(context: &StepContext, segments: &mut Vec<MotionSegment>) {
+    let ends = [&context.step.start, &context.step.end];
+    let is_free = |framing: &&Framing| {
+        framing.place.is_none() && framing.part == SubjectPart::Middle && framing.elevation_deg.is_none()
+    };
+    let turns = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
+    if !re_aims(context.step.movement)
+        || context.step.with.iter().any(|second| keeps_direction(*second))
+        || context.step.look.is_some()
+        || !ends.iter().all(is_free)
+        || context.forbidden.iter().any(turns)
+    {
+        return;
+    }
+    let points = [points_of(context, &ends[0].subjects), points_of(context, &ends[1].subjects)];
+    let [start, end] = match points {
+        [None, None] => return,
+        [Some(only), None] | [None, Some(only)] => [only.clone(), only],
+        [Some(start), Some(end)] => [start, end],
+    };
+    let Some(segment) = segments.last_mut().filter(|segment| !segment.is_join) else { return };
+    let last = segment.states.len() - 1;
+    let continues = context.before.is_some_and(|before| is_same_camera(&before, &segment.states[0]));
+    let is_held = segment.states[0] == segment.states[last];
+    if continues && is_held {
+        return;
+    }
+    let mut turned = segment.states.clone();
+    let mut any = false;
+    for (i, state) in turned.iter_mut().enumerate() {
+        if continues && i == 0 {
+            continue;
+        }
+        let shown = if 2 * i > last || (i == last && last > 0) { &end } else { &start };
+        let by = if start == end || i == 0 || i == last { shift(context, state, shown) } else { DVec2::ZERO };
+        if by.abs().max_element() > LEAST_SHIFT {
+            let tan = (state.fov_y_rad / 2.0).tan();
+            let angle = |share: f64, aspect: f64| (2.0 * tan * aspect * share).atan();
+            *state = turned_by(context, state, (angle(by.x, context.world.aspect), angle(by.y, 1.0)));
+            any = true;
+        }
+    }
+    if any {
+        if is_held {
+            turned[last] = turned[0];
+        }
+        segment.states = turned;
+        rejoin(context, segments);
+    }
+}
+
+/// Moves that aim at their subjects anyway. A pan, a tilt, a truck and a rise keep their direction.
+fn re_aims(movement: Move) -> bool {
+    use Move::{ArcLeft, ArcRight, CraneDown, CraneUp, DollyZoomIn, DollyZoomOut, Follow, OrbitLeft, OrbitRight};
+    use Move::{PullOut, PushIn, Static, ZoomIn, ZoomOut};
+    matches!(
+        movement,
+        ArcLeft
+            | ArcRight
+            | CraneDown
+            | CraneUp
+            | DollyZoomIn
+            | DollyZoomOut
+            | Follow
+            | OrbitLeft
+            | OrbitRight
+            | PullOut
+            | PushIn
+            | Static
+            | ZoomIn
+            | ZoomOut
+    )
+}
+
+/// Second moves that turn the camera for themselves.
+fn keeps_direction(second: Move) -> bool {
+    use Move::{PanLeft, PanRight, RollCcw, RollCw, TiltDown, TiltUp};
+    matches!(second, PanLeft | PanRight | RollCcw | RollCw | TiltDown | TiltUp)
+}
+
+/// Outermost points of some subjects; `None` for none.
+fn points_of(context: &StepContext, ids: &[u32]) -> Option<Vec<DVec3>> {
+    let subjects = ids.iter().filter_map(|&id| context.world.subject(id));
+    let points: Vec<DVec3> = subjects.flat_map(|subject| subject.outline.iter().copied()).collect();
+    (!points.is_empty()).then_some(points)
+}
+
+/// How far the picture has to move, right and up positive, over the frame, so that points which fit into it are whole. Zero
+/// along an axis on which they do not fit.
+fn shift(context: &StepContext, state: &CameraState, points: &[DVec3]) -> DVec2 {
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for &point in points {
+        let Some((at, _)) = frame_position(context.world, state, point) else { return DVec2::ZERO };
+        low = low.min(at);
+        high = high.max(at);
+    }
+    let edge = 0.5 - MARGIN;
+    let along = |low: f64, high: f64| {
+        if high - low > 2.0 * edge {
+            return 0.0;
+        }
+        (high - edge).max(0.0) + (low + edge).min(0.0)
+    };
+    let by = DVec2::new(along(low.x, high.x), along(low.y, high.y));
+    if by.abs().max_element() > MOST_SHIFT { DVec2::ZERO } else { by }
+}
