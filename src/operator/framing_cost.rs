@@ -122,7 +122,7 @@ fn askew_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
 
 /// Size of a subject in the frame, the larger of its shares of width and height, below which it is small in the best
 /// picture of it; and what a speck costs.
-const LEAST_FIT: f64 = 0.5;
+const LEAST_FIT: f64 = 0.45;
 const SMALL_COST: f64 = 1.1;
 
 /// Cost of a subject that is small in every picture that is about it, where the words state no size.
@@ -150,9 +150,9 @@ fn small_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
     SMALL_COST * smallest.max(loose_frac(world, segment, &states[states.len() - 1]))
 }
 
-/// Size of the splats of a subject over the frame's height at which a picture begins to look painted, and at which it is a
+/// Size of the splats of a subject over the frame's height at which a picture looks painted, and at which it is a
 /// smear; and what that costs where the words state no size.
-const SOFT_FRAC: (f64, f64) = (14.0 / 720.0, 44.0 / 720.0);
+const SOFT_FRAC: (f64, f64) = (30.0 / 720.0, 80.0 / 720.0);
 const SOFT_COST: f64 = 1.2;
 
 /// Cost of a subject so close that the capture does not hold, where nothing asks for that.

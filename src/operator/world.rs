@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 
-use super::capture_region::{CaptureRegion, sphere_directions};
+use super::capture_region::CaptureRegion;
 use super::clearance::ClearanceIndex;
 use super::facets::Facets;
 use super::grid::Grid;
@@ -34,11 +34,6 @@ const SKIN_FRAC: f64 = 0.05;
 /// Share of a scene's solid Gaussians from which on a subject is all that there is: what little else there is does not count
 /// as hiding it.
 const ALONE_FRAC: f64 = 0.85;
-/// Rays over the sphere for which void is looked for, the sine of the elevation up to which one is level, and the share of
-/// those that meet nothing from which on a room was captured in part.
-const OPEN_RAYS: usize = 96;
-const LEVEL_SIN: f64 = 0.5;
-const PARTIAL_FRAC: f64 = 0.08;
 /// Sample points per subject, for framing and visibility.
 const SUBJECT_POINTS: usize = 48;
 
@@ -71,8 +66,6 @@ pub struct World {
     pub(super) lookouts: OnceLock<Vec<Lookout>>,
     /// Free places at eye height in a room; [`standing_places`](super::lookouts::standing_places) finds them.
     pub(super) standing_places: OnceLock<Vec<DVec3>>,
-    /// Share of the level directions from the viewpoints that meet nothing, found when first asked for.
-    pub(super) open_frac: OnceLock<f64>,
 }
 
 /// Height of the top of what bears things, over that of a standing person's eyes, from which on it is a bookcase.
@@ -155,7 +148,6 @@ impl World {
             things,
             lookouts: OnceLock::new(),
             standing_places: OnceLock::new(),
-            open_frac: OnceLock::new(),
         };
         world.leave_shelves();
         Ok(world)
@@ -180,21 +172,6 @@ impl World {
         let [radius, before] = self.ball;
         self.ball = [radius, before + reach];
         self.camera_radius = radius + self.ball[1];
-    }
-
-    /// Whether a good part of a room was not captured: from its viewpoints many directions end in void.
-    pub(super) fn is_partial(&self) -> bool {
-        self.is_indoor() && *self.open_frac.get_or_init(|| self.open_directions()) > PARTIAL_FRAC
-    }
-
-    /// Share of the level directions from the viewpoints that meet nothing.
-    fn open_directions(&self) -> f64 {
-        let is_level = |ray: &DVec3| self.frame.height(*ray).abs() < LEVEL_SIN;
-        let rays: Vec<DVec3> = sphere_directions(OPEN_RAYS).into_iter().filter(is_level).collect();
-        let eyes = self.viewpoints();
-        let is_open = |(eye, ray): &(DVec3, DVec3)| self.hit_distance(*eye, *ray).is_none();
-        let pairs = eyes.iter().flat_map(|&eye| rays.iter().map(move |&ray| (eye, ray)));
-        pairs.filter(is_open).count() as f64 / (rays.len() * eyes.len()).max(1) as f64
     }
 
     /// All subjects, in order of id.

@@ -156,8 +156,15 @@ pub fn direct(
     let looks = settings.solve != SolveLevel::Off;
     let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, &objects, &ids)));
     if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
+        let whole = lone_thing::whole(&objects).map(|whole| whole.id).filter(|whole| !ids.contains(whole));
+        let of_whole = whole.map(|id| Subjects::new(&scene.gaussians, &objects, &[id]));
+        // A neck has the front of its guitar.
+        let subjects = of_whole.as_ref().unwrap_or(subjects);
         let fronts = times.measure(Phase::Judge, || subjects.fronts(&world.frame))?;
-        fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
+        let parts = |id: u32| ids.iter().filter(move |_| Some(id) == whole).copied();
+        for (id, direction) in fronts {
+            parts(id).chain([id]).for_each(|id| world.set_front(id, direction));
+        }
     }
     let program = &direction.program;
     // A shaky camera keeps clear wherever the hand takes it.

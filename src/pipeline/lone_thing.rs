@@ -55,10 +55,15 @@ pub(super) fn link<'a>(
     Ok((linked, Cow::Owned(renamed)))
 }
 
+/// The thing of a scan of one thing.
+pub(super) fn whole(objects: &ObjectSet) -> Option<&Object> {
+    let only = objects.objects.first().filter(|_| objects.objects.len() == 1);
+    only.or_else(|| objects.only_whole())
+}
+
 /// Lets a program that names nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
 pub(super) fn show(program: &mut Program, objects: &ObjectSet) {
-    let only = || objects.objects.first().filter(|_| objects.objects.len() == 1);
-    let Some(whole) = only().or_else(|| objects.only_whole()) else { return };
+    let Some(whole) = whole(objects) else { return };
     if !program.object_ids().is_empty() {
         return;
     }

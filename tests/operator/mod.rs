@@ -17,6 +17,7 @@ mod route;
 mod sides;
 mod tables;
 mod viewpoints;
+mod wholes;
 
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Program, SIGMA_LEVEL, Solution, SolveLevel, SolveSettings, Step, World, realize};

@@ -19,7 +19,7 @@ const DEG_PER_KEY: f64 = 30.0;
 /// Circles the upright axis through the subject's center, at constant radius and height.
 pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
-    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.55, 0.88));
+    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.5, 0.82));
     let sign = context.sign(match context.step.movement {
         Move::OrbitLeft | Move::ArcLeft => 1.0,
         _ => -1.0,

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::captured_view::captured_view;
 use super::room_view::{room_target, room_view, target_ahead};
 use super::standing_view::{Standing, standing_view};
 use crate::composition::lens_fov_deg;
@@ -206,9 +205,6 @@ impl<'a> StepContext<'a> {
         if target.ids.is_empty()
             && let Some(view) = room_view(self.world, target, framing, self.parameters, lens)
         {
-            return view;
-        }
-        if let Some(view) = captured_view(self, target, framing, fill) {
             return view;
         }
         let mut azimuths_rad = self.azimuths_rad.clone();

@@ -12,6 +12,7 @@ use super::compose::{is_same_camera, rejoin, turned_by};
 use super::context::StepContext;
 use crate::framing::frame_position;
 use crate::motion::MotionSegment;
+use crate::pictures::void_frac;
 use crate::program::{Framing, Motion, SubjectPart};
 use cinesplat_trajectory::{CameraState, Move};
 
@@ -21,6 +22,9 @@ const MARGIN: f64 = 0.045;
 const LEAST_SHIFT: f64 = 0.004;
 /// Largest turn, over the frame: more would take the subject's middle out of the picture's.
 const MOST_SHIFT: f64 = 0.16;
+
+/// Void that such a turn may add to the picture of a room.
+const MORE_VOID: f64 = 0.02;
 
 /// Turns the cameras of the step's own motion so that what fits is whole.
 pub(super) fn hold_whole(context: &StepContext, segments: &mut Vec<MotionSegment>) {
@@ -61,8 +65,11 @@ pub(super) fn hold_whole(context: &StepContext, segments: &mut Vec<MotionSegment
         if by.abs().max_element() > LEAST_SHIFT {
             let tan = (state.fov_y_rad / 2.0).tan();
             let angle = |share: f64, aspect: f64| (2.0 * tan * aspect * share).atan();
-            *state = turned_by(context, state, (angle(by.x, context.world.aspect), angle(by.y, 1.0)));
-            any = true;
+            let held = turned_by(context, state, (angle(by.x, context.world.aspect), angle(by.y, 1.0)));
+            if is_as_full(context, state, &held) {
+                *state = held;
+                any = true;
+            }
         }
     }
     if any {
@@ -101,6 +108,12 @@ fn re_aims(movement: Move) -> bool {
 fn keeps_direction(second: Move) -> bool {
     use Move::{PanLeft, PanRight, RollCcw, RollCw, TiltDown, TiltUp};
     matches!(second, PanLeft | PanRight | RollCcw | RollCw | TiltDown | TiltUp)
+}
+
+/// Whether a turned camera shows no more of what was never captured.
+fn is_as_full(context: &StepContext, state: &CameraState, turned: &CameraState) -> bool {
+    let void = |state: &CameraState| void_frac(context.world, state);
+    !context.world.is_indoor() || void(turned) <= void(state) + MORE_VOID
 }
 
 /// Outermost points of some subjects; `None` for none.

@@ -4,7 +4,6 @@
 //! camera states carry out the move exactly.
 
 mod beside;
-mod captured_view;
 mod circles;
 mod compose;
 mod context;
