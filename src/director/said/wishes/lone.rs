@@ -23,6 +23,8 @@ pub(super) enum View {
     Middle,
     Bottom,
     Whole,
+    /// All of it from its front.
+    WholeFront,
     /// A part that is an object of its own.
     Part(u32),
 }
@@ -53,8 +55,11 @@ fn view_at(text: &Text<'_>, linked: &Linked, thing: &Object, things: &Things<'_>
     let before = |n: usize| at.checked_sub(n).map_or("", |at| words[at]);
     if is_object(words[at]) {
         let span = linked.spans.get(at)?;
-        if linked.wholes.contains(span) {
-            return Some(View::Whole);
+        let behind = text.slice(text.behind(at));
+        let faces = behind.windows(2).any(|two| matches!(two, ["facing", "us"] | ["the", "front"] | ["head", "on"]));
+        let is_whole = linked.wholes.contains(span) || before(1) == "whole" || before(1) == "full";
+        if is_whole {
+            return Some(if faces { View::WholeFront } else { View::Whole });
         }
         if before(1) == "of" && is_listed("side sides", before(2)) {
             return None;
@@ -85,6 +90,9 @@ fn view_at(text: &Text<'_>, linked: &Linked, thing: &Object, things: &Things<'_>
     // Behind it stands the thing itself.
     if words.get(at + 1) == Some(&"of") && words.get(at + 2).is_some_and(|word| is_object(word)) {
         return None;
+    }
+    if words[at] == "top" && is_named {
+        return of_place("top", &words[..at]);
     }
     let place = part_of(words[at], &thing.label).ok().flatten()?;
     of_place(place.place, &words[..at]).filter(|_| is_named)
@@ -158,6 +166,7 @@ fn step_to(view: View, before: Option<View>, thing: &Object, things: &Things<'_>
         },
         View::Bottom => of(nears, close(thing.id, SubjectPart::Bottom)),
         View::Part(id) => of(nears, close(id, SubjectPart::Middle)),
+        View::WholeFront => of(Move::PullOut, Framing { side: Some(SubjectSide::FromFront), ..whole }),
         View::Whole if before.is_none() => of(Move::PushIn, whole),
         View::Whole => of(Move::PullOut, whole),
     }

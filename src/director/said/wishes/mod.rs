@@ -35,7 +35,10 @@ const STOPS: [&str; 12] =
 /// Words of people who know cameras.
 const TRADE: &str = "sideways backward backwards forward forwards overhead top-down topdown handheld steadicam drone gimbal lens \
     degrees clockwise counterclockwise anticlockwise pov profile foreground close-up closeup cu ecu mcu ws ms shot shots angle low high \
-    bird's tripod static locked";
+    bird's tripod static locked frame picture view rotation stroll strolls join joins put together";
+/// Verbs of a camera that goes somewhere, and their ways.
+const GOES: [&str; 6] = ["go", "come", "step", "back", "get", "bring"];
+const WAYS: &str = "in over from across down up back out away off closer";
 /// Words that rule out what follows, and words of a way past a thing.
 const NOT: &str = "not never 't no without dont";
 const PASSES: &str = "over under behind through past between around along across above beneath below";
@@ -59,7 +62,15 @@ const CUTE: &str = "cute sweet friendly adorable harmless lovable";
 /// Films what a message wants seen. Says whether it is such a message.
 pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut Direction) -> bool {
     let text = Text::of(linked);
-    if !is_loose(direction, &text.words) || linked.timeline.is_some() || !is_wish(&text, linked) {
+    // A picture of nothing is none.
+    let is_nothing = |step: &Step| {
+        step.movement == Move::Static
+            && step.end == Framing::default()
+            && step.via.is_none()
+            && step.duration_secs.is_none()
+    };
+    let is_loose = is_loose(direction, &text.words) || direction.program.steps.iter().any(is_nothing);
+    if !is_loose || linked.timeline.is_some() || !is_wish(&text, linked) {
         return false;
     }
     let things = Things::new(objects);
@@ -82,14 +93,14 @@ pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut D
     let lone = things.lone();
     let steps = match lone {
         Some(thing) => of_lone(&text, linked, (thing, &things), manner.speed),
-        None => of_scene(stations::stations(&text, linked, &things, &denied), &things, &manner),
+        None => of_scene(stations::stations(&text, linked, &things, &denied), &things, (&manner, &linked.spans)),
     };
     let Some(mut steps) = steps else { return false };
     let from = direction.program.steps.iter().filter_map(|step| step.words).map(|[from, _]| from).min();
     let to = direction.program.steps.iter().filter_map(|step| step.words).map(|[_, to]| to).max();
     let shown: Vec<u32> = steps.iter().flat_map(|step| step.end.subjects.clone()).collect();
     for step in &mut steps {
-        step.words = from.zip(to).map(|(from, to)| [from, to]);
+        step.words = step.words.or(from.zip(to).map(|(from, to)| [from, to]));
         step.avoid.extend(denied.iter().filter(|id| !shown.contains(id)));
     }
     let certainty = |step: &Step| StepCertainty {
@@ -128,7 +139,7 @@ fn of_lone(
 }
 
 /// The film of some stations; `None` where they are no way.
-fn of_scene(mut stations: Vec<Station>, things: &Things<'_>, manner: &Manner) -> Option<Vec<Step>> {
+fn of_scene(mut stations: Vec<Station>, things: &Things<'_>, manner: (&Manner, &[[usize; 2]])) -> Option<Vec<Step>> {
     stations.truncate(MOST_STATIONS);
     let is_place_only = matches!(&stations[..], [Station { subject: Subject::Place, rank: Rank::Last, .. }]);
     if is_place_only {
@@ -152,13 +163,22 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
         let next = words[at + 1..].iter().find(|word| !is_listed("the a an my our", word));
         is_listed(PASSES, words[at]) && next.is_some_and(|word| is_object(word))
     };
+    // `Step back`, `and from there it goes to the palm`.
+    let goes = |at: usize| {
+        let next = words.get(at + 1).copied().unwrap_or_default();
+        let is_verb = GOES.iter().any(|verb| is_form(words[at], verb));
+        let to_thing =
+            next == "to" && is_form(words[at], "go") && words[at + 1..].iter().take(3).any(|word| is_object(word));
+        let is_close = words[at] == "up" || matches!(words.get(at + 2), Some(&"close" | &"amongst" | &"among"));
+        is_verb && (is_listed(WAYS, next) && !is_close || to_thing)
+    };
     let is_measured = |at: usize| {
         let seems = words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word));
         let kind = linked.quantity_at(words[at]).map(|quantity| quantity.kind);
         let is_length = kind == Some(QuantityKind::Units) && !seems;
         is_length || matches!(kind, Some(QuantityKind::Degrees | QuantityKind::Factor | QuantityKind::Millimeters))
     };
-    let says = |at: usize| !text.is_likeness(at) && (is_way(at) || passes(at) || is_measured(at));
+    let says = |at: usize| !text.is_likeness(at) && (is_way(at) || goes(at) || passes(at) || is_measured(at));
     words.len() >= FEWEST_WORDS && !(0..words.len()).any(says)
 }
 
@@ -183,6 +203,10 @@ mod tests {
         assert!(wish("leave us where she 's going to pedestal down and <obj-0> . nothing has started yet"));
         assert!(!wish("begin on <obj-0> , then pan over to <obj-1> and hold there until the end of the film"));
         assert!(!wish("a wide shot of the room first , then <obj-0> and at last <obj-1> , please"));
+        assert!(wish("people buy it for the hair , so get in amongst those long leaves . leave them with <obj-0>"));
+        assert!(!wish("the film begins at <obj-0> and from there it goes to <obj-1> , which must be seen whole"));
+        assert!(!wish("have a look at <obj-0> here and now everybody back up so you can see <obj-1>"));
+        assert!(!wish("<obj-0> , <obj-1> and <obj-2> , all of them in one picture , and the last one in the middle"));
         assert!(!wish("we start at <obj-0> and come in over <obj-1> until we see the whole of <obj-2> , please"));
     }
 }

@@ -1,5 +1,7 @@
 //! What a message wants seen, in order.
 
+use std::ops::Range;
+
 use cinesplat_language::{Linked, is_listed};
 
 use super::text::{Text, is_object};
@@ -32,12 +34,14 @@ pub(super) struct Station {
     pub(super) rank: Rank,
     /// The camera rests there.
     pub(super) rests: bool,
+    /// The words about it.
+    pub(super) words: Range<usize>,
 }
 
 impl Station {
     /// A station of nothing, where a film begins.
     pub(super) fn nothing() -> Self {
-        Self { subject: Subject::Place, is_close: false, rank: Rank::First, rests: false }
+        Self { subject: Subject::Place, is_close: false, rank: Rank::First, rests: false, words: 0..0 }
     }
 }
 
@@ -49,13 +53,15 @@ const WISHES: &str = "first then next after begin start open end finish last fin
 pub(super) const WARES: &str = "shop store product products brand sale selling sell auction lot lots bidders bidder bestseller catalogue \
     catalog webshop customer customers buyer buyers off";
 /// Words that show the things of a group one after the other.
-const IN_TURN: [&[&str]; 9] = [
+const IN_TURN: [&[&str]; 11] = [
     &["after", "the", "other"],
     &["after", "another"],
     &["one", "by", "one"],
     &["at", "each"],
-    &["each"],
-    &["every"],
+    &["on", "each"],
+    &["each", "one"],
+    &["each", "of"],
+    &["every", "one"],
     &["in", "turn"],
     &["individually"],
     &["same", "treatment"],
@@ -65,7 +71,7 @@ const CLOSE: &str =
     "close closely closer tight tightly detail details clue clues macro big huge fills amongst nose homely intimate";
 /// Words between a thing and one that is seen with it.
 const WITH: &str = "with plus beside";
-const ARTICLES: &str = "the a an its his her their my our your some";
+const ARTICLES: &str = "both all the a an its his her their my our your some";
 /// Words before a thing that only say where another one is, and before them.
 const WHERE: &str = "on in near against by behind under above at from for";
 /// Words of a place, and of all of it.
@@ -87,10 +93,23 @@ const DEEDS: [(&str, &str); 6] = [
 
 /// What the words want seen, in order, without what is `denied`.
 pub(super) fn stations(text: &Text<'_>, linked: &Linked, things: &Things<'_>, denied: &[u32]) -> Vec<Station> {
-    let mut found = Found { text, linked, things, stations: Vec::new(), last: None, is_last_open: false };
+    let of_wishes = stations_of(text, linked, things, (denied, true));
+    // What a story names is seen, too, where little else is.
+    if of_wishes.len() > 1 { of_wishes } else { stations_of(text, linked, things, (denied, false)) }
+}
+
+/// The same, of the sentences that wish for something only, or of all.
+fn stations_of(
+    text: &Text<'_>,
+    linked: &Linked,
+    things: &Things<'_>,
+    (denied, wishes_only): (&[u32], bool),
+) -> Vec<Station> {
+    let mut found =
+        Found { text, linked, things, stations: Vec::new(), last: None, is_last_open: false, is_with_open: false };
     let is_wish = |at: usize| text.has(text.sentence(at), WISHES) || text.has(text.sentence(at), WARES);
     let slots = || (0..text.words.len()).filter(|at| is_object(text.words[*at]) && !text.is_likeness(*at));
-    let have_wishes = slots().any(is_wish);
+    let have_wishes = wishes_only && slots().any(is_wish);
     for at in 0..text.words.len() {
         if text.is_likeness(at) {
             continue;
@@ -110,11 +129,27 @@ pub(super) fn stations(text: &Text<'_>, linked: &Linked, things: &Things<'_>, de
         found.take(at, ids);
     }
     let mut stations = found.stations;
+    fill_between(text, things, &mut stations);
     if let Some(anchor) = split_anchor(text, linked, things, &stations) {
         stations = anchor;
     }
     stations.sort_by_key(|station| station.rank);
     stations
+}
+
+/// Visits what stands near the first thing on the way to the last one, where the words show it `little by little`.
+fn fill_between(text: &Text<'_>, things: &Things<'_>, stations: &mut Vec<Station>) {
+    let says = text.words.windows(3).any(|three| matches!(three, ["little" | "bit", "by", "little" | "bit"]));
+    let [first, last] = &stations[..] else { return };
+    let (Subject::Things(ids), Subject::Things(ends), true) = (&first.subject, &last.subject, says) else { return };
+    let between = things.on_the_way(ids[0], ends[0]);
+    let new = between.into_iter().map(|id| Station {
+        subject: Subject::Things(vec![id]),
+        rank: Rank::Between,
+        ..first.clone()
+    });
+    let new: Vec<Station> = new.collect();
+    stations.splice(1..1, new);
 }
 
 /// The stations, with a group that is visited thing by thing from where the words start: `the three easels one after the other,
@@ -178,6 +213,7 @@ struct Found<'a> {
     /// The word of what was found last.
     last: Option<usize>,
     is_last_open: bool,
+    is_with_open: bool,
 }
 
 impl Found<'_> {
@@ -190,10 +226,15 @@ impl Found<'_> {
         let sentence = text.sentence(at);
         let last = self.last.filter(|last| sentence.contains(last));
         let between = last.map_or(&[][..], |last| &words[last + 1..at]);
-        if before_word == "or" && last.is_some() {
+        let next = words.get(at + 1).copied().unwrap_or_default();
+        // `The canvas taking two thirds of the frame`, `until it fills the screen`.
+        let is_size = is_listed("taking takes filling fills covering", next)
+            && !self.stations.is_empty()
+            && words[at..].iter().take(6).any(|word| self.linked.is_quantity(word));
+        let fills = words[..at].iter().rev().take(4).any(|word| is_listed("fills fill filling", word));
+        if is_size || fills && !self.stations.is_empty() || before_word == "or" && last.is_some() {
             return;
         }
-        let next = words.get(at + 1).copied().unwrap_or_default();
         if before_word == "what" && is_listed(SEES, next) || self.stands_at(at) {
             let stands = text.has(sentence, STANDS);
             self.add(at, Subject::From { eye: ids, seen: Vec::new(), stands });
@@ -213,13 +254,17 @@ impl Found<'_> {
         let is_where = last.is_some()
             && is_listed(WHERE, before_word)
             && !text.closes(at)
-            && !between.iter().any(|word| is_listed("then and , to up", word));
+            && (!between.iter().any(|word| is_listed("then and , to up", word))
+                || between.iter().any(|word| is_listed("it they which", word)));
         if is_where || before_word == "for" {
             return;
         }
         let behind = text.behind(at);
+        let verb = before.and_then(|nth| nth.checked_sub(1)).map_or("", |nth| words[nth]);
+        let is_end =
+            is_listed("start starting begin beginning end ending finish finishing them us people everyone", verb);
         let is_with = last.is_some()
-            && (is_listed(WITH, before_word)
+            && (is_listed(WITH, before_word) && !is_end
                 || words[behind.clone()].starts_with(&["next", "to", "it"])
                 || words[behind.clone()].starts_with(&["beside", "it"]));
         let is_listed_on = between.iter().all(|word| is_listed("and , & the a", word));
@@ -227,12 +272,16 @@ impl Found<'_> {
         if let Some(Station { subject: Subject::Things(shown), .. }) = self.stations.last_mut()
             && last.is_some()
             && !ids.iter().any(|id| shown.contains(id))
-            && (is_with || is_listed_on && !is_separate && self.things.are_one_picture(shown, &ids))
+            && (is_with
+                || is_listed_on && !is_separate && (self.is_with_open || self.things.are_one_picture(shown, &ids)))
         {
-            shown.extend(ids);
+            let beside = self.things.beside(shown, &ids);
+            shown.extend(beside);
+            self.is_with_open = true;
             self.last = Some(at);
             return;
         }
+        self.is_with_open = false;
         let (opens, closes) = (text.opens(at), text.closes(at));
         let known = self.stations.iter().position(
             |station| matches!(&station.subject, Subject::Things(own) if ids.iter().all(|id| own.contains(id))),
@@ -290,28 +339,34 @@ impl Found<'_> {
             _ => Rank::Between,
         };
         self.is_last_open = rank == Rank::Last;
-        let is_close = self.is_close(at);
+        let is_small = matches!(&subject, Subject::Things(ids) if self.things.are_small(ids));
+        let is_close = self.is_close(at) || is_small && self.is_clue(at);
         let rests = text.has(text.behind(at), "stop pause rest hold linger wait stay");
-        self.stations.push(Station { subject, is_close, rank, rests });
+        let words = text.before(at).start..text.behind(at).end;
+        self.stations.push(Station { subject, is_close, rank, rests, words });
     }
 
     /// Whether the words show a thing close.
     fn is_close(&self, at: usize) -> bool {
         let words = &self.text.words;
-        // `See how big it is`.
+        // `See how big it is`, `can I close the curtains`.
         let is_size = |nth: usize| {
-            nth > 0 && matches!(words[nth - 1], "how" | "so" | "too" | "not") || words.get(nth + 1) == Some(&"enough")
+            let next = words.get(nth + 1).copied().unwrap_or_default();
+            let is_verb = words[nth] == "close" && is_object(next);
+            nth > 0 && matches!(words[nth - 1], "how" | "so" | "too" | "not") || next == "enough" || is_verb
         };
         let mut near = self.text.before(at).chain(self.text.behind(at));
         let says = near.any(|nth| is_listed(CLOSE, words[nth]) && !is_size(nth));
-        // Up close: a list of clues.
-        let start = self.text.sentence(at).start;
-        let list = (start..at).rev().take_while(|nth| !matches!(words[*nth], "then" | "finally"));
-        let is_in_list = list
-            .into_iter()
-            .any(|nth| words[nth] == "close" && nth > 0 && words[nth - 1] == "up" || words[nth] == "clues");
         let small = self.text.opens(at) && self.text.has(self.text.before(at), "small tiny little");
-        says || is_in_list || small
+        says || small
+    }
+
+    /// Whether a thing is in a list of clues, or of what is seen up close.
+    fn is_clue(&self, at: usize) -> bool {
+        let words = &self.text.words;
+        let start = self.text.sentence(at).start;
+        let mut list = (start..at).rev().take_while(|nth| !matches!(words[*nth], "then" | "finally"));
+        list.any(|nth| words[nth] == "close" && nth > 0 && words[nth - 1] == "up" || words[nth] == "clues")
     }
 
     /// Whether a word stands for all of the place: `the whole room`, `end wide`.
@@ -320,10 +375,9 @@ impl Found<'_> {
         let is_whole = is_listed(PLACES, words[at])
             && words[..at].iter().rev().take(2).any(|word| is_listed(WHOLE, word))
             && !self.stations.iter().any(|station| station.subject == Subject::Place);
-        let is_wide = is_listed("wide wider", words[at])
-            && self.text.closes(at)
-            && !self.stations.iter().any(|station| station.subject == Subject::Place);
-        is_whole || is_wide
+        let is_rest = words[at] == "room" && words[..at].ends_with(&["rest", "of", "the"]);
+        let is_wide = is_rest || is_listed("wide wider", words[at]) && self.text.closes(at);
+        is_whole || is_wide && !self.stations.iter().any(|station| station.subject == Subject::Place)
     }
 
     /// The things at which somebody does what the words say: `where she's going to sit and work`, `where do I hang my clothes`.

@@ -1,5 +1,6 @@
 //! The film of some stations.
 
+use cinesplat_language::is_listed;
 use cinesplat_operator::{Framing, Pass, Speed, Step, Via};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
@@ -28,27 +29,48 @@ const STOP_SECS: f64 = 1.5;
 const CANVAS: f64 = 1.5;
 
 /// The steps of a film that goes from station to station.
-pub(super) fn steps(stations: &[Station], things: &Things<'_>, manner: &Manner) -> Vec<Step> {
+pub(super) fn steps(stations: &[Station], things: &Things<'_>, (manner, spans): (&Manner, &[[usize; 2]])) -> Vec<Step> {
     let mut steps: Vec<Step> = Vec::new();
     for (nth, station) in stations.iter().enumerate() {
+        let first = steps.len();
+        add(&mut steps, (nth, station), stations, things, manner);
+        let own = spans.get(station.words.clone()).unwrap_or_default();
+        let words = own.first().zip(own.last()).map(|(first, last)| [first[0], last[1].max(first[1])]);
+        steps[first..].iter_mut().for_each(|step| step.words = words);
+    }
+    steps
+}
+
+/// Adds the steps to a station and on it.
+fn add(
+    steps: &mut Vec<Step>,
+    (nth, station): (usize, &Station),
+    stations: &[Station],
+    things: &Things<'_>,
+    manner: &Manner,
+) {
+    {
         let is_last = nth + 1 == stations.len();
         let end = match &station.subject {
             Subject::Things(ids) => framing(ids, station, things, manner),
             Subject::Place => Framing { size: Some(ShotSize::Long), ..Framing::default() },
             Subject::From { eye, seen, stands } => {
                 steps.push(from_place(eye, seen, stations, things, manner.height.filter(|_| *stands)));
-                continue;
+                return;
             }
         };
         let rest = manner.rest_secs.or(station.rests.then_some(STOP_SECS));
         let rest = if is_last { manner.last_secs.or(rest) } else { rest };
-        let mut step =
-            Step { end: end.clone(), speed: manner.speed, ..Step::of(movement(nth, station, stations, manner)) };
+        let mut step = Step {
+            end: end.clone(),
+            speed: manner.speed,
+            ..Step::of(movement((nth, station), stations, things, manner))
+        };
         if nth == 0 && rest.is_some() && step.movement == Move::PushIn {
             // The first rest is the opening.
             step = Step { duration_secs: rest, end, ..Step::of(Move::Static) };
             steps.push(step);
-            continue;
+            return;
         }
         if step.movement == Move::PanRight {
             (step.end, step.either_way) = (Framing::default(), true);
@@ -58,19 +80,29 @@ pub(super) fn steps(stations: &[Station], things: &Things<'_>, manner: &Manner) 
             steps.push(Step { duration_secs: Some(secs), end, ..Step::of(Move::Static) });
         }
     }
-    steps
 }
 
 /// The move that leads to a station.
-fn movement(nth: usize, station: &Station, stations: &[Station], manner: &Manner) -> Move {
+fn movement((nth, station): (usize, &Station), stations: &[Station], things: &Things<'_>, manner: &Manner) -> Move {
     match &station.subject {
         Subject::Place if nth == 0 => Move::PanRight,
         Subject::Place => Move::PullOut,
         _ if nth > 0 && (manner.grows || manner.share.is_some()) => Move::Follow,
         _ if nth == 0 && manner.grows => Move::Static,
         Subject::Things(ids) if nth > 0 && is_shown(ids, &stations[..nth]) => Move::PullOut,
+        // A way in to a table ends under it.
+        Subject::Things(ids) if nth > 0 && is_table(ids, things) && !station.is_close => Move::Follow,
         _ => Move::PushIn,
     }
+}
+
+/// Whether a thing is one that others stand on.
+fn is_table(ids: &[u32], things: &Things<'_>) -> bool {
+    let is_one = |id: &u32| {
+        let label = things.get(*id).map(|object| object.label.as_str()).unwrap_or_default();
+        label.split(' ').any(|word| is_listed("desk table workbench counter bench", word))
+    };
+    ids.len() == 1 && ids.iter().all(is_one)
 }
 
 /// Whether all of some things were shown one by one.
@@ -105,7 +137,8 @@ fn from_place(eye: &[u32], seen: &[u32], stations: &[Station], things: &Things<'
             Subject::Things(ids) if !things.are_small(ids) => Some(ids.clone()),
             _ => None,
         });
-        subjects = large.max_by_key(Vec::len).unwrap_or_default();
+        let largest = large.max_by(|a, b| things.radius(a).total_cmp(&things.radius(b)));
+        subjects = largest.unwrap_or_default();
     }
     let whole = !subjects.is_empty();
     let size = (!whole).then_some(ShotSize::Long);
@@ -114,5 +147,47 @@ fn from_place(eye: &[u32], seen: &[u32], stations: &[Station], things: &Things<'
         via: Some(Via { how: Pass::From, objects: eye.to_vec() }),
         duration_secs: Some(LAST_SECS),
         ..Step::of(Move::Static)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::stations::Rank;
+    use super::*;
+    use cinesplat_objects::Object;
+    use glam::DVec3;
+
+    fn film(subjects: &[Subject], manner: &Manner) -> Vec<(Move, Vec<u32>)> {
+        let at = |id: u32, label: &str, half: f64| {
+            Object::from_box(id, label, DVec3::new(f64::from(id), 0.0, 0.0), DVec3::splat(half))
+        };
+        let objects = [at(1, "mug", 0.05), at(2, "desk", 0.6), at(3, "armchair", 0.5), at(9, "door", 0.5)];
+        let station = |subject: &Subject| Station {
+            subject: subject.clone(),
+            is_close: false,
+            rank: Rank::Between,
+            rests: false,
+            words: 0..0,
+        };
+        let stations: Vec<Station> = subjects.iter().map(station).collect();
+        let steps = steps(&stations, &Things::new(&objects), (manner, &[]));
+        steps.into_iter().map(|step| (step.movement, step.end.subjects)).collect()
+    }
+
+    #[test]
+    fn a_film_goes_from_station_to_station() {
+        let subjects = [Subject::Things(vec![1]), Subject::Things(vec![2]), Subject::Place];
+        let plain = film(&subjects, &Manner::default());
+        assert_eq!(plain, [(Move::PushIn, vec![1]), (Move::Follow, vec![2]), (Move::PullOut, vec![])]);
+        let rests = film(&subjects[..2], &Manner { rest_secs: Some(2.0), ..Manner::default() });
+        let moves: Vec<Move> = rests.iter().map(|(movement, _)| *movement).collect();
+        assert_eq!(moves, [Move::Static, Move::Follow, Move::Static]);
+    }
+
+    #[test]
+    fn who_stands_at_a_door_sees_the_largest_of_what_was_visited() {
+        let from = Subject::From { eye: vec![9], seen: Vec::new(), stands: true };
+        let film = film(&[Subject::Things(vec![3]), Subject::Things(vec![1]), from], &Manner::default());
+        assert_eq!(film.last(), Some(&(Move::Static, vec![3])));
     }
 }

@@ -8,6 +8,9 @@ use cinesplat_language::{Linked, is_listed};
 const SENTENCE_MARKS: [&str; 4] = [".", "!", "?", ";"];
 /// Words that lead on to something else.
 const THENS: &str = "then before after afterwards until next";
+/// Words behind `and` that lead on to something else.
+const GOES_ON: &str = "end ends ending finish finishes finishing come comes coming leave leaves leaving only last lastly finally \
+    then settle give";
 /// Words by which something comes first, and by which it comes last.
 const FIRST: &str = "first firstly start starts starting begin begins beginning open opens opening";
 const LAST: &str = "end ends ending finish finishes finishing last lastly finally ultimately until conclude concludes";
@@ -70,7 +73,11 @@ impl<'a> Text<'a> {
     /// The words behind a thing that are about it: up to the next thing or what leads on to it.
     pub(super) fn behind(&self, at: usize) -> Range<usize> {
         let end = self.sentence(at).end;
-        let ends = |nth: &usize| is_object(self.words[*nth]) || is_listed(THENS, self.words[*nth]);
+        let leads_on = |nth: usize| {
+            let next = self.words.get(nth + 1).copied().unwrap_or_default();
+            self.words[nth] == "and" && is_listed(GOES_ON, next)
+        };
+        let ends = |nth: &usize| is_object(self.words[*nth]) || is_listed(THENS, self.words[*nth]) || leads_on(*nth);
         at + 1..(at + 1..end).find(ends).unwrap_or(end)
     }
 
@@ -109,7 +116,13 @@ impl<'a> Text<'a> {
             let rests = self.words[nth] == "rest" && nth > 0 && self.words[nth - 1] == "to";
             is_listed(LAST, self.words[nth]) && !is_time && next != "of" || is_left || rests
         };
-        self.before(at).any(is_last)
+        let mut behind = self.behind(at);
+        // `That comes last`.
+        let is_own = |nth: usize| {
+            self.words[nth] == "last"
+                && (nth == at + 1 || matches!(self.words[nth - 1], "comes" | "is" | "be" | "come"))
+        };
+        self.before(at).any(is_last) || behind.any(is_own)
     }
 }
 
@@ -148,6 +161,7 @@ mod tests {
         assert!(closes("<obj-1> , and come to rest by <obj-0>"));
         assert!(closes("the world gets bigger until <obj-0> is there"));
         assert!(closes("in the end up to <obj-0>"));
+        assert!(closes("<obj-0> is the dragon so that comes last and it fills <obj-1>"));
         assert!(!closes("i scanned <obj-0> last month"));
         assert!(!closes("the last <qty-0> of <obj-0>"));
         assert!(!closes("we end on <obj-1> . <obj-0> is hers"));

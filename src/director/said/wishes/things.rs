@@ -46,6 +46,38 @@ impl<'a> Things<'a> {
         is_near && self.are_small(first) && self.are_small(second)
     }
 
+    /// What stands beside some things: others, or where these are far away the one of their kind that is nearest.
+    pub(super) fn beside(&self, shown: &[u32], others: &[u32]) -> Vec<u32> {
+        let is_near = |id: &u32| shown.iter().any(|of| self.gap(*id, *of) < GROUP_GAP);
+        let near: Vec<u32> = others.iter().copied().filter(is_near).collect();
+        if !near.is_empty() {
+            return near;
+        }
+        let kind = others
+            .first()
+            .and_then(|id| self.get(*id))
+            .and_then(|object| object.label.split(' ').rfind(|word| !word.chars().all(|c| c.is_ascii_digit())));
+        let of_kind = kind.map(|kind| self.labelled(kind)).unwrap_or_default();
+        let nearest = shown.first().and_then(|of| self.nearest(&of_kind, *of));
+        nearest.into_iter().filter(|id| is_near(id) && !shown.contains(id)).collect()
+    }
+
+    /// Up to three small things that stand near one, each nearer to another.
+    pub(super) fn on_the_way(&self, from: u32, to: u32) -> Vec<u32> {
+        let is_near = |object: &&Object| {
+            object.id != from && object.id != to && self.gap(object.id, from) < PAIR_GAP && self.are_small(&[object.id])
+        };
+        let mut near: Vec<u32> = self.objects.iter().filter(is_near).map(|object| object.id).collect();
+        near.sort_by(|a, b| self.gap_of_centers(*b, to).total_cmp(&self.gap_of_centers(*a, to)));
+        near.truncate(3);
+        near
+    }
+
+    /// Total size of some things.
+    pub(super) fn radius(&self, ids: &[u32]) -> f64 {
+        ids.iter().filter_map(|id| self.get(*id)).map(Object::radius).sum()
+    }
+
     /// The most of some things that stand together.
     pub(super) fn together(&self, ids: &[u32]) -> Vec<u32> {
         let mut best: Vec<u32> = Vec::new();
@@ -140,6 +172,16 @@ mod tests {
         assert_eq!(things.in_turn(&[1, 2, 3], Some(4)), [2, 3, 1]);
         assert_eq!(things.in_turn(&[3, 1, 2], None).len(), 3);
         assert_ne!(things.in_turn(&[3, 1, 2], None)[0], 3);
+    }
+
+    #[test]
+    fn what_is_seen_with_a_thing_stands_beside_it() {
+        let at = |id: u32, label: &str, x: f64| Object::from_box(id, label, DVec3::new(x, 0.0, 0.0), DVec3::splat(0.1));
+        let objects = [at(1, "armchair", 0.0), at(2, "desk lamp", 9.0), at(3, "table lamp", 0.5), at(4, "mug", 9.5)];
+        let things = Things::new(&objects);
+        assert_eq!(things.beside(&[1], &[2]), [3]);
+        assert_eq!(things.beside(&[4], &[2]), [2]);
+        assert_eq!(things.beside(&[1], &[4]), [0; 0]);
     }
 
     #[test]
