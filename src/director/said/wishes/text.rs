@@ -107,11 +107,17 @@ impl<'a> Text<'a> {
         self.has(self.before(at), FIRST) || behind.any(is_own)
     }
 
+    /// Whether the word behind `last` makes it a time: `last month`.
+    fn is_time(&self, nth: usize) -> bool {
+        let next = self.words.get(nth + 1).copied().unwrap_or_default();
+        self.words[nth] == "last" && (is_listed(TIMES, next) || next.starts_with("<qty"))
+    }
+
     /// Whether the words put a thing at `at` last: `end on it`, `leave them with it`.
     pub(super) fn closes(&self, at: usize) -> bool {
         let is_last = |nth: usize| {
             let next = self.words.get(nth + 1).copied().unwrap_or_default();
-            let is_time = self.words[nth] == "last" && (is_listed(TIMES, next) || next.starts_with("<qty"));
+            let is_time = self.is_time(nth);
             let is_left = matches!(self.words[nth], "leave" | "leaves" | "leaving") && is_listed(LEFT, next);
             let rests = self.words[nth] == "rest" && nth > 0 && self.words[nth - 1] == "to";
             is_listed(LAST, self.words[nth]) && !is_time && next != "of" || is_left || rests
@@ -120,6 +126,7 @@ impl<'a> Text<'a> {
         // `That comes last`.
         let is_own = |nth: usize| {
             self.words[nth] == "last"
+                && !self.is_time(nth)
                 && (nth == at + 1 || matches!(self.words[nth - 1], "comes" | "is" | "be" | "come"))
         };
         self.before(at).any(is_last) || behind.any(is_own)

@@ -162,7 +162,7 @@ mod tests {
     fn row() -> Vec<Object> {
         let at =
             |id: u32, x: f64, half: f64| Object::from_box(id, "easel", DVec3::new(x, 0.0, 0.0), DVec3::splat(half));
-        vec![at(1, 0.0, 0.3), at(2, 4.0, 0.3), at(3, 2.0, 0.3), at(4, 10.0, 0.05), at(5, 10.3, 0.05)]
+        vec![at(1, 0.0, 0.4), at(2, 4.0, 0.4), at(3, 2.0, 0.4), at(4, 10.0, 0.05), at(5, 10.3, 0.05)]
     }
 
     #[test]
