@@ -93,10 +93,15 @@ fn stated_at(words: &[Word], at: usize, names: &BTreeSet<String>) -> Option<(usi
         return None;
     }
     let stands_alone = at == 0 && matches!(next, "," | ":" | "." | "-" | "");
+    // `.., 8 seconds tops, portrait.`
+    let ends_list =
+        at > 0 && matches!(before, "," | ".") && matches!(next, "." | "!" | "" | "please" | "pls" | "thanks");
+    let stands_alone = stands_alone || ends_list;
     let of_film = FILM.contains(&next) && !ARTICLES.contains(&before);
     match word {
         "portrait" if (stands_alone || of_film) && text(at + 2) != "lens" && next != "mode" => Some((1, [9, 16])),
         "vertical" if stands_alone || (of_film && !matches!(next, "shot" | "cut" | "close")) => Some((1, [9, 16])),
+        "square" if ends_list => Some((1, [1, 1])),
         "square" if of_film && !matches!(next, "picture" | "frame" | "shot" | "close" | "cut") => Some((1, [1, 1])),
         "landscape" if matches!(next, "video" | "format" | "orientation") => Some((1, [16, 9])),
         word if UPRIGHT.contains(&word)

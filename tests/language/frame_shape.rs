@@ -11,6 +11,8 @@ fn shape(prompt: &str, label: &str) -> Option<[u32; 2]> {
 fn portrait_square_and_ratios_are_shapes() {
     for (prompt, ratio) in [
         ("portrait: tilt up from the rug", [9, 16]),
+        ("Keep it lively, 8 seconds tops, portrait.", [9, 16]),
+        ("the flowers last. ten seconds, square", [1, 1]),
         ("Portrait close-up of the vase.", [9, 16]),
         ("portrait still of the skull, three-quarter view", [9, 16]),
         ("vertical video, slowly toward the vase", [9, 16]),

@@ -74,23 +74,17 @@ const SPACES: &str = "space light spacious airy roomy bright layout size";
 const GRAND: &str = "giant towering heroic hero-like monumental imposing mighty powerful colossal gigantic";
 /// Words of a calm film, and of a lively one.
 const CALM: &str = "slow slowly calm calmly lazy soft softly gentle gently quiet quietly moody elegant elegantly dreamy peaceful \
-    serene cosy cozy tender sleepy hush hushed intimate";
+    serene cosy cozy tender sleepy hush hushed intimate restful unhurried warm";
 const LIVELY: &str = "fast punchy energetic dynamic snappy lively quick action";
+/// Words of haste, which are calm where they are denied.
+const HURRIES: &str = "fast hurry rush rushed jerky jerks hurried disco quick quickly";
 const NOT: &str = "not never 't without no hide avoid nobody nothing";
 
 /// Replaces a picture at rest, or a reading that is hardly sure, of a brief.
 pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
-    let is_rest = |step: &Step| {
-        let is_timed = step.duration_secs.is_some() && direction.program.steps.len() > 1;
-        let holds_one = step.movement == Move::Static && step.with.is_empty() && !is_timed;
-        // One picture of several things may be meant, but not by who sells them.
-        holds_one && (!step.end.whole || words.iter().any(|word| is_listed(WARES, word)))
-    };
-    let rests = !direction.program.steps.is_empty() && direction.program.steps.iter().all(is_rest);
-    let least = if direction.program.steps.len() == 1 { ONE_MADE_UP } else { MADE_UP };
-    let is_made_up = direction.certainty.iter().any(|step| step.probability < least);
-    let is_loose = rests || is_made_up && !direction.program.steps.is_empty();
+    let rests = rests(direction, &words);
+    let is_loose = is_loose(direction, &words);
     // Angles and lengths are what a camera keeps, and no size that a thing is to seem.
     let measures = |at: usize| {
         let seems = words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word))
@@ -125,14 +119,7 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     {
         return;
     }
-    // `Not fast` is no wish for speed.
-    let is_wished =
-        |at: usize| is_listed(LIVELY, words[at]) && !words[..at].iter().rev().take(2).any(|word| is_listed(NOT, word));
-    let speed = match (has(CALM), (0..words.len()).any(is_wished)) {
-        (true, false) => Speed::Slow,
-        (false, true) => Speed::Fast,
-        _ => Speed::Normal,
-    };
+    let speed = pace(&words);
     let from = direction.program.steps.iter().filter_map(|step| step.words).map(|[from, _]| from).min();
     let to = direction.program.steps.iter().filter_map(|step| step.words).map(|[_, to]| to).max();
     for step in &mut steps {
@@ -148,6 +135,38 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     // The network's cameras belong to other steps.
     direction.step_cameras.clear();
     direction.program.steps = steps;
+}
+
+/// Whether all steps rest.
+fn rests(direction: &Direction, words: &[&str]) -> bool {
+    let is_rest = |step: &Step| {
+        let is_timed = step.duration_secs.is_some() && direction.program.steps.len() > 1;
+        let holds_one = step.movement == Move::Static && step.with.is_empty() && !is_timed;
+        // One picture of several things may be meant, but not by who sells them.
+        holds_one && (!step.end.whole || words.iter().any(|word| is_listed(WARES, word)))
+    };
+    !direction.program.steps.is_empty() && direction.program.steps.iter().all(is_rest)
+}
+
+/// Whether a reading rests on everything, or is hardly sure of something.
+pub(super) fn is_loose(direction: &Direction, words: &[&str]) -> bool {
+    let least = if direction.program.steps.len() == 1 { ONE_MADE_UP } else { MADE_UP };
+    let is_made_up = direction.certainty.iter().any(|step| step.probability < least);
+    rests(direction, words) || is_made_up && !direction.program.steps.is_empty()
+}
+
+/// The pace that the words wish for.
+pub(super) fn pace(words: &[&str]) -> Speed {
+    // `Not fast` is no wish for speed.
+    let is_denied = |at: usize| words[..at].iter().rev().take(3).any(|word| is_listed(NOT, word));
+    let is_calm = words.iter().any(|word| is_listed(CALM, word));
+    let is_lively = (0..words.len()).any(|at| is_listed(LIVELY, words[at]) && !is_denied(at));
+    let is_unhurried = (0..words.len()).any(|at| is_listed(HURRIES, words[at]) && is_denied(at));
+    match (is_calm || is_unhurried, is_lively) {
+        (true, false) => Speed::Slow,
+        (false, true) => Speed::Fast,
+        _ => Speed::Normal,
+    }
 }
 
 /// The one thing that a brief is about where its words only say that it is seen from there: `just lie there staring at
@@ -187,7 +206,7 @@ fn moves(words: &[&str]) -> bool {
 }
 
 /// Whether the word at `at` is a verb of what a camera does.
-fn is_camera_verb(words: &[&str], at: usize) -> bool {
+pub(super) fn is_camera_verb(words: &[&str], at: usize) -> bool {
     let word = words[at];
     // `Arm rests` are no rest.
     let is_part =
@@ -240,7 +259,7 @@ fn without_parts(mut subjects: Vec<u32>, objects: &[Object]) -> Vec<u32> {
 }
 
 /// What a sentence says is not to be seen, and no other one names: `he can't try it` says nothing of what is seen.
-fn denied(linked: &Linked, words: &[&str]) -> Vec<u32> {
+pub(super) fn denied(linked: &Linked, words: &[&str]) -> Vec<u32> {
     let is_denied = |at: usize| {
         let before = words[..at].iter().rev().take_while(|word| !SENTENCE_ENDS.contains(word)).take(4);
         before.into_iter().any(|word| is_listed(NOT, word))

@@ -34,6 +34,7 @@ mod together;
 mod until;
 mod visits;
 mod whole_film;
+mod wishes;
 
 use cinesplat_language::{Linked, Senses};
 use cinesplat_objects::Object;
@@ -149,7 +150,9 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     moods::drop_stories(linked, direction);
     places::leave_from(linked, direction);
-    briefs::film_briefs(linked, objects, direction);
+    if !wishes::film_wishes(linked, objects, direction) {
+        briefs::film_briefs(linked, objects, direction);
+    }
     carriers::flow_without_cuts(&mut direction.program);
     carriers::show_all_sides(linked, direction);
     let steps = &mut direction.program.steps;

@@ -30,8 +30,18 @@ pub(super) fn is_no_measure(words: &[Word], i: usize, unit_idx: usize, number: N
             || matches!(
                 word_at(words, unit_idx + 1),
                 "style" | "music" | "vibe" | "vibes" | "movie" | "film" | "feel" | "look"
-            ));
+            )
+            || is_decade(words, i, number.value));
     letter || ordinal || is_negative || is_label || of_each || decade || matches!(unit_word, "count") && is_article
+}
+
+/// Whether a number of tens is one of years: `since the 70s`, `from the early 60s`.
+fn is_decade(words: &[Word], i: usize, value: f64) -> bool {
+    let before = word_before(words, i, 1);
+    let article = if matches!(before, "early" | "late" | "mid") { word_before(words, i, 2) } else { before };
+    let leads = ["the", "early", "late", "mid"].contains(&article);
+    let since = (1..4).any(|n| matches!(word_before(words, i, n), "since" | "from" | "in" | "of" | "during" | "back"));
+    leads && since && value % 10.0 == 0.0 && (20.0..100.0).contains(&value)
 }
 
 /// Whether a percentage at words `i..end` is none of the frame: `30% slower`, `the last 10 percent`, `30% off teapots`.

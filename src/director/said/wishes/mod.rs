@@ -1,0 +1,212 @@
+//! Messages that say what should be seen, in which order and with what feeling, and little of what a camera does: `They get
+//! clues first, up close, the flowers and the mug, and only right at the end do we see the whole room.`
+//!
+//! The network makes up moves from the story around the wishes. The film visits what is wanted, one thing after the other.
+
+mod lengths;
+mod lone;
+mod stations;
+mod steps;
+mod text;
+mod things;
+
+use cinesplat_language::{Linked, QuantityKind, is_listed};
+use cinesplat_objects::Object;
+use cinesplat_operator::{Framing, Speed, Step, SubjectSide};
+use cinesplat_trajectory::{Move, ShotAngle};
+
+use super::briefs::{denied, is_camera_verb, is_loose, pace};
+use super::directions::is_form;
+use crate::direction::{Direction, StepCertainty};
+use stations::{Rank, Station, Subject};
+use steps::Manner;
+use text::{Text, is_object};
+use things::Things;
+
+/// Fewest words of such a message.
+const FEWEST_WORDS: usize = 12;
+/// Most stations of a film.
+const MOST_STATIONS: usize = 7;
+/// Certainty of what such a message leaves open.
+const OPEN_PROBABILITY: f64 = 0.25;
+/// Verbs of cameras that say no way.
+const STOPS: [&str; 12] =
+    ["hold", "rest", "pause", "linger", "stop", "start", "begin", "finish", "land", "settle", "frame", "focus"];
+/// Words of people who know cameras.
+const TRADE: &str = "sideways backward backwards forward forwards overhead top-down topdown handheld steadicam drone gimbal lens \
+    degrees clockwise counterclockwise anticlockwise pov profile foreground close-up closeup cu ecu mcu ws ms shot shots angle low high \
+    bird's tripod static locked frame picture view rotation stroll strolls join joins put together";
+/// Verbs of a camera that goes somewhere, and their ways.
+const GOES: [&str; 6] = ["go", "come", "step", "back", "get", "bring"];
+const WAYS: &str = "in over from across down up back out away off closer";
+/// Words that rule out what follows, and words of a way past a thing.
+const NOT: &str = "not never 't no without dont";
+const PASSES: &str = "over under behind through past between around along across above beneath below";
+/// Words of growth.
+const GROWS: &str = "bigger larger wider grows expands unfolds";
+/// Words of time to look.
+const LINGERS: [&[&str]; 8] = [
+    &["time", "to", "look"],
+    &["empty", "time"],
+    &["linger"],
+    &["lingers"],
+    &["pauses"],
+    &["your", "time"],
+    &["let", "them", "look"],
+    &["dwell"],
+];
+/// Words of a thing that is to seem large, and of one that is to seem harmless.
+const GRAND: &str = "tall giant towering heroic monumental imposing mighty powerful colossal gigantic huge";
+const CUTE: &str = "cute sweet friendly adorable harmless lovable";
+
+/// Films what a message wants seen. Says whether it is such a message.
+pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut Direction) -> bool {
+    let text = Text::of(linked);
+    // A picture of nothing is none.
+    let is_nothing = |step: &Step| {
+        step.movement == Move::Static
+            && step.end == Framing::default()
+            && step.via.is_none()
+            && step.duration_secs.is_none()
+    };
+    let is_loose = is_loose(direction, &text.words) || direction.program.steps.iter().any(is_nothing);
+    if !is_loose || linked.timeline.is_some() || !is_wish(&text, linked) {
+        return false;
+    }
+    let things = Things::new(objects);
+    let denied = denied(linked, &text.words);
+    let times = lengths::times(linked, &text);
+    let says = |phrase: &&[&str]| text.words.windows(phrase.len()).any(|words| words == *phrase);
+    let lingers = LINGERS.iter().any(|phrase| says(&phrase)).then_some(lengths::LINGER_SECS);
+    let percent = text.words.iter().filter_map(|word| linked.quantity_at(word));
+    let percent =
+        percent.filter(|quantity| quantity.kind == QuantityKind::Percent).map(|quantity| quantity.value).next();
+    let height = direction.program.steps.iter().find_map(|step| step.end.height);
+    let manner = Manner {
+        speed: pace(&text.words),
+        rest_secs: times.each_secs.or(lingers),
+        last_secs: times.last_secs,
+        share: percent,
+        grows: text.has(0..text.words.len(), GROWS),
+        height,
+    };
+    let lone = things.lone();
+    let steps = match lone {
+        Some(thing) => of_lone(&text, linked, (thing, &things), manner.speed),
+        None => of_scene(stations::stations(&text, linked, &things, &denied), &things, (&manner, &linked.spans)),
+    };
+    let Some(mut steps) = steps else { return false };
+    let from = direction.program.steps.iter().filter_map(|step| step.words).map(|[from, _]| from).min();
+    let to = direction.program.steps.iter().filter_map(|step| step.words).map(|[_, to]| to).max();
+    let shown: Vec<u32> = steps.iter().flat_map(|step| step.end.subjects.clone()).collect();
+    for step in &mut steps {
+        step.words = step.words.or(from.zip(to).map(|(from, to)| [from, to]));
+        step.avoid.extend(denied.iter().filter(|id| !shown.contains(id)));
+    }
+    let certainty = |step: &Step| StepCertainty {
+        probability: OPEN_PROBABILITY,
+        weakest: ("move", OPEN_PROBABILITY),
+        words: step.words,
+    };
+    direction.certainty = steps.iter().map(certainty).collect();
+    // The network's cameras belong to other steps.
+    direction.step_cameras.clear();
+    direction.program.steps = steps;
+    direction.program.duration_secs = times.total_secs.or(direction.program.duration_secs);
+    true
+}
+
+/// The film of the one thing of a scan; `None` where less than two views of it are wanted.
+fn of_lone(
+    text: &Text<'_>,
+    linked: &Linked,
+    (thing, things): (&Object, &Things<'_>),
+    speed: Speed,
+) -> Option<Vec<Step>> {
+    let has = |list: &str| text.has(0..text.words.len(), list);
+    let views = lone::views(text, linked, thing, things);
+    if views.len() > 1 {
+        return Some(lone::steps(&views, thing, things, speed));
+    }
+    // Large at first, harmless at last.
+    let seen = |angle: ShotAngle| Framing { subjects: vec![thing.id], angle: Some(angle), ..Framing::default() };
+    let start = Framing { whole: true, ..seen(ShotAngle::Low) };
+    let end = Framing { whole: true, side: Some(SubjectSide::FromFront), ..seen(ShotAngle::EyeLevel) };
+    let rises = Step { end, ..Step::of(Move::CraneUp) };
+    let nears =
+        Step { start, end: Framing { height_frac: Some(0.9), ..seen(ShotAngle::Low) }, ..Step::of(Move::PushIn) };
+    (has(GRAND) && has(CUTE)).then(|| vec![nears, rises])
+}
+
+/// The film of some stations; `None` where they are no way.
+fn of_scene(mut stations: Vec<Station>, things: &Things<'_>, manner: (&Manner, &[[usize; 2]])) -> Option<Vec<Step>> {
+    stations.truncate(MOST_STATIONS);
+    let is_place_only = matches!(&stations[..], [Station { subject: Subject::Place, rank: Rank::Last, .. }]);
+    if is_place_only {
+        stations.insert(0, Station::nothing());
+    }
+    (stations.len() > 1).then(|| steps::steps(&stations, things, manner))
+}
+
+/// Whether words say what is to be seen, and no way of a camera.
+fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
+    let words = &text.words;
+    let is_way = |at: usize| {
+        let before = || words[..at].iter().rev();
+        let is_denied = before().take(4).any(|word| is_listed(NOT, word));
+        // `Where she is going to sit down`.
+        let is_told = before().take(6).any(|word| *word == "where");
+        let stops = STOPS.iter().any(|verb| is_form(words[at], verb));
+        is_camera_verb(words, at) && !stops && !is_denied && !is_told || is_listed(TRADE, words[at]) && !is_denied
+    };
+    let passes = |at: usize| {
+        let next = words[at + 1..].iter().find(|word| !is_listed("the a an my our", word));
+        is_listed(PASSES, words[at]) && next.is_some_and(|word| is_object(word))
+    };
+    // `Step back`, `and from there it goes to the palm`.
+    let goes = |at: usize| {
+        let next = words.get(at + 1).copied().unwrap_or_default();
+        let is_verb = GOES.iter().any(|verb| is_form(words[at], verb));
+        let to_thing =
+            next == "to" && is_form(words[at], "go") && words[at + 1..].iter().take(3).any(|word| is_object(word));
+        let is_close = words[at] == "up" || matches!(words.get(at + 2), Some(&"close" | &"amongst" | &"among"));
+        is_verb && (is_listed(WAYS, next) && !is_close || to_thing)
+    };
+    let is_measured = |at: usize| {
+        let seems = words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word));
+        let kind = linked.quantity_at(words[at]).map(|quantity| quantity.kind);
+        let is_length = kind == Some(QuantityKind::Units) && !seems;
+        is_length || matches!(kind, Some(QuantityKind::Degrees | QuantityKind::Factor | QuantityKind::Millimeters))
+    };
+    let says = |at: usize| !text.is_likeness(at) && (is_way(at) || goes(at) || passes(at) || is_measured(at));
+    words.len() >= FEWEST_WORDS && !(0..words.len()).any(says)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wish(text: &str) -> bool {
+        let linked = Linked { tokens_text: text.to_owned(), ..Linked::default() };
+        is_wish(&Text::of(&linked), &linked)
+    }
+
+    #[test]
+    fn a_wish_says_no_way_of_the_camera() {
+        assert!(wish(
+            "i 'd like them to get clues first , up close , <obj-0> and <obj-1> , and only then the whole room"
+        ));
+        assert!(wish(
+            "you know in games when the camera flies around ? that . <obj-0> , then <obj-1> , and rest by <obj-2>"
+        ));
+        assert!(wish("begin from <obj-0> , little by little , last is <obj-1> . do not move fast , please"));
+        assert!(wish("leave us where she 's going to pedestal down and <obj-0> . nothing has started yet"));
+        assert!(!wish("begin on <obj-0> , then pan over to <obj-1> and hold there until the end of the film"));
+        assert!(!wish("a wide shot of the room first , then <obj-0> and at last <obj-1> , please"));
+        assert!(wish("people buy it for the hair , so get in amongst those long leaves . leave them with <obj-0>"));
+        assert!(!wish("the film begins at <obj-0> and from there it goes to <obj-1> , which must be seen whole"));
+        assert!(!wish("have a look at <obj-0> here and now everybody back up so you can see <obj-1>"));
+        assert!(!wish("<obj-0> , <obj-1> and <obj-2> , all of them in one picture , and the last one in the middle"));
+        assert!(!wish("we start at <obj-0> and come in over <obj-1> until we see the whole of <obj-2> , please"));
+    }
+}
