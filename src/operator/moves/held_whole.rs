@@ -23,14 +23,21 @@ const LEAST_SHIFT: f64 = 0.004;
 /// Largest turn, over the frame: more would take the subject's middle out of the picture's.
 const MOST_SHIFT: f64 = 0.16;
 
+/// Stated height of a subject in the frame from which on the frame may cut it: that of a medium close-up.
+const CUTTING_HEIGHT: f64 = 0.8;
 /// Void that such a turn may add to the picture of a room.
 const MORE_VOID: f64 = 0.02;
 
 /// Turns the cameras of the step's own motion so that what fits is whole.
 pub(super) fn hold_whole(context: &StepContext, segments: &mut Vec<MotionSegment>) {
     let ends = [&context.step.start, &context.step.end];
+    // A stated close view cuts its subject, and keeps its head.
+    let height = |framing: &Framing| framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
     let is_free = |framing: &&Framing| {
-        framing.place.is_none() && framing.part == SubjectPart::Middle && framing.elevation_deg.is_none()
+        height(framing).is_none_or(|height| height < CUTTING_HEIGHT)
+            && framing.place.is_none()
+            && framing.part == SubjectPart::Middle
+            && framing.elevation_deg.is_none()
     };
     let turns = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
     if !re_aims(context.step.movement)
