@@ -1,0 +1,459 @@
+//! Names of things that other things place: `the plant under the clock`, `the other guitar`, `the three pictures above it`.
+//!
+//! Enters: the mentions of a prompt, and where the objects of the scene are. Leaves: of several things of one kind those that
+//! the words place. Where the words place nothing, the mentions stay.
+
+use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
+use cinesplat_objects::Object;
+use glam::DVec3;
+
+use crate::explained::{content, head, is_number, label, said};
+use crate::names::FoundMention;
+
+/// Where the objects of a scene are.
+#[derive(Debug, Clone, Copy)]
+pub struct Places<'a> {
+    /// The objects.
+    pub objects: &'a [Object],
+    /// Up direction of the world.
+    pub up: DVec3,
+}
+
+impl Places<'_> {
+    /// The only thing of a scan of which the other objects are parts.
+    pub(crate) fn only_whole(&self) -> Option<u32> {
+        let mut wholes = self.objects.iter().filter(|object| object.parent.is_none());
+        wholes.next().filter(|_| wholes.next().is_none()).map(|object| object.id)
+    }
+}
+
+/// Words of places, by how a thing lies to the other one.
+const NEAR: &str = "beside by near nearest closest nearer closer next against alongside behind opposite";
+const UNDER: &str = "under below beneath underneath";
+const ABOVE: &str = "above over";
+const ON: &str = "on atop";
+/// Words that may stand beside them.
+const BESIDE: &str = "the a an that which who is are 's sits sitting stands standing hanging hangs lying leaning leans up down \
+    there here right just directly immediately to in front of wall floor placed hung mounted resting one ones all it";
+/// Of these, words of ways, too.
+const WAYS: &str = "behind opposite against front alongside";
+const PRONOUNS: &str = "it them that this";
+/// Words of another thing of the kind.
+const OTHERS: &str = "other another remaining";
+/// Words by which a thing is in a corner of the room.
+const CORNER: &str = "in the far back left right opposite other near of room over";
+/// Most words between a thing and what places it.
+const MAX_BETWEEN: usize = 8;
+/// Farthest that a thing above or below another one is beside it, share of the other one's width.
+const ASIDE: f64 = 0.5;
+
+/// How a thing lies to the one that places it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Relation {
+    Near,
+    Under,
+    Above,
+    On,
+}
+
+/// The box of an object: two level axes and the one that points up.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Extent {
+    fn of(object: &Object, up: DVec3) -> Self {
+        let (right, ahead) = up.any_orthonormal_pair();
+        let mut extent = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+        for corner in object.corners() {
+            for (at, axis) in [right, ahead, up].into_iter().enumerate() {
+                extent.low[at] = extent.low[at].min(corner.dot(axis));
+                extent.high[at] = extent.high[at].max(corner.dot(axis));
+            }
+        }
+        extent
+    }
+
+    fn middle(&self, axis: usize) -> f64 {
+        (self.low[axis] + self.high[axis]) / 2.0
+    }
+
+    /// Distance of two boxes along some axes.
+    fn gap(&self, other: &Self, axes: std::ops::Range<usize>) -> f64 {
+        axes.map(|axis| (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]).max(0.0).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    /// Level distance of two middles.
+    fn aside(&self, other: &Self) -> f64 {
+        (0..2).map(|axis| (self.middle(axis) - other.middle(axis)).powi(2)).sum::<f64>().sqrt()
+    }
+
+    fn width(&self) -> f64 {
+        (0..2).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max)
+    }
+
+    /// How badly this box lies so to another one; `None` where it does not.
+    fn misfit(&self, relation: Relation, other: &Self) -> Option<f64> {
+        let is_higher = self.middle(2) > other.middle(2);
+        match relation {
+            Relation::Near => Some(self.gap(other, 0..3) + 0.01 * self.aside(other)),
+            Relation::Under => (!is_higher).then(|| self.gap(other, 0..2) + 0.1 * self.aside(other)),
+            Relation::Above => is_higher.then(|| self.gap(other, 0..2) + 0.1 * self.aside(other)),
+            Relation::On => is_higher.then(|| self.gap(other, 0..3) + 0.01 * self.aside(other)),
+        }
+    }
+}
+
+/// Points mentions that fit several things of a kind at the ones that the words place.
+pub(crate) fn point_by_places(
+    prompt: &str,
+    objects: &[NamedObject],
+    places: Places<'_>,
+    found: &mut Vec<FoundMention>,
+) {
+    let mut narrowed: Option<(Vec<u32>, u32)> = None;
+    let mut nth = 0;
+    while let Some(mention) = found.get(nth) {
+        nth += 1;
+        let mention = &mention.mention;
+        let words = said(prompt, mention);
+        if mention.ids.is_empty() || is_number(words) {
+            continue;
+        }
+        if let Some(ids) = placed_inside(objects, places, mention, words) {
+            narrowed = Some((of_kind_in(objects, words), ids[0]));
+            found[nth - 1].mention.ids = ids;
+            continue;
+        }
+        let alike = alike(objects, mention, words);
+        let chosen = match &narrowed {
+            // `Its strings` are those of the guitar that was told from the others.
+            Some((all, one)) if mention.ids.len() > 1 && mention.ids == *all && is_part(objects, words, *one) => {
+                Some(vec![*one])
+            }
+            _ => other_one(prompt, found, nth - 1, &alike)
+                .or_else(|| placed(prompt, objects, places, (found, nth - 1), &alike))
+                // `The guitar`, after one was told from the others.
+                .or_else(|| narrowed.clone().filter(|(all, _)| *all == alike && is_one(words)).map(|(_, one)| vec![one])),
+        };
+        let Some(ids) = chosen else { continue };
+        if let [one] = ids[..] {
+            narrowed = Some((alike, one));
+        }
+        found[nth - 1].mention.ids = ids;
+        absorb_place(prompt, found, nth);
+    }
+}
+
+/// Makes one mention of a thing and of what it is beside or on, mention `nth`, which is said to tell it from others.
+fn absorb_place(prompt: &str, found: &mut Vec<FoundMention>, nth: usize) {
+    let end = found[nth - 1].mention.bytes[1];
+    let Some(place) = found.get(nth).map(|next| next.mention.bytes) else { return };
+    let between = tokenize(prompt.get(end..place[0]).unwrap_or_default());
+    // A way leads over, under and behind things.
+    let is_way = between.iter().any(|word| is_listed(WAYS, &word.text));
+    let is_place = matches!(relation_of(&between), Some(Relation::Near | Relation::On));
+    if is_place && !is_way {
+        found[nth - 1].mention.bytes[1] = place[1];
+        found.remove(nth);
+    }
+}
+
+/// Whether words name one thing and neither another one nor any of its kind.
+fn is_one(words: &str) -> bool {
+    let words = tokenize(words);
+    let is_last_singular = words.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
+    let others = |word: &Word| is_listed(OTHERS, &word.text) || matches!(word.text.as_str(), "a" | "an" | "each" | "every");
+    is_last_singular && !words.iter().any(others)
+}
+
+/// Whether words name no word of a thing's label.
+fn is_part(objects: &[NamedObject], words: &str, id: u32) -> bool {
+    label(objects, id).is_some_and(|label| content(label).is_disjoint(&content(words)))
+}
+
+/// All things that the words of a mention fit as well as those that it was taken for, ascending.
+fn alike(objects: &[NamedObject], mention: &Mention, words: &str) -> Vec<u32> {
+    let Some(own) = mention.ids.first().and_then(|id| label(objects, *id)) else { return Vec::new() };
+    let (own_words, kind) = (content(own), head(own));
+    let told: Vec<&String> = own_words.iter().filter(|word| content(words).contains(*word)).collect();
+    let is_kind_said = told.iter().any(|word| Some((*word).clone()) == kind);
+    let fits = |object: &&NamedObject| {
+        let other = content(&object.label);
+        if is_kind_said {
+            head(&object.label) == kind && told.iter().all(|word| other.contains(*word))
+        } else {
+            other == own_words
+        }
+    };
+    objects.iter().filter(fits).map(|object| object.id).collect()
+}
+
+/// The only thing of the kind that no earlier mention names, where the words ask for another one.
+fn other_one(prompt: &str, found: &[FoundMention], nth: usize, alike: &[u32]) -> Option<Vec<u32>> {
+    let words = tokenize(said(prompt, &found[nth].mention));
+    let is_other = words.iter().any(|word| is_listed(OTHERS, &word.text));
+    let named = |id: &u32| found[..nth].iter().any(|before| before.mention.ids == [*id]);
+    let left: Vec<u32> = alike.iter().filter(|id| !named(id)).copied().collect();
+    (is_other && left.len() == 1 && alike.len() > 1).then_some(left)
+}
+
+/// The things of a kind that other things place.
+fn placed(
+    prompt: &str,
+    objects: &[NamedObject],
+    places: Places<'_>,
+    (found, nth): (&[FoundMention], usize),
+    alike: &[u32],
+) -> Option<Vec<u32>> {
+    let words = tokenize(said(prompt, &found[nth].mention));
+    let last = words.iter().rev().find(|word| word.is_alphabetic())?;
+    let is_plural = last.stem != last.text;
+    let count = words.iter().find_map(|word| {
+        let said = (2..=12_u32).find(|count| number_word(*count) == Some(&word.text));
+        said.map(|count| count as usize).or_else(|| word.text.parse().ok())
+    });
+    if alike.len() < 2 || count == Some(alike.len()) {
+        return None;
+    }
+    let behind = placed_behind(prompt, found, nth).or_else(|| placed_later(prompt, objects, found, nth));
+    let Some((relation, others)) = behind else {
+        let in_corner = !is_plural && says_corner(prompt, &found[nth].mention);
+        return in_corner.then(|| cornermost(places, alike)).flatten().map(|id| vec![id]);
+    };
+    let others = boxes(places, &others);
+    let mut fits: Vec<(f64, u32, f64)> = alike
+        .iter()
+        .filter_map(|id| {
+            let own = *boxes(places, &[*id]).first()?;
+            let misfits = others.iter().filter_map(|other| Some((own.misfit(relation, other)?, other.width())));
+            let (misfit, width) = misfits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some((misfit, *id, width))
+        })
+        .collect();
+    fits.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut ids: Vec<u32> = match (is_plural, count) {
+        (_, Some(count)) => fits.iter().take(count).map(|fit| fit.1).collect(),
+        (false, None) => fits.iter().take(1).map(|fit| fit.1).collect(),
+        (true, None) if matches!(relation, Relation::Under | Relation::Above) => {
+            fits.iter().filter(|(misfit, _, width)| *misfit < ASIDE * width).map(|fit| fit.1).collect()
+        }
+        (true, None) => return None,
+    };
+    ids.sort_unstable();
+    (!ids.is_empty()).then_some(ids)
+}
+
+/// The words of a mention before those that place it, the relation, and the words behind it.
+fn inner_place(words: &[Word]) -> Option<(&[Word], Relation, &[Word])> {
+    let at = (1..words.len().saturating_sub(1)).find(|at| relation_of(&words[*at..=*at]).is_some())?;
+    Some((&words[..at], relation_of(&words[at..=at])?, &words[at + 1..]))
+}
+
+/// All things of the kind that a mention names before the words that place it.
+fn of_kind_in(objects: &[NamedObject], words: &str) -> Vec<u32> {
+    let words = tokenize(words);
+    let Some((front, _, _)) = inner_place(&words) else { return Vec::new() };
+    let Some(kind) = front.iter().rev().find(|word| word.is_alphabetic()) else { return Vec::new() };
+    let is_kind = |object: &&NamedObject| head(&object.label).as_deref() == Some(&kind.stem);
+    objects.iter().filter(is_kind).map(|object| object.id).collect()
+}
+
+/// The one thing of a kind that a mention with its place names, where it was taken for the place: `the guitar by the door`.
+fn placed_inside(objects: &[NamedObject], places: Places<'_>, mention: &Mention, words: &str) -> Option<Vec<u32>> {
+    let alike = of_kind_in(objects, words);
+    let words = tokenize(words);
+    let (front, relation, behind) = inner_place(&words)?;
+    let is_one = front.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
+    let is_behind = |id: &u32| {
+        let names = label(objects, *id).map(content).unwrap_or_default();
+        behind.iter().any(|word| names.contains(&word.stem)) && !alike.contains(id)
+    };
+    if alike.is_empty() || !is_one || !mention.ids.iter().all(is_behind) {
+        return None;
+    }
+    let others = boxes(places, &mention.ids);
+    let fits = alike.iter().filter_map(|id| {
+        let own = *boxes(places, &[*id]).first()?;
+        let misfit = others.iter().filter_map(|other| own.misfit(relation, other)).min_by(f64::total_cmp)?;
+        Some((misfit, *id))
+    });
+    fits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| vec![id]).or_else(|| (alike.len() == 1).then_some(alike.clone()))
+}
+
+/// The relation that words between two things say; `None` where they say something else besides.
+fn relation_of(words: &[Word]) -> Option<Relation> {
+    let text = |word: &Word| word.text.clone();
+    let mut relation = None;
+    for word in words.iter().map(text) {
+        let own = match () {
+            () if is_listed(NEAR, &word) || word == "front" => Some(Relation::Near),
+            () if is_listed(UNDER, &word) => Some(Relation::Under),
+            () if is_listed(ABOVE, &word) => Some(Relation::Above),
+            () if is_listed(ON, &word) => Some(Relation::On),
+            () => None,
+        };
+        if own.is_none() && !is_listed(BESIDE, &word) {
+            return None;
+        }
+        // `On the wall above it` is above it.
+        relation = own.or(relation);
+    }
+    relation.filter(|_| words.len() <= MAX_BETWEEN)
+}
+
+/// What the words behind a mention place it by: the next mention, or, by a pronoun, the one before.
+fn placed_behind(prompt: &str, found: &[FoundMention], nth: usize) -> Option<(Relation, Vec<u32>)> {
+    let end = found[nth].mention.bytes[1];
+    if let Some(next) = found.get(nth + 1).filter(|next| !next.mention.ids.is_empty()) {
+        let between = tokenize(prompt.get(end..next.mention.bytes[0]).unwrap_or_default());
+        if let Some(relation) = relation_of(&between) {
+            return Some((relation, next.mention.ids.clone()));
+        }
+    }
+    let before = nth.checked_sub(1).and_then(|before| found.get(before))?;
+    relation_to_pronoun(prompt, end).map(|relation| (relation, before.mention.ids.clone()))
+}
+
+/// What a later mention places a thing by: `the plant in the corner .. the clock on the wall above it`. The other thing is
+/// the only one of its kind.
+fn placed_later(
+    prompt: &str,
+    objects: &[NamedObject],
+    found: &[FoundMention],
+    nth: usize,
+) -> Option<(Relation, Vec<u32>)> {
+    let next = &found.get(nth + 1)?.mention;
+    let is_only = matches!(next.ids[..], [_]) && alike(objects, next, said(prompt, next)).len() < 2;
+    let relation = match relation_to_pronoun(prompt, next.bytes[1]).filter(|_| is_only)? {
+        Relation::Above => Relation::Under,
+        Relation::Under => Relation::Above,
+        Relation::Near => Relation::Near,
+        Relation::On => return None,
+    };
+    Some((relation, next.ids.clone()))
+}
+
+/// The relation that the words from a byte on say to a pronoun: `on the wall above it`.
+fn relation_to_pronoun(prompt: &str, from: usize) -> Option<Relation> {
+    let words = tokenize(prompt.get(from..)?);
+    let is_end = |word: &Word| is_listed(PRONOUNS, &word.text) && word.text != "that" || !word.is_alphabetic();
+    let at = words.iter().take(MAX_BETWEEN).position(is_end)?;
+    is_listed(PRONOUNS, &words[at].text).then(|| relation_of(&words[..at])).flatten()
+}
+
+/// Whether the words behind a mention say that it is in a corner.
+fn says_corner(prompt: &str, mention: &Mention) -> bool {
+    let words = tokenize(prompt.get(mention.bytes[1]..).unwrap_or_default());
+    let corner = words.iter().take(6).position(|word| word.text == "corner");
+    corner.is_some_and(|at| at > 0 && words[..at].iter().all(|word| is_listed(CORNER, &word.text)))
+}
+
+/// The thing that is nearest to a corner of all that there is.
+fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
+    let all: Vec<Extent> = places.objects.iter().map(|object| Extent::of(object, places.up)).collect();
+    let low = [0, 1].map(|axis| all.iter().map(|extent| extent.low[axis]).fold(f64::INFINITY, f64::min));
+    let high = [0, 1].map(|axis| all.iter().map(|extent| extent.high[axis]).fold(f64::NEG_INFINITY, f64::max));
+    let to_corner = |id: &u32| {
+        let extent = boxes(places, &[*id]).first().copied()?;
+        let to_wall = |axis: usize| (extent.middle(axis) - low[axis]).min(high[axis] - extent.middle(axis));
+        Some((to_wall(0).powi(2) + to_wall(1).powi(2), *id))
+    };
+    ids.iter().filter_map(to_corner).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
+}
+
+/// The boxes of objects.
+fn boxes(places: Places<'_>, ids: &[u32]) -> Vec<Extent> {
+    let known = ids.iter().filter_map(|id| places.objects.iter().find(|object| object.id == *id));
+    known.map(|object| Extent::of(object, places.up)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A room with a door and a guitar at each end of one wall, a clock over the second one, a sofa under three of four
+    /// pictures, and two plants.
+    fn room() -> Vec<Object> {
+        let at = |id, label: &str, [x, y, z]: [f64; 3], half: f64| {
+            Object::from_box(id, label, DVec3::new(x, y, z), DVec3::splat(half))
+        };
+        vec![
+            at(1, "blue door", [-3.0, 1.0, 0.5], 0.5),
+            at(2, "guitar 1", [-2.5, 0.6, -0.7], 0.3),
+            at(3, "guitar 2", [2.5, 0.6, -2.5], 0.3),
+            at(4, "clock", [2.9, 1.9, 1.0], 0.2),
+            at(5, "potted plant 1", [-2.6, 0.6, -1.6], 0.4),
+            at(6, "potted plant 2", [2.5, 0.6, 1.2], 0.4),
+            at(7, "sofa", [0.0, 0.4, 2.5], 0.9),
+            at(8, "picture 1", [-0.7, 1.6, 2.9], 0.2),
+            at(9, "picture 2", [0.0, 1.6, 2.9], 0.2),
+            at(10, "picture 3", [0.7, 1.6, 2.9], 0.2),
+            at(11, "picture 4", [0.0, 1.6, -2.9], 0.2),
+        ]
+    }
+
+    fn pointed(prompt: &str, mentions: &[(&str, &[u32])]) -> Vec<Vec<u32>> {
+        let objects = room();
+        let names: Vec<NamedObject> =
+            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+        let mut from = 0;
+        let mut found: Vec<FoundMention> = Vec::new();
+        for (words, ids) in mentions {
+            let start = from + prompt[from..].find(words).unwrap();
+            from = start + words.len();
+            let mention = Mention { bytes: [start, from], ids: ids.to_vec() };
+            found.push(FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+        }
+        point_by_places(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
+        found.into_iter().map(|found| found.mention.ids).collect()
+    }
+
+    #[test]
+    fn a_thing_beside_another_is_the_nearest_of_its_kind() {
+        let ids = pointed(
+            "the guitar by the blue door, down its strings, then the other guitar",
+            &[("the guitar", &[2, 3]), ("the blue door", &[1]), ("its strings", &[2, 3]), ("the other guitar", &[2])],
+        );
+        assert_eq!(ids, [[2], [2], [3]]);
+        let ids = pointed("push in on the guitar and the clock", &[("the guitar", &[2, 3]), ("the clock", &[4])]);
+        assert_eq!(ids, [vec![2, 3], vec![4]]);
+    }
+
+    #[test]
+    fn a_thing_that_was_taken_for_its_place_is_the_thing() {
+        assert_eq!(pointed("start on the guitar by the blue door", &[("the guitar by the blue door", &[1])]), [[2]]);
+        let ids = pointed(
+            "the guitar by the door, then the clock, and back to the guitar",
+            &[("the guitar by the door", &[1]), ("the clock", &[4]), ("the guitar", &[2])],
+        );
+        assert_eq!(ids, [[2], [4], [2]]);
+    }
+
+    #[test]
+    fn a_thing_below_another_is_told_by_it_on_either_side() {
+        let plant = vec![vec![6], vec![4]];
+        let clock: &[(&str, &[u32])] = &[("the plant", &[5]), ("the clock", &[4])];
+        assert_eq!(pointed("tilt up from the plant in the corner to the clock on the wall above it", clock), plant);
+        assert_eq!(pointed("push in on the plant standing under the clock", clock), plant);
+        assert_eq!(pointed("pan from the plant to the clock", clock), [vec![5], vec![4]]);
+    }
+
+    #[test]
+    fn things_above_another_are_counted() {
+        let pictures: &[(&str, &[u32])] = &[("the sofa", &[7]), ("the three pictures", &[8, 9, 10, 11])];
+        assert_eq!(pointed("the sofa dead centre, the three pictures above it all in", pictures)[1], [8, 9, 10]);
+        let pictures: &[(&str, &[u32])] = &[("the pictures", &[8, 9, 10, 11]), ("the sofa", &[7])];
+        assert_eq!(pointed("truck along the pictures over the sofa", pictures)[0], [8, 9, 10]);
+        assert_eq!(pointed("the pictures, then the sofa", pictures)[0], [8, 9, 10, 11]);
+    }
+
+    #[test]
+    fn a_thing_in_the_corner_is_nearest_to_one() {
+        assert_eq!(pointed("whip to the guitar in the far corner", &[("the guitar", &[2, 3])]), [vec![3]]);
+    }
+}
