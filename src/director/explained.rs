@@ -191,7 +191,8 @@ pub(crate) fn name_by_label_words(prompt: &str, objects: &[NamedObject], found: 
         let is_alone = text(at + 1).chars().all(|letter| !letter.is_alphanumeric()) || is_listed(BEHIND, text(at + 1));
         let is_name = is_listed(POINTS, text(at - 1)) && is_alone && !word.after_hyphen && word.is_alphabetic();
         // `An overhead of the whole table`.
-        let is_whole = at > 1 && is_listed("whole entire full complete", text(at - 1)) && is_listed(POINTS, text(at - 2));
+        let is_whole =
+            at > 1 && is_listed("whole entire full complete", text(at - 1)) && is_listed(POINTS, text(at - 2));
         let is_label = |object: &&NamedObject| content(&object.label) == BTreeSet::from([stem(&word.text)]);
         if is_whole && is_alone && !is_linked(found, word.span) {
             let mut named = objects.iter().filter(is_label);

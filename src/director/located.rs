@@ -47,8 +47,7 @@ const MOVES: &str = "moving drifting going rising gliding sliding flying tilting
 
 /// Words that only locate a thing, between it and its place, and words that may stand beside them.
 const LOCATES: &str = "on atop beside near next middle center centre";
-const BESIDE_PLACES: &str =
-    "the a an my our your this that which is are 's sits sitting stands standing stood lying resting placed right just there top in of to";
+const BESIDE_PLACES: &str = "the a an my our your this that which is are 's sits sitting stands standing stood lying resting placed right just there top in of to";
 
 /// Whether words between a thing and a place only say where the thing is: `the vase in the middle of the table`.
 fn locates(between: &[Word]) -> bool {
@@ -72,7 +71,11 @@ fn describes(word: &str) -> bool {
 ///
 /// # Errors
 /// [`LanguageError::BadData`] for a damaged list of parts.
-pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>) -> Result<(), LanguageError> {
+pub(crate) fn absorb_places(
+    prompt: &str,
+    objects: &[NamedObject],
+    found: &mut Vec<FoundMention>,
+) -> Result<(), LanguageError> {
     let mut nth = 1;
     while nth < found.len() {
         let [thing, place] = [&found[nth - 1].mention, &found[nth].mention];

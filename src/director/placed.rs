@@ -47,6 +47,9 @@ const MAX_BETWEEN: usize = 8;
 /// Farthest that a thing above or below another one is beside it, share of the other one's width.
 const ASIDE: f64 = 0.5;
 
+/// Farthest that things on another one, or right above it, are from it, scene units.
+const TOUCHING: f64 = 0.15;
+
 /// How a thing lies to the one that places it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Relation {
@@ -124,8 +127,13 @@ pub(crate) fn point_by_places(
         if mention.ids.is_empty() || is_number(words) {
             continue;
         }
-        if let Some(ids) = placed_inside(objects, places, mention, words) {
-            narrowed = Some((of_kind_in(objects, words), ids[0]));
+        let before =
+            nth.checked_sub(2).and_then(|before| found.get(before)).map(|before| kind_of(objects, prompt, before));
+        let inside = placed_inside(objects, places, mention, (words, &before.unwrap_or_default()));
+        if let Some((alike, ids)) = inside.or_else(|| rest_of(words, narrowed.as_ref())) {
+            if let [one] = ids[..] {
+                narrowed = Some((alike, one));
+            }
             found[nth - 1].mention.ids = ids;
             continue;
         }
@@ -138,7 +146,9 @@ pub(crate) fn point_by_places(
             _ => other_one(prompt, found, nth - 1, &alike)
                 .or_else(|| placed(prompt, objects, places, (found, nth - 1), &alike))
                 // `The guitar`, after one was told from the others.
-                .or_else(|| narrowed.clone().filter(|(all, _)| *all == alike && is_one(words)).map(|(_, one)| vec![one])),
+                .or_else(|| {
+                    narrowed.clone().filter(|(all, _)| *all == alike && is_one(words)).map(|(_, one)| vec![one])
+                }),
         };
         let Some(ids) = chosen else { continue };
         if let [one] = ids[..] {
@@ -166,9 +176,19 @@ fn absorb_place(prompt: &str, found: &mut Vec<FoundMention>, nth: usize) {
 /// Whether words name one thing and neither another one nor any of its kind.
 fn is_one(words: &str) -> bool {
     let words = tokenize(words);
-    let is_last_singular = words.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
-    let others = |word: &Word| is_listed(OTHERS, &word.text) || matches!(word.text.as_str(), "a" | "an" | "each" | "every");
+    let is_last_singular =
+        words.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
+    let others =
+        |word: &Word| is_listed(OTHERS, &word.text) || matches!(word.text.as_str(), "a" | "an" | "each" | "every");
     is_last_singular && !words.iter().any(others)
+}
+
+/// All things of the kind of a mention.
+fn kind_of(objects: &[NamedObject], prompt: &str, found: &FoundMention) -> Vec<u32> {
+    if found.mention.ids.len() > 1 {
+        return found.mention.ids.clone();
+    }
+    alike(objects, &found.mention, said(prompt, &found.mention))
 }
 
 /// Whether words name no word of a thing's label.
@@ -211,6 +231,9 @@ fn placed(
     alike: &[u32],
 ) -> Option<Vec<u32>> {
     let words = tokenize(said(prompt, &found[nth].mention));
+    // `The guitar in the corner` may be one mention.
+    let in_corner = words.last().is_some_and(|word| word.text == "corner");
+    let words = if in_corner { words[..words.iter().position(|word| word.text == "in")?].to_vec() } else { words };
     let last = words.iter().rev().find(|word| word.is_alphabetic())?;
     let is_plural = last.stem != last.text;
     let count = words.iter().find_map(|word| {
@@ -254,35 +277,62 @@ fn inner_place(words: &[Word]) -> Option<(&[Word], Relation, &[Word])> {
     Some((&words[..at], relation_of(&words[at..=at])?, &words[at + 1..]))
 }
 
-/// All things of the kind that a mention names before the words that place it.
-fn of_kind_in(objects: &[NamedObject], words: &str) -> Vec<u32> {
-    let words = tokenize(words);
-    let Some((front, _, _)) = inner_place(&words) else { return Vec::new() };
-    let Some(kind) = front.iter().rev().find(|word| word.is_alphabetic()) else { return Vec::new() };
-    let is_kind = |object: &&NamedObject| head(&object.label).as_deref() == Some(&kind.stem);
-    objects.iter().filter(is_kind).map(|object| object.id).collect()
-}
-
-/// The one thing of a kind that a mention with its place names, where it was taken for the place: `the guitar by the door`.
-fn placed_inside(objects: &[NamedObject], places: Places<'_>, mention: &Mention, words: &str) -> Option<Vec<u32>> {
-    let alike = of_kind_in(objects, words);
+/// The one thing of a kind that a mention with its place names: `the guitar by the door`. `before` are those of the mention before,
+/// of whose kind `the one by the door` is.
+fn placed_inside(
+    objects: &[NamedObject],
+    places: Places<'_>,
+    mention: &Mention,
+    (words, before): (&str, &[u32]),
+) -> Option<(Vec<u32>, Vec<u32>)> {
     let words = tokenize(words);
     let (front, relation, behind) = inner_place(&words)?;
-    let is_one = front.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
-    let is_behind = |id: &u32| {
-        let names = label(objects, *id).map(content).unwrap_or_default();
-        behind.iter().any(|word| names.contains(&word.stem)) && !alike.contains(id)
+    let named = |words: &[Word]| -> Vec<u32> {
+        let Some(kind) = words.iter().rev().find(|word| word.is_alphabetic()) else { return Vec::new() };
+        let all: Vec<&NamedObject> =
+            objects.iter().filter(|object| head(&object.label).as_deref() == Some(&kind.stem)).collect();
+        // Of several those with all of the words, as `the blue door`.
+        let told = |object: &&&NamedObject| {
+            let names = content(&object.label);
+            words.iter().filter(|word| names.contains(&word.stem)).count()
+        };
+        let most = all.iter().map(|object| told(&object)).max().unwrap_or_default();
+        all.iter().filter(|object| told(object) == most).map(|object| object.id).collect()
     };
-    if alike.is_empty() || !is_one || !mention.ids.iter().all(is_behind) {
+    let last = front.iter().rev().find(|word| word.is_alphabetic())?;
+    let alike = if last.text == "one" { before.to_vec() } else { named(front) };
+    let is_one = last.stem == last.text;
+    let mut around = named(behind);
+    if around.is_empty() {
+        around = mention.ids.iter().filter(|id| !alike.contains(id)).copied().collect();
+    }
+    let is_named = |id: &u32| alike.contains(id) || around.contains(id);
+    if alike.is_empty() || around.is_empty() || !mention.ids.iter().all(is_named) {
         return None;
     }
-    let others = boxes(places, &mention.ids);
+    let others = boxes(places, &around);
     let fits = alike.iter().filter_map(|id| {
         let own = *boxes(places, &[*id]).first()?;
         let misfit = others.iter().filter_map(|other| own.misfit(relation, other)).min_by(f64::total_cmp)?;
         Some((misfit, *id))
     });
-    fits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| vec![id]).or_else(|| (alike.len() == 1).then_some(alike.clone()))
+    let fits: Vec<(f64, u32)> = fits.collect();
+    let nearest = || fits.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| *id);
+    let ids = if is_one {
+        vec![nearest().or_else(|| matches!(alike[..], [_]).then(|| alike[0]))?]
+    } else {
+        // `The plates on the table` are all that stand there.
+        fits.iter().filter(|(misfit, _)| relation != Relation::Near && *misfit < TOUCHING).map(|(_, id)| *id).collect()
+    };
+    (!ids.is_empty()).then_some((alike, ids))
+}
+
+/// The only other thing of the kind from which one was told: `the other one`.
+fn rest_of(words: &str, narrowed: Option<&(Vec<u32>, u32)>) -> Option<(Vec<u32>, Vec<u32>)> {
+    let is_other = tokenize(words).iter().all(|word| is_listed("the other one", &word.text));
+    let (alike, one) = narrowed.filter(|_| is_other)?;
+    let others: Vec<u32> = alike.iter().filter(|id| *id != one).copied().collect();
+    matches!(others[..], [_]).then(|| (alike.clone(), others))
 }
 
 /// The relation that words between two things say; `None` where they say something else besides.
@@ -348,6 +398,10 @@ fn relation_to_pronoun(prompt: &str, from: usize) -> Option<Relation> {
 
 /// Whether the words behind a mention say that it is in a corner.
 fn says_corner(prompt: &str, mention: &Mention) -> bool {
+    let inside = tokenize(said(prompt, mention));
+    if inside.last().is_some_and(|word| word.text == "corner") {
+        return true;
+    }
     let words = tokenize(prompt.get(mention.bytes[1]..).unwrap_or_default());
     let corner = words.iter().take(6).position(|word| word.text == "corner");
     corner.is_some_and(|at| at > 0 && words[..at].iter().all(|word| is_listed(CORNER, &word.text)))
@@ -432,6 +486,15 @@ mod tests {
             &[("the guitar by the door", &[1]), ("the clock", &[4]), ("the guitar", &[2])],
         );
         assert_eq!(ids, [[2], [4], [2]]);
+        assert_eq!(pointed("push in on the plant under the clock", &[("the plant under the clock", &[5])]), [[6]]);
+        let ids = pointed("truck along the pictures over the sofa", &[("the pictures over the sofa", &[7])]);
+        assert_eq!(ids, [[8, 9, 10]]);
+        let ids: &[(&str, &[u32])] =
+            &[("guitars", &[2, 3]), ("the one near the door", &[1]), ("the other one", &[2, 3])];
+        assert_eq!(
+            pointed("two guitars: show the one near the door, then the other one", ids),
+            [vec![2, 3], vec![2], vec![3]]
+        );
     }
 
     #[test]
@@ -454,6 +517,7 @@ mod tests {
 
     #[test]
     fn a_thing_in_the_corner_is_nearest_to_one() {
-        assert_eq!(pointed("whip to the guitar in the far corner", &[("the guitar", &[2, 3])]), [vec![3]]);
+        assert_eq!(pointed("whip to the guitar in the far corner", &[("the guitar", &[2, 3])]), [[3]]);
+        assert_eq!(pointed("tilt up the guitar in the corner", &[("the guitar in the corner", &[2])]), [[3]]);
     }
 }

@@ -215,7 +215,9 @@ fn found_in(names: &Names, words: &[&str], at: usize) -> Option<(usize, SpokenHe
     let rest = words.get(at + 1..)?;
     // `Chair-seat height`.
     let hyphen = usize::from(rest.first() == Some(&"-"));
-    let begins = |name: &[&str]| if rest.starts_with(name) { Some(0) } else { rest[hyphen..].starts_with(name).then_some(hyphen) };
+    let begins = |name: &[&str]| {
+        if rest.starts_with(name) { Some(0) } else { rest[hyphen..].starts_with(name).then_some(hyphen) }
+    };
     let (len, height) = names.get(words[at])?.iter().find_map(|(name, height)| {
         begins(name).filter(|skipped| *skipped == 0 || !name.is_empty()).map(|skipped| (name.len() + skipped, height))
     })?;

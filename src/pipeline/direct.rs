@@ -106,7 +106,8 @@ fn level_with_things(program: &mut Program, objects: &ObjectSet, up: glam::DVec3
                 && bearer.is_some()
                 && framing.subjects.iter().all(|id| objects.bearer_of(*id, up) == bearer);
             // `At bench height` along a bench is the height of what stands on it.
-            let is_below = |id: &u32, height: f64| objects.borne_heights(*id, up).is_some_and(|[low, _]| height < low - floor);
+            let is_below =
+                |id: &u32, height: f64| objects.borne_heights(*id, up).is_some_and(|[low, _]| height < low - floor);
             let passed = step.via.as_ref().filter(|_| along && bearer.is_some());
             if let (Some(via), Some(height)) = (passed, framing.height)
                 && via.objects.iter().any(|id| is_below(id, height))

@@ -51,8 +51,10 @@ pub(super) fn level_out(mentions: &[EffectMention], program: &mut Program, promp
 fn ends_level(words: &str) -> bool {
     let words: Vec<String> = tokenize(words).into_iter().map(|word| word.text).collect();
     let leads = |at: usize| words[..at].iter().rev().take(4).any(|word| LEADS.contains(&word.as_str()));
-    let is_level = |word: &str| matches!(word, "level" | "upright" | "straight" | "horizontal" | "horizon" | "zero" | "flat");
-    let rights = words.iter().any(|word| word.starts_with("straighten") || matches!(word.as_str(), "unroll" | "level-out"));
+    let is_level =
+        |word: &str| matches!(word, "level" | "upright" | "straight" | "horizontal" | "horizon" | "zero" | "flat");
+    let rights =
+        words.iter().any(|word| word.starts_with("straighten") || matches!(word.as_str(), "unroll" | "level-out"));
     rights || (0..words.len()).any(|at| is_level(&words[at]) && leads(at))
 }
 

@@ -30,11 +30,20 @@ pub(crate) fn end_at_stops(linked: &Linked, steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let (before, rest) = steps.split_at_mut(nth);
         let (Some(slide), Some(stop)) = (before.last_mut(), rest.first_mut()) else { continue };
-        eprintln!("DEBUG {slide:?} {stop:?}");
-        let is_slide = matches!(slide.movement, Move::TruckLeft | Move::TruckRight) && slide.duration_secs.is_none();
+        let is_truck = matches!(slide.movement, Move::TruckLeft | Move::TruckRight);
+        let own = linked.texts_in(slide.words.unwrap_or_default());
+        let first = own.windows(2).find(|pair| pair[1] == "first").and_then(|pair| linked.slot_at(pair[0]));
+        if is_truck
+            && first.is_some_and(|id| linked.expanded(&[id]) == slide.end.subjects)
+            && slide.start.subjects.is_empty()
+        {
+            slide.start.subjects.clone_from(&slide.end.subjects);
+        }
+        let is_slide = is_truck && slide.duration_secs.is_none();
         let is_open = slide.end.subjects.is_empty() || slide.end.subjects == slide.start.subjects;
         let words = linked.texts_in(stop.words.unwrap_or_default());
-        let stops = words.iter().take(5).any(|word| word.starts_with("stop") || STOPS.iter().any(|verb| is_form(word, verb)));
+        let stops =
+            words.iter().take(5).any(|word| word.starts_with("stop") || STOPS.iter().any(|verb| is_form(word, verb)));
         let is_rest = matches!(stop.movement, Move::Static | Move::Follow)
             && !stop.cut
             && !stop.end.subjects.is_empty()
@@ -138,11 +147,11 @@ mod tests {
         let spans: Vec<[usize; 2]> =
             words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1)])).collect();
         let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![5, 7], ..Linked::default() };
-        let slide = Step { start: about(5), end: about(5), words: Some([0, 31]), ..Step::of(Move::TruckLeft) };
+        let slide = Step { end: about(5), words: Some([0, 31]), ..Step::of(Move::TruckLeft) };
         let stop = Step { end: about(7), words: Some([32, text.len()]), ..Step::of(Move::Follow) };
         let mut steps = [slide, stop];
         end_at_stops(&linked, &mut steps);
-        assert_eq!((&steps[0].end, steps[1].movement), (&about(7), Move::Static));
+        assert_eq!((&steps[0].start, &steps[0].end, steps[1].movement), (&about(5), &about(7), Move::Static));
     }
 
     #[test]

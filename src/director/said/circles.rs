@@ -72,7 +72,8 @@ pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
 
 /// Words that only say again how far a circle goes.
 const AGAIN: [&str; 16] = [
-    "one", "a", "just", "only", "single", "that", "is", "'s", "so", "exactly", "in", "total", "and", "it", "the", "close",
+    "one", "a", "just", "only", "single", "that", "is", "'s", "so", "exactly", "in", "total", "and", "it", "the",
+    "close",
 ];
 
 /// Makes one circle of two of which the second only says again how far the first goes: `all the way round the globe, one full

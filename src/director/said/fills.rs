@@ -25,6 +25,29 @@ pub(crate) fn fill_with_only(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words by which a picture shows hardly anything else, behind `the only thing`.
+const SEES: [&str; 8] = ["see", "look", "notice", "sees", "visible", "seen", "watch", "there"];
+
+/// Comes so close that the words see nothing else: `arc round the knot, near enough that it's the only thing you really look at`.
+pub(crate) fn close_on_only(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_only = |at: usize| {
+            let thing = matches!(words[at..], ["only", "thing" | "one", ..])
+                || matches!(words[at..], ["all", "you" | "we", ..]);
+            thing && words[at + 2..].iter().take(5).any(|word| SEES.contains(word))
+        };
+        let is_near = words
+            .iter()
+            .any(|word| matches!(*word, "near" | "close" | "closer" | "nearer" | "tight" | "till" | "until"));
+        let is_open = step.end.size.is_none() && step.end.height_frac.is_none() && !step.end.whole;
+        let fits = nears(step.movement) || step.movement.is_circular();
+        if is_near && is_open && fits && step.end.subjects.len() == 1 && (0..words.len()).any(is_only) {
+            step.end.size = Some(ShotSize::CloseUp);
+        }
+    }
+}
+
 /// Shows the part of a thing that the words name, close where it is small, and closer where it fills the frame: `push in until
 /// the sole fills the frame`.
 pub(crate) fn close_on_parts(linked: &Linked, steps: &mut [Step]) {

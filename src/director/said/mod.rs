@@ -147,6 +147,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     endings::stop_short(linked, &mut direction.program.steps);
     endings::keep_shown(linked, &mut direction.program.steps);
     fills::fill_with_only(linked, &mut direction.program.steps);
+    fills::close_on_only(linked, &mut direction.program.steps);
     fills::close_on_parts(linked, &mut direction.program.steps);
     fills::end_on_parts(linked, &mut direction.program.steps);
     small_moves::move_rests(linked, &mut direction.program.steps);

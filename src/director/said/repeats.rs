@@ -80,7 +80,8 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
     for nth in (1..direction.program.steps.len()).rev() {
         let [first, second] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
         let same = first.movement == second.movement && !second.cut && !second.returns;
-        let bare = |step: &Step| Step { words: step.words, either_way: step.either_way, ..Step::of(step.movement) } == *step;
+        let bare =
+            |step: &Step| Step { words: step.words, either_way: step.either_way, ..Step::of(step.movement) } == *step;
         let travels = matches!(first.movement, Move::Static | Move::Follow);
         let leads = !second.start.subjects.is_empty() && !second.end.subjects.is_empty();
         let passes = Step { via: second.via.clone(), ..first.clone() };
@@ -88,7 +89,8 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
             && second.via.is_some()
             && (first.via.is_none() || first.via == second.via)
             && bare(&Step { via: None, ..second.clone() });
-        let vertigo = matches!(first.movement, Move::DollyZoomIn | Move::DollyZoomOut) && !second.end.subjects.is_empty();
+        let vertigo =
+            matches!(first.movement, Move::DollyZoomIn | Move::DollyZoomOut) && !second.end.subjects.is_empty();
         let holds = first.words.is_some()
             && first.words == second.words
             && first.movement == Move::Static
@@ -101,9 +103,15 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
             first.movement,
             Move::PanLeft | Move::PanRight | Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight
         );
-        let says_way = is_turn && is_family && first.either_way && !second.either_way && bare(second) && !second.returns;
+        let says_way =
+            is_turn && is_family && first.either_way && !second.either_way && bare(second) && !second.returns;
         if says_way && !first.end.subjects.is_empty() {
-            let one = Step { movement: second.movement, either_way: false, words: first.joint_words(second), ..first.clone() };
+            let one = Step {
+                movement: second.movement,
+                either_way: false,
+                words: first.joint_words(second),
+                ..first.clone()
+            };
             direction.join_steps(nth, one);
         } else if same && holds {
             let end = framing_of(&second.end, &first.end);

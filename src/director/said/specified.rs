@@ -50,9 +50,8 @@ pub(crate) fn skim_tops(linked: &Linked, objects: &[Object], steps: &mut [Step])
             let at = at + usize::from(text(at) == "the");
             is_listed(SURFACES, text(at)) || via.objects.iter().any(|id| is_table(id) && linked.names(text(at), *id))
         };
-        let skims = (1..words.len()).any(|at| {
-            is_listed(OVER, text(at)) && is_listed(CLOSE, text(at - 1)) && is_top(at + 1)
-        });
+        let skims =
+            (1..words.len()).any(|at| is_listed(OVER, text(at)) && is_listed(CLOSE, text(at - 1)) && is_top(at + 1));
         if !skims || step.end.subjects.is_empty() {
             continue;
         }

@@ -45,7 +45,8 @@ fn sees(linked: &Linked, after: &Step) -> bool {
     let words = linked.texts_in(after.words.unwrap_or_default());
     let is_first = |word: &&str| UNTIL.contains(word);
     let sees = |word: &str| SEES.iter().any(|verb| is_form(word, verb));
-    let is_seen = |pair: &[&str]| matches!(pair[0], "is" | "are" | "'s" | "'re" | "comes" | "come") && SEEN.contains(&pair[1]);
+    let is_seen =
+        |pair: &[&str]| matches!(pair[0], "is" | "are" | "'s" | "'re" | "comes" | "come") && SEEN.contains(&pair[1]);
     words.first().is_some_and(is_first)
         && (words.iter().take(6).any(|word| sees(word)) || words.windows(2).any(is_seen))
         && after.with.is_empty()

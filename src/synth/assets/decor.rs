@@ -52,7 +52,8 @@ pub(crate) fn vase(rng: &mut SceneRng, color: &NamedColor, palette: &Palette) ->
 /// A sculpture on a plinth, called by what it looks like: a knot, stacked stones, or a head.
 pub(crate) fn sculpture(rng: &mut SceneRng, palette: &Palette) -> Asset {
     let shape = rng.index(3);
-    let mut asset = Asset::new(["wooden knot sculpture", "white stacked stone sculpture", "white bust sculpture"][shape]);
+    let mut asset =
+        Asset::new(["wooden knot sculpture", "white stacked stone sculpture", "white bust sculpture"][shape]);
     let stone = Material::patterned(Pattern::Marble, Vec3::splat(0.78), Vec3::splat(0.45), 0.2).gloss(0.4);
     let bronze = Material::metal(Vec3::new(0.3, 0.18, 0.08));
     let base = Material::plain(palette.dark.linear * 1.5).gloss(0.3);
