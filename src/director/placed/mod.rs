@@ -3,113 +3,25 @@
 //! Enters: the mentions of a prompt, and where the objects of the scene are. Leaves: of several things of one kind those that
 //! the words place. Where the words place nothing, the mentions stay.
 
+mod extent;
+mod relations;
+
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
-use cinesplat_objects::Object;
-use glam::DVec3;
+
+pub use extent::Places;
+use extent::{Relation, boxes, cornermost};
+use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_way};
 
 use crate::explained::{content, head, is_number, label, said};
 use crate::names::FoundMention;
 
-/// Where the objects of a scene are.
-#[derive(Debug, Clone, Copy)]
-pub struct Places<'a> {
-    /// The objects.
-    pub objects: &'a [Object],
-    /// Up direction of the world.
-    pub up: DVec3,
-}
-
-impl Places<'_> {
-    /// The only thing of a scan of which the other objects are parts.
-    pub(crate) fn only_whole(&self) -> Option<u32> {
-        let mut wholes = self.objects.iter().filter(|object| object.parent.is_none());
-        wholes.next().filter(|_| wholes.next().is_none()).map(|object| object.id)
-    }
-}
-
-/// Words of places, by how a thing lies to the other one.
-const NEAR: &str = "beside by near nearest closest nearer closer next against alongside behind opposite";
-const UNDER: &str = "under below beneath underneath";
-const ABOVE: &str = "above over";
-const ON: &str = "on atop";
-/// Words that may stand beside them.
-const BESIDE: &str = "the a an that which who is are 's sits sitting stands standing hanging hangs lying leaning leans up down \
-    there here right just directly immediately to in front of wall floor placed hung mounted resting one ones all it";
-/// Of these, words of ways, too.
-const WAYS: &str = "behind opposite against front alongside";
-const PRONOUNS: &str = "it them that this";
 /// Words of another thing of the kind.
 const OTHERS: &str = "other another remaining";
-/// Words by which a thing is in a corner of the room.
-const CORNER: &str = "in the far back left right opposite other near of room over";
-/// Most words between a thing and what places it.
-const MAX_BETWEEN: usize = 8;
 /// Farthest that a thing above or below another one is beside it, share of the other one's width.
 const ASIDE: f64 = 0.5;
 
 /// Farthest that things on another one, or right above it, are from it, scene units.
 const TOUCHING: f64 = 0.15;
-
-/// How a thing lies to the one that places it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Relation {
-    Near,
-    Under,
-    Above,
-    On,
-}
-
-/// The box of an object: two level axes and the one that points up.
-#[derive(Debug, Clone, Copy)]
-struct Extent {
-    low: [f64; 3],
-    high: [f64; 3],
-}
-
-impl Extent {
-    fn of(object: &Object, up: DVec3) -> Self {
-        let (right, ahead) = up.any_orthonormal_pair();
-        let mut extent = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
-        for corner in object.corners() {
-            for (at, axis) in [right, ahead, up].into_iter().enumerate() {
-                extent.low[at] = extent.low[at].min(corner.dot(axis));
-                extent.high[at] = extent.high[at].max(corner.dot(axis));
-            }
-        }
-        extent
-    }
-
-    fn middle(&self, axis: usize) -> f64 {
-        (self.low[axis] + self.high[axis]) / 2.0
-    }
-
-    /// Distance of two boxes along some axes.
-    fn gap(&self, other: &Self, axes: std::ops::Range<usize>) -> f64 {
-        axes.map(|axis| (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]).max(0.0).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    }
-
-    /// Level distance of two middles.
-    fn aside(&self, other: &Self) -> f64 {
-        (0..2).map(|axis| (self.middle(axis) - other.middle(axis)).powi(2)).sum::<f64>().sqrt()
-    }
-
-    fn width(&self) -> f64 {
-        (0..2).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max)
-    }
-
-    /// How badly this box lies so to another one; `None` where it does not.
-    fn misfit(&self, relation: Relation, other: &Self) -> Option<f64> {
-        let is_higher = self.middle(2) > other.middle(2);
-        match relation {
-            Relation::Near => Some(self.gap(other, 0..3) + 0.01 * self.aside(other)),
-            Relation::Under => (!is_higher).then(|| self.gap(other, 0..2) + 0.1 * self.aside(other)),
-            Relation::Above => is_higher.then(|| self.gap(other, 0..2) + 0.1 * self.aside(other)),
-            Relation::On => is_higher.then(|| self.gap(other, 0..3) + 0.01 * self.aside(other)),
-        }
-    }
-}
 
 /// Points mentions that fit several things of a kind at the ones that the words place.
 pub(crate) fn point_by_places(
@@ -164,10 +76,8 @@ fn absorb_place(prompt: &str, found: &mut Vec<FoundMention>, nth: usize) {
     let end = found[nth - 1].mention.bytes[1];
     let Some(place) = found.get(nth).map(|next| next.mention.bytes) else { return };
     let between = tokenize(prompt.get(end..place[0]).unwrap_or_default());
-    // A way leads over, under and behind things.
-    let is_way = between.iter().any(|word| is_listed(WAYS, &word.text));
     let is_place = matches!(relation_of(&between), Some(Relation::Near | Relation::On));
-    if is_place && !is_way {
+    if is_place && !says_way(&between) {
         found[nth - 1].mention.bytes[1] = place[1];
         found.remove(nth);
     }
@@ -271,12 +181,6 @@ fn placed(
     (!ids.is_empty()).then_some(ids)
 }
 
-/// The words of a mention before those that place it, the relation, and the words behind it.
-fn inner_place(words: &[Word]) -> Option<(&[Word], Relation, &[Word])> {
-    let at = (1..words.len().saturating_sub(1)).find(|at| relation_of(&words[*at..=*at]).is_some())?;
-    Some((&words[..at], relation_of(&words[at..=at])?, &words[at + 1..]))
-}
-
 /// The one thing of a kind that a mention with its place names: `the guitar by the door`. `before` are those of the mention before,
 /// of whose kind `the one by the door` is.
 fn placed_inside(
@@ -335,27 +239,6 @@ fn rest_of(words: &str, narrowed: Option<&(Vec<u32>, u32)>) -> Option<(Vec<u32>,
     matches!(others[..], [_]).then(|| (alike.clone(), others))
 }
 
-/// The relation that words between two things say; `None` where they say something else besides.
-fn relation_of(words: &[Word]) -> Option<Relation> {
-    let text = |word: &Word| word.text.clone();
-    let mut relation = None;
-    for word in words.iter().map(text) {
-        let own = match () {
-            () if is_listed(NEAR, &word) || word == "front" => Some(Relation::Near),
-            () if is_listed(UNDER, &word) => Some(Relation::Under),
-            () if is_listed(ABOVE, &word) => Some(Relation::Above),
-            () if is_listed(ON, &word) => Some(Relation::On),
-            () => None,
-        };
-        if own.is_none() && !is_listed(BESIDE, &word) {
-            return None;
-        }
-        // `On the wall above it` is above it.
-        relation = own.or(relation);
-    }
-    relation.filter(|_| words.len() <= MAX_BETWEEN)
-}
-
 /// What the words behind a mention place it by: the next mention, or, by a pronoun, the one before.
 fn placed_behind(prompt: &str, found: &[FoundMention], nth: usize) -> Option<(Relation, Vec<u32>)> {
     let end = found[nth].mention.bytes[1];
@@ -388,47 +271,11 @@ fn placed_later(
     Some((relation, next.ids.clone()))
 }
 
-/// The relation that the words from a byte on say to a pronoun: `on the wall above it`.
-fn relation_to_pronoun(prompt: &str, from: usize) -> Option<Relation> {
-    let words = tokenize(prompt.get(from..)?);
-    let is_end = |word: &Word| is_listed(PRONOUNS, &word.text) && word.text != "that" || !word.is_alphabetic();
-    let at = words.iter().take(MAX_BETWEEN).position(is_end)?;
-    is_listed(PRONOUNS, &words[at].text).then(|| relation_of(&words[..at])).flatten()
-}
-
-/// Whether the words behind a mention say that it is in a corner.
-fn says_corner(prompt: &str, mention: &Mention) -> bool {
-    let inside = tokenize(said(prompt, mention));
-    if inside.last().is_some_and(|word| word.text == "corner") {
-        return true;
-    }
-    let words = tokenize(prompt.get(mention.bytes[1]..).unwrap_or_default());
-    let corner = words.iter().take(6).position(|word| word.text == "corner");
-    corner.is_some_and(|at| at > 0 && words[..at].iter().all(|word| is_listed(CORNER, &word.text)))
-}
-
-/// The thing that is nearest to a corner of all that there is.
-fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
-    let all: Vec<Extent> = places.objects.iter().map(|object| Extent::of(object, places.up)).collect();
-    let low = [0, 1].map(|axis| all.iter().map(|extent| extent.low[axis]).fold(f64::INFINITY, f64::min));
-    let high = [0, 1].map(|axis| all.iter().map(|extent| extent.high[axis]).fold(f64::NEG_INFINITY, f64::max));
-    let to_corner = |id: &u32| {
-        let extent = boxes(places, &[*id]).first().copied()?;
-        let to_wall = |axis: usize| (extent.middle(axis) - low[axis]).min(high[axis] - extent.middle(axis));
-        Some((to_wall(0).powi(2) + to_wall(1).powi(2), *id))
-    };
-    ids.iter().filter_map(to_corner).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
-}
-
-/// The boxes of objects.
-fn boxes(places: Places<'_>, ids: &[u32]) -> Vec<Extent> {
-    let known = ids.iter().filter_map(|id| places.objects.iter().find(|object| object.id == *id));
-    known.map(|object| Extent::of(object, places.up)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cinesplat_objects::Object;
+    use glam::DVec3;
 
     /// A room with a door and a guitar at each end of one wall, a clock over the second one, a sofa under three of four
     /// pictures, and two plants.
