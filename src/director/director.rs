@@ -19,14 +19,17 @@ use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
 use crate::explained::{
-    absorb_places, drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, own_parts, point_back, point_ones,
+    drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, own_parts, point_back, point_ones,
 };
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
+use crate::likeness::join_likenesses;
+use crate::located::absorb_places;
 use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
+use crate::placed::{Places, point_by_places};
 use crate::said::{take_said, take_said_of_all};
 use crate::times::ListedTimes;
 
@@ -93,6 +96,19 @@ impl Director {
     /// object has · [`DirectorError::NotFinite`] when the weights of the network of names are damaged ·
     /// [`DirectorError::Compute`] when a tensor operation fails.
     pub fn link(&self, prompt: &str, objects: &[NamedObject]) -> Result<Linked, DirectorError> {
+        self.link_placed(prompt, objects, Places { objects: &[], up: DVec3::Y })
+    }
+
+    /// [`link`](Self::link), where it is known where the objects are: the words may tell things of one kind by their places.
+    ///
+    /// # Errors
+    /// Those of [`link`](Self::link).
+    pub fn link_placed(
+        &self,
+        prompt: &str,
+        objects: &[NamedObject],
+        places: Places<'_>,
+    ) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
@@ -107,11 +123,13 @@ impl Director {
         found.retain(|found| !is_blank(found.mention.bytes[0]));
         drop_sizes(prompt, objects, &mut found);
         name_by_label_words(prompt, objects, &mut found);
-        absorb_places(prompt, objects, &mut found);
+        join_likenesses(prompt, objects, &mut found);
+        point_by_places(prompt, objects, places, &mut found);
+        absorb_places(prompt, objects, &mut found)?;
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);
         drop_first_ones(prompt, &mut found);
-        own_parts(prompt, objects, &mut found)?;
+        own_parts(prompt, objects, places.only_whole(), &mut found)?;
         name_by_parts(prompt, objects, &mut found)?;
         let acts = acts(prompt, objects, &mut found)?;
         let prompt = &*blanked(prompt, &acts);

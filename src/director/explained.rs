@@ -1,5 +1,5 @@
-//! Names that other names explain: of things named before (`the pink drawers .. push in on the drawers`), and of places
-//! that only say which thing is meant (`the teapot on the shelf`).
+//! Names that other names explain: of things named before (`the pink drawers .. push in on the drawers`), of parts of things, and
+//! words of labels that stand alone.
 
 use std::collections::BTreeSet;
 
@@ -88,13 +88,14 @@ pub(crate) fn drop_first_ones(prompt: &str, found: &mut Vec<FoundMention>) {
 }
 
 /// Takes a part that the scene lacks for one of the only thing that there is, or that the prompt names: `the two sockets`
-/// of the skull.
+/// of the skull. `whole` is the only thing of a scan, where its parts are objects of their own.
 ///
 /// # Errors
 /// [`LanguageError::BadData`] for a damaged list of parts.
 pub(crate) fn own_parts(
     prompt: &str,
     objects: &[NamedObject],
+    whole: Option<u32>,
     found: &mut [FoundMention],
 ) -> Result<(), LanguageError> {
     let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
@@ -102,6 +103,7 @@ pub(crate) fn own_parts(
     let only = match (&named[..], objects) {
         ([id], _) => *id,
         ([], [object]) => object.id,
+        ([], _) if whole.is_some() => whole.unwrap_or_default(),
         _ => return Ok(()),
     };
     let Some(whole) = label(objects, only).map(str::to_owned) else { return Ok(()) };
@@ -152,86 +154,6 @@ pub(crate) fn name_by_parts(
     Ok(())
 }
 
-/// Words that say where a thing is, and words that may stand beside them.
-const WHERE: [&str; 11] =
-    ["on", "in", "at", "under", "below", "beneath", "underneath", "near", "above", "inside", "atop"];
-const BESIDE: [&str; 28] = [
-    "the",
-    "a",
-    "an",
-    "that",
-    "which",
-    "is",
-    "are",
-    "sits",
-    "sitting",
-    "standing",
-    "stands",
-    "hanging",
-    "lying",
-    "up",
-    "there",
-    "stacked",
-    "piled",
-    "kept",
-    "placed",
-    "displayed",
-    "hung",
-    "resting",
-    "sat",
-    "over",
-    "out",
-    "here",
-    "all",
-    "right",
-];
-
-/// Words of how a thing is where it is, besides adverbs and forms in `ing`: `waits quietly on the shelf`.
-const STATES: &str = "waits rests hangs lies lives glows gleams sleeps leans perched alone still tucked set left";
-/// Words in `ing` that are moves of the camera, whatever is beside them.
-const MOVES: &str = "moving drifting going rising gliding sliding flying tilting panning pushing zooming craning orbiting pulling stopping \
-    ending finishing starting landing settling looking booming turning coming heading holding arriving hovering";
-
-fn describes(word: &str) -> bool {
-    is_listed(STATES, word)
-        || word.ends_with("ing") && !is_listed(MOVES, word)
-        || word.ends_with("ly") && word.len() > 4
-}
-
-/// Makes one mention of a thing and of the place that tells which one it is, where the place is called by no word of
-/// the object that it was taken for: `the shelf` on which the teapot stands, in a scene of cabinets.
-pub(crate) fn absorb_places(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>) {
-    let mut nth = 1;
-    while nth < found.len() {
-        let [thing, place] = [&found[nth - 1].mention, &found[nth].mention];
-        let between = tokenize(prompt.get(thing.bytes[1]..place.bytes[0]).unwrap_or_default());
-        let is_where = |word: &Word| WHERE.contains(&word.text.as_str());
-        let is_beside = |word: &Word| BESIDE.contains(&word.text.as_str()) || describes(&word.text);
-        let says_where = between.iter().any(is_where) && between.iter().all(|word| is_where(word) || is_beside(word));
-        let is_loose = match (&thing.ids[..], &place.ids[..]) {
-            ([_, ..], [id]) => {
-                let words = said(prompt, place);
-                let label = label(objects, *id).map(content);
-                let is_other = label.is_some_and(|label| !label.is_empty() && label.is_disjoint(&content(words)));
-                is_other && !is_number(words) && thing.ids != place.ids
-            }
-            _ => false,
-        };
-        // `The chest of drawers, <obj-8>, ..` names one thing twice.
-        let is_again = thing.ids == place.ids
-            && !thing.ids.is_empty()
-            && is_number(said(prompt, place))
-            && between.len() == 1
-            && between[0].text == ",";
-        if is_again || says_where && is_loose {
-            found[nth - 1].mention.bytes[1] = place.bytes[1];
-            found.remove(nth);
-        } else {
-            nth += 1;
-        }
-    }
-}
-
 /// Takes abbreviations of shot sizes, which are no part of a name, off the beginnings of mentions: `EWS ship`.
 pub(crate) fn drop_sizes(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {
     for found in found {
@@ -268,6 +190,17 @@ pub(crate) fn name_by_label_words(prompt: &str, objects: &[NamedObject], found: 
         let word = &words[at];
         let is_alone = text(at + 1).chars().all(|letter| !letter.is_alphanumeric()) || is_listed(BEHIND, text(at + 1));
         let is_name = is_listed(POINTS, text(at - 1)) && is_alone && !word.after_hyphen && word.is_alphabetic();
+        // `An overhead of the whole table`.
+        let is_whole =
+            at > 1 && is_listed("whole entire full complete", text(at - 1)) && is_listed(POINTS, text(at - 2));
+        let is_label = |object: &&NamedObject| content(&object.label) == BTreeSet::from([stem(&word.text)]);
+        if is_whole && is_alone && !is_linked(found, word.span) {
+            let mut named = objects.iter().filter(is_label);
+            if let (Some(object), None) = (named.next(), named.next()) {
+                insert_mention(found, Mention { bytes: [words[at - 1].span[0], word.span[1]], ids: vec![object.id] });
+            }
+            continue;
+        }
         if !is_name || is_linked(found, word.span) || word.text.len() < 4 || is_listed(LOOSE, &word.text) {
             continue;
         }
@@ -290,27 +223,27 @@ fn is_linked(found: &[FoundMention], [from, to]: [usize; 2]) -> bool {
 }
 
 /// The words of a mention.
-fn said<'a>(prompt: &'a str, mention: &Mention) -> &'a str {
+pub(crate) fn said<'a>(prompt: &'a str, mention: &Mention) -> &'a str {
     prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default()
 }
 
 /// The label of an object.
-fn label(objects: &[NamedObject], id: u32) -> Option<&str> {
+pub(crate) fn label(objects: &[NamedObject], id: u32) -> Option<&str> {
     objects.iter().find(|object| object.id == id).map(|object| object.label.as_str())
 }
 
 /// The stem of the thing that a name names: its last word.
-fn head(name: &str) -> Option<String> {
+pub(crate) fn head(name: &str) -> Option<String> {
     tokenize(name).into_iter().rev().find(Word::is_alphabetic).map(|word| stem(&word.text))
 }
 
 /// Whether a mention is a number: `<obj-3>`, `object 3`.
-fn is_number(words: &str) -> bool {
+pub(crate) fn is_number(words: &str) -> bool {
     words.contains(|letter: char| letter.is_ascii_digit())
 }
 
 /// The stems of the words of a name but articles and pointing words.
-fn content(name: &str) -> BTreeSet<String> {
+pub(crate) fn content(name: &str) -> BTreeSet<String> {
     let points =
         |word: &str| matches!(word, "the" | "a" | "an" | "this" | "that" | "these" | "those" | "same" | "said");
     let words = tokenize(name).into_iter().filter(|word| word.is_alphabetic() && !points(&word.text));

@@ -213,8 +213,15 @@ fn is_owner(word: &str) -> bool {
 /// The name that begins at word `at`: the word after it, and its height.
 fn found_in(names: &Names, words: &[&str], at: usize) -> Option<(usize, SpokenHeight)> {
     let rest = words.get(at + 1..)?;
-    let (name, height) = names.get(words[at])?.iter().find(|(name, _)| rest.starts_with(name))?;
-    Some((at + 1 + name.len(), *height))
+    // `Chair-seat height`.
+    let hyphen = usize::from(rest.first() == Some(&"-"));
+    let begins = |name: &[&str]| {
+        if rest.starts_with(name) { Some(0) } else { rest[hyphen..].starts_with(name).then_some(hyphen) }
+    };
+    let (len, height) = names.get(words[at])?.iter().find_map(|(name, height)| {
+        begins(name).filter(|skipped| *skipped == 0 || !name.is_empty()).map(|skipped| (name.len() + skipped, height))
+    })?;
+    Some((at + 1 + len, *height))
 }
 
 impl Linked {
@@ -256,6 +263,7 @@ mod tests {
     fn heights_are_known_by_bodies_furniture_and_eyes() {
         for (text, meters) in [
             ("push in at knee height", 0.5),
+            ("boom up from chair - seat height", 0.45),
             ("camera waist high , push in", 1.0),
             ("at table level", 0.75),
             ("from the height of your hips", 0.95),

@@ -50,6 +50,24 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_level(&words, [first, end])
         || is_smoothness(&words, [first, end])
         || is_mount(&words, [first, end])
+        || is_frame(&words, [first, end])
+}
+
+/// What a film shows at once, and words before it and behind it by which it is that.
+const FRAMES: &str = "picture image frame shot view";
+const INTO: &str = "in into within inside";
+const FRAME_ENDS: &str = "and then for at while until till before after together throughout all so but as too now hold stop \
+    stay the";
+
+/// `Finish with both curtains in the picture`: the film's own picture, and none on the wall.
+fn is_frame(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let article = first + usize::from(matches!(word_at(words, first), "the" | "our" | "my" | "your"));
+    let is_named = end == article + 1 && is_listed(FRAMES, word_at(words, article));
+    let before = first.checked_sub(1).map_or("", |before| word_at(words, before));
+    let is_article = matches!(before, "the" | "our" | "my" | "your" | "a");
+    let before = if is_article { first.checked_sub(2).map_or("", |before| word_at(words, before)) } else { before };
+    let next = word_at(words, end);
+    is_named && is_listed(INTO, before) && (!next.starts_with(char::is_alphanumeric) || is_listed(FRAME_ENDS, next))
 }
 
 /// `gold and black palette`, `teal & orange grade`: colors alone, and what has them behind.
@@ -103,8 +121,15 @@ fn is_mount(words: &[Word], [first, end]: [usize; 2]) -> bool {
 /// `At table height`: a height that people know, and no thing, unless it has an article (`at the height of the table`).
 fn is_level(words: &[Word], [first, end]: [usize; 2]) -> bool {
     let names = words.get(first..end).unwrap_or_default();
-    let is_known = names.last().is_some_and(|word| is_level_name(&word.text)) && names.len() == 1;
     let is_height = |at: usize| matches!(word_at(words, at), "height" | "level");
+    // `Chair-seat height`.
+    let seat = end + usize::from(word_at(words, end) == "-");
+    let is_seat = names.len() == 1 && word_at(words, seat) == "seat" && is_height(seat + 1)
+        || names.last().is_some_and(|word| word.text == "seat") && names.len() < 4 && is_height(end);
+    if is_seat {
+        return true;
+    }
+    let is_known = names.last().is_some_and(|word| is_level_name(&word.text)) && names.len() == 1;
     let inside = names.len() == 2 && is_height(first + 1) && is_level_name(word_at(words, first));
     is_known && is_height(end) || inside
 }
@@ -146,6 +171,14 @@ mod tests {
         assert!(is_none("silky smooth orbit", "silky"));
         assert!(is_none("push in, smooth as silk", "silk"));
         assert!(!is_none("push in on the silk", "silk"));
+    }
+
+    #[test]
+    fn what_is_in_the_picture_is_seen() {
+        assert!(is_none("finish with both curtains in the picture", "the picture"));
+        assert!(is_none("until both are in the picture, then stop", "picture"));
+        assert!(!is_none("push in on the picture", "the picture"));
+        assert!(!is_none("push in on the boat in the picture on the wall", "the picture"));
     }
 
     #[test]

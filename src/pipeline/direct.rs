@@ -5,7 +5,7 @@ use super::interpreter::{Interpreter, names};
 use super::lone_thing;
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
-use super::slant::slant_of;
+use super::slant::{level_out, slant_of};
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, forbidding_words};
@@ -96,6 +96,8 @@ pub struct StepReading {
 /// Takes a low camera along things on a table for one at their level: from below there is only the table.
 fn level_with_things(program: &mut Program, objects: &ObjectSet, up: glam::DVec3) {
     let bears = |id: &u32| objects.borne_heights(*id, up).is_some();
+    let feet = objects.objects.iter().flat_map(|object| object.corners()).map(|corner| corner.dot(up));
+    let floor = feet.fold(f64::INFINITY, f64::min);
     for step in &mut program.steps {
         let along = step.via.as_ref().is_some_and(|via| via.how == Pass::Along && via.objects.iter().any(bears));
         for framing in [&mut step.start, &mut step.end] {
@@ -103,6 +105,15 @@ fn level_with_things(program: &mut Program, objects: &ObjectSet, up: glam::DVec3
             let are_borne = framing.subjects.len() > 1
                 && bearer.is_some()
                 && framing.subjects.iter().all(|id| objects.bearer_of(*id, up) == bearer);
+            // `At bench height` along a bench is the height of what stands on it.
+            let is_below =
+                |id: &u32, height: f64| objects.borne_heights(*id, up).is_some_and(|[low, _]| height < low - floor);
+            let passed = step.via.as_ref().filter(|_| along && bearer.is_some());
+            if let (Some(via), Some(height)) = (passed, framing.height)
+                && via.objects.iter().any(|id| is_below(id, height))
+            {
+                (framing.height, framing.angle) = (None, Some(ShotAngle::EyeLevel));
+            }
             if framing.angle == Some(ShotAngle::Low) && (along || are_borne) {
                 framing.angle = Some(ShotAngle::EyeLevel);
             }
@@ -133,9 +144,9 @@ pub fn direct(
     settings: &DirectSettings,
 ) -> Result<Directed, PipelineError> {
     let mut times = PhaseTimes::default();
-    let (mut linked, objects) =
-        times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects))?;
     let up = scene.up.normalize_or_zero();
+    let (mut linked, objects) =
+        times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects, up))?;
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();
@@ -145,6 +156,7 @@ pub fn direct(
         times.measure(Phase::Direct, || read(prompt, linked, interpreter, &context))?;
     refuse_missing(&linked, &direction)?;
     level_with_things(&mut direction.program, &objects, up);
+    level_out(&effects, &mut direction.program, prompt);
     lone_thing::show(&mut direction.program, &objects);
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;

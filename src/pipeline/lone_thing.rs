@@ -8,10 +8,11 @@ use std::cmp::Reverse;
 
 use super::error::PipelineError;
 use super::interpreter::names;
-use cinesplat_director::Director;
-use cinesplat_language::{Linked, Things, Word, is_listed, tokenize};
+use cinesplat_director::{Director, Places};
+use cinesplat_language::{Linked, Relation, Things, Word, is_listed, part_of, tokenize};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_operator::Program;
+use glam::DVec3;
 
 /// What a thing stands on: rarely what a scan is about.
 const GROUNDS: [&str; 10] =
@@ -19,6 +20,8 @@ const GROUNDS: [&str; 10] =
 
 /// Labels of parts that are only places.
 const PLACES: &str = "top base bottom middle front back";
+/// How a thing is seen.
+const VIEWS: &str = "profile side view angle close-up closeup silhouette outline detail";
 /// Words that make the name before them one of a kind of shop or film.
 const WARES: &str =
     "shop store brand company catalogue catalog film video clip ad advert commercial shot collection lover fan";
@@ -28,11 +31,13 @@ pub(super) fn link<'a>(
     director: &Director,
     prompt: &str,
     objects: &'a ObjectSet,
+    up: DVec3,
 ) -> Result<(Linked, Cow<'a, ObjectSet>), PipelineError> {
     let whole = objects.unnamed_whole();
     let name = whole.map(|_| name_of_whole(director, prompt, objects)).transpose()?.flatten();
     let (Some(whole), Some(name)) = (whole, name) else {
-        return Ok((director.link(prompt, &names(&objects.objects))?, Cow::Borrowed(objects)));
+        let places = Places { objects: &objects.objects, up };
+        return Ok((director.link_placed(prompt, &names(&objects.objects), places)?, Cow::Borrowed(objects)));
     };
     let (id, description) = (whole.id, &whole.label);
     let mut renamed = objects.clone();
@@ -42,7 +47,8 @@ pub(super) fn link<'a>(
     // Words for its parts are known once its name is; `the top of the skull` says where to look at it.
     let is_place = |object: &&Object| object.parent == Some(id) && is_listed(PLACES, &object.label);
     let of_kinds: Vec<Object> = renamed.objects.iter().filter(|object| !is_place(object)).cloned().collect();
-    let mut linked = director.link(prompt, &names(&of_kinds))?;
+    let places = Places { objects: &objects.objects, up };
+    let mut linked = director.link_placed(prompt, &names(&of_kinds), places)?;
     let mut taken = vec![name];
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
         group.members = vec![id];
@@ -100,6 +106,10 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
             found.push(word.text.clone());
         }
     }
+    // Who says only `the eye socket` names a part, and a part is no name of the whole.
+    let parts = found.iter().map(|name| is_part(name, objects)).collect::<Result<Vec<bool>, _>>()?;
+    let mut are_parts = parts.into_iter();
+    found.retain(|_| !are_parts.next().unwrap_or_default());
     found.sort_by_key(|name| {
         let named = tokenize(name);
         let head = named.last();
@@ -109,6 +119,20 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         (is_ground, !head.is_some_and(|head| is_kind(&head.text)), is_plural, Reverse(times))
     });
     Ok(found.first().cloned())
+}
+
+/// Whether a name is that of a small part, of how a thing is seen, or of one of the parts that a search has found.
+fn is_part(name: &str, objects: &ObjectSet) -> Result<bool, PipelineError> {
+    let stems: Vec<String> = tokenize(name).into_iter().map(|word| word.stem).collect();
+    let phrase = stems.join(" ");
+    let things = Things::embedded();
+    let is_named = |object: &Object| {
+        let related = things.related(&things.kinds_of(&object.label));
+        related.get(&phrase).is_some_and(|relations| Relation::Same.is_in(*relations))
+    };
+    let is_view = is_listed(VIEWS, &phrase);
+    let found = objects.objects.iter().filter(|object| object.parent.is_some()).any(is_named);
+    Ok(is_view || found || part_of(name, "")?.is_some_and(|part| part.is_small))
 }
 
 /// A name without what says how much of the thing is meant and where it is: `whole guitar on its stand` is the guitar.

@@ -4,7 +4,8 @@
 //! steps in whose clause the phrase stands.
 
 use cinesplat_language::{DUTCH_ANGLE, EffectMention, tokenize};
-use cinesplat_operator::{Program, Slant, Step};
+use cinesplat_operator::{Amount, Program, Slant, Step};
+use cinesplat_trajectory::Move;
 
 /// The roll, degrees: in the middle of the 5 to 35 degrees that storyboards use.
 const DUTCH_DEG: f64 = 15.0;
@@ -12,6 +13,9 @@ const DUTCH_DEG: f64 = 15.0;
 const THROUGHOUT: [&str; 6] = ["throughout", "whole film", "whole shot", "whole time", "entire", "all the way"];
 /// Marks and words between two clauses.
 const BORDERS: [&str; 10] = [",", ";", ".", ":", "then", "and", "before", "after", "next", "finally"];
+
+/// Words that lead to where a roll ends.
+const LEADS: [&str; 8] = ["to", "until", "till", "into", "back", "out", "becomes", "comes"];
 
 /// The dutch angle that the words ask for, during the step in whose clause its phrase stands, or throughout where they
 /// say so.
@@ -27,6 +31,31 @@ pub(super) fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &s
     }
     let step = (0..=last).min_by_key(|at| apart(prompt, mention.span, &program.steps[*at]))?;
     Some(Slant { degrees: DUTCH_DEG, steps: [step, step] })
+}
+
+/// Rolls back to level from a dutch angle by just as much as it slants: `start on a dutch angle, roll slowly back to level`.
+pub(super) fn level_out(mentions: &[EffectMention], program: &mut Program, prompt: &str) {
+    let Some(slant) = slant_of(mentions, program, prompt) else { return };
+    let slanted = slant.steps[0]..=slant.steps[1];
+    for (nth, step) in program.steps.iter_mut().enumerate() {
+        let rolls = matches!(step.movement, Move::RollCw | Move::RollCcw) && step.amount.is_none();
+        let words = step.words.and_then(|[from, to]| prompt.get(from..to)).unwrap_or_default();
+        if rolls && slanted.contains(&nth) && ends_level(words) {
+            (step.movement, step.either_way) = (Move::RollCcw, false);
+            step.amount = Some(Amount::Degrees(slant.degrees));
+        }
+    }
+}
+
+/// Whether words lead to a level horizon.
+fn ends_level(words: &str) -> bool {
+    let words: Vec<String> = tokenize(words).into_iter().map(|word| word.text).collect();
+    let leads = |at: usize| words[..at].iter().rev().take(4).any(|word| LEADS.contains(&word.as_str()));
+    let is_level =
+        |word: &str| matches!(word, "level" | "upright" | "straight" | "horizontal" | "horizon" | "zero" | "flat");
+    let rights =
+        words.iter().any(|word| word.starts_with("straighten") || matches!(word.as_str(), "unroll" | "level-out"));
+    rights || (0..words.len()).any(|at| is_level(&words[at]) && leads(at))
 }
 
 /// How far a phrase is from the words of a step: the borders of clauses between them, then the bytes. Bytes alone
@@ -47,4 +76,17 @@ fn without_borders(prompt: &str, [from, to]: [usize; 2]) -> [usize; 2] {
     let Some(first) = inner.next() else { return [from, to] };
     let last = inner.next_back().unwrap_or(first);
     [from + first.span[0], from + last.span[1]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_roll_back_ends_level() {
+        assert!(ends_level("Start on a dutch angle, the guitar, and roll slowly back to level."));
+        assert!(ends_level("canted on the vase, then roll until the horizon is straight"));
+        assert!(ends_level("begin slanted and straighten up"));
+        assert!(!ends_level("roll into a dutch angle on the level crossing"));
+    }
 }

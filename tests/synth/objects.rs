@@ -5,7 +5,7 @@ use cinesplat::synth::{SynthKind, SynthSettings, generate};
 use super::{SCENES, in_box, spread_in_box};
 
 /// Kinds of the catalog. A label is one of them, with an optional color before it and an optional number after it.
-const KINDS: [&str; 52] = [
+const KINDS: [&str; 54] = [
     "armchair",
     "basket",
     "bed",
@@ -47,7 +47,9 @@ const KINDS: [&str; 52] = [
     "radio",
     "refrigerator",
     "rug",
-    "sculpture",
+    "white bust sculpture",
+    "white stacked stone sculpture",
+    "wooden knot sculpture",
     "side table",
     "sideboard",
     "small plant",

@@ -24,6 +24,38 @@ pub(crate) fn go_between_stops(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Ends a slide at the thing at which the next words stop, and rests there: `truck left along the bench, candle first, pull up on
+/// the vase`.
+pub(crate) fn end_at_stops(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let (before, rest) = steps.split_at_mut(nth);
+        let (Some(slide), Some(stop)) = (before.last_mut(), rest.first_mut()) else { continue };
+        let is_truck = matches!(slide.movement, Move::TruckLeft | Move::TruckRight);
+        let own = linked.texts_in(slide.words.unwrap_or_default());
+        let first = own.windows(2).find(|pair| pair[1] == "first").and_then(|pair| linked.slot_at(pair[0]));
+        if is_truck
+            && first.is_some_and(|id| linked.expanded(&[id]) == slide.end.subjects)
+            && slide.start.subjects.is_empty()
+        {
+            slide.start.subjects.clone_from(&slide.end.subjects);
+        }
+        let is_slide = is_truck && slide.duration_secs.is_none();
+        let is_open = slide.end.subjects.is_empty() || slide.end.subjects == slide.start.subjects;
+        let words = linked.texts_in(stop.words.unwrap_or_default());
+        let stops =
+            words.iter().take(5).any(|word| word.starts_with("stop") || STOPS.iter().any(|verb| is_form(word, verb)));
+        let is_rest = matches!(stop.movement, Move::Static | Move::Follow)
+            && !stop.cut
+            && !stop.end.subjects.is_empty()
+            && stop.end.subjects != slide.start.subjects
+            && stop.start.subjects.is_empty();
+        if is_slide && is_open && stops && is_rest {
+            slide.end.subjects.clone_from(&stop.end.subjects);
+            stop.movement = Move::Static;
+        }
+    }
+}
+
 /// Goes to the thing before which the words stop: a camera that only turned to it would not be in front of it.
 fn go_to_stop(linked: &Linked, steps: &mut [Step]) {
     for nth in 1..steps.len() {
@@ -106,6 +138,20 @@ mod tests {
             || vec![Step { end: about(5), ..Step::of(Move::PushIn) }, Step { end: about(7), ..Step::of(Move::Static) }];
         assert_eq!(directed("in on <obj-0> , then hover in front of <obj-1>", steps())[1].movement, Move::Follow);
         assert_eq!(directed("in on <obj-0> , then hold on <obj-1>", steps())[1].movement, Move::Static);
+    }
+
+    #[test]
+    fn a_slide_ends_where_it_stops() {
+        let text = "truck left along , <obj-0> first , pull up on <obj-1>";
+        let words = text.split(' ');
+        let spans: Vec<[usize; 2]> =
+            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1)])).collect();
+        let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![5, 7], ..Linked::default() };
+        let slide = Step { end: about(5), words: Some([0, 31]), ..Step::of(Move::TruckLeft) };
+        let stop = Step { end: about(7), words: Some([32, text.len()]), ..Step::of(Move::Follow) };
+        let mut steps = [slide, stop];
+        end_at_stops(&linked, &mut steps);
+        assert_eq!((&steps[0].start, &steps[0].end, steps[1].movement), (&about(5), &about(7), Move::Static));
     }
 
     #[test]

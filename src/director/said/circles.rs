@@ -70,6 +70,37 @@ pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words that only say again how far a circle goes.
+const AGAIN: [&str; 16] = [
+    "one", "a", "just", "only", "single", "that", "is", "'s", "so", "exactly", "in", "total", "and", "it", "the",
+    "close",
+];
+
+/// Makes one circle of two of which the second only says again how far the first goes: `all the way round the globe, one full
+/// circle`.
+pub(crate) fn join_said_again(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [first, second] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
+        let (a, b) = (as_orbit(first.movement), as_orbit(second.movement));
+        let circles = matches!(a, Move::OrbitLeft | Move::OrbitRight) && (a == b || second.either_way);
+        let same = second.amount.is_some()
+            && (first.amount == second.amount || first.amount.is_none())
+            && (second.end.subjects.is_empty() || second.end.subjects == first.end.subjects);
+        let words = linked.texts_in(second.words.unwrap_or_default());
+        let is_plain = |word: &&str| {
+            AGAIN.contains(word)
+                || COMPLETE.contains(word)
+                || CIRCLES.contains(word)
+                || linked.is_quantity(word)
+                || !word.starts_with(char::is_alphanumeric) && linked.slot_at(word).is_none()
+        };
+        if circles && same && !second.cut && first.words != second.words && words.iter().all(|word| is_plain(&word)) {
+            let (amount, words) = (second.amount, first.joint_words(second));
+            direction.join_steps(nth, Step { amount, words, ..first.clone() });
+        }
+    }
+}
+
 /// Makes a full circle of a circle whose end another step tells: `circle him, and come home where you began`.
 pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
     for nth in (1..direction.program.steps.len()).rev() {

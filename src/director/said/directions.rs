@@ -186,6 +186,24 @@ pub(crate) fn rise_to_things(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words of a turn to one side.
+const PANS: [&str; 7] = ["pan", "sweep", "swing", "turn", "whip", "swivel", "rotate"];
+
+/// Tilts where the words say so, and nothing of the turn to a side that the network reads: `start on the vase right, then just
+/// tilt up to the tv`.
+pub(crate) fn tilt_as_said(linked: &Linked, steps: &mut [Step]) {
+    let pans = |step: &&mut Step| matches!(step.movement, Move::PanLeft | Move::PanRight) && step.with.is_empty();
+    for step in steps.iter_mut().filter(pans) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let said = (0..words.len()).filter_map(|at| said_at(&words, at));
+        let mut tilts = said.map(|(movement, _)| movement).filter(|said| matches!(said, Move::TiltUp | Move::TiltDown));
+        let is_pan = words.iter().any(|word| PANS.iter().any(|verb| is_form(word, verb)));
+        if let (Some(tilt), None, false) = (tilts.next(), tilts.next(), is_pan) {
+            (step.movement, step.either_way) = (tilt, false);
+        }
+    }
+}
+
 /// Words between a turn and the side to which it leads: `a quarter turn to camera left`.
 const SIDEWARD: [&str; 8] = ["camera", "cam", "the", "screen", "frame", "your", "our", "my"];
 /// Words of a way round.

@@ -55,6 +55,22 @@ pub(crate) fn near_to_size(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Ends a way in close on what its words lead onto: `track in over the chair onto the laptop`.
+pub(crate) fn close_onto(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::PushIn) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let leads = |at: usize| {
+            let onto = words[at] == "onto" || words[at] == "on" && words.get(at + 1) == Some(&"to");
+            let goal = || words[at + 1..].iter().take(3).filter_map(|word| linked.slot_at(word));
+            onto && goal().any(|id| linked.expanded(&[id]) == step.end.subjects)
+        };
+        let plain = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
+        if step.end == plain && step.amount.is_none() && (0..words.len()).any(leads) {
+            step.end.size = Some(ShotSize::CloseUp);
+        }
+    }
+}
+
 /// Shows all of what the words call whole, where they say no other size: `show the whole cabinet from the front`.
 pub(crate) fn show_whole(linked: &Linked, steps: &mut [Step]) {
     for step in steps {

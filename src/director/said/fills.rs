@@ -25,6 +25,29 @@ pub(crate) fn fill_with_only(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words by which a picture shows hardly anything else, behind `the only thing`.
+const SEES: [&str; 8] = ["see", "look", "notice", "sees", "visible", "seen", "watch", "there"];
+
+/// Comes so close that the words see nothing else: `arc round the knot, near enough that it's the only thing you really look at`.
+pub(crate) fn close_on_only(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_only = |at: usize| {
+            let thing = matches!(words[at..], ["only", "thing" | "one", ..])
+                || matches!(words[at..], ["all", "you" | "we", ..]);
+            thing && words[at + 2..].iter().take(5).any(|word| SEES.contains(word))
+        };
+        let is_near = words
+            .iter()
+            .any(|word| matches!(*word, "near" | "close" | "closer" | "nearer" | "tight" | "till" | "until"));
+        let is_open = step.end.size.is_none() && step.end.height_frac.is_none() && !step.end.whole;
+        let fits = nears(step.movement) || step.movement.is_circular();
+        if is_near && is_open && fits && step.end.subjects.len() == 1 && (0..words.len()).any(is_only) {
+            step.end.size = Some(ShotSize::CloseUp);
+        }
+    }
+}
+
 /// Shows the part of a thing that the words name, close where it is small, and closer where it fills the frame: `push in until
 /// the sole fills the frame`.
 pub(crate) fn close_on_parts(linked: &Linked, steps: &mut [Step]) {
@@ -65,19 +88,57 @@ pub(crate) fn close_on_parts(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words that lead from a part and to one.
+const FROM: [&str; 2] = ["from", "off"];
+const TO: [&str; 7] = ["to", "until", "till", "onto", "reach", "reaches", "at"];
+
+/// Begins and ends a tilt, a rise or a descent at the parts of its subject from which and to which the words lead: `tilt down over
+/// the strings to the body`.
+pub(crate) fn end_on_parts(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| is_upright(step.movement)) {
+        let words: Vec<(&str, [usize; 2])> = linked.words_in(step.words.unwrap_or_default()).collect();
+        let part_led = |leads: &[&str], ids: &[u32]| {
+            words.iter().enumerate().rev().find_map(|(at, (word, span))| {
+                let (_, part) = linked.parts.iter().find(|(bytes, _)| bytes[0] <= span[0] && span[1] <= bytes[1])?;
+                let id = linked.slot_at(word).filter(|id| linked.expanded(&[*id]) == ids)?;
+                let led = words[..at].iter().rev().take(3).any(|(word, _)| leads.contains(word));
+                led.then_some((id, subject_part(part.place)))
+            })
+        };
+        let (start, end) = (linked.expanded(&step.start.subjects), linked.expanded(&step.end.subjects));
+        for (framing, ids, leads) in [(&mut step.start, start, &FROM[..]), (&mut step.end, end, &TO[..])] {
+            let is_open = framing.part == SubjectPart::Middle && ids.len() == 1;
+            if let Some((_, part)) = part_led(leads, &ids).filter(|_| is_open) {
+                framing.part = part;
+            }
+        }
+    }
+}
+
+fn is_upright(movement: Move) -> bool {
+    matches!(
+        movement,
+        Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown | Move::CraneUp | Move::CraneDown
+    )
+}
+
+fn subject_part(place: &str) -> SubjectPart {
+    match place {
+        "top" => SubjectPart::Top,
+        "bottom" => SubjectPart::Bottom,
+        "left" => SubjectPart::Left,
+        "right" => SubjectPart::Right,
+        _ => SubjectPart::Middle,
+    }
+}
+
 /// Whether a move leads to its subject, or rests on it.
 fn nears(movement: Move) -> bool {
     matches!(movement, Move::PushIn | Move::ZoomIn | Move::Static | Move::Follow | Move::DollyZoomIn)
 }
 
 fn show_part(framing: &mut Framing, part: PartPlace, fills: bool) {
-    let end = match part.place {
-        "top" => SubjectPart::Top,
-        "bottom" => SubjectPart::Bottom,
-        "left" => SubjectPart::Left,
-        "right" => SubjectPart::Right,
-        _ => SubjectPart::Middle,
-    };
+    let end = subject_part(part.place);
     // The words of ends say themselves where to look.
     if framing.part == SubjectPart::Middle && (part.is_small || matches!(part.place, "left" | "right")) {
         framing.part = end;

@@ -4,6 +4,8 @@ use cinesplat_language::{Linked, QuantityKind};
 use cinesplat_operator::{Program, Speed};
 use cinesplat_trajectory::Move;
 
+use crate::direction::Direction;
+
 /// Marks that end a clause.
 const MARKS: [&str; 5] = [",", ".", ";", "!", ":"];
 /// Words that may stand beside the length of a film.
@@ -18,6 +20,28 @@ fn is_length_word(linked: &Linked, word: &str, secs: f64) -> bool {
     linked
         .quantity_at(word)
         .is_some_and(|quantity| quantity.kind == QuantityKind::Seconds && (quantity.value - secs).abs() < 1e-9)
+}
+
+/// Gives the film the length of which the words say that it is all of it: `12 seconds altogether`, `in total 20 seconds`.
+pub(crate) fn take_total(linked: &Linked, direction: &mut Direction) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let text = |at: usize| words.get(at).copied().unwrap_or_default();
+    let says_all = |at: usize| {
+        let behind = matches!(text(at), "altogether" | "overall" | "total")
+            || matches!((text(at), text(at + 1)), ("in", "total" | "all") | ("all", "in" | "together" | "told"));
+        behind && !text(at + 2).starts_with("<qty")
+    };
+    let mut totals = (0..words.len()).filter_map(|at| Some((at, linked.secs_at(words[at])?)));
+    let Some((_, secs)) = totals.find(|(at, _)| says_all(at + 1)) else { return };
+    let is_total = |own: f64| (own - secs).abs() < 1e-9;
+    let once = linked.quantities.iter().filter(|other| is_total(other.value)).count() == 1;
+    let program = &mut direction.program;
+    if program.duration_secs.is_none() && once {
+        program.duration_secs = Some(secs);
+        for step in &mut program.steps {
+            step.duration_secs = step.duration_secs.filter(|own| !is_total(*own));
+        }
+    }
 }
 
 /// Gives the film a length that stands alone in a clause behind all moves: `.., then a slow zoom in on the vase, airy

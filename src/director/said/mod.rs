@@ -9,6 +9,7 @@ mod circles;
 mod directions;
 mod dolly_zoom;
 mod endings;
+mod entries;
 mod fills;
 mod fixed;
 mod heights;
@@ -27,6 +28,8 @@ mod rests;
 mod senses;
 mod sides;
 mod small_moves;
+mod specified;
+mod splits;
 mod stands;
 mod stillness;
 mod taken_back;
@@ -55,6 +58,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     directions::take_said_directions(linked, steps);
     directions::turn_to_sides(linked, steps);
+    directions::tilt_as_said(linked, steps);
     directions::part_twins(linked, steps);
     directions::reveal_sideways(linked, steps);
     dolly_zoom::take_said_dolly_zooms(linked, steps);
@@ -64,6 +68,9 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     places::drop_descriptions(linked, steps);
     places::begin_at_source(linked, steps);
     places::pass_pairs(linked, steps);
+    places::pass_across(linked, steps);
+    places::stand_above(steps);
+    places::crane_from_above(steps);
     places::complete_framings(steps);
     places::place_ends(linked, steps);
     moods::drop_statements(linked, direction);
@@ -71,6 +78,8 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     amounts::leave_to_owner(linked, &mut direction.program.steps);
     repeats::pass_one_after_another(linked, direction);
     until::join_until(linked, direction);
+    repeats::drop_restated(direction);
+    splits::split_moves(linked, direction);
     together::complete_lists(linked, &mut direction.program);
     let steps = &mut direction.program.steps;
     together::show_both(linked, steps);
@@ -81,6 +90,8 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::rest_on_first_picture(linked, senses, steps)?;
     openings::rise_from_ground(linked, steps);
     openings::rise_overhead(linked, steps);
+    specified::rise_to_overhead(linked, steps);
+    specified::show_what_fills(linked, steps);
     openings::temper_closeness(linked, senses, steps)?;
     stillness::drop_unsaid_shake(linked, senses, steps)?;
     stillness::hold_tripods(linked, &mut direction.program);
@@ -94,6 +105,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     endings::glide_in_and_out(linked, steps);
     endings::travel_at_distance(steps);
     endings::near_to_size(linked, steps);
+    endings::close_onto(linked, steps);
     endings::show_whole(linked, steps);
     endings::end_on_place(linked, steps);
     endings::widen_again(linked, steps);
@@ -106,6 +118,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     visits::visit_listed(linked, direction);
     ranges::zoom_between_lenses(linked, direction);
     circles::close_circles(linked, direction);
+    circles::join_said_again(linked, direction);
     let steps = &mut direction.program.steps;
     circles::turn_all_round(linked, steps);
     sides::go_round_to_sides(linked, steps);
@@ -129,12 +142,15 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     rates::take_rates(linked, direction);
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
+    specified::keep_level(linked, &mut direction.program);
     fixed::stay_put(linked, &mut direction.program);
     fixed::turn_in_place(linked, &mut direction.program.steps);
     endings::stop_short(linked, &mut direction.program.steps);
     endings::keep_shown(linked, &mut direction.program.steps);
     fills::fill_with_only(linked, &mut direction.program.steps);
+    fills::close_on_only(linked, &mut direction.program.steps);
     fills::close_on_parts(linked, &mut direction.program.steps);
+    fills::end_on_parts(linked, &mut direction.program.steps);
     small_moves::move_rests(linked, &mut direction.program.steps);
     small_moves::turn_only(linked, &mut direction.program.steps);
     carriers::carry_as_said(linked, &mut direction.program.steps);
@@ -150,6 +166,11 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     moods::drop_stories(linked, direction);
     places::leave_from(linked, direction);
+    entries::come_in_at_doors(linked, objects, direction);
+    specified::skim_tops(linked, objects, &mut direction.program.steps);
+    repeats::drop_restated(direction);
+    lengths::take_total(linked, direction);
+    arrivals::end_at_stops(linked, &mut direction.program.steps);
     if !wishes::film_wishes(linked, objects, direction) {
         briefs::film_briefs(linked, objects, direction);
     }

@@ -92,7 +92,12 @@ const OPENING_SIZES: [(&str, ShotSize); 5] = [
 /// Opens on a picture as large as the words say beside their first one, where another detail of it is all that was read:
 /// `start tight on the table from above`.
 pub(crate) fn open_as_said(linked: &Linked, steps: &mut [Step]) {
-    let Some(step) = steps.first_mut() else { return };
+    // What is said before may be a story, and no step of the film.
+    let opens = |step: &&mut Step| {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        words.iter().any(|word| OPENS.contains(word))
+    };
+    let Some(step) = steps.iter_mut().find(opens) else { return };
     let framing = if step.movement == Move::Static { &mut step.end } else { &mut step.start };
     let words = linked.texts_in(step.words.unwrap_or_default());
     let said = words.windows(3).find_map(|three| {
@@ -259,7 +264,10 @@ pub(crate) fn rest_on_first_picture(
     let Some(own) = senses_of_turn(first.movement) else { return Ok(()) };
     let (own, any) = (Senses::named(own)?, Senses::named(&["turn", "left", "right", "whip", "nod"])?);
     let says = |step: &Step, turns: Senses| says(linked, senses, step, turns);
-    let is_opening = first.start == Framing::default() && !first.end.subjects.is_empty();
+    // `The guitar first: its head, then tilt down` rests on the head.
+    let (start, end) = (linked.expanded(&first.start.subjects), linked.expanded(&first.end.subjects));
+    let is_within = !end.is_empty() && end.iter().all(|id| start.contains(id));
+    let is_opening = (first.start == Framing::default() || is_within) && !first.end.subjects.is_empty();
     if is_opening
         && first.movement == second.movement
         && first.words != second.words
@@ -269,6 +277,9 @@ pub(crate) fn rest_on_first_picture(
     {
         (first.movement, first.either_way, first.amount) = (Move::Static, false, None);
         first.with.clear();
+        if is_within {
+            first.end = Framing { subjects: end, ..std::mem::take(&mut first.start) };
+        }
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use cinesplat_language::Linked;
 use cinesplat_operator::{Amount, FramePlace, Framing, Motion, Pass, Step, SubjectPart};
-use cinesplat_trajectory::Move;
+use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::briefs::directs;
 use crate::direction::Direction;
@@ -19,6 +19,18 @@ const PLACINGS: [(&[&str], Pass); 10] = [
     (&["beside"], Pass::Past),
     (&["next", "to"], Pass::Past),
     (&["in", "front", "of"], Pass::Front),
+];
+
+/// Words that say on what a thing stands, and no way of any kind.
+const INSIDE: [&[&str]; 8] = [
+    &["in", "the", "middle", "of"],
+    &["in", "the", "center", "of"],
+    &["in", "the", "centre", "of"],
+    &["at", "the", "end", "of"],
+    &["at", "the", "edge", "of"],
+    &["on", "top", "of"],
+    &["standing", "on"],
+    &["sitting", "on"],
 ];
 
 /// Removes ways past an object that only say which thing is meant: `push in on the cupboard under the tv`.
@@ -43,6 +55,14 @@ pub(crate) fn drop_descriptions(linked: &Linked, steps: &mut [Step]) {
                 && at.checked_sub(1).and_then(id_at).is_some_and(|id| is_subject(&id))
                 && id_at(at + placing.len()).is_some_and(|id| is_place(&id) && !is_subject(&id))
         };
+        let is_inside = |placing: &&&[&str]| (0..words.len()).any(|at| describes(at, placing));
+        if INSIDE.iter().any(|placing| is_inside(&placing)) {
+            step.via = None;
+            if step.movement == Move::FlyThrough {
+                step.movement = Move::PushIn;
+            }
+            continue;
+        }
         let mut placings = PLACINGS.iter().filter(|(_, how)| *how == via.how);
         if placings.any(|(placing, _)| (0..words.len()).any(|at| describes(at, placing))) {
             step.via = None;
@@ -97,6 +117,49 @@ pub(crate) fn pass_pairs(linked: &Linked, steps: &mut [Step]) {
         let says = |wanted: &str| linked.words_in(words).any(|(word, _)| word == wanted);
         if via.how == Pass::Along && linked.expanded(&via.objects).len() == 2 && says("past") && !says("along") {
             via.how = Pass::Past;
+        }
+    }
+}
+
+/// Stands nowhere but above what it sees straight from above: `begin from above the desk, vertical view`.
+pub(crate) fn stand_above(steps: &mut [Step]) {
+    for step in steps {
+        let is_overhead = step.movement == Move::Static && step.end.angle == Some(ShotAngle::Overhead);
+        step.via = step.via.take().filter(|via| !(is_overhead && via.how == Pass::From));
+    }
+}
+
+/// Cranes down from a picture from straight above to a level one, which no descent that keeps its pitch does.
+pub(crate) fn crane_from_above(steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let is_overhead = steps[nth - 1].end.angle == Some(ShotAngle::Overhead);
+        let step = &mut steps[nth];
+        let is_level = matches!(step.end.angle, Some(ShotAngle::EyeLevel | ShotAngle::Low));
+        if is_overhead && is_level && step.movement == Move::PedestalDown && step.start.angle.is_none() {
+            step.movement = Move::CraneDown;
+            // The camera turns to its subject on the way.
+            step.with.retain(|with| !matches!(with, Move::PanLeft | Move::PanRight));
+        }
+    }
+}
+
+/// Passes, on a turn from one thing to another, what the words lead across: `sweep right across the curtain and land on the
+/// armchair`.
+pub(crate) fn pass_across(linked: &Linked, steps: &mut [Step]) {
+    let turns = |step: &&mut Step| {
+        matches!(step.movement, Move::PanLeft | Move::PanRight) && step.via.is_none() && !step.end.subjects.is_empty()
+    };
+    for step in steps.iter_mut().filter(turns) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let across = words.iter().enumerate().filter(|(_, word)| matches!(**word, "across" | "past" | "via"));
+        let mut passed = across.filter_map(|(at, _)| {
+            let next = at + 1 + usize::from(words.get(at + 1) == Some(&"the"));
+            Some(linked.expanded(&[linked.slot_at(words.get(next)?)?]))
+        });
+        let (Some(objects), None) = (passed.next(), passed.next()) else { continue };
+        let is_other = |id: &u32| !step.end.subjects.contains(id) && !step.start.subjects.contains(id);
+        if objects.iter().all(is_other) {
+            step.via = Some(cinesplat_operator::Via { how: Pass::Past, objects });
         }
     }
 }

@@ -74,6 +74,58 @@ fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
     (with_all_of(&one, second) == one).then_some(one)
 }
 
+/// Removes a bare move that the next step says again with all that belongs to it (`pan right. Pan right, from the guitar to the
+/// palm`), and a step that only says again, in the same words, what the one before passes.
+pub(crate) fn drop_restated(direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [first, second] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
+        let same = first.movement == second.movement && !second.cut && !second.returns;
+        let bare =
+            |step: &Step| Step { words: step.words, either_way: step.either_way, ..Step::of(step.movement) } == *step;
+        let travels = matches!(first.movement, Move::Static | Move::Follow);
+        let leads = !second.start.subjects.is_empty() && !second.end.subjects.is_empty();
+        let passes = Step { via: second.via.clone(), ..first.clone() };
+        let is_echo = first.words == second.words
+            && second.via.is_some()
+            && (first.via.is_none() || first.via == second.via)
+            && bare(&Step { via: None, ..second.clone() });
+        let vertigo =
+            matches!(first.movement, Move::DollyZoomIn | Move::DollyZoomOut) && !second.end.subjects.is_empty();
+        let holds = first.words.is_some()
+            && first.words == second.words
+            && first.movement == Move::Static
+            && first.end.subjects == second.end.subjects
+            && first.duration_secs == second.duration_secs
+            && first.with == second.with;
+        // `.. from the skull to the lamp; rotate to the right` only says which way.
+        let is_family = same || first.movement.opposite() == Some(second.movement);
+        let is_turn = matches!(
+            first.movement,
+            Move::PanLeft | Move::PanRight | Move::OrbitLeft | Move::OrbitRight | Move::ArcLeft | Move::ArcRight
+        );
+        let says_way =
+            is_turn && is_family && first.either_way && !second.either_way && bare(second) && !second.returns;
+        if says_way && !first.end.subjects.is_empty() {
+            let one = Step {
+                movement: second.movement,
+                either_way: false,
+                words: first.joint_words(second),
+                ..first.clone()
+            };
+            direction.join_steps(nth, one);
+        } else if same && holds {
+            let end = framing_of(&second.end, &first.end);
+            direction.join_steps(nth, Step { end, ..first.clone() });
+        } else if same && is_echo {
+            direction.join_steps(nth, passes);
+        } else if same && !travels && bare(first) && (leads || vertigo) {
+            let words = first.joint_words(second);
+            let one = Step { words, ..second.clone() };
+            direction.join_steps(nth, one);
+        }
+    }
+}
+
 /// Words between things that are passed one after the other.
 const NEXT: [&str; 18] = [
     "then", "the", "and", ",", "past", "next", "after", "that", "finally", ".", "lastly", ";", "on", "by", "a", "to",

@@ -1,7 +1,7 @@
 //! Ways round a subject, from one side of it to another: `in profile, drift round to the front`.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Step, SubjectSide};
+use cinesplat_operator::{Amount, Step, SubjectSide};
 use cinesplat_trajectory::Move;
 
 use super::open::as_orbit;
@@ -27,6 +27,10 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
         if let Some(side) = side_of_end(&words, &is_own).filter(|_| circles && step.amount.is_none()) {
             step.end.side = Some(side);
         }
+        let meets = meets_us(&words) && (circles || step.movement == Move::Static && step.start.side.is_some());
+        if meets && step.end.side.is_none() && !matches!(step.amount, Some(Amount::Degrees(_))) {
+            step.end.side = Some(SubjectSide::FromFront);
+        }
         let from_to = from_side_to_side(&words, &is_own).filter(|_| circles);
         if let Some([first, last]) = profiles(&words).or(from_to) {
             (step.start.side, step.end.side) = (Some(first), Some(last));
@@ -39,6 +43,27 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
             step.start.subjects.clone_from(&step.end.subjects);
         }
     }
+}
+
+/// Words until when one goes round, words of looking at somebody, and who is looked at.
+const UNTIL: [&str; 5] = ["until", "till", "til", "untill", "so"];
+const LOOKS: [&str; 7] = ["stare", "look", "face", "facing", "staring", "looking", "point"];
+const US: [&str; 6] = ["us", "camera", "me", "you", "lens", "viewer"];
+
+/// Whether words go on until the subject and the camera look at each other: `till it's staring straight at us`, `until we're
+/// facing it`.
+fn meets_us(words: &[&str]) -> bool {
+    (0..words.len()).filter(|at| UNTIL.contains(&words[*at])).any(|at| {
+        let behind = &words[at + 1..words.len().min(at + 9)];
+        let looks = behind.iter().position(|word| LOOKS.contains(word));
+        let Some(looks) = looks.filter(|looks| *looks < 5) else { return false };
+        let by_us = behind[..looks].iter().any(|word| matches!(*word, "we" | "you" | "i"));
+        let at_us = behind[looks + 1..].iter().take(4).any(|word| US.contains(word));
+        let face = behind[looks] == "face" || behind[looks] == "facing";
+        // `Until we look at the door` is another picture.
+        by_us && face && behind[looks + 1..].iter().take(2).any(|word| matches!(*word, "it" | "him" | "her" | "them"))
+            || !by_us && at_us
+    })
 }
 
 /// The first and the last of several profiles: `profile from left, then front, then profile from right`. `None` where they
@@ -129,6 +154,17 @@ mod tests {
         assert_eq!(sides("from the front of <obj-1> to the rear"), None);
         assert_eq!(sides("from the front"), None);
         assert_eq!(sides("from left to <obj-0>"), None);
+    }
+
+    #[test]
+    fn a_way_round_ends_where_both_look_at_each_other() {
+        let meets = |text: &str| meets_us(&text.split(' ').collect::<Vec<_>>());
+        assert!(meets("orbit round till it 's staring straight at us"));
+        assert!(meets("circle until <obj-0> is facing the camera"));
+        assert!(meets("go round until we 're facing it"));
+        assert!(meets("arc round until it looks right at you"));
+        assert!(!meets("orbit until we look at <obj-1>"));
+        assert!(!meets("orbit <obj-0> facing it"));
     }
 
     #[test]

@@ -49,14 +49,16 @@ pub(crate) fn vase(rng: &mut SceneRng, color: &NamedColor, palette: &Palette) ->
     asset.scale_cells(0.5).centered()
 }
 
-/// A sculpture on a plinth: loops, stacked stones, or a head.
+/// A sculpture on a plinth, called by what it looks like: a knot, stacked stones, or a head.
 pub(crate) fn sculpture(rng: &mut SceneRng, palette: &Palette) -> Asset {
-    let mut asset = Asset::new("sculpture");
+    let shape = rng.index(3);
+    let mut asset =
+        Asset::new(["wooden knot sculpture", "white stacked stone sculpture", "white bust sculpture"][shape]);
     let stone = Material::patterned(Pattern::Marble, Vec3::splat(0.78), Vec3::splat(0.45), 0.2).gloss(0.4);
     let bronze = Material::metal(Vec3::new(0.3, 0.18, 0.08));
     let base = Material::plain(palette.dark.linear * 1.5).gloss(0.3);
     asset.block([0.0, 0.02, 0.0], [0.16, 0.04, 0.16], 0.004, base);
-    match rng.index(3) {
+    match shape {
         0 => loops(&mut asset, bronze),
         1 => {
             let mut y = 0.04;

@@ -1,0 +1,101 @@
+//! Where objects are, and how their boxes lie to one another.
+
+use cinesplat_objects::Object;
+use glam::DVec3;
+
+/// Where the objects of a scene are.
+#[derive(Debug, Clone, Copy)]
+pub struct Places<'a> {
+    /// The objects.
+    pub objects: &'a [Object],
+    /// Up direction of the world.
+    pub up: DVec3,
+}
+
+impl Places<'_> {
+    /// The only thing of a scan of which the other objects are parts.
+    pub(crate) fn only_whole(&self) -> Option<u32> {
+        let mut wholes = self.objects.iter().filter(|object| object.parent.is_none());
+        wholes.next().filter(|_| wholes.next().is_none()).map(|object| object.id)
+    }
+}
+
+/// How a thing lies to the one that places it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Relation {
+    Near,
+    Under,
+    Above,
+    On,
+}
+
+/// The box of an object: two level axes and the one that points up.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Extent {
+    fn of(object: &Object, up: DVec3) -> Self {
+        let (right, ahead) = up.any_orthonormal_pair();
+        let mut extent = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+        for corner in object.corners() {
+            for (at, axis) in [right, ahead, up].into_iter().enumerate() {
+                extent.low[at] = extent.low[at].min(corner.dot(axis));
+                extent.high[at] = extent.high[at].max(corner.dot(axis));
+            }
+        }
+        extent
+    }
+
+    fn middle(&self, axis: usize) -> f64 {
+        (self.low[axis] + self.high[axis]) / 2.0
+    }
+
+    /// Distance of two boxes along some axes.
+    fn gap(&self, other: &Self, axes: std::ops::Range<usize>) -> f64 {
+        axes.map(|axis| (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]).max(0.0).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    /// Level distance of two middles.
+    fn aside(&self, other: &Self) -> f64 {
+        (0..2).map(|axis| (self.middle(axis) - other.middle(axis)).powi(2)).sum::<f64>().sqrt()
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        (0..2).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max)
+    }
+
+    /// How badly this box lies so to another one; `None` where it does not.
+    pub(super) fn misfit(&self, relation: Relation, other: &Self) -> Option<f64> {
+        let is_higher = self.middle(2) > other.middle(2);
+        match relation {
+            Relation::Near => Some(self.gap(other, 0..3) + 0.01 * self.aside(other)),
+            Relation::Under => (!is_higher).then(|| self.gap(other, 0..2) + 0.1 * self.aside(other)),
+            Relation::Above => is_higher.then(|| self.gap(other, 0..2) + 0.1 * self.aside(other)),
+            Relation::On => is_higher.then(|| self.gap(other, 0..3) + 0.01 * self.aside(other)),
+        }
+    }
+}
+
+/// The thing that is nearest to a corner of all that there is.
+pub(super) fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
+    let all: Vec<Extent> = places.objects.iter().map(|object| Extent::of(object, places.up)).collect();
+    let low = [0, 1].map(|axis| all.iter().map(|extent| extent.low[axis]).fold(f64::INFINITY, f64::min));
+    let high = [0, 1].map(|axis| all.iter().map(|extent| extent.high[axis]).fold(f64::NEG_INFINITY, f64::max));
+    let to_corner = |id: &u32| {
+        let extent = boxes(places, &[*id]).first().copied()?;
+        let to_wall = |axis: usize| (extent.middle(axis) - low[axis]).min(high[axis] - extent.middle(axis));
+        Some((to_wall(0).powi(2) + to_wall(1).powi(2), *id))
+    };
+    ids.iter().filter_map(to_corner).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
+}
+
+/// The boxes of objects.
+pub(super) fn boxes(places: Places<'_>, ids: &[u32]) -> Vec<Extent> {
+    let known = ids.iter().filter_map(|id| places.objects.iter().find(|object| object.id == *id));
+    known.map(|object| Extent::of(object, places.up)).collect()
+}

@@ -1,0 +1,370 @@
+//! Names of things that other things place: `the plant under the clock`, `the other guitar`, `the three pictures above it`.
+//!
+//! Enters: the mentions of a prompt, and where the objects of the scene are. Leaves: of several things of one kind those that
+//! the words place. Where the words place nothing, the mentions stay.
+
+mod extent;
+mod relations;
+
+use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
+
+pub use extent::Places;
+use extent::{Relation, boxes, cornermost};
+use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_way};
+
+use crate::explained::{content, head, is_number, label, said};
+use crate::names::FoundMention;
+
+/// Words of another thing of the kind.
+const OTHERS: &str = "other another remaining";
+/// Farthest that a thing above or below another one is beside it, share of the other one's width.
+const ASIDE: f64 = 0.5;
+
+/// Farthest that things on another one, or right above it, are from it, scene units.
+const TOUCHING: f64 = 0.15;
+
+/// Points mentions that fit several things of a kind at the ones that the words place.
+pub(crate) fn point_by_places(
+    prompt: &str,
+    objects: &[NamedObject],
+    places: Places<'_>,
+    found: &mut Vec<FoundMention>,
+) {
+    let mut narrowed: Option<(Vec<u32>, u32)> = None;
+    let mut nth = 0;
+    while let Some(mention) = found.get(nth) {
+        nth += 1;
+        let mention = &mention.mention;
+        let words = said(prompt, mention);
+        if mention.ids.is_empty() || is_number(words) {
+            continue;
+        }
+        let before =
+            nth.checked_sub(2).and_then(|before| found.get(before)).map(|before| kind_of(objects, prompt, before));
+        let inside = placed_inside(objects, places, mention, (words, &before.unwrap_or_default()));
+        if let Some((alike, ids)) = inside.or_else(|| rest_of(words, narrowed.as_ref())) {
+            if let [one] = ids[..] {
+                narrowed = Some((alike, one));
+            }
+            found[nth - 1].mention.ids = ids;
+            continue;
+        }
+        let alike = alike(objects, mention, words);
+        let chosen = match &narrowed {
+            // `Its strings` are those of the guitar that was told from the others.
+            Some((all, one)) if mention.ids.len() > 1 && mention.ids == *all && is_part(objects, words, *one) => {
+                Some(vec![*one])
+            }
+            _ => other_one(prompt, found, nth - 1, &alike)
+                .or_else(|| placed(prompt, objects, places, (found, nth - 1), &alike))
+                // `The guitar`, after one was told from the others.
+                .or_else(|| {
+                    narrowed.clone().filter(|(all, _)| *all == alike && is_one(words)).map(|(_, one)| vec![one])
+                }),
+        };
+        let Some(ids) = chosen else { continue };
+        if let [one] = ids[..] {
+            narrowed = Some((alike, one));
+        }
+        found[nth - 1].mention.ids = ids;
+        absorb_place(prompt, found, nth);
+    }
+}
+
+/// Makes one mention of a thing and of what it is beside or on, mention `nth`, which is said to tell it from others.
+fn absorb_place(prompt: &str, found: &mut Vec<FoundMention>, nth: usize) {
+    let end = found[nth - 1].mention.bytes[1];
+    let Some(place) = found.get(nth).map(|next| next.mention.bytes) else { return };
+    let between = tokenize(prompt.get(end..place[0]).unwrap_or_default());
+    let is_place = matches!(relation_of(&between), Some(Relation::Near | Relation::On));
+    if is_place && !says_way(&between) {
+        found[nth - 1].mention.bytes[1] = place[1];
+        found.remove(nth);
+    }
+}
+
+/// Whether words name one thing and neither another one nor any of its kind.
+fn is_one(words: &str) -> bool {
+    let words = tokenize(words);
+    let is_last_singular =
+        words.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
+    let others =
+        |word: &Word| is_listed(OTHERS, &word.text) || matches!(word.text.as_str(), "a" | "an" | "each" | "every");
+    is_last_singular && !words.iter().any(others)
+}
+
+/// All things of the kind of a mention.
+fn kind_of(objects: &[NamedObject], prompt: &str, found: &FoundMention) -> Vec<u32> {
+    if found.mention.ids.len() > 1 {
+        return found.mention.ids.clone();
+    }
+    alike(objects, &found.mention, said(prompt, &found.mention))
+}
+
+/// Whether words name no word of a thing's label.
+fn is_part(objects: &[NamedObject], words: &str, id: u32) -> bool {
+    label(objects, id).is_some_and(|label| content(label).is_disjoint(&content(words)))
+}
+
+/// All things that the words of a mention fit as well as those that it was taken for, ascending.
+fn alike(objects: &[NamedObject], mention: &Mention, words: &str) -> Vec<u32> {
+    let Some(own) = mention.ids.first().and_then(|id| label(objects, *id)) else { return Vec::new() };
+    let (own_words, kind) = (content(own), head(own));
+    let told: Vec<&String> = own_words.iter().filter(|word| content(words).contains(*word)).collect();
+    let is_kind_said = told.iter().any(|word| Some((*word).clone()) == kind);
+    let fits = |object: &&NamedObject| {
+        let other = content(&object.label);
+        if is_kind_said {
+            head(&object.label) == kind && told.iter().all(|word| other.contains(*word))
+        } else {
+            other == own_words
+        }
+    };
+    objects.iter().filter(fits).map(|object| object.id).collect()
+}
+
+/// The only thing of the kind that no earlier mention names, where the words ask for another one.
+fn other_one(prompt: &str, found: &[FoundMention], nth: usize, alike: &[u32]) -> Option<Vec<u32>> {
+    let words = tokenize(said(prompt, &found[nth].mention));
+    let is_other = words.iter().any(|word| is_listed(OTHERS, &word.text));
+    let named = |id: &u32| found[..nth].iter().any(|before| before.mention.ids == [*id]);
+    let left: Vec<u32> = alike.iter().filter(|id| !named(id)).copied().collect();
+    (is_other && left.len() == 1 && alike.len() > 1).then_some(left)
+}
+
+/// The things of a kind that other things place.
+fn placed(
+    prompt: &str,
+    objects: &[NamedObject],
+    places: Places<'_>,
+    (found, nth): (&[FoundMention], usize),
+    alike: &[u32],
+) -> Option<Vec<u32>> {
+    let words = tokenize(said(prompt, &found[nth].mention));
+    // `The guitar in the corner` may be one mention.
+    let in_corner = words.last().is_some_and(|word| word.text == "corner");
+    let words = if in_corner { words[..words.iter().position(|word| word.text == "in")?].to_vec() } else { words };
+    let last = words.iter().rev().find(|word| word.is_alphabetic())?;
+    let is_plural = last.stem != last.text;
+    let count = words.iter().find_map(|word| {
+        let said = (2..=12_u32).find(|count| number_word(*count) == Some(&word.text));
+        said.map(|count| count as usize).or_else(|| word.text.parse().ok())
+    });
+    if alike.len() < 2 || count == Some(alike.len()) {
+        return None;
+    }
+    let behind = placed_behind(prompt, found, nth).or_else(|| placed_later(prompt, objects, found, nth));
+    let Some((relation, others)) = behind else {
+        let in_corner = !is_plural && says_corner(prompt, &found[nth].mention);
+        return in_corner.then(|| cornermost(places, alike)).flatten().map(|id| vec![id]);
+    };
+    let others = boxes(places, &others);
+    let mut fits: Vec<(f64, u32, f64)> = alike
+        .iter()
+        .filter_map(|id| {
+            let own = *boxes(places, &[*id]).first()?;
+            let misfits = others.iter().filter_map(|other| Some((own.misfit(relation, other)?, other.width())));
+            let (misfit, width) = misfits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some((misfit, *id, width))
+        })
+        .collect();
+    fits.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut ids: Vec<u32> = match (is_plural, count) {
+        (_, Some(count)) => fits.iter().take(count).map(|fit| fit.1).collect(),
+        (false, None) => fits.iter().take(1).map(|fit| fit.1).collect(),
+        (true, None) if matches!(relation, Relation::Under | Relation::Above) => {
+            fits.iter().filter(|(misfit, _, width)| *misfit < ASIDE * width).map(|fit| fit.1).collect()
+        }
+        (true, None) => return None,
+    };
+    ids.sort_unstable();
+    (!ids.is_empty()).then_some(ids)
+}
+
+/// The one thing of a kind that a mention with its place names: `the guitar by the door`. `before` are those of the mention before,
+/// of whose kind `the one by the door` is.
+fn placed_inside(
+    objects: &[NamedObject],
+    places: Places<'_>,
+    mention: &Mention,
+    (words, before): (&str, &[u32]),
+) -> Option<(Vec<u32>, Vec<u32>)> {
+    let words = tokenize(words);
+    let (front, relation, behind) = inner_place(&words)?;
+    let named = |words: &[Word]| -> Vec<u32> {
+        let Some(kind) = words.iter().rev().find(|word| word.is_alphabetic()) else { return Vec::new() };
+        let all: Vec<&NamedObject> =
+            objects.iter().filter(|object| head(&object.label).as_deref() == Some(&kind.stem)).collect();
+        // Of several those with all of the words, as `the blue door`.
+        let told = |object: &&&NamedObject| {
+            let names = content(&object.label);
+            words.iter().filter(|word| names.contains(&word.stem)).count()
+        };
+        let most = all.iter().map(|object| told(&object)).max().unwrap_or_default();
+        all.iter().filter(|object| told(object) == most).map(|object| object.id).collect()
+    };
+    let last = front.iter().rev().find(|word| word.is_alphabetic())?;
+    let alike = if last.text == "one" { before.to_vec() } else { named(front) };
+    let is_one = last.stem == last.text;
+    let mut around = named(behind);
+    if around.is_empty() {
+        around = mention.ids.iter().filter(|id| !alike.contains(id)).copied().collect();
+    }
+    let is_named = |id: &u32| alike.contains(id) || around.contains(id);
+    if alike.is_empty() || around.is_empty() || !mention.ids.iter().all(is_named) {
+        return None;
+    }
+    let others = boxes(places, &around);
+    let fits = alike.iter().filter_map(|id| {
+        let own = *boxes(places, &[*id]).first()?;
+        let misfit = others.iter().filter_map(|other| own.misfit(relation, other)).min_by(f64::total_cmp)?;
+        Some((misfit, *id))
+    });
+    let fits: Vec<(f64, u32)> = fits.collect();
+    let nearest = || fits.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| *id);
+    let ids = if is_one {
+        vec![nearest().or_else(|| matches!(alike[..], [_]).then(|| alike[0]))?]
+    } else {
+        // `The plates on the table` are all that stand there.
+        fits.iter().filter(|(misfit, _)| relation != Relation::Near && *misfit < TOUCHING).map(|(_, id)| *id).collect()
+    };
+    (!ids.is_empty()).then_some((alike, ids))
+}
+
+/// The only other thing of the kind from which one was told: `the other one`.
+fn rest_of(words: &str, narrowed: Option<&(Vec<u32>, u32)>) -> Option<(Vec<u32>, Vec<u32>)> {
+    let is_other = tokenize(words).iter().all(|word| is_listed("the other one", &word.text));
+    let (alike, one) = narrowed.filter(|_| is_other)?;
+    let others: Vec<u32> = alike.iter().filter(|id| *id != one).copied().collect();
+    matches!(others[..], [_]).then(|| (alike.clone(), others))
+}
+
+/// What the words behind a mention place it by: the next mention, or, by a pronoun, the one before.
+fn placed_behind(prompt: &str, found: &[FoundMention], nth: usize) -> Option<(Relation, Vec<u32>)> {
+    let end = found[nth].mention.bytes[1];
+    if let Some(next) = found.get(nth + 1).filter(|next| !next.mention.ids.is_empty()) {
+        let between = tokenize(prompt.get(end..next.mention.bytes[0]).unwrap_or_default());
+        if let Some(relation) = relation_of(&between) {
+            return Some((relation, next.mention.ids.clone()));
+        }
+    }
+    let before = nth.checked_sub(1).and_then(|before| found.get(before))?;
+    relation_to_pronoun(prompt, end).map(|relation| (relation, before.mention.ids.clone()))
+}
+
+/// What a later mention places a thing by: `the plant in the corner .. the clock on the wall above it`. The other thing is
+/// the only one of its kind.
+fn placed_later(
+    prompt: &str,
+    objects: &[NamedObject],
+    found: &[FoundMention],
+    nth: usize,
+) -> Option<(Relation, Vec<u32>)> {
+    let next = &found.get(nth + 1)?.mention;
+    let is_only = matches!(next.ids[..], [_]) && alike(objects, next, said(prompt, next)).len() < 2;
+    let relation = match relation_to_pronoun(prompt, next.bytes[1]).filter(|_| is_only)? {
+        Relation::Above => Relation::Under,
+        Relation::Under => Relation::Above,
+        Relation::Near => Relation::Near,
+        Relation::On => return None,
+    };
+    Some((relation, next.ids.clone()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_objects::Object;
+    use glam::DVec3;
+
+    /// A room with a door and a guitar at each end of one wall, a clock over the second one, a sofa under three of four
+    /// pictures, and two plants.
+    fn room() -> Vec<Object> {
+        let at = |id, label: &str, [x, y, z]: [f64; 3], half: f64| {
+            Object::from_box(id, label, DVec3::new(x, y, z), DVec3::splat(half))
+        };
+        vec![
+            at(1, "blue door", [-3.0, 1.0, 0.5], 0.5),
+            at(2, "guitar 1", [-2.5, 0.6, -0.7], 0.3),
+            at(3, "guitar 2", [2.5, 0.6, -2.5], 0.3),
+            at(4, "clock", [2.9, 1.9, 1.0], 0.2),
+            at(5, "potted plant 1", [-2.6, 0.6, -1.6], 0.4),
+            at(6, "potted plant 2", [2.5, 0.6, 1.2], 0.4),
+            at(7, "sofa", [0.0, 0.4, 2.5], 0.9),
+            at(8, "picture 1", [-0.7, 1.6, 2.9], 0.2),
+            at(9, "picture 2", [0.0, 1.6, 2.9], 0.2),
+            at(10, "picture 3", [0.7, 1.6, 2.9], 0.2),
+            at(11, "picture 4", [0.0, 1.6, -2.9], 0.2),
+        ]
+    }
+
+    fn pointed(prompt: &str, mentions: &[(&str, &[u32])]) -> Vec<Vec<u32>> {
+        let objects = room();
+        let names: Vec<NamedObject> =
+            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+        let mut from = 0;
+        let mut found: Vec<FoundMention> = Vec::new();
+        for (words, ids) in mentions {
+            let start = from + prompt[from..].find(words).unwrap();
+            from = start + words.len();
+            let mention = Mention { bytes: [start, from], ids: ids.to_vec() };
+            found.push(FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+        }
+        point_by_places(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
+        found.into_iter().map(|found| found.mention.ids).collect()
+    }
+
+    #[test]
+    fn a_thing_beside_another_is_the_nearest_of_its_kind() {
+        let ids = pointed(
+            "the guitar by the blue door, down its strings, then the other guitar",
+            &[("the guitar", &[2, 3]), ("the blue door", &[1]), ("its strings", &[2, 3]), ("the other guitar", &[2])],
+        );
+        assert_eq!(ids, [[2], [2], [3]]);
+        let ids = pointed("push in on the guitar and the clock", &[("the guitar", &[2, 3]), ("the clock", &[4])]);
+        assert_eq!(ids, [vec![2, 3], vec![4]]);
+    }
+
+    #[test]
+    fn a_thing_that_was_taken_for_its_place_is_the_thing() {
+        assert_eq!(pointed("start on the guitar by the blue door", &[("the guitar by the blue door", &[1])]), [[2]]);
+        let ids = pointed(
+            "the guitar by the door, then the clock, and back to the guitar",
+            &[("the guitar by the door", &[1]), ("the clock", &[4]), ("the guitar", &[2])],
+        );
+        assert_eq!(ids, [[2], [4], [2]]);
+        assert_eq!(pointed("push in on the plant under the clock", &[("the plant under the clock", &[5])]), [[6]]);
+        let ids = pointed("truck along the pictures over the sofa", &[("the pictures over the sofa", &[7])]);
+        assert_eq!(ids, [[8, 9, 10]]);
+        let ids: &[(&str, &[u32])] =
+            &[("guitars", &[2, 3]), ("the one near the door", &[1]), ("the other one", &[2, 3])];
+        assert_eq!(
+            pointed("two guitars: show the one near the door, then the other one", ids),
+            [vec![2, 3], vec![2], vec![3]]
+        );
+    }
+
+    #[test]
+    fn a_thing_below_another_is_told_by_it_on_either_side() {
+        let plant = vec![vec![6], vec![4]];
+        let clock: &[(&str, &[u32])] = &[("the plant", &[5]), ("the clock", &[4])];
+        assert_eq!(pointed("tilt up from the plant in the corner to the clock on the wall above it", clock), plant);
+        assert_eq!(pointed("push in on the plant standing under the clock", clock), plant);
+        assert_eq!(pointed("pan from the plant to the clock", clock), [vec![5], vec![4]]);
+    }
+
+    #[test]
+    fn things_above_another_are_counted() {
+        let pictures: &[(&str, &[u32])] = &[("the sofa", &[7]), ("the three pictures", &[8, 9, 10, 11])];
+        assert_eq!(pointed("the sofa dead centre, the three pictures above it all in", pictures)[1], [8, 9, 10]);
+        let pictures: &[(&str, &[u32])] = &[("the pictures", &[8, 9, 10, 11]), ("the sofa", &[7])];
+        assert_eq!(pointed("truck along the pictures over the sofa", pictures)[0], [8, 9, 10]);
+        assert_eq!(pointed("the pictures, then the sofa", pictures)[0], [8, 9, 10, 11]);
+    }
+
+    #[test]
+    fn a_thing_in_the_corner_is_nearest_to_one() {
+        assert_eq!(pointed("whip to the guitar in the far corner", &[("the guitar", &[2, 3])]), [[3]]);
+        assert_eq!(pointed("tilt up the guitar in the corner", &[("the guitar in the corner", &[2])]), [[3]]);
+    }
+}

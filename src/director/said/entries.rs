@@ -1,0 +1,87 @@
+//! Ways into a room: `come in from the grey door, walk up to the table`. Who comes in at a door stands there first and looks
+//! into the room.
+
+use cinesplat_language::{Linked, is_listed};
+use cinesplat_objects::Object;
+use cinesplat_operator::{Framing, Pass, Step, Via};
+use cinesplat_trajectory::Move;
+
+use super::directions::is_form;
+use crate::direction::Direction;
+
+/// What one comes in by.
+const DOORS: &str = "door doors doorway entrance gate archway arch hatch";
+/// Verbs of somebody who comes in, and words between the verb and the door.
+const ENTERS: [&str; 10] = ["come", "enter", "walk", "step", "go", "move", "glide", "fly", "drift", "float"];
+const INTO: &str = "in inside into through from";
+
+/// Begins at the door by which the words come in what the next step does.
+pub(crate) fn come_in_at_doors(linked: &Linked, objects: &[Object], direction: &mut Direction) {
+    let mut nth = 1;
+    while nth < direction.program.steps.len() {
+        let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
+        match entered(linked, objects, first, second) {
+            Some(one) => direction.join_steps(nth, one),
+            None => nth += 1,
+        }
+    }
+}
+
+/// The second step, from the door that the first one only comes in by.
+fn entered(linked: &Linked, objects: &[Object], first: &Step, second: &Step) -> Option<Step> {
+    let is_door = |id: &u32| {
+        let object = objects.iter().find(|object| object.id == *id);
+        object.is_some_and(|object| object.label.split(' ').any(|word| is_listed(DOORS, word)))
+    };
+    let words = linked.texts_in(first.words?);
+    let mut named = words.iter().enumerate().filter_map(|(at, word)| Some((at, linked.slot_at(word)?)));
+    let (at, door) = named.next().filter(|_| named.next().is_none())?;
+    let door = linked.expanded(&[door]);
+    let comes = words[..at].iter().any(|word| ENTERS.iter().any(|verb| is_form(word, verb)))
+        && words[..at].iter().any(|word| is_listed(INTO, word) || is_form(word, "enter"));
+    let shown = |framing: &Framing| framing.subjects.iter().all(|id| door.contains(id));
+    let is_entry = comes && door.iter().any(is_door) && shown(&first.start) && shown(&first.end);
+    let goes = matches!(second.movement, Move::PushIn | Move::Follow | Move::FlyThrough)
+        && !second.cut
+        && second.via.is_none()
+        && second.start.subjects.iter().all(|id| door.contains(id))
+        && !second.end.subjects.is_empty()
+        && !second.end.subjects.iter().any(|id| door.contains(id));
+    (is_entry && goes).then(|| {
+        let angle = second.end.angle.or(first.end.angle).or(first.start.angle);
+        let end = Framing { angle, ..second.end.clone() };
+        let via = Some(Via { how: Pass::From, objects: door });
+        Step { start: Framing::default(), end, via, words: first.joint_words(second), ..second.clone() }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_operator::Program;
+    use glam::DVec3;
+
+    fn directed(text: &str, split: usize) -> Vec<Step> {
+        let words = text.split(' ');
+        let spans: Vec<[usize; 2]> =
+            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()])).collect();
+        let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![5, 7], ..Linked::default() };
+        let object = |id, label| Object::from_box(id, label, DVec3::ZERO, DVec3::ONE);
+        let objects = [object(5, "gray door"), object(7, "dining table")];
+        let about = |id: u32| Framing { subjects: vec![id], ..Framing::default() };
+        let step = |id: u32, words| Step { end: about(id), words: Some(words), ..Step::of(Move::PushIn) };
+        let steps = vec![step(5, [0, split]), step(7, [split, text.len()])];
+        let program = Program { steps, ..Program::default() };
+        let mut direction = Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
+        come_in_at_doors(&linked, &objects, &mut direction);
+        direction.program.steps
+    }
+
+    #[test]
+    fn who_comes_in_at_a_door_begins_there() {
+        let steps = directed("come in from <obj-0> , walk up to <obj-1>", 22);
+        assert_eq!(steps.len(), 1);
+        assert_eq!(steps[0].via, Some(Via { how: Pass::From, objects: vec![5] }));
+        assert_eq!(directed("push in on <obj-0> , walk up to <obj-1>", 20).len(), 2);
+    }
+}
