@@ -152,8 +152,8 @@ fn small_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
 
 /// Size of the splats of a subject over the frame's height at which a picture looks painted, and at which it is a
 /// smear; and what that costs where the words state no size.
-const SOFT_FRAC: (f64, f64) = (30.0 / 720.0, 80.0 / 720.0);
-const SOFT_COST: f64 = 1.2;
+const SOFT_FRAC: (f64, f64) = (40.0 / 720.0, 100.0 / 720.0);
+const SOFT_COST: f64 = 0.8;
 
 /// Cost of a subject so close that the capture does not hold, where nothing asks for that.
 fn soft_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {

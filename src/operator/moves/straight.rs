@@ -84,7 +84,7 @@ fn slide(
     if !placed && direction.is_vertical() && context.step.start.angle.is_none() && !target.ids.is_empty() {
         first = leveled(context, &first, &target);
     }
-    if travels && !direction.is_vertical() {
+    if travels && !direction.is_vertical() && context.parameters[7] < HOLDING_TO {
         let held = holding(context, &first, [&Some(target.clone()), &context.end, &passed]);
         if held != first {
             match (segments.last_mut(), context.before) {
@@ -142,6 +142,8 @@ fn slide(
     segments
 }
 
+/// Value of parameter 7 up to which a slide steps back for what it leads past: there may be no room for that.
+const HOLDING_TO: f64 = 0.6;
 /// Height in the frame that things take up at most which a slide leads past.
 const MOST_PASSED: f64 = 0.86;
 /// Farthest that a slide steps back for them, over its distance.
