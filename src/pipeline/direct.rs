@@ -96,7 +96,7 @@ pub struct StepReading {
 /// Takes a low camera along things on a table for one at their level: from below there is only the table.
 fn level_with_things(program: &mut Program, objects: &ObjectSet, up: glam::DVec3) {
     let bears = |id: &u32| objects.borne_heights(*id, up).is_some();
-    let feet = objects.objects.iter().flat_map(|object| object.corners()).map(|corner| corner.dot(up));
+    let feet = objects.objects.iter().flat_map(cinesplat_objects::Object::corners).map(|corner| corner.dot(up));
     let floor = feet.fold(f64::INFINITY, f64::min);
     for step in &mut program.steps {
         let along = step.via.as_ref().is_some_and(|via| via.how == Pass::Along && via.objects.iter().any(bears));

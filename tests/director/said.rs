@@ -155,7 +155,8 @@ fn a_place_that_tells_which_thing_is_meant_is_no_thing() {
     let objects = [named(1, "teal base cabinet"), named(2, "red teapot"), named(3, "wooden table")];
     let slots = |prompt: &str| director.link(prompt, &objects).unwrap().slots;
     assert_eq!(slots("drift towards the teapot on the shelf and finish tight on it"), [2]);
-    assert_eq!(slots("push in on the teapot on the table"), [2, 3]);
+    assert_eq!(slots("push in on the teapot on the table"), [2]);
+    assert_eq!(slots("pan from the teapot to the table"), [2, 3]);
 }
 
 #[test]

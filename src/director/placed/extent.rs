@@ -50,7 +50,7 @@ impl Extent {
     }
 
     fn middle(&self, axis: usize) -> f64 {
-        (self.low[axis] + self.high[axis]) / 2.0
+        f64::midpoint(self.low[axis], self.high[axis])
     }
 
     /// Distance of two boxes along some axes.

@@ -94,7 +94,7 @@ pub(crate) fn join_said_again(linked: &Linked, direction: &mut Direction) {
                 || linked.is_quantity(word)
                 || !word.starts_with(char::is_alphanumeric) && linked.slot_at(word).is_none()
         };
-        if circles && same && !second.cut && first.words != second.words && words.iter().all(|word| is_plain(&word)) {
+        if circles && same && !second.cut && first.words != second.words && words.iter().all(is_plain) {
             let (amount, words) = (second.amount, first.joint_words(second));
             direction.join_steps(nth, Step { amount, words, ..first.clone() });
         }

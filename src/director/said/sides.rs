@@ -47,7 +47,8 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
 
 /// Words until when one goes round, words of looking at somebody, and who is looked at.
 const UNTIL: [&str; 5] = ["until", "till", "til", "untill", "so"];
-const LOOKS: [&str; 7] = ["stare", "look", "face", "facing", "staring", "looking", "point"];
+const LOOKS: [&str; 11] =
+    ["stare", "stares", "staring", "look", "looks", "looking", "face", "faces", "facing", "point", "points"];
 const US: [&str; 6] = ["us", "camera", "me", "you", "lens", "viewer"];
 
 /// Whether words go on until the subject and the camera look at each other: `till it's staring straight at us`, `until we're

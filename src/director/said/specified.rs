@@ -56,7 +56,7 @@ pub(crate) fn skim_tops(linked: &Linked, objects: &[Object], steps: &mut [Step])
             continue;
         }
         step.via = None;
-        let says_angle = words.windows(2).any(|pair| matches!(pair, ["low", "angle"] | ["low", "-"]));
+        let says_angle = words.windows(2).any(|pair| matches!(pair, ["low", "angle" | "-"]));
         if !(says_angle && step.end.angle == Some(ShotAngle::Low)) {
             step.end.angle = Some(ShotAngle::EyeLevel);
         }
@@ -178,7 +178,7 @@ mod tests {
         let level = (Move::Follow, true, Some(ShotAngle::EyeLevel));
         assert_eq!(skimmed("across <obj-1> to <obj-0> , low , just above the wood"), level);
         assert_eq!(skimmed("to <obj-0> , barely over <obj-1>"), level);
-        assert_eq!(skimmed("to <obj-0> , right over the top of <obj-1>").1, false);
+        assert!(!skimmed("to <obj-0> , right over the top of <obj-1>").1);
         assert_eq!(skimmed("fly high over <obj-1> to <obj-0>"), (Move::FlyThrough, false, None));
     }
 

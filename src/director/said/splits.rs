@@ -1,12 +1,13 @@
 //! Steps whose words say two moves: `hold on the profile, orbit round till it faces us`, `swing round it, and back off until all
 //! of it is in`, `move forward, swing left to face the sofa`.
 
-use cinesplat_language::{Linked, MAX_STEPS, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind};
 use cinesplat_operator::{Amount, Framing, Step, SubjectPart, SubjectSide};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
 use crate::direction::Direction;
+use crate::keys::MAX_KEYS;
 
 /// Marks and words before a move of its own.
 const JOINTS: [&str; 6] = [",", ";", ".", "then", "and", "before"];
@@ -31,7 +32,7 @@ const SIDES: [(&str, Move, Move); 2] =
 /// Makes two steps of one whose words say a second move that the network has left out.
 pub(crate) fn split_moves(linked: &Linked, direction: &mut Direction) {
     for nth in (0..direction.program.steps.len()).rev() {
-        if direction.program.steps.len() >= MAX_STEPS {
+        if direction.program.steps.len() >= MAX_KEYS {
             return;
         }
         let steps = &direction.program.steps;
@@ -49,13 +50,25 @@ pub(crate) fn split_moves(linked: &Linked, direction: &mut Direction) {
         else {
             continue;
         };
+        // The step before tells the first of the two already.
+        let is_told = |before: &Step| {
+            let [told, from] = [before.words.unwrap_or_default(), first.words.unwrap_or_default()];
+            before.movement == first.movement && before.end == first.end && told[0] == from[0] && told[1] <= from[1]
+        };
+        if let Some(before) = nth.checked_sub(1).and_then(|before| steps.get(before)).filter(|before| is_told(before)) {
+            let words = before.words.zip(second.words).map(|(before, own)| [before[1], own[1]]);
+            direction.program.steps[nth] = Step { words, ..second };
+            continue;
+        }
         let certainty = direction.certainty.get(nth).cloned();
         direction.program.steps.splice(nth..=nth, [first, second]);
         if let Some(certainty) = certainty {
             direction.certainty.insert(nth, certainty);
         }
-        // The network's cameras are those of one move.
-        direction.step_cameras.clear();
+        // The network's cameras are those of both moves together.
+        if let Some(cameras) = direction.step_cameras.get(nth).copied() {
+            direction.step_cameras.insert(nth, cameras);
+        }
     }
 }
 
