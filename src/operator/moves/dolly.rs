@@ -160,7 +160,8 @@ fn within_capture(
     }
     let void = void_frac(context.world, &far);
     let distance = |state: &CameraState| state.pose.position.distance(target.aim);
-    if void < LEAST_VOID || far.fov_y_rad != near.fov_y_rad {
+    let zooms = (far.fov_y_rad - near.fov_y_rad).abs() > 1e-9;
+    if void < LEAST_VOID || zooms {
         return (first, last);
     }
     let way = near.pose.position - far.pose.position;

@@ -46,7 +46,7 @@ pub(super) fn times(linked: &Linked, text: &Text<'_>) -> Times {
             times.each_secs = Some(secs);
         } else if FILMS.contains(&secs) {
             times.total_secs = Some(
-                range_to(text, at).filter(|to| (secs..2.0 * secs).contains(to)).map_or(secs, |to| (secs + to) / 2.0),
+                range_to(text, at).filter(|to| (secs..2.0 * secs).contains(to)).map_or(secs, |to| secs.midpoint(to)),
             );
         }
     }

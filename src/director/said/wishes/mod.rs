@@ -77,7 +77,7 @@ pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut D
     let denied = denied(linked, &text.words);
     let times = lengths::times(linked, &text);
     let says = |phrase: &&[&str]| text.words.windows(phrase.len()).any(|words| words == *phrase);
-    let lingers = LINGERS.iter().any(|phrase| says(&phrase)).then_some(lengths::LINGER_SECS);
+    let lingers = LINGERS.iter().any(says).then_some(lengths::LINGER_SECS);
     let percent = text.words.iter().filter_map(|word| linked.quantity_at(word));
     let percent =
         percent.filter(|quantity| quantity.kind == QuantityKind::Percent).map(|quantity| quantity.value).next();

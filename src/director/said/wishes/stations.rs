@@ -156,7 +156,7 @@ fn fill_between(text: &Text<'_>, things: &Things<'_>, stations: &mut Vec<Station
 /// starting with the one at the window`.
 fn split_anchor(text: &Text<'_>, linked: &Linked, things: &Things<'_>, stations: &[Station]) -> Option<Vec<Station>> {
     let says = |phrase: &&[&str]| text.words.windows(phrase.len()).any(|words| words == *phrase);
-    let is_turn = IN_TURN.iter().any(|phrase| says(&phrase));
+    let is_turn = IN_TURN.iter().any(says);
     let sells = text.has(0..text.words.len(), WARES);
     let nth = stations
         .iter()

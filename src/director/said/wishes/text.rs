@@ -139,6 +139,7 @@ pub(super) fn is_object(word: &str) -> bool {
 }
 
 #[cfg(test)]
+#[expect(clippy::redundant_closure_for_method_calls, reason = "the methods are those of one lifetime")]
 mod tests {
     use super::*;
 
