@@ -14,6 +14,9 @@ pub struct StepCertainty {
     pub words: Option<[usize; 2]>,
 }
 
+/// Certainty of a film of which the words say what is seen, and leave the moves open.
+const OPEN_PROBABILITY: f64 = 0.25;
+
 /// The director's output for a prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
@@ -41,6 +44,26 @@ impl Direction {
         }
         self.program.steps[nth - 1] = one;
         self.remove_step(nth);
+    }
+
+    /// The words of all steps, from the first to the last.
+    pub(crate) fn span(&self) -> Option<[usize; 2]> {
+        let words = || self.program.steps.iter().filter_map(|step| step.words);
+        let (from, to) = (words().map(|[from, _]| from).min(), words().map(|[_, to]| to).max());
+        from.zip(to).map(|(from, to)| [from, to])
+    }
+
+    /// Films other steps than the network has read, which are as good as the words leave it open.
+    pub(crate) fn replace_steps(&mut self, steps: Vec<Step>) {
+        let certainty = |step: &Step| StepCertainty {
+            probability: OPEN_PROBABILITY,
+            weakest: ("move", OPEN_PROBABILITY),
+            words: step.words,
+        };
+        self.certainty = steps.iter().map(certainty).collect();
+        // The network's cameras belong to other steps.
+        self.step_cameras.clear();
+        self.program.steps = steps;
     }
 
     /// Inserts a step that rests where step `nth` begins, with its certainty.

@@ -100,10 +100,10 @@ pub(crate) fn own_parts(
 ) -> Result<(), LanguageError> {
     let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
     named.dedup();
-    let only = match (&named[..], objects) {
-        ([id], _) => *id,
-        ([], [object]) => object.id,
-        ([], _) if whole.is_some() => whole.unwrap_or_default(),
+    let only = match (&named[..], objects, whole) {
+        ([id], ..) => *id,
+        ([], [object], _) => object.id,
+        ([], _, Some(whole)) => whole,
         _ => return Ok(()),
     };
     let Some(whole) = label(objects, only).map(str::to_owned) else { return Ok(()) };

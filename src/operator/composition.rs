@@ -164,6 +164,6 @@ fn widths(world: &World, points: &[DVec3]) -> (f64, f64) {
 }
 
 /// The least and the largest of some values.
-fn span(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(super) fn span(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }

@@ -312,15 +312,11 @@ impl Subject {
         let is_alone = num_near > 0 && num_near as f64 >= ALONE_FRAC * all_solid().count() as f64;
         let corners = object.corners().to_vec();
         let stride = (solid.len() / SUBJECT_POINTS).max(1);
-        let points = if solid.len() >= 20 {
-            solid.iter().step_by(stride).map(|&i| gaussians.mean_world(i)).collect()
+        let (points, outline) = if solid.len() >= 20 {
+            let points = solid.iter().step_by(stride).map(|&i| gaussians.mean_world(i)).collect();
+            (points, outline(gaussians, &solid))
         } else {
-            corners.clone()
-        };
-        let outline = if solid.len() >= 20 {
-            outline(&solid.iter().map(|&i| gaussians.mean_world(i)).collect::<Vec<_>>())
-        } else {
-            corners.clone()
+            (corners.clone(), corners.clone())
         };
         let facets = Facets::of(gaussians, &solid, object.center, object.radius());
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !near[i]);

@@ -93,11 +93,12 @@ pub struct StepReading {
     pub weakest: (&'static str, f64),
 }
 
-/// Takes a low camera along things on a table for one at their level: from below there is only the table.
+/// Takes a low camera along things on a table, or one at the height of the table, for one at their level: from below there is
+/// only the table.
 fn level_with_things(program: &mut Program, objects: &ObjectSet, up: glam::DVec3) {
     let bears = |id: &u32| objects.borne_heights(*id, up).is_some();
-    let feet = objects.objects.iter().flat_map(cinesplat_objects::Object::corners).map(|corner| corner.dot(up));
-    let floor = feet.fold(f64::INFINITY, f64::min);
+    let feet = || objects.objects.iter().flat_map(cinesplat_objects::Object::corners).map(|corner| corner.dot(up));
+    let floor = || feet().fold(f64::INFINITY, f64::min);
     for step in &mut program.steps {
         let along = step.via.as_ref().is_some_and(|via| via.how == Pass::Along && via.objects.iter().any(bears));
         for framing in [&mut step.start, &mut step.end] {
@@ -107,7 +108,7 @@ fn level_with_things(program: &mut Program, objects: &ObjectSet, up: glam::DVec3
                 && framing.subjects.iter().all(|id| objects.bearer_of(*id, up) == bearer);
             // `At bench height` along a bench is the height of what stands on it.
             let is_below =
-                |id: &u32, height: f64| objects.borne_heights(*id, up).is_some_and(|[low, _]| height < low - floor);
+                |id: &u32, height: f64| objects.borne_heights(*id, up).is_some_and(|[low, _]| height < low - floor());
             let passed = step.via.as_ref().filter(|_| along && bearer.is_some());
             if let (Some(via), Some(height)) = (passed, framing.height)
                 && via.objects.iter().any(|id| is_below(id, height))
@@ -168,15 +169,15 @@ pub fn direct(
     let looks = settings.solve != SolveLevel::Off;
     let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, &objects, &ids)));
     if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
-        let whole = lone_thing::whole(&objects).map(|whole| whole.id).filter(|whole| !ids.contains(whole));
-        let of_whole = whole.map(|id| Subjects::new(&scene.gaussians, &objects, &[id]));
-        // A neck has the front of its guitar.
-        let subjects = of_whole.as_ref().unwrap_or(subjects);
-        let fronts = times.measure(Phase::Judge, || subjects.fronts(&world.frame))?;
-        let parts = |id: u32| ids.iter().filter(move |_| Some(id) == whole).copied();
-        for (id, direction) in fronts {
-            parts(id).chain([id]).for_each(|id| world.set_front(id, direction));
-        }
+        let fronts = times.measure(Phase::Judge, || match lone_thing::whole(&objects) {
+            // A neck has the front of its guitar.
+            Some(whole) if !ids.contains(&whole.id) => {
+                let fronts = Subjects::new(&scene.gaussians, &objects, &[whole.id]).fronts(&world.frame)?;
+                Ok(fronts.iter().flat_map(|(_, direction)| ids.iter().map(|id| (*id, *direction))).collect())
+            }
+            _ => subjects.fronts(&world.frame),
+        })?;
+        fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
     }
     let program = &direction.program;
     // A shaky camera keeps clear wherever the hand takes it.

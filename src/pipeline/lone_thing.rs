@@ -33,10 +33,10 @@ pub(super) fn link<'a>(
     objects: &'a ObjectSet,
     up: DVec3,
 ) -> Result<(Linked, Cow<'a, ObjectSet>), PipelineError> {
+    let places = Places { objects: &objects.objects, up };
     let whole = objects.unnamed_whole();
     let name = whole.map(|_| name_of_whole(director, prompt, objects)).transpose()?.flatten();
     let (Some(whole), Some(name)) = (whole, name) else {
-        let places = Places { objects: &objects.objects, up };
         return Ok((director.link_placed(prompt, &names(&objects.objects), places)?, Cow::Borrowed(objects)));
     };
     let (id, description) = (whole.id, &whole.label);
@@ -47,7 +47,6 @@ pub(super) fn link<'a>(
     // Words for its parts are known once its name is; `the top of the skull` says where to look at it.
     let is_place = |object: &&Object| object.parent == Some(id) && is_listed(PLACES, &object.label);
     let of_kinds: Vec<Object> = renamed.objects.iter().filter(|object| !is_place(object)).cloned().collect();
-    let places = Places { objects: &objects.objects, up };
     let mut linked = director.link_placed(prompt, &names(&of_kinds), places)?;
     let mut taken = vec![name];
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
@@ -107,9 +106,13 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         }
     }
     // Who says only `the eye socket` names a part, and a part is no name of the whole.
-    let parts = found.iter().map(|name| is_part(name, objects)).collect::<Result<Vec<bool>, _>>()?;
-    let mut are_parts = parts.into_iter();
-    found.retain(|_| !are_parts.next().unwrap_or_default());
+    let mut wholes = Vec::new();
+    for name in found {
+        if !is_part(&name, objects)? {
+            wholes.push(name);
+        }
+    }
+    let mut found = wholes;
     found.sort_by_key(|name| {
         let named = tokenize(name);
         let head = named.last();

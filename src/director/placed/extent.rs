@@ -65,12 +65,12 @@ impl Extent {
         (0..2).map(|axis| (self.middle(axis) - other.middle(axis)).powi(2)).sum::<f64>().sqrt()
     }
 
-    pub(super) fn width(&self) -> f64 {
+    fn width(&self) -> f64 {
         (0..2).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max)
     }
 
     /// How badly this box lies so to another one; `None` where it does not.
-    pub(super) fn misfit(&self, relation: Relation, other: &Self) -> Option<f64> {
+    fn misfit(&self, relation: Relation, other: &Self) -> Option<f64> {
         let is_higher = self.middle(2) > other.middle(2);
         match relation {
             Relation::Near => Some(self.gap(other, 0..3) + 0.01 * self.aside(other)),
@@ -87,15 +87,26 @@ pub(super) fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
     let low = [0, 1].map(|axis| all.iter().map(|extent| extent.low[axis]).fold(f64::INFINITY, f64::min));
     let high = [0, 1].map(|axis| all.iter().map(|extent| extent.high[axis]).fold(f64::NEG_INFINITY, f64::max));
     let to_corner = |id: &u32| {
-        let extent = boxes(places, &[*id]).first().copied()?;
+        let extent = box_of(places, *id)?;
         let to_wall = |axis: usize| (extent.middle(axis) - low[axis]).min(high[axis] - extent.middle(axis));
         Some((to_wall(0).powi(2) + to_wall(1).powi(2), *id))
     };
     ids.iter().filter_map(to_corner).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
 }
 
+/// How badly a thing lies so to the one of others to which it does best, and the width of that; `None` where it does not.
+pub(super) fn fit(places: Places<'_>, id: u32, relation: Relation, others: &[Extent]) -> Option<(f64, f64)> {
+    let own = box_of(places, id)?;
+    let fits = others.iter().filter_map(|other| Some((own.misfit(relation, other)?, other.width())));
+    fits.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
 /// The boxes of objects.
 pub(super) fn boxes(places: Places<'_>, ids: &[u32]) -> Vec<Extent> {
-    let known = ids.iter().filter_map(|id| places.objects.iter().find(|object| object.id == *id));
-    known.map(|object| Extent::of(object, places.up)).collect()
+    ids.iter().filter_map(|id| box_of(places, *id)).collect()
+}
+
+fn box_of(places: Places<'_>, id: u32) -> Option<Extent> {
+    let object = places.objects.iter().find(|object| object.id == id)?;
+    Some(Extent::of(object, places.up))
 }

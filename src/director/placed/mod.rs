@@ -9,7 +9,7 @@ mod relations;
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
 
 pub use extent::Places;
-use extent::{Relation, boxes, cornermost};
+use extent::{Relation, boxes, cornermost, fit};
 use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_way};
 
 use crate::explained::{content, head, is_number, label, said};
@@ -161,12 +161,7 @@ fn placed(
     let others = boxes(places, &others);
     let mut fits: Vec<(f64, u32, f64)> = alike
         .iter()
-        .filter_map(|id| {
-            let own = *boxes(places, &[*id]).first()?;
-            let misfits = others.iter().filter_map(|other| Some((own.misfit(relation, other)?, other.width())));
-            let (misfit, width) = misfits.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            Some((misfit, *id, width))
-        })
+        .filter_map(|id| fit(places, *id, relation, &others).map(|(misfit, width)| (misfit, *id, width)))
         .collect();
     fits.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut ids: Vec<u32> = match (is_plural, count) {
@@ -215,12 +210,8 @@ fn placed_inside(
         return None;
     }
     let others = boxes(places, &around);
-    let fits = alike.iter().filter_map(|id| {
-        let own = *boxes(places, &[*id]).first()?;
-        let misfit = others.iter().filter_map(|other| own.misfit(relation, other)).min_by(f64::total_cmp)?;
-        Some((misfit, *id))
-    });
-    let fits: Vec<(f64, u32)> = fits.collect();
+    let fits: Vec<(f64, u32)> =
+        alike.iter().filter_map(|id| Some((fit(places, *id, relation, &others)?.0, *id))).collect();
     let nearest = || fits.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| *id);
     let ids = if is_one {
         vec![nearest().or_else(|| matches!(alike[..], [_]).then(|| alike[0]))?]

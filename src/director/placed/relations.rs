@@ -20,6 +20,7 @@ const PRONOUNS: &str = "it them that this";
 const CORNER: &str = "in the far back left right opposite other near of room over";
 /// Most words between a thing and what places it.
 const MAX_BETWEEN: usize = 8;
+
 /// The words of a mention before those that place it, the relation, and the words behind it.
 pub(super) fn inner_place(words: &[Word]) -> Option<(&[Word], Relation, &[Word])> {
     let at = (1..words.len().saturating_sub(1)).find(|at| relation_of(&words[*at..=*at]).is_some())?;

@@ -113,18 +113,14 @@ fn drive_away(linked: &Linked, step: &mut Step) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::linked;
     use super::*;
     use cinesplat_operator::Framing;
 
     fn directed(text: &str, steps: Vec<Step>) -> Vec<Step> {
-        let words = text.split(' ');
-        let spans: Vec<[usize; 2]> =
-            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1)])).collect();
-        let slots = vec![5, 7];
-        let linked = Linked { tokens_text: text.to_owned(), spans, slots, ..Linked::default() };
         let mut steps: Vec<Step> =
             steps.into_iter().map(|step| Step { words: Some([0, text.len()]), ..step }).collect();
-        go_between_stops(&linked, &mut steps);
+        go_between_stops(&linked(text), &mut steps);
         steps
     }
 
@@ -143,14 +139,10 @@ mod tests {
     #[test]
     fn a_slide_ends_where_it_stops() {
         let text = "truck left along , <obj-0> first , pull up on <obj-1>";
-        let words = text.split(' ');
-        let spans: Vec<[usize; 2]> =
-            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1)])).collect();
-        let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![5, 7], ..Linked::default() };
         let slide = Step { end: about(5), words: Some([0, 31]), ..Step::of(Move::TruckLeft) };
         let stop = Step { end: about(7), words: Some([32, text.len()]), ..Step::of(Move::Follow) };
         let mut steps = [slide, stop];
-        end_at_stops(&linked, &mut steps);
+        end_at_stops(&linked(text), &mut steps);
         assert_eq!((&steps[0].start, &steps[0].end, steps[1].movement), (&about(5), &about(7), Move::Static));
     }
 

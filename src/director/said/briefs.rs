@@ -11,7 +11,7 @@ use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::bans::SENTENCE_ENDS;
 use super::directions::is_form;
-use crate::direction::{Direction, StepCertainty};
+use crate::direction::Direction;
 
 /// Verbs of what a camera does, in any form.
 const VERBS: [&str; 78] = [
@@ -52,8 +52,6 @@ const FEWEST_WORDS: usize = 8;
 const MADE_UP: f64 = 0.2;
 /// The same where it is one step.
 const ONE_MADE_UP: f64 = 0.3;
-/// Certainty of what a brief leaves open.
-const OPEN_PROBABILITY: f64 = 0.25;
 
 /// Words that make one thing what the brief is about: `the bed is the hero`.
 const HEROES: &str = "hero product star subject main focal centerpiece centrepiece point protagonist mostly";
@@ -120,21 +118,12 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
         return;
     }
     let speed = pace(&words);
-    let from = direction.program.steps.iter().filter_map(|step| step.words).map(|[from, _]| from).min();
-    let to = direction.program.steps.iter().filter_map(|step| step.words).map(|[_, to]| to).max();
+    let span = direction.span();
     for step in &mut steps {
-        (step.speed, step.words) = (speed, from.zip(to).map(|(from, to)| [from, to]));
+        (step.speed, step.words) = (speed, span);
         step.avoid.extend(denied.iter().filter(|id| !subjects.contains(id)));
     }
-    let certainty = |step: &Step| StepCertainty {
-        probability: OPEN_PROBABILITY,
-        weakest: ("move", OPEN_PROBABILITY),
-        words: step.words,
-    };
-    direction.certainty = steps.iter().map(certainty).collect();
-    // The network's cameras belong to other steps.
-    direction.step_cameras.clear();
-    direction.program.steps = steps;
+    direction.replace_steps(steps);
 }
 
 /// Whether all steps rest.

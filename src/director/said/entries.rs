@@ -6,6 +6,7 @@ use cinesplat_objects::Object;
 use cinesplat_operator::{Framing, Pass, Step, Via};
 use cinesplat_trajectory::Move;
 
+use super::called::is_called;
 use super::directions::is_form;
 use crate::direction::Direction;
 
@@ -29,10 +30,7 @@ pub(crate) fn come_in_at_doors(linked: &Linked, objects: &[Object], direction: &
 
 /// The second step, from the door that the first one only comes in by.
 fn entered(linked: &Linked, objects: &[Object], first: &Step, second: &Step) -> Option<Step> {
-    let is_door = |id: &u32| {
-        let object = objects.iter().find(|object| object.id == *id);
-        object.is_some_and(|object| object.label.split(' ').any(|word| is_listed(DOORS, word)))
-    };
+    let is_door = |id: &u32| is_called(objects, *id, DOORS);
     let words = linked.texts_in(first.words?);
     let mut named = words.iter().enumerate().filter_map(|(at, word)| Some((at, linked.slot_at(word)?)));
     let (at, door) = named.next().filter(|_| named.next().is_none())?;
@@ -57,23 +55,18 @@ fn entered(linked: &Linked, objects: &[Object], first: &Step, second: &Step) -> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::{direction, linked};
     use super::*;
-    use cinesplat_operator::Program;
     use glam::DVec3;
 
     fn directed(text: &str, split: usize) -> Vec<Step> {
-        let words = text.split(' ');
-        let spans: Vec<[usize; 2]> =
-            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()])).collect();
-        let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![5, 7], ..Linked::default() };
         let object = |id, label| Object::from_box(id, label, DVec3::ZERO, DVec3::ONE);
         let objects = [object(5, "gray door"), object(7, "dining table")];
         let about = |id: u32| Framing { subjects: vec![id], ..Framing::default() };
         let step = |id: u32, words| Step { end: about(id), words: Some(words), ..Step::of(Move::PushIn) };
         let steps = vec![step(5, [0, split]), step(7, [split, text.len()])];
-        let program = Program { steps, ..Program::default() };
-        let mut direction = Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
-        come_in_at_doors(&linked, &objects, &mut direction);
+        let mut direction = direction(steps);
+        come_in_at_doors(&linked(text), &objects, &mut direction);
         direction.program.steps
     }
 

@@ -4,6 +4,7 @@ mod amounts;
 mod arrivals;
 mod bans;
 mod briefs;
+mod called;
 mod carriers;
 mod circles;
 mod directions;
@@ -12,6 +13,8 @@ mod endings;
 mod entries;
 mod fills;
 mod fixed;
+#[cfg(test)]
+mod fixture;
 mod heights;
 mod lengths;
 mod levels;

@@ -7,6 +7,7 @@ use cinesplat_operator::{Framing, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::bans::asks_for;
+use super::called::is_called;
 use super::directions::is_form;
 
 /// Words of a clause about a thing, and verbs of how much of the frame it takes.
@@ -38,10 +39,7 @@ const TABLES: &str = "table desk counter workbench bench island worktop sideboar
 /// Goes along at the level of things on a table, where the words skim its top, and not over it: `follow it low, just above the
 /// wood`.
 pub(crate) fn skim_tops(linked: &Linked, objects: &[Object], steps: &mut [Step]) {
-    let is_table = |id: &u32| {
-        let object = objects.iter().find(|object| object.id == *id);
-        object.is_some_and(|object| object.label.split(' ').any(|word| is_listed(TABLES, word)))
-    };
+    let is_table = |id: &u32| is_called(objects, *id, TABLES);
     for step in steps.iter_mut() {
         let Some(via) = step.via.as_ref().filter(|via| via.how == Pass::Over) else { continue };
         let words = linked.texts_in(step.words.unwrap_or_default());
@@ -139,15 +137,9 @@ pub(crate) fn rise_to_overhead(linked: &Linked, steps: &mut [Step]) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::linked;
     use super::*;
     use cinesplat_operator::Via;
-
-    fn linked(text: &str) -> Linked {
-        let words = text.split(' ');
-        let spans: Vec<[usize; 2]> =
-            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()])).collect();
-        Linked { tokens_text: text.to_owned(), spans, slots: vec![5, 7], ..Linked::default() }
-    }
 
     fn step(text: &str, movement: Move, subject: u32) -> Step {
         let end = Framing { subjects: vec![subject], ..Framing::default() };

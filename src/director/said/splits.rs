@@ -233,18 +233,13 @@ fn rounded(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::{direction, linked};
     use super::*;
-    use cinesplat_operator::Program;
 
     fn split(text: &str, step: Step) -> Vec<Step> {
-        let words = text.split(' ');
-        let spans: Vec<[usize; 2]> =
-            words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()])).collect();
-        let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![5, 7], ..Linked::default() };
         let step = Step { words: Some([0, text.len()]), ..step };
-        let program = Program { steps: vec![step], ..Program::default() };
-        let mut direction = Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() };
-        split_moves(&linked, &mut direction);
+        let mut direction = direction(vec![step]);
+        split_moves(&linked(text), &mut direction);
         direction.program.steps
     }
 

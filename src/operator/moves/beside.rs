@@ -196,12 +196,11 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     // A stated size is that of the table itself.
     let borne = subject.borne_heights.filter(|_| fill.is_none());
     let named = named_along(context, subject).filter(|_| fill.is_none());
-    let (is_named, bears) = (named.is_some(), borne.is_some() || named.is_some());
-    let fill_frac = if bears { BORNE_FILL } else { (0.3, 0.7) };
-    let target = match (named, borne) {
-        (Some(named), _) => named,
-        (None, Some(heights)) => things_on(context, (subject, 1.0), heights, target),
-        (None, None) => target,
+    let bears = borne.is_some() || named.is_some();
+    let (fill_frac, target) = match (named, borne) {
+        (Some(named), _) => (NAMED_FILL, named),
+        (None, Some(heights)) => (BORNE_FILL, things_on(context, (subject, 1.0), heights, target)),
+        (None, None) => ((0.3, 0.7), target),
     };
     let [long, _] = subject.level_axes(world.frame.up);
     let aside = long.cross(world.frame.up).normalize_or_zero();
@@ -216,7 +215,6 @@ pub(super) fn truck_along(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let elevation_deg = lerp(elevation_deg, context.parameters[1]);
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = Bearing { azimuth_rad: world.frame.azimuth(aside), elevation_rad };
-    let fill_frac = if is_named { NAMED_FILL } else { fill_frac };
     let fill = fill.unwrap_or_else(|| Fill::Height(lerp(fill_frac, context.parameters[2])));
     let fov_deg = framing.lens.map_or(NORMAL_LENS_DEG, lens_fov_deg);
     let fov_y_rad = lerp(fov_deg, context.parameters[3]).to_radians();

@@ -253,11 +253,6 @@ fn opening_for_crane(context: &StepContext, upward: bool) -> Framing {
 /// Least change of a crane's elevation, seen from its subject.
 const MIN_CRANE_DEG: f64 = 18.0;
 
-/// Whether a camera sinks straight down toward what lies below it, at an elevation seen from there.
-fn sinks_straight(context: &StepContext, start_deg: f64, upward: bool) -> bool {
-    start_deg > SWOOP_FROM_DEG && !upward && context.step.end.angle == Some(ShotAngle::Overhead)
-}
-
 /// Height above a target at which it has the size that the words state for the end, seen from where the camera is; `None`
 /// where they state none, and where that is no lower.
 fn sized_height(context: &StepContext, first: &CameraState, target: &Target) -> Option<f64> {
@@ -292,11 +287,11 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
         Some(Amount::Slight) => sign * 0.22 * distance,
         Some(Amount::Large) => sign * 1.2 * distance,
         _ if to_height.is_some_and(|rise| rise * sign > 0.0) => to_height.unwrap_or_default(),
-        _ if sinks_straight(context, start, upward) && sized_height(context, first, target).is_some() => {
-            sized_height(context, first, target).unwrap_or_default() - frame.height(away)
-        }
-        _ if sinks_straight(context, start, upward) => {
-            -frame.height(away) * lerp(OVERHEAD_DESCENT, context.parameters[6])
+        _ if start > SWOOP_FROM_DEG && !upward && context.step.end.angle == Some(ShotAngle::Overhead) => {
+            match sized_height(context, first, target) {
+                Some(height) => height - frame.height(away),
+                None => -frame.height(away) * lerp(OVERHEAD_DESCENT, context.parameters[6]),
+            }
         }
         _ => (level.length() * elevation.clamp(-70.0, 70.0).to_radians().tan()) - frame.height(away),
     };

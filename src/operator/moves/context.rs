@@ -267,11 +267,15 @@ impl<'a> StepContext<'a> {
     /// it is.
     pub(super) fn turned_to(&self, before: &CameraState, point: DVec3) -> (Vec<MotionSegment>, CameraState) {
         let turned = aimed(self.world, before, point);
-        let forbidden = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
-        if off_center(self.world, before, point) < 0.03 || self.forbidden.iter().any(forbidden) {
+        if off_center(self.world, before, point) < 0.03 || self.forbids_turning() {
             return (Vec::new(), *before);
         }
         (vec![self.join(*before, turned)], turned)
+    }
+
+    /// Whether the words rule out every turn of the camera, or one to a side, up or down.
+    pub(super) fn forbids_turning(&self) -> bool {
+        self.forbidden.iter().any(|motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt))
     }
 
     /// The way from the camera before to where the step's own motion begins.

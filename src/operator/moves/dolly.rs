@@ -1,6 +1,6 @@
 //! Moves along the line to a subject: push in and pull out.
 
-use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::dolly_length::{LEAST_RATIO, WALL_RADII, distance_ratio};
 use super::standing_view::stands;
 use crate::constraint::{ConstraintKind, Scope};
@@ -86,10 +86,9 @@ fn takes_in<'a>(context: &'a StepContext, inward: bool) -> Option<&'a Target> {
 /// The end of a pull-out with its aim on what it takes in, as far as a camera that backs away turns; farther back where that
 /// is not in the picture.
 fn settled_on(context: &StepContext, [first, last]: [&CameraState; 2], left: &Target, end: &Target) -> CameraState {
-    let forbidden = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
     let turned = |state: &CameraState| aimed(context.world, state, end.aim);
     let turn_rad = turned(last).pose.forward().angle_between(last.pose.forward());
-    if turn_rad > MOST_SETTLING_RAD || context.forbidden.iter().any(forbidden) {
+    if turn_rad > MOST_SETTLING_RAD || context.forbids_turning() {
         return *last;
     }
     let way = last.pose.position - first.pose.position;
@@ -138,6 +137,8 @@ const WIDEST_DEG: f64 = 78.0;
 /// Void of the far end of a way in or out from which on the way is shortened, and the parts in which that is done.
 const LEAST_VOID: f64 = 0.08;
 const NUM_SHORTENED: i32 = 10;
+/// Void of the shortened way, over that of the whole one, from which on it is worth it.
+const LESS_VOID: f64 = 0.8;
 /// Least change of the distance that is left of such a way, nearer over farther.
 const SHORTENED_RATIO: f64 = 0.73;
 
@@ -151,10 +152,8 @@ fn within_capture(
 ) -> (CameraState, CameraState) {
     let (far, near) = if inward { (first, last) } else { (last, first) };
     let framing = if inward { &context.step.start } else { &context.step.end };
-    let is_open = *framing == Framing { subjects: framing.subjects.clone(), ..Framing::default() }
-        && context.step.amount.is_none()
-        && context.step.via.is_none()
-        && !target.ids.is_empty();
+    let is_open =
+        !is_stated(framing) && context.step.amount.is_none() && context.step.via.is_none() && !target.ids.is_empty();
     if !is_open || !context.world.is_indoor() || (inward && context.before.is_some()) {
         return (first, last);
     }
@@ -167,15 +166,17 @@ fn within_capture(
     let way = near.pose.position - far.pose.position;
     let nearer = |i: i32| moved(&far, way * (f64::from(i) / f64::from(NUM_SHORTENED)));
     let is_way = |state: &CameraState| distance(&near) <= SHORTENED_RATIO * distance(state);
-    let shortened: Vec<(f64, CameraState)> =
-        (1..NUM_SHORTENED).map(nearer).filter(is_way).map(|state| (void_frac(context.world, &state), state)).collect();
-    let fullest = shortened.iter().min_by(|a, b| a.0.total_cmp(&b.0));
-    let full = shortened.iter().find(|(void, _)| *void < LEAST_VOID).or(fullest.filter(|(less, _)| *less < 0.8 * void));
-    match full {
-        Some((_, far)) if inward => (*far, last),
-        Some((_, far)) => (first, *far),
-        None => (first, last),
+    let (mut least, mut fullest) = (LESS_VOID * void, far);
+    for state in (1..NUM_SHORTENED).map(nearer).filter(is_way) {
+        let void = void_frac(context.world, &state);
+        if void < least.max(LEAST_VOID) {
+            (least, fullest) = (void, state);
+        }
+        if void < LEAST_VOID {
+            break;
+        }
     }
+    if inward { (fullest, last) } else { (first, fullest) }
 }
 
 /// The camera before a pull-out of a ratio that ends at `last`.

@@ -10,10 +10,11 @@ use glam::{DVec2, DVec3};
 
 use super::compose::{is_same_camera, rejoin, turned_by};
 use super::context::StepContext;
+use super::with::is_turn;
 use crate::framing::frame_position;
 use crate::motion::MotionSegment;
 use crate::pictures::void_frac;
-use crate::program::{Framing, Motion, SubjectPart};
+use crate::program::{Framing, SubjectPart};
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Room between a subject and the edge of the frame, over the frame's width and height.
@@ -39,21 +40,17 @@ pub(super) fn hold_whole(context: &StepContext, segments: &mut Vec<MotionSegment
             && framing.part == SubjectPart::Middle
             && framing.elevation_deg.is_none()
     };
-    let turns = |motion: &Motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt);
     if !re_aims(context.step.movement)
-        || context.step.with.iter().any(|second| keeps_direction(*second))
+        || context.step.with.iter().any(|second| is_turn(*second))
         || context.step.look.is_some()
         || !ends.iter().all(is_free)
-        || context.forbidden.iter().any(turns)
+        || context.forbids_turning()
     {
         return;
     }
-    let points = [points_of(context, &ends[0].subjects), points_of(context, &ends[1].subjects)];
-    let [start, end] = match points {
-        [None, None] => return,
-        [Some(only), None] | [None, Some(only)] => [only.clone(), only],
-        [Some(start), Some(end)] => [start, end],
-    };
+    let [start, end] = ends.map(|framing| points_of(context, &framing.subjects));
+    let (start, end) = (start.as_deref().or(end.as_deref()), end.as_deref().or(start.as_deref()));
+    let Some((start, end)) = start.zip(end) else { return };
     let Some(segment) = segments.last_mut().filter(|segment| !segment.is_join) else { return };
     let last = segment.states.len() - 1;
     let continues = context.before.is_some_and(|before| is_same_camera(&before, &segment.states[0]));
@@ -61,31 +58,36 @@ pub(super) fn hold_whole(context: &StepContext, segments: &mut Vec<MotionSegment
     if continues && is_held {
         return;
     }
+    // On the way from one subject to another neither has to be whole.
+    let shown = |i: usize| match i {
+        0 if continues => None,
+        0 => Some(start),
+        i if i == last => Some(end),
+        _ => (start == end).then_some(start),
+    };
     let mut turned = segment.states.clone();
-    let mut any = false;
     for (i, state) in turned.iter_mut().enumerate() {
-        if continues && i == 0 {
-            continue;
-        }
-        let shown = if 2 * i > last || (i == last && last > 0) { &end } else { &start };
-        let by = if start == end || i == 0 || i == last { shift(context, state, shown) } else { DVec2::ZERO };
-        if by.abs().max_element() > LEAST_SHIFT {
-            let tan = (state.fov_y_rad / 2.0).tan();
-            let angle = |share: f64, aspect: f64| (2.0 * tan * aspect * share).atan();
-            let held = turned_by(context, state, (angle(by.x, context.world.aspect), angle(by.y, 1.0)));
-            if is_as_full(context, state, &held) {
-                *state = held;
-                any = true;
-            }
-        }
+        *state = shown(i).map_or(*state, |points| held(context, state, points));
     }
-    if any {
-        if is_held {
-            turned[last] = turned[0];
-        }
+    if is_held {
+        turned[last] = turned[0];
+    }
+    if turned != segment.states {
         segment.states = turned;
         rejoin(context, segments);
     }
+}
+
+/// The camera turned by as little as makes whole what fits; as it is where that would show what was never captured.
+fn held(context: &StepContext, state: &CameraState, points: &[DVec3]) -> CameraState {
+    let by = shift(context, state, points);
+    if by.abs().max_element() <= LEAST_SHIFT {
+        return *state;
+    }
+    let tan = (state.fov_y_rad / 2.0).tan();
+    let angle = |share: f64, aspect: f64| (2.0 * tan * aspect * share).atan();
+    let held = turned_by(context, state, (angle(by.x, context.world.aspect), angle(by.y, 1.0)));
+    if is_as_full(context, state, &held) { held } else { *state }
 }
 
 /// Moves that aim at their subjects anyway. A pan, a tilt, a truck and a rise keep their direction.
@@ -109,12 +111,6 @@ fn re_aims(movement: Move) -> bool {
             | ZoomIn
             | ZoomOut
     )
-}
-
-/// Second moves that turn the camera for themselves.
-fn keeps_direction(second: Move) -> bool {
-    use Move::{PanLeft, PanRight, RollCcw, RollCw, TiltDown, TiltUp};
-    matches!(second, PanLeft | PanRight | RollCcw | RollCw | TiltDown | TiltUp)
 }
 
 /// Whether a turned camera shows no more of what was never captured.

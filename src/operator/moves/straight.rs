@@ -6,6 +6,7 @@ use super::context::{StepContext, require_visible};
 use super::passes::gate;
 use super::standing_view::stands;
 use super::turns::is_along;
+use crate::composition::span;
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
 use crate::framing::{Target, frame_position};
 use crate::motion::MotionSegment;
@@ -85,7 +86,7 @@ fn slide(
         first = leveled(context, &first, &target);
     }
     if travels && !direction.is_vertical() && context.parameters[7] < HOLDING_TO {
-        let held = holding(context, &first, [&Some(target.clone()), &context.end, &passed]);
+        let held = holding(context, &first, [Some(&target), context.end.as_ref(), passed.as_ref()]);
         if held != first {
             match (segments.last_mut(), context.before) {
                 (Some(join), _) => *join = context.join(join.states[0], held),
@@ -151,7 +152,7 @@ const MOST_BACK: f64 = 2.5;
 
 /// The first camera of a slide, farther back and higher or lower where a thing on the way would lose its head. A stated size
 /// or height stays.
-fn holding(context: &StepContext, first: &CameraState, shown: [&Option<Target>; 3]) -> CameraState {
+fn holding(context: &StepContext, first: &CameraState, shown: [Option<&Target>; 3]) -> CameraState {
     let ends = [&context.step.start, &context.step.end];
     let is_sized = |framing: &&Framing| {
         framing.size.is_some()
@@ -164,18 +165,14 @@ fn holding(context: &StepContext, first: &CameraState, shown: [&Option<Target>; 
         return *first;
     }
     let forward = frame.horizontal(first.pose.forward()).normalize_or_zero();
-    let corners = || shown.iter().filter_map(|target| target.as_ref()).flat_map(|target| target.corners.iter());
+    let shown = || shown.into_iter().flatten();
+    let corners = || shown().flat_map(|target| &target.corners);
     let depth = |corner: &DVec3| (*corner - first.pose.position).dot(forward);
-    let is_large = |target: &&Option<Target>| {
-        target.as_ref().is_some_and(|target| target.radius > LARGE_FRAC * context.world.bounds.size())
-    };
-    if shown.iter().any(is_large) {
+    if shown().any(|target| target.radius > LARGE_FRAC * context.world.bounds.size()) {
         return *first;
     }
     let nearest = corners().map(depth).fold(f64::INFINITY, f64::min);
-    let (low, high) = corners()
-        .map(|corner| frame.height(*corner))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |a, at| (a.0.min(at), a.1.max(at)));
+    let (low, high) = span(corners().map(|corner| frame.height(*corner)));
     let needed = (high - low) / (2.0 * (first.fov_y_rad / 2.0).tan() * MOST_PASSED);
     if nearest <= 0.0 || needed > (1.0 + MOST_BACK) * nearest {
         return *first;

@@ -96,7 +96,8 @@ fn add_second_move(context: &StepContext, second: Move, segments: &mut [MotionSe
     segment.constraints.retain(|constraint| !violated(constraint));
 }
 
-fn is_turn(movement: Move) -> bool {
+/// Whether a further move turns the camera for itself.
+pub(super) fn is_turn(movement: Move) -> bool {
     matches!(movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::RollCw | Move::RollCcw)
 }
 

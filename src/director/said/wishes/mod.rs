@@ -16,8 +16,8 @@ use cinesplat_operator::{Framing, Speed, Step, SubjectSide};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::briefs::{denied, is_camera_verb, is_loose, pace};
-use super::directions::is_form;
-use crate::direction::{Direction, StepCertainty};
+use super::directions::{is_form, says_any};
+use crate::direction::Direction;
 use stations::{Rank, Station, Subject};
 use steps::Manner;
 use text::{Text, is_object};
@@ -27,8 +27,6 @@ use things::Things;
 const FEWEST_WORDS: usize = 12;
 /// Most stations of a film.
 const MOST_STATIONS: usize = 7;
-/// Certainty of what such a message leaves open.
-const OPEN_PROBABILITY: f64 = 0.25;
 /// Verbs of cameras that say no way.
 const STOPS: [&str; 12] =
     ["hold", "rest", "pause", "linger", "stop", "start", "begin", "finish", "land", "settle", "frame", "focus"];
@@ -76,11 +74,9 @@ pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut D
     let things = Things::new(objects);
     let denied = denied(linked, &text.words);
     let times = lengths::times(linked, &text);
-    let says = |phrase: &&[&str]| text.words.windows(phrase.len()).any(|words| words == *phrase);
-    let lingers = LINGERS.iter().any(says).then_some(lengths::LINGER_SECS);
-    let percent = text.words.iter().filter_map(|word| linked.quantity_at(word));
-    let percent =
-        percent.filter(|quantity| quantity.kind == QuantityKind::Percent).map(|quantity| quantity.value).next();
+    let lingers = says_any(&text.words, &LINGERS).then_some(lengths::LINGER_SECS);
+    let mut quantities = text.words.iter().filter_map(|word| linked.quantity_at(word));
+    let percent = quantities.find(|quantity| quantity.kind == QuantityKind::Percent).map(|quantity| quantity.value);
     let height = direction.program.steps.iter().find_map(|step| step.end.height);
     let manner = Manner {
         speed: pace(&text.words),
@@ -96,22 +92,13 @@ pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut D
         None => of_scene(stations::stations(&text, linked, &things, &denied), &things, (&manner, &linked.spans)),
     };
     let Some(mut steps) = steps else { return false };
-    let from = direction.program.steps.iter().filter_map(|step| step.words).map(|[from, _]| from).min();
-    let to = direction.program.steps.iter().filter_map(|step| step.words).map(|[_, to]| to).max();
+    let span = direction.span();
     let shown: Vec<u32> = steps.iter().flat_map(|step| step.end.subjects.clone()).collect();
     for step in &mut steps {
-        step.words = step.words.or(from.zip(to).map(|(from, to)| [from, to]));
+        step.words = step.words.or(span);
         step.avoid.extend(denied.iter().filter(|id| !shown.contains(id)));
     }
-    let certainty = |step: &Step| StepCertainty {
-        probability: OPEN_PROBABILITY,
-        weakest: ("move", OPEN_PROBABILITY),
-        words: step.words,
-    };
-    direction.certainty = steps.iter().map(certainty).collect();
-    // The network's cameras belong to other steps.
-    direction.step_cameras.clear();
-    direction.program.steps = steps;
+    direction.replace_steps(steps);
     direction.program.duration_secs = times.total_secs.or(direction.program.duration_secs);
     true
 }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use cinesplat_language::{Linked, is_listed};
 
+use super::super::directions::says_any;
 use super::text::{Text, is_object};
 use super::things::Things;
 
@@ -155,8 +156,7 @@ fn fill_between(text: &Text<'_>, things: &Things<'_>, stations: &mut Vec<Station
 /// The stations, with a group that is visited thing by thing from where the words start: `the three easels one after the other,
 /// starting with the one at the window`.
 fn split_anchor(text: &Text<'_>, linked: &Linked, things: &Things<'_>, stations: &[Station]) -> Option<Vec<Station>> {
-    let says = |phrase: &&[&str]| text.words.windows(phrase.len()).any(|words| words == *phrase);
-    let is_turn = IN_TURN.iter().any(says);
+    let is_turn = says_any(&text.words, &IN_TURN);
     let sells = text.has(0..text.words.len(), WARES);
     let nth = stations
         .iter()
@@ -175,15 +175,11 @@ fn split_anchor(text: &Text<'_>, linked: &Linked, things: &Things<'_>, stations:
     let is_anchor = |station: &Station| matches!(&station.subject, Subject::Things(own) if anchor.is_some_and(|anchor| own.contains(&anchor) && !ids.contains(&anchor)));
     let is_whole_group =
         |station: &Station| matches!(&station.subject, Subject::Things(own) if own.iter().all(|id| ids.contains(id)));
-    let mut others: Vec<Station> = stations.to_vec();
-    let mut all = others.remove(nth);
-    others.retain(|station| !is_anchor(station) && !is_whole_group(station));
-    let mut out: Vec<Station> = Vec::new();
-    let at = nth.min(others.len());
-    let behind = others.split_off(at);
-    out.append(&mut others);
-    out.extend(each);
-    out.extend(behind);
+    let mut out: Vec<Station> = stations.to_vec();
+    let mut all = out.remove(nth);
+    out.retain(|station| !is_anchor(station) && !is_whole_group(station));
+    let at = nth.min(out.len());
+    out.splice(at..at, each);
     if sells {
         // What is sold is seen together at last.
         if let Subject::Things(shown) = &mut all.subject {

@@ -1,6 +1,5 @@
 //! The film of some stations.
 
-use cinesplat_language::is_listed;
 use cinesplat_operator::{Framing, Pass, Speed, Step, Via};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
@@ -49,36 +48,30 @@ fn add(
     things: &Things<'_>,
     manner: &Manner,
 ) {
-    {
-        let is_last = nth + 1 == stations.len();
-        let end = match &station.subject {
-            Subject::Things(ids) => framing(ids, station, things, manner),
-            Subject::Place => Framing { size: Some(ShotSize::Long), ..Framing::default() },
-            Subject::From { eye, seen, stands } => {
-                steps.push(from_place(eye, seen, stations, things, manner.height.filter(|_| *stands)));
-                return;
-            }
-        };
-        let rest = manner.rest_secs.or(station.rests.then_some(STOP_SECS));
-        let rest = if is_last { manner.last_secs.or(rest) } else { rest };
-        let mut step = Step {
-            end: end.clone(),
-            speed: manner.speed,
-            ..Step::of(movement((nth, station), stations, things, manner))
-        };
-        if nth == 0 && rest.is_some() && step.movement == Move::PushIn {
-            // The first rest is the opening.
-            step = Step { duration_secs: rest, end, ..Step::of(Move::Static) };
-            steps.push(step);
+    let is_last = nth + 1 == stations.len();
+    let end = match &station.subject {
+        Subject::Things(ids) => framing(ids, station, things, manner),
+        Subject::Place => Framing { size: Some(ShotSize::Long), ..Framing::default() },
+        Subject::From { eye, seen, stands } => {
+            steps.push(from_place(eye, seen, stations, things, manner.height.filter(|_| *stands)));
             return;
         }
-        if step.movement == Move::PanRight {
-            (step.end, step.either_way) = (Framing::default(), true);
-        }
-        steps.push(step);
-        if let Some(secs) = rest.filter(|_| station.subject != Subject::Place) {
-            steps.push(Step { duration_secs: Some(secs), end, ..Step::of(Move::Static) });
-        }
+    };
+    let rest = manner.rest_secs.or(station.rests.then_some(STOP_SECS));
+    let rest = if is_last { manner.last_secs.or(rest) } else { rest };
+    let mut step =
+        Step { end: end.clone(), speed: manner.speed, ..Step::of(movement((nth, station), stations, things, manner)) };
+    if nth == 0 && rest.is_some() && step.movement == Move::PushIn {
+        // The first rest is the opening.
+        steps.push(Step { duration_secs: rest, end, ..Step::of(Move::Static) });
+        return;
+    }
+    if step.movement == Move::PanRight {
+        (step.end, step.either_way) = (Framing::default(), true);
+    }
+    steps.push(step);
+    if let Some(secs) = rest.filter(|_| station.subject != Subject::Place) {
+        steps.push(Step { duration_secs: Some(secs), end, ..Step::of(Move::Static) });
     }
 }
 
@@ -98,10 +91,7 @@ fn movement((nth, station): (usize, &Station), stations: &[Station], things: &Th
 
 /// Whether a thing is one that others stand on.
 fn is_table(ids: &[u32], things: &Things<'_>) -> bool {
-    let is_one = |id: &u32| {
-        let label = things.get(*id).map(|object| object.label.as_str()).unwrap_or_default();
-        label.split(' ').any(|word| is_listed("desk table workbench counter bench", word))
-    };
+    let is_one = |id: &u32| things.is_called(*id, "desk table workbench counter bench");
     ids.len() == 1 && ids.iter().all(is_one)
 }
 

@@ -1,0 +1,19 @@
+//! Linked prompts for the unit tests of this folder.
+
+use cinesplat_language::Linked;
+use cinesplat_operator::{Program, Step};
+
+use crate::direction::Direction;
+
+/// A prompt whose words and marks stand apart by spaces; `<obj-0>` is object 5, `<obj-1>` object 7.
+pub(super) fn linked(text: &str) -> Linked {
+    let words = text.split(' ');
+    let spans = words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()]));
+    Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() }
+}
+
+/// A reading of some steps, without cameras and certainties.
+pub(super) fn direction(steps: Vec<Step>) -> Direction {
+    let program = Program { steps, ..Program::default() };
+    Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() }
+}
