@@ -11,6 +11,8 @@ const WORST_COST: f64 = 3.0;
 /// Splat size, over the size that the picture still holds, from which a picture is soup; and that at which it is sharp.
 const SOUP: f64 = 4.0;
 const CRISP: f64 = 0.5;
+/// Share of a subject that is seen from which on all of it is.
+const FULLY_SEEN: f64 = 0.9;
 /// Mean cosine of a subject's surfaces at which it is seen edge-on, and that of a three-quarter view.
 const EDGE_ON: f64 = 0.1;
 const OPEN_FACED: f64 = 0.45;
@@ -35,7 +37,7 @@ pub(super) fn value(term: Term, film: &Film, pictures: &[Picture]) -> Option<f64
         Term::Blocked => fault(&over(&|picture| clear(picture, picture.blocked_frac)), 0.4),
         Term::Haze => fault(&over(&|picture| clear(picture, picture.haze)), 0.3),
         Term::Wipe => wipe(&over(&|picture| clear(picture, picture.foreground_frac))),
-        Term::Visible => due(&|sight| Some(sight.seen_frac / 0.9)),
+        Term::Visible => visible(film, pictures),
         Term::Kept => due(&|sight| Some(f64::from(u8::from(is_lost(sight))))).map(|lost| 1.0 - lost / 0.2),
         Term::Sharp => sharpness(film, pictures),
         Term::Facing => due(&|sight| Some((sight.facing? - EDGE_ON) / (OPEN_FACED - EDGE_ON))),
@@ -47,6 +49,14 @@ pub(super) fn value(term: Term, film: &Film, pictures: &[Picture]) -> Option<f64
         Term::Margin => Some(1.0 - film.cost / WORST_COST),
     };
     value.map(|value| value.clamp(0.0, 1.0))
+}
+
+/// The mean over the pictures, halfway to the worst of them: one moment behind a vase is what people remember.
+fn visible(film: &Film, pictures: &[Picture]) -> Option<f64> {
+    let seen = |(_, sight): (&Picture, &Sight)| (sight.seen_frac / FULLY_SEEN).min(1.0);
+    let shares: Vec<f64> = due_sights(film, pictures).map(seen).collect();
+    let least = shares.iter().copied().fold(1.0, f64::min);
+    mean(&shares).map(|mean| f64::midpoint(mean, least))
 }
 
 /// 1 without a fault, 0 where the mean of average and worst share reaches `worst`.

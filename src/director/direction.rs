@@ -18,7 +18,7 @@ pub struct StepCertainty {
 const OPEN_PROBABILITY: f64 = 0.25;
 
 /// The director's output for a prompt.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Direction {
     /// The program that the prompt requests.
     pub program: Program,
@@ -31,6 +31,11 @@ pub struct Direction {
 }
 
 impl Direction {
+    /// A program that nobody had to guess.
+    pub fn of(program: Program) -> Self {
+        Self { program, ..Self::default() }
+    }
+
     /// Geometric mean of the certainties of the steps; 0 without a step.
     pub(crate) fn mean_certainty(&self) -> f64 {
         let sum: f64 = self.certainty.iter().map(|step| step.probability.max(1e-9).ln()).sum();

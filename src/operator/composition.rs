@@ -109,6 +109,29 @@ pub(super) fn side_azimuths(world: &World, center: DVec3, side: SubjectSide) -> 
     }
 }
 
+/// As [`side_azimuths`] for a camera that is to stand there: square to the box of the target's first subject where that faces
+/// about the same way, as the foot of a bed does.
+pub(super) fn square_azimuths(world: &World, target: &Target, side: SubjectSide) -> Vec<f64> {
+    let middles = side_azimuths(world, target.center, side);
+    let subject = target.ids.first().and_then(|id| world.subject(*id));
+    let Some(subject) = subject.filter(|_| world.known_front(target.center).is_none()) else { return middles };
+    let [long, short] = subject.level_axes(world.frame.up);
+    let ways: Vec<f64> = [long, -long, short, -short]
+        .into_iter()
+        .filter(|way| way.length() > 0.0)
+        .map(|way| world.frame.azimuth(way))
+        .collect();
+    let square = |middle: f64| {
+        let off = |way: &f64| rotation::short_turn(way - middle).abs();
+        let nearest = ways.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.filter(|way| off(way) < SQUARE_RAD).unwrap_or(middle)
+    };
+    middles.into_iter().map(square).collect()
+}
+
+/// Largest angle between the middle of a side and the box's own side for which the camera stands before that, radians.
+const SQUARE_RAD: f64 = 0.56;
+
 /// Angle about a subject's center between a camera position and the nearest middle of a side, degrees.
 pub(super) fn off_side_deg(world: &World, center: DVec3, position: DVec3, side: SubjectSide) -> f64 {
     let azimuth = world.frame.azimuth(position - center);

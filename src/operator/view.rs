@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::composition::{lens_fov_deg, natural_elevation_deg, side_azimuths};
+use super::composition::{lens_fov_deg, natural_elevation_deg, square_azimuths};
 use super::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use super::motion::StepParameters;
 use super::program::{Framing, SubjectPart};
@@ -130,7 +130,7 @@ pub(super) fn opening_view(
 ) -> CameraState {
     let proposed = suggestion.map(|cameras| bearing_of(world, target.aim, cameras.start.pose.position));
     let azimuth_rad = match framing.side {
-        Some(side) => beside(&side_azimuths(world, target.center, side), parameters),
+        Some(side) => beside(&square_azimuths(world, target, side), parameters),
         None => azimuth(range, proposed, parameters),
     };
     let elevation_deg = match framing.angle {
@@ -293,10 +293,10 @@ pub(super) fn picked<T>(list: &[T], share: f64) -> Option<&T> {
     list.get(((share * list.len() as f64) as usize).min(list.len().saturating_sub(1)))
 }
 
-/// One of several azimuths, or up to 20 degrees beside it. Parameter 4 picks it, parameter 0 the deviation.
+/// One of several azimuths, or up to 12 degrees beside it. Parameter 4 picks it, parameter 0 the deviation.
 pub(super) fn beside(azimuths_rad: &[f64], parameters: &StepParameters) -> f64 {
     let off = parameters[0] * 2.0 - 1.0;
-    picked(azimuths_rad, parameters[4]).copied().unwrap_or(0.0) + off * off.abs() * 0.35
+    picked(azimuths_rad, parameters[4]).copied().unwrap_or(0.0) + off * off.abs() * 0.21
 }
 
 /// A preferred azimuth or any azimuth. The director's counts twice among the preferred ones.

@@ -13,7 +13,7 @@ use cinesplat_lens::{Call, Called, CalledEffect, Calls, EffectChoice, Unmet};
 use cinesplat_objects::{CloudSettings, ObjectSet};
 use cinesplat_operator::{Pass, Program, Solution, SolveLevel, SolveSettings, Step, World};
 use cinesplat_scene::Scene;
-use cinesplat_trajectory::{Move, ReportLine, SceneRef, Shot, ShotAngle};
+use cinesplat_trajectory::{ModelRef, Move, ReportLine, SceneRef, Shot, ShotAngle};
 
 /// Settings of a shot beyond its prompt.
 #[derive(Debug, Clone, PartialEq)]
@@ -159,20 +159,65 @@ pub fn direct(
     level_with_things(&mut direction.program, &objects, up);
     level_out(&effects, &mut direction.program, prompt);
     lone_thing::show(&mut direction.program, &objects);
+    let model = Some(interpreter.model_ref());
+    film(
+        (scene, &objects),
+        prompt,
+        Script { direction, effects, problems, warnings: linked.warnings, model },
+        settings,
+        times,
+    )
+}
+
+/// The shot of a program that was not read from the prompt, chosen as that of a prompt is. It calls for no effects.
+///
+/// # Errors
+/// The error of the stage that fails.
+pub fn direct_program(
+    scene: &Scene,
+    objects: &ObjectSet,
+    prompt: &str,
+    program: &Program,
+    settings: &DirectSettings,
+) -> Result<Directed, PipelineError> {
+    let script = Script { direction: Direction::of(program.clone()), ..Script::default() };
+    film((scene, objects), prompt, script, settings, PhaseTimes::default())
+}
+
+/// What a film is made from.
+#[derive(Default)]
+struct Script {
+    direction: Direction,
+    effects: Vec<EffectMention>,
+    problems: Vec<Problem>,
+    warnings: Vec<String>,
+    /// The network that read the prompt.
+    model: Option<ModelRef>,
+}
+
+/// Searches the cameras of a script and chooses among the films.
+fn film(
+    (scene, objects): (&Scene, &ObjectSet),
+    prompt: &str,
+    script: Script,
+    settings: &DirectSettings,
+    mut times: PhaseTimes,
+) -> Result<Directed, PipelineError> {
+    let Script { mut direction, effects, problems, warnings, model } = script;
     if settings.duration_secs.is_some() {
         direction.program.duration_secs = settings.duration_secs;
     }
     let ids = direction.program.object_ids();
-    let mut world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, &objects, &ids))?;
+    let mut world = times.measure(Phase::World, || World::new(&scene.gaussians, scene.up, objects, &ids))?;
     world.aspect = settings.aspect();
     // Without a search nobody looks at the film.
     let looks = settings.solve != SolveLevel::Off;
-    let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, &objects, &ids)));
+    let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, objects, &ids)));
     if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
-        let fronts = times.measure(Phase::Judge, || match lone_thing::whole(&objects) {
+        let fronts = times.measure(Phase::Judge, || match lone_thing::whole(objects) {
             // A neck has the front of its guitar.
             Some(whole) if !ids.contains(&whole.id) => {
-                let fronts = Subjects::new(&scene.gaussians, &objects, &[whole.id]).fronts(&world.frame)?;
+                let fronts = Subjects::new(&scene.gaussians, objects, &[whole.id]).fronts(&world.frame)?;
                 Ok(fronts.iter().flat_map(|(_, direction)| ids.iter().map(|id| (*id, *direction))).collect())
             }
             _ => subjects.fronts(&world.frame),
@@ -181,7 +226,7 @@ pub fn direct(
     }
     let program = &direction.program;
     // A shaky camera keeps clear wherever the hand takes it.
-    let called = called(&effects, (program, prompt), settings, bounds.size());
+    let called = called(&effects, (program, prompt), settings, scene.bounds().size());
     world.add_reach(reach_of(&called));
     let (level, seed, slant) = (settings.solve, settings.seed, slant_of(&effects, program, prompt));
     let solve = SolveSettings { level, seed, slant, ..SolveSettings::default() };
@@ -198,7 +243,7 @@ pub fn direct(
     solutions.truncate(settings.choice.num_takes.max(1));
     let finished = |solution| {
         let mut shot = shot_of(scene, prompt, solution, settings);
-        shot.model = Some(interpreter.model_ref());
+        shot.model.clone_from(&model);
         shot.effects = called.effects.iter().map(CalledEffect::request).collect();
         let missing = called.unmet.iter().filter(|unmet| unmet.is_missing());
         shot.report.extend(missing.map(missing_effect));
@@ -207,11 +252,10 @@ pub fn direct(
     };
     let mut takes: Vec<Shot> = solutions.into_iter().map(finished).collect::<Result<_, _>>()?;
     for shot in &mut takes {
-        super::focus::focus(scene, &objects, shot)?;
+        super::focus::focus(scene, objects, shot)?;
     }
     let shot = takes[0].clone();
     let steps = readings(prompt, &direction);
-    let warnings = linked.warnings;
     Ok(Directed { shot, takes, critique, steps, effects: called, problems, warnings, times })
 }
 

@@ -29,7 +29,9 @@ mod takes_sheet;
 
 pub use choose_film::{Critique, FilmChoice};
 pub use clearance::{certify, prove_clearance};
-pub use direct::{DirectSettings, Directed, StepReading, direct, prepare_objects, shot_of, stated_size};
+pub use direct::{
+    DirectSettings, Directed, StepReading, direct, direct_program, prepare_objects, shot_of, stated_size,
+};
 pub use error::PipelineError;
 pub use film::{
     FilmProgress, FilmReport, FilmSettings, called_effects, camera_at, complete_effects, film, film_part, film_planned,

@@ -151,14 +151,17 @@ impl CaseDirector {
         Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, interpreter, &settings)?.shot)
     }
 
-    /// The shot of a case as `plan` makes it, with what was said about it. Needs a director.
+    /// The shot of a case as `plan` makes it, with what was said about it; that of its program where it has one.
     pub(super) fn direct_with(&mut self, case: &PromptCase, settings: &DirectSettings) -> Result<Directed, Failure> {
         self.scene_of(case)?;
         let opened = &self.scenes[&(case.scene.clone(), case.objects.clone())];
-        let interpreter =
-            self.interpreter.as_ref().ok_or_else(|| Failure::usage("programs of cases", "leave --intents out"))?;
         let settings = opened.sized(DirectSettings { seed: self.seed, ..settings.clone() }, &case.prompt);
-        Ok(pipeline::direct(&opened.scene, &opened.objects, &case.prompt, interpreter, &settings)?)
+        let (scene, objects, prompt) = (&opened.scene, &opened.objects, &case.prompt);
+        if let Some(program) = &case.program {
+            return Ok(pipeline::direct_program(scene, objects, prompt, program, &settings)?);
+        }
+        let interpreter = self.interpreter.as_ref().ok_or_else(|| Failure::fault("no director was opened"))?;
+        Ok(pipeline::direct(scene, objects, prompt, interpreter, &settings)?)
     }
 
     /// Shots of a case for several search settings, each with the time of its search. Needs programs.

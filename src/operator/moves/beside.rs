@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
+use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::paths::end_view;
 use crate::composition::{front_azimuth, lens_fov_deg};
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
@@ -288,7 +288,8 @@ fn things_on(
 /// object is unknown or above the subject, or the camera's place is given.
 pub(super) fn reveal_from_behind(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let cover = passed(context).filter(|_| context.before.is_none())?;
-    let (world, target) = (context.world, context.main_target());
+    let world = context.world;
+    let target = on_its_top(context, context.main_target());
     let first = covered_view(context, cover, &target)?;
     let last = aimed(world, &moved(&first, way_out(context, cover, &target, &first)), target.aim);
     let segment = context.segment(vec![first, last]).about(target.aim);
@@ -299,22 +300,48 @@ pub(super) fn reveal_from_behind(context: &StepContext) -> Option<Vec<MotionSegm
     Some(vec![require_visible(segment, &target, Scope::End)])
 }
 
+/// The target with its aim on its top where other things stand there: a laid table is looked at from above its edge.
+fn on_its_top(context: &StepContext, target: Target) -> Target {
+    let frame = &context.world.frame;
+    let subject = target.ids.first().and_then(|id| context.world.subject(*id));
+    match subject.and_then(|subject| subject.borne_heights) {
+        Some([surface, _]) => Target { aim: target.aim + frame.up * (surface - frame.height(target.aim)), ..target },
+        None => target,
+    }
+}
+
 /// A camera aimed at the target on the line from it through the middle of the cover, beyond the cover.
 fn covered_view(context: &StepContext, cover: &Subject, target: &Target) -> Option<CameraState> {
     let (world, frame) = (context.world, &context.world.frame);
     let line = cover.center - target.aim;
     let back = frame.horizontal(line).try_normalize()?;
     let azimuth_rad = frame.azimuth(back);
-    let room = 2.0 * world.camera_radius + lerp((0.0, 0.15), context.parameters[1]) * world.bounds.size();
+    let farther = (FARTHER_FRAC * world.bounds.size()).min(cover.radius);
+    let room = 2.0 * world.camera_radius + lerp((0.0, farther), context.parameters[1]);
     let near = frame.horizontal(line).length() + cover.reach(back) + room;
     let distance = context.step.end.distance.map_or(near, |wanted| {
         distance_along(world, target, Bearing { azimuth_rad, elevation_rad: 0.0 }, wanted).max(near)
     });
-    let height = frame.height(line) * lerp((0.0, 1.2), context.parameters[3]);
+    let height = match context.parameters[3] {
+        share if share < 0.5 => frame.height(line) * lerp((0.0, 1.2), 2.0 * share),
+        // Close behind the upper part of what hides it: the back of a chair and not its legs.
+        share => frame.height(line) + cover.reach(frame.up) * lerp(HIDDEN_BEHIND, 2.0 * share - 1.0),
+    };
     let bearing = Bearing { azimuth_rad, elevation_rad: height.atan2(distance) };
     let fov_y_rad = lerp(NORMAL_LENS_DEG, 0.5).to_radians();
-    Some(filled(context, target, &view_at(world, target.aim, bearing, distance.hypot(height), fov_y_rad)))
+    let view = view_at(world, target.aim, bearing, distance.hypot(height), fov_y_rad);
+    // A lens that takes in a whole table shows far more than the chair that is to hide it.
+    let hides_little = target.radius > MOST_HIDDEN * cover.radius && !is_stated(&context.step.end);
+    let normal = || with_fov(&view, lerp(NORMAL_LENS_DEG, context.parameters[2]).to_radians());
+    Some(if hides_little { normal() } else { filled(context, target, &view) })
 }
+
+/// Size of what a cover can hide, over its own.
+const MOST_HIDDEN: f64 = 1.3;
+/// Farthest that a camera is behind a cover, over the scene size; a small cover hides little from farther away.
+const FARTHER_FRAC: f64 = 0.15;
+/// Height of a camera behind the upper part of a cover, over half of the cover's height, from its middle.
+const HIDDEN_BEHIND: (f64, f64) = (0.2, 0.85);
 
 /// The slide that brings the target out from behind the cover: to a side or up, beyond the edge of the cover as the
 /// camera sees it, by at least the target's own extent.
@@ -327,11 +354,23 @@ fn way_out(context: &StepContext, cover: &Subject, target: &Target, first: &Came
     let share = (level(cover.center - target.aim) / to_target).max(0.1);
     let right = frame.horizontal(first.pose.right()).normalize_or_zero();
     let breadth = target.corners.iter().map(|corner| (*corner - target.aim).dot(right).abs()).fold(0.0, f64::max);
-    let aside = right * (cover.reach(right) + breadth) / share * spare;
+    // Out of a chair's shadow all of a table is seen, which the chair never hid.
+    let reach = cover.reach(right);
+    let aside = right * (reach + breadth.min(2.0 * reach)) / share * spare;
+    let over = frame.up * (2.0 * cover.reach(frame.up)) * spare;
     match context.step.with.first() {
-        Some(Move::PedestalUp | Move::CraneUp | Move::TiltUp) => frame.up * (2.0 * cover.reach(frame.up)) * spare,
+        Some(Move::PedestalUp | Move::CraneUp | Move::TiltUp) => over,
         Some(Move::TruckLeft | Move::PanLeft | Move::OrbitLeft | Move::ArcLeft) => -aside,
         Some(Move::TruckRight | Move::PanRight | Move::OrbitRight | Move::ArcRight) => aside,
+        // Beside one chair at a table stands the next.
+        _ if target
+            .ids
+            .first()
+            .and_then(|id| context.world.subject(*id))
+            .is_some_and(|s| s.borne_heights.is_some()) =>
+        {
+            over
+        }
         _ if context.parameters[5] < 0.5 => -aside,
         _ => aside,
     }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::paths::end_view;
-use crate::composition::side_azimuths;
+use crate::composition::square_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use crate::motion::MotionSegment;
@@ -95,7 +95,7 @@ const SQUEEZED_LENS_DEG: f64 = 72.0;
 fn deg_to_side(context: &StepContext, target: &Target, from_rad: f64, sign: f64) -> Option<f64> {
     let side = context.step.end.side.filter(|_| context.step.amount.is_none())?;
     let turn = |to: f64| ((to - from_rad) * sign).rem_euclid(std::f64::consts::TAU).to_degrees();
-    let turns = side_azimuths(context.world, target.center, side).into_iter().map(turn);
+    let turns = square_azimuths(context.world, target, side).into_iter().map(turn);
     Some(turns.map(|deg| if deg < 20.0 { deg + 360.0 } else { deg }).fold(f64::INFINITY, f64::min))
 }
 
@@ -165,15 +165,20 @@ const SWOOP_KEYS: u32 = 8;
 /// Largest size of the subject at the end of a swoop, where the words state none.
 const SWOOP_FILL: f64 = 0.72;
 
-/// Whether a descent begins above its subject and leads to a side of it.
+/// Whether a descent begins above its subject and leads to a side of it, or a rise leads from its side to above it.
 fn swoops(context: &StepContext, first: &CameraState, target: &Target, upward: bool) -> bool {
     let end = &context.step.end;
     let start = bearing_of(context.world, target.aim, first.pose.position).elevation_rad.to_degrees();
     let is_stated = end.height.is_some() || context.step.amount.is_some();
-    !upward && start > SWOOP_FROM_DEG && !is_stated && end.angle != Some(ShotAngle::Overhead)
+    let is_above = end.angle == Some(ShotAngle::Overhead);
+    // Just above a table, its middle is far below the camera already.
+    let is_low = || start < SWOOP_FROM_DEG || context.before.is_some();
+    let swings = if upward { is_above && is_low() } else { !is_above && start > SWOOP_FROM_DEG };
+    swings && !is_stated
 }
 
-/// Sinks on an arc about the subject, from above it to the elevation of the end, at a distance that keeps its size.
+/// Rises or sinks on an arc about the subject, from above it to the elevation of the end or the other way, at a distance
+/// that keeps its size and, under a ceiling, as far as that lets it.
 fn swoop(context: &StepContext, first: &CameraState, target: &Target) -> Vec<CameraState> {
     let world = context.world;
     let start = bearing_of(world, target.aim, first.pose.position);
@@ -185,6 +190,7 @@ fn swoop(context: &StepContext, first: &CameraState, target: &Target) -> Vec<Cam
     let fill = stated_fill(&context.step.end, context.parameters[7]);
     let whole = distance_for(world, target, bearing(1.0), fill.unwrap_or(Fill::Fit(SWOOP_FILL)), first.fov_y_rad);
     let to = if fill.is_some() { whole } else { whole.max(from) };
+    let to = if to_deg > SWOOP_FROM_DEG { to.min(under_ceiling(context, first, target, to_deg)) } else { to };
     let at = |i: u32| {
         let share = f64::from(i) / f64::from(SWOOP_KEYS);
         view_at(world, target.aim, bearing(share), lerp((from, to), share), first.fov_y_rad)
@@ -192,10 +198,25 @@ fn swoop(context: &StepContext, first: &CameraState, target: &Target) -> Vec<Cam
     std::iter::once(*first).chain((1..=SWOOP_KEYS).map(at)).collect()
 }
 
+/// Farthest that a camera above its target is from it under the ceiling that is above the camera now.
+fn under_ceiling(context: &StepContext, first: &CameraState, target: &Target, elevation_deg: f64) -> f64 {
+    let world = context.world;
+    let eye = first.pose.position;
+    let Some(free) = world.hit_distance(eye, world.frame.up).filter(|_| world.is_indoor()) else {
+        return f64::INFINITY;
+    };
+    let rise = world.frame.height(eye - target.aim) + free - CEILING_RADII * world.camera_radius;
+    rise.max(0.0) / elevation_deg.to_radians().sin()
+}
+
+/// Distance of a camera from the ceiling above it, over its radius.
+const CEILING_RADII: f64 = 2.0;
+
 /// Elevation at the end of a crane whose end has an angle; `free_deg` without one.
 fn end_elevation_deg(context: &StepContext, free_deg: f64) -> f64 {
     match context.step.end.angle {
-        Some(ShotAngle::Overhead) => lerp((58.0, 70.0), context.parameters[6]),
+        Some(ShotAngle::Overhead) if context.world.is_indoor() => lerp((58.0, 70.0), context.parameters[6]),
+        Some(ShotAngle::Overhead) => lerp((66.0, 80.0), context.parameters[6]),
         Some(ShotAngle::High) => lerp((24.0, 38.0), context.parameters[6]),
         Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), context.parameters[6]),
         Some(ShotAngle::Low) => lerp((-30.0, -10.0), context.parameters[6]),

@@ -80,7 +80,8 @@ fn takes_in<'a>(context: &'a StepContext, inward: bool) -> Option<&'a Target> {
     let start = context.start.as_ref();
     let is_other =
         start.is_some_and(|start| start.ids.first() != end.ids.first()) || start.is_none() && context.before.is_some();
-    (is_other && context.step.end.subjects.len() == 1).then_some(end)
+    let left = start.or(context.earlier.as_ref()).and_then(|left| left.ids.first());
+    (is_other && left.is_none_or(|left| !context.step.end.subjects.contains(left))).then_some(end)
 }
 
 /// The end of a pull-out with its aim on what it takes in, as far as a camera that backs away turns; farther back where that

@@ -10,6 +10,8 @@ use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Least distance at the end of a pull-out over that at its start.
 pub(super) const LEAST_RATIO: f64 = 1.36;
+/// Most: from a ring on a finger to the whole of a hall.
+const MOST_RATIO: f64 = 50.0;
 /// Distance of a camera from the wall behind it, over its radius.
 pub(super) const WALL_RADII: f64 = 3.0;
 /// Share of the frame that a lone thing fills at the end of a push toward it.
@@ -38,7 +40,7 @@ pub(super) fn distance_ratio(context: &StepContext, target: &Target, first: &Cam
         _ => None,
     };
     let ratio = stated.or(by_size).or_else(|| (!inward).then(by_whole).flatten()).unwrap_or(open);
-    if inward { ratio.clamp(0.05, 0.97) } else { ratio.clamp(1.03, 12.0) }
+    if inward { ratio.clamp(0.05, 0.97) } else { ratio.clamp(1.03, MOST_RATIO) }
 }
 
 /// Share of the free way behind a camera that a pull-out to the whole room goes.
@@ -100,7 +102,7 @@ fn whole_ratio(context: &StepContext, first: &CameraState, distance: f64) -> Opt
         .chain(end.corners.iter().copied())
         .collect();
     let back = |ratio: f64| moved(first, first.pose.forward() * distance * (1.0 - ratio));
-    let ratios = (0..40).map(|i| 1.32 * 1.07_f64.powi(i));
+    let ratios = (0..54).map(|i| 1.32 * 1.07_f64.powi(i));
     let spare = lerp((1.0, 1.2), context.parameters[7]);
     ratios
         .into_iter()

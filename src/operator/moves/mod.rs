@@ -21,6 +21,7 @@ mod rack_focus;
 mod requirements;
 mod room_view;
 mod scanned;
+mod skim;
 mod standing;
 mod standing_view;
 mod straight;
@@ -30,6 +31,7 @@ mod with;
 
 pub(super) use context::StepContext;
 
+use super::constraint::pitch_band_deg;
 use super::motion::MotionSegment;
 use super::program::{Framing, Motion, Pass, Step, SubjectPart};
 use cinesplat_trajectory::{Move, ShotAngle};
@@ -95,7 +97,7 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         }
         Move::PushIn | Move::PullOut => dolly::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
-        Move::PedestalUp if leads_aside(context) && !keeps_its_view(context) => {
+        Move::PedestalUp if (leads_aside(context) || leads_above(context)) && !keeps_its_view(context) => {
             made_as(context, Move::CraneUp, circles::crane)
         }
         Move::PedestalDown if leads_aside(context) && !keeps_its_view(context) => {
@@ -135,6 +137,14 @@ fn leads_aside(context: &StepContext) -> bool {
     start.ids.iter().all(|id| !end.ids.contains(id)) && aside > LEAST_ASIDE * frame.height(apart).abs()
 }
 
+/// Whether a rise leads from beside a subject to a view from above it.
+fn leads_above(context: &StepContext) -> bool {
+    let (Some(before), Some(_)) = (&context.before, &context.end) else { return false };
+    let pitch_rad = context.world.frame.angles(before.pose.rotation).pitch_rad;
+    let looks_down = pitch_rad.to_degrees() < pitch_band_deg(ShotAngle::Overhead).1;
+    context.step.end.angle == Some(ShotAngle::Overhead) && context.step.amount.is_none() && !looks_down
+}
+
 /// Distance aside over the height from which on a rise between two subjects is a crane.
 const LEAST_ASIDE: f64 = 0.25;
 
@@ -148,6 +158,9 @@ fn rises_over_subject(context: &StepContext) -> bool {
 
 /// The segments of a step that passes an object on a side of it; `None` for every other step.
 fn passing_a_side(context: &StepContext, how: Pass) -> Option<Vec<MotionSegment>> {
+    if let Some(segments) = skim::skim(context) {
+        return Some(segments);
+    }
     let along = how == Pass::Along;
     let beside = along || matches!(how, Pass::Behind | Pass::Front);
     match context.step.movement {

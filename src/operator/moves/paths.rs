@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::room_view::room_target;
 use super::standing::turned_away;
-use crate::composition::{natural_elevation_deg, side_azimuths};
+use crate::composition::{natural_elevation_deg, square_azimuths};
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::detours::is_clear;
 use crate::framing::{Bearing, Fill, Target, bearing_of};
@@ -90,7 +90,7 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     let framing = &context.step.end;
     let wall_front_rad = wall_front(context, end);
     let azimuth_rad = match framing.side {
-        Some(side) => nearest(&side_azimuths(world, end.center, side), near.azimuth_rad) + spread(parameters[5]) * 0.35,
+        Some(side) => nearest(&square_azimuths(world, end, side), near.azimuth_rad) + spread(parameters[5]) * 0.21,
         None => match wall_front_rad {
             // What hangs on a wall or is part of it is looked at from its front.
             Some(front_rad) => front_rad + spread(parameters[5]) * 0.5,

@@ -2,6 +2,7 @@
 //! what is never in view, and what the film must not do.
 
 use super::context::StepContext;
+use super::skim::skims;
 use super::standing::require_shoulder;
 use crate::composition::lens_fov_deg;
 use crate::constraint::{Constraint, ConstraintKind, Scope};
@@ -41,7 +42,7 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
         add(own, Scope::End, framing(context, &step.end, &context.main_target()));
         hide(own, &step.start, Scope::Start);
         hide(own, &step.end, Scope::End);
-        add(own, Scope::All, passages(step.via.as_ref()));
+        add(own, Scope::All, passages(step.via.as_ref().filter(|_| !skims(context))));
         require_shoulder(context, own);
     }
 }

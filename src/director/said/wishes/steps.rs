@@ -60,7 +60,7 @@ fn add(
     let rest = manner.rest_secs.or(station.rests.then_some(STOP_SECS));
     let rest = if is_last { manner.last_secs.or(rest) } else { rest };
     let mut step =
-        Step { end: end.clone(), speed: manner.speed, ..Step::of(movement((nth, station), stations, things, manner)) };
+        Step { end: end.clone(), speed: manner.speed, ..Step::of(movement((nth, station), stations, manner)) };
     if nth == 0 && rest.is_some() && step.movement == Move::PushIn {
         // The first rest is the opening.
         steps.push(Step { duration_secs: rest, end, ..Step::of(Move::Static) });
@@ -76,23 +76,17 @@ fn add(
 }
 
 /// The move that leads to a station.
-fn movement((nth, station): (usize, &Station), stations: &[Station], things: &Things<'_>, manner: &Manner) -> Move {
+fn movement((nth, station): (usize, &Station), stations: &[Station], manner: &Manner) -> Move {
     match &station.subject {
         Subject::Place if nth == 0 => Move::PanRight,
         Subject::Place => Move::PullOut,
         _ if nth > 0 && (manner.grows || manner.share.is_some()) => Move::Follow,
         _ if nth == 0 && manner.grows => Move::Static,
         Subject::Things(ids) if nth > 0 && is_shown(ids, &stations[..nth]) => Move::PullOut,
-        // A way in to a table ends under it.
-        Subject::Things(ids) if nth > 0 && is_table(ids, things) && !station.is_close => Move::Follow,
+        // Straight ahead a way in ends under a table, or where the thing before stands in the picture.
+        Subject::Things(_) if nth > 0 => Move::Follow,
         _ => Move::PushIn,
     }
-}
-
-/// Whether a thing is one that others stand on.
-fn is_table(ids: &[u32], things: &Things<'_>) -> bool {
-    let is_one = |id: &u32| things.is_called(*id, "desk table workbench counter bench");
-    ids.len() == 1 && ids.iter().all(is_one)
 }
 
 /// Whether all of some things were shown one by one.

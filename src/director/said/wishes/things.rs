@@ -4,8 +4,6 @@ use cinesplat_language::is_listed;
 use cinesplat_objects::Object;
 use glam::DVec3;
 
-use super::super::called::is_called;
-
 /// Largest radius of a small thing, of the size of the scene.
 const SMALL: f64 = 0.05;
 /// Largest gap within a group that is one picture, and between two things that are one.
@@ -27,11 +25,6 @@ impl<'a> Things<'a> {
 
     pub(super) fn get(&self, id: u32) -> Option<&'a Object> {
         self.objects.iter().find(|object| object.id == id)
-    }
-
-    /// Whether the label of a thing has one of some words.
-    pub(super) fn is_called(&self, id: u32, kinds: &str) -> bool {
-        is_called(self.objects, id, kinds)
     }
 
     /// Whether all of some things are small, such as a cup.
