@@ -13,6 +13,7 @@ mod held_whole;
 mod lens;
 mod level;
 mod look;
+mod nearing;
 mod over_shoulder;
 mod overlook;
 mod passes;
@@ -89,7 +90,8 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
     match context.step.movement {
         Move::Static => turns::hold(context),
         Move::Handheld => turns::handheld(context),
-        Move::PanLeft | Move::PanRight | Move::WhipPan => turns::pan(context),
+        Move::PanLeft | Move::PanRight => nearing::pan_and_near(context),
+        Move::WhipPan => turns::pan(context),
         Move::TiltUp | Move::TiltDown => turns::tilt(context),
         Move::RollCw | Move::RollCcw => turns::roll(context),
         Move::FlyThrough | Move::PushIn | Move::PullOut | Move::Follow | Move::CraneUp | Move::CraneDown if passes => {

@@ -99,7 +99,8 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     };
     let elevation_rad = framing.elevation_deg.unwrap_or(elevation_deg).to_radians();
     let bearing = unturned(context, first, Bearing { azimuth_rad, elevation_rad });
-    let fill = fill_in(world, framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp((0.45, 0.78), parameters[6])));
+    let open = if world.is_indoor() { END_FILL } else { LONE_END_FILL };
+    let fill = fill_in(world, framing, parameters[6]).unwrap_or_else(|| Fill::Fit(lerp(open, parameters[6])));
     let loose = framing.whole && framing.height_frac.is_none();
     let fill = if loose { Fill::Fit(lerp((0.6, 0.88), parameters[6])) } else { fill };
     let view = view_from(world, (end, framing), bearing, fill, context.end_fov_rad(first));
@@ -112,6 +113,9 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     moved(&view, -view.pose.forward() * short.max(0.0))
 }
 
+/// Size of what a way ends at, where the words state none: in a room, and of a lone thing, about which there is nothing.
+const END_FILL: (f64, f64) = (0.45, 0.78);
+const LONE_END_FILL: (f64, f64) = (0.62, 0.92);
 /// Distance at which a walk up to a thing on a wall ends at least, over the height of a standing person's eyes.
 const LEAST_WALL_EYES: f64 = 0.7;
 /// Thickness of a thing on a wall over its width and its height.

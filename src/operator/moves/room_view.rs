@@ -10,7 +10,7 @@ use crate::lookout::Lookout;
 use crate::lookouts::lookouts;
 use crate::motion::StepParameters;
 use crate::program::Framing;
-use crate::view::{aimed, lerp, picked};
+use crate::view::{aimed, lerp, moved, picked};
 use crate::world::World;
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::{CameraState, ShotAngle, ShotSize};
@@ -72,6 +72,24 @@ pub(super) fn room_view(
     let fov_y_rad = lerp(range, parameters[3]).to_radians();
     let pose = Pose { position, rotation: glam::DQuat::IDENTITY };
     Some(aimed(world, &CameraState { pose, fov_y_rad, focus_distance: None }, target.aim))
+}
+
+/// Horizontal directions in which the room about a camera is measured.
+const NUM_AROUND: u32 = 12;
+
+/// The camera where the room is widest about it, from among the places where people stand: what turns all the way round stands
+/// amid the room.
+pub(super) fn amid_room(world: &World, state: &CameraState) -> CameraState {
+    let frame = &world.frame;
+    let height = frame.height(state.pose.position);
+    let at = |point: &DVec3| *point + frame.up * (height - frame.height(*point));
+    let free = |eye: &DVec3| {
+        let ways =
+            (0..NUM_AROUND).map(|i| frame.direction(f64::from(i) / f64::from(NUM_AROUND) * std::f64::consts::TAU));
+        ways.map(|way| world.hit_distance(*eye, way).unwrap_or(0.0)).fold(f64::INFINITY, f64::min)
+    };
+    let widest = world.viewpoints().iter().map(at).max_by(|a, b| free(a).total_cmp(&free(b)));
+    widest.map_or(*state, |eye| moved(state, eye - state.pose.position))
 }
 
 /// Free height above a lookout, less the camera's radius.

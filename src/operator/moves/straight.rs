@@ -8,10 +8,10 @@ use super::standing_view::stands;
 use super::turns::is_along;
 use crate::composition::span;
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
-use crate::framing::{Target, frame_position};
+use crate::framing::{Target, bearing_of, distance_for, frame_position};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing, Pass, SubjectPart};
-use crate::view::{LYING_RADII, aimed, lerp, moved};
+use crate::view::{LYING_RADII, aimed, fill_in, lerp, moved};
 use cinesplat_trajectory::{CameraState, Move};
 
 /// Slides sideways, past or along a subject.
@@ -117,6 +117,8 @@ fn slide(
     }
     first = through_gate(context, &first, along(&first) * way);
     let last = moved(&first, along(&first) * way);
+    let sized = context.end.as_ref().filter(|_| travels && !direction.is_vertical());
+    let last = sized.map_or(last, |end| resized(context, &last, end, way));
     let mut segment = context.segment(vec![first, last]);
     let slight = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_)))
         || !travels && keeps_picture(context, direction, &target);
@@ -142,6 +144,20 @@ fn slide(
     segments.push(context.constrained_at_end(context.constrained_at_start(segment)));
     segments
 }
+
+/// The last camera of a slide, nearer or farther where the words state another size for its end; it stays a slide.
+fn resized(context: &StepContext, last: &CameraState, end: &Target, way: f64) -> CameraState {
+    let Some(fill) = fill_in(context.world, &context.step.end, context.parameters[6]) else { return *last };
+    let away = end.aim - last.pose.position;
+    let bearing = bearing_of(context.world, end.aim, last.pose.position);
+    let wanted = distance_for(context.world, end, bearing, fill, last.fov_y_rad);
+    let nearer = away.dot(last.pose.forward()) - wanted;
+    let most = MOST_NEARER * way.abs();
+    moved(last, last.pose.forward() * nearer.clamp(-most, most))
+}
+
+/// Farthest that a slide nears or leaves its end, over its length.
+const MOST_NEARER: f64 = 0.8;
 
 /// Value of parameter 7 up to which a slide steps back for what it leads past: there may be no room for that.
 const HOLDING_TO: f64 = 0.6;

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::overlook::overlook;
+use super::room_view::amid_room;
 use super::standing_view::stands;
 use super::sway::{num_sways, swayed};
 use crate::composition::front_azimuth;
@@ -201,7 +202,11 @@ fn turn(
     let (mut segments, first, last) = match &context.end {
         Some(end) if goes_to_end => onto(context, end, |state| by(state, -angle_rad)),
         _ => {
-            let (segments, first) = context.opened_on(&context.opening_target(), (0.3, 0.6));
+            let target = context.opening_target();
+            let (segments, first) = context.opened_on(&target, (0.3, 0.6));
+            let is_amid = is_free && !tilts && angle_rad > ALL_ROUND_RAD && context.world.is_indoor();
+            let is_open = is_amid && target.ids.is_empty() && !stands(&context.standing());
+            let first = if is_open { amid_room(context.world, &first) } else { first };
             let last = by(&first, angle_rad);
             (segments, first, last)
         }
@@ -247,6 +252,8 @@ fn turn(
     segments
 }
 
+/// Angle of a pan that is one all the way round.
+const ALL_ROUND_RAD: f64 = 5.2;
 /// Angle of a pan from which on it passes through cameras between its ends.
 const WIDE_TURN_RAD: f64 = 2.0;
 /// Least and largest turn of a pan and of a tilt, degrees.
