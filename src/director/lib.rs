@@ -37,6 +37,7 @@ pub mod names;
 pub mod network;
 mod placed;
 mod said;
+mod scan_parts;
 mod tensor_file;
 mod times;
 

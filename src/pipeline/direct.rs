@@ -2,7 +2,7 @@ use super::choose_film::{Critique, FilmChoice, choose_film};
 use super::clearance::reach_of;
 use super::error::PipelineError;
 use super::interpreter::{Interpreter, names};
-use super::lone_thing;
+use super::{guessed_things, lone_thing};
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use super::slant::{level_out, slant_of};
@@ -148,6 +148,7 @@ pub fn direct(
     let up = scene.up.normalize_or_zero();
     let (mut linked, objects) =
         times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects, up))?;
+    guessed_things::take_guesses(&mut linked, &objects, up);
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();
@@ -169,7 +170,7 @@ pub fn direct(
     let looks = settings.solve != SolveLevel::Off;
     let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, &objects, &ids)));
     if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
-        let fronts = times.measure(Phase::Judge, || match lone_thing::whole(&objects) {
+        let fronts = times.measure(Phase::Judge, || match objects.only_whole() {
             // A neck has the front of its guitar.
             Some(whole) if !ids.contains(&whole.id) => {
                 let fronts = Subjects::new(&scene.gaussians, &objects, &[whole.id]).fronts(&world.frame)?;

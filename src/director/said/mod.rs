@@ -11,6 +11,7 @@ mod directions;
 mod dolly_zoom;
 mod endings;
 mod entries;
+mod facing;
 mod fills;
 mod fixed;
 #[cfg(test)]
@@ -28,6 +29,7 @@ mod ranges;
 mod rates;
 mod repeats;
 mod rests;
+mod scanned;
 mod senses;
 mod sides;
 mod small_moves;
@@ -49,6 +51,7 @@ pub(crate) use bans::asks_for;
 pub(crate) use directions::is_form;
 pub use levels::take_levels;
 pub(crate) use openings::abbreviated_size;
+pub(crate) use scanned::frame_parts;
 
 use crate::direction::Direction;
 use crate::error::DirectorError;
@@ -135,6 +138,9 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::slide_square(linked, steps);
     openings::begin_straight_above(linked, steps);
     directions::rise_to_things(linked, steps);
+    facing::begin_face_to_face(linked, steps);
+    facing::rest_on_openings(linked, steps);
+    facing::look_down_on_tops(linked, steps);
     take_said_of_moves(linked, direction);
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Steps whose words say two moves: `hold on the profile, orbit round till it faces us`, `swing round it, and back off until all
 //! of it is in`, `move forward, swing left to face the sofa`.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_operator::{Amount, Framing, Step, SubjectPart, SubjectSide};
 use cinesplat_trajectory::Move;
 
@@ -46,6 +46,7 @@ pub(crate) fn split_moves(linked: &Linked, direction: &mut Direction) {
             .or_else(|| advanced(linked, step))
             .or_else(|| neared(linked, step))
             .or_else(|| rounded(linked, step))
+            .or_else(|| walked_round(linked, step))
             .filter(|(_, second)| second.words.is_some_and(|[from, _]| own(from)))
         else {
             continue;
@@ -231,6 +232,65 @@ fn rounded(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
     Some((Step { amount: None, words: Some(first), ..step.clone() }, round))
 }
 
+/// Words between a verb of a walk and `around`, and how far round each of them leads, degrees.
+const FAR: [(&str, f64); 8] = [
+    ("half", 180.0),
+    ("halfway", 180.0),
+    ("quarter", 90.0),
+    ("once", 360.0),
+    ("twice", 720.0),
+    ("fully", 360.0),
+    ("full", 360.0),
+    ("complete", 360.0),
+];
+const ON_THE_WAY: &str = "half halfway way quarter once right all the slowly gently fully full complete a an turn lap of";
+
+/// A move, and the way round that its words say behind it: `back out until all of it is visible, and walk half around it`.
+fn walked_round(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
+    let circles = |movement: &Move| movement.is_circular();
+    if std::iter::once(&step.movement).chain(&step.with).any(circles) || step.returns || step.end.subjects.is_empty() {
+        return None;
+    }
+    let words = words_of(linked, step);
+    let text = |at: usize| words.get(at).map_or("", |(word, _)| *word);
+    let around = |at: usize| {
+        let between = (at + 1..words.len()).take_while(|nth| is_listed(ON_THE_WAY, text(*nth))).count();
+        let around = at + 1 + between;
+        // `Go round the corner of the sofa to the door` is no circle.
+        let about = text(around + 1);
+        let is_about = matches!(about, "it" | "him" | "her" | "them" | "" | "," | "." | "so" | "once" | "to")
+            || linked.slot_at(about).is_some_and(|id| linked.expanded(&[id]) == linked.expanded(&step.end.subjects));
+        (ROUND.contains(&text(around)) && is_about).then_some(around)
+    };
+    let is_walk = |at: &usize| {
+        let circles = CIRCLES.iter().any(|verb| is_form(text(*at), verb));
+        let walks = WALKS.iter().chain(&["spin", "turn"]).any(|verb| is_form(text(*at), verb));
+        circles && (linked.slot_at(text(at + 1)).is_some() || text(at + 1) == "it" || around(*at).is_some())
+            || walks && around(*at).is_some()
+    };
+    let at = (1..words.len()).find(|at| is_walk(at) && begins(&words, *at))?;
+    let far_at = |at: usize| FAR.iter().find(|(far, _)| words[at..].iter().take(6).any(|(word, _)| word == far));
+    // `Rise and circle it` may be one move.
+    let is_next = words[..at].iter().rev().take(2).any(|(word, _)| JOINTS[..4].contains(word));
+    if !is_next && far_at(at).is_none() {
+        return None;
+    }
+    let [first, second] = parted(step, &words, at)?;
+    let behind: Vec<&str> = words[at..].iter().map(|(word, _)| *word).collect();
+    let stated = behind.iter().filter_map(|word| linked.quantity_at(word)).find(|q| q.kind == QuantityKind::Degrees);
+    let way = behind.iter().find_map(|word| SIDES.iter().find(|(side, _, _)| side == word));
+    let shown = Framing { subjects: step.end.subjects.clone(), whole: step.end.whole, ..Framing::default() };
+    let round = Step {
+        either_way: way.is_none(),
+        end: shown,
+        amount: stated.map(|stated| stated.value).or(far_at(at).map(|(_, far)| *far)).map(Amount::Degrees),
+        speed: step.speed,
+        words: Some(second),
+        ..Step::of(way.map_or(Move::OrbitRight, |(_, _, orbit)| *orbit))
+    };
+    Some((Step { words: Some(first), ..step.clone() }, round))
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fixture::{direction, linked};
@@ -275,6 +335,17 @@ mod tests {
         let steps = split("go on to <obj-0> , and finish with <qty-0> arc around that", push);
         assert_eq!([steps[0].movement, steps[1].movement], [Move::PushIn, Move::ArcRight]);
         assert_eq!((steps[0].amount, steps[1].amount), (None, Some(Amount::Degrees(90.0))));
+    }
+
+    #[test]
+    fn a_walk_around_behind_a_way_back_is_a_step() {
+        let back = || Step { end: about(5), ..Step::of(Move::PullOut) };
+        let steps = split("back out until <obj-0> is visible , and walk half around it so buyers see more", back());
+        assert_eq!([steps[0].movement, steps[1].movement], [Move::PullOut, Move::OrbitRight]);
+        assert_eq!(steps[1].amount, Some(Amount::Degrees(180.0)));
+        assert_eq!(split("rise above <obj-0> , then circle it once", back()).len(), 2);
+        assert_eq!(split("rise and circle <obj-0>", back()).len(), 1);
+        assert_eq!(split("pull back from <obj-0> , walk around the corner", back()).len(), 1);
     }
 
     #[test]
