@@ -32,6 +32,7 @@ use crate::names::{FoundMention, Names, NamesFiles};
 use crate::placed::{Places, point_by_places};
 use crate::said::{frame_parts, take_said, take_said_of_all};
 use crate::scan_parts::own_parts;
+use crate::sized::point_by_size;
 use crate::times::ListedTimes;
 
 /// The facts about a scene that the director needs.
@@ -126,6 +127,7 @@ impl Director {
         drop_sizes(prompt, objects, &mut found);
         name_by_label_words(prompt, objects, &mut found);
         join_likenesses(prompt, objects, &mut found);
+        point_by_size(prompt, objects, places, &mut found);
         point_by_places(prompt, objects, places, &mut found);
         absorb_places(prompt, objects, &mut found)?;
         point_back(prompt, objects, &mut found);

@@ -190,7 +190,7 @@ pub(crate) fn insert_mention(found: &mut Vec<FoundMention>, mention: Mention) {
 }
 
 /// Whether a mention has some of these bytes of the prompt.
-fn is_linked(found: &[FoundMention], [from, to]: [usize; 2]) -> bool {
+pub(crate) fn is_linked(found: &[FoundMention], [from, to]: [usize; 2]) -> bool {
     found.iter().any(|found| found.mention.bytes[0] < to && from < found.mention.bytes[1])
 }
 

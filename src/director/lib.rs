@@ -38,6 +38,7 @@ pub mod network;
 mod placed;
 mod said;
 mod scan_parts;
+mod sized;
 mod tensor_file;
 mod times;
 

@@ -1,9 +1,9 @@
 //! Parts of the only thing of a scan, which a search may have made objects of their own.
 
-use cinesplat_language::{LanguageError, NamedObject, is_listed, own_part_at, part_of, tokenize};
+use cinesplat_language::{LanguageError, Mention, NamedObject, is_listed, own_part_at, part_of, tokenize};
 use cinesplat_objects::{Object, only_whole};
 
-use crate::explained::{POINTS, content, is_number, label, said};
+use crate::explained::{POINTS, content, insert_mention, is_linked, is_number, label, said};
 use crate::names::FoundMention;
 use crate::placed::Places;
 
@@ -20,11 +20,13 @@ pub(crate) fn own_parts(
     prompt: &str,
     objects: &[NamedObject],
     places: Places<'_>,
-    found: &mut [FoundMention],
+    found: &mut Vec<FoundMention>,
 ) -> Result<(), LanguageError> {
+    point_to_owners(prompt, objects, found)?;
     let whole = only_whole(places.objects);
     if let Some(whole) = whole {
         point_to_ends(prompt, objects, (places, whole), found)?;
+        link_parts(prompt, objects, whole.id, found)?;
     }
     let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
     named.dedup();
@@ -47,6 +49,57 @@ pub(crate) fn own_parts(
         let Some(label) = label(objects, id) else { continue };
         if part_of(words, label)?.is_some() {
             part.mention.ids = vec![id];
+        }
+    }
+    Ok(())
+}
+
+/// Words that are ends of things and much else.
+const ENDS: &str = "top bottom front back rear side left right middle center base head crown top lid point";
+
+/// Links parts of the whole thing that no network has found: `push in on the eye socket`.
+fn link_parts(
+    prompt: &str,
+    objects: &[NamedObject],
+    whole: u32,
+    found: &mut Vec<FoundMention>,
+) -> Result<(), LanguageError> {
+    let words = tokenize(prompt);
+    let whole_label = label(objects, whole).unwrap_or_default();
+    for at in 1..words.len() {
+        if !is_listed(POINTS, &words[at - 1].text) {
+            continue;
+        }
+        for len in (1..=3).rev().filter(|len| at + len <= words.len()) {
+            let bytes = [words[at - 1].span[0], words[at + len - 1].span[1]];
+            let is_end = is_listed(ENDS, &words[at + len - 1].text);
+            let is_part = part_of(prompt.get(bytes[0]..bytes[1]).unwrap_or_default(), whole_label)?.is_some();
+            if is_part && !is_end && !is_linked(found, bytes) {
+                insert_mention(found, Mention { bytes, ids: vec![whole] });
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Points a part at the thing named last before it that has such a part, where it was taken for another thing of another name:
+/// `to the bed, and end up on the cushions`, in a room with a bench.
+fn point_to_owners(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) -> Result<(), LanguageError> {
+    for nth in 1..found.len() {
+        let (before, rest) = found.split_at_mut(nth);
+        let part = &mut rest[0].mention;
+        let words = said(prompt, part);
+        let [id] = part.ids[..] else { continue };
+        let is_called = |id: u32| label(objects, id).is_some_and(|label| !content(label).is_disjoint(&content(words)));
+        if is_number(words) || is_called(id) {
+            continue;
+        }
+        let own = tokenize(words).into_iter().skip_while(|word| is_listed(POINTS, &word.text)).collect::<Vec<_>>();
+        let Some([owner]) = before.last().map(|found| &found.mention.ids[..]) else { continue };
+        let has = own_part_at(&own, label(objects, *owner).unwrap_or_default())?.is_some_and(|len| len == own.len());
+        if has {
+            part.ids = vec![*owner];
         }
     }
     Ok(())
@@ -97,6 +150,26 @@ mod tests {
     use glam::DVec3;
 
     #[test]
+    fn a_part_is_one_of_the_thing_before_it() {
+        let names: Vec<NamedObject> = [(1, "window"), (2, "navy bed"), (3, "bench")]
+            .map(|(id, label)| NamedObject { id, label: label.to_owned() })
+            .to_vec();
+        let ids = |prompt: &str, mentions: &[(&str, u32)]| -> Vec<Vec<u32>> {
+            let mention = |(words, id): &(&str, u32)| {
+                let start = prompt.find(words).unwrap();
+                let mention = Mention { bytes: [start, start + words.len()], ids: vec![*id] };
+                FoundMention { mention, probability: 1.0, nearest: Vec::new() }
+            };
+            let mut found: Vec<FoundMention> = mentions.iter().map(mention).collect();
+            own_parts(prompt, &names, Places { objects: &[], up: DVec3::Y }, &mut found).unwrap();
+            found.into_iter().map(|found| found.mention.ids).collect()
+        };
+        let bed = "to the bed and end on the cushions";
+        assert_eq!(ids(bed, &[("the bed", 2), ("the cushions", 3)]), [[2], [2]]);
+        assert_eq!(ids("the bed, then the bench", &[("the bed", 2), ("the bench", 3)]), [[2], [3]]);
+    }
+
+    #[test]
     fn ends_that_no_part_reaches_are_those_of_the_whole_thing() {
         let part = |id, label: &str, y: f64, parent| Object {
             parent,
@@ -120,6 +193,7 @@ mod tests {
         assert_eq!(ids(rise, &[("the feet of the stand", &[]), ("the pegs", &[3])]), [[1], [3]]);
         assert_eq!(ids("down to the feet of the stand", &[("the feet of the stand", &[3])]), [[1]]);
         assert_eq!(ids("down to the foot", &[("the foot", &[2])]), [[2]]);
+        assert_eq!(ids("in on the eye socket", &[]), [[1]]);
         // The pegs are a part of necks.
         assert_eq!(ids("the neck and its pegs", &[("the neck", &[3]), ("its pegs", &[])]), [[3], [3]]);
     }

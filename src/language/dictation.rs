@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use super::tokenizer::{is_listed, tokenize, word_at};
 
 /// Said marks: their words and the mark.
-const MARKS: [(&[&str], &str); 10] = [
+const MARKS: [(&[&str], &str); 11] = [
+    (&["new", "sentence"], "."),
     (&["full", "stop"], "."),
     (&["new", "paragraph"], "."),
     (&["new", "para"], "."),

@@ -52,6 +52,17 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_mount(&words, [first, end])
         || is_frame(&words, [first, end])
         || is_until(&words, [first, end])
+        || is_light(&words, [first, end], objects)
+}
+
+/// `Follow the light from the window to the bed`: what comes in, and no lamp.
+fn is_light(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let is_named = words[first..end].iter().all(|word| is_listed("the a that this light lights sunlight morning evening", &word.text));
+    let article = first + usize::from(is_listed("the that this", word_at(words, first)));
+    let before = article.checked_sub(1).map_or("", |before| word_at(words, before));
+    let before = if is_listed("the that this", before) { article.checked_sub(2).map_or("", |at| word_at(words, at)) } else { before };
+    let is_label = objects.iter().any(|object| tokenize(&object.label).iter().any(|word| word.stem == "light"));
+    is_named && !is_label && is_listed("follow follows following chase chasing with in like as catch catching", before)
 }
 
 /// `Swing round till it stares at us`: what goes on until something, and no drawer of money.
@@ -188,6 +199,12 @@ mod tests {
         assert!(is_none("creep in until they fill the frame", "the frame"));
         assert!(!is_none("push in on the picture", "the picture"));
         assert!(!is_none("push in on the boat in the picture on the wall", "the picture"));
+    }
+
+    #[test]
+    fn light_that_comes_in_is_no_thing() {
+        assert!(is_none("follow the light from the window to the bed", "the light"));
+        assert!(!is_none("push in on the light", "the light"));
     }
 
     #[test]

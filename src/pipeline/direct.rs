@@ -146,9 +146,12 @@ pub fn direct(
 ) -> Result<Directed, PipelineError> {
     let mut times = PhaseTimes::default();
     let up = scene.up.normalize_or_zero();
+    let found = objects;
+    let named = guessed_things::named(prompt, found, up);
+    let objects = named.as_ref().unwrap_or(found);
     let (mut linked, objects) =
         times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects, up))?;
-    guessed_things::take_guesses(&mut linked, &objects, up);
+    guessed_things::take_guesses(&mut linked, found, up);
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();

@@ -36,8 +36,68 @@ const STANDS_FRAC: f64 = 0.07;
 /// Most alike directions of things along one wall, and the distance of their planes, of the size of the scan.
 const SAME_WALL_COS: f64 = 0.9;
 const SAME_WALL_FRAC: f64 = 0.12;
+/// Words before a noun that may be its color.
+const COLORS_BEFORE: usize = 5;
 /// Most things of one picture.
 const MOST_THINGS: usize = 8;
+
+/// The objects with the nouns of a prompt for their guessed names, where such things may be; `None` for other scenes and where
+/// the prompt has no such noun.
+pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<ObjectSet> {
+    let scan = Scan { objects: &objects.objects, up };
+    if !scan.is_guessed() {
+        return None;
+    }
+    let words = tokenize(prompt);
+    let mut labels: Vec<(u32, String)> = Vec::new();
+    let mut is_taken = [false; 4];
+    for at in 0..words.len() {
+        let noun = &words[at];
+        let is = |list: &str| is_listed(list, &noun.stem) || is_listed(list, &noun.text);
+        let Some(class) = [COUNTERS, SHELVES, CUPBOARDS, SMALL].iter().position(|list| is(list)) else { continue };
+        // `On the table`, and nothing that opens: `the kitchen counter top`.
+        if std::mem::replace(&mut is_taken[class], true) {
+            continue;
+        }
+        let before = &words[at.saturating_sub(COLORS_BEFORE)..at];
+        let things: Vec<&Object> = match class {
+            0 => scan.counter().into_iter().collect(),
+            1 => scan.shelves(),
+            2 => scan.fronts(),
+            _ => scan.shelved(),
+        };
+        let is_free = |object: &&Object| !labels.iter().any(|(id, _)| *id == object.id);
+        let new: Vec<(u32, String)> = things
+            .into_iter()
+            .filter(is_free)
+            .map(|object| (object.id, format!("{}{}", color_said(&object.label, before), noun.stem)))
+            .collect();
+        labels.extend(new);
+    }
+    if labels.is_empty() {
+        return None;
+    }
+    let mut named = objects.clone();
+    let alike = |label: &str| labels.iter().filter(|(_, other)| other == label).count() > 1;
+    for (nth, (id, label)) in labels.iter().enumerate() {
+        let earlier = labels[..nth].iter().filter(|(_, other)| other == label).count() + 1;
+        let label = if alike(label) { format!("{label} {earlier}") } else { label.clone() };
+        named.objects.iter_mut().filter(|object| object.id == *id).for_each(|object| object.label.clone_from(&label));
+    }
+    Some(named)
+}
+
+/// The color of a guessed name with a space behind it, as the words before a noun call it: `blue` for turquoise.
+fn color_said(label: &str, before: &[Word]) -> String {
+    let Some((colors, own)) = ALIKE.iter().find_map(|colors| {
+        let own = label.split(' ').find(|word| is_listed(colors, word))?;
+        Some((colors, own))
+    }) else {
+        return String::new();
+    };
+    let said = before.iter().rev().find(|word| is_listed(colors, &word.text)).map_or(own, |word| word.text.as_str());
+    format!("{said} ")
+}
 
 /// Takes the nouns that a scan of guessed names lacks for what is most probably meant, or leaves them out where other things are
 /// named. Elsewhere they stay missing.
@@ -48,7 +108,7 @@ pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) 
     }
     let mut known: Vec<Vec<u32>> = Vec::new();
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
-        let ids = scan.guess(&group.name).filter(|ids| !known.contains(ids));
+        let ids = scan.guess(&group.name).filter(|ids| ids.len() == 1 || !known.contains(ids));
         let Some(ids) = ids else { continue };
         let words: Vec<String> = ids.iter().take(3).map(|id| format!("<obj-{id}>")).collect();
         let (name, more) = (&group.name, if ids.len() > 3 { " .." } else { "" });
@@ -162,18 +222,43 @@ impl Scan<'_> {
         low.max_by(|a, b| a.radius().total_cmp(&b.radius()))
     }
 
-    /// The fronts of cupboards: flat and upright, of the colors that the words say, or else below the tops.
-    fn cupboards(&self, words: &[Word], is_plural: bool) -> Vec<u32> {
+    /// The fronts of cupboards: flat or boxes, below the tops at which people work, the largest first.
+    fn fronts(&self) -> Vec<&Object> {
         let is_front = |object: &&Object| {
-            let colored = self.of_color(std::slice::from_ref(object), words).len() == 1 && !has_word(&object.label, "surface");
             let is_panel = has_word(&object.label, "panel") || has_word(&object.label, "box");
-            is_panel && self.height_frac(self.middle(object)) < COUNTER_FRAC || colored && is_panel
+            is_panel && self.height_frac(self.middle(object)) < COUNTER_FRAC
         };
-        let fronts: Vec<&Object> = self.objects.iter().filter(is_front).collect();
-        let of_color = self.of_color(&fronts, words);
-        let mut fronts = if of_color.is_empty() { fronts } else { of_color };
+        let mut fronts: Vec<&Object> = self.objects.iter().filter(is_front).collect();
         fronts.sort_by_key(|object| std::cmp::Reverse(object.num_gaussians));
+        fronts
+    }
+
+    /// Those that words with their colors mean.
+    fn cupboards(&self, words: &[Word], is_plural: bool) -> Vec<u32> {
+        let fronts = self.fronts();
+        let of_color = self.of_color(&fronts, words);
+        let fronts = if of_color.is_empty() { fronts } else { of_color };
         fronts.into_iter().take(if is_plural { 3 } else { 1 }).map(|object| object.id).collect()
+    }
+
+    /// Whether a thing stands on a top that is no table.
+    fn is_on(&self, object: &Object, top: &Object) -> bool {
+        let [low, high] = self.extent();
+        let near = STANDS_FRAC * (high - low);
+        let [_, edge] = self.heights(top);
+        let apart = object.center - top.center;
+        let level = top.rotation.conjugate() * (apart - self.up * apart.dot(self.up));
+        let is_over = level.abs().cmple(top.half_extents + near).all();
+        is_over && (self.heights(object)[0] - edge).abs() < 2.0 * near
+    }
+
+    /// The tops on which the things of one wall stand.
+    fn shelves(&self) -> Vec<&Object> {
+        let things = self.shelved();
+        let is_shelf = |top: &&Object| {
+            self.height_frac(self.middle(top)) > SHELF_FRAC && things.iter().any(|thing| self.is_on(thing, top))
+        };
+        self.tops().filter(is_shelf).collect()
     }
 
     /// Those of some things whose guessed names have a color that the words say.
@@ -192,18 +277,10 @@ impl Scan<'_> {
     /// What stands on the shelves of one wall, the largest row first.
     fn shelved(&self) -> Vec<&Object> {
         let [low, high] = self.extent();
-        let near = STANDS_FRAC * (high - low);
         let stands = |object: &&Object| {
-            let foot = self.heights(object)[0];
-            let is_on = |top: &Object| {
-                let [_, edge] = self.heights(top);
-                let apart = object.center - top.center;
-                let level = top.rotation.conjugate() * (apart - self.up * apart.dot(self.up));
-                let is_over = level.abs().cmple(top.half_extents + near).all();
-                is_over && (foot - edge).abs() < 2.0 * near
-            };
             let is_thing = !has_word(&object.label, "surface") && !has_word(&object.label, "panel");
-            is_thing && self.height_frac(foot) > SHELF_FRAC && self.tops().any(is_on)
+            let is_high = self.height_frac(self.heights(object)[0]) > SHELF_FRAC;
+            is_thing && is_high && self.tops().any(|top| self.is_on(object, top))
         };
         let mut things: Vec<&Object> = self.objects.iter().filter(stands).collect();
         things.sort_by_key(|object| std::cmp::Reverse(object.num_gaussians));
@@ -279,6 +356,18 @@ mod tests {
         assert_eq!(of("the cupboards"), [2, 3]);
         assert_eq!(of("the blue cupboard"), [2]);
         assert_eq!(of("the giraffe"), Vec::<u32>::new());
+    }
+
+    #[test]
+    fn things_take_the_nouns_of_the_prompt_for_names() {
+        let labels = |prompt: &str| -> Vec<String> {
+            let named = named(prompt, &kitchen(), DVec3::Y);
+            named.map(|set| set.objects.into_iter().map(|object| object.label).collect()).unwrap_or_default()
+        };
+        let named = labels("from the blue cupboards to the teapots on the shelf");
+        assert_eq!([&named[1], &named[2]], ["blue cupboard", "pink cupboard"]);
+        assert_eq!([&named[3], &named[4], &named[5]], ["brown shelf 1", "gray teapot", "teal teapot"]);
+        assert_eq!(labels("orbit the giraffe"), Vec::<String>::new());
     }
 
     #[test]

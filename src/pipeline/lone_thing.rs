@@ -11,7 +11,7 @@ use super::interpreter::names;
 use cinesplat_director::{Director, Places};
 use cinesplat_language::{Linked, Relation, Things, Word, is_listed, part_of, tokenize};
 use cinesplat_objects::{Object, ObjectSet};
-use cinesplat_operator::Program;
+use cinesplat_operator::{Framing, Program};
 use glam::DVec3;
 
 /// What a thing stands on: rarely what a scan is about.
@@ -63,15 +63,17 @@ pub(super) fn link<'a>(
     Ok((linked, Cow::Owned(renamed)))
 }
 
-/// Lets a program that names nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
+/// Lets what a program says of nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
 pub(super) fn show(program: &mut Program, objects: &ObjectSet) {
     let Some(whole) = objects.only_whole() else { return };
-    if !program.object_ids().is_empty() {
-        return;
-    }
+    let names_nothing = program.object_ids().is_empty();
     for step in &mut program.steps {
-        step.end.subjects = vec![whole.id];
-        if step.start.side.is_some() || step.start.angle.is_some() {
+        let is_view = |framing: &Framing| framing.side.is_some() || framing.angle.is_some() || framing.size.is_some();
+        let circles = step.movement.is_circular();
+        if step.end.subjects.is_empty() && (names_nothing || circles || is_view(&step.end)) {
+            step.end.subjects = vec![whole.id];
+        }
+        if step.start.subjects.is_empty() && is_view(&step.start) {
             step.start.subjects = vec![whole.id];
         }
     }

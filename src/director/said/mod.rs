@@ -21,6 +21,7 @@ mod lengths;
 mod levels;
 mod moods;
 mod named_times;
+mod narrated;
 mod open;
 mod openings;
 mod places;
@@ -180,7 +181,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     repeats::drop_restated(direction);
     lengths::take_total(linked, direction);
     arrivals::end_at_stops(linked, &mut direction.program.steps);
-    if !wishes::film_wishes(linked, objects, direction) {
+    if !narrated::film_narrated(linked, direction) && !wishes::film_wishes(linked, objects, direction) {
         briefs::film_briefs(linked, objects, direction);
     }
     carriers::flow_without_cuts(&mut direction.program);

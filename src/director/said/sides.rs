@@ -32,6 +32,11 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
                 step.start.side = Some(first);
             }
         }
+        // A three-quarter view is half way between two sides.
+        let is_quarter = words.windows(2).any(|two| matches!(two, ["three", "quarter" | "quarters"]));
+        if circles && is_quarter && step.amount.is_none() {
+            (step.amount, step.end.side) = (Some(Amount::Degrees(45.0)), None);
+        }
         let meets = meets_us(&words) && (circles || step.movement == Move::Static && step.start.side.is_some());
         // The side that it is seen from before is no end.
         let is_open = step.end.side.is_none() || !words.iter().any(|word| is_listed("side sides profile back rear", word));

@@ -159,7 +159,9 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
     };
     let passes = |at: usize| {
         let next = words[at + 1..].iter().find(|word| !is_listed("the a an my our", word));
-        is_listed(PASSES, words[at]) && next.is_some_and(|word| is_object(word))
+        // `The doors under the worktop` only says where they are.
+        let locates = at > 0 && is_object(words[at - 1]);
+        is_listed(PASSES, words[at]) && next.is_some_and(|word| is_object(word)) && !locates
     };
     // `Step back`, `and from there it goes to the palm`.
     let goes = |at: usize| {

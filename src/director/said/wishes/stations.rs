@@ -54,7 +54,7 @@ const WISHES: &str = "first then next after begin start open end finish last fin
     important answer compare until only each every please understand starting ending please remember find count ask love";
 /// Words of what is sold: of a group each one is shown, and then all.
 pub(super) const WARES: &str = "shop store product products brand sale selling sell auction lot lots bidders bidder bestseller catalogue \
-    catalog webshop customer customers buyer buyers off";
+    catalog webshop customer customers buyer buyers";
 /// Words that show the things of a group one after the other.
 const IN_TURN: [&[&str]; 14] = [
     &["one", "then", "the", "other"],
