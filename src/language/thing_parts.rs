@@ -104,6 +104,13 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
         let is_part = |words: &[Word]| parts.found(words, &label).is_some() || is_end(words);
         return Ok(is_part(&words[..of]).then_some(place));
     }
+    // `The stand's foot`.
+    let owner = before.iter().rposition(|word| word.text == "'s");
+    if let Some(mark) = owner.filter(|mark| *mark + 1 == before.len()) {
+        if let Some((_, place)) = parts.found(&before[..mark], &label) {
+            return Ok(Some(place));
+        }
+    }
     // The pot of `the teapot` is all of it.
     if name.last().is_some_and(|last| label.iter().any(|word| word.text.ends_with(&last.text))) {
         return Ok(None);
@@ -160,6 +167,7 @@ mod tests {
         assert_eq!(place("the screen", "folding screen"), None);
         assert_eq!(place("the feet of the stand", "tall brown object"), Some("bottom"));
         assert_eq!(place("the tip of its crown", "palm"), Some("top"));
+        assert_eq!(place("the stand's foot", "tall brown object"), Some("bottom"));
         assert_eq!(place("the friend of the stand", "guitar"), None);
     }
 

@@ -148,9 +148,10 @@ pub fn direct(
     let up = scene.up.normalize_or_zero();
     let found = objects;
     let named = guessed_things::named(prompt, found, up);
-    let objects = named.as_ref().unwrap_or(found);
+    let objects = named.as_ref().map_or(found, |named| &named.objects);
     let (mut linked, objects) =
         times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects, up))?;
+    named.iter().for_each(|named| named.warn(&mut linked));
     guessed_things::take_guesses(&mut linked, found, up);
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;

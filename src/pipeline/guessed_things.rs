@@ -41,15 +41,42 @@ const COLORS_BEFORE: usize = 5;
 /// Most things of one picture.
 const MOST_THINGS: usize = 8;
 
+/// Objects with nouns of a prompt for names.
+pub(super) struct Named {
+    /// The objects.
+    pub(super) objects: ObjectSet,
+    /// The nouns and the objects that have them.
+    nouns: Vec<(String, Vec<u32>)>,
+}
+
+impl Named {
+    /// Warns of the nouns that the prompt says of these objects.
+    pub(super) fn warn(&self, linked: &mut Linked) {
+        let said = linked.expanded(&linked.slots);
+        let is_said = |ids: &[u32]| ids.iter().any(|id| said.contains(id));
+        let warnings: Vec<String> =
+            self.nouns.iter().filter(|(_, ids)| is_said(ids)).map(|(noun, ids)| taken_for(noun, ids)).collect();
+        linked.warnings.extend(warnings);
+    }
+}
+
+/// The warning of a noun that is taken for some objects.
+fn taken_for(noun: &str, ids: &[u32]) -> String {
+    let words: Vec<String> = ids.iter().take(3).map(|id| format!("<obj-{id}>")).collect();
+    let more = if ids.len() > 3 { " .." } else { "" };
+    format!("\"{noun}\" is taken for {}{more}, because the things of this scene have no names", words.join(" "))
+}
+
 /// The objects with the nouns of a prompt for their guessed names, where such things may be; `None` for other scenes and where
 /// the prompt has no such noun.
-pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<ObjectSet> {
+pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Named> {
     let scan = Scan { objects: &objects.objects, up };
     if !scan.is_guessed() {
         return None;
     }
     let words = tokenize(prompt);
     let mut labels: Vec<(u32, String)> = Vec::new();
+    let mut nouns: Vec<(String, Vec<u32>)> = Vec::new();
     let mut is_taken = [false; 4];
     for at in 0..words.len() {
         let noun = &words[at];
@@ -72,6 +99,7 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Obje
             .filter(is_free)
             .map(|object| (object.id, format!("{}{}", color_said(&object.label, before), noun.stem)))
             .collect();
+        nouns.push((noun.text.clone(), new.iter().map(|(id, _)| *id).collect()));
         labels.extend(new);
     }
     if labels.is_empty() {
@@ -84,7 +112,7 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Obje
         let label = if alike(label) { format!("{label} {earlier}") } else { label.clone() };
         named.objects.iter_mut().filter(|object| object.id == *id).for_each(|object| object.label.clone_from(&label));
     }
-    Some(named)
+    Some(Named { objects: named, nouns })
 }
 
 /// The color of a guessed name with a space behind it, as the words before a noun call it: `blue` for turquoise.
@@ -110,12 +138,9 @@ pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) 
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
         let ids = scan.guess(&group.name).filter(|ids| ids.len() == 1 || !known.contains(ids));
         let Some(ids) = ids else { continue };
-        let words: Vec<String> = ids.iter().take(3).map(|id| format!("<obj-{id}>")).collect();
-        let (name, more) = (&group.name, if ids.len() > 3 { " .." } else { "" });
-        let warning = format!("\"{name}\" is taken for {}{more}, because the things of this scene have no names", words.join(" "));
+        linked.warnings.push(taken_for(&group.name, &ids));
         known.push(ids.clone());
         group.members = ids;
-        linked.warnings.push(warning);
     }
     let left: Vec<Group> = linked.missing_groups().cloned().collect();
     let names_others = linked.slots.iter().any(|id| linked.missing(*id).is_none());
@@ -362,7 +387,7 @@ mod tests {
     fn things_take_the_nouns_of_the_prompt_for_names() {
         let labels = |prompt: &str| -> Vec<String> {
             let named = named(prompt, &kitchen(), DVec3::Y);
-            named.map(|set| set.objects.into_iter().map(|object| object.label).collect()).unwrap_or_default()
+            named.map(|named| named.objects.objects.into_iter().map(|object| object.label).collect()).unwrap_or_default()
         };
         let named = labels("from the blue cupboards to the teapots on the shelf");
         assert_eq!([&named[1], &named[2]], ["blue cupboard", "pink cupboard"]);

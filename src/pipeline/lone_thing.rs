@@ -112,7 +112,7 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     let mut wholes = Vec::new();
     let mut parts = Vec::new();
     for name in found {
-        if part_of(&name, "")?.is_some() {
+        if part_of(&name, "")?.is_some_and(|part| !part.is_small) {
             parts.push(name.clone());
         }
         if !is_part(&name, objects)? {
@@ -142,7 +142,7 @@ fn stands_for_all(words: &[Word], name: &str) -> bool {
     let is_part = |at: usize| {
         let before = (1..=3).filter_map(|back| at.checked_sub(back)).map(text);
         let leads = before.clone().any(|word| is_listed("from to until till top bottom foot feet side 's", word));
-        leads || before.take(2).any(|word| is_listed("its his her their", word)) || text(at + 1) == "of"
+        leads || before.take(2).any(|word| is_listed("its his her their", word)) || matches!(text(at + 1), "of" | "'s")
     };
     !(0..words.len()).filter(|at| words[*at].stem == *last).any(is_part)
 }

@@ -3,7 +3,7 @@
 
 use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::{Framing, Step, SubjectPart, SubjectSide};
-use cinesplat_trajectory::{Move, ShotAngle};
+use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::briefs::is_camera_verb;
 use super::directions::is_form;
@@ -105,6 +105,22 @@ pub(crate) fn rest_on_openings(linked: &Linked, steps: &mut [Step]) {
     *first = Step { end, words: first.words, duration_secs: first.duration_secs, ..Step::of(Move::Static) };
 }
 
+/// Rests close on what the words look at up close, which leads nowhere up: `we look first at the teeth, up close`.
+pub(crate) fn rest_up_close(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let up_close = words.windows(2).any(|two| two == ["up", "close"]);
+        let ups = words.iter().filter(|word| is_listed("up upward upwards", word)).count();
+        let says_move = (0..words.len()).any(|at| is_camera_verb(&words, at) && !OPENS.contains(&words[at]));
+        let lifts = matches!(step.movement, Move::TiltUp | Move::PedestalUp | Move::CraneUp);
+        let is_plain = step.amount.is_none() && step.with.is_empty() && !step.end.subjects.is_empty();
+        if up_close && ups == 1 && !says_move && lifts && is_plain {
+            let end = Framing { size: Some(ShotSize::CloseUp), angle: None, ..step.end.clone() };
+            *step = Step { end, words: step.words, duration_secs: step.duration_secs, ..Step::of(Move::Static) };
+        }
+    }
+}
+
 /// Ends a rise above its subject, and not aimed at the upper end of it, where the words look down on its top.
 pub(crate) fn look_down_on_tops(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
@@ -157,6 +173,17 @@ mod tests {
         let mut steps = vec![step(text, [0, 33], Move::CraneUp), step(text, [33, 50], Move::CraneUp)];
         rest_on_openings(&linked(text), &mut steps);
         assert_eq!(steps[0].movement, Move::CraneUp);
+    }
+
+    #[test]
+    fn up_close_is_no_way_up() {
+        let movement = |text: &str| {
+            let mut steps = vec![step(text, [0, usize::MAX], Move::TiltUp)];
+            rest_up_close(&linked(text), &mut steps);
+            (steps[0].movement, steps[0].end.size)
+        };
+        assert_eq!(movement("we look first at <obj-0> , up close"), (Move::Static, Some(ShotSize::CloseUp)));
+        assert_eq!(movement("tilt up to <obj-0> , up close"), (Move::TiltUp, None));
     }
 
     #[test]

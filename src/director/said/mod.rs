@@ -128,6 +128,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     circles::join_said_again(linked, direction);
     let steps = &mut direction.program.steps;
     circles::turn_all_round(linked, steps);
+    splits::walk_as_far(linked, steps);
     sides::go_round_to_sides(linked, steps);
     ranges::take_ranges(linked, steps);
     ranges::take_field_of_view(linked, steps);
@@ -141,6 +142,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     directions::rise_to_things(linked, steps);
     facing::begin_face_to_face(linked, steps);
     facing::rest_on_openings(linked, steps);
+    facing::rest_up_close(linked, steps);
     facing::look_down_on_tops(linked, steps);
     take_said_of_moves(linked, direction);
     Ok(())
@@ -175,6 +177,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
 /// Corrects a direction by what the words say plainly of several of its parts.
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     moods::drop_stories(linked, direction);
+    openings::drop_unnamed_starts(linked, &mut direction.program.steps);
     places::leave_from(linked, direction);
     entries::come_in_at_doors(linked, objects, direction);
     specified::skim_tops(linked, objects, &mut direction.program.steps);

@@ -1,7 +1,7 @@
 //! How large the parts of the one thing of a scan are in the frame: `rise from the feet of the stand to the tuning pegs` begins
 //! with the feet, and not with all of the guitar.
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, is_listed};
 use cinesplat_objects::{Object, only_whole};
 use cinesplat_operator::{Framing, Pass, Program, Step, SubjectPart};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
@@ -21,6 +21,8 @@ const CLOSE: f64 = 2.0;
 const END_FRAC: f64 = 0.65;
 const EDGE_FRAC: f64 = 0.08;
 
+/// Words that only say to come closer.
+const CLOSER: &str = "closer nearer close and even still in , . then yet much a bit little";
 /// Verbs of a way along something, and of a way over it.
 const SLIDES: [&str; 9] = ["slide", "glide", "travel", "come", "go", "run", "move", "drift", "track"];
 const CLIMBS: [&str; 7] = ["climb", "rise", "lift", "crane", "boom", "jib", "float"];
@@ -37,6 +39,7 @@ pub(crate) fn frame_parts(linked: &Linked, (objects, up): (&[Object], DVec3), pr
     let Some(whole) = only_whole(objects) else { return };
     let scanned = Scanned { whole, objects, up: up.normalize_or_zero() };
     scanned.circle_the_whole(linked, &mut program.steps);
+    scanned.come_closer(linked, &mut program.steps);
     for step in &mut program.steps {
         scanned.slide_along(linked, step);
         scanned.rise_over(linked, step);
@@ -110,6 +113,32 @@ impl Scanned<'_> {
             let is_part = matches!(step.end.subjects[..], [id] if id != self.whole.id && self.is_own(id));
             if step.movement.is_circular() && !names && shows_all && is_part {
                 step.end.subjects = vec![self.whole.id];
+            }
+        }
+    }
+
+    /// Stays close to the small part to which a rise leads from a close picture, and comes closer where that is all that is said.
+    fn come_closer(&self, linked: &Linked, steps: &mut [Step]) {
+        for nth in 1..steps.len() {
+            let (before, rest) = steps.split_at_mut(nth);
+            let (Some(before), Some(step)) = (before.last(), rest.first_mut()) else { return };
+            let is_near = matches!(before.end.size, Some(ShotSize::CloseUp | ShotSize::ExtremeCloseUp));
+            let end = &step.end;
+            let is_open = end.size.is_none() && end.height_frac.is_none() && !end.whole && end.angle.is_none();
+            let own = !end.subjects.is_empty() && end.subjects.iter().all(|id| self.is_own(*id));
+            if !is_near || !is_open || !own || step.cut {
+                continue;
+            }
+            let [from, to] = step.words.unwrap_or_default();
+            let small = linked.parts.iter().any(|(bytes, part)| part.is_small && from <= bytes[0] && bytes[1] <= to);
+            let lifts = matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+            let words = linked.texts_in([from, to]);
+            let is_closer = words.iter().any(|word| matches!(*word, "closer" | "nearer"))
+                && words.iter().all(|word| is_listed(CLOSER, word));
+            if small && lifts {
+                step.end.size = Some(ShotSize::CloseUp);
+            } else if is_closer && step.movement == Move::PushIn && before.end.subjects == step.end.subjects {
+                step.end = Framing { size: Some(ShotSize::ExtremeCloseUp), ..before.end.clone() };
             }
         }
     }
@@ -251,6 +280,18 @@ mod tests {
         let step = || Step { end: framing(3, SubjectPart::Bottom, None), either_way: true, ..Step::of(Move::TruckRight) };
         assert_eq!(said("slide down it to the bridge", step()).movement, Move::PedestalDown);
         assert_eq!(said("slide left along it", step()).movement, Move::TruckRight);
+    }
+
+    #[test]
+    fn closer_is_closer_than_close() {
+        let text = "go to it close , closer";
+        let close = framing(1, SubjectPart::Middle, Some(ShotSize::CloseUp));
+        let first = Step { end: close.clone(), words: Some([0, 15]), ..Step::of(Move::PushIn) };
+        let plain = framing(1, SubjectPart::Middle, None);
+        let second = Step { end: plain, words: Some([15, text.len()]), ..Step::of(Move::PushIn) };
+        let mut program = Program { steps: vec![first, second], ..Program::default() };
+        frame_parts(&linked(text), (&guitar(), DVec3::Y), &mut program);
+        assert_eq!(program.steps[1].end.size, Some(ShotSize::ExtremeCloseUp));
     }
 
     #[test]

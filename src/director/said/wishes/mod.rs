@@ -173,7 +173,9 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
         is_verb && (is_listed(WAYS, next) && !is_close || to_thing)
     };
     let is_measured = |at: usize| {
-        let seems = words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word));
+        // `As if it is ten metres tall` is no length of the film's.
+        let as_if = words[..at].iter().rev().take(5).any(|word| is_listed("if like seem seems though", word));
+        let seems = as_if || words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word));
         let kind = linked.quantity_at(words[at]).map(|quantity| quantity.kind);
         let is_length = kind == Some(QuantityKind::Units) && !seems;
         is_length || matches!(kind, Some(QuantityKind::Degrees | QuantityKind::Factor | QuantityKind::Millimeters))
