@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_parts, part_of,
-    scenery, tokenize, without_arrows, without_camera_settings, without_frame_shape, without_tolerances,
+    scenery, tokenize, without_arrows, without_camera_settings, without_frame_shape, with_dictated_marks, without_tolerances,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -19,7 +19,7 @@ use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
 use crate::explained::{
-    drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, own_parts, point_back, point_ones,
+    drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, point_back, point_ones,
 };
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
@@ -30,7 +30,9 @@ use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::placed::{Places, point_by_places};
-use crate::said::{take_said, take_said_of_all};
+use crate::said::{frame_parts, take_said, take_said_of_all};
+use crate::scan_parts::own_parts;
+use crate::sized::point_by_size;
 use crate::times::ListedTimes;
 
 /// The facts about a scene that the director needs.
@@ -110,6 +112,7 @@ impl Director {
         places: Places<'_>,
     ) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
+        let prompt = &*with_dictated_marks(prompt);
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
         let prompt = &*without_tolerances(prompt);
@@ -124,12 +127,13 @@ impl Director {
         drop_sizes(prompt, objects, &mut found);
         name_by_label_words(prompt, objects, &mut found);
         join_likenesses(prompt, objects, &mut found);
+        point_by_size(prompt, objects, places, &mut found);
         point_by_places(prompt, objects, places, &mut found);
         absorb_places(prompt, objects, &mut found)?;
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);
         drop_first_ones(prompt, &mut found);
-        own_parts(prompt, objects, places.only_whole(), &mut found)?;
+        own_parts(prompt, objects, places, &mut found)?;
         name_by_parts(prompt, objects, &mut found)?;
         let acts = acts(prompt, objects, &mut found)?;
         let prompt = &*blanked(prompt, &acts);
@@ -182,6 +186,7 @@ impl Director {
             times.write(&mut direction);
         }
         take_said_of_all(linked, scene.objects, &mut direction);
+        frame_parts(linked, (scene.objects, scene.up), &mut direction.program);
         direction.unmet.extend(&linked.acts);
         Ok(direction)
     }

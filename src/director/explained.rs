@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::{LanguageError, Mention, NamedObject, Word, is_listed, own_part_at, part_of, stem, tokenize};
+use cinesplat_language::{LanguageError, Mention, NamedObject, Word, is_listed, own_part_at, stem, tokenize};
 
 use crate::names::FoundMention;
 use crate::said::abbreviated_size;
@@ -87,34 +87,6 @@ pub(crate) fn drop_first_ones(prompt: &str, found: &mut Vec<FoundMention>) {
     }
 }
 
-/// Takes a part that the scene lacks for one of the only thing that there is, or that the prompt names: `the two sockets`
-/// of the skull. `whole` is the only thing of a scan, where its parts are objects of their own.
-///
-/// # Errors
-/// [`LanguageError::BadData`] for a damaged list of parts.
-pub(crate) fn own_parts(
-    prompt: &str,
-    objects: &[NamedObject],
-    whole: Option<u32>,
-    found: &mut [FoundMention],
-) -> Result<(), LanguageError> {
-    let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
-    named.dedup();
-    let only = match (&named[..], objects, whole) {
-        ([id], ..) => *id,
-        ([], [object], _) => object.id,
-        ([], _, Some(whole)) => whole,
-        _ => return Ok(()),
-    };
-    let Some(whole) = label(objects, only).map(str::to_owned) else { return Ok(()) };
-    for part in found.iter_mut().filter(|found| found.mention.ids.is_empty()) {
-        if part_of(said(prompt, &part.mention), &whole)?.is_some() {
-            part.mention.ids = vec![only];
-        }
-    }
-    Ok(())
-}
-
 /// Links words that name nothing yet, where they are a part that things of one kind have: `the left earcup` of headphones.
 ///
 /// # Errors
@@ -173,7 +145,7 @@ pub(crate) fn drop_sizes(prompt: &str, objects: &[NamedObject], found: &mut [Fou
 }
 
 /// Words before a thing that is named by a part of its label, and words behind it, besides marks.
-const POINTS: &str = "the this that my our your his her its";
+pub(crate) const POINTS: &str = "the this that my our your his her its";
 const BEHIND: &str =
     "and then to until till on in from with at for while as so but or by before after into again please is stays";
 /// Words of labels that may mean something else where they stand alone.
@@ -218,7 +190,7 @@ pub(crate) fn insert_mention(found: &mut Vec<FoundMention>, mention: Mention) {
 }
 
 /// Whether a mention has some of these bytes of the prompt.
-fn is_linked(found: &[FoundMention], [from, to]: [usize; 2]) -> bool {
+pub(crate) fn is_linked(found: &[FoundMention], [from, to]: [usize; 2]) -> bool {
     found.iter().any(|found| found.mention.bytes[0] < to && from < found.mention.bytes[1])
 }
 

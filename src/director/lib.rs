@@ -37,6 +37,8 @@ pub mod names;
 pub mod network;
 mod placed;
 mod said;
+mod scan_parts;
+mod sized;
 mod tensor_file;
 mod times;
 

@@ -16,9 +16,9 @@ const LOOKS: &str = "grade grading graded palette palettes tone tones hue hues t
     glow light lighting contrast highlights shadows wash haze bokeh accents hour lut look scheme split";
 /// Terms of cameras and robots, of which objects are hardly ever the bearers of the name.
 const TERMS: &str = "axis axes objective constraint constraints sensor gimbal goal goals waypoint waypoints target targets \
-    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading";
+    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading profile profiles silhouette";
 /// Words beside such a term.
-const BESIDE: &str = "of the a an its each every all any none of both this that next last first no optical";
+const BESIDE: &str = "of the a an his her full exact side left right its each every all any none of both this that next last first no optical";
 /// What comes before `plate` where it is a piece of film.
 const PLATES: &str = "reference background clean back empty bg vfx still";
 
@@ -51,11 +51,30 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_smoothness(&words, [first, end])
         || is_mount(&words, [first, end])
         || is_frame(&words, [first, end])
+        || is_until(&words, [first, end])
+        || is_light(&words, [first, end], objects)
+}
+
+/// `Follow the light from the window to the bed`: what comes in, and no lamp.
+fn is_light(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let is_named = words[first..end].iter().all(|word| is_listed("the a that this light lights sunlight morning evening", &word.text));
+    let article = first + usize::from(is_listed("the that this", word_at(words, first)));
+    let before = article.checked_sub(1).map_or("", |before| word_at(words, before));
+    let before = if is_listed("the that this", before) { article.checked_sub(2).map_or("", |at| word_at(words, at)) } else { before };
+    let is_label = objects.iter().any(|object| tokenize(&object.label).iter().any(|word| word.stem == "light"));
+    is_named && !is_label && is_listed("follow follows following chase chasing with in like as catch catching", before)
+}
+
+/// `Swing round till it stares at us`: what goes on until something, and no drawer of money.
+fn is_until(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let before = first.checked_sub(1).map_or("", |before| word_at(words, before));
+    let is_named = is_listed("the a my our your this that shop cash", before);
+    end == first + 1 && is_listed("till til 'til untill", word_at(words, first)) && !is_named
 }
 
 /// What a film shows at once, and words before it and behind it by which it is that.
 const FRAMES: &str = "picture image frame shot view";
-const INTO: &str = "in into within inside";
+const INTO: &str = "in into within inside fill fills filling filled";
 const FRAME_ENDS: &str = "and then for at while until till before after together throughout all so but as too now hold stop \
     stay the";
 
@@ -177,8 +196,21 @@ mod tests {
     fn what_is_in_the_picture_is_seen() {
         assert!(is_none("finish with both curtains in the picture", "the picture"));
         assert!(is_none("until both are in the picture, then stop", "picture"));
+        assert!(is_none("creep in until they fill the frame", "the frame"));
         assert!(!is_none("push in on the picture", "the picture"));
         assert!(!is_none("push in on the boat in the picture on the wall", "the picture"));
+    }
+
+    #[test]
+    fn light_that_comes_in_is_no_thing() {
+        assert!(is_none("follow the light from the window to the bed", "the light"));
+        assert!(!is_none("push in on the light", "the light"));
+    }
+
+    #[test]
+    fn until_is_no_thing() {
+        assert!(is_none("swing round till it stares at us", "till"));
+        assert!(!is_none("push in on the till", "till"));
     }
 
     #[test]

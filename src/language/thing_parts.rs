@@ -13,7 +13,8 @@ const FILE: &str = "prompts/parts.txt";
 static TEXT: &str = include_str!("../../prompts/parts.txt");
 const PLACES: [&str; 7] = ["top", "bottom", "front", "back", "left", "right", "middle"];
 /// Words before a part that say nothing else.
-const BEFORE: &str = "the a its his her their this that very guitar 's whole eye tuning both two skull";
+const BEFORE: &str = "the a its his her their this that very guitar 's whole eye tuning both two skull near nearer far left right \
+    one each other upper lower front rubber little small tiny big chunky fat knobbly";
 /// Words behind a part, before words of where it is.
 const BEHIND: &str = "of on at in from";
 
@@ -97,12 +98,30 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
     let words = &words[..tail.unwrap_or(words.len())];
     let Some((len, place)) = parts.found(words, &label) else { return Ok(None) };
     let (before, name) = words.split_at(words.len() - len);
+    // `The feet of the stand` are at the bottom, where the stand is.
+    let inner = before.iter().rposition(|word| word.text == "of");
+    if let Some(of) = inner.filter(|of| before[of + 1..].iter().all(|word| is_listed(BEFORE, &word.text))) {
+        let is_part = |words: &[Word]| parts.found(words, &label).is_some() || is_end(words);
+        return Ok(is_part(&words[..of]).then_some(place));
+    }
+    // `The stand's foot`.
+    let owner = before.iter().rposition(|word| word.text == "'s");
+    if let Some(mark) = owner.filter(|mark| *mark + 1 == before.len()) {
+        if let Some((_, place)) = parts.found(&before[..mark], &label) {
+            return Ok(Some(place));
+        }
+    }
     // The pot of `the teapot` is all of it.
     if name.last().is_some_and(|last| label.iter().any(|word| word.text.ends_with(&last.text))) {
         return Ok(None);
     }
     let says_label = before.iter().all(|word| is_listed(BEFORE, &word.text) || is_label(&word.text));
     Ok(says_label.then_some(place))
+}
+
+/// Whether words name an end of something: `the very bottom`.
+fn is_end(words: &[Word]) -> bool {
+    words.last().is_some_and(|word| is_listed("top bottom front back side end ends edge middle center centre", &word.text))
 }
 
 /// The part of a thing of its own kind that begins at the first of some words, with the number of its words: `sole` of a
@@ -146,6 +165,10 @@ mod tests {
         assert_eq!(place("its face", "stuffed bear"), Some("front"));
         assert_eq!(place("the screen", "laptop"), Some("top"));
         assert_eq!(place("the screen", "folding screen"), None);
+        assert_eq!(place("the feet of the stand", "tall brown object"), Some("bottom"));
+        assert_eq!(place("the tip of its crown", "palm"), Some("top"));
+        assert_eq!(place("the stand's foot", "tall brown object"), Some("bottom"));
+        assert_eq!(place("the friend of the stand", "guitar"), None);
     }
 
     #[test]

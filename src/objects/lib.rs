@@ -74,6 +74,8 @@ pub use file::{ObjectsFile, read, read_boxes, read_labels};
 pub use file_write::{Sidecars, clouds_path, labels_path, to_json, write};
 pub use find::{find, from_labels};
 pub use lifting::{LiftedLabels, PosedMask, lift_masks, read_mask};
+pub use lone::only_whole;
+pub use naming::is_description;
 pub use object::{Object, ObjectSet};
 pub use renaming::{Renaming, rename};
 pub use sampling::PointSampler;

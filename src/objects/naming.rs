@@ -80,8 +80,8 @@ fn typical_color(gaussians: &Gaussians, members: &[usize]) -> Vec3 {
     color::median(&colors)
 }
 
-/// Whether a label is a description of [`describe`], not a name.
-pub(crate) fn is_description(label: &str) -> bool {
+/// Whether a label is a description by size, shape and color, as a search gives it, and not a name.
+pub fn is_description(label: &str) -> bool {
     let unnumbered = label.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == ' ');
     let last = unnumbered.rsplit(' ').next().unwrap_or_default();
     ["object", "box", "panel", "surface"].contains(&last)

@@ -2,7 +2,7 @@ use super::choose_film::{Critique, FilmChoice, choose_film};
 use super::clearance::reach_of;
 use super::error::PipelineError;
 use super::interpreter::{Interpreter, names};
-use super::lone_thing;
+use super::{guessed_things, lone_thing};
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use super::slant::{level_out, slant_of};
@@ -146,8 +146,13 @@ pub fn direct(
 ) -> Result<Directed, PipelineError> {
     let mut times = PhaseTimes::default();
     let up = scene.up.normalize_or_zero();
+    let found = objects;
+    let named = guessed_things::named(prompt, found, up);
+    let objects = named.as_ref().map_or(found, |named| &named.objects);
     let (mut linked, objects) =
         times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects, up))?;
+    named.iter().for_each(|named| named.warn(&mut linked));
+    guessed_things::take_guesses(&mut linked, found, up);
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();
@@ -214,7 +219,7 @@ fn film(
     let looks = settings.solve != SolveLevel::Off;
     let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, objects, &ids)));
     if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
-        let fronts = times.measure(Phase::Judge, || match lone_thing::whole(objects) {
+        let fronts = times.measure(Phase::Judge, || match objects.only_whole() {
             // A neck has the front of its guitar.
             Some(whole) if !ids.contains(&whole.id) => {
                 let fronts = Subjects::new(&scene.gaussians, objects, &[whole.id]).fronts(&world.frame)?;

@@ -11,7 +11,7 @@ use super::interpreter::names;
 use cinesplat_director::{Director, Places};
 use cinesplat_language::{Linked, Relation, Things, Word, is_listed, part_of, tokenize};
 use cinesplat_objects::{Object, ObjectSet};
-use cinesplat_operator::Program;
+use cinesplat_operator::{Framing, Program};
 use glam::DVec3;
 
 /// What a thing stands on: rarely what a scan is about.
@@ -21,10 +21,12 @@ const GROUNDS: [&str; 10] =
 /// Labels of parts that are only places.
 const PLACES: &str = "top base bottom middle front back";
 /// How a thing is seen.
-const VIEWS: &str = "profile side view angle close-up closeup silhouette outline detail";
+const VIEWS: &str = "profile side view angle close-up closeup silhouette outline detail frame screen lens camera till until hole holes";
+/// What people call a whole thing, which is no part of it.
+const WHOLES: &str = "plant tree palm houseplant flower instrument figure statue thing one";
 /// Words that make the name before them one of a kind of shop or film.
-const WARES: &str =
-    "shop store brand company catalogue catalog film video clip ad advert commercial shot collection lover fan";
+const WARES: &str = "shop store brand company catalogue catalog film video clip ad advert commercial shot collection lover fan post \
+    reel story page website feed profile picture loop teaser trailer listing auction";
 
 /// A prompt with its mentions, and the objects with the label that the prompt gives to the only thing.
 pub(super) fn link<'a>(
@@ -34,25 +36,26 @@ pub(super) fn link<'a>(
     up: DVec3,
 ) -> Result<(Linked, Cow<'a, ObjectSet>), PipelineError> {
     let places = Places { objects: &objects.objects, up };
-    let whole = objects.unnamed_whole();
-    let name = whole.map(|_| name_of_whole(director, prompt, objects)).transpose()?.flatten();
-    let (Some(whole), Some(name)) = (whole, name) else {
+    let Some(whole) = objects.unnamed_whole() else {
         return Ok((director.link_placed(prompt, &names(&objects.objects), places)?, Cow::Borrowed(objects)));
     };
+    let name = name_of_whole(director, prompt, objects)?;
     let (id, description) = (whole.id, &whole.label);
     let mut renamed = objects.clone();
-    for object in renamed.objects.iter_mut().filter(|object| object.id == id) {
-        object.label.clone_from(&name);
+    if let Some(name) = &name {
+        renamed.objects.iter_mut().filter(|object| object.id == id).for_each(|object| object.label.clone_from(name));
     }
     // Words for its parts are known once its name is; `the top of the skull` says where to look at it.
     let is_place = |object: &&Object| object.parent == Some(id) && is_listed(PLACES, &object.label);
     let of_kinds: Vec<Object> = renamed.objects.iter().filter(|object| !is_place(object)).cloned().collect();
     let mut linked = director.link_placed(prompt, &names(&of_kinds), places)?;
-    let mut taken = vec![name];
+    let mut taken: Vec<String> = name.into_iter().collect();
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
         group.members = vec![id];
         taken.push(group.name.clone());
     }
+    taken.dedup();
+    taken.retain(|name| !tokenize(name).last().is_some_and(|last| is_listed(VIEWS, &last.text)));
     let warnings = taken.iter().map(|name| {
         format!("\"{name}\" is taken for <obj-{id}> {description}, the only thing of this scene that has no name")
     });
@@ -60,20 +63,19 @@ pub(super) fn link<'a>(
     Ok((linked, Cow::Owned(renamed)))
 }
 
-/// The thing of a scan of one thing.
-pub(super) fn whole(objects: &ObjectSet) -> Option<&Object> {
-    let only = objects.objects.first().filter(|_| objects.objects.len() == 1);
-    only.or_else(|| objects.only_whole())
-}
-
-/// Lets a program that names nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
+/// Lets what a program says of nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
 pub(super) fn show(program: &mut Program, objects: &ObjectSet) {
-    let Some(whole) = whole(objects) else { return };
-    if !program.object_ids().is_empty() {
-        return;
-    }
+    let Some(whole) = objects.only_whole() else { return };
+    let names_nothing = program.object_ids().is_empty();
     for step in &mut program.steps {
-        step.end.subjects = vec![whole.id];
+        let is_view = |framing: &Framing| framing.side.is_some() || framing.angle.is_some() || framing.size.is_some();
+        let circles = step.movement.is_circular();
+        if step.end.subjects.is_empty() && (names_nothing || circles || is_view(&step.end)) {
+            step.end.subjects = vec![whole.id];
+        }
+        if step.start.subjects.is_empty() && is_view(&step.start) {
+            step.start.subjects = vec![whole.id];
+        }
     }
 }
 
@@ -85,20 +87,21 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     let stems = |text: &str| -> Vec<String> { tokenize(text).into_iter().map(|word| word.stem).collect() };
     let known: Vec<String> = objects.objects.iter().flat_map(|object| stems(&object.label)).collect();
     let is_known = |name: &str| stems(name).last().is_none_or(|head| known.contains(head));
+    let is_own = |name: &str| prompt.to_lowercase().contains(&format!("its {}", name.to_lowercase()));
     let mut found: Vec<String> =
-        linked.missing_groups().map(|group| plain_name(&group.name)).filter(|name| !is_known(name)).collect();
+        linked.missing_groups().map(|group| plain_name(&group.name)).filter(|name| !is_known(name) && !is_own(name)).collect();
     let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty();
     let words = tokenize(prompt);
     let is_determined = |at: usize| {
         let before = words[at.saturating_sub(2)..at].iter();
-        before.into_iter().any(|word| is_listed("the a an this that my our your his her its", &word.text))
+        before.into_iter().any(|word| is_listed("the a an this that my our your his her", &word.text))
     };
     // `Our plant shop` is a shop.
     let is_alone =
         |at: usize| words.get(at + 1).is_none_or(|next| !is_kind(&next.text) && !is_listed(WARES, &next.text));
     let is_name = |at: &usize| {
         let word = &words[*at].text;
-        is_kind(word) && !is_listed(WARES, word) && !is_known(word) && is_determined(*at) && is_alone(*at)
+        is_kind(word) && !is_listed(WARES, word) && !is_listed(VIEWS, word) && !is_known(word) && is_determined(*at) && is_alone(*at)
     };
     for word in (0..words.len()).filter(is_name).map(|at| &words[at]) {
         if !found.iter().any(|name| stems(name).contains(&word.stem)) {
@@ -107,12 +110,18 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     }
     // Who says only `the eye socket` names a part, and a part is no name of the whole.
     let mut wholes = Vec::new();
+    let mut parts = Vec::new();
     for name in found {
+        if part_of(&name, "")?.is_some_and(|part| !part.is_small) {
+            parts.push(name.clone());
+        }
         if !is_part(&name, objects)? {
             wholes.push(name);
         }
     }
-    let mut found = wholes;
+    // `Circle the head` is said of a scan of a head; `from the feet to the head` is not.
+    let is_whole = |name: &String| !parts.contains(name) || parts.len() == 1 && stands_for_all(&words, name);
+    let mut found: Vec<String> = wholes.into_iter().filter(is_whole).collect();
     found.sort_by_key(|name| {
         let named = tokenize(name);
         let head = named.last();
@@ -122,6 +131,20 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         (is_ground, !head.is_some_and(|head| is_kind(&head.text)), is_plural, Reverse(times))
     });
     Ok(found.first().cloned())
+}
+
+/// Whether words speak of all of a thing by the name of a part: it is nobody's (`its head`), has nothing that is its own (`the foot
+/// of the stand`), and nothing leads from it or up to it.
+fn stands_for_all(words: &[Word], name: &str) -> bool {
+    let stems: Vec<String> = tokenize(name).into_iter().map(|word| word.stem).collect();
+    let Some(last) = stems.last() else { return false };
+    let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
+    let is_part = |at: usize| {
+        let before = (1..=3).filter_map(|back| at.checked_sub(back)).map(text);
+        let leads = before.clone().any(|word| is_listed("from to until till top bottom foot feet side 's", word));
+        leads || before.take(2).any(|word| is_listed("its his her their", word)) || matches!(text(at + 1), "of" | "'s")
+    };
+    !(0..words.len()).filter(|at| words[*at].stem == *last).any(is_part)
 }
 
 /// Whether a name is that of a small part, of how a thing is seen, or of one of the parts that a search has found.
@@ -135,7 +158,8 @@ fn is_part(name: &str, objects: &ObjectSet) -> Result<bool, PipelineError> {
     };
     let is_view = is_listed(VIEWS, &phrase);
     let found = objects.objects.iter().filter(|object| object.parent.is_some()).any(is_named);
-    Ok(is_view || found || part_of(name, "")?.is_some_and(|part| part.is_small))
+    let is_whole = stems.last().is_some_and(|head| is_listed(WHOLES, head));
+    Ok(is_view || found && !is_whole || part_of(name, "")?.is_some_and(|part| part.is_small))
 }
 
 /// A name without what says how much of the thing is meant and where it is: `whole guitar on its stand` is the guitar.

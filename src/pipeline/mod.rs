@@ -16,6 +16,7 @@ mod forecast;
 mod frames;
 mod interpreter;
 mod job;
+mod guessed_things;
 mod lone_thing;
 mod opened_scene;
 mod panic_point;

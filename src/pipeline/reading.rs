@@ -177,11 +177,19 @@ fn keep_held_pictures(steps: &mut [Step]) {
 fn begin_turns(prompt: &str, steps: &mut [Step]) {
     const STANDS: [&str; 10] =
         ["stand", "standing", "beside", "next", "near", "by", "sit", "sitting", "position", "viewpoint"];
-    let stands = |step: &Step| {
+    const TURNS: [&str; 12] =
+        ["pan", "pans", "look", "looks", "turn", "turns", "tilt", "swing", "whip", "sweep", "swivel", "panning"];
+    let says = |step: &Step, list: &[&str]| {
         let words = step.words.and_then(|[from, to]| prompt.get(from..to)).unwrap_or_default().to_lowercase();
-        words.split(|c: char| !c.is_alphanumeric()).any(|word| STANDS.contains(&word))
+        words.split(|c: char| !c.is_alphanumeric()).any(|word| list.contains(&word))
     };
-    let begins = |step: &&mut Step| step.movement.looks_elsewhere() && step.start.subjects.is_empty() && !stands(step);
+    let stands = |step: &Step| says(step, &STANDS);
+    let turns = |step: &Step| says(step, &TURNS);
+    // `You just lie there. From the bed.` is no turn from it.
+    let is_goalless = |step: &Step| step.end == Framing::default() && !turns(step);
+    let begins = |step: &&mut Step| {
+        step.movement.looks_elsewhere() && step.start.subjects.is_empty() && !stands(step) && !is_goalless(step)
+    };
     for step in steps.iter_mut().filter(begins) {
         if let Some(via) = step.via.take_if(|via| via.how == Pass::From) {
             step.start.subjects = via.objects;

@@ -133,3 +133,52 @@ fn a_pull_out_that_takes_in_a_whole_ends_aimed_at_it() {
     assert!(at.abs().max_element() < 0.22, "the table is at {at}");
     assert!(last.pose.position.distance(CENTER) > frames[0].pose.position.distance(CENTER));
 }
+
+#[test]
+fn a_way_along_a_table_between_things_on_it_stays_just_above_it() {
+    let world = furnished(&[3, 4, 5]);
+    let via = Via { how: Pass::Along, objects: vec![3] };
+    let step = Step { start: about(4), end: about(5), via: Some(via), ..Step::of(Move::Follow) };
+    let frames = film(&solved(&world, vec![step]));
+    for state in &frames {
+        let height = state.pose.position.y;
+        assert!((TOP..TOP + 0.6).contains(&height), "camera at {height}, top at {TOP}");
+    }
+    let last = in_frame(&frames[frames.len() - 1], DVec3::new(0.5, TOP + 0.13, -0.9));
+    assert!(last.abs().max_element() < 0.2, "the second vase is at {last}");
+}
+
+#[test]
+fn a_rise_to_above_a_table_swings_over_it() {
+    let world = furnished(&[3]);
+    let above = Framing { angle: Some(ShotAngle::Overhead), ..about(3) };
+    let steps =
+        vec![Step { end: about(3), ..Step::of(Move::Static) }, Step { end: above, ..Step::of(Move::PedestalUp) }];
+    let frames = film(&solved(&world, steps));
+    let last = &frames[frames.len() - 1];
+    let down = (-last.pose.forward().y).asin().to_degrees();
+    assert!(down > 50.0, "looks down by {down} degrees");
+    let aside = |state: &CameraState| (state.pose.position - CENTER).with_y(0.0).length();
+    assert!(aside(last) < 0.8 * aside(&frames[0]), "from {} to {} beside it", aside(&frames[0]), aside(last));
+}
+
+#[test]
+fn a_pan_that_ends_close_goes_on_to_its_end() {
+    let world = furnished(&[3, 6]);
+    let close = Framing { height_frac: Some(0.9), ..about(6) };
+    let pan = Step { end: close, either_way: true, ..Step::of(Move::PanRight) };
+    let frames = film(&solved(&world, vec![Step { end: about(3), ..Step::of(Move::Static) }, pan]));
+    let cupboard = DVec3::new(-1.0, 0.9, 2.74);
+    let distance = |state: &CameraState| state.pose.position.distance(cupboard);
+    let (first, last) = (distance(&frames[0]), distance(&frames[frames.len() - 1]));
+    assert!(last < 0.85 * first, "from {first} to {last} from the cupboard");
+}
+
+#[test]
+fn a_table_is_revealed_over_what_hides_its_top() {
+    let world = furnished(&[3, 6]);
+    let via = Via { how: Pass::Behind, objects: vec![6] };
+    let frames = film(&solved(&world, vec![Step { end: about(3), via: Some(via), ..Step::of(Move::Reveal) }]));
+    let last = frames[frames.len() - 1].pose.position.y;
+    assert!(last > frames[0].pose.position.y + 0.2 && last > TOP, "rises from {} to {last}", frames[0].pose.position.y);
+}

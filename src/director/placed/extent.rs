@@ -12,14 +12,6 @@ pub struct Places<'a> {
     pub up: DVec3,
 }
 
-impl Places<'_> {
-    /// The only thing of a scan of which the other objects are parts.
-    pub(crate) fn only_whole(&self) -> Option<u32> {
-        let mut wholes = self.objects.iter().filter(|object| object.parent.is_none());
-        wholes.next().filter(|_| wholes.next().is_none()).map(|object| object.id)
-    }
-}
-
 /// How a thing lies to the one that places it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Relation {

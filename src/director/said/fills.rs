@@ -60,7 +60,8 @@ pub(crate) fn close_on_parts(linked: &Linked, steps: &mut [Step]) {
         };
         let parts: Vec<(usize, u32, PartPlace)> = (0..words.len()).filter_map(part_at).collect();
         let [(at, id, part)] = parts[..] else { continue };
-        let opens = words[..at].iter().rev().take(5).any(|(word, _)| *word == "from" || OPENS.contains(word));
+        // `The top of` stands for the part.
+        let opens = words[..at].iter().rev().take(8).any(|(word, _)| *word == "from" || OPENS.contains(word));
         let says = |wanted: &[&str]| words.iter().any(|(word, _)| wanted.contains(word));
         let fills = says(&["fills", "fill", "filling"]) && says(&["frame", "screen", "picture"]);
         let ids = linked.expanded(&[id]);
@@ -101,7 +102,8 @@ pub(crate) fn end_on_parts(linked: &Linked, steps: &mut [Step]) {
             words.iter().enumerate().rev().find_map(|(at, (word, span))| {
                 let (_, part) = linked.parts.iter().find(|(bytes, _)| bytes[0] <= span[0] && span[1] <= bytes[1])?;
                 let id = linked.slot_at(word).filter(|id| linked.expanded(&[*id]) == ids)?;
-                let led = words[..at].iter().rev().take(3).any(|(word, _)| leads.contains(word));
+                let own = words[..at].iter().rev().take_while(|(word, _)| !word.starts_with('<'));
+                let led = own.take(5).any(|(word, _)| leads.contains(word));
                 led.then_some((id, subject_part(part.place)))
             })
         };

@@ -170,7 +170,10 @@ fn compared_at(linked: &Linked, words: &[&str], at: usize) -> Option<Mention> {
 }
 
 /// Words that lead to a height, and words that lead from one.
-const TO: [&str; 10] = ["to", "until", "till", "into", "reach", "reaches", "reaching", "ends", "ending", "finish"];
+const TO: [&str; 15] = [
+    "to", "until", "till", "into", "reach", "reaches", "reaching", "ends", "ending", "finish", "finishes", "finishing",
+    "landing", "settling", "stopping",
+];
 const FROM: [&str; 7] = ["from", "start", "starting", "begin", "beginning", "open", "opening"];
 /// Verbs of a camera that rises, and of one that sinks.
 const RISES: [&str; 10] = ["rise", "lift", "climb", "crane", "boom", "ascend", "raise", "float", "come", "up"];

@@ -11,6 +11,7 @@ mod directions;
 mod dolly_zoom;
 mod endings;
 mod entries;
+mod facing;
 mod fills;
 mod fixed;
 #[cfg(test)]
@@ -20,6 +21,7 @@ mod lengths;
 mod levels;
 mod moods;
 mod named_times;
+mod narrated;
 mod open;
 mod openings;
 mod places;
@@ -28,6 +30,7 @@ mod ranges;
 mod rates;
 mod repeats;
 mod rests;
+mod scanned;
 mod senses;
 mod sides;
 mod small_moves;
@@ -49,6 +52,7 @@ pub(crate) use bans::asks_for;
 pub(crate) use directions::is_form;
 pub use levels::take_levels;
 pub(crate) use openings::abbreviated_size;
+pub(crate) use scanned::frame_parts;
 
 use crate::direction::Direction;
 use crate::error::DirectorError;
@@ -124,6 +128,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     circles::join_said_again(linked, direction);
     let steps = &mut direction.program.steps;
     circles::turn_all_round(linked, steps);
+    splits::walk_as_far(linked, steps);
     sides::go_round_to_sides(linked, steps);
     ranges::take_ranges(linked, steps);
     ranges::take_field_of_view(linked, steps);
@@ -135,6 +140,10 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::slide_square(linked, steps);
     openings::begin_straight_above(linked, steps);
     directions::rise_to_things(linked, steps);
+    facing::begin_face_to_face(linked, steps);
+    facing::rest_on_openings(linked, steps);
+    facing::rest_up_close(linked, steps);
+    facing::look_down_on_tops(linked, steps);
     take_said_of_moves(linked, direction);
     Ok(())
 }
@@ -168,13 +177,14 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
 /// Corrects a direction by what the words say plainly of several of its parts.
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     moods::drop_stories(linked, direction);
+    openings::drop_unnamed_starts(linked, &mut direction.program.steps);
     places::leave_from(linked, direction);
     entries::come_in_at_doors(linked, objects, direction);
     specified::skim_tops(linked, objects, &mut direction.program.steps);
     repeats::drop_restated(direction);
     lengths::take_total(linked, direction);
     arrivals::end_at_stops(linked, &mut direction.program.steps);
-    if !wishes::film_wishes(linked, objects, direction) {
+    if !narrated::film_narrated(linked, direction) && !wishes::film_wishes(linked, objects, direction) {
         briefs::film_briefs(linked, objects, direction);
     }
     carriers::flow_without_cuts(&mut direction.program);

@@ -284,6 +284,16 @@ pub(crate) fn rest_on_first_picture(
     Ok(())
 }
 
+/// Begins with nothing that no words name: `and then you lift your head` begins where the step before ends.
+pub(crate) fn drop_unnamed_starts(linked: &Linked, steps: &mut [Step]) {
+    let named = linked.expanded(&linked.slots);
+    for step in steps.iter_mut().filter(|step| !step.start.subjects.is_empty()) {
+        if !step.start.subjects.iter().any(|id| named.contains(id) || linked.missing(*id).is_some()) {
+            step.start = Framing { subjects: Vec::new(), part: SubjectPart::Middle, whole: false, ..step.start.clone() };
+        }
+    }
+}
+
 /// The senses of words that ask for a turn on the spot; `None` for other moves.
 fn senses_of_turn(movement: Move) -> Option<&'static [&'static str]> {
     match movement {

@@ -1,9 +1,11 @@
 //! Ways round a subject, from one side of it to another: `in profile, drift round to the front`.
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::{Amount, Step, SubjectSide};
 use cinesplat_trajectory::Move;
 
+use super::directions::is_form;
+use super::facing::are_face_to_face;
 use super::open::as_orbit;
 
 /// Words that lead around.
@@ -26,9 +28,19 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
         let circles = matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight);
         if let Some(side) = side_of_end(&words, &is_own).filter(|_| circles && step.amount.is_none()) {
             step.end.side = Some(side);
+            if let Some(first) = side_of_start(&words) {
+                step.start.side = Some(first);
+            }
+        }
+        // A three-quarter view is half way between two sides.
+        let is_quarter = words.windows(2).any(|two| matches!(two, ["three", "quarter" | "quarters"]));
+        if circles && is_quarter && step.amount.is_none() {
+            (step.amount, step.end.side) = (Some(Amount::Degrees(45.0)), None);
         }
         let meets = meets_us(&words) && (circles || step.movement == Move::Static && step.start.side.is_some());
-        if meets && step.end.side.is_none() && !matches!(step.amount, Some(Amount::Degrees(_))) {
+        // The side that it is seen from before is no end.
+        let is_open = step.end.side.is_none() || !words.iter().any(|word| is_listed("side sides profile back rear", word));
+        if meets && is_open && !matches!(step.amount, Some(Amount::Degrees(_))) {
             step.end.side = Some(SubjectSide::FromFront);
         }
         let from_to = from_side_to_side(&words, &is_own).filter(|_| circles);
@@ -46,16 +58,22 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
 }
 
 /// Words until when one goes round, words of looking at somebody, and who is looked at.
-const UNTIL: [&str; 5] = ["until", "till", "til", "untill", "so"];
-const LOOKS: [&str; 11] =
-    ["stare", "stares", "staring", "look", "looks", "looking", "face", "faces", "facing", "point", "points"];
-const US: [&str; 6] = ["us", "camera", "me", "you", "lens", "viewer"];
+const UNTIL: [&str; 7] = ["until", "till", "til", "'til", "untill", "so", "where"];
+const LOOKS: [&str; 17] = [
+    "stare", "stares", "staring", "look", "looks", "looking", "face", "faces", "facing", "point", "points", "meet", "meets",
+    "gaze", "gazes", "glares", "glaring",
+];
+const US: [&str; 8] = ["us", "camera", "me", "you", "lens", "viewer", "ours", "viewers"];
 
 /// Whether words go on until the subject and the camera look at each other: `till it's staring straight at us`, `until we're
 /// facing it`.
 fn meets_us(words: &[&str]) -> bool {
     (0..words.len()).filter(|at| UNTIL.contains(&words[*at])).any(|at| {
         let behind = &words[at + 1..words.len().min(at + 9)];
+        // `Until we are face to face`.
+        if are_face_to_face(behind) {
+            return true;
+        }
         let looks = behind.iter().position(|word| LOOKS.contains(word));
         let Some(looks) = looks.filter(|looks| *looks < 5) else { return false };
         let by_us = behind[..looks].iter().any(|word| matches!(*word, "we" | "you" | "i"));
@@ -117,7 +135,8 @@ fn from_side_to_side(words: &[&str], is_own: &dyn Fn(&str) -> bool) -> Option<[S
 
 /// The side that the words go round to; `None` where they name none or several. `is_own` tells the subject.
 fn side_of_end(words: &[&str], is_own: &dyn Fn(&str) -> bool) -> Option<SubjectSide> {
-    let mut sides = (0..words.len()).filter(|at| AROUND.contains(&words[*at])).filter_map(|at| {
+    let leads_round = |at: &usize| AROUND.contains(&words[*at]) || is_circle(words[*at]);
+    let mut sides = (0..words.len()).filter(leads_round).filter_map(|at| {
         let links = words[at + 1..].iter().take(3).take_while(|word| BETWEEN.contains(word)).count();
         let leads = words[at + 1..at + 1 + links].contains(&"to");
         let name = words.get(at + 1 + links)?;
@@ -127,6 +146,27 @@ fn side_of_end(words: &[&str], is_own: &dyn Fn(&str) -> bool) -> Option<SubjectS
         let side = SIDES.iter().find(|(names, _)| names.contains(name)).map(|(_, side)| *side)?;
         (leads && !is_place).then_some(side)
     });
+    sides.next().filter(|_| sides.next().is_none())
+}
+
+/// Verbs of a way round its subject.
+const CIRCLES: [&str; 8] = ["arc", "orbit", "circle", "swing", "come", "sweep", "swivel", "revolve"];
+
+fn is_circle(word: &str) -> bool {
+    CIRCLES.iter().any(|verb| is_form(word, verb))
+}
+
+/// The side that the words name before the way round begins: `start on its profile, arc to the front`. `None` where they name
+/// none or several.
+fn side_of_start(words: &[&str]) -> Option<SubjectSide> {
+    let circle = words.iter().position(|word| is_circle(word) || AROUND.contains(word))?;
+    let named = |word: &&str| match *word {
+        "profile" | "side" => Some(SubjectSide::FromSide),
+        "back" | "rear" | "behind" => Some(SubjectSide::FromBack),
+        "front" | "frontal" => Some(SubjectSide::FromFront),
+        _ => None,
+    };
+    let mut sides = words[..circle].iter().filter_map(named);
     sides.next().filter(|_| sides.next().is_none())
 }
 
@@ -140,6 +180,7 @@ mod tests {
         assert_eq!(side("drift round to the front over <qty-0>"), Some(SubjectSide::FromFront));
         assert_eq!(side("circle around to its back"), Some(SubjectSide::FromBack));
         assert_eq!(side("round to the front of <obj-0>"), Some(SubjectSide::FromFront));
+        assert_eq!(side("arc to the front until we are face to face"), Some(SubjectSide::FromFront));
         assert_eq!(side("go round the front"), None);
         assert_eq!(side("go around to the front of <obj-1>"), None);
         assert_eq!(side("round to the front then round to the back"), None);
@@ -164,8 +205,18 @@ mod tests {
         assert!(meets("circle until <obj-0> is facing the camera"));
         assert!(meets("go round until we 're facing it"));
         assert!(meets("arc round until it looks right at you"));
+        assert!(meets("come round till we are face to face"));
+        assert!(meets("swing to the front so its eye holes meet the lens"));
         assert!(!meets("orbit until we look at <obj-1>"));
         assert!(!meets("orbit <obj-0> facing it"));
+    }
+
+    #[test]
+    fn a_way_round_begins_at_the_side_that_is_named_before_it() {
+        let side = |text: &str| side_of_start(&text.split(' ').collect::<Vec<_>>());
+        assert_eq!(side("start on its profile , arc to the front"), Some(SubjectSide::FromSide));
+        assert_eq!(side("arc to the front"), None);
+        assert_eq!(side("from the front or the side , arc to the back"), None);
     }
 
     #[test]

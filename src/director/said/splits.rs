@@ -1,7 +1,7 @@
 //! Steps whose words say two moves: `hold on the profile, orbit round till it faces us`, `swing round it, and back off until all
 //! of it is in`, `move forward, swing left to face the sofa`.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_operator::{Amount, Framing, Step, SubjectPart, SubjectSide};
 use cinesplat_trajectory::Move;
 
@@ -46,6 +46,7 @@ pub(crate) fn split_moves(linked: &Linked, direction: &mut Direction) {
             .or_else(|| advanced(linked, step))
             .or_else(|| neared(linked, step))
             .or_else(|| rounded(linked, step))
+            .or_else(|| walked_round(linked, step))
             .filter(|(_, second)| second.words.is_some_and(|[from, _]| own(from)))
         else {
             continue;
@@ -231,6 +232,95 @@ fn rounded(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
     Some((Step { amount: None, words: Some(first), ..step.clone() }, round))
 }
 
+/// Words between a verb of a walk and `around`, and how far round each of them leads, degrees.
+const FAR: [(&str, f64); 8] = [
+    ("half", 180.0),
+    ("halfway", 180.0),
+    ("quarter", 90.0),
+    ("once", 360.0),
+    ("twice", 720.0),
+    ("fully", 360.0),
+    ("full", 360.0),
+    ("complete", 360.0),
+];
+const ON_THE_WAY: &str = "half halfway way quarter once right all the slowly gently fully full complete a an turn lap of";
+
+/// How far round the first of some words lead.
+fn far_behind(words: &[&str]) -> Option<f64> {
+    FAR.iter().find(|(far, _)| words.iter().take(6).any(|word| word == far)).map(|(_, far)| *far)
+}
+
+/// Whether a verb at `at` leads round something: `walk half around it`. `go round the corner to the door` is no circle. `is_own`
+/// tells the subject.
+fn leads_round(words: &[&str], at: usize, is_own: &dyn Fn(&str) -> bool) -> bool {
+    let text = |at: usize| words.get(at).copied().unwrap_or_default();
+    let between = words[at + 1..].iter().take_while(|word| is_listed(ON_THE_WAY, word)).count();
+    let around = at + 1 + between;
+    let about = text(around + 1);
+    let is_far = far_behind(&words[at + 1..around]).is_some() && !about.starts_with('<');
+    ROUND.contains(&text(around)) && (matches!(about, "it" | "him" | "her" | "them") || is_own(about) || is_far)
+}
+
+/// Gives a way round the part of a circle that its words say: `walk half around it`.
+pub(crate) fn walk_as_far(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement.is_circular() && step.amount.is_none() && !step.returns) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let leads = |at: &usize| {
+            let verbs = WALKS.iter().chain(&CIRCLES);
+            verbs.into_iter().any(|verb| is_form(words[*at], verb))
+                && leads_round(&words, *at, &|word| word.starts_with('<'))
+        };
+        let far = (0..words.len()).find(leads).and_then(|at| {
+            let round = (at..words.len()).find(|nth| ROUND.contains(&words[*nth]))?;
+            far_behind(&words[at + 1..round])
+        });
+        if let Some(far) = far.filter(|_| step.end.side.is_none()) {
+            step.amount = Some(Amount::Degrees(far));
+        }
+    }
+}
+
+/// A move, and the way round that its words say behind it: `back out until all of it is visible, and walk half around it`.
+fn walked_round(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
+    let circles = |movement: &Move| movement.is_circular();
+    if std::iter::once(&step.movement).chain(&step.with).any(circles) || step.returns || step.end.subjects.is_empty() {
+        return None;
+    }
+    let words = words_of(linked, step);
+    let text = |at: usize| words.get(at).map_or("", |(word, _)| *word);
+    let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+    let is_own = |word: &str| {
+        linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == linked.expanded(&step.end.subjects))
+    };
+    let around = |at: usize| leads_round(&texts, at, &is_own);
+    let is_walk = |at: &usize| {
+        let circles = CIRCLES.iter().any(|verb| is_form(text(*at), verb));
+        let walks = WALKS.iter().any(|verb| is_form(text(*at), verb));
+        circles && (linked.slot_at(text(at + 1)).is_some() || text(at + 1) == "it" || around(*at)) || walks && around(*at)
+    };
+    let at = (1..words.len()).find(|at| is_walk(at) && begins(&words, *at))?;
+    let far_at = |at: usize| far_behind(&texts[at..]);
+    // `Rise and circle it` may be one move.
+    let is_next = words[..at].iter().rev().take(2).any(|(word, _)| JOINTS[..4].contains(word));
+    if !is_next && far_at(at).is_none() {
+        return None;
+    }
+    let [first, second] = parted(step, &words, at)?;
+    let behind: Vec<&str> = words[at..].iter().map(|(word, _)| *word).collect();
+    let stated = behind.iter().filter_map(|word| linked.quantity_at(word)).find(|q| q.kind == QuantityKind::Degrees);
+    let way = behind.iter().find_map(|word| SIDES.iter().find(|(side, _, _)| side == word));
+    let shown = Framing { subjects: step.end.subjects.clone(), whole: step.end.whole, ..Framing::default() };
+    let round = Step {
+        either_way: way.is_none(),
+        end: shown,
+        amount: stated.map(|stated| stated.value).or(far_at(at)).map(Amount::Degrees),
+        speed: step.speed,
+        words: Some(second),
+        ..Step::of(way.map_or(Move::OrbitRight, |(_, _, orbit)| *orbit))
+    };
+    Some((Step { words: Some(first), ..step.clone() }, round))
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fixture::{direction, linked};
@@ -275,6 +365,30 @@ mod tests {
         let steps = split("go on to <obj-0> , and finish with <qty-0> arc around that", push);
         assert_eq!([steps[0].movement, steps[1].movement], [Move::PushIn, Move::ArcRight]);
         assert_eq!((steps[0].amount, steps[1].amount), (None, Some(Amount::Degrees(90.0))));
+    }
+
+    #[test]
+    fn a_walk_around_behind_a_way_back_is_a_step() {
+        let back = || Step { end: about(5), ..Step::of(Move::PullOut) };
+        let steps = split("back out until <obj-0> is visible , and walk half around it so buyers see more", back());
+        assert_eq!([steps[0].movement, steps[1].movement], [Move::PullOut, Move::OrbitRight]);
+        assert_eq!(steps[1].amount, Some(Amount::Degrees(180.0)));
+        assert_eq!(split("rise above <obj-0> , then circle it once", back()).len(), 2);
+        assert_eq!(split("rise and circle <obj-0>", back()).len(), 1);
+        assert_eq!(split("pull back from <obj-0> , walk around the corner", back()).len(), 1);
+        assert_eq!(split("go to <obj-1> , turn round to <obj-0> and finish close", back()).len(), 1);
+    }
+
+    #[test]
+    fn a_way_round_is_as_far_as_the_words_say() {
+        let amount = |text: &str| {
+            let mut steps = vec![Step { end: about(5), words: Some([0, text.len()]), ..Step::of(Move::OrbitRight) }];
+            walk_as_far(&linked(text), &mut steps);
+            steps[0].amount
+        };
+        assert_eq!(amount("and walk half around it so buyers see"), Some(Amount::Degrees(180.0)));
+        assert_eq!(amount("go once round <obj-0>"), Some(Amount::Degrees(360.0)));
+        assert_eq!(amount("walk around it at half the height"), None);
     }
 
     #[test]

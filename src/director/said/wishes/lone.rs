@@ -37,6 +37,35 @@ const WHOLES: &str = "thing plant guitar skull robot figure object piece palm on
 /// Share of the height of the frame of the thing from its front.
 const FRONT_SHARE: f64 = 0.85;
 
+/// Words of a film that goes on for ever.
+const LOOPS: &str = "loop loops looped looping loopable seamless seamlessly endless endlessly";
+/// Words of the two ends of a film, and of what they are.
+const FIRSTS: &str = "first opening start starts started begin begins began beginning";
+const LASTS: &str = "last closing final end ends ending finish finishes finishing";
+const SAME: &str = "same matches match matching identical equals";
+
+/// Whether words end the film as it began: `loops so the last frame matches the first`.
+pub(super) fn loops(text: &Text<'_>) -> bool {
+    let words = &text.words;
+    let has = |range: std::ops::Range<usize>, list: &str| text.has(range, list);
+    let joins = |at: usize| {
+        let sentence = text.sentence(at);
+        let is_back = words[at] == "where" && has(sentence.start..at, LASTS) && has(at..sentence.end, FIRSTS);
+        let are_same = is_listed(SAME, words[at])
+            && has(sentence.clone(), "first opening beginning start")
+            && has(sentence, "last closing final");
+        is_back || are_same
+    };
+    (0..words.len()).any(|at| is_listed(LOOPS, words[at]) && !text.is_denied(at) || joins(at))
+}
+
+/// The film of a thing that goes on for ever: all round it, with all of it in the picture.
+pub(super) fn loop_steps(thing: &Object, speed: Speed) -> Vec<Step> {
+    let end = Framing { subjects: vec![thing.id], whole: true, ..Framing::default() };
+    let round = Step::of(Move::OrbitRight);
+    vec![Step { end, amount: Some(Amount::Degrees(360.0)), either_way: true, speed, ..round }]
+}
+
 /// The views of the thing that the words want, in order.
 pub(super) fn views(text: &Text<'_>, linked: &Linked, thing: &Object, things: &Things<'_>) -> Vec<View> {
     let mut views: Vec<View> = Vec::new();
@@ -201,6 +230,16 @@ mod tests {
         let text =
             "so get in amongst those long leaves , but also that lovely knobbly trunk . leave them with the full plant";
         assert_eq!(found(text, "palm"), [View::Top, View::Middle, View::Whole]);
+    }
+
+    #[test]
+    fn a_loop_ends_as_it_began() {
+        let is_loop = |text: &str| loops(&Text::new(text.split(' ').collect()));
+        assert!(is_loop("ideally it loops so the last frame matches the first"));
+        assert!(is_loop("the last image must be the same as the first one"));
+        assert!(is_loop("make it end where it starts"));
+        assert!(!is_loop("no loops please , but the same plant"));
+        assert!(!is_loop("begin with the pot and end with the same pot"));
     }
 
     #[test]

@@ -35,8 +35,12 @@ const TRADE: &str = "sideways backward backwards forward forwards overhead top-d
     degrees clockwise counterclockwise anticlockwise pov profile foreground close-up closeup cu ecu mcu ws ms shot shots angle low high \
     bird's tripod static locked frame picture view rotation stroll strolls join joins put together";
 /// Verbs of a camera that goes somewhere, and their ways.
-const GOES: [&str; 6] = ["go", "come", "step", "back", "get", "bring"];
+const GOES: [&str; 9] = ["go", "come", "step", "back", "get", "bring", "ease", "pull", "draw"];
 const WAYS: &str = "in over from across down up back out away off closer";
+/// Words before `move` where it is a name: `one continuous move`.
+const KINDS: &str = "a one single continuous long slow gentle smooth simple unbroken";
+/// Most words of an instruction, in which `go to` is a way: who tells more tells a story.
+const SHORT: usize = 40;
 /// Words that rule out what follows, and words of a way past a thing.
 const NOT: &str = "not never 't no without dont";
 const PASSES: &str = "over under behind through past between around along across above beneath below";
@@ -111,6 +115,9 @@ fn of_lone(
     speed: Speed,
 ) -> Option<Vec<Step>> {
     let has = |list: &str| text.has(0..text.words.len(), list);
+    if lone::loops(text) {
+        return Some(lone::loop_steps(thing, speed));
+    }
     let views = lone::views(text, linked, thing, things);
     if views.len() > 1 {
         return Some(lone::steps(&views, thing, things, speed));
@@ -143,24 +150,32 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
         let is_denied = before().take(4).any(|word| is_listed(NOT, word));
         // `Where she is going to sit down`.
         let is_told = before().take(6).any(|word| *word == "where");
+        let is_kind = words[at] == "move" && before().take(1).any(|word| is_listed(KINDS, word));
         let stops = STOPS.iter().any(|verb| is_form(words[at], verb));
-        is_camera_verb(words, at) && !stops && !is_denied && !is_told || is_listed(TRADE, words[at]) && !is_denied
+        // `The last frame matches the first`.
+        let is_end = is_listed("frame picture shot", words[at]) && before().take(2).any(|word| is_listed("first last opening closing same", word));
+        is_camera_verb(words, at) && !stops && !is_denied && !is_told && !is_kind
+            || is_listed(TRADE, words[at]) && !is_denied && !is_end
     };
     let passes = |at: usize| {
         let next = words[at + 1..].iter().find(|word| !is_listed("the a an my our", word));
-        is_listed(PASSES, words[at]) && next.is_some_and(|word| is_object(word))
+        // `The doors under the worktop` only says where they are.
+        let locates = at > 0 && is_object(words[at - 1]);
+        is_listed(PASSES, words[at]) && next.is_some_and(|word| is_object(word)) && !locates
     };
     // `Step back`, `and from there it goes to the palm`.
     let goes = |at: usize| {
         let next = words.get(at + 1).copied().unwrap_or_default();
         let is_verb = GOES.iter().any(|verb| is_form(words[at], verb));
-        let to_thing =
-            next == "to" && is_form(words[at], "go") && words[at + 1..].iter().take(3).any(|word| is_object(word));
+        let to_thing = words.len() < SHORT
+            && next == "to" && is_form(words[at], "go") && words[at + 1..].iter().take(3).any(|word| is_object(word));
         let is_close = words[at] == "up" || matches!(words.get(at + 2), Some(&"close" | &"amongst" | &"among"));
         is_verb && (is_listed(WAYS, next) && !is_close || to_thing)
     };
     let is_measured = |at: usize| {
-        let seems = words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word));
+        // `As if it is ten metres tall` is no length of the film's.
+        let as_if = words[..at].iter().rev().take(5).any(|word| is_listed("if like seem seems though", word));
+        let seems = as_if || words.get(at + 1).is_some_and(|word| is_listed("tall high long wide big old", word));
         let kind = linked.quantity_at(words[at]).map(|quantity| quantity.kind);
         let is_length = kind == Some(QuantityKind::Units) && !seems;
         is_length || matches!(kind, Some(QuantityKind::Degrees | QuantityKind::Factor | QuantityKind::Millimeters))
@@ -186,9 +201,12 @@ mod tests {
         assert!(wish(
             "you know in games when the camera flies around ? that . <obj-0> , then <obj-1> , and rest by <obj-2>"
         ));
+        assert!(wish("people should see <obj-0> and how crazy it goes , ideally it loops so the last frame matches it"));
         assert!(wish("begin from <obj-0> , little by little , last is <obj-1> . do not move fast , please"));
         assert!(wish("leave us where she 's going to pedestal down and <obj-0> . nothing has started yet"));
         assert!(!wish("begin on <obj-0> , then pan over to <obj-1> and hold there until the end of the film"));
+        assert!(wish("people should be hungry . <obj-0> and <obj-1> , one continuous move if you can , end with <obj-2>"));
+        assert!(!wish("open on <obj-0> and stay there . then ease back and up until <obj-1> and <obj-2> are all in"));
         assert!(!wish("a wide shot of the room first , then <obj-0> and at last <obj-1> , please"));
         assert!(wish("people buy it for the hair , so get in amongst those long leaves . leave them with <obj-0>"));
         assert!(!wish("the film begins at <obj-0> and from there it goes to <obj-1> , which must be seen whole"));

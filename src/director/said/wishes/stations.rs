@@ -35,6 +35,8 @@ pub(super) struct Station {
     pub(super) rank: Rank,
     /// The camera rests there.
     pub(super) rests: bool,
+    /// The camera goes a little way round it.
+    pub(super) is_circled: bool,
     /// The words about it.
     pub(super) words: Range<usize>,
 }
@@ -42,7 +44,7 @@ pub(super) struct Station {
 impl Station {
     /// A station of nothing, where a film begins.
     pub(super) fn nothing() -> Self {
-        Self { subject: Subject::Place, is_close: false, rank: Rank::First, rests: false, words: 0..0 }
+        Self { subject: Subject::Place, is_close: false, rank: Rank::First, rests: false, is_circled: false, words: 0..0 }
     }
 }
 
@@ -52,9 +54,12 @@ const WISHES: &str = "first then next after begin start open end finish last fin
     important answer compare until only each every please understand starting ending please remember find count ask love";
 /// Words of what is sold: of a group each one is shown, and then all.
 pub(super) const WARES: &str = "shop store product products brand sale selling sell auction lot lots bidders bidder bestseller catalogue \
-    catalog webshop customer customers buyer buyers off";
+    catalog webshop customer customers buyer buyers";
 /// Words that show the things of a group one after the other.
-const IN_TURN: [&[&str]; 11] = [
+const IN_TURN: [&[&str]; 14] = [
+    &["one", "then", "the", "other"],
+    &["one", ",", "then", "the", "other"],
+    &["first", "one", ","],
     &["after", "the", "other"],
     &["after", "another"],
     &["one", "by", "one"],
@@ -69,7 +74,7 @@ const IN_TURN: [&[&str]; 11] = [
 ];
 /// Words that show a thing close.
 const CLOSE: &str =
-    "close closely closer tight tightly detail details clue clues macro big huge fills amongst nose homely intimate";
+    "close closely closer near nearer tight tightly detail details clue clues macro big huge fills amongst nose homely intimate";
 /// Words between a thing and one that is seen with it.
 const WITH: &str = "with plus beside";
 const ARTICLES: &str = "both all the a an its his her their my our your some";
@@ -338,8 +343,12 @@ impl Found<'_> {
         let is_small = matches!(&subject, Subject::Things(ids) if self.things.are_small(ids));
         let is_close = self.is_close(at) || is_small && self.is_clue(at);
         let rests = text.has(text.behind(at), "stop pause rest hold linger wait stay");
+        let is_circled = text
+            .slice(self.told_behind(at))
+            .windows(2)
+            .any(|two| is_listed("around round", two[0]) && is_listed("it him her them", two[1]));
         let words = text.before(at).start..text.behind(at).end;
-        self.stations.push(Station { subject, is_close, rank, rests, words });
+        self.stations.push(Station { subject, is_close, rank, rests, is_circled, words });
     }
 
     /// Whether the words show a thing close.
@@ -351,10 +360,21 @@ impl Found<'_> {
             let is_verb = words[nth] == "close" && is_object(next);
             nth > 0 && matches!(words[nth - 1], "how" | "so" | "too" | "not") || next == "enough" || is_verb
         };
-        let mut near = self.text.before(at).chain(self.text.behind(at));
+        let mut near = self.text.before(at).chain(self.text.behind(at)).chain(self.told_behind(at));
         let says = near.any(|nth| is_listed(CLOSE, words[nth]) && !is_size(nth));
         let small = self.text.opens(at) && self.text.has(self.text.before(at), "small tiny little");
         says || small
+    }
+
+    /// The words of the next sentence where it speaks of a thing by a pronoun only: `the globe! And then we are really near at it`.
+    fn told_behind(&self, at: usize) -> Range<usize> {
+        let own = self.text.sentence(at);
+        let is_last = !self.text.words[at + 1..own.end].iter().any(|word| is_object(word));
+        let next = self.text.sentence(own.end);
+        let words = self.text.slice(next.clone());
+        let is_about = words.iter().take(10).any(|word| is_listed("it him her them", word));
+        let names = words.iter().any(|word| is_object(word));
+        if is_last && is_about && !names { next } else { own.end..own.end }
     }
 
     /// Whether a thing is in a list of clues, or of what is seen up close.

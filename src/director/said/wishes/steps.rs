@@ -1,6 +1,6 @@
 //! The film of some stations.
 
-use cinesplat_operator::{Framing, Pass, Speed, Step, Via};
+use cinesplat_operator::{Amount, Framing, Pass, Speed, Step, Via};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::stations::{Station, Subject};
@@ -24,6 +24,8 @@ pub(super) struct Manner {
 /// How long the last picture from a place is held.
 const LAST_SECS: f64 = 3.0;
 const STOP_SECS: f64 = 1.5;
+/// A little way round a thing.
+const CIRCLED_DEG: f64 = 40.0;
 /// A canvas is about two thirds of its easel.
 const CANVAS: f64 = 1.5;
 
@@ -50,6 +52,10 @@ fn add(
 ) {
     let is_last = nth + 1 == stations.len();
     let end = match &station.subject {
+        // What was shown one by one is complete at last.
+        Subject::Things(ids) if is_shown(ids, &stations[..nth]) => {
+            Framing { subjects: ids.clone(), whole: true, ..Framing::default() }
+        }
         Subject::Things(ids) => framing(ids, station, things, manner),
         Subject::Place => Framing { size: Some(ShotSize::Long), ..Framing::default() },
         Subject::From { eye, seen, stands } => {
@@ -70,6 +76,10 @@ fn add(
         (step.end, step.either_way) = (Framing::default(), true);
     }
     steps.push(step);
+    if station.is_circled {
+        let amount = Some(Amount::Degrees(CIRCLED_DEG));
+        steps.push(Step { end: end.clone(), amount, either_way: true, speed: manner.speed, ..Step::of(Move::ArcRight) });
+    }
     if let Some(secs) = rest.filter(|_| station.subject != Subject::Place) {
         steps.push(Step { duration_secs: Some(secs), end, ..Step::of(Move::Static) });
     }
@@ -151,6 +161,7 @@ mod tests {
             is_close: false,
             rank: Rank::Between,
             rests: false,
+            is_circled: false,
             words: 0..0,
         };
         let stations: Vec<Station> = subjects.iter().map(station).collect();

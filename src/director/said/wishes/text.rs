@@ -70,6 +70,11 @@ impl<'a> Text<'a> {
         LIKENESS.iter().any(|opening| sentence.starts_with(opening))
     }
 
+    /// Whether the words just before a word rule it out.
+    pub(super) fn is_denied(&self, at: usize) -> bool {
+        self.words[..at].iter().rev().take(3).any(|word| is_listed("no not never without 't dont", word))
+    }
+
     /// The words behind a thing that are about it: up to the next thing or what leads on to it.
     pub(super) fn behind(&self, at: usize) -> Range<usize> {
         let end = self.sentence(at).end;

@@ -1,7 +1,7 @@
 //! Where things are: what is small, what stands together, and in which order to visit it.
 
 use cinesplat_language::is_listed;
-use cinesplat_objects::Object;
+use cinesplat_objects::{Object, only_whole};
 use glam::DVec3;
 
 /// Largest radius of a small thing, of the size of the scene.
@@ -140,12 +140,9 @@ impl<'a> Things<'a> {
         pairs.min_by(|a, b| self.gap_of_centers(a[0], a[1]).total_cmp(&self.gap_of_centers(b[0], b[1])))
     }
 
-    /// The one thing of a scan, which all others are parts of or far smaller than.
+    /// The one thing of a scan.
     pub(super) fn lone(&self) -> Option<&'a Object> {
-        let roots: Vec<&Object> = self.objects.iter().filter(|object| object.parent.is_none()).collect();
-        let largest = roots.iter().copied().max_by(|a, b| a.radius().total_cmp(&b.radius()))?;
-        let is_far_smaller = |object: &&Object| object.id == largest.id || object.radius() < 0.5 * largest.radius();
-        (roots.len() <= 3 && roots.iter().all(is_far_smaller)).then_some(largest)
+        only_whole(self.objects)
     }
 
     /// The part of a thing with a label of some words.

@@ -1,0 +1,200 @@
+//! Parts of the only thing of a scan, which a search may have made objects of their own.
+
+use cinesplat_language::{LanguageError, Mention, NamedObject, is_listed, own_part_at, part_of, tokenize};
+use cinesplat_objects::{Object, only_whole};
+
+use crate::explained::{POINTS, content, insert_mention, is_linked, is_number, label, said};
+use crate::names::FoundMention;
+use crate::placed::Places;
+
+/// Distance between an end of a thing and that of its part, of the height of the thing, up to which they are the same.
+const SAME_END: f64 = 0.1;
+
+/// Takes a part that the scene lacks for one of the only thing that there is, or that the prompt names: `the two sockets`
+/// of the skull. Where its parts are objects of their own, a
+/// word for an end of it that such a part does not reach is one of all of it: `the stand` is no end of a neck.
+///
+/// # Errors
+/// [`LanguageError::BadData`] for a damaged list of parts.
+pub(crate) fn own_parts(
+    prompt: &str,
+    objects: &[NamedObject],
+    places: Places<'_>,
+    found: &mut Vec<FoundMention>,
+) -> Result<(), LanguageError> {
+    point_to_owners(prompt, objects, found)?;
+    let whole = only_whole(places.objects);
+    if let Some(whole) = whole {
+        point_to_ends(prompt, objects, (places, whole), found)?;
+        link_parts(prompt, objects, whole.id, found)?;
+    }
+    let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
+    named.dedup();
+    let only = match (&named[..], objects, whole) {
+        (_, _, Some(whole)) => whole.id,
+        ([id], ..) => *id,
+        ([], [object], _) => object.id,
+        _ => return Ok(()),
+    };
+    for part in found.iter_mut().filter(|found| found.mention.ids.is_empty()) {
+        let words = said(prompt, &part.mention);
+        let own = tokenize(words).into_iter().skip_while(|word| is_listed(POINTS, &word.text)).collect::<Vec<_>>();
+        // The frets of a neck are not those of its guitar.
+        let mut owner = None;
+        for id in named.iter().filter(|id| **id != only) {
+            let label = label(objects, *id).unwrap_or_default();
+            owner = owner.or(own_part_at(&own, label)?.map(|_| *id));
+        }
+        let id = owner.unwrap_or(only);
+        let Some(label) = label(objects, id) else { continue };
+        if part_of(words, label)?.is_some() {
+            part.mention.ids = vec![id];
+        }
+    }
+    Ok(())
+}
+
+/// Words that are ends of things and much else.
+const ENDS: &str = "top bottom front back rear side left right middle center base head crown top lid point";
+
+/// Links parts of the whole thing that no network has found: `push in on the eye socket`.
+fn link_parts(
+    prompt: &str,
+    objects: &[NamedObject],
+    whole: u32,
+    found: &mut Vec<FoundMention>,
+) -> Result<(), LanguageError> {
+    let words = tokenize(prompt);
+    let whole_label = label(objects, whole).unwrap_or_default();
+    for at in 1..words.len() {
+        if !is_listed(POINTS, &words[at - 1].text) {
+            continue;
+        }
+        for len in (1..=3).rev().filter(|len| at + len <= words.len()) {
+            let bytes = [words[at - 1].span[0], words[at + len - 1].span[1]];
+            let is_end = is_listed(ENDS, &words[at + len - 1].text);
+            let is_part = part_of(prompt.get(bytes[0]..bytes[1]).unwrap_or_default(), whole_label)?.is_some();
+            if is_part && !is_end && !is_linked(found, bytes) {
+                insert_mention(found, Mention { bytes, ids: vec![whole] });
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Points a part at the thing named last before it that has such a part, where it was taken for another thing of another name:
+/// `to the bed, and end up on the cushions`, in a room with a bench.
+fn point_to_owners(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) -> Result<(), LanguageError> {
+    for nth in 1..found.len() {
+        let (before, rest) = found.split_at_mut(nth);
+        let part = &mut rest[0].mention;
+        let words = said(prompt, part);
+        let [id] = part.ids[..] else { continue };
+        let is_called = |id: u32| label(objects, id).is_some_and(|label| !content(label).is_disjoint(&content(words)));
+        if is_number(words) || is_called(id) {
+            continue;
+        }
+        let own = tokenize(words).into_iter().skip_while(|word| is_listed(POINTS, &word.text)).collect::<Vec<_>>();
+        let Some([owner]) = before.last().map(|found| &found.mention.ids[..]) else { continue };
+        let has = own_part_at(&own, label(objects, *owner).unwrap_or_default())?.is_some_and(|len| len == own.len());
+        if has {
+            part.ids = vec![*owner];
+        }
+    }
+    Ok(())
+}
+
+/// Points mentions of ends of the whole thing at it that were taken for a part which does not reach there.
+fn point_to_ends(
+    prompt: &str,
+    objects: &[NamedObject],
+    (places, whole): (Places<'_>, &Object),
+    found: &mut [FoundMention],
+) -> Result<(), LanguageError> {
+    let heights = |object: &Object| {
+        let along = object.corners().into_iter().map(|corner| corner.dot(places.up));
+        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+    };
+    let [low, high] = heights(whole);
+    let near = SAME_END * (high - low);
+    for part in found.iter_mut() {
+        let [id] = part.mention.ids[..] else { continue };
+        let Some(object) = places.objects.iter().find(|object| object.id == id && object.parent == Some(whole.id))
+        else {
+            continue;
+        };
+        let words = said(prompt, &part.mention);
+        let own_label = label(objects, id).unwrap_or_default();
+        if is_number(words) || !content(words).is_disjoint(&content(own_label)) {
+            continue;
+        }
+        let [own_low, own_high] = heights(object);
+        let place = part_of(words, label(objects, whole.id).unwrap_or_default())?.map(|part| part.place);
+        let is_elsewhere = match place {
+            Some("bottom") => own_low - low > near,
+            Some("top") => high - own_high > near,
+            _ => false,
+        };
+        if is_elsewhere {
+            part.mention.ids = vec![whole.id];
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_language::Mention;
+    use glam::DVec3;
+
+    #[test]
+    fn a_part_is_one_of_the_thing_before_it() {
+        let names: Vec<NamedObject> = [(1, "window"), (2, "navy bed"), (3, "bench")]
+            .map(|(id, label)| NamedObject { id, label: label.to_owned() })
+            .to_vec();
+        let ids = |prompt: &str, mentions: &[(&str, u32)]| -> Vec<Vec<u32>> {
+            let mention = |(words, id): &(&str, u32)| {
+                let start = prompt.find(words).unwrap();
+                let mention = Mention { bytes: [start, start + words.len()], ids: vec![*id] };
+                FoundMention { mention, probability: 1.0, nearest: Vec::new() }
+            };
+            let mut found: Vec<FoundMention> = mentions.iter().map(mention).collect();
+            own_parts(prompt, &names, Places { objects: &[], up: DVec3::Y }, &mut found).unwrap();
+            found.into_iter().map(|found| found.mention.ids).collect()
+        };
+        let bed = "to the bed and end on the cushions";
+        assert_eq!(ids(bed, &[("the bed", 2), ("the cushions", 3)]), [[2], [2]]);
+        assert_eq!(ids("the bed, then the bench", &[("the bed", 2), ("the bench", 3)]), [[2], [3]]);
+    }
+
+    #[test]
+    fn ends_that_no_part_reaches_are_those_of_the_whole_thing() {
+        let part = |id, label: &str, y: f64, parent| Object {
+            parent,
+            ..Object::from_box(id, label, DVec3::Y * y, DVec3::new(0.4, 1.0, 0.4))
+        };
+        let whole = Object::from_box(1, "tall brown object", DVec3::Y * 2.0, DVec3::new(0.4, 2.0, 0.4));
+        let objects = [whole, part(2, "body", 1.0, Some(1)), part(3, "neck", 3.0, Some(1))];
+        let names: Vec<NamedObject> =
+            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+        let ids = |prompt: &str, mentions: &[(&str, &[u32])]| -> Vec<Vec<u32>> {
+            let mention = |(words, ids): &(&str, &[u32])| {
+                let start = prompt.find(words).unwrap();
+                let mention = Mention { bytes: [start, start + words.len()], ids: ids.to_vec() };
+                FoundMention { mention, probability: 1.0, nearest: Vec::new() }
+            };
+            let mut found: Vec<FoundMention> = mentions.iter().map(mention).collect();
+            own_parts(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found).unwrap();
+            found.into_iter().map(|found| found.mention.ids).collect()
+        };
+        let rise = "rise from the feet of the stand to the pegs";
+        assert_eq!(ids(rise, &[("the feet of the stand", &[]), ("the pegs", &[3])]), [[1], [3]]);
+        assert_eq!(ids("down to the feet of the stand", &[("the feet of the stand", &[3])]), [[1]]);
+        assert_eq!(ids("down to the foot", &[("the foot", &[2])]), [[2]]);
+        assert_eq!(ids("in on the eye socket", &[]), [[1]]);
+        // The pegs are a part of necks.
+        assert_eq!(ids("the neck and its pegs", &[("the neck", &[3]), ("its pegs", &[])]), [[3], [3]]);
+    }
+}

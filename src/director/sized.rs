@@ -1,0 +1,75 @@
+//! Things of one kind that are told by their size: `the big plant`, where a small one stands beside it.
+
+use cinesplat_language::{NamedObject, Word, is_listed, tokenize};
+use cinesplat_objects::Object;
+
+use crate::explained::{content, head, is_number, label, said};
+use crate::names::FoundMention;
+use crate::placed::Places;
+
+/// Words of size.
+const BIG: &str = "big bigger biggest large larger largest tall taller tallest huge giant great";
+const SMALL: &str = "small smaller smallest little tiny short miniature mini";
+
+/// Points mentions of one thing that say its size, which its label does not, at the largest or smallest of its kind that fits
+/// their other words as well.
+pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Places<'_>, found: &mut [FoundMention]) {
+    for found in found {
+        let [id] = found.mention.ids[..] else { continue };
+        let words = said(prompt, &found.mention);
+        let told = tokenize(words);
+        let says = |list: &str| told.iter().any(|word| is_listed(list, &word.text));
+        let (is_big, is_small) = (says(BIG), says(SMALL));
+        let own = label(objects, id).unwrap_or_default();
+        let is_one = told.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
+        let is_sized = |label: &str| tokenize(label).iter().any(|word| is_listed(BIG, &word.text) || is_listed(SMALL, &word.text));
+        let contradicts = |label: &str| {
+            let words = tokenize(label);
+            words.iter().any(|word: &Word| is_listed(if is_big { SMALL } else { BIG }, &word.text))
+        };
+        // A label with a size of its own is chosen by it.
+        if is_number(words) || is_big == is_small || !is_one || is_sized(own) && !contradicts(own) {
+            continue;
+        }
+        let kind = head(own);
+        let told = content(words);
+        let fit = |label: &str| content(label).iter().filter(|word| told.contains(*word)).count();
+        let of_kind = objects.iter().filter(|object| head(&object.label) == kind && !contradicts(&object.label));
+        let least = if contradicts(own) { 0 } else { fit(own) };
+        let radius = |id: u32| places.objects.iter().find(|object| object.id == id).map_or(0.0, Object::radius);
+        let sized = of_kind.filter(|object| fit(&object.label) >= least);
+        let best = if is_big {
+            sized.max_by(|a, b| radius(a.id).total_cmp(&radius(b.id)))
+        } else {
+            sized.min_by(|a, b| radius(a.id).total_cmp(&radius(b.id)))
+        };
+        if let Some(best) = best {
+            found.mention.ids = vec![best.id];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_language::Mention;
+    use glam::DVec3;
+
+    #[test]
+    fn the_big_one_of_a_kind_is_not_the_small_one() {
+        let labels = [(1, "pink small plant", 0.1), (2, "white potted plant", 0.4), (3, "blue mug 1", 0.1), (4, "blue mug 2", 0.2)];
+        let objects = labels.map(|(id, label, half)| Object::from_box(id, label, DVec3::ZERO, DVec3::splat(half)));
+        let names: Vec<NamedObject> =
+            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+        let pointed = |words: &str, id: u32| {
+            let mention = Mention { bytes: [0, words.len()], ids: vec![id] };
+            let mut found = [FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
+            point_by_size(words, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
+            found[0].mention.ids.clone()
+        };
+        assert_eq!(pointed("the big green plant", 1), [2]);
+        assert_eq!(pointed("the small plant", 1), [1]);
+        assert_eq!(pointed("the bigger blue mug", 3), [4]);
+        assert_eq!(pointed("the blue mug", 3), [3]);
+    }
+}

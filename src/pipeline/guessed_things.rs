@@ -1,0 +1,415 @@
+//! Nouns of a prompt about a scan whose things only have guessed names: `large brown surface`, `flat gray object`.
+//!
+//! Nobody knows which of its things are teapots. A noun that the scan lacks is taken for what is most probably meant by where
+//! such things are (a shelf, a worktop, what stands on the shelves), or is left out where other things are named. In a scene
+//! whose things have names, what it lacks stays missing.
+
+use cinesplat_language::{Group, Linked, Word, is_listed, tokenize};
+use cinesplat_objects::{Object, ObjectSet, is_description};
+use glam::DVec3;
+
+/// Least share of things with guessed names only, and fewest things of such a scan.
+const GUESSED_FRAC: f64 = 0.8;
+const FEWEST: usize = 6;
+/// Nouns by where such things are.
+const FLOORS: &str = "floor tile flooring ground carpet floorboard";
+const COUNTERS: &str = "counter countertop worktop worksurface bench benchtop table tabletop desk surface island";
+const SHELVES: &str = "shelf shelve shelving rack ledge";
+const CUPBOARDS: &str = "cupboard cabinet door drawer unit wardrobe dresser";
+/// What stands on shelves and tables, besides all that is said in the plural.
+const SMALL: &str = "teapot pot jar bottle mug cup plate bowl vase glass book spoon ladle utensil kettle tin can spice crockery \
+    china dish ornament figurine toy candle basket collection tray jug pan";
+/// Colors that people call alike.
+const ALIKE: [&str; 6] = [
+    "blue turquoise teal cyan azure aqua light-blue mint",
+    "pink rose magenta salmon peach",
+    "white cream beige ivory",
+    "brown wooden wood oak tan",
+    "gray grey silver metal steel",
+    "red orange crimson",
+];
+/// Share of the height of the scan, from its bottom, under which a top is one to work at, and from which a thing may be on a shelf.
+const COUNTER_FRAC: f64 = 0.55;
+const SHELF_FRAC: f64 = 0.45;
+/// Distance of a thing's foot from the top that it stands on, of the height of the scan.
+const STANDS_FRAC: f64 = 0.07;
+/// Most alike directions of things along one wall, and the distance of their planes, of the size of the scan.
+const SAME_WALL_COS: f64 = 0.9;
+const SAME_WALL_FRAC: f64 = 0.12;
+/// Words before a noun that may be its color.
+const COLORS_BEFORE: usize = 5;
+/// Most things of one picture.
+const MOST_THINGS: usize = 8;
+
+/// Objects with nouns of a prompt for names.
+pub(super) struct Named {
+    /// The objects.
+    pub(super) objects: ObjectSet,
+    /// The nouns and the objects that have them.
+    nouns: Vec<(String, Vec<u32>)>,
+}
+
+impl Named {
+    /// Warns of the nouns that the prompt says of these objects.
+    pub(super) fn warn(&self, linked: &mut Linked) {
+        let said = linked.expanded(&linked.slots);
+        let is_said = |ids: &[u32]| ids.iter().any(|id| said.contains(id));
+        let warnings: Vec<String> =
+            self.nouns.iter().filter(|(_, ids)| is_said(ids)).map(|(noun, ids)| taken_for(noun, ids)).collect();
+        linked.warnings.extend(warnings);
+    }
+}
+
+/// The warning of a noun that is taken for some objects.
+fn taken_for(noun: &str, ids: &[u32]) -> String {
+    let words: Vec<String> = ids.iter().take(3).map(|id| format!("<obj-{id}>")).collect();
+    let more = if ids.len() > 3 { " .." } else { "" };
+    format!("\"{noun}\" is taken for {}{more}, because the things of this scene have no names", words.join(" "))
+}
+
+/// The objects with the nouns of a prompt for their guessed names, where such things may be; `None` for other scenes and where
+/// the prompt has no such noun.
+pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Named> {
+    let scan = Scan { objects: &objects.objects, up };
+    if !scan.is_guessed() {
+        return None;
+    }
+    let words = tokenize(prompt);
+    let mut labels: Vec<(u32, String)> = Vec::new();
+    let mut nouns: Vec<(String, Vec<u32>)> = Vec::new();
+    let mut is_taken = [false; 4];
+    for at in 0..words.len() {
+        let noun = &words[at];
+        let is = |list: &str| is_listed(list, &noun.stem) || is_listed(list, &noun.text);
+        let Some(class) = [COUNTERS, SHELVES, CUPBOARDS, SMALL].iter().position(|list| is(list)) else { continue };
+        // `On the table`, and nothing that opens: `the kitchen counter top`.
+        if std::mem::replace(&mut is_taken[class], true) {
+            continue;
+        }
+        let before = &words[at.saturating_sub(COLORS_BEFORE)..at];
+        let things: Vec<&Object> = match class {
+            0 => scan.counter().into_iter().collect(),
+            1 => scan.shelves(),
+            2 => scan.fronts(),
+            _ => scan.shelved(),
+        };
+        let is_free = |object: &&Object| !labels.iter().any(|(id, _)| *id == object.id);
+        let new: Vec<(u32, String)> = things
+            .into_iter()
+            .filter(is_free)
+            .map(|object| (object.id, format!("{}{}", color_said(&object.label, before), noun.stem)))
+            .collect();
+        nouns.push((noun.text.clone(), new.iter().map(|(id, _)| *id).collect()));
+        labels.extend(new);
+    }
+    if labels.is_empty() {
+        return None;
+    }
+    let mut named = objects.clone();
+    let alike = |label: &str| labels.iter().filter(|(_, other)| other == label).count() > 1;
+    for (nth, (id, label)) in labels.iter().enumerate() {
+        let earlier = labels[..nth].iter().filter(|(_, other)| other == label).count() + 1;
+        let label = if alike(label) { format!("{label} {earlier}") } else { label.clone() };
+        named.objects.iter_mut().filter(|object| object.id == *id).for_each(|object| object.label.clone_from(&label));
+    }
+    Some(Named { objects: named, nouns })
+}
+
+/// The color of a guessed name with a space behind it, as the words before a noun call it: `blue` for turquoise.
+fn color_said(label: &str, before: &[Word]) -> String {
+    let Some((colors, own)) = ALIKE.iter().find_map(|colors| {
+        let own = label.split(' ').find(|word| is_listed(colors, word))?;
+        Some((colors, own))
+    }) else {
+        return String::new();
+    };
+    let said = before.iter().rev().find(|word| is_listed(colors, &word.text)).map_or(own, |word| word.text.as_str());
+    format!("{said} ")
+}
+
+/// Takes the nouns that a scan of guessed names lacks for what is most probably meant, or leaves them out where other things are
+/// named. Elsewhere they stay missing.
+pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) {
+    let scan = Scan { objects: &objects.objects, up };
+    if !scan.is_guessed() || linked.missing_groups().next().is_none() {
+        return;
+    }
+    let mut known: Vec<Vec<u32>> = Vec::new();
+    for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
+        let ids = scan.guess(&group.name).filter(|ids| ids.len() == 1 || !known.contains(ids));
+        let Some(ids) = ids else { continue };
+        linked.warnings.push(taken_for(&group.name, &ids));
+        known.push(ids.clone());
+        group.members = ids;
+    }
+    let left: Vec<Group> = linked.missing_groups().cloned().collect();
+    let names_others = linked.slots.iter().any(|id| linked.missing(*id).is_none());
+    if left.is_empty() || !names_others {
+        return;
+    }
+    let is_left = |word: &str| linked.slot_at(word).is_some_and(|id| left.iter().any(|group| group.id == id));
+    let bytes: Vec<[usize; 2]> =
+        linked.words_in([0, usize::MAX]).filter(|(word, _)| is_left(word)).map(|(_, span)| span).collect();
+    let without = linked.without(&bytes, None);
+    let (scenery, acts) = (std::mem::take(&mut linked.scenery), std::mem::take(&mut linked.acts));
+    let mut warnings = std::mem::take(&mut linked.warnings);
+    warnings.extend(left.iter().map(|group| format!("\"{}\" is left out: no thing of this scene is called so", group.name)));
+    *linked = Linked { scenery, acts, warnings, ..without };
+}
+
+/// A scan whose things have guessed names.
+struct Scan<'a> {
+    objects: &'a [Object],
+    up: DVec3,
+}
+
+impl Scan<'_> {
+    fn is_guessed(&self) -> bool {
+        let roots = || self.objects.iter().filter(|object| object.parent.is_none());
+        let guessed = roots().filter(|object| is_description(&object.label) || is_bound(&object.label)).count();
+        let num = roots().count();
+        num >= FEWEST && guessed as f64 >= GUESSED_FRAC * num as f64
+    }
+
+    /// The things that are probably meant by a name.
+    fn guess(&self, name: &str) -> Option<Vec<u32>> {
+        let words = tokenize(name);
+        let nouns: Vec<&Word> = words.iter().take_while(|word| word.text != "of" && word.text != "on").collect();
+        let head = nouns.iter().rev().find(|word| word.is_alphabetic())?;
+        let is_plural = head.stem != head.text;
+        let is = |list: &str| is_listed(list, &head.stem) || is_listed(list, &head.text);
+        let says = |list: &str| words.iter().any(|word| is_listed(list, &word.text));
+        let ids = match () {
+            () if is(FLOORS) => return None,
+            () if is(COUNTERS) => vec![self.counter()?.id],
+            () if is(CUPBOARDS) => self.cupboards(&words, is_plural),
+            () if is(SHELVES) || is(SMALL) || is_plural => {
+                let row = self.shelved();
+                let of_color = self.of_color(&row, &words);
+                let row = if of_color.is_empty() { row } else { of_color };
+                let by_height = |high: bool| {
+                    let mut sorted = row.clone();
+                    sorted.sort_by(|a, b| self.middle(b).total_cmp(&self.middle(a)));
+                    if !high {
+                        sorted.reverse();
+                    }
+                    sorted.into_iter().take(if is_plural { 3 } else { 1 }).collect::<Vec<_>>()
+                };
+                match () {
+                    () if says("top upper highest") => by_height(true),
+                    () if says("bottom lower lowest") => by_height(false),
+                    // One thing of many stands nearest to the middle.
+                    () if !is_plural && is(SMALL) => row.into_iter().take(1).collect(),
+                    () => row,
+                }
+                .into_iter()
+                .map(|object| object.id)
+                .collect()
+            }
+            () => Vec::new(),
+        };
+        let mut ids = ids;
+        ids.truncate(MOST_THINGS);
+        ids.sort_unstable();
+        (!ids.is_empty()).then_some(ids)
+    }
+
+    fn heights(&self, object: &Object) -> [f64; 2] {
+        let along = object.corners().into_iter().map(|corner| corner.dot(self.up));
+        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+    }
+
+    fn middle(&self, object: &Object) -> f64 {
+        object.center.dot(self.up)
+    }
+
+    /// Lowest and highest point of all things.
+    fn extent(&self) -> [f64; 2] {
+        let all = self.objects.iter().map(|object| self.heights(object));
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [own_low, own_high]| {
+            [low.min(own_low), high.max(own_high)]
+        })
+    }
+
+    /// Height of a point over that of the scan, from its bottom.
+    fn height_frac(&self, at: f64) -> f64 {
+        let [low, high] = self.extent();
+        (at - low) / (high - low).max(1e-9)
+    }
+
+    fn tops(&self) -> impl Iterator<Item = &Object> {
+        self.objects.iter().filter(|object| has_word(&object.label, "surface"))
+    }
+
+    /// The largest top at which people work.
+    fn counter(&self) -> Option<&Object> {
+        let low = self.tops().filter(|top| (0.1..COUNTER_FRAC).contains(&self.height_frac(self.middle(top))));
+        low.max_by(|a, b| a.radius().total_cmp(&b.radius()))
+    }
+
+    /// The fronts of cupboards: flat or boxes, below the tops at which people work, the largest first.
+    fn fronts(&self) -> Vec<&Object> {
+        let is_front = |object: &&Object| {
+            let is_panel = has_word(&object.label, "panel") || has_word(&object.label, "box");
+            is_panel && self.height_frac(self.middle(object)) < COUNTER_FRAC
+        };
+        let mut fronts: Vec<&Object> = self.objects.iter().filter(is_front).collect();
+        fronts.sort_by_key(|object| std::cmp::Reverse(object.num_gaussians));
+        fronts
+    }
+
+    /// Those that words with their colors mean.
+    fn cupboards(&self, words: &[Word], is_plural: bool) -> Vec<u32> {
+        let fronts = self.fronts();
+        let of_color = self.of_color(&fronts, words);
+        let fronts = if of_color.is_empty() { fronts } else { of_color };
+        fronts.into_iter().take(if is_plural { 3 } else { 1 }).map(|object| object.id).collect()
+    }
+
+    /// Whether a thing stands on a top that is no table.
+    fn is_on(&self, object: &Object, top: &Object) -> bool {
+        let [low, high] = self.extent();
+        let near = STANDS_FRAC * (high - low);
+        let [_, edge] = self.heights(top);
+        let apart = object.center - top.center;
+        let level = top.rotation.conjugate() * (apart - self.up * apart.dot(self.up));
+        let is_over = level.abs().cmple(top.half_extents + near).all();
+        is_over && (self.heights(object)[0] - edge).abs() < 2.0 * near
+    }
+
+    /// The tops on which the things of one wall stand.
+    fn shelves(&self) -> Vec<&Object> {
+        let things = self.shelved();
+        let is_shelf = |top: &&Object| {
+            self.height_frac(self.middle(top)) > SHELF_FRAC && things.iter().any(|thing| self.is_on(thing, top))
+        };
+        self.tops().filter(is_shelf).collect()
+    }
+
+    /// Those of some things whose guessed names have a color that the words say.
+    fn of_color<'a>(&self, things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
+        let said: Vec<&str> = ALIKE
+            .iter()
+            .filter(|colors| words.iter().any(|word| is_listed(colors, &word.text)))
+            .copied()
+            .collect();
+        let has = |object: &&&Object| {
+            said.iter().any(|colors| object.label.split(' ').any(|word| is_listed(colors, word)))
+        };
+        things.iter().filter(has).copied().collect()
+    }
+
+    /// What stands on the shelves of one wall, the largest row first.
+    fn shelved(&self) -> Vec<&Object> {
+        let [low, high] = self.extent();
+        let stands = |object: &&Object| {
+            let is_thing = !has_word(&object.label, "surface") && !has_word(&object.label, "panel");
+            let is_high = self.height_frac(self.heights(object)[0]) > SHELF_FRAC;
+            is_thing && is_high && self.tops().any(|top| self.is_on(object, top))
+        };
+        let mut things: Vec<&Object> = self.objects.iter().filter(stands).collect();
+        things.sort_by_key(|object| std::cmp::Reverse(object.num_gaussians));
+        let Some(first) = things.first().copied() else { return things };
+        let size = (high - low).max((first.center - self.objects[0].center).length());
+        let facing = self.facing(first);
+        let is_beside = |object: &&Object| {
+            let apart = (object.center - first.center).dot(facing).abs();
+            self.facing(object).dot(facing).abs() > SAME_WALL_COS && apart < SAME_WALL_FRAC * size
+        };
+        things.into_iter().filter(is_beside).collect()
+    }
+
+    /// The level axis along which a thing is thin.
+    fn facing(&self, object: &Object) -> DVec3 {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| (object.rotation * axis, axis.dot(object.half_extents)));
+        let level = axes.into_iter().filter(|(axis, _)| axis.dot(self.up).abs() < 0.7);
+        level.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(DVec3::X, |(axis, _)| axis)
+    }
+}
+
+/// Whether a label is that of what bounds a room, which a search names by its place.
+fn is_bound(label: &str) -> bool {
+    label.split(' ').any(|word| matches!(word, "floor" | "ceiling" | "wall"))
+}
+
+fn has_word(label: &str, word: &str) -> bool {
+    label.split(' ').any(|own| own == word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_language::{Mention, link_mentions};
+
+    /// A wall of two shelves over a worktop over two cupboards, and a box on the other side.
+    fn kitchen() -> ObjectSet {
+        let object = |id, label: &str, [x, y, z]: [f64; 3], [a, b, c]: [f64; 3]| Object {
+            num_gaussians: 100 - id as usize,
+            ..Object::from_box(id, label, DVec3::new(x, y, z), DVec3::new(a, b, c))
+        };
+        let objects = vec![
+            object(1, "large gray surface", [0.0, 1.0, 0.0], [1.5, 0.04, 0.5]),
+            object(2, "turquoise panel", [-0.5, 0.5, 0.5], [0.5, 0.5, 0.05]),
+            object(3, "large pink panel", [0.5, 0.5, 0.5], [0.5, 0.5, 0.05]),
+            object(4, "large brown surface", [0.0, 1.8, -0.3], [1.5, 0.03, 0.15]),
+            object(5, "flat gray object", [-0.6, 1.96, -0.3], [0.5, 0.13, 0.1]),
+            object(6, "flat teal object", [0.6, 1.96, -0.3], [0.5, 0.13, 0.1]),
+            object(7, "large brown surface 2", [0.0, 2.3, -0.3], [1.5, 0.03, 0.15]),
+            object(8, "flat beige object", [0.0, 2.46, -0.3], [0.6, 0.13, 0.1]),
+            object(9, "dark gray object", [1.2, 0.3, 2.0], [0.3, 0.3, 0.3]),
+        ];
+        ObjectSet { objects, labels: Vec::new() }
+    }
+
+    fn guessed(prompt: &str, names: &[(&str, &[u32])], set: &ObjectSet) -> (Vec<Vec<u32>>, Vec<String>, String) {
+        let mention = |(words, ids): &(&str, &[u32])| {
+            let start = prompt.find(words).unwrap();
+            Mention { bytes: [start, start + words.len()], ids: ids.to_vec() }
+        };
+        let mut linked = link_mentions(prompt, &names.iter().map(mention).collect::<Vec<_>>()).unwrap();
+        take_guesses(&mut linked, set, DVec3::Y);
+        let members = linked.groups.iter().map(|group| group.members.clone()).collect();
+        (members, linked.warnings, linked.tokens_text)
+    }
+
+    #[test]
+    fn things_without_names_are_where_such_things_are() {
+        let of = |name: &str| guessed(&format!("push in on {name}"), &[(name, &[])], &kitchen()).0.remove(0);
+        assert_eq!(of("the teapots"), [5, 6, 8]);
+        assert_eq!(of("the top shelf"), [8]);
+        assert_eq!(of("the worktop"), [1]);
+        assert_eq!(of("the cupboards"), [2, 3]);
+        assert_eq!(of("the blue cupboard"), [2]);
+        assert_eq!(of("the giraffe"), Vec::<u32>::new());
+    }
+
+    #[test]
+    fn things_take_the_nouns_of_the_prompt_for_names() {
+        let labels = |prompt: &str| -> Vec<String> {
+            let named = named(prompt, &kitchen(), DVec3::Y);
+            named.map(|named| named.objects.objects.into_iter().map(|object| object.label).collect()).unwrap_or_default()
+        };
+        let named = labels("from the blue cupboards to the teapots on the shelf");
+        assert_eq!([&named[1], &named[2]], ["blue cupboard", "pink cupboard"]);
+        assert_eq!([&named[3], &named[4], &named[5]], ["brown shelf 1", "gray teapot", "teal teapot"]);
+        assert_eq!(labels("orbit the giraffe"), Vec::<String>::new());
+    }
+
+    #[test]
+    fn what_cannot_be_guessed_is_left_out_beside_other_things() {
+        let names: &[(&str, &[u32])] = &[("the pink panel", &[3]), ("the window", &[])];
+        let (_, warnings, text) = guessed("push in on the pink panel , then pan to the window", names, &kitchen());
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(!text.contains("<obj-1>"), "{text}");
+        let (groups, warnings, _) = guessed("pan to the window", &[("the window", &[])], &kitchen());
+        assert_eq!((groups, warnings.len()), (vec![Vec::new()], 0));
+    }
+
+    #[test]
+    fn a_scene_with_names_lacks_what_it_lacks() {
+        let mut set = kitchen();
+        set.objects.iter_mut().for_each(|object| object.label = format!("cabinet {}", object.id));
+        let (groups, _, _) = guessed("push in on the teapots", &[("the teapots", &[])], &set);
+        assert_eq!(groups, [Vec::<u32>::new()]);
+    }
+}
