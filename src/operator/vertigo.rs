@@ -15,7 +15,7 @@ const FAR: f64 = 2.2;
 /// Cost of a subject that swells: whose near side grows over its middle, which the lens keeps at its size; and the growth at
 /// which it begins and is reached.
 const SWOLLEN_COST: f64 = 1.2;
-const SWELLING: (f64, f64) = (1.16, 1.32);
+const SWELLING: (f64, f64) = (1.08, 1.16);
 /// Columns and rows of rays.
 const RAYS: (u32, u32) = (8, 5);
 

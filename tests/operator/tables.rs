@@ -13,7 +13,8 @@ const TOP: f64 = 0.76;
 const HALF: DVec3 = DVec3::new(0.8, 0.38, 0.45);
 const CENTER: DVec3 = DVec3::new(0.0, 0.38, -0.9);
 
-/// The room of the operator's tests with a table (3), two things on it (4, 5), and a cupboard at a wall (6).
+/// The room of the operator's tests with a table (3), two things on it (4, 5), a cupboard at a wall (6) and a chair before the
+/// table (7).
 fn furnished(ids: &[u32]) -> World {
     let (mut gaussians, set) = room();
     let mut objects = set.objects;
@@ -34,6 +35,8 @@ fn furnished(ids: &[u32]) -> World {
     }
     let (center, half) = (DVec3::new(-1.0, 0.9, 2.74), DVec3::new(0.5, 0.88, 0.22));
     add(6, "cupboard", center, half, &faces(center, half));
+    let (center, half) = (DVec3::new(0.3, 0.5, 0.1), DVec3::new(0.22, 0.5, 0.05));
+    add(7, "chair", center, half, &faces(center, half));
     World::new(&gaussians, DVec3::Y, &ObjectSet { objects, labels: Vec::new() }, ids).unwrap()
 }
 
@@ -176,8 +179,8 @@ fn a_pan_that_ends_close_goes_on_to_its_end() {
 
 #[test]
 fn a_table_is_revealed_over_what_hides_its_top() {
-    let world = furnished(&[3, 6]);
-    let via = Via { how: Pass::Behind, objects: vec![6] };
+    let world = furnished(&[3, 7]);
+    let via = Via { how: Pass::Behind, objects: vec![7] };
     let frames = film(&solved(&world, vec![Step { end: about(3), via: Some(via), ..Step::of(Move::Reveal) }]));
     let last = frames[frames.len() - 1].pose.position.y;
     assert!(last > frames[0].pose.position.y + 0.2 && last > TOP, "rises from {} to {last}", frames[0].pose.position.y);

@@ -49,9 +49,8 @@ const MOST: usize = 5;
 /// Films what somebody sees who gets up from the floor, where the network has made little of it. Says whether the words tell that.
 pub(crate) fn film_narrated(linked: &Linked, direction: &mut Direction) -> bool {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
-    let found = |phrases: &[&[&str]]| {
-        (0..words.len()).find(|at| phrases.iter().any(|phrase| words[*at..].starts_with(phrase)))
-    };
+    let found =
+        |phrases: &[&[&str]]| (0..words.len()).find(|at| phrases.iter().any(|phrase| words[*at..].starts_with(phrase)));
     let (Some(lies), Some(rises)) = (found(&LIES), found(&GETS_UP)) else { return false };
     let is_low = words[lies..].iter().take(8).any(|word| is_listed(LOW_PLACES, word));
     if !is_low || rises < lies || !is_loose(direction, &words) || linked.timeline.is_some() {
@@ -102,12 +101,8 @@ mod tests {
     fn who_gets_up_sees_one_thing_after_the_other() {
         let told = "you come to on the floor of this workshop . you get up , you see <obj-0> , then the way out : <obj-1> . end \
                     on <obj-1> , creeping towards it";
-        let want = [
-            (Move::PedestalUp, vec![]),
-            (Move::PanRight, vec![5]),
-            (Move::PanRight, vec![7]),
-            (Move::PushIn, vec![7]),
-        ];
+        let want =
+            [(Move::PedestalUp, vec![]), (Move::PanRight, vec![5]), (Move::PanRight, vec![7]), (Move::PushIn, vec![7])];
         assert_eq!(moves(told), want);
         assert_eq!(moves("you get up late and see <obj-0>"), [(Move::Static, vec![])]);
         assert_eq!(moves("we come to <obj-0> and get up to <obj-1>"), [(Move::Static, vec![])]);

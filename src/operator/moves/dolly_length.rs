@@ -12,6 +12,8 @@ use cinesplat_trajectory::{CameraState, Move, ShotSize};
 pub(super) const LEAST_RATIO: f64 = 1.36;
 /// Most: from a ring on a finger to the whole of a hall.
 const MOST_RATIO: f64 = 50.0;
+/// Ratio from which on a pull-out to the whole of something ends in the room.
+const LONG_RATIO: f64 = 12.0;
 /// Distance of a camera from the wall behind it, over its radius.
 pub(super) const WALL_RADII: f64 = 3.0;
 /// Share of the frame that a lone thing fills at the end of a push toward it.
@@ -104,8 +106,12 @@ fn whole_ratio(context: &StepContext, first: &CameraState, distance: f64) -> Opt
     let back = |ratio: f64| moved(first, first.pose.forward() * distance * (1.0 - ratio));
     let ratios = (0..54).map(|i| 1.32 * 1.07_f64.powi(i));
     let spare = lerp((1.0, 1.2), context.parameters[7]);
+    // Of the longest ways many lead out of the room.
+    let bounds = &context.world.bounds;
+    let is_in = |eye: DVec3| eye.cmpge(bounds.core_min).all() && eye.cmple(bounds.core_max).all();
+    let stays = |ratio: &f64| *ratio < LONG_RATIO || !context.world.is_indoor() || is_in(back(*ratio).pose.position);
     ratios
-        .into_iter()
+        .filter(stays)
         .find(|&ratio| in_frame_frac(context.world, &back(ratio), &corners, 0.02) >= 1.0)
         .map(|ratio| ratio * spare)
 }

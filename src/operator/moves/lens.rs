@@ -140,7 +140,7 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
 }
 
 /// Most by which the near side of a subject grows over its middle while the lens keeps the size of that.
-const MOST_SWELLING: f64 = 1.22;
+const MOST_SWELLING: f64 = 1.1;
 /// Least change of the distance of a dolly zoom.
 const LEAST_CHANGE: f64 = 0.7;
 
