@@ -85,6 +85,7 @@ mod blanks;
 mod borne;
 mod chain;
 mod corrections;
+mod dictation;
 mod edit_distance;
 mod effects;
 mod error;
@@ -119,6 +120,7 @@ mod unknown;
 
 pub use blanks::blanked;
 pub use chain::without_arrows;
+pub use dictation::without_dictation;
 pub use edit_distance::edit_distance;
 pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
 pub use error::LanguageError;

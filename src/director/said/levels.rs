@@ -170,7 +170,20 @@ fn compared_at(linked: &Linked, words: &[&str], at: usize) -> Option<Mention> {
 }
 
 /// Words that lead to a height, and words that lead from one.
-const TO: [&str; 10] = ["to", "until", "till", "into", "reach", "reaches", "reaching", "ends", "ending", "finish"];
+const TO: [&str; 12] = [
+    "to",
+    "until",
+    "till",
+    "into",
+    "reach",
+    "reaches",
+    "reaching",
+    "ends",
+    "ending",
+    "finish",
+    "finishing",
+    "stopping",
+];
 const FROM: [&str; 7] = ["from", "start", "starting", "begin", "beginning", "open", "opening"];
 /// Verbs of a camera that rises, and of one that sinks.
 const RISES: [&str; 10] = ["rise", "lift", "climb", "crane", "boom", "ascend", "raise", "float", "come", "up"];
@@ -180,7 +193,14 @@ const REACH: usize = 4;
 
 /// Writes the heights in a step's own words into it.
 fn take(linked: &Linked, words: &[&str], step: &mut Step, mentions: &[Mention]) {
-    let near = |mention: &Mention| &words[mention.words[0].saturating_sub(REACH)..mention.words[0]];
+    let near = |mention: &Mention| {
+        // `Finishing at about the height of a standing person`.
+        let is_between =
+            |word: &&&str| matches!(**word, "at" | "about" | "the" | "height" | "of" | "a" | "an" | "level");
+        let end = mention.words[0];
+        let end = end - words[..end].iter().rev().take_while(is_between).count();
+        &words[end.saturating_sub(REACH)..mention.words[0]]
+    };
     let says = |mention: &Mention, list: &[&str]| near(mention).iter().any(|word| list.contains(word));
     let leads = |mention: &&Mention| says(mention, &TO) && !says(mention, &FROM[..1]);
     let first = mentions.iter().find(|mention| !leads(mention)).map(|mention| mention.height);
