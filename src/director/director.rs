@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_parts, part_of,
-    scenery, tokenize, with_dictated_marks, without_arrows, without_camera_settings, without_frame_shape,
+    scenery, tokenize, without_arrows, without_camera_settings, without_dictation, without_frame_shape,
     without_tolerances,
 };
 use cinesplat_objects::Object;
@@ -16,11 +16,13 @@ use crate::acting::acts;
 use crate::beats::direct_beats;
 use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
 use crate::compositions::direct_composed;
+use crate::contained::point_by_words;
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
 use crate::explained::{drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, point_back, point_ones};
 use crate::frame::SceneFrame;
+use crate::hung::name_pictures;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
 use crate::likeness::join_likenesses;
@@ -28,11 +30,14 @@ use crate::located::absorb_places;
 use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
+use crate::pairs::name_pairs;
 use crate::placed::{Places, point_by_places};
 use crate::said::{frame_parts, take_said, take_said_of_all};
+use crate::said_again::point_to_said;
 use crate::scan_parts::own_parts;
 use crate::sized::point_by_size;
 use crate::times::ListedTimes;
+use crate::told::without_told;
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -111,7 +116,7 @@ impl Director {
         places: Places<'_>,
     ) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
-        let prompt = &*with_dictated_marks(prompt);
+        let prompt = &*without_dictation(prompt);
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
         let prompt = &*without_tolerances(prompt);
@@ -126,8 +131,13 @@ impl Director {
         drop_sizes(prompt, objects, &mut found);
         name_by_label_words(prompt, objects, &mut found);
         join_likenesses(prompt, objects, &mut found);
+        name_pictures(prompt, objects, &mut found);
+        point_by_words(prompt, objects, &mut found);
+        point_to_said(prompt, objects, &mut found);
         point_by_size(prompt, objects, places, &mut found);
         point_by_places(prompt, objects, places, &mut found);
+        let led = name_pairs(prompt, objects, places, &mut found);
+        let prompt = &*blanked(prompt, &led);
         absorb_places(prompt, objects, &mut found)?;
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);
@@ -174,6 +184,9 @@ impl Director {
     /// position is not finite · [`DirectorError::NotFinite`] when the weights are damaged · [`DirectorError::Compute`] when a
     /// tensor operation fails.
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
+        let whole = linked;
+        let asked = without_told(linked);
+        let linked = asked.as_ref().unwrap_or(linked);
         let times = ListedTimes::of(linked);
         let timeless = times.as_ref().and_then(|times| times.without(linked));
         let mut direction =
@@ -184,9 +197,9 @@ impl Director {
         if let Some(times) = times {
             times.write(&mut direction);
         }
-        take_said_of_all(linked, scene.objects, &mut direction);
-        frame_parts(linked, (scene.objects, scene.up), &mut direction.program);
-        direction.unmet.extend(&linked.acts);
+        take_said_of_all(whole, scene.objects, &mut direction);
+        frame_parts(whole, (scene.objects, scene.up), &mut direction.program);
+        direction.unmet.extend(&whole.acts);
         Ok(direction)
     }
 

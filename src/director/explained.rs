@@ -148,6 +148,8 @@ pub(crate) fn drop_sizes(prompt: &str, objects: &[NamedObject], found: &mut [Fou
 pub(crate) const POINTS: &str = "the this that my our your his her its";
 const BEHIND: &str =
     "and then to until till on in from with at for while as so but or by before after into again please is stays";
+/// What a thing looks like that its label does not say.
+const SHAPES: &str = "round square oval low little small big large long wooden glass marble old nice lovely pretty";
 /// Words of labels that may mean something else where they stand alone.
 const LOOSE: &str = "left right top bottom front back rear side middle center centre big small large tall short high low \
     wall walls floor ceiling room corner end edge camera frame shot picture view scene light lights glass wood wooden metal \
@@ -162,6 +164,22 @@ pub(crate) fn name_by_label_words(prompt: &str, objects: &[NamedObject], found: 
         let word = &words[at];
         let is_alone = text(at + 1).chars().all(|letter| !letter.is_alphanumeric()) || is_listed(BEHIND, text(at + 1));
         let is_name = is_listed(POINTS, text(at - 1)) && is_alone && !word.after_hyphen && word.is_alphabetic();
+        // `The round table`, of which there is one.
+        let is_shaped = at > 1 && is_listed(SHAPES, text(at - 1)) && is_listed(POINTS, text(at - 2));
+        let is_head = |object: &&NamedObject| head(&object.label) == Some(stem(&word.text));
+        if is_shaped && is_alone && word.is_alphabetic() && !is_linked(found, word.span) {
+            // A side table is none where there is another one.
+            let all: Vec<&NamedObject> = objects.iter().filter(is_head).collect();
+            let is_main = |object: &&&NamedObject| {
+                !is_listed("side bedside end console", object.label.split(' ').next().unwrap_or_default())
+            };
+            let main: Vec<&NamedObject> = all.iter().filter(is_main).copied().collect();
+            let mut named = if main.is_empty() { all } else { main }.into_iter();
+            if let (Some(object), None) = (named.next(), named.next()) {
+                insert_mention(found, Mention { bytes: [words[at - 2].span[0], word.span[1]], ids: vec![object.id] });
+                continue;
+            }
+        }
         // `An overhead of the whole table`.
         let is_whole =
             at > 1 && is_listed("whole entire full complete", text(at - 1)) && is_listed(POINTS, text(at - 2));

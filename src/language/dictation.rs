@@ -1,48 +1,65 @@
-//! Marks that somebody who dictates says as words: `the bedtime story video comma I want it to feel like morning full stop`.
+//! Prompts that were dictated: `start on the window comma go over the bench full stop um end on the pillows full stop`.
 
 use std::borrow::Cow;
 
-use super::tokenizer::{is_listed, tokenize, word_at};
+use super::tokenizer::{Word, is_listed, tokenize, word_at};
 
-/// Said marks: their words and the mark.
-const MARKS: [(&[&str], &str); 11] = [
-    (&["new", "sentence"], "."),
-    (&["full", "stop"], "."),
-    (&["new", "paragraph"], "."),
-    (&["new", "para"], "."),
-    (&["new", "line"], "."),
-    (&["question", "mark"], "?"),
-    (&["exclamation", "mark"], "!"),
-    (&["exclamation", "point"], "!"),
-    (&["semi", "colon"], ";"),
-    (&["semicolon"], ";"),
-    (&["comma"], ","),
+/// What people say for marks.
+const MARKS: [(&[&str], char); 11] = [
+    (&["full", "stop"], '.'),
+    (&["new", "paragraph"], '.'),
+    (&["new", "para"], '.'),
+    (&["new", "line"], '.'),
+    (&["new", "sentence"], '.'),
+    (&["period"], '.'),
+    (&["comma"], ','),
+    (&["semicolon"], ';'),
+    (&["question", "mark"], '?'),
+    (&["exclamation", "mark"], '!'),
+    (&["exclamation", "point"], '!'),
 ];
-/// Words before them by which they are none: `come to a full stop`, `the new line`.
+/// Words before them by which they are no marks.
 const NAMES: &str = "a an the to complete this that your our my at";
+/// Sounds of somebody who thinks.
+const FILLERS: [&str; 7] = ["um", "uh", "erm", "er", "hmm", "umm", "uhm"];
 
-/// The prompt with the marks that are said in it as marks, each followed by spaces, so that all other words stay where they are.
-pub fn with_dictated_marks(prompt: &str) -> Cow<'_, str> {
+/// A prompt with marks in the place of the words for them, at the same bytes, where it says at least the end of a sentence so.
+pub fn without_dictation(prompt: &str) -> Cow<'_, str> {
     let words = tokenize(prompt);
-    let mark_at = |at: usize| {
-        let said = |names: &[&str]| names.iter().enumerate().all(|(nth, name)| word_at(&words, at + nth) == *name);
-        let is_name = at.checked_sub(1).is_some_and(|before| is_listed(NAMES, word_at(&words, before)));
-        MARKS.iter().find(|(names, _)| said(names) && !is_name)
-    };
-    let found: Vec<([usize; 2], &str)> = (0..words.len())
-        .filter_map(|at| {
-            let (names, mark) = mark_at(at)?;
-            Some(([words[at].span[0], words.get(at + names.len() - 1)?.span[1]], *mark))
-        })
-        .collect();
-    if found.is_empty() {
+    let says =
+        |at: usize, phrase: &[&str]| phrase.iter().enumerate().all(|(nth, word)| word_at(&words, at + nth) == *word);
+    // `A period piece`, `come to a full stop`.
+    let is_noun = |at: usize| at.checked_sub(1).is_some_and(|before| is_listed(NAMES, word_at(&words, before)));
+    let ends = |at: usize| MARKS[..5].iter().any(|(phrase, _)| says(at, phrase)) && !is_noun(at);
+    let is_dictated = (0..words.len()).any(ends);
+    if !is_dictated {
         return Cow::Borrowed(prompt);
     }
-    let mut out = prompt.to_owned();
-    for ([start, end], mark) in found {
-        out.replace_range(start..end, &format!("{mark:<width$}", width = end - start));
+    let mut bytes = prompt.as_bytes().to_vec();
+    let mut write = |words: &[Word], mark: u8| {
+        if let (Some(first), Some(last)) = (words.first(), words.last()) {
+            bytes[first.span[0]..last.span[1]].fill(b' ');
+            // What is quoted of the prompt ends behind the words.
+            bytes[last.span[1] - 1] = mark;
+        }
+    };
+    let mut at = 0;
+    while at < words.len() {
+        let said = MARKS.iter().find(|(phrase, _)| says(at, phrase));
+        match said.filter(|_| !is_noun(at)) {
+            Some((phrase, mark)) => {
+                write(&words[at..at + phrase.len()], *mark as u8);
+                at += phrase.len();
+            }
+            None => {
+                if FILLERS.contains(&word_at(&words, at)) {
+                    write(&words[at..=at], b' ');
+                }
+                at += 1;
+            }
+        }
     }
-    Cow::Owned(out)
+    String::from_utf8(bytes).map_or(Cow::Borrowed(prompt), Cow::Owned)
 }
 
 #[cfg(test)]
@@ -50,10 +67,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn said_marks_are_marks() {
-        let said = "push in on the bed comma slowly full stop then hold";
-        assert_eq!(with_dictated_marks(said), "push in on the bed ,     slowly .         then hold");
-        assert_eq!(with_dictated_marks("come to a full stop at the bed"), "come to a full stop at the bed");
-        assert_eq!(with_dictated_marks("push in, slowly").len(), 15);
+    fn words_for_marks_are_marks() {
+        let said = "start on the window comma um go over the bench full stop end on the bed full stop";
+        let written = without_dictation(said);
+        assert_eq!(written.len(), said.len());
+        let words: Vec<&str> = written.split_whitespace().collect();
+        assert_eq!(words.join(" "), "start on the window , go over the bench . end on the bed .");
+        assert_eq!(
+            without_dictation("come to a full halt, a comma in the frame"),
+            "come to a full halt, a comma in the frame"
+        );
+        assert_eq!(without_dictation("come to a full stop at the bed"), "come to a full stop at the bed");
     }
 }

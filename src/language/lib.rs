@@ -120,7 +120,7 @@ mod unknown;
 
 pub use blanks::blanked;
 pub use chain::without_arrows;
-pub use dictation::with_dictated_marks;
+pub use dictation::without_dictation;
 pub use edit_distance::edit_distance;
 pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
 pub use error::LanguageError;

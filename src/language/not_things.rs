@@ -5,6 +5,7 @@
 use super::heights::is_level_name;
 use super::mention::Mention;
 use super::names::NamedObject;
+use super::numerals::number_word;
 use super::tokenizer::{Word, is_listed, tokenize, word_at};
 
 /// Colors and what they are mixed with.
@@ -52,23 +53,48 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_mount(&words, [first, end])
         || is_frame(&words, [first, end])
         || is_until(&words, [first, end])
-        || is_light(&words, [first, end], objects)
+        || is_daylight(&words, [first, end])
+        || is_sky(&words, [first, end], objects)
+        || is_lounge(&words, [first, end], objects)
+        || is_count(&words, [first, end])
 }
 
-/// `Follow the light from the window to the bed`: what comes in, and no lamp.
-fn is_light(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
-    let is_named = words[first..end]
-        .iter()
-        .all(|word| is_listed("the a that this light lights sunlight morning evening", &word.text));
-    let article = first + usize::from(is_listed("the that this", word_at(words, first)));
-    let before = article.checked_sub(1).map_or("", |before| word_at(words, before));
-    let before = if is_listed("the that this", before) {
-        article.checked_sub(2).map_or("", |at| word_at(words, at))
-    } else {
-        before
-    };
-    let is_label = objects.iter().any(|object| tokenize(&object.label).iter().any(|word| word.stem == "light"));
-    is_named && !is_label && is_listed("follow follows following chase chasing with in like as catch catching", before)
+/// Verbs of who goes where the light goes, and words behind it.
+const CHASES: &str =
+    "follow follows following trace traces tracing chase chases chasing track tracks tracking catch catches catching";
+const LIGHTS: &str = "light sunlight sun daylight sunbeam moonlight";
+
+/// `Follow the light from the window to the bed`: that of the sun, and no lamp.
+fn is_daylight(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let article = first + usize::from(word_at(words, first) == "the");
+    let verb = first.checked_sub(1).map_or("", |before| word_at(words, before));
+    let verb = if verb == "the" { first.checked_sub(2).map_or("", |before| word_at(words, before)) } else { verb };
+    end == article + 1 && is_listed(LIGHTS, word_at(words, article)) && is_listed(CHASES, verb)
+}
+
+/// What is seen in a picture or through a window: `the one with the red sun`.
+const SKIES: &str = "sun sky moon clouds horizon stars sea";
+
+/// Something in the sky, where no thing of the scene is called so.
+fn is_sky(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let is_label =
+        |word: &Word| objects.iter().any(|object| tokenize(&object.label).iter().any(|w| w.stem == word.stem));
+    words[first..end].last().is_some_and(|last| is_listed(SKIES, &last.text) && !is_label(last))
+}
+
+/// `A wide of the lounge`: the room, where no thing of the scene is called so.
+fn is_lounge(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let is_label = |object: &NamedObject| tokenize(&object.label).iter().any(|word| word.text == "lounge");
+    let mut names = words[first..end].iter().filter(|word| !is_listed("the our my this whole entire a", &word.text));
+    names.next().is_some_and(|word| word.text == "lounge") && names.next().is_none() && !objects.iter().any(is_label)
+}
+
+/// `Three` of `the three cookies`: how many things there are of which the scene has none.
+fn is_count(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let number = first + usize::from(word_at(words, first) == "the");
+    let is_number = (2..=12_u32).any(|count| number_word(count) == Some(word_at(words, number)));
+    let next = words.get(end).filter(|word| word.is_alphabetic() && word.stem != word.text);
+    end == number + 1 && is_number && next.is_some()
 }
 
 /// `Swing round till it stares at us`: what goes on until something, and no drawer of money.
@@ -239,5 +265,15 @@ mod tests {
         assert!(!is_none("look at the skull, then circle that", "that"));
         assert!(!is_none("hold on the plate", "plate"));
         assert!(!is_none("the skull is the target", "the skull"));
+    }
+
+    #[test]
+    fn daylight_a_lounge_and_a_count_are_no_things() {
+        assert!(is_none("follow the light from the window", "the light"));
+        assert!(!is_none("push in on the light", "the light"));
+        assert!(is_none("a wide of the lounge", "the lounge"));
+        assert!(is_none("the one with the red sun", "the red sun"));
+        assert!(is_none("until the three cookies fill the frame", "the three"));
+        assert!(!is_none("until the three of them are in", "the three"));
     }
 }

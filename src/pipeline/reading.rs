@@ -1,6 +1,6 @@
 //! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
 
-use cinesplat_director::{Direction, SceneContext, take_levels};
+use cinesplat_director::{Direction, SceneContext, StepCertainty, take_levels};
 use cinesplat_language::{EffectMention, Linked, effect_mentions, forbidding_words, tokenize};
 use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
@@ -288,11 +288,20 @@ fn contradictions(prompt: &str, program: &mut Program) -> Vec<Problem> {
 fn uncertain(prompt: &str, direction: &mut Direction) -> Vec<Problem> {
     let most = direction.certainty.iter().map(|certainty| certainty.probability).fold(0.0, f64::max);
     let mut problems = Vec::new();
-    let is_kept: Vec<bool> = direction
-        .certainty
-        .iter()
-        .map(|certainty| certainty.probability >= LEAST_PROBABILITY || certainty.probability >= most)
-        .collect();
+    // A clause about things of the scene that no other step has is carried out as well as it is understood.
+    let steps = &direction.program.steps;
+    let is_own = |nth: usize| {
+        let Some([from, to]) = steps.get(nth).filter(|step| !step.end.subjects.is_empty()).and_then(|step| step.words)
+        else {
+            return false;
+        };
+        let mut others = steps.iter().enumerate().filter(|(other, _)| *other != nth).filter_map(|(_, step)| step.words);
+        others.all(|[start, end]| end <= from || to <= start)
+    };
+    let is_likely = |(nth, certainty): (usize, &StepCertainty)| {
+        certainty.probability >= LEAST_PROBABILITY || certainty.probability >= most || is_own(nth)
+    };
+    let is_kept: Vec<bool> = direction.certainty.iter().enumerate().map(is_likely).collect();
     for ((certainty, step), is_kept) in direction.certainty.iter().zip(&direction.program.steps).zip(&is_kept) {
         if certainty.probability >= SURE_PROBABILITY {
             continue;

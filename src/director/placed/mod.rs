@@ -4,12 +4,15 @@
 //! the words place. Where the words place nothing, the mentions stay.
 
 mod extent;
+mod flanks;
 mod relations;
 
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
 
 pub use extent::Places;
 use extent::{Relation, boxes, cornermost, fit};
+use flanks::of_size;
+pub(crate) use flanks::{Flank, outermost, told_flank};
 use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_way};
 
 use crate::explained::{content, head, is_number, label, said};
@@ -31,6 +34,8 @@ pub(crate) fn point_by_places(
     found: &mut Vec<FoundMention>,
 ) {
     let mut narrowed: Option<(Vec<u32>, u32)> = None;
+    // All of the kind by which a thing was placed last.
+    let mut last_place = Vec::new();
     let mut nth = 0;
     while let Some(mention) = found.get(nth) {
         nth += 1;
@@ -39,9 +44,14 @@ pub(crate) fn point_by_places(
         if mention.ids.is_empty() || is_number(words) {
             continue;
         }
-        let before =
-            nth.checked_sub(2).and_then(|before| found.get(before)).map(|before| kind_of(objects, prompt, before));
-        let inside = placed_inside(objects, places, mention, (words, &before.unwrap_or_default()));
+        // `The one by the door` is of the kind of which several were named last.
+        let kinds = || found[..nth - 1].iter().rev().map(|before| kind_of(objects, prompt, before));
+        let before = kinds().find(|kind| kind.len() > 1).or_else(|| kinds().next());
+        let inside = placed_inside(objects, places, mention, (words, &before.unwrap_or_default(), &last_place));
+        let inside = inside.map(|(alike, ids, around)| {
+            last_place = around;
+            (alike, ids)
+        });
         if let Some((alike, ids)) = inside.or_else(|| rest_of(words, narrowed.as_ref())) {
             if let [one] = ids[..] {
                 narrowed = Some((alike, one));
@@ -58,6 +68,8 @@ pub(crate) fn point_by_places(
             _ => other_one(prompt, found, nth - 1, &alike)
                 .or_else(|| placed(prompt, objects, places, (found, nth - 1), &alike))
                 // `The guitar`, after one was told from the others.
+                .or_else(|| flanking(prompt, objects, places, mention, &alike))
+                .or_else(|| (mention.ids.len() > 1).then(|| of_size(places, words, &alike)).flatten())
                 .or_else(|| {
                     narrowed.clone().filter(|(all, _)| *all == alike && is_one(words)).map(|(_, one)| vec![one])
                 }),
@@ -67,20 +79,59 @@ pub(crate) fn point_by_places(
             narrowed = Some((alike, one));
         }
         found[nth - 1].mention.ids = ids;
-        absorb_place(prompt, found, nth);
+        absorb_place(prompt, objects, found, nth);
     }
 }
 
+/// What hangs on walls.
+const HUNG: &str = "picture painting print poster mirror clock";
+
 /// Makes one mention of a thing and of what it is beside or on, mention `nth`, which is said to tell it from others.
-fn absorb_place(prompt: &str, found: &mut Vec<FoundMention>, nth: usize) {
+fn absorb_place(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>, nth: usize) {
     let end = found[nth - 1].mention.bytes[1];
     let Some(place) = found.get(nth).map(|next| next.mention.bytes) else { return };
     let between = tokenize(prompt.get(end..place[0]).unwrap_or_default());
-    let is_place = matches!(relation_of(&between), Some(Relation::Near | Relation::On));
+    let hangs = found[nth - 1].mention.ids.iter().filter_map(|id| label(objects, *id).and_then(head));
+    let hangs = hangs.into_iter().any(|kind| is_listed(HUNG, &kind));
+    let is_place = match relation_of(&between) {
+        Some(Relation::Near | Relation::On) => true,
+        // No way leads over what a picture hangs above.
+        Some(Relation::Above) => hangs,
+        _ => false,
+    };
     if is_place && !says_way(&between) {
         found[nth - 1].mention.bytes[1] = place[1];
         found.remove(nth);
     }
+}
+
+/// The one of several things of a kind that is on the side that the words tell: `the left lamp`.
+fn flanking(
+    prompt: &str,
+    objects: &[NamedObject],
+    places: Places<'_>,
+    mention: &Mention,
+    alike: &[u32],
+) -> Option<Vec<u32>> {
+    let mut words = tokenize(said(prompt, mention));
+    let behind = tokenize(prompt.get(mention.bytes[1]..).unwrap_or_default());
+    // `The lamp on the left`, and not `on the left third`.
+    let side = behind.get(2).is_some_and(|word| is_listed("left right", &word.text));
+    let ends =
+        behind.get(3).is_none_or(|word| !word.is_alphabetic() || is_listed("and then to so until with", &word.text));
+    if side && ends && alike.len() > 1 {
+        words.extend(behind.iter().take(3).cloned());
+    }
+    let flank = told_flank(&words)?;
+    let own = mention.ids.first().and_then(|id| label(objects, *id)).map(content)?;
+    // Of several kinds the one of which there are several.
+    let called = |id: &u32| label(objects, *id).map(content).unwrap_or_default();
+    let of = |kind: &std::collections::BTreeSet<String>| -> Vec<u32> {
+        alike.iter().copied().filter(|id| called(id) == *kind).collect()
+    };
+    let twins = || alike.iter().map(|id| of(&called(id))).find(|twins| twins.len() == 2);
+    let kind = Some(of(&own)).filter(|kind| kind.len() > 1).or_else(twins).unwrap_or_else(|| alike.to_vec());
+    outermost(places, &kind, flank).map(|id| vec![id])
 }
 
 /// Whether words name one thing and neither another one nor any of its kind.
@@ -94,7 +145,7 @@ fn is_one(words: &str) -> bool {
 }
 
 /// All things of the kind of a mention.
-fn kind_of(objects: &[NamedObject], prompt: &str, found: &FoundMention) -> Vec<u32> {
+pub(crate) fn kind_of(objects: &[NamedObject], prompt: &str, found: &FoundMention) -> Vec<u32> {
     if found.mention.ids.len() > 1 {
         return found.mention.ids.clone();
     }
@@ -182,12 +233,16 @@ fn placed_inside(
     objects: &[NamedObject],
     places: Places<'_>,
     mention: &Mention,
-    (words, before): (&str, &[u32]),
-) -> Option<(Vec<u32>, Vec<u32>)> {
+    (words, before, last_place): (&str, &[u32], &[u32]),
+) -> Option<(Vec<u32>, Vec<u32>, Vec<u32>)> {
     let words = tokenize(words);
     let (front, relation, behind) = inner_place(&words)?;
     let named = |words: &[Word]| -> Vec<u32> {
         let Some(kind) = words.iter().rev().find(|word| word.is_alphabetic()) else { return Vec::new() };
+        // `The lamp on the right one` of what was named last.
+        if kind.text == "one" {
+            return last_place.to_vec();
+        }
         let all: Vec<&NamedObject> =
             objects.iter().filter(|object| head(&object.label).as_deref() == Some(&kind.stem)).collect();
         // Of several those with all of the words, as `the blue door`.
@@ -200,12 +255,18 @@ fn placed_inside(
     };
     let last = front.iter().rev().find(|word| word.is_alphabetic())?;
     let alike = if last.text == "one" { before.to_vec() } else { named(front) };
+    // `The painting over the sofa` of things called pictures.
+    let alike = if alike.is_empty() { kind_of_all(objects, &mention.ids) } else { alike };
     let is_one = last.stem == last.text;
     let mut around = named(behind);
     if around.is_empty() {
         around = mention.ids.iter().filter(|id| !alike.contains(id)).copied().collect();
     }
-    let is_named = |id: &u32| alike.contains(id) || around.contains(id);
+    let kind_around = around.clone();
+    if let Some(id) = told_flank(behind).and_then(|flank| outermost(places, &around, flank)) {
+        around = vec![id];
+    }
+    let is_named = |id: &u32| alike.contains(id) || kind_around.contains(id);
     if alike.is_empty() || around.is_empty() || !mention.ids.iter().all(is_named) {
         return None;
     }
@@ -219,7 +280,15 @@ fn placed_inside(
         // `The plates on the table` are all that stand there.
         fits.iter().filter(|(misfit, _)| relation != Relation::Near && *misfit < TOUCHING).map(|(_, id)| *id).collect()
     };
-    (!ids.is_empty()).then_some((alike, ids))
+    (!ids.is_empty()).then_some((alike, ids, kind_around))
+}
+
+/// Several things of one kind; none where they are of several.
+fn kind_of_all(objects: &[NamedObject], ids: &[u32]) -> Vec<u32> {
+    let mut kinds = ids.iter().map(|id| label(objects, *id).map(content));
+    let first = kinds.next().flatten();
+    let is_one = ids.len() > 1 && first.is_some() && kinds.all(|kind| kind == first);
+    if is_one { ids.to_vec() } else { Vec::new() }
 }
 
 /// The only other thing of the kind from which one was told: `the other one`.

@@ -207,7 +207,7 @@ pub(super) fn is_camera_verb(words: &[&str], at: usize) -> bool {
 }
 
 /// Whether words say something of what a camera does.
-pub(super) fn directs(words: &[&str]) -> bool {
+pub(crate) fn directs(words: &[&str]) -> bool {
     let leads = |at: usize| {
         let next = words.get(at + 1).copied().unwrap_or_default();
         // `A proper look at it` is no way of the camera.

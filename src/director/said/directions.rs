@@ -4,7 +4,7 @@
 //! direction, the step takes it.
 
 use cinesplat_language::{Linked, QuantityKind};
-use cinesplat_operator::{Motion, Step};
+use cinesplat_operator::{Framing, Motion, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
 /// Words that may stand between a verb and its direction.
@@ -136,6 +136,31 @@ pub(crate) fn part_twins(linked: &Linked, steps: &mut [Step]) {
         let other = said.next().map(|(_, movement)| *movement).filter(|_| said.next().is_none());
         step.with.retain(|with| *with != main);
         step.with.extend(other.filter(|other| !step.with.contains(other)));
+    }
+}
+
+/// Leads from one end of a thing to the other where the words say so: `boom down, from the top of the lamp to the bottom of the lamp`.
+pub(crate) fn lead_between_ends(linked: &Linked, steps: &mut [Step]) {
+    let end_of = |word: &str| match word {
+        "top" => Some(SubjectPart::Top),
+        "bottom" => Some(SubjectPart::Bottom),
+        _ => None,
+    };
+    let goes = |step: &&mut Step| {
+        step.movement.looks_elsewhere() || matches!(Motion::of(step.movement), Some(Motion::Rise | Motion::Tilt))
+    };
+    for step in steps.iter_mut().filter(goes) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let ends = words.windows(10).find_map(|ten| {
+            let [from, the, first, of, thing, to, the_other, last, of_other, other] = *ten else { return None };
+            let is_way = [from, the, of, to, the_other, of_other] == ["from", "the", "of", "to", "the", "of"];
+            (is_way && thing == other).then_some((linked.slot_at(thing)?, end_of(first)?, end_of(last)?))
+        });
+        if let Some((id, first, last)) = ends.filter(|(_, first, last)| first != last) {
+            let subjects = linked.expanded(&[id]);
+            step.start = Framing { subjects: subjects.clone(), part: first, ..step.start.clone() };
+            step.end = Framing { subjects, part: last, ..step.end.clone() };
+        }
     }
 }
 
@@ -286,5 +311,16 @@ mod tests {
         assert_eq!(side("a quarter turn to the left side of <obj-0>"), None);
         assert_eq!(side("around it with <obj-1> to the left"), None);
         assert_eq!(side("the chair on the left"), None);
+    }
+
+    #[test]
+    fn a_descent_leads_from_one_end_to_the_other() {
+        let text = "boom down , from the top of <obj-0> to the bottom of <obj-0> , plant just in";
+        let end = Framing { subjects: vec![7], ..Framing::default() };
+        let mut steps = [Step { end, words: Some([0, text.len()]), ..Step::of(Move::PedestalDown) }];
+        lead_between_ends(&super::super::fixture::linked(text), &mut steps);
+        let [start, end] = [&steps[0].start, &steps[0].end];
+        assert_eq!((&start.subjects[..], start.part), (&[5][..], SubjectPart::Top));
+        assert_eq!((&end.subjects[..], end.part), (&[5][..], SubjectPart::Bottom));
     }
 }

@@ -196,7 +196,14 @@ const REACH: usize = 4;
 
 /// Writes the heights in a step's own words into it.
 fn take(linked: &Linked, words: &[&str], step: &mut Step, mentions: &[Mention]) {
-    let near = |mention: &Mention| &words[mention.words[0].saturating_sub(REACH)..mention.words[0]];
+    let near = |mention: &Mention| {
+        // `Finishing at about the height of a standing person`.
+        let is_between =
+            |word: &&&str| matches!(**word, "at" | "about" | "the" | "height" | "of" | "a" | "an" | "level");
+        let end = mention.words[0];
+        let end = end - words[..end].iter().rev().take_while(is_between).count();
+        &words[end.saturating_sub(REACH)..mention.words[0]]
+    };
     let says = |mention: &Mention, list: &[&str]| near(mention).iter().any(|word| list.contains(word));
     let leads = |mention: &&Mention| says(mention, &TO) && !says(mention, &FROM[..1]);
     let first = mentions.iter().find(|mention| !leads(mention)).map(|mention| mention.height);

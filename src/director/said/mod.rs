@@ -2,11 +2,13 @@
 
 mod amounts;
 mod arrivals;
+mod asides;
 mod bans;
 mod briefs;
 mod called;
 mod carriers;
 mod circles;
+mod contents;
 mod directions;
 mod dolly_zoom;
 mod endings;
@@ -38,6 +40,7 @@ mod specified;
 mod splits;
 mod stands;
 mod stillness;
+mod sweeps;
 mod taken_back;
 mod together;
 mod until;
@@ -49,6 +52,7 @@ use cinesplat_language::{Linked, Senses};
 use cinesplat_objects::Object;
 
 pub(crate) use bans::asks_for;
+pub(crate) use briefs::directs;
 pub(crate) use directions::is_form;
 pub use levels::take_levels;
 pub(crate) use openings::abbreviated_size;
@@ -85,6 +89,8 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     amounts::leave_to_owner(linked, &mut direction.program.steps);
     repeats::pass_one_after_another(linked, direction);
     until::join_until(linked, direction);
+    sweeps::join_sweeps(linked, direction);
+    sweeps::land_on(linked, direction);
     repeats::drop_restated(direction);
     splits::split_moves(linked, direction);
     together::complete_lists(linked, &mut direction.program);
@@ -99,6 +105,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     openings::rise_overhead(linked, steps);
     specified::rise_to_overhead(linked, steps);
     specified::show_what_fills(linked, steps);
+    specified::skim_past(linked, steps);
     openings::temper_closeness(linked, senses, steps)?;
     stillness::drop_unsaid_shake(linked, senses, steps)?;
     stillness::hold_tripods(linked, &mut direction.program);
@@ -113,6 +120,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     endings::travel_at_distance(steps);
     endings::near_to_size(linked, steps);
     endings::close_onto(linked, steps);
+    contents::look_into(linked, steps);
     endings::show_whole(linked, steps);
     endings::end_on_place(linked, steps);
     endings::widen_again(linked, steps);
@@ -121,7 +129,10 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     taken_back::drop_taken_back(linked, direction);
     let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);
+    asides::drop_camera_heights(linked, direction);
+    asides::drop_light(linked, direction);
     rests::rest_on_each(linked, direction);
+    visits::visit_in_turn(linked, direction);
     visits::visit_listed(linked, direction);
     ranges::zoom_between_lenses(linked, direction);
     circles::close_circles(linked, direction);
@@ -132,6 +143,14 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     sides::go_round_to_sides(linked, steps);
     ranges::take_ranges(linked, steps);
     ranges::take_field_of_view(linked, steps);
+    asides::hold_what_is_there(linked, steps);
+    asides::face_symmetric(linked, steps);
+    asides::move_by_share(linked, steps);
+    asides::show_subjects(linked, steps);
+    asides::roll_as_said(linked, steps);
+    asides::rest_where_nothing_leads(steps);
+    asides::look_down_from_above(linked, steps);
+    asides::show_bearer(linked, steps);
     open::return_to_first(linked, steps);
     open::turn_by_parts(linked, steps);
     openings::level_frontal_views(linked, steps);
@@ -144,6 +163,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     facing::rest_on_openings(linked, steps);
     facing::rest_up_close(linked, steps);
     facing::look_down_on_tops(linked, steps);
+    directions::lead_between_ends(linked, steps);
     take_said_of_moves(linked, direction);
     Ok(())
 }
@@ -168,8 +188,10 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     carriers::carry_as_said(linked, &mut direction.program.steps);
     arrivals::go_between_stops(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
+    stands::stand_at_side(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     postures::stand_low(linked, direction);
+    postures::rise_from_floor(linked, &mut direction.program.steps);
     heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
 }

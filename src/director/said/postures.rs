@@ -2,7 +2,7 @@
 
 use cinesplat_language::Linked;
 use cinesplat_operator::{Framing, Speed, Step};
-use cinesplat_trajectory::Move;
+use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::directions::is_form;
 use crate::direction::Direction;
@@ -34,6 +34,40 @@ pub(crate) fn stand_low(linked: &Linked, direction: &mut Direction) {
     }
 }
 
+/// Who is on the floor when the film begins.
+const WAKES: [&str; 4] = ["wake", "lie", "sprawl", "lying"];
+/// Heights of eyes on the floor and of those of who stands, scene units.
+const FLOOR_EYES: f64 = 0.3;
+const STANDING_EYES: f64 = 1.6;
+
+/// Begins near the floor where somebody wakes up there, and rises to where he stands: `you come to on the floor, you get up`.
+pub(crate) fn rise_from_floor(linked: &Linked, steps: &mut [Step]) {
+    let Some(step) = steps.iter_mut().take(2).find(|step| matches!(step.movement, Move::PedestalUp | Move::CraneUp))
+    else {
+        return;
+    };
+    let words = linked.texts_in([0, step.words.unwrap_or_default()[1]]);
+    let ground =
+        words.windows(3).position(|three| three[0] == "on" && matches!(three[2], "floor" | "ground" | "carpet"));
+    let wakes = |at: usize| {
+        let before = &words[at.saturating_sub(5)..at];
+        before.iter().any(|word| WAKES.iter().any(|verb| is_form(word, verb)) || *word == "waking")
+            || before.ends_with(&["come", "to"])
+            || before.ends_with(&["comes", "to"])
+            || before.ends_with(&["flat", "out"])
+    };
+    if !ground.is_some_and(wakes) || step.start.height.is_some() {
+        return;
+    }
+    if step.start.subjects.is_empty() {
+        step.start.subjects.clone_from(&step.end.subjects);
+    }
+    (step.start.height, step.start.angle) = (Some(FLOOR_EYES), None);
+    if step.end.height.is_none() && step.end.angle != Some(ShotAngle::Overhead) {
+        (step.end.height, step.end.angle) = (Some(STANDING_EYES), None);
+    }
+}
+
 /// Whether the words say that the camera is down low, and nothing brings it there.
 fn stands_low(words: &[&str]) -> bool {
     let is_low = |at: usize| {
@@ -55,5 +89,19 @@ mod tests {
         assert!(!low("get the camera down low on <obj-0>"));
         assert!(!low("come down low to <obj-0>"));
         assert!(!low("<obj-0> is down low"));
+    }
+
+    #[test]
+    fn who_wakes_on_the_floor_rises_from_it() {
+        let heights = |text: &str| {
+            let end = Framing { subjects: vec![5], ..Framing::default() };
+            let mut steps = [Step { end, words: Some([0, text.len()]), ..Step::of(Move::PedestalUp) }];
+            rise_from_floor(&super::super::fixture::linked(text), &mut steps);
+            (steps[0].start.height, steps[0].end.height)
+        };
+        let rises = (Some(FLOOR_EYES), Some(STANDING_EYES));
+        assert_eq!(heights("you come to on the floor , you pedestal up , look at <obj-0>"), rises);
+        assert_eq!(heights("you 're lying on the floor . you pedestal up"), rises);
+        assert_eq!(heights("the lamp on the floor . pedestal up"), (None, None));
     }
 }

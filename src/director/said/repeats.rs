@@ -97,6 +97,9 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
             && first.end.subjects == second.end.subjects
             && first.duration_secs == second.duration_secs
             && first.with == second.with;
+        // What the picture of a dolly zoom looks like is said of the same one.
+        let is_told_again =
+            vertigo && first.either_way && second.either_way && first.end.subjects == second.end.subjects;
         // `.. from the skull to the lamp; rotate to the right` only says which way.
         let is_family = same || first.movement.opposite() == Some(second.movement);
         let is_turn = matches!(
@@ -112,6 +115,9 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
                 words: first.joint_words(second),
                 ..first.clone()
             };
+            direction.join_steps(nth, one);
+        } else if same && is_told_again {
+            let one = Step { words: first.joint_words(second), ..first.clone() };
             direction.join_steps(nth, one);
         } else if same && holds {
             let end = framing_of(&second.end, &first.end);

@@ -122,6 +122,9 @@ fn from_side_to_side(words: &[&str], is_own: &dyn Fn(&str) -> bool) -> Option<[S
             "side" => Some(SubjectSide::FromSide),
             _ => None,
         });
+        // `To the right side`: `right` may only strengthen what follows.
+        let is_right = *name == "side" && words[place - 1] == "right";
+        let side = if is_right { Some(SubjectSide::FromRight) } else { side };
         Some((place + usize::from(words.get(place + 1) == Some(&"side")), side.filter(|_| is_end)?))
     };
     let mut pairs = (0..words.len()).filter(|at| words[*at] == "from").filter_map(|from| {

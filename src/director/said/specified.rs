@@ -3,7 +3,7 @@
 
 use cinesplat_language::{Linked, is_listed};
 use cinesplat_objects::Object;
-use cinesplat_operator::{Framing, Motion, Pass, Program, Step};
+use cinesplat_operator::{Framing, Motion, Pass, Program, Step, Via};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::bans::asks_for;
@@ -64,6 +64,44 @@ pub(crate) fn skim_tops(linked: &Linked, objects: &[Object], steps: &mut [Step])
         if step.movement == Move::FlyThrough {
             step.movement = Move::Follow;
         }
+    }
+}
+
+/// Words of a way close above a surface, besides its height.
+const SKIMS: [&str; 6] = ["skim", "skate", "graze", "hug", "brush", "skirt"];
+
+/// Goes along from one thing on a table to the next at their own level, where the words skim the table past them: `skim 10 cm above
+/// the wood past the cactus and the bottle`.
+pub(crate) fn skim_past(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::FlyThrough | Move::Follow)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let text = |at: usize| words.get(at).copied().unwrap_or_default();
+        let is_low = |at: usize| {
+            let is_close = is_listed(CLOSE, text(at)) || linked.quantity_at(text(at)).is_some() || text(at) == "low";
+            is_listed(OVER, text(at + 1)) && is_close
+        };
+        let skims = words.iter().any(|word| SKIMS.iter().any(|verb| is_form(word, verb)));
+        let Some(past) = words.iter().position(|word| matches!(*word, "past" | "by")) else { continue };
+        let listed = words[past + 1..].iter().take_while(|word| {
+            matches!(**word, "and" | "," | "the" | "then" | "past") || linked.slot_at(word).is_some()
+        });
+        let ids: Vec<u32> = listed.filter_map(|word| linked.slot_at(word)).collect();
+        let over = step.via.as_ref().filter(|via| via.how == Pass::Over).map(|via| linked.expanded(&via.objects));
+        let is_over = over.is_some_and(|over| linked.expanded(&ids).iter().any(|id| over.contains(id)));
+        if !is_over || ids.is_empty() || !(skims || (0..words.len()).any(is_low)) {
+            continue;
+        }
+        let level = |ids: Vec<u32>| Framing { subjects: ids, angle: Some(ShotAngle::EyeLevel), ..Framing::default() };
+        let mut places: Vec<Vec<u32>> = ids.iter().map(|id| linked.expanded(&[*id])).collect();
+        if step.end.subjects.is_empty() || places.contains(&linked.expanded(&step.end.subjects)) {
+            step.end = level(places.pop().unwrap_or_default());
+        }
+        if step.start.subjects.is_empty() && !places.is_empty() {
+            step.start = level(places.remove(0));
+        }
+        let objects = places.concat();
+        step.via = (!objects.is_empty()).then_some(Via { how: Pass::Past, objects });
+        step.movement = Move::Follow;
     }
 }
 
@@ -139,7 +177,6 @@ pub(crate) fn rise_to_overhead(linked: &Linked, steps: &mut [Step]) {
 mod tests {
     use super::super::fixture::linked;
     use super::*;
-    use cinesplat_operator::Via;
 
     fn step(text: &str, movement: Move, subject: u32) -> Step {
         let end = Framing { subjects: vec![subject], ..Framing::default() };
@@ -197,5 +234,19 @@ mod tests {
         let mut steps = [step(text, Move::PedestalUp, 5)];
         rise_to_overhead(&linked(text), &mut steps);
         assert_eq!(steps[0].end.angle, None);
+    }
+
+    #[test]
+    fn who_skims_a_table_past_things_goes_from_one_to_the_next() {
+        let skimmed = |text: &str| {
+            let via = Some(Via { how: Pass::Over, objects: vec![5, 7] });
+            let mut steps = [Step { via, words: Some([0, text.len()]), ..Step::of(Move::FlyThrough) }];
+            skim_past(&linked(text), &mut steps);
+            (steps[0].movement, steps[0].start.subjects.clone(), steps[0].end.subjects.clone())
+        };
+        let along = (Move::Follow, vec![5], vec![7]);
+        assert_eq!(skimmed("skim the wood past <obj-0> and <obj-1> , quite quick"), along);
+        assert_eq!(skimmed("fly low over the table past <obj-0> and <obj-1>"), along);
+        assert_eq!(skimmed("fly high over <obj-0> and <obj-1>").0, Move::FlyThrough);
     }
 }

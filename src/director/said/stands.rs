@@ -46,6 +46,22 @@ pub(crate) fn stand_at_opening(linked: &Linked, steps: &mut [Step]) {
     step.via = Some(Via { how: Pass::From, objects: place });
 }
 
+/// Stands at the thing from whose side a picture at rest is seen: `a wide of the room from the tv side`.
+pub(crate) fn stand_at_side(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let Some(via) = step.via.as_mut().filter(|via| via.how == Pass::Past) else { continue };
+        let leads_from = |at: usize| {
+            let next = at + 1 + usize::from(words.get(at + 1) == Some(&"the"));
+            let id = words.get(next).and_then(|word| linked.slot_at(word));
+            words[at] == "from" && id.is_some_and(|id| linked.expanded(&[id]) == linked.expanded(&via.objects))
+        };
+        if (0..words.len()).any(leads_from) {
+            via.how = Pass::From;
+        }
+    }
+}
+
 /// Sides by their words.
 const SIDES: [(&[&str], SubjectSide); 3] = [
     (&["front", "nose", "face"], SubjectSide::FromFront),

@@ -37,7 +37,18 @@ fn follows_until(linked: &Linked, before: &Step, after: &Step) -> bool {
         && !after.end.subjects.is_empty();
     let (Some(first), Some(second)) = (before.words, after.words) else { return false };
     let leads = linked.words_in([first[0], second[1]]).filter(|(_, span)| span[0] >= first[1].min(second[0]));
-    moves && shows && first[0] < second[0] && leads.take(2).any(|(word, _)| UNTIL.contains(&word))
+    let leads: Vec<&str> = leads.map(|(word, _)| word).collect();
+    moves
+        && shows
+        && first[0] < second[0]
+        && (leads.iter().take(2).any(|word| UNTIL.contains(word)) || stops_when(&leads))
+}
+
+/// Whether words say when a move ends: `it stops when I can see ..`.
+fn stops_when(words: &[&str]) -> bool {
+    let stop =
+        words.iter().take(4).position(|word| ["stop", "end", "finish", "halt"].iter().any(|verb| is_form(word, verb)));
+    stop.is_some_and(|at| words.get(at + 1).is_some_and(|word| matches!(*word, "when" | "once" | "where" | "as")))
 }
 
 /// Whether a step's words only say until when something is seen: `until I can see the table and the chairs round it`.

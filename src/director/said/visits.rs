@@ -5,7 +5,7 @@ use cinesplat_language::{Linked, MAX_STEPS};
 use cinesplat_operator::{Framing, Speed, Step};
 use cinesplat_trajectory::Move;
 
-use super::directions::is_form;
+use super::directions::{is_form, says_any};
 use crate::direction::{Direction, StepCertainty};
 
 /// Verbs of a rest, and words between them and what it is on.
@@ -48,6 +48,49 @@ pub(crate) fn visit_listed(linked: &Linked, direction: &mut Direction) {
             direction.certainty.splice(nth..=nth, certainties);
         }
         // The network's cameras are those of one picture.
+        direction.step_cameras.clear();
+    }
+}
+
+/// Words that show several things one after the other.
+const IN_TURN: [&[&str]; 6] = [
+    &["one", "after", "the", "other"],
+    &["one", "after", "another"],
+    &["one", "by", "one"],
+    &["in", "turn"],
+    &["each", "in", "turn"],
+    &["individually"],
+];
+
+/// Shows the things of one picture one after the other where the words say so: `show both chairs one after the other`.
+pub(crate) fn visit_in_turn(linked: &Linked, direction: &mut Direction) {
+    for nth in (0..direction.program.steps.len()).rev() {
+        let step = &direction.program.steps[nth];
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let shown = linked.expanded(&step.end.subjects);
+        let is_picture = matches!(step.movement, Move::Static | Move::Follow | Move::PushIn) && step.with.is_empty();
+        let is_open = step.end.size.is_none() && step.start.subjects.is_empty() && step.via.is_none();
+        let num_steps = direction.program.steps.len() + shown.len();
+        if !(is_picture && is_open && says_any(&words, &IN_TURN))
+            || !(2..=4).contains(&shown.len())
+            || num_steps > MAX_STEPS
+        {
+            continue;
+        }
+        let framed = |id: u32| Framing { subjects: vec![id], ..Framing::default() };
+        let way = |(nth, id): (usize, &u32)| Step {
+            movement: if nth == 0 { Move::Static } else { Move::Follow },
+            end: framed(*id),
+            start: Framing::default(),
+            ..step.clone()
+        };
+        let steps: Vec<Step> = shown.iter().enumerate().map(way).collect();
+        let certainty = direction.certainty.get(nth).cloned();
+        let certainties: Vec<StepCertainty> = steps.iter().filter_map(|_| certainty.clone()).collect();
+        direction.program.steps.splice(nth..=nth, steps);
+        if nth < direction.certainty.len() {
+            direction.certainty.splice(nth..=nth, certainties);
+        }
         direction.step_cameras.clear();
     }
 }
@@ -130,5 +173,19 @@ mod tests {
         let moves: Vec<Move> =
             visits(&Step::of(Move::Follow), &[vec![1], vec![2]], true).iter().map(|step| step.movement).collect();
         assert_eq!(moves, [Move::Static, Move::Follow, Move::Static, Move::PullOut]);
+    }
+
+    #[test]
+    fn things_are_shown_one_after_the_other() {
+        let moves = |text: &str| {
+            let end = Framing { subjects: vec![5, 7], ..Framing::default() };
+            let step = Step { end, words: Some([0, text.len()]), ..Step::of(Move::Static) };
+            let mut direction = super::super::fixture::direction(vec![step]);
+            visit_in_turn(&super::super::fixture::linked(text), &mut direction);
+            direction.program.steps.iter().map(|step| (step.movement, step.end.subjects.clone())).collect::<Vec<_>>()
+        };
+        let each = vec![(Move::Static, vec![5]), (Move::Follow, vec![7])];
+        assert_eq!(moves("show <obj-0> and <obj-1> one after the other"), each);
+        assert_eq!(moves("show <obj-0> and <obj-1>").len(), 1);
     }
 }

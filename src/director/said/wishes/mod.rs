@@ -13,7 +13,7 @@ mod things;
 use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_objects::Object;
 use cinesplat_operator::{Framing, Speed, Step, SubjectSide};
-use cinesplat_trajectory::{Move, ShotAngle};
+use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::briefs::{denied, is_camera_verb, is_loose, pace};
 use super::directions::{is_form, says_any};
@@ -35,7 +35,7 @@ const TRADE: &str = "sideways backward backwards forward forwards overhead top-d
     degrees clockwise counterclockwise anticlockwise pov profile foreground close-up closeup cu ecu mcu ws ms shot shots angle low high \
     bird's tripod static locked frame picture view rotation stroll strolls join joins put together";
 /// Verbs of a camera that goes somewhere, and their ways.
-const GOES: [&str; 9] = ["go", "come", "step", "back", "get", "bring", "ease", "pull", "draw"];
+const GOES: [&str; 11] = ["go", "come", "step", "back", "get", "bring", "ease", "pull", "draw", "edge", "inch"];
 const WAYS: &str = "in over from across down up back out away off closer";
 /// Words before `move` where it is a name: `one continuous move`.
 const KINDS: &str = "a one single continuous long slow gentle smooth simple unbroken";
@@ -96,6 +96,10 @@ pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut D
         None => of_scene(stations::stations(&text, linked, &things, &denied), &things, (&manner, &linked.spans)),
     };
     let Some(mut steps) = steps else { return false };
+    let ends_whole = text.has(0..text.words.len(), "whole entire full complete");
+    if let Some(one) = one_move(&text.words, &steps, manner.speed).filter(|_| ends_whole) {
+        steps = vec![one];
+    }
     let span = direction.span();
     let shown: Vec<u32> = steps.iter().flat_map(|step| step.end.subjects.clone()).collect();
     for step in &mut steps {
@@ -105,6 +109,23 @@ pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut D
     direction.replace_steps(steps);
     direction.program.duration_secs = times.total_secs.or(direction.program.duration_secs);
     true
+}
+
+/// One way out from the first picture to the last one, which shows all of something, where the words want a single move: `bread on the
+/// plates, the lamps over it. One continuous move. End with the whole table`.
+fn one_move(words: &[&str], steps: &[Step], speed: Speed) -> Option<Step> {
+    let is_one = |at: usize| {
+        matches!(words[at], "move" | "shot" | "take")
+            && words[..at].iter().rev().take(2).any(|word| is_listed("one continuous single unbroken", word))
+    };
+    let [first, .., last] = steps else { return None };
+    let is_wide = last.end.whole || last.end.size.is_some_and(|size| size >= ShotSize::Long);
+    let near = first.end.subjects.first()?;
+    if !(0..words.len()).any(is_one) || !is_wide || last.end.subjects.contains(near) || last.via.is_some() {
+        return None;
+    }
+    let start = Framing { subjects: vec![*near], size: Some(ShotSize::CloseUp), ..Framing::default() };
+    Some(Step { start, end: last.end.clone(), speed, ..Step::of(Move::PullOut) })
 }
 
 /// The film of the one thing of a scan; `None` where less than two views of it are wanted.
@@ -155,8 +176,12 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
         // `The last frame matches the first`.
         let is_end = is_listed("frame picture shot", words[at])
             && before().take(2).any(|word| is_listed("first last opening closing same", word));
-        is_camera_verb(words, at) && !stops && !is_denied && !is_told && !is_kind
-            || is_listed(TRADE, words[at]) && !is_denied && !is_end
+        // `One continuous shot` is no picture.
+        let is_noun = is_kind
+            || matches!(words[at], "shot" | "take")
+                && before().take(2).any(|word| is_listed("one continuous single unbroken", word));
+        is_camera_verb(words, at) && !stops && !is_denied && !is_told && !is_noun
+            || is_listed(TRADE, words[at]) && !is_denied && !is_end && !is_noun
     };
     let passes = |at: usize| {
         let next = words[at + 1..].iter().find(|word| !is_listed("the a an my our", word));
@@ -184,7 +209,10 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
         is_length || matches!(kind, Some(QuantityKind::Degrees | QuantityKind::Factor | QuantityKind::Millimeters))
     };
     let says = |at: usize| !text.is_likeness(at) && (is_way(at) || goes(at) || passes(at) || is_measured(at));
-    words.len() >= FEWEST_WORDS && !(0..words.len()).any(says)
+    // `No movement whatsoever` is one picture.
+    let rests =
+        words.windows(2).any(|two| matches!(two, ["no" | "without", "movement" | "motion" | "moves" | "moving"]));
+    words.len() >= FEWEST_WORDS && !rests && !(0..words.len()).any(says)
 }
 
 #[cfg(test)]
@@ -209,6 +237,9 @@ mod tests {
         ));
         assert!(wish("begin from <obj-0> , little by little , last is <obj-1> . do not move fast , please"));
         assert!(wish("leave us where she 's going to pedestal down and <obj-0> . nothing has started yet"));
+        assert!(!wish(
+            "no movement whatsoever . <obj-0> at the left edge , <obj-1> at the right edge , level with them"
+        ));
         assert!(!wish("begin on <obj-0> , then pan over to <obj-1> and hold there until the end of the film"));
         assert!(wish(
             "people should be hungry . <obj-0> and <obj-1> , one continuous move if you can , end with <obj-2>"
@@ -220,5 +251,17 @@ mod tests {
         assert!(!wish("have a look at <obj-0> here and now everybody back up so you can see <obj-1>"));
         assert!(!wish("<obj-0> , <obj-1> and <obj-2> , all of them in one picture , and the last one in the middle"));
         assert!(!wish("we start at <obj-0> and come in over <obj-1> until we see the whole of <obj-2> , please"));
+    }
+
+    #[test]
+    fn a_single_move_leads_out_to_the_last_picture() {
+        let about = |ids: &[u32], whole| Step {
+            end: Framing { subjects: ids.to_vec(), whole, ..Framing::default() },
+            ..Step::of(Move::PushIn)
+        };
+        let steps = [about(&[1, 2], false), about(&[3], false), about(&[7], true)];
+        let one = one_move(&["one", "continuous", "move"], &steps, Speed::Normal).unwrap();
+        assert_eq!((one.movement, &one.start.subjects[..], &one.end.subjects[..]), (Move::PullOut, &[1][..], &[7][..]));
+        assert_eq!(one_move(&["one", "thing"], &steps, Speed::Normal), None);
     }
 }

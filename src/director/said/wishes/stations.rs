@@ -398,7 +398,13 @@ impl Found<'_> {
             && words[..at].iter().rev().take(2).any(|word| is_listed(WHOLE, word))
             && !self.stations.iter().any(|station| station.subject == Subject::Place);
         let is_rest = words[at] == "room" && words[..at].ends_with(&["rest", "of", "the"]);
-        let is_wide = is_rest || is_listed("wide wider", words[at]) && self.text.closes(at);
+        // `Then realise how large the room is`.
+        let is_large = is_listed(PLACES, words[at])
+            && matches!(
+                words[..at],
+                [.., "how", "large" | "big" | "small" | "bright" | "empty", "the" | "this" | "our"]
+            );
+        let is_wide = is_rest || is_large || is_listed("wide wider", words[at]) && self.text.closes(at);
         is_whole || is_wide && !self.stations.iter().any(|station| station.subject == Subject::Place)
     }
 

@@ -1,0 +1,118 @@
+//! Sentences that tell a story or name the film, beside others that ask for it: `It's my nan's room the way she had it. Could you show
+//! the two chairs?`, `Hero film for the red teapots. Open on ..`.
+//!
+//! The network makes moves of them, and reads the rest worse.
+
+use cinesplat_language::{Linked, is_listed};
+
+use crate::said::directs;
+
+/// Marks that end a sentence.
+const MARKS: &str = ". ! ? :";
+/// Fewest words of a story.
+const FEWEST_WORDS: usize = 7;
+/// Most words of a title.
+const MOST_TITLE_WORDS: usize = 12;
+/// Words of what is told.
+const TELLS: &str = "was were had used always fought loved bought found got made turned became is 's are 're think like hate love \
+    thinks says said means believe feel feels called named";
+/// Whom a story is about.
+const PERSONS: &str = "my our we i she he they her his their nan gran grandma mum mom dad mother father wife husband daughter son \
+    brother sister aunt uncle friend hand who whom someone everyone client clients they";
+/// Words by which a sentence asks for something, or says what is seen when.
+const ASKS: &str = "show shows see sees look looking watch could can would should must please want wants need needs give let first \
+    then last end ends ending start starts begin begins finish until till wish take takes notice notices make makes frame shot \
+    camera";
+/// What a film is called in its title.
+const FILMS: &str = "film video clip reel ad advert advertisement trailer teaser spot short promo opener header";
+const ABOUT: &str = "for of about on";
+
+/// The words without the sentences that only tell something, where others ask for the film; `None` where there are none.
+pub(crate) fn without_told(linked: &Linked) -> Option<Linked> {
+    if linked.timeline.is_some() {
+        return None;
+    }
+    let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
+    let sentences: Vec<&[(&str, [usize; 2])]> = words.split_inclusive(|(word, _)| is_listed(MARKS, word)).collect();
+    let is_told = |nth: usize| {
+        let words = texts(sentences[nth]);
+        !has_numbers(linked, &words) && (is_story(&words) || nth == 0 && is_title(&words))
+    };
+    let told: Vec<usize> = (0..sentences.len()).filter(|nth| is_told(*nth)).collect();
+    let left = || (0..sentences.len()).filter(|nth| !told.contains(nth)).map(|nth| texts(sentences[nth]));
+    let names = left().any(|words| words.iter().any(|word| linked.slot_at(word).is_some()));
+    if told.is_empty() || !names || !left().any(|words| asks(&words)) {
+        return None;
+    }
+    let bytes = told.iter().filter_map(|nth| {
+        let (first, last) = (sentences[*nth].first()?, sentences[*nth].last()?);
+        Some([first.1[0], last.1[1]])
+    });
+    Some(linked.without(&bytes.collect::<Vec<_>>(), None))
+}
+
+/// The words of a sentence.
+fn texts<'a>(sentence: &[(&'a str, [usize; 2])]) -> Vec<&'a str> {
+    sentence.iter().map(|(word, _)| *word).collect()
+}
+
+/// Whether some words are quantities.
+fn has_numbers(linked: &Linked, words: &[&str]) -> bool {
+    words.iter().any(|word| linked.is_quantity(word))
+}
+
+/// Whether words ask for something that a camera does.
+fn asks(words: &[&str]) -> bool {
+    directs(&without_rooms(words)) || words.iter().any(|word| is_listed("show shows look", word))
+}
+
+/// The words without those of rooms that are words of pictures, too: `the front room`.
+fn without_rooms<'a>(words: &[&'a str]) -> Vec<&'a str> {
+    let is_room = |at: usize| is_listed("front back", words[at]) && words.get(at + 1) == Some(&"room");
+    let is_aside = |at: usize| is_listed("middle left right away still around", words[at]);
+    (0..words.len()).filter(|at| !is_room(*at) && !is_aside(*at)).map(|at| words[at]).collect()
+}
+
+/// Whether a sentence only tells something about people.
+fn is_story(words: &[&str]) -> bool {
+    let has = |list: &str| words.iter().any(|word| is_listed(list, word));
+    words.len() >= FEWEST_WORDS && has(TELLS) && has(PERSONS) && !has(ASKS) && !directs(&without_rooms(words))
+}
+
+/// Whether a sentence only names the film.
+fn is_title(words: &[&str]) -> bool {
+    let film = words.iter().position(|word| is_listed(FILMS, word));
+    let is_about = |at: usize| words[at + 1..].iter().take(2).any(|word| is_listed(ABOUT, word));
+    words.len() <= MOST_TITLE_WORDS && film.is_some_and(is_about) && !directs(&without_rooms(words))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn left(text: &str) -> Option<String> {
+        let spans = text.split(' ').scan(0, |at, word| {
+            let from = *at;
+            *at += word.len() + 1;
+            Some([from, from + word.len()])
+        });
+        let linked =
+            Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() };
+        without_told(&linked).map(|linked| linked.tokens_text)
+    }
+
+    #[test]
+    fn a_story_beside_a_wish_is_left_out() {
+        let story = "it 's my nan 's front room the way she used to have it . could you show <obj-0> and <obj-1> ?";
+        assert_eq!(left(story).as_deref(), Some("could you show <obj-0> and <obj-1> ?"));
+        let title = "hero film for <obj-0> . open on <obj-1> , then rise .";
+        assert_eq!(left(title).as_deref(), Some("open on <obj-0> , then rise ."));
+    }
+
+    #[test]
+    fn what_says_something_of_the_film_stays() {
+        assert_eq!(left("we 're behind <obj-0> . push in on <obj-1> ."), None);
+        assert_eq!(left("my brother is on <obj-0> and he likes it . it is his own chair ."), None);
+        assert_eq!(left("my daughter found <obj-0> and we see it first . push in on <obj-1> ."), None);
+    }
+}
