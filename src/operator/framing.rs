@@ -99,9 +99,18 @@ fn part_point(world: &World, subject: &Subject, part: SubjectPart) -> DVec3 {
     subject.center + world.frame.up * rise * 0.6
 }
 
+/// How far the middle of a subject's matter is below the middle of its box, over half its height, from which on it is its body
+/// that is looked at: that of a radio under its antenna.
+const BODY_BELOW: f64 = 0.15;
+
 /// Height of a subject's aim above its middle.
 fn upper_aim(world: &World, subject: &Subject) -> f64 {
     let half_height = subject.reach(world.frame.up);
+    let heights = subject.points.iter().map(|point| world.frame.height(*point - subject.center));
+    let body = heights.sum::<f64>() / subject.points.len().max(1) as f64;
+    if body < -BODY_BELOW * half_height {
+        return body.max(-UPPER_AIM * half_height);
+    }
     let half_width = subject.level_axes(world.frame.up)[0].length();
     let upright = (half_height / half_width.max(1e-9) - UPRIGHT.0) / (UPRIGHT.1 - UPRIGHT.0);
     UPPER_AIM * half_height * upright.clamp(0.0, 1.0)

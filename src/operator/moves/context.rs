@@ -146,6 +146,13 @@ impl<'a> StepContext<'a> {
         self.step.movement == Move::PullOut && is_wide && self.world.is_indoor() && left.is_some_and(is_small)
     }
 
+    /// Whether the step pulls out from a small thing to the whole of something large, which a long lens never takes in.
+    fn backs_to_large(&self) -> bool {
+        let (Some(start), Some(end)) = (&self.start, &self.end) else { return false };
+        let is_whole = self.step.end.whole && self.step.movement == Move::PullOut;
+        is_whole && self.world.is_indoor() && end.radius > MUCH_LARGER * start.radius
+    }
+
     /// The side of the passed object from which a truck that goes behind or in front of it sees it.
     fn passed_side(&self) -> Option<SubjectSide> {
         let truck = matches!(self.step.movement, Move::TruckLeft | Move::TruckRight);
@@ -215,7 +222,7 @@ impl<'a> StepContext<'a> {
         let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
         let close = height.is_some_and(|height| height >= 0.8);
         // Close views use a long lens, so that the camera does not have to stand inside its subject.
-        let fov_deg = match (self.backs_to_room(), close) {
+        let fov_deg = match (self.backs_to_room() || self.backs_to_large(), close) {
             (true, _) => BACKING_LENS_DEG,
             (false, true) => (fov_deg.0.min(18.0), fov_deg.1.min(44.0)),
             (false, false) => fov_deg,
@@ -339,6 +346,8 @@ impl<'a> StepContext<'a> {
 
 /// Radius of a thing over the scene size up to which it is small in a room.
 const SMALL_FRAC: f64 = 0.12;
+/// Size of what a pull-out takes in, over that of what it leaves, from which on it begins with a normal lens.
+const MUCH_LARGER: f64 = 3.0;
 /// Elevation of a camera that backs away from a small thing to show the room, and its vertical field of view, degrees.
 const BACKING_ELEVATION_DEG: (f64, f64) = (1.0, 14.0);
 const BACKING_LENS_DEG: (f64, f64) = (36.0, 52.0);

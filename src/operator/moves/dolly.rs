@@ -1,5 +1,7 @@
 //! Moves along the line to a subject: push in and pull out.
 
+use glam::DQuat;
+
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::dolly_length::{LEAST_RATIO, WALL_RADII, distance_ratio};
 use super::standing_view::stands;
@@ -26,7 +28,8 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
         && !context.step.start.whole
         && !stands(&context.standing())
     {
-        (Vec::new(), open_first(context, &target, inward, fill))
+        let first = open_first(context, &target, inward, fill);
+        (Vec::new(), if context.backs_to_room() { with_room_behind(context, &target, first) } else { first })
     } else if let Some(before) =
         context.before.filter(|_| takes_in(context, inward).is_some() && context.start.is_none())
     {
@@ -72,6 +75,36 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     segments.push(require_visible(segment, &target, Scope::All));
     segments
 }
+
+/// The first camera of a pull-out to the room, on the side of its subject from which the way back is longest.
+fn with_room_behind(context: &StepContext, target: &Target, first: CameraState) -> CameraState {
+    let (world, away) = (context.world, first.pose.position - target.aim);
+    if context.parameters[5] > MOST_BACKED {
+        return first;
+    }
+    let swung = |i: i32| {
+        let turn = DQuat::from_axis_angle(world.frame.up, f64::from(i) * BACKING_STEP_RAD);
+        let position = target.aim + turn * away;
+        aimed(world, &moved(&first, position - first.pose.position), target.aim)
+    };
+    let is_free = |state: &CameraState| {
+        let to = state.pose.position - target.aim;
+        let from = target.aim + to.normalize_or_zero() * target.radius;
+        world.hit_distance(from, to.normalize_or_zero()).is_none_or(|hit| hit + target.radius > to.length())
+    };
+    let behind = |state: &CameraState| {
+        let back = -state.pose.forward();
+        world.hit_distance(state.pose.position, back).filter(|_| is_free(state)).unwrap_or(0.0)
+    };
+    let sides = (-NUM_BACKING..=NUM_BACKING).map(swung);
+    sides.max_by(|a, b| behind(a).total_cmp(&behind(b))).unwrap_or(first)
+}
+
+/// Value of parameter 5 up to which a pull-out to the room looks for the longest way back, the angle between the sides that it
+/// compares, radians, and how many there are on each hand.
+const MOST_BACKED: f64 = 0.7;
+const BACKING_STEP_RAD: f64 = 0.22;
+const NUM_BACKING: i32 = 5;
 
 /// What a pull-out goes back to take in: the whole of another thing than it sets out from, or of the thing of which the step
 /// before showed a part.

@@ -33,8 +33,9 @@ mod with;
 pub(super) use context::StepContext;
 
 use super::constraint::pitch_band_deg;
+use super::framing::Target;
 use super::motion::MotionSegment;
-use super::program::{Framing, Motion, Pass, Step, SubjectPart};
+use super::program::{Framing, Motion, Pass, Step, SubjectPart, Via};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 /// The segments of one step.
@@ -86,7 +87,12 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
     if let Some(segments) = how.and_then(|how| passing_a_side(context, how)) {
         return segments;
     }
-    let passes = how.is_some_and(|how| !matches!(how, Pass::Past | Pass::From)) && !rises_over_subject(context);
+    if let Some(segments) = rounding(context) {
+        return segments;
+    }
+    let passes = how.is_some_and(|how| !matches!(how, Pass::Past | Pass::From))
+        && !rises_over_subject(context)
+        && !backs_over(context);
     match context.step.movement {
         Move::Static => turns::hold(context),
         Move::Handheld => turns::handheld(context),
@@ -149,6 +155,29 @@ fn leads_above(context: &StepContext) -> bool {
 
 /// Distance aside over the height from which on a rise between two subjects is a crane.
 const LEAST_ASIDE: f64 = 0.25;
+
+/// Whether a pull-out leads back over something, as in `ease back over the books`: it looks where it came from all the way.
+fn backs_over(context: &StepContext) -> bool {
+    let over = context.step.via.as_ref().is_some_and(|via| via.how == Pass::Over);
+    context.step.movement == Move::PullOut && over
+}
+
+/// The way round a thing from one place to another, as in `from the door, a curve round the sofa, and finish at the window`:
+/// it circles neither of them. `None` of any other step.
+fn rounding(context: &StepContext) -> Option<Vec<MotionSegment>> {
+    let step = context.step;
+    let via = step.via.as_ref().filter(|via| via.how == Pass::Past)?;
+    let end = context.end.as_ref()?;
+    let is_other = |target: &Target| target.ids.first() != end.ids.first();
+    let starts_apart = context.start.as_ref().or(context.earlier.as_ref()).is_some_and(is_other);
+    let is_round = matches!(step.movement, Move::ArcLeft | Move::ArcRight | Move::OrbitLeft | Move::OrbitRight);
+    let is_passed = !end.ids.iter().any(|id| via.objects.contains(id));
+    if !is_round || !starts_apart || !is_passed || step.amount.is_some() {
+        return None;
+    }
+    let way = Step { via: Some(Via { how: Pass::Front, ..via.clone() }), movement: Move::Follow, ..step.clone() };
+    beside::passing_beside(&StepContext { step: &way, ..context.clone() })
+}
 
 /// Whether a crane rises or sinks over its own subject, as in `crane up over the sofa`: it then passes nothing.
 fn rises_over_subject(context: &StepContext) -> bool {
