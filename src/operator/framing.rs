@@ -106,8 +106,7 @@ const BODY_BELOW: f64 = 0.15;
 /// Height of a subject's aim above its middle.
 fn upper_aim(world: &World, subject: &Subject) -> f64 {
     let half_height = subject.reach(world.frame.up);
-    let heights = subject.points.iter().map(|point| world.frame.height(*point - subject.center));
-    let body = heights.sum::<f64>() / subject.points.len().max(1) as f64;
+    let body = world.frame.height(subject.body - subject.center);
     if body < -BODY_BELOW * half_height {
         return body.max(-UPPER_AIM * half_height);
     }

@@ -85,6 +85,8 @@ pub(super) struct Subject {
     pub(super) radius: f64,
     /// Sample points on it, world.
     pub(super) points: Vec<DVec3>,
+    /// Middle of its matter.
+    pub(super) body: DVec3,
     /// Size of its splats, as far as they are seen.
     pub(super) splat_size: f64,
     /// Its outermost points, world.
@@ -318,6 +320,8 @@ impl Subject {
         } else {
             (corners.clone(), corners.clone())
         };
+        let body =
+            all_solid().filter(|&i| near[i]).map(|i| gaussians.mean_world(i)).sum::<DVec3>() / num_near.max(1) as f64;
         let facets = Facets::of(gaussians, &solid, object.center, object.radius());
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !near[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
@@ -330,6 +334,7 @@ impl Subject {
             half_axes,
             radius: object.radius(),
             points,
+            body: if num_near > 0 { body } else { object.center },
             splat_size: splat_size(gaussians, &solid),
             outline,
             facets,

@@ -17,6 +17,7 @@ mod route;
 mod sides;
 mod tables;
 mod viewpoints;
+mod ways;
 mod wholes;
 
 use cinesplat::objects::{Object, ObjectSet};

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::overlook::overlook;
+use super::paths::end_view;
 use super::room_view::amid_room;
 use super::standing_view::stands;
 use super::sway::{num_sways, swayed};
@@ -11,7 +12,7 @@ use crate::composition::front_azimuth;
 use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Target, extent_frac, frame_position, off_center};
 use crate::motion::MotionSegment;
-use crate::program::{Amount, Framing, SubjectPart};
+use crate::program::{Amount, Framing, Motion, SubjectPart};
 use crate::view::{aimed, aimed_at_side, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Easing, Move, ShotAngle};
@@ -30,6 +31,10 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
     let named = context.start.is_some() || context.end.is_some();
     let (mut segments, state) = match &context.before {
+        Some(before) if named && is_elsewhere(context, before, &target) => {
+            let there = end_view(context, &target, before);
+            (vec![context.join(*before, there)], there)
+        }
         Some(before) if named && off_center(context.world, before, target.aim) > HELD_OFF => {
             context.turned_to(before, target.aim)
         }
@@ -49,7 +54,11 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
             (Vec::new(), if is_free(context, &framing) { on_a_third(context, &target, view) } else { view })
         }
     };
-    let natural = if context.index == 0 && context.before.is_none() { 4.0 } else { 1.5 };
+    let natural = match (context.before.is_none(), context.is_last) {
+        (true, true) => STILL_SECS,
+        (true, false) => OPENING_SECS,
+        (false, _) => REST_SECS,
+    };
     let mut segment = context.lasting(vec![state, state], natural);
     if context.before.is_none() {
         segment =
@@ -250,6 +259,24 @@ fn turn(
     }
     segments.push(segment);
     segments
+}
+
+/// Duration of a film without a move, of a picture at rest before the first move, and of a rest after one.
+const STILL_SECS: f64 = 4.0;
+const OPENING_SECS: f64 = 2.4;
+const REST_SECS: f64 = 1.5;
+/// Height in the frame up to which a thing is too far away for a picture of it.
+const TOO_SMALL: f64 = 0.1;
+
+/// Whether the picture that a film rests on is of something that it has not come to yet, and that a turn on the spot does not
+/// show as the words say.
+fn is_elsewhere(context: &StepContext, before: &CameraState, target: &Target) -> bool {
+    let world = context.world;
+    let is_new = context.earlier.as_ref().is_none_or(|earlier| earlier.ids.first() != target.ids.first());
+    let stays = context.forbids_turning() || context.forbidden.contains(&Motion::Travel);
+    let framing = &context.step.end;
+    let turned = extent_frac(world, &aimed(world, before, target.aim), &target.corners);
+    is_new && !stays && !framing.subjects.is_empty() && (is_stated(framing) || turned.max_element() < TOO_SMALL)
 }
 
 /// Angle of a pan that is one all the way round.
