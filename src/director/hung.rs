@@ -2,7 +2,7 @@
 //!
 //! `Picture` is also what a film shows, so the network of names leaves many of them out.
 
-use cinesplat_language::{Mention, NamedObject, is_listed, tokenize};
+use cinesplat_language::{Mention, NamedObject, Word, is_listed, tokenize};
 
 use crate::explained::{head, insert_mention};
 use crate::names::FoundMention;
@@ -38,7 +38,7 @@ pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut V
         let is_placed = is_listed(PLACES, text(at + 1)) && !matches!(text(at + 3), "screen" | "camera" | "end");
         let span = [words[article].span[0], words[at].span[1]];
         let is_linked = found.iter().any(|found| found.mention.bytes[0] < span[1] && span[0] < found.mention.bytes[1]);
-        if looks && (is_placed || !words.get(at + 1).is_some_and(|word| word.is_alphabetic())) && !is_linked {
+        if looks && (is_placed || !words.get(at + 1).is_some_and(Word::is_alphabetic)) && !is_linked {
             insert_mention(found, Mention { bytes: span, ids: ids.clone() });
         }
     }

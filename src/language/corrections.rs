@@ -79,6 +79,9 @@ impl Linked {
     /// `None` for prompts without one, or whose correction replaces nothing that is built alike.
     #[must_use]
     pub fn corrected(&self) -> Option<Self> {
+        if let Some(reversed) = self.reversed() {
+            return Some(reversed);
+        }
         let words: Vec<(&str, [usize; 2])> = self.words_in([0, usize::MAX]).collect();
         let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
         let [from, to] = (0..texts.len()).rev().find_map(|at| correction_at(&texts, at))?;
@@ -89,6 +92,46 @@ impl Linked {
         (self.slots.is_empty() || !corrected.slots.is_empty()).then_some(corrected)
     }
 }
+
+impl Linked {
+    /// The words with the two things before `other way round` exchanged: `turn from the palm to the guitar, no sorry, other way round,
+    /// guitar to palm`. `None` for prompts without that.
+    fn reversed(&self) -> Option<Self> {
+        let mut words: Vec<(&str, [usize; 2])> = self.words_in([0, usize::MAX]).collect();
+        let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let round =
+            texts.windows(3).position(|three| matches!(three, ["other", "way", "round" | "around" | "about"]))?;
+        let is_filler = |at: &usize| MARKS.contains(&texts[*at]) || REVERSALS.contains(&texts[*at]);
+        let from = round - (0..round).rev().take_while(is_filler).count();
+        if !texts[from..round].iter().any(|word| REVERSALS[..8].contains(word)) {
+            return None;
+        }
+        let is_thing = |at: &usize| texts[*at].starts_with(OBJECT);
+        let second = (0..from).rev().find(is_thing)?;
+        let first = (0..second)
+            .rev()
+            .find(is_thing)
+            .filter(|first| second - first < 5 && texts[*first..second].contains(&"to"))?;
+        let mut to = round + 3;
+        // What is said again.
+        let again: Vec<usize> =
+            (to..texts.len()).take(7).take_while(|at| !matches!(texts[*at], "." | ";" | "!")).collect();
+        let named: Vec<usize> = again.iter().copied().filter(|at| is_thing(at)).collect();
+        if let [one, other] = named[..]
+            && (texts[one], texts[other]) == (texts[second], texts[first])
+        {
+            to = other + 1;
+        }
+        let (one, other) = (words[first].0, words[second].0);
+        (words[first].0, words[second].0) = (other, one);
+        let kept = (0..from).chain(to..words.len()).map(|at| words[at]);
+        Some(self.of_words(kept.collect::<Vec<_>>().into_iter(), None))
+    }
+}
+
+/// What people say before they turn a way around, and words beside it.
+const REVERSALS: [&str; 12] =
+    ["no", "sorry", "wait", "actually", "rather", "mean", "scratch", "oops", "the", "i", "or", "that"];
 
 /// The words of the denial of a thing that begins at word `at`, in brackets or before `.. I mean`.
 fn denied_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
@@ -190,5 +233,19 @@ mod tests {
             plates.map(|text| text.replace("for", "for the"))
         );
         assert_eq!(corrected("go for <obj-0> , no wait , not so fast"), None);
+    }
+
+    #[test]
+    fn a_way_is_turned_around() {
+        let reversed = |text: &str| {
+            let spans = (0..text.split(' ').count()).map(|at| [at, at]).collect();
+            let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![7, 4], ..Linked::default() };
+            linked.corrected().map(|linked| (linked.tokens_text, linked.slots))
+        };
+        let turned = Some(("turn from <obj-0> to <obj-1> . just turn".to_owned(), vec![4, 7]));
+        let said = "turn from <obj-0> to <obj-1> , no sorry , other way round , <obj-1> to <obj-0> . just turn";
+        assert_eq!(reversed(said), turned);
+        assert_eq!(reversed("turn from <obj-0> to <obj-1> , or rather the other way round . just turn"), turned);
+        assert_eq!(reversed("go from <obj-0> to <obj-1> the other way round"), None);
     }
 }

@@ -5,18 +5,18 @@ use std::borrow::Cow;
 use super::tokenizer::{Word, is_listed, tokenize, word_at};
 
 /// What people say for marks.
-const MARKS: [(&[&str], char); 11] = [
-    (&["full", "stop"], '.'),
-    (&["new", "paragraph"], '.'),
-    (&["new", "para"], '.'),
-    (&["new", "line"], '.'),
-    (&["new", "sentence"], '.'),
-    (&["period"], '.'),
-    (&["comma"], ','),
-    (&["semicolon"], ';'),
-    (&["question", "mark"], '?'),
-    (&["exclamation", "mark"], '!'),
-    (&["exclamation", "point"], '!'),
+const MARKS: [(&[&str], u8); 11] = [
+    (&["full", "stop"], b'.'),
+    (&["new", "paragraph"], b'.'),
+    (&["new", "para"], b'.'),
+    (&["new", "line"], b'.'),
+    (&["new", "sentence"], b'.'),
+    (&["period"], b'.'),
+    (&["comma"], b','),
+    (&["semicolon"], b';'),
+    (&["question", "mark"], b'?'),
+    (&["exclamation", "mark"], b'!'),
+    (&["exclamation", "point"], b'!'),
 ];
 /// Words before them by which they are no marks.
 const NAMES: &str = "a an the to complete this that your our my at";
@@ -46,18 +46,15 @@ pub fn without_dictation(prompt: &str) -> Cow<'_, str> {
     let mut at = 0;
     while at < words.len() {
         let said = MARKS.iter().find(|(phrase, _)| says(at, phrase));
-        match said.filter(|_| !is_noun(at)) {
-            Some((phrase, mark)) => {
-                write(&words[at..at + phrase.len()], *mark as u8);
-                at += phrase.len();
-            }
-            None => {
-                if FILLERS.contains(&word_at(&words, at)) {
-                    write(&words[at..=at], b' ');
-                }
-                at += 1;
-            }
+        if let Some((phrase, mark)) = said.filter(|_| !is_noun(at)) {
+            write(&words[at..at + phrase.len()], *mark);
+            at += phrase.len();
+            continue;
         }
+        if FILLERS.contains(&word_at(&words, at)) {
+            write(&words[at..=at], b' ');
+        }
+        at += 1;
     }
     String::from_utf8(bytes).map_or(Cow::Borrowed(prompt), Cow::Owned)
 }

@@ -1,9 +1,12 @@
 //! Things that the words tell by the side on which they are: `the left lamp`, `the lamp on the right`, `the right-hand one`.
 
-use cinesplat_language::{Word, is_listed, tokenize};
+use std::collections::BTreeSet;
+
+use cinesplat_language::{Mention, NamedObject, Word, is_listed, tokenize};
 use glam::DVec3;
 
 use super::extent::Places;
+use crate::explained::{content, label, said};
 
 /// A side, as somebody sees it who looks from the middle of the place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,6 +51,33 @@ pub(crate) fn outermost(places: Places<'_>, ids: &[u32], flank: Flank) -> Option
     let by_side = |a: &&(u32, DVec3), b: &&(u32, DVec3)| a.1.dot(right).total_cmp(&b.1.dot(right));
     let one = if flank == Flank::Left { own.iter().min_by(by_side) } else { own.iter().max_by(by_side) };
     one.map(|(id, _)| *id).filter(|_| own.len() > 1)
+}
+
+/// The one of several things of a kind that is on the side that the words tell: `the left lamp`.
+pub(super) fn flanking(
+    prompt: &str,
+    objects: &[NamedObject],
+    places: Places<'_>,
+    mention: &Mention,
+    alike: &[u32],
+) -> Option<Vec<u32>> {
+    let mut words = tokenize(said(prompt, mention));
+    let behind = tokenize(prompt.get(mention.bytes[1]..).unwrap_or_default());
+    // `The lamp on the left`, and not `on the left third`.
+    let side = behind.get(2).is_some_and(|word| is_listed("left right", &word.text));
+    let ends =
+        behind.get(3).is_none_or(|word| !word.is_alphabetic() || is_listed("and then to so until with", &word.text));
+    if side && ends && alike.len() > 1 {
+        words.extend(behind.iter().take(3).cloned());
+    }
+    let flank = told_flank(&words)?;
+    let own = mention.ids.first().and_then(|id| label(objects, *id)).map(content)?;
+    // Of several kinds the one of which there are several.
+    let called = |id: &u32| label(objects, *id).map(content).unwrap_or_default();
+    let of = |kind: &BTreeSet<String>| -> Vec<u32> { alike.iter().copied().filter(|id| called(id) == *kind).collect() };
+    let twins = || alike.iter().map(|id| of(&called(id))).find(|twins| twins.len() == 2);
+    let kind = Some(of(&own)).filter(|kind| kind.len() > 1).or_else(twins).unwrap_or_else(|| alike.to_vec());
+    outermost(places, &kind, flank).map(|id| vec![id])
 }
 
 /// Words of the largest of several things, and of the smallest.

@@ -11,8 +11,8 @@ use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tok
 
 pub use extent::Places;
 use extent::{Relation, boxes, cornermost, fit};
-use flanks::of_size;
 pub(crate) use flanks::{Flank, outermost, told_flank};
+use flanks::{flanking, of_size};
 use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_way};
 
 use crate::explained::{content, head, is_number, label, said};
@@ -105,35 +105,6 @@ fn absorb_place(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMent
     }
 }
 
-/// The one of several things of a kind that is on the side that the words tell: `the left lamp`.
-fn flanking(
-    prompt: &str,
-    objects: &[NamedObject],
-    places: Places<'_>,
-    mention: &Mention,
-    alike: &[u32],
-) -> Option<Vec<u32>> {
-    let mut words = tokenize(said(prompt, mention));
-    let behind = tokenize(prompt.get(mention.bytes[1]..).unwrap_or_default());
-    // `The lamp on the left`, and not `on the left third`.
-    let side = behind.get(2).is_some_and(|word| is_listed("left right", &word.text));
-    let ends =
-        behind.get(3).is_none_or(|word| !word.is_alphabetic() || is_listed("and then to so until with", &word.text));
-    if side && ends && alike.len() > 1 {
-        words.extend(behind.iter().take(3).cloned());
-    }
-    let flank = told_flank(&words)?;
-    let own = mention.ids.first().and_then(|id| label(objects, *id)).map(content)?;
-    // Of several kinds the one of which there are several.
-    let called = |id: &u32| label(objects, *id).map(content).unwrap_or_default();
-    let of = |kind: &std::collections::BTreeSet<String>| -> Vec<u32> {
-        alike.iter().copied().filter(|id| called(id) == *kind).collect()
-    };
-    let twins = || alike.iter().map(|id| of(&called(id))).find(|twins| twins.len() == 2);
-    let kind = Some(of(&own)).filter(|kind| kind.len() > 1).or_else(twins).unwrap_or_else(|| alike.to_vec());
-    outermost(places, &kind, flank).map(|id| vec![id])
-}
-
 /// Whether words name one thing and neither another one nor any of its kind.
 fn is_one(words: &str) -> bool {
     let words = tokenize(words);
@@ -217,6 +188,13 @@ fn placed(
     fits.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut ids: Vec<u32> = match (is_plural, count) {
         (_, Some(count)) => fits.iter().take(count).map(|fit| fit.1).collect(),
+        // Of several pictures over a sofa the large one.
+        (false, None) if relation == Relation::Above && is_listed(HUNG, &last.stem) => {
+            let over: Vec<u32> =
+                fits.iter().filter(|(misfit, _, width)| *misfit < ASIDE * width).map(|fit| fit.1).collect();
+            of_size(places, &format!("large {}", last.stem), &over)
+                .unwrap_or_else(|| fits.iter().take(1).map(|fit| fit.1).collect())
+        }
         (false, None) => fits.iter().take(1).map(|fit| fit.1).collect(),
         (true, None) if matches!(relation, Relation::Under | Relation::Above) => {
             fits.iter().filter(|(misfit, _, width)| *misfit < ASIDE * width).map(|fit| fit.1).collect()

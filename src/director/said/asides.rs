@@ -1,9 +1,9 @@
 //! What clauses beside a move say of how the camera is, and no move of their own: `lens just above the tabletop`, `camera at half of
-//! the neck`, `hold that two seconds`, `until the bed is symmetrical in frame`, `creep in ten percent`.
+//! the neck`, `hold that two seconds`, `creep in ten percent`, `golden light from the windows`.
 
 use cinesplat_language::{Linked, QuantityKind, is_listed};
-use cinesplat_operator::{Amount, Framing, Step, SubjectSide};
-use cinesplat_trajectory::{Move, ShotAngle};
+use cinesplat_operator::{Amount, Framing, Program, Step};
+use cinesplat_trajectory::Move;
 
 use super::briefs::is_camera_verb;
 use super::directions::is_form;
@@ -71,28 +71,6 @@ pub(crate) fn hold_what_is_there(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
-/// Words of a picture that is the same on both sides.
-const SYMMETRIC: &str = "symmetrical symmetric symmetry symmetrically";
-
-/// Sees its subject from the front where the picture is to be symmetrical.
-pub(crate) fn face_symmetric(linked: &Linked, steps: &mut [Step]) {
-    for step in steps.iter_mut().filter(|step| !matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight)) {
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let at = words.iter().position(|word| is_listed(SYMMETRIC, word));
-        let Some(at) = at.filter(|_| step.end.side.is_none() && !step.end.subjects.is_empty()) else { continue };
-        step.end.side = Some(SubjectSide::FromFront);
-        // The thing that the words call so is the first one.
-        let named = words[..at].iter().rev().take(3).find_map(|word| linked.slot_at(word));
-        if let Some(id) = named.map(|id| linked.expanded(&[id])).filter(|ids| ids.len() == 1).map(|ids| ids[0])
-            && let Some(place) = linked.expanded(&step.end.subjects).iter().position(|own| *own == id)
-        {
-            let mut subjects = linked.expanded(&step.end.subjects);
-            subjects.swap(0, place);
-            step.end.subjects = subjects;
-        }
-    }
-}
-
 /// Goes in or out by a share of the way, which is no size of the subject: `creep in ten percent`.
 pub(crate) fn move_by_share(linked: &Linked, steps: &mut [Step]) {
     for step in steps
@@ -115,49 +93,27 @@ pub(crate) fn move_by_share(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
-/// Shows what a step is about, whatever was read as avoided: nothing is hidden in its own picture.
-pub(crate) fn show_subjects(linked: &Linked, steps: &mut [Step]) {
-    for step in steps {
-        let shown = linked.expanded(&[&step.start.subjects[..], &step.end.subjects[..]].concat());
-        if !step.end.hidden && !step.start.hidden {
-            step.avoid.retain(|id| !linked.expanded(&[*id]).iter().any(|id| shown.contains(id)));
-        }
-    }
-}
+/// Words of the length of a film, which the network takes for that of its first step.
+const FILMS: &str = "trailer teaser film video clip reel spot promo ad opener";
 
-/// Rolls a picture at rest whose words roll the camera by an angle: `look at the bed and slowly roll over 15 degrees`.
-pub(crate) fn roll_as_said(linked: &Linked, steps: &mut [Step]) {
-    for step in steps.iter_mut().filter(|step| step.movement == Move::Static && step.with.is_empty()) {
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let rolls = words.iter().any(|word| is_form(word, "roll"));
-        if rolls && matches!(step.amount, Some(Amount::Degrees(_))) {
-            let says = |list: &str| words.iter().any(|word| is_listed(list, word));
-            let (left, right) = (says("left anticlockwise counterclockwise"), says("right clockwise"));
-            step.movement = if left && !right { Move::RollCcw } else { Move::RollCw };
-            step.either_way = left == right;
-        }
-    }
-}
-
-/// Rests on what a travel begins and ends with: there is no way between.
-pub(crate) fn rest_where_nothing_leads(steps: &mut [Step]) {
-    for step in steps.iter_mut().filter(|step| step.movement == Move::Follow && step.via.is_none()) {
-        let plain = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
-        let is_there = step.start == plain && step.end == plain && !plain.subjects.is_empty();
-        if is_there && step.with.is_empty() && step.look.is_none() && !step.returns {
-            (step.movement, step.start) = (Move::Static, Framing::default());
-        }
-    }
-}
-
-/// Looks down at last where a rise ends on what is seen from above: `then lift so both are seen together from above`.
-pub(crate) fn look_down_from_above(linked: &Linked, steps: &mut [Step]) {
-    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::PedestalUp | Move::CraneUp)) {
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let is_open = step.end.angle.is_none() && step.end.elevation_deg.is_none() && !step.end.subjects.is_empty();
-        if is_open && words.windows(2).any(|pair| matches!(pair, ["from", "above" | "overhead"])) {
-            (step.movement, step.end.angle) = (Move::CraneUp, Some(ShotAngle::High));
-        }
+/// Gives a length in a first sentence that names the film to all of it: `trailer, first ten seconds or so. You get up ..`.
+pub(crate) fn time_title(linked: &Linked, program: &mut Program) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let end = words.iter().position(|word| matches!(*word, "." | "!")).unwrap_or(words.len());
+    let title = &words[..end];
+    let is_title = title.iter().any(|word| is_listed(FILMS, word))
+        && !title.iter().any(|word| linked.slot_at(word).is_some())
+        && !(0..title.len()).any(|at| is_camera_verb(title, at));
+    let Some(secs) = title.iter().find_map(|word| linked.secs_at(word)).filter(|_| is_title && end < words.len())
+    else {
+        return;
+    };
+    let timed = program.steps.iter().filter(|step| step.duration_secs.is_some()).count();
+    if let Some(first) = program.steps.first_mut().filter(|_| timed == 1)
+        && first.duration_secs.is_some_and(|own| (own - secs).abs() < 1e-9)
+    {
+        first.duration_secs = None;
+        program.duration_secs = program.duration_secs.or(Some(secs));
     }
 }
 
@@ -181,40 +137,6 @@ pub(crate) fn drop_light(linked: &Linked, direction: &mut Direction) {
             && !(0..words.len()).any(|at| is_camera_verb(&words, at))
         {
             direction.remove_step(nth);
-        }
-    }
-}
-
-/// Shows all of what bears the things that are listed with everything on it, and not these alone: `the table with the bread, the books
-/// and all that lies on it`.
-pub(crate) fn show_bearer(linked: &Linked, steps: &mut [Step]) {
-    for step in steps {
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let is_all = |at: usize| {
-            is_listed("all everything rest anything", words[at])
-                && words[at..]
-                    .iter()
-                    .take(8)
-                    .collect::<Vec<_>>()
-                    .windows(2)
-                    .any(|pair| *pair[0] == "on" && matches!(*pair[1], "it" | "top" | "there"))
-        };
-        let Some(all) = (0..words.len()).find(|at| is_all(*at)) else { continue };
-        let Some(with) = words[..all].iter().position(|word| matches!(*word, "with" | "including")) else { continue };
-        let Some(bearer) = words[..with].iter().rev().find_map(|word| linked.slot_at(word)) else { continue };
-        let ids = linked.expanded(&[bearer]);
-        let listed: Vec<u32> = words[with..all].iter().filter_map(|word| linked.slot_at(word)).collect();
-        let listed = linked.expanded(&listed);
-        let shown = linked.expanded(&step.end.subjects);
-        let is_of_list = !shown.is_empty() && shown.iter().all(|id| ids.contains(id) || listed.contains(id));
-        if ids.len() == 1 && is_of_list && shown != ids {
-            step.end.subjects.clone_from(&ids);
-            step.end.whole = true;
-            if !step.start.subjects.is_empty()
-                && linked.expanded(&step.start.subjects).iter().all(|id| listed.contains(id))
-            {
-                step.start.subjects = ids;
-            }
         }
     }
 }
@@ -256,14 +178,6 @@ mod tests {
     }
 
     #[test]
-    fn a_symmetrical_picture_is_seen_from_the_front() {
-        let text = "pull back until <obj-1> is symmetrical in frame with <obj-0>";
-        let mut steps = [about(Move::PullOut, &[5, 7], [0, text.len()])];
-        face_symmetric(&linked(text), &mut steps);
-        assert_eq!((steps[0].end.side, &steps[0].end.subjects[..]), (Some(SubjectSide::FromFront), &[7, 5][..]));
-    }
-
-    #[test]
     fn a_share_of_the_way_is_no_size() {
         let amount = |text: &str| {
             let ten = Quantity { kind: QuantityKind::Percent, value: 10.0 };
@@ -278,38 +192,6 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_hidden_in_its_own_picture() {
-        let mut steps = [Step { avoid: vec![5, 9], ..about(Move::Static, &[5], [0, 1]) }];
-        show_subjects(&linked("hold"), &mut steps);
-        assert_eq!(steps[0].avoid, [9]);
-    }
-
-    #[test]
-    fn a_camera_that_is_rolled_does_not_rest() {
-        let text = "look at <obj-0> and slowly roll the camera <qty-0>";
-        let held = Step { amount: Some(Amount::Degrees(15.0)), ..about(Move::Static, &[5], [0, text.len()]) };
-        let mut steps = [held];
-        roll_as_said(&linked(text), &mut steps);
-        assert_eq!((steps[0].movement, steps[0].either_way), (Move::RollCw, true));
-    }
-
-    #[test]
-    fn a_way_from_a_thing_to_itself_is_a_rest() {
-        let start = Framing { subjects: vec![5], ..Framing::default() };
-        let mut steps = [Step { start, ..about(Move::Follow, &[5], [0, 1]) }];
-        rest_where_nothing_leads(&mut steps);
-        assert_eq!(steps[0].movement, Move::Static);
-    }
-
-    #[test]
-    fn what_is_seen_from_above_is_looked_down_on() {
-        let text = "then lift so <obj-0> are seen from above";
-        let mut steps = [about(Move::PedestalUp, &[5], [0, text.len()])];
-        look_down_from_above(&linked(text), &mut steps);
-        assert_eq!((steps[0].movement, steps[0].end.angle), (Move::CraneUp, Some(ShotAngle::High)));
-    }
-
-    #[test]
     fn light_from_a_window_is_no_picture_of_it() {
         let text = "push in on <obj-0> , golden light from <obj-1>";
         let steps = vec![about(Move::PushIn, &[5], [0, 18]), about(Move::Static, &[7], [20, text.len()])];
@@ -319,13 +201,13 @@ mod tests {
     }
 
     #[test]
-    fn a_table_with_all_that_is_on_it_is_the_table() {
-        let shown = |text: &str| {
-            let mut steps = [about(Move::PedestalUp, &[5, 7], [0, text.len()])];
-            show_bearer(&linked(text), &mut steps);
-            steps[0].end.subjects.clone()
-        };
-        assert_eq!(shown("view of <obj-0> with <obj-1> and all that lies on it in the picture"), [5]);
-        assert_eq!(shown("view of <obj-0> with <obj-1>"), [5, 7]);
+    fn the_length_of_a_title_is_that_of_the_film() {
+        let text = "escape room trailer , first <qty-0> or so . pedestal up <obj-0>";
+        let ten = Quantity { kind: QuantityKind::Seconds, value: 10.0 };
+        let linked = Linked { quantities: vec![ten], ..linked(text) };
+        let step = Step { duration_secs: Some(10.0), ..about(Move::PedestalUp, &[5], [0, text.len()]) };
+        let mut program = Program { steps: vec![step], ..Program::default() };
+        time_title(&linked, &mut program);
+        assert_eq!((program.steps[0].duration_secs, program.duration_secs), (None, Some(10.0)));
     }
 }

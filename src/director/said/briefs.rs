@@ -27,7 +27,7 @@ const VERBS: [&str; 78] = [
 const WORDS: &str = "shot shots close-up closeup closeups close-ups cu ecu mcu ws ms wide wider medium tight tighter macro \
     angle view views overhead bird's top-down eye-level low high framing static tripod locked lock-off lockoff fixed off-axis front side profile foreground sharp handheld steadicam drone \
     gimbal lens zoom pov establishing turntable degrees clockwise anticlockwise counterclockwise closer nearer towards \
-    toward around round past along through cut cuts camera stills photo photograph picture snapshot frozen motionless \
+    toward around round past along through cut cuts planted camera stills photo photograph picture snapshot frozen motionless \
     first then next finally backwards forwards backward forward sideways left right away";
 /// Verbs whose `up` or `down` is no way: `somewhere you'd never get up`.
 const NO_WAYS: &str = "turns turned \

@@ -21,6 +21,7 @@ mod fixture;
 mod heights;
 mod lengths;
 mod levels;
+mod looks;
 mod moods;
 mod named_times;
 mod narrated;
@@ -50,6 +51,7 @@ mod wishes;
 
 use cinesplat_language::{Linked, Senses};
 use cinesplat_objects::Object;
+use cinesplat_operator::Step;
 
 pub(crate) use bans::asks_for;
 pub(crate) use briefs::directs;
@@ -137,20 +139,27 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     ranges::zoom_between_lenses(linked, direction);
     circles::close_circles(linked, direction);
     circles::join_said_again(linked, direction);
-    let steps = &mut direction.program.steps;
+    take_said_of_pictures(linked, &mut direction.program.steps);
+    take_said_of_moves(linked, direction);
+    Ok(())
+}
+
+/// Corrects the pictures of steps by what the words say plainly of how they look.
+fn take_said_of_pictures(linked: &Linked, steps: &mut [Step]) {
     circles::turn_all_round(linked, steps);
     splits::walk_as_far(linked, steps);
     sides::go_round_to_sides(linked, steps);
     ranges::take_ranges(linked, steps);
     ranges::take_field_of_view(linked, steps);
     asides::hold_what_is_there(linked, steps);
-    asides::face_symmetric(linked, steps);
+    looks::face_symmetric(linked, steps);
     asides::move_by_share(linked, steps);
-    asides::show_subjects(linked, steps);
-    asides::roll_as_said(linked, steps);
-    asides::rest_where_nothing_leads(steps);
-    asides::look_down_from_above(linked, steps);
-    asides::show_bearer(linked, steps);
+    looks::show_subjects(linked, steps);
+    looks::roll_as_said(linked, steps);
+    looks::reveal_by_leaving(linked, steps);
+    looks::rest_where_nothing_leads(steps);
+    looks::look_down_from_above(linked, steps);
+    looks::show_bearer(linked, steps);
     open::return_to_first(linked, steps);
     open::turn_by_parts(linked, steps);
     openings::level_frontal_views(linked, steps);
@@ -164,8 +173,6 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     facing::rest_up_close(linked, steps);
     facing::look_down_on_tops(linked, steps);
     directions::lead_between_ends(linked, steps);
-    take_said_of_moves(linked, direction);
-    Ok(())
 }
 
 /// Corrects the moves of a direction, whose pictures are settled, by what the words say plainly.
@@ -205,6 +212,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     specified::skim_tops(linked, objects, &mut direction.program.steps);
     repeats::drop_restated(direction);
     lengths::take_total(linked, direction);
+    asides::time_title(linked, &mut direction.program);
     arrivals::end_at_stops(linked, &mut direction.program.steps);
     if !narrated::film_narrated(linked, direction) && !wishes::film_wishes(linked, objects, direction) {
         briefs::film_briefs(linked, objects, direction);

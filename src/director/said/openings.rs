@@ -123,7 +123,9 @@ pub(crate) fn rise_overhead(linked: &Linked, steps: &mut [Step]) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_open = step.start == Framing::default() && step.end.angle == Some(ShotAngle::Overhead);
         let says = |list: &[&str]| words.iter().any(|word| list.contains(word));
-        if is_open && !step.end.subjects.is_empty() && says(&OVERHEADS) && !says(&LEADS) {
+        // `Up over the plant and look down on it like a bird`.
+        let looks_last = words.windows(2).any(|pair| matches!(pair, ["and" | ",", "look"]));
+        if is_open && !step.end.subjects.is_empty() && says(&OVERHEADS) && !says(&LEADS) && !looks_last {
             step.start.angle = step.end.angle;
             step.start.subjects.clone_from(&step.end.subjects);
         }

@@ -194,7 +194,12 @@ fn neared(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
             && (text(at + 1) == "in" || matches!(text(at + 1), "closer" | "nearer"))
             && matches!(text(at + 2), "on" | "to" | "toward" | "towards" | "" | "," | "." | "slowly")
     };
-    let at = (0..words.len()).find(|at| nears(at) && begins(&words, *at))?;
+    // `.. the door, creeping towards it`.
+    let creeps = |at: &usize| {
+        let is_verb = NEARS.iter().chain(&["walk"]).any(|verb| is_form(text(*at), verb));
+        is_verb && matches!(text(at + 1), "toward" | "towards") && matches!(text(at + 2), "it" | "them")
+    };
+    let at = (0..words.len()).find(|at| (nears(at) || creeps(at)) && begins(&words, *at))?;
     let [first, second] = parted(step, &words, at)?;
     let named = words[at..].iter().find_map(|(word, _)| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
     if named.is_some_and(|ids| ids != step.end.subjects) {
@@ -362,6 +367,7 @@ mod tests {
         let whip = || Step { end: about(5), ..Step::of(Move::WhipPan) };
         let steps = split("whip over to <obj-0> and move in on it to finish", whip());
         assert_eq!([steps[0].movement, steps[1].movement], [Move::WhipPan, Move::PushIn]);
+        assert_eq!(split("turn to <obj-0> , creeping towards it", whip()).len(), 2);
         assert_eq!(split("whip over to <obj-0> and move in on <obj-1>", whip()).len(), 1);
         let push = Step { end: about(5), amount: Some(Amount::Degrees(90.0)), ..Step::of(Move::PushIn) };
         let steps = split("go on to <obj-0> , and finish with <qty-0> arc around that", push);

@@ -71,10 +71,8 @@ pub(crate) fn visit_in_turn(linked: &Linked, direction: &mut Direction) {
         let is_picture = matches!(step.movement, Move::Static | Move::Follow | Move::PushIn) && step.with.is_empty();
         let is_open = step.end.size.is_none() && step.start.subjects.is_empty() && step.via.is_none();
         let num_steps = direction.program.steps.len() + shown.len();
-        if !(is_picture && is_open && says_any(&words, &IN_TURN))
-            || !(2..=4).contains(&shown.len())
-            || num_steps > MAX_STEPS
-        {
+        let is_list = (2..=4).contains(&shown.len()) && num_steps <= MAX_STEPS;
+        if !(is_picture && is_open && is_list && says_any(&words, &IN_TURN)) {
             continue;
         }
         let framed = |id: u32| Framing { subjects: vec![id], ..Framing::default() };

@@ -33,7 +33,7 @@ const STOPS: [&str; 12] =
 /// Words of people who know cameras.
 const TRADE: &str = "sideways backward backwards forward forwards overhead top-down topdown handheld steadicam drone gimbal lens \
     degrees clockwise counterclockwise anticlockwise pov profile foreground close-up closeup cu ecu mcu ws ms shot shots angle low high \
-    bird's tripod static locked frame picture view rotation stroll strolls join joins put together";
+    bird's tripod static locked planted snap frame picture view rotation stroll strolls join joins put together";
 /// Verbs of a camera that goes somewhere, and their ways.
 const GOES: [&str; 11] = ["go", "come", "step", "back", "get", "bring", "ease", "pull", "draw", "edge", "inch"];
 const WAYS: &str = "in over from across down up back out away off closer";
@@ -96,7 +96,7 @@ pub(crate) fn film_wishes(linked: &Linked, objects: &[Object], direction: &mut D
         None => of_scene(stations::stations(&text, linked, &things, &denied), &things, (&manner, &linked.spans)),
     };
     let Some(mut steps) = steps else { return false };
-    let ends_whole = text.has(0..text.words.len(), "whole entire full complete");
+    let ends_whole = !linked.wholes.is_empty() || text.has(0..text.words.len(), "whole entire full complete");
     if let Some(one) = one_move(&text.words, &steps, manner.speed).filter(|_| ends_whole) {
         steps = vec![one];
     }
