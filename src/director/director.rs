@@ -4,7 +4,8 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_parts, part_of,
-    scenery, tokenize, without_arrows, without_camera_settings, without_frame_shape, with_dictated_marks, without_tolerances,
+    scenery, tokenize, with_dictated_marks, without_arrows, without_camera_settings, without_frame_shape,
+    without_tolerances,
 };
 use cinesplat_objects::Object;
 use cinesplat_operator::{Program, StepCameras};
@@ -18,9 +19,7 @@ use crate::compositions::direct_composed;
 use crate::decoding::{Choice, DecodedPrompt, KeyCertainty, WordRules, decode};
 use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
-use crate::explained::{
-    drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, point_back, point_ones,
-};
+use crate::explained::{drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, point_back, point_ones};
 use crate::frame::SceneFrame;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};

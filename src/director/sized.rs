@@ -22,7 +22,8 @@ pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Place
         let (is_big, is_small) = (says(BIG), says(SMALL));
         let own = label(objects, id).unwrap_or_default();
         let is_one = told.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
-        let is_sized = |label: &str| tokenize(label).iter().any(|word| is_listed(BIG, &word.text) || is_listed(SMALL, &word.text));
+        let is_sized =
+            |label: &str| tokenize(label).iter().any(|word| is_listed(BIG, &word.text) || is_listed(SMALL, &word.text));
         let contradicts = |label: &str| {
             let words = tokenize(label);
             words.iter().any(|word: &Word| is_listed(if is_big { SMALL } else { BIG }, &word.text))
@@ -57,7 +58,12 @@ mod tests {
 
     #[test]
     fn the_big_one_of_a_kind_is_not_the_small_one() {
-        let labels = [(1, "pink small plant", 0.1), (2, "white potted plant", 0.4), (3, "blue mug 1", 0.1), (4, "blue mug 2", 0.2)];
+        let labels = [
+            (1, "pink small plant", 0.1),
+            (2, "white potted plant", 0.4),
+            (3, "blue mug 1", 0.1),
+            (4, "blue mug 2", 0.2),
+        ];
         let objects = labels.map(|(id, label, half)| Object::from_box(id, label, DVec3::ZERO, DVec3::splat(half)));
         let names: Vec<NamedObject> =
             objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();

@@ -120,8 +120,8 @@ mod unknown;
 
 pub use blanks::blanked;
 pub use chain::without_arrows;
-pub use edit_distance::edit_distance;
 pub use dictation::with_dictated_marks;
+pub use edit_distance::edit_distance;
 pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
 pub use error::LanguageError;
 pub use forbidding::forbidding_words;

@@ -57,10 +57,16 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
 
 /// `Follow the light from the window to the bed`: what comes in, and no lamp.
 fn is_light(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
-    let is_named = words[first..end].iter().all(|word| is_listed("the a that this light lights sunlight morning evening", &word.text));
+    let is_named = words[first..end]
+        .iter()
+        .all(|word| is_listed("the a that this light lights sunlight morning evening", &word.text));
     let article = first + usize::from(is_listed("the that this", word_at(words, first)));
     let before = article.checked_sub(1).map_or("", |before| word_at(words, before));
-    let before = if is_listed("the that this", before) { article.checked_sub(2).map_or("", |at| word_at(words, at)) } else { before };
+    let before = if is_listed("the that this", before) {
+        article.checked_sub(2).map_or("", |at| word_at(words, at))
+    } else {
+        before
+    };
     let is_label = objects.iter().any(|object| tokenize(&object.label).iter().any(|word| word.stem == "light"));
     is_named && !is_label && is_listed("follow follows following chase chasing with in like as catch catching", before)
 }

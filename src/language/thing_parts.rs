@@ -121,7 +121,9 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
 
 /// Whether words name an end of something: `the very bottom`.
 fn is_end(words: &[Word]) -> bool {
-    words.last().is_some_and(|word| is_listed("top bottom front back side end ends edge middle center centre", &word.text))
+    words
+        .last()
+        .is_some_and(|word| is_listed("top bottom front back side end ends edge middle center centre", &word.text))
 }
 
 /// The part of a thing of its own kind that begins at the first of some words, with the number of its words: `sole` of a

@@ -20,8 +20,7 @@ pub fn only_whole(objects: &[Object]) -> Option<&Object> {
         Some(most).filter(|most| most.num_gaussians as f64 >= WHOLE_FRAC * total as f64)
     } else {
         let largest = roots().max_by(|a, b| a.radius().total_cmp(&b.radius()))?;
-        let is_far_smaller =
-            |other: &Object| other.id == largest.id || other.radius() < SMALL_FRAC * largest.radius();
+        let is_far_smaller = |other: &Object| other.id == largest.id || other.radius() < SMALL_FRAC * largest.radius();
         Some(largest).filter(|_| roots().all(is_far_smaller))
     }?;
     let is_named = |other: &&Object| other.id != whole.id && !naming::is_description(&other.label);

@@ -153,7 +153,9 @@ pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) 
     let without = linked.without(&bytes, None);
     let (scenery, acts) = (std::mem::take(&mut linked.scenery), std::mem::take(&mut linked.acts));
     let mut warnings = std::mem::take(&mut linked.warnings);
-    warnings.extend(left.iter().map(|group| format!("\"{}\" is left out: no thing of this scene is called so", group.name)));
+    warnings.extend(
+        left.iter().map(|group| format!("\"{}\" is left out: no thing of this scene is called so", group.name)),
+    );
     *linked = Linked { scenery, acts, warnings, ..without };
 }
 
@@ -288,14 +290,10 @@ impl Scan<'_> {
 
     /// Those of some things whose guessed names have a color that the words say.
     fn of_color<'a>(&self, things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
-        let said: Vec<&str> = ALIKE
-            .iter()
-            .filter(|colors| words.iter().any(|word| is_listed(colors, &word.text)))
-            .copied()
-            .collect();
-        let has = |object: &&&Object| {
-            said.iter().any(|colors| object.label.split(' ').any(|word| is_listed(colors, word)))
-        };
+        let said: Vec<&str> =
+            ALIKE.iter().filter(|colors| words.iter().any(|word| is_listed(colors, &word.text))).copied().collect();
+        let has =
+            |object: &&&Object| said.iter().any(|colors| object.label.split(' ').any(|word| is_listed(colors, word)));
         things.iter().filter(has).copied().collect()
     }
 
@@ -387,7 +385,9 @@ mod tests {
     fn things_take_the_nouns_of_the_prompt_for_names() {
         let labels = |prompt: &str| -> Vec<String> {
             let named = named(prompt, &kitchen(), DVec3::Y);
-            named.map(|named| named.objects.objects.into_iter().map(|object| object.label).collect()).unwrap_or_default()
+            named
+                .map(|named| named.objects.objects.into_iter().map(|object| object.label).collect())
+                .unwrap_or_default()
         };
         let named = labels("from the blue cupboards to the teapots on the shelf");
         assert_eq!([&named[1], &named[2]], ["blue cupboard", "pink cupboard"]);

@@ -21,7 +21,8 @@ const GROUNDS: [&str; 10] =
 /// Labels of parts that are only places.
 const PLACES: &str = "top base bottom middle front back";
 /// How a thing is seen.
-const VIEWS: &str = "profile side view angle close-up closeup silhouette outline detail frame screen lens camera till until hole holes";
+const VIEWS: &str =
+    "profile side view angle close-up closeup silhouette outline detail frame screen lens camera till until hole holes";
 /// What people call a whole thing, which is no part of it.
 const WHOLES: &str = "plant tree palm houseplant flower instrument figure statue thing one";
 /// Words that make the name before them one of a kind of shop or film.
@@ -88,8 +89,11 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     let known: Vec<String> = objects.objects.iter().flat_map(|object| stems(&object.label)).collect();
     let is_known = |name: &str| stems(name).last().is_none_or(|head| known.contains(head));
     let is_own = |name: &str| prompt.to_lowercase().contains(&format!("its {}", name.to_lowercase()));
-    let mut found: Vec<String> =
-        linked.missing_groups().map(|group| plain_name(&group.name)).filter(|name| !is_known(name) && !is_own(name)).collect();
+    let mut found: Vec<String> = linked
+        .missing_groups()
+        .map(|group| plain_name(&group.name))
+        .filter(|name| !is_known(name) && !is_own(name))
+        .collect();
     let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty();
     let words = tokenize(prompt);
     let is_determined = |at: usize| {
@@ -101,7 +105,12 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         |at: usize| words.get(at + 1).is_none_or(|next| !is_kind(&next.text) && !is_listed(WARES, &next.text));
     let is_name = |at: &usize| {
         let word = &words[*at].text;
-        is_kind(word) && !is_listed(WARES, word) && !is_listed(VIEWS, word) && !is_known(word) && is_determined(*at) && is_alone(*at)
+        is_kind(word)
+            && !is_listed(WARES, word)
+            && !is_listed(VIEWS, word)
+            && !is_known(word)
+            && is_determined(*at)
+            && is_alone(*at)
     };
     for word in (0..words.len()).filter(is_name).map(|at| &words[at]) {
         if !found.iter().any(|name| stems(name).contains(&word.stem)) {

@@ -171,8 +171,21 @@ fn compared_at(linked: &Linked, words: &[&str], at: usize) -> Option<Mention> {
 
 /// Words that lead to a height, and words that lead from one.
 const TO: [&str; 15] = [
-    "to", "until", "till", "into", "reach", "reaches", "reaching", "ends", "ending", "finish", "finishes", "finishing",
-    "landing", "settling", "stopping",
+    "to",
+    "until",
+    "till",
+    "into",
+    "reach",
+    "reaches",
+    "reaching",
+    "ends",
+    "ending",
+    "finish",
+    "finishes",
+    "finishing",
+    "landing",
+    "settling",
+    "stopping",
 ];
 const FROM: [&str; 7] = ["from", "start", "starting", "begin", "beginning", "open", "opening"];
 /// Verbs of a camera that rises, and of one that sinks.

@@ -115,6 +115,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     endings::close_onto(linked, steps);
     endings::show_whole(linked, steps);
     endings::end_on_place(linked, steps);
+    endings::notice_place(linked, steps);
     endings::widen_again(linked, steps);
     stillness::circle_spirals(linked, steps);
     // What the rules above read from the words is taken back with the rest.

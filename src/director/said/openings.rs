@@ -289,7 +289,8 @@ pub(crate) fn drop_unnamed_starts(linked: &Linked, steps: &mut [Step]) {
     let named = linked.expanded(&linked.slots);
     for step in steps.iter_mut().filter(|step| !step.start.subjects.is_empty()) {
         if !step.start.subjects.iter().any(|id| named.contains(id) || linked.missing(*id).is_some()) {
-            step.start = Framing { subjects: Vec::new(), part: SubjectPart::Middle, whole: false, ..step.start.clone() };
+            step.start =
+                Framing { subjects: Vec::new(), part: SubjectPart::Middle, whole: false, ..step.start.clone() };
         }
     }
 }

@@ -131,7 +131,8 @@ impl Scanned<'_> {
             }
             let [from, to] = step.words.unwrap_or_default();
             let small = linked.parts.iter().any(|(bytes, part)| part.is_small && from <= bytes[0] && bytes[1] <= to);
-            let lifts = matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+            let lifts =
+                matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
             let words = linked.texts_in([from, to]);
             let is_closer = words.iter().any(|word| matches!(*word, "closer" | "nearer"))
                 && words.iter().all(|word| is_listed(CLOSER, word));
@@ -147,7 +148,8 @@ impl Scanned<'_> {
     fn slide_along(&self, linked: &Linked, step: &mut Step) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_way = matches!(step.movement, Move::TruckLeft | Move::TruckRight | Move::Follow | Move::FlyThrough);
-        let says = |way: &str| words.windows(2).any(|two| two[1] == way && SLIDES.iter().any(|verb| is_form(two[0], verb)));
+        let says =
+            |way: &str| words.windows(2).any(|two| two[1] == way && SLIDES.iter().any(|verb| is_form(two[0], verb)));
         let is_sideways = words.iter().any(|word| matches!(*word, "left" | "right" | "sideways" | "across"));
         let own = step.end.subjects.iter().all(|id| self.is_own(*id)) && !step.end.subjects.is_empty();
         if !is_way || is_sideways || !own || !self.is_upright() || step.returns {
@@ -167,10 +169,8 @@ impl Scanned<'_> {
             let over = words[at + 1..].iter().take(3).any(|word| *word == "over");
             over && (words[at] == "up" || CLIMBS.iter().any(|verb| is_form(words[at], verb)))
         });
-        let is_way = matches!(
-            step.movement,
-            Move::CraneUp | Move::PedestalUp | Move::FlyThrough | Move::Follow | Move::PushIn
-        );
+        let is_way =
+            matches!(step.movement, Move::CraneUp | Move::PedestalUp | Move::FlyThrough | Move::Follow | Move::PushIn);
         let over_it = step.via.as_ref().is_none_or(|via| {
             matches!(via.how, Pass::Over | Pass::Past | Pass::Along) && via.objects.iter().all(|id| self.is_own(*id))
         });
@@ -179,20 +179,15 @@ impl Scanned<'_> {
         if climbs && is_way && over_it && own && is_open && step.end.elevation_deg.is_none() {
             let size = step.end.size;
             (step.movement, step.via) = (Move::CraneUp, None);
-            step.end = Framing {
-                subjects: vec![self.whole.id],
-                angle: Some(ShotAngle::Overhead),
-                size,
-                ..Framing::default()
-            };
+            step.end =
+                Framing { subjects: vec![self.whole.id], angle: Some(ShotAngle::Overhead), size, ..Framing::default() };
         }
     }
 
     /// Frames both ends of a rise or descent from one end of the thing to the other as one thing, so that the camera keeps
     /// its distance and level. Says whether it is one.
     fn lead_from_end_to_end(&self, step: &mut Step, is_close: bool) -> bool {
-        let lifts =
-            matches!(step.movement, Move::PedestalUp | Move::PedestalDown | Move::CraneUp | Move::CraneDown);
+        let lifts = matches!(step.movement, Move::PedestalUp | Move::PedestalDown | Move::CraneUp | Move::CraneDown);
         let is_end = |framing: &Framing| {
             let is_open = framing.height_frac.is_none()
                 && framing.angle.is_none()
@@ -277,7 +272,8 @@ mod tests {
 
     #[test]
     fn a_slide_down_a_neck_sinks() {
-        let step = || Step { end: framing(3, SubjectPart::Bottom, None), either_way: true, ..Step::of(Move::TruckRight) };
+        let step =
+            || Step { end: framing(3, SubjectPart::Bottom, None), either_way: true, ..Step::of(Move::TruckRight) };
         assert_eq!(said("slide down it to the bridge", step()).movement, Move::PedestalDown);
         assert_eq!(said("slide left along it", step()).movement, Move::TruckRight);
     }

@@ -39,7 +39,8 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
         }
         let meets = meets_us(&words) && (circles || step.movement == Move::Static && step.start.side.is_some());
         // The side that it is seen from before is no end.
-        let is_open = step.end.side.is_none() || !words.iter().any(|word| is_listed("side sides profile back rear", word));
+        let is_open =
+            step.end.side.is_none() || !words.iter().any(|word| is_listed("side sides profile back rear", word));
         if meets && is_open && !matches!(step.amount, Some(Amount::Degrees(_))) {
             step.end.side = Some(SubjectSide::FromFront);
         }
@@ -60,8 +61,8 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
 /// Words until when one goes round, words of looking at somebody, and who is looked at.
 const UNTIL: [&str; 7] = ["until", "till", "til", "'til", "untill", "so", "where"];
 const LOOKS: [&str; 17] = [
-    "stare", "stares", "staring", "look", "looks", "looking", "face", "faces", "facing", "point", "points", "meet", "meets",
-    "gaze", "gazes", "glares", "glaring",
+    "stare", "stares", "staring", "look", "looks", "looking", "face", "faces", "facing", "point", "points", "meet",
+    "meets", "gaze", "gazes", "glares", "glaring",
 ];
 const US: [&str; 8] = ["us", "camera", "me", "you", "lens", "viewer", "ours", "viewers"];
 

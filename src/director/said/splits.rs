@@ -243,7 +243,8 @@ const FAR: [(&str, f64); 8] = [
     ("full", 360.0),
     ("complete", 360.0),
 ];
-const ON_THE_WAY: &str = "half halfway way quarter once right all the slowly gently fully full complete a an turn lap of";
+const ON_THE_WAY: &str =
+    "half halfway way quarter once right all the slowly gently fully full complete a an turn lap of";
 
 /// How far round the first of some words lead.
 fn far_behind(words: &[&str]) -> Option<f64> {
@@ -296,7 +297,8 @@ fn walked_round(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
     let is_walk = |at: &usize| {
         let circles = CIRCLES.iter().any(|verb| is_form(text(*at), verb));
         let walks = WALKS.iter().any(|verb| is_form(text(*at), verb));
-        circles && (linked.slot_at(text(at + 1)).is_some() || text(at + 1) == "it" || around(*at)) || walks && around(*at)
+        circles && (linked.slot_at(text(at + 1)).is_some() || text(at + 1) == "it" || around(*at))
+            || walks && around(*at)
     };
     let at = (1..words.len()).find(|at| is_walk(at) && begins(&words, *at))?;
     let far_at = |at: usize| far_behind(&texts[at..]);

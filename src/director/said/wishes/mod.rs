@@ -129,7 +129,12 @@ fn of_lone(
     let rises = Step { end, ..Step::of(Move::CraneUp) };
     let nears =
         Step { start, end: Framing { height_frac: Some(0.9), ..seen(ShotAngle::Low) }, ..Step::of(Move::PushIn) };
-    (has(GRAND) && has(CUTE)).then(|| vec![nears, rises])
+    // `As if it is ten metres tall`.
+    let is_long = |word: &&str| {
+        linked.quantity_at(word).is_some_and(|quantity| quantity.kind == QuantityKind::Units && quantity.value >= 3.0)
+    };
+    let is_grand = has(GRAND) || has("if like seem seems") && text.words.iter().any(|word| is_long(&word));
+    (is_grand && has(CUTE)).then(|| vec![nears, rises])
 }
 
 /// The film of some stations; `None` where they are no way.
@@ -153,7 +158,8 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
         let is_kind = words[at] == "move" && before().take(1).any(|word| is_listed(KINDS, word));
         let stops = STOPS.iter().any(|verb| is_form(words[at], verb));
         // `The last frame matches the first`.
-        let is_end = is_listed("frame picture shot", words[at]) && before().take(2).any(|word| is_listed("first last opening closing same", word));
+        let is_end = is_listed("frame picture shot", words[at])
+            && before().take(2).any(|word| is_listed("first last opening closing same", word));
         is_camera_verb(words, at) && !stops && !is_denied && !is_told && !is_kind
             || is_listed(TRADE, words[at]) && !is_denied && !is_end
     };
@@ -168,7 +174,9 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
         let next = words.get(at + 1).copied().unwrap_or_default();
         let is_verb = GOES.iter().any(|verb| is_form(words[at], verb));
         let to_thing = words.len() < SHORT
-            && next == "to" && is_form(words[at], "go") && words[at + 1..].iter().take(3).any(|word| is_object(word));
+            && next == "to"
+            && is_form(words[at], "go")
+            && words[at + 1..].iter().take(3).any(|word| is_object(word));
         let is_close = words[at] == "up" || matches!(words.get(at + 2), Some(&"close" | &"amongst" | &"among"));
         is_verb && (is_listed(WAYS, next) && !is_close || to_thing)
     };
@@ -201,11 +209,15 @@ mod tests {
         assert!(wish(
             "you know in games when the camera flies around ? that . <obj-0> , then <obj-1> , and rest by <obj-2>"
         ));
-        assert!(wish("people should see <obj-0> and how crazy it goes , ideally it loops so the last frame matches it"));
+        assert!(wish(
+            "people should see <obj-0> and how crazy it goes , ideally it loops so the last frame matches it"
+        ));
         assert!(wish("begin from <obj-0> , little by little , last is <obj-1> . do not move fast , please"));
         assert!(wish("leave us where she 's going to pedestal down and <obj-0> . nothing has started yet"));
         assert!(!wish("begin on <obj-0> , then pan over to <obj-1> and hold there until the end of the film"));
-        assert!(wish("people should be hungry . <obj-0> and <obj-1> , one continuous move if you can , end with <obj-2>"));
+        assert!(wish(
+            "people should be hungry . <obj-0> and <obj-1> , one continuous move if you can , end with <obj-2>"
+        ));
         assert!(!wish("open on <obj-0> and stay there . then ease back and up until <obj-1> and <obj-2> are all in"));
         assert!(!wish("a wide shot of the room first , then <obj-0> and at last <obj-1> , please"));
         assert!(wish("people buy it for the hair , so get in amongst those long leaves . leave them with <obj-0>"));

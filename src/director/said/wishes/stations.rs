@@ -44,7 +44,14 @@ pub(super) struct Station {
 impl Station {
     /// A station of nothing, where a film begins.
     pub(super) fn nothing() -> Self {
-        Self { subject: Subject::Place, is_close: false, rank: Rank::First, rests: false, is_circled: false, words: 0..0 }
+        Self {
+            subject: Subject::Place,
+            is_close: false,
+            rank: Rank::First,
+            rests: false,
+            is_circled: false,
+            words: 0..0,
+        }
     }
 }
 
@@ -73,8 +80,7 @@ const IN_TURN: [&[&str]; 14] = [
     &["same", "treatment"],
 ];
 /// Words that show a thing close.
-const CLOSE: &str =
-    "close closely closer near nearer tight tightly detail details clue clues macro big huge fills amongst nose homely intimate";
+const CLOSE: &str = "close closely closer near nearer tight tightly detail details clue clues macro big huge fills amongst nose homely intimate";
 /// Words between a thing and one that is seen with it.
 const WITH: &str = "with plus beside";
 const ARTICLES: &str = "both all the a an its his her their my our your some";

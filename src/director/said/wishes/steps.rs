@@ -78,7 +78,13 @@ fn add(
     steps.push(step);
     if station.is_circled {
         let amount = Some(Amount::Degrees(CIRCLED_DEG));
-        steps.push(Step { end: end.clone(), amount, either_way: true, speed: manner.speed, ..Step::of(Move::ArcRight) });
+        steps.push(Step {
+            end: end.clone(),
+            amount,
+            either_way: true,
+            speed: manner.speed,
+            ..Step::of(Move::ArcRight)
+        });
     }
     if let Some(secs) = rest.filter(|_| station.subject != Subject::Place) {
         steps.push(Step { duration_secs: Some(secs), end, ..Step::of(Move::Static) });
