@@ -47,6 +47,7 @@ mod wishes;
 
 use cinesplat_language::{Linked, Senses};
 use cinesplat_objects::Object;
+use cinesplat_operator::Step;
 
 pub(crate) use bans::asks_for;
 pub(crate) use directions::is_form;
@@ -135,6 +136,13 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     ranges::take_field_of_view(linked, steps);
     open::return_to_first(linked, steps);
     open::turn_by_parts(linked, steps);
+    take_said_of_views(linked, steps);
+    take_said_of_moves(linked, direction);
+    Ok(())
+}
+
+/// Corrects the sides and rests of steps by what the words say plainly.
+fn take_said_of_views(linked: &Linked, steps: &mut [Step]) {
     openings::level_frontal_views(linked, steps);
     openings::hide_at_first(linked, steps);
     openings::square_to_walls(linked, steps);
@@ -145,8 +153,6 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     facing::rest_on_openings(linked, steps);
     facing::rest_up_close(linked, steps);
     facing::look_down_on_tops(linked, steps);
-    take_said_of_moves(linked, direction);
-    Ok(())
 }
 
 /// Corrects the moves of a direction, whose pictures are settled, by what the words say plainly.

@@ -133,7 +133,7 @@ fn of_lone(
     let is_long = |word: &&str| {
         linked.quantity_at(word).is_some_and(|quantity| quantity.kind == QuantityKind::Units && quantity.value >= 3.0)
     };
-    let is_grand = has(GRAND) || has("if like seem seems") && text.words.iter().any(|word| is_long(&word));
+    let is_grand = has(GRAND) || has("if like seem seems") && text.words.iter().any(is_long);
     (is_grand && has(CUTE)).then(|| vec![nears, rises])
 }
 
