@@ -165,20 +165,15 @@ const SWOOP_KEYS: u32 = 8;
 /// Largest size of the subject at the end of a swoop, where the words state none.
 const SWOOP_FILL: f64 = 0.72;
 
-/// Whether a descent begins above its subject and leads to a side of it, or a rise in the open leads from a side of it to above
-/// it: a straight rise would leave it far below.
+/// Whether a descent begins above its subject and leads to a side of it.
 fn swoops(context: &StepContext, first: &CameraState, target: &Target, upward: bool) -> bool {
     let end = &context.step.end;
     let start = bearing_of(context.world, target.aim, first.pose.position).elevation_rad.to_degrees();
     let is_stated = end.height.is_some() || context.step.amount.is_some();
-    let is_overhead = end.angle == Some(ShotAngle::Overhead);
-    if upward {
-        return is_overhead && start < SWOOP_FROM_DEG && !is_stated && !context.world.is_indoor();
-    }
-    start > SWOOP_FROM_DEG && !is_stated && !is_overhead
+    !upward && start > SWOOP_FROM_DEG && !is_stated && end.angle != Some(ShotAngle::Overhead)
 }
 
-/// Sinks or rises on an arc about the subject, from its elevation to that of the end, at a distance that keeps its size.
+/// Sinks on an arc about the subject, from above it to the elevation of the end, at a distance that keeps its size.
 fn swoop(context: &StepContext, first: &CameraState, target: &Target) -> Vec<CameraState> {
     let world = context.world;
     let start = bearing_of(world, target.aim, first.pose.position);
