@@ -99,7 +99,9 @@ pub(crate) fn name_by_parts(
     let words = tokenize(prompt);
     let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
     for at in 1..words.len() {
-        if !is_listed(POINTS, text(at - 1)) {
+        // `Lift your head` is about nobody's guitar.
+        let is_body = is_listed("my our your", text(at - 1)) && is_listed(BODY, text(at));
+        if !is_listed(POINTS, text(at - 1)) || is_body {
             continue;
         }
         let mut owners = Vec::new();
@@ -144,6 +146,8 @@ pub(crate) fn drop_sizes(prompt: &str, objects: &[NamedObject], found: &mut [Fou
     }
 }
 
+/// Parts of people.
+const BODY: &str = "head heads eye eyes face nose hand hands foot feet neck back shoulder shoulders gaze chin";
 /// Words before a thing that is named by a part of its label, and words behind it, besides marks.
 pub(crate) const POINTS: &str = "the this that my our your his her its";
 const BEHIND: &str =

@@ -106,10 +106,10 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
     }
     // `The stand's foot`.
     let owner = before.iter().rposition(|word| word.text == "'s");
-    if let Some(mark) = owner.filter(|mark| *mark + 1 == before.len()) {
-        if let Some((_, place)) = parts.found(&before[..mark], &label) {
-            return Ok(Some(place));
-        }
+    if let Some(mark) = owner.filter(|mark| *mark + 1 == before.len())
+        && let Some((_, place)) = parts.found(&before[..mark], &label)
+    {
+        return Ok(Some(place));
     }
     // The pot of `the teapot` is all of it.
     if name.last().is_some_and(|last| label.iter().any(|word| word.text.ends_with(&last.text))) {

@@ -187,7 +187,7 @@ impl Scan<'_> {
             () if is(CUPBOARDS) => self.cupboards(&words, is_plural),
             () if is(SHELVES) || is(SMALL) || is_plural => {
                 let row = self.shelved();
-                let of_color = self.of_color(&row, &words);
+                let of_color = of_color(&row, &words);
                 let row = if of_color.is_empty() { row } else { of_color };
                 let by_height = |high: bool| {
                     let mut sorted = row.clone();
@@ -263,7 +263,7 @@ impl Scan<'_> {
     /// Those that words with their colors mean.
     fn cupboards(&self, words: &[Word], is_plural: bool) -> Vec<u32> {
         let fronts = self.fronts();
-        let of_color = self.of_color(&fronts, words);
+        let of_color = of_color(&fronts, words);
         let fronts = if of_color.is_empty() { fronts } else { of_color };
         fronts.into_iter().take(if is_plural { 3 } else { 1 }).map(|object| object.id).collect()
     }
@@ -286,15 +286,6 @@ impl Scan<'_> {
             self.height_frac(self.middle(top)) > SHELF_FRAC && things.iter().any(|thing| self.is_on(thing, top))
         };
         self.tops().filter(is_shelf).collect()
-    }
-
-    /// Those of some things whose guessed names have a color that the words say.
-    fn of_color<'a>(&self, things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
-        let said: Vec<&str> =
-            ALIKE.iter().filter(|colors| words.iter().any(|word| is_listed(colors, &word.text))).copied().collect();
-        let has =
-            |object: &&&Object| said.iter().any(|colors| object.label.split(' ').any(|word| is_listed(colors, word)));
-        things.iter().filter(has).copied().collect()
     }
 
     /// What stands on the shelves of one wall, the largest row first.
@@ -323,6 +314,14 @@ impl Scan<'_> {
         let level = axes.into_iter().filter(|(axis, _)| axis.dot(self.up).abs() < 0.7);
         level.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(DVec3::X, |(axis, _)| axis)
     }
+}
+
+/// Those of some things whose guessed names have a color that the words say.
+fn of_color<'a>(things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
+    let said: Vec<&str> =
+        ALIKE.iter().filter(|colors| words.iter().any(|word| is_listed(colors, &word.text))).copied().collect();
+    let has = |object: &&&Object| said.iter().any(|colors| object.label.split(' ').any(|word| is_listed(colors, word)));
+    things.iter().filter(has).copied().collect()
 }
 
 /// Whether a label is that of what bounds a room, which a search names by its place.

@@ -102,6 +102,35 @@ pub(crate) fn show_whole(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Rooms and all that is around.
+const AROUND: [&str; 12] = [
+    "room",
+    "world",
+    "place",
+    "house",
+    "kitchen",
+    "workshop",
+    "studio",
+    "lounge",
+    "bedroom",
+    "hall",
+    "flat",
+    "apartment",
+];
+
+/// Leads out to the place of which the words notice all, where the network has only read a look up: `you lift your head and notice
+/// there's a whole room around you`.
+pub(crate) fn notice_place(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().skip(1).filter(|step| step.movement == Move::TiltUp) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_all = words.windows(2).any(|two| ALL.contains(&two[0]) && AROUND.contains(&two[1]));
+        if is_all && step.end == Framing::default() && step.amount.is_none() && step.with.is_empty() {
+            step.movement = Move::PullOut;
+            step.end.size = Some(ShotSize::Long);
+        }
+    }
+}
+
 /// Whether a step leads away from what it shows.
 fn widens(step: &Step) -> bool {
     std::iter::once(&step.movement)
@@ -240,5 +269,24 @@ pub(crate) fn keep_shown(linked: &Linked, steps: &mut [Step]) {
         if leads && is_open && is_plain && !step.cut && step.via.is_none() {
             step.end.subjects = shown;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::linked;
+    use super::*;
+
+    #[test]
+    fn who_notices_a_whole_room_looks_out_on_it() {
+        let noticed = |text: &str| {
+            let words = Some([0, text.len()]);
+            let mut steps = vec![Step::of(Move::Static), Step { words, ..Step::of(Move::TiltUp) }];
+            notice_place(&linked(text), &mut steps);
+            (steps[1].movement, steps[1].end.size)
+        };
+        let out = (Move::PullOut, Some(ShotSize::Long));
+        assert_eq!(noticed("then you lift your head and notice there 's a whole room around you"), out);
+        assert_eq!(noticed("then look up to the whole ceiling"), (Move::TiltUp, None));
     }
 }

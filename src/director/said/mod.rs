@@ -125,6 +125,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     contents::look_into(linked, steps);
     endings::show_whole(linked, steps);
     endings::end_on_place(linked, steps);
+    endings::notice_place(linked, steps);
     endings::widen_again(linked, steps);
     stillness::circle_spirals(linked, steps);
     // What the rules above read from the words is taken back with the rest.
@@ -162,6 +163,11 @@ fn take_said_of_pictures(linked: &Linked, steps: &mut [Step]) {
     looks::show_bearer(linked, steps);
     open::return_to_first(linked, steps);
     open::turn_by_parts(linked, steps);
+    take_said_of_views(linked, steps);
+}
+
+/// Corrects the sides and rests of steps by what the words say plainly.
+fn take_said_of_views(linked: &Linked, steps: &mut [Step]) {
     openings::level_frontal_views(linked, steps);
     openings::hide_at_first(linked, steps);
     openings::square_to_walls(linked, steps);

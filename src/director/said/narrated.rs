@@ -25,7 +25,9 @@ const LIES: [&[&str]; 12] = [
 ];
 const LOW_PLACES: &str = "floor ground carpet rug back boards tiles";
 /// Words of somebody who gets up.
-const GETS_UP: [&[&str]; 10] = [
+// An idiom has `get up` rise.
+const GETS_UP: [&[&str]; 11] = [
+    &["pedestal", "up"],
     &["get", "up"],
     &["gets", "up"],
     &["getting", "up"],
@@ -40,6 +42,8 @@ const GETS_UP: [&[&str]; 10] = [
 /// Words of a way to what is seen last.
 const NEARS: &str = "creep creeps creeping approach approaching towards toward walk walking stumble stumbling crawl crawling head \
     heading closer reach reaching go";
+/// Words between a thing and the one that says where it is.
+const WHERE: &str = "over above on in by under near beside behind the a";
 /// Heights of eyes on the floor and of those of somebody who stands, scene units.
 const LYING: f64 = 0.3;
 const STANDING: f64 = 1.6;
@@ -57,7 +61,14 @@ pub(crate) fn film_narrated(linked: &Linked, direction: &mut Direction) -> bool 
         return false;
     }
     let mut seen: Vec<Vec<u32>> = Vec::new();
-    for id in words[rises..].iter().filter_map(|word| linked.slot_at(word)).filter(|id| linked.missing(*id).is_none()) {
+    // `The clock over the desk` is one thing.
+    let is_where = |at: usize| {
+        let before: Vec<&&str> = words[..at].iter().rev().take(3).collect();
+        before.iter().any(|word| word.starts_with("<obj-"))
+            && before.iter().take_while(|word| !word.starts_with('<')).all(|word| is_listed(WHERE, word))
+    };
+    let slots = (rises..words.len()).filter(|at| !is_where(*at)).filter_map(|at| linked.slot_at(words[at]));
+    for id in slots.filter(|id| linked.missing(*id).is_none()) {
         let ids = linked.expanded(&[id]);
         // What is named again is what it ends on.
         seen.retain(|other| *other != ids);
@@ -104,6 +115,8 @@ mod tests {
         let want =
             [(Move::PedestalUp, vec![]), (Move::PanRight, vec![5]), (Move::PanRight, vec![7]), (Move::PushIn, vec![7])];
         assert_eq!(moves(told), want);
+        let over = moves("lying on the floor you get up and see <obj-0> over the <obj-1>");
+        assert_eq!(over, [(Move::PedestalUp, vec![]), (Move::PanRight, vec![5])]);
         assert_eq!(moves("you get up late and see <obj-0>"), [(Move::Static, vec![])]);
         assert_eq!(moves("we come to <obj-0> and get up to <obj-1>"), [(Move::Static, vec![])]);
     }

@@ -150,7 +150,12 @@ fn of_lone(
     let rises = Step { end, ..Step::of(Move::CraneUp) };
     let nears =
         Step { start, end: Framing { height_frac: Some(0.9), ..seen(ShotAngle::Low) }, ..Step::of(Move::PushIn) };
-    (has(GRAND) && has(CUTE)).then(|| vec![nears, rises])
+    // `As if it is ten metres tall`.
+    let is_long = |word: &&str| {
+        linked.quantity_at(word).is_some_and(|quantity| quantity.kind == QuantityKind::Units && quantity.value >= 3.0)
+    };
+    let is_grand = has(GRAND) || has("if like seem seems") && text.words.iter().any(is_long);
+    (is_grand && has(CUTE)).then(|| vec![nears, rises])
 }
 
 /// The film of some stations; `None` where they are no way.
