@@ -58,7 +58,8 @@ pub(crate) fn begin_face_to_face(linked: &Linked, steps: &mut [Step]) {
     let words = linked.texts_in(step.words.unwrap_or_default());
     let is_move = |at: usize| {
         let stands = OPENS.contains(&words[at]) || STANDS.iter().any(|verb| is_form(words[at], verb));
-        is_camera_verb(&words, at) && !stands
+        let comes = ["come", "go", "get", "bring"].iter().any(|verb| is_form(words[at], verb));
+        is_camera_verb(&words, at) && !stands || comes
     };
     let opening = (0..words.len()).find(|at| is_move(*at)).unwrap_or(words.len());
     let faces = are_face_to_face(&words[..opening]);
