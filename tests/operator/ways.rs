@@ -15,8 +15,8 @@ fn about(id: u32) -> Framing {
     Framing { subjects: vec![id], ..Framing::default() }
 }
 
-fn past(how: Pass, id: u32) -> Option<Via> {
-    Some(Via { how, objects: vec![id] })
+fn past(how: Pass, id: u32) -> Via {
+    Via { how, objects: vec![id] }
 }
 
 /// The room with a third thing: a low post with a thin rod on it (3), or a die on box 1 (4).
@@ -41,7 +41,7 @@ fn with_small_things(ids: &[u32]) -> World {
 
 #[test]
 fn a_curve_round_a_thing_between_two_places_ends_at_the_second() {
-    let step = Step { start: about(1), end: about(3), via: past(Pass::Past, 2), ..Step::of(Move::ArcRight) };
+    let step = Step { start: about(1), end: about(3), via: Some(past(Pass::Past, 2)), ..Step::of(Move::ArcRight) };
     let frames = film(&solved(&with_small_things(&[1, 2, 3]), vec![step]));
     let (first, last) = (&frames[0], &frames[frames.len() - 1]);
     assert!(in_frame(first, BOX_1).abs().max_element() < 0.3, "begins on the first: {}", in_frame(first, BOX_1));
@@ -55,7 +55,7 @@ fn a_curve_round_a_thing_between_two_places_ends_at_the_second() {
 fn a_camera_that_backs_over_something_looks_where_it_came_from() {
     let end = Framing { whole: true, ..about(1) };
     let start = Framing { size: Some(ShotSize::CloseUp), ..about(4) };
-    let step = Step { start, end, via: past(Pass::Over, 2), ..Step::of(Move::PullOut) };
+    let step = Step { start, end, via: Some(past(Pass::Over, 2)), ..Step::of(Move::PullOut) };
     let frames = film(&solved(&with_small_things(&[1, 2, 4]), vec![step]));
     let distance = |state: &CameraState| state.pose.position.distance(BOX_1);
     let (first, last) = (&frames[0], &frames[frames.len() - 1]);
