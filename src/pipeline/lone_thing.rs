@@ -11,7 +11,8 @@ use super::interpreter::names;
 use cinesplat_director::{Director, Places};
 use cinesplat_language::{Linked, Relation, Things, Word, is_listed, part_of, tokenize};
 use cinesplat_objects::{Object, ObjectSet};
-use cinesplat_operator::{Framing, Program};
+use cinesplat_operator::{Amount, Framing, Program};
+use cinesplat_trajectory::Move;
 use glam::DVec3;
 
 /// What a thing stands on: rarely what a scan is about.
@@ -68,7 +69,18 @@ pub(super) fn link<'a>(
 pub(super) fn show(program: &mut Program, objects: &ObjectSet) {
     let Some(whole) = objects.only_whole() else { return };
     let names_nothing = program.object_ids().is_empty();
+    let mut shown: Vec<u32> = Vec::new();
     for step in &mut program.steps {
+        // `Down to the body, then pull out and show it whole` is all of it.
+        let takes_in = step.movement == Move::PullOut && step.end.whole && step.end.subjects == shown;
+        // `A full circle, all of it in the frame from headstock to stand` begins at no end of it.
+        let is_all_round = matches!(step.amount, Some(Amount::Degrees(degrees)) if degrees >= ALL_ROUND_DEG);
+        if takes_in && shown != [whole.id] {
+            step.end.subjects = vec![whole.id];
+        } else if step.movement.is_circular() && is_all_round && !step.start.subjects.is_empty() {
+            step.start = Framing { angle: step.start.angle, side: step.start.side, ..Framing::default() };
+            step.end.whole = true;
+        }
         let is_view = |framing: &Framing| framing.side.is_some() || framing.angle.is_some() || framing.size.is_some();
         let circles = step.movement.is_circular();
         if step.end.subjects.is_empty() && (names_nothing || circles || is_view(&step.end)) {
@@ -77,8 +89,15 @@ pub(super) fn show(program: &mut Program, objects: &ObjectSet) {
         if step.start.subjects.is_empty() && is_view(&step.start) {
             step.start.subjects = vec![whole.id];
         }
+        let last = if step.end.subjects.is_empty() { &step.start.subjects } else { &step.end.subjects };
+        if !last.is_empty() {
+            shown.clone_from(last);
+        }
     }
 }
+
+/// Angle of a circle that shows a thing from all sides, degrees.
+const ALL_ROUND_DEG: f64 = 300.0;
 
 /// What a prompt calls the thing of a scan: of the names that neither it nor its parts have, that of a kind of things, of one
 /// thing, and not of what it stands on, the one that is said most often. `None` where every name is known.

@@ -143,14 +143,9 @@ pub(crate) fn drop_light(linked: &Linked, direction: &mut Direction) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::{direction, linked};
+    use super::super::fixture::{about, direction, linked};
     use super::*;
     use cinesplat_language::Quantity;
-
-    fn about(movement: Move, ids: &[u32], words: [usize; 2]) -> Step {
-        let end = Framing { subjects: ids.to_vec(), ..Framing::default() };
-        Step { end, words: Some(words), ..Step::of(movement) }
-    }
 
     #[test]
     fn the_height_of_a_camera_is_no_move() {

@@ -1,7 +1,8 @@
 //! Linked prompts for the unit tests of this folder.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Program, Step};
+use cinesplat_operator::{Framing, Program, Step};
+use cinesplat_trajectory::Move;
 
 use crate::direction::Direction;
 
@@ -16,4 +17,10 @@ pub(super) fn linked(text: &str) -> Linked {
 pub(super) fn direction(steps: Vec<Step>) -> Direction {
     let program = Program { steps, ..Program::default() };
     Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() }
+}
+
+/// A step that ends on some things, with the bytes of its words.
+pub(super) fn about(movement: Move, ids: &[u32], words: [usize; 2]) -> Step {
+    let end = Framing { subjects: ids.to_vec(), ..Framing::default() };
+    Step { end, words: Some(words), ..Step::of(movement) }
 }

@@ -133,13 +133,8 @@ pub(crate) fn show_bearer(linked: &Linked, steps: &mut [Step]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::linked;
+    use super::super::fixture::{about, linked};
     use super::*;
-
-    fn about(movement: Move, ids: &[u32], words: [usize; 2]) -> Step {
-        let end = Framing { subjects: ids.to_vec(), ..Framing::default() };
-        Step { end, words: Some(words), ..Step::of(movement) }
-    }
 
     #[test]
     fn a_symmetrical_picture_is_seen_from_the_front() {

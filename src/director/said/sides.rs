@@ -43,6 +43,11 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
             step.end.side.is_none() || !words.iter().any(|word| is_listed("side sides profile back rear", word));
         if meets && is_open && !matches!(step.amount, Some(Amount::Degrees(_))) {
             step.end.side = Some(SubjectSide::FromFront);
+            // `We find it from behind. Come round until it grins at us.`
+            let until = words.iter().position(|word| UNTIL.contains(word)).unwrap_or(0);
+            if step.start.side.is_none() && is_from_behind(&words[..until]) {
+                step.start.side = Some(SubjectSide::FromBack);
+            }
         }
         let from_to = from_side_to_side(&words, &is_own).filter(|_| circles);
         if let Some([first, last]) = profiles(&words).or(from_to) {
@@ -58,11 +63,17 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Whether words are about a view from the back.
+fn is_from_behind(words: &[&str]) -> bool {
+    let behind = |at: usize| words[at] == "behind" || matches!(words[at], "back" | "rear") && words[at - 1] == "the";
+    (1..words.len()).any(|at| behind(at) && words[at.saturating_sub(2)..at].contains(&"from"))
+}
+
 /// Words until when one goes round, words of looking at somebody, and who is looked at.
 const UNTIL: [&str; 7] = ["until", "till", "til", "'til", "untill", "so", "where"];
-const LOOKS: [&str; 17] = [
+const LOOKS: [&str; 23] = [
     "stare", "stares", "staring", "look", "looks", "looking", "face", "faces", "facing", "point", "points", "meet",
-    "meets", "gaze", "gazes", "glares", "glaring",
+    "meets", "gaze", "gazes", "glares", "glaring", "grin", "grins", "grinning", "smile", "smiles", "smiling",
 ];
 const US: [&str; 8] = ["us", "camera", "me", "you", "lens", "viewer", "ours", "viewers"];
 
@@ -206,6 +217,9 @@ mod tests {
     fn a_way_round_ends_where_both_look_at_each_other() {
         let meets = |text: &str| meets_us(&text.split(' ').collect::<Vec<_>>());
         assert!(meets("orbit round till it 's staring straight at us"));
+        assert!(meets("come round until it is grinning straight at us"));
+        let behind = |text: &str| is_from_behind(&text.split(' ').collect::<Vec<_>>());
+        assert!(behind("we find it from behind .") && behind("seen from the back") && !behind("come back from there"));
         assert!(meets("circle until <obj-0> is facing the camera"));
         assert!(meets("go round until we 're facing it"));
         assert!(meets("arc round until it looks right at you"));

@@ -276,7 +276,9 @@ fn is_elsewhere(context: &StepContext, before: &CameraState, target: &Target) ->
     let stays = context.forbids_turning() || context.forbidden.contains(&Motion::Travel);
     let framing = &context.step.end;
     let turned = extent_frac(world, &aimed(world, before, target.aim), &target.corners);
-    is_new && !stays && !framing.subjects.is_empty() && (is_stated(framing) || turned.max_element() < TOO_SMALL)
+    // A turn on the spot brings a thing to its place in the frame.
+    let is_framed = is_stated(&Framing { place: None, part: SubjectPart::default(), ..framing.clone() });
+    is_new && !stays && !framing.subjects.is_empty() && (is_framed || turned.max_element() < TOO_SMALL)
 }
 
 /// Angle of a pan that is one all the way round.
