@@ -199,3 +199,50 @@ fn plain_name(name: &str) -> String {
     let front: Vec<&str> = front.map(|word| word.text.as_str()).collect();
     if front.is_empty() { name.to_owned() } else { front.join(" ") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_operator::Step;
+    use glam::DVec3;
+
+    fn about(id: u32) -> Framing {
+        Framing { subjects: vec![id], ..Framing::default() }
+    }
+
+    /// The steps as they are filmed in a scan of a guitar (1) with body (2) and neck (3).
+    fn shown(steps: Vec<Step>) -> Vec<Step> {
+        let object = |id: u32, parent: Option<u32>, count: usize| Object {
+            parent,
+            num_gaussians: count,
+            ..Object::from_box(id, "large brown object", DVec3::ZERO, DVec3::ONE)
+        };
+        let objects = vec![object(1, None, 90), object(2, Some(1), 60), object(3, Some(1), 30)];
+        let mut program = Program { steps, ..Program::default() };
+        show(&mut program, &ObjectSet { objects, labels: Vec::new() });
+        program.steps
+    }
+
+    #[test]
+    fn a_pull_out_to_the_whole_of_the_part_that_is_shown_takes_in_all() {
+        let whole = Framing { whole: true, ..about(2) };
+        let body = Step { end: about(2), ..Step::of(Move::CraneDown) };
+        let out = Step { end: whole, ..Step::of(Move::PullOut) };
+        assert_eq!(shown(vec![body, out.clone()])[1].end.subjects, [1]);
+        let neck = Step { end: about(3), ..Step::of(Move::CraneUp) };
+        assert_eq!(shown(vec![neck, out])[1].end.subjects, [2]);
+    }
+
+    #[test]
+    fn a_full_circle_begins_at_no_end_of_its_thing() {
+        let circle = |degrees: f64| Step {
+            start: about(3),
+            end: about(1),
+            amount: Some(Amount::Degrees(degrees)),
+            ..Step::of(Move::OrbitRight)
+        };
+        let full = &shown(vec![circle(360.0)])[0];
+        assert!(full.start.subjects.is_empty() && full.end.whole);
+        assert_eq!(shown(vec![circle(90.0)])[0].start.subjects, [3]);
+    }
+}
