@@ -93,7 +93,9 @@ impl Reading {
         // A number that no step uses is the length of the film, if that is stated.
         let has_length = self.direction.program.duration_secs.is_some();
         let is_length = |word: &str| has_length && word.starts_with("<qty-");
-        let words = self.linked.tokens_text.split(' ').zip(&self.linked.spans);
+        // A mark that somebody dictated stands on the words for it.
+        let is_word = |word: &str| word.contains(char::is_alphanumeric);
+        let words = self.linked.tokens_text.split(' ').zip(&self.linked.spans).filter(|(word, _)| is_word(word));
         let mut spans: Vec<[usize; 2]> =
             words.filter(|(word, span)| !is_length(word) && !lies_in(span, &used)).map(|(_, span)| *span).collect();
         let scenery = self.linked.scenery.iter().flat_map(|&[start, end]| {

@@ -92,3 +92,11 @@ fn the_no_of_no_depth_of_field_has_no_meaning_for_the_camera() {
         assert!(text.contains(", forbidden") && !text.contains("without a meaning"), "{prompt}: {text}");
     }
 }
+
+#[test]
+fn dictated_marks_are_no_words() {
+    let read = read("push in on the sofa comma slowly full stop the banana stays put full stop");
+    assert_eq!(read["steps"][0]["move"], "push-in");
+    let unused: Vec<&str> = read["unused_words"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    assert!(unused.iter().all(|word| word.len() > 1), "{unused:?}");
+}
