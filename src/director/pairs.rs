@@ -198,6 +198,7 @@ fn leads(prompt: &str, found: &[FoundMention], group: [usize; 2], one: usize) ->
 fn phrase_at(words: &[Word], at: usize) -> Option<(usize, Phrase)> {
     let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
     let before = at.checked_sub(1).map_or("", text);
+    let says = |phrase: &[&str]| phrase.iter().enumerate().all(|(nth, word)| text(at + nth) == *word);
     let ends = |at: usize| {
         !text(at).starts_with(char::is_alphabetic)
             || is_listed("then and at in on by from with over for so till until", text(at))
@@ -209,18 +210,14 @@ fn phrase_at(words: &[Word], at: usize) -> Option<(usize, Phrase)> {
         let leads = (at + 1..other).all(|next| is_listed(LEADS, text(next)));
         return (leads && ends(at + 1)).then_some((1, Phrase::One));
     }
-    if let Some(phrase) =
-        BOTH.iter().find(|phrase| phrase.iter().enumerate().all(|(nth, word)| text(at + nth) == *word))
-    {
+    if let Some(phrase) = BOTH.iter().find(|phrase| says(phrase)) {
         let end = at + phrase.len();
         let is_pair =
             !is_listed(NO_PAIRS, text(end)) && (phrase.len() > 1 || !matches!(text(end), "the" | "of" | "my"));
         let is_noun = phrase[..] == ["the", "two"] && !ends(end);
         return (is_pair && !is_noun).then_some((phrase.len(), Phrase::Both));
     }
-    if let Some(phrase) =
-        APART.iter().find(|phrase| phrase.iter().enumerate().all(|(nth, word)| text(at + nth) == *word))
-    {
+    if let Some(phrase) = APART.iter().find(|phrase| says(phrase)) {
         let verb = usize::from(phrase[0] == "how" && is_listed("are sit stand is lie", text(at + phrase.len())));
         return Some((phrase.len() + verb, Phrase::Both));
     }

@@ -112,10 +112,7 @@ fn point_to_ends(
     (places, whole): (Places<'_>, &Object),
     found: &mut [FoundMention],
 ) -> Result<(), LanguageError> {
-    let heights = |object: &Object| {
-        let along = object.corners().into_iter().map(|corner| corner.dot(places.up));
-        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
-    };
+    let heights = |object: &Object| object.span_along(places.up);
     let [low, high] = heights(whole);
     let near = SAME_END * (high - low);
     for part in found.iter_mut() {

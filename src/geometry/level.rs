@@ -67,6 +67,18 @@ impl LevelFrame {
         point.dot(self.up)
     }
 
+    /// The point above or below another one at a height along up.
+    pub fn at_height(&self, point: DVec3, height: f64) -> DVec3 {
+        point + self.up * (height - self.height(point))
+    }
+
+    /// A point turned by an azimuth about the upright axis through a pivot.
+    pub fn swung(&self, pivot: DVec3, point: DVec3, azimuth_rad: f64) -> DVec3 {
+        let away = point - pivot;
+        let direction = self.direction(self.azimuth(away) + azimuth_rad);
+        pivot + direction * self.horizontal(away).length() + self.up * self.height(away)
+    }
+
     /// The horizontal part of a vector.
     pub fn horizontal(&self, vector: DVec3) -> DVec3 {
         vector - self.up * vector.dot(self.up)

@@ -26,7 +26,7 @@ impl ObjectSet {
     pub fn borne_heights(&self, id: u32, up: DVec3) -> Option<[f64; 2]> {
         let bearer = self.get(id)?;
         let on_top = self.borne(bearer, up).filter(|(_, place)| *place == Where::OnTop);
-        let heights: Vec<[f64; 2]> = on_top.map(|(thing, _)| extent(thing, up)).collect();
+        let heights: Vec<[f64; 2]> = on_top.map(|(thing, _)| thing.span_along(up)).collect();
         let foot = heights.iter().map(|[foot, _]| foot).sum::<f64>() / heights.len() as f64;
         let top = heights.iter().map(|[_, top]| *top).fold(foot, f64::max);
         (!heights.is_empty()).then_some([foot, top])
@@ -54,17 +54,9 @@ enum Where {
     Within,
 }
 
-/// Lowest and highest height of a box along up.
-fn extent(object: &Object, up: DVec3) -> [f64; 2] {
-    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| object.rotation * (axis * object.half_extents));
-    let reach: f64 = axes.iter().map(|axis| axis.dot(up).abs()).sum();
-    let middle = object.center.dot(up);
-    [middle - reach, middle + reach]
-}
-
 /// Where a thing stands on or in another one; `None` where it stands elsewhere.
 fn stands(bearer: &Object, thing: &Object, up: DVec3) -> Option<Where> {
-    let ([foot, head], [bottom, top]) = (extent(thing, up), extent(bearer, up));
+    let ([foot, head], [bottom, top]) = (thing.span_along(up), bearer.span_along(up));
     let (height, bearer_height) = (head - foot, top - bottom);
     // In the bearer's own axes, without the way along up.
     let apart = thing.center - bearer.center;

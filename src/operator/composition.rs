@@ -150,8 +150,7 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     let is_flat = height < FLAT_FRAC * narrow;
     let is_thin = narrow < FLAT_FRAC * height;
     let is_level = |at: f64| at > 0.75 * eye;
-    let borne = target.ids.first().and_then(|id| world.subject(*id)).and_then(|subject| subject.borne_heights);
-    let bears = borne.is_some_and(|[surface, _]| {
+    let bears = target.borne_heights(world).is_some_and(|[surface, _]| {
         let height = surface - world.floor_height();
         BEARING_HEIGHTS.contains(&(height / eye))
     });

@@ -45,6 +45,11 @@ impl Target {
         Some(Self { ids: framing.subjects.clone(), aim, center: first.center, corners, radius })
     }
 
+    /// Heights along up of the surface of its first subject on which other things stand, and of the highest of them.
+    pub(super) fn borne_heights(&self, world: &World) -> Option<[f64; 2]> {
+        world.subject(*self.ids.first()?)?.borne_heights
+    }
+
     /// The scene as a whole.
     pub(super) fn scene(world: &World) -> Self {
         let bounds = &world.bounds;

@@ -310,8 +310,10 @@ impl Subject {
         let (own, near) = (within(0.0), within(SKIN_FRAC * object.radius()));
         let all_solid = || (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY);
         let solid: Vec<usize> = all_solid().filter(|&i| own[i]).collect();
-        let num_near = all_solid().filter(|&i| near[i]).count();
-        let is_alone = num_near > 0 && num_near as f64 >= ALONE_FRAC * all_solid().count() as f64;
+        let (num_near, sum) = all_solid()
+            .filter(|&i| near[i])
+            .fold((0_u32, DVec3::ZERO), |(count, sum), i| (count + 1, sum + gaussians.mean_world(i)));
+        let is_alone = num_near > 0 && f64::from(num_near) >= ALONE_FRAC * all_solid().count() as f64;
         let corners = object.corners().to_vec();
         let stride = (solid.len() / SUBJECT_POINTS).max(1);
         let (points, outline) = if solid.len() >= 20 {
@@ -320,8 +322,6 @@ impl Subject {
         } else {
             (corners.clone(), corners.clone())
         };
-        let body =
-            all_solid().filter(|&i| near[i]).map(|i| gaussians.mean_world(i)).sum::<DVec3>() / num_near.max(1) as f64;
         let facets = Facets::of(gaussians, &solid, object.center, object.radius());
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !near[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
@@ -334,7 +334,7 @@ impl Subject {
             half_axes,
             radius: object.radius(),
             points,
-            body: if num_near > 0 { body } else { object.center },
+            body: if num_near > 0 { sum / f64::from(num_near) } else { object.center },
             splat_size: splat_size(gaussians, &solid),
             outline,
             facets,

@@ -70,7 +70,7 @@ fn taken_for(noun: &str, ids: &[u32]) -> String {
 /// The objects with the nouns of a prompt for their guessed names, where such things may be; `None` for other scenes and where
 /// the prompt has no such noun.
 pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Named> {
-    let scan = Scan { objects: &objects.objects, up };
+    let scan = Scan::new(&objects.objects, up);
     if !scan.is_guessed() {
         return None;
     }
@@ -130,7 +130,7 @@ fn color_said(label: &str, before: &[Word]) -> String {
 /// Takes the nouns that a scan of guessed names lacks for what is most probably meant, or leaves them out where other things are
 /// named. Elsewhere they stay missing.
 pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) {
-    let scan = Scan { objects: &objects.objects, up };
+    let scan = Scan::new(&objects.objects, up);
     if !scan.is_guessed() || linked.missing_groups().next().is_none() {
         return;
     }
@@ -163,9 +163,19 @@ pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) 
 struct Scan<'a> {
     objects: &'a [Object],
     up: DVec3,
+    /// Lowest and highest point of all things.
+    extent: [f64; 2],
 }
 
-impl Scan<'_> {
+impl<'a> Scan<'a> {
+    fn new(objects: &'a [Object], up: DVec3) -> Self {
+        let all = objects.iter().map(|object| object.span_along(up));
+        let extent = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [own_low, own_high]| {
+            [low.min(own_low), high.max(own_high)]
+        });
+        Self { objects, up, extent }
+    }
+
     fn is_guessed(&self) -> bool {
         let roots = || self.objects.iter().filter(|object| object.parent.is_none());
         let guessed = roots().filter(|object| is_description(&object.label) || is_bound(&object.label)).count();
@@ -216,26 +226,13 @@ impl Scan<'_> {
         (!ids.is_empty()).then_some(ids)
     }
 
-    fn heights(&self, object: &Object) -> [f64; 2] {
-        let along = object.corners().into_iter().map(|corner| corner.dot(self.up));
-        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
-    }
-
     fn middle(&self, object: &Object) -> f64 {
         object.center.dot(self.up)
     }
 
-    /// Lowest and highest point of all things.
-    fn extent(&self) -> [f64; 2] {
-        let all = self.objects.iter().map(|object| self.heights(object));
-        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [own_low, own_high]| {
-            [low.min(own_low), high.max(own_high)]
-        })
-    }
-
     /// Height of a point over that of the scan, from its bottom.
     fn height_frac(&self, at: f64) -> f64 {
-        let [low, high] = self.extent();
+        let [low, high] = self.extent;
         (at - low) / (high - low).max(1e-9)
     }
 
@@ -270,13 +267,13 @@ impl Scan<'_> {
 
     /// Whether a thing stands on a top that is no table.
     fn is_on(&self, object: &Object, top: &Object) -> bool {
-        let [low, high] = self.extent();
+        let [low, high] = self.extent;
         let near = STANDS_FRAC * (high - low);
-        let [_, edge] = self.heights(top);
+        let [_, edge] = top.span_along(self.up);
         let apart = object.center - top.center;
         let level = top.rotation.conjugate() * (apart - self.up * apart.dot(self.up));
         let is_over = level.abs().cmple(top.half_extents + near).all();
-        is_over && (self.heights(object)[0] - edge).abs() < 2.0 * near
+        is_over && (object.span_along(self.up)[0] - edge).abs() < 2.0 * near
     }
 
     /// The tops on which the things of one wall stand.
@@ -290,10 +287,10 @@ impl Scan<'_> {
 
     /// What stands on the shelves of one wall, the largest row first.
     fn shelved(&self) -> Vec<&Object> {
-        let [low, high] = self.extent();
+        let [low, high] = self.extent;
         let stands = |object: &&Object| {
             let is_thing = !has_word(&object.label, "surface") && !has_word(&object.label, "panel");
-            let is_high = self.height_frac(self.heights(object)[0]) > SHELF_FRAC;
+            let is_high = self.height_frac(object.span_along(self.up)[0]) > SHELF_FRAC;
             is_thing && is_high && self.tops().any(|top| self.is_on(object, top))
         };
         let mut things: Vec<&Object> = self.objects.iter().filter(stands).collect();

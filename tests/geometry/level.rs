@@ -50,3 +50,17 @@ fn straight_down_keeps_the_heading_it_is_given() {
     assert!(pose.right().dot(hint) > 0.999_999);
     assert!(rotation::angle(pose.rotation).is_finite());
 }
+
+#[test]
+fn points_move_along_up_and_about_it() {
+    let frame = frame();
+    let (pivot, point) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 2.5, -1.0));
+    let raised = frame.at_height(point, 7.0);
+    assert!((frame.height(raised) - 7.0).abs() < 1e-12);
+    assert!(frame.horizontal(raised - point).length() < 1e-12);
+    let swung = frame.swung(pivot, point, 0.3);
+    let [before, after] = [point, swung].map(|at| at - pivot);
+    assert!((frame.azimuth(after) - frame.azimuth(before) - 0.3).abs() < 1e-12);
+    assert!((frame.height(after) - frame.height(before)).abs() < 1e-12);
+    assert!((after.length() - before.length()).abs() < 1e-12);
+}

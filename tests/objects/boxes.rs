@@ -67,3 +67,15 @@ fn one_gaussian_has_a_box_without_extent() {
     assert!(only(&set).center.distance(DVec3::ONE) < 1e-6);
     assert!(objects::from_labels(&scene, vec![0]).objects.is_empty());
 }
+
+#[test]
+fn a_box_spans_what_its_corners_span() {
+    let rotation = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, -1.1, 2.0);
+    let object =
+        Object { rotation, ..Object::from_box(1, "box", DVec3::new(1.0, -2.0, 0.5), DVec3::new(0.2, 1.0, 0.6)) };
+    let axis = DVec3::new(0.3, 0.8, -0.5).normalize();
+    let along = object.corners().map(|corner| corner.dot(axis));
+    let [low, high] = object.span_along(axis);
+    assert!((low - along.into_iter().fold(f64::INFINITY, f64::min)).abs() < 1e-12);
+    assert!((high - along.into_iter().fold(f64::NEG_INFINITY, f64::max)).abs() < 1e-12);
+}

@@ -7,7 +7,6 @@ use cinesplat_trajectory::Move;
 
 use super::briefs::is_camera_verb;
 use super::directions::is_form;
-use super::open::as_orbit;
 use crate::direction::Direction;
 
 /// What is at a height, and words by which it is.
@@ -30,7 +29,7 @@ pub(crate) fn drop_camera_heights(linked: &Linked, direction: &mut Direction) {
         }
         let step = &mut direction.program.steps[nth];
         let named = words[..at].iter().find_map(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
-        let circles = matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight);
+        let circles = step.movement.is_circular();
         if let Some(named) =
             named.filter(|named| circles && linked.expanded(&step.end.subjects) == ids && *named != ids)
         {

@@ -51,7 +51,7 @@ const CIRCLES: [&str; 14] = [
 pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let pans = matches!(step.movement, Move::PanLeft | Move::PanRight) && step.end.subjects.is_empty();
-        let circles = matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight)
+        let circles = step.movement.is_circular()
             && step.end.side.is_none()
             && (step.start.subjects.is_empty() || step.start.subjects == step.end.subjects);
         let is_open = !matches!(step.amount, Some(Amount::Degrees(_) | Amount::Factor(_))) && !step.returns;
@@ -105,7 +105,7 @@ pub(crate) fn join_said_again(linked: &Linked, direction: &mut Direction) {
 pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
     for nth in (1..direction.program.steps.len()).rev() {
         let [first, second] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
-        let turns = matches!(as_orbit(first.movement), Move::OrbitLeft | Move::OrbitRight);
+        let turns = first.movement.is_circular();
         let is_open = !matches!(first.amount, Some(Amount::Degrees(_) | Amount::Factor(_)));
         let (a, b) = (as_orbit(first.movement), as_orbit(second.movement));
         let goes_on = a == b || first.either_way && a.opposite() == Some(b);

@@ -4,6 +4,8 @@ use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::Step;
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
+use super::directions::says_any;
+
 /// Words before what a way in goes on to show.
 const UNTIL: &str = "until till til so untill";
 /// Words of seeing.
@@ -19,7 +21,7 @@ pub(crate) fn look_into(linked: &Linked, steps: &mut [Step]) {
         let Some(until) = words.iter().position(|word| is_listed(UNTIL, word)) else { continue };
         let behind = &words[until..];
         let sees = behind.iter().take(6).any(|word| is_listed(SEES, word));
-        let is_inside = (0..behind.len()).any(|at| INSIDE.iter().any(|phrase| behind[at..].starts_with(phrase)));
+        let is_inside = says_any(behind, &INSIDE);
         let is_open = step.end.angle.is_none() && step.end.elevation_deg.is_none() && !step.end.subjects.is_empty();
         if !(sees && is_inside && is_open) {
             continue;

@@ -6,7 +6,7 @@ use cinesplat_operator::{Framing, Step, SubjectPart, SubjectSide};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::briefs::is_camera_verb;
-use super::directions::is_form;
+use super::directions::{is_form, says_any};
 use super::openings::OPENS;
 
 /// Words of a picture in which a thing faces us.
@@ -45,11 +45,7 @@ const DOWN: [&[&str]; 8] = [
 
 /// Whether words say that a thing faces us: `face to face`, `head on`.
 pub(super) fn are_face_to_face(words: &[&str]) -> bool {
-    says(words, &FACES)
-}
-
-fn says(words: &[&str], phrases: &[&[&str]]) -> bool {
-    (0..words.len()).any(|at| phrases.iter().any(|phrase| words[at..].starts_with(phrase)))
+    says_any(words, &FACES)
 }
 
 /// Begins with the front of a thing where the words face it before any move.
@@ -131,7 +127,7 @@ pub(crate) fn look_down_on_tops(linked: &Linked, steps: &mut [Step]) {
         let is_free = end.elevation_deg.is_none() && end.height.is_none() && end.angle != Some(ShotAngle::Low);
         let is_top = end.part == SubjectPart::Top && end.subjects.len() == 1;
         let behind = words.iter().position(|word| ["up", "rise", "lift"].iter().any(|verb| is_form(word, verb)));
-        if !rises || !is_free || !is_top || !says(&words[behind.unwrap_or(0)..], &DOWN) {
+        if !rises || !is_free || !is_top || !says_any(&words[behind.unwrap_or(0)..], &DOWN) {
             continue;
         }
         step.movement = Move::CraneUp;

@@ -7,7 +7,6 @@ use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::bans::{SENTENCE_ENDS, asks_for};
 use super::directions::is_form;
-use super::open::as_orbit;
 use crate::direction::Direction;
 
 /// What is as high as the camera.
@@ -251,8 +250,7 @@ fn hold(linked: &Linked, step: &mut Step, height: Height) {
     // A turn on the spot begins at what the step before shows.
     let travels = step.movement != Move::Static && !step.movement.looks_elsewhere() && step.movement != Move::Follow;
     // A circle begins as high as it ends.
-    let circles =
-        matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight) && step.start == Framing::default();
+    let circles = step.movement.is_circular() && step.start == Framing::default();
     if travels && !circles || !step.start.subjects.is_empty() {
         begin(linked, step, height);
     }

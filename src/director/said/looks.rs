@@ -6,14 +6,13 @@ use cinesplat_operator::{Amount, Framing, Step, SubjectSide};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::directions::is_form;
-use super::open::as_orbit;
 
 /// Words of a picture that is the same on both sides.
 const SYMMETRIC: &str = "symmetrical symmetric symmetry symmetrically";
 
 /// Sees its subject from the front where the picture is to be symmetrical.
 pub(crate) fn face_symmetric(linked: &Linked, steps: &mut [Step]) {
-    for step in steps.iter_mut().filter(|step| !matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight)) {
+    for step in steps.iter_mut().filter(|step| !step.movement.is_circular()) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let at = words.iter().position(|word| is_listed(SYMMETRIC, word));
         let Some(at) = at.filter(|_| step.end.side.is_none() && !step.end.subjects.is_empty()) else { continue };

@@ -107,7 +107,7 @@ pub(crate) fn turn_by_parts(linked: &Linked, steps: &mut [Step]) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_around = words.iter().any(|word| matches!(*word, "around" | "round" | "about"));
         let nears = words.iter().any(|word| matches!(*word, "closer" | "distance" | "close" | "radius" | "nearer"));
-        let circles = as_orbit(step.movement) == Move::OrbitLeft || as_orbit(step.movement) == Move::OrbitRight;
+        let circles = step.movement.is_circular();
         if let Some(Amount::Factor(factor)) = step.amount.filter(|_| circles && is_around && !nears)
             && factor < 1.0
         {

@@ -5,7 +5,6 @@ use cinesplat_language::{Linked, QuantityKind};
 use cinesplat_operator::{Amount, Motion, Step};
 use cinesplat_trajectory::Move;
 
-use super::open::as_orbit;
 use crate::direction::Direction;
 
 /// Turns slower than this are no whip pans, degrees a second.
@@ -46,7 +45,7 @@ pub(crate) fn take_rates(linked: &Linked, direction: &mut Direction) {
 /// Whether a step's move has an extent of this kind.
 fn fits(step: &Step, kind: QuantityKind) -> bool {
     let turns = step.movement.looks_elsewhere()
-        || matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight)
+        || step.movement.is_circular()
         || Motion::of(step.movement) == Some(Motion::Roll);
     match kind {
         QuantityKind::Degrees => turns,

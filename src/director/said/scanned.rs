@@ -3,7 +3,7 @@
 
 use cinesplat_language::{Linked, is_listed};
 use cinesplat_objects::{Object, only_whole};
-use cinesplat_operator::{Framing, Pass, Program, Step, SubjectPart};
+use cinesplat_operator::{Framing, Motion, Pass, Program, Step, SubjectPart};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
@@ -58,8 +58,7 @@ pub(crate) fn frame_parts(linked: &Linked, (objects, up): (&[Object], DVec3), pr
 impl Scanned<'_> {
     /// Lowest and highest point of an object, along up.
     fn heights(&self, object: &Object) -> [f64; 2] {
-        let along = object.corners().into_iter().map(|corner| corner.dot(self.up));
-        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+        object.span_along(self.up)
     }
 
     fn height(&self) -> f64 {
@@ -70,9 +69,7 @@ impl Scanned<'_> {
     fn is_upright(&self) -> bool {
         let (right, ahead) = self.up.any_orthonormal_pair();
         let extent = |axis: DVec3| {
-            let along = self.whole.corners().into_iter().map(|corner| corner.dot(axis));
-            let [low, high] =
-                along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)]);
+            let [low, high] = self.whole.span_along(axis);
             high - low
         };
         self.height() > UPRIGHT * extent(right).max(extent(ahead))
@@ -131,8 +128,7 @@ impl Scanned<'_> {
             }
             let [from, to] = step.words.unwrap_or_default();
             let small = linked.parts.iter().any(|(bytes, part)| part.is_small && from <= bytes[0] && bytes[1] <= to);
-            let lifts =
-                matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+            let lifts = Motion::of(step.movement) == Some(Motion::Rise);
             let words = linked.texts_in([from, to]);
             let is_closer = words.iter().any(|word| matches!(*word, "closer" | "nearer"))
                 && words.iter().all(|word| is_listed(CLOSER, word));
@@ -187,7 +183,7 @@ impl Scanned<'_> {
     /// Frames both ends of a rise or descent from one end of the thing to the other as one thing, so that the camera keeps
     /// its distance and level. Says whether it is one.
     fn lead_from_end_to_end(&self, step: &mut Step, is_close: bool) -> bool {
-        let lifts = matches!(step.movement, Move::PedestalUp | Move::PedestalDown | Move::CraneUp | Move::CraneDown);
+        let lifts = Motion::of(step.movement) == Some(Motion::Rise);
         let is_end = |framing: &Framing| {
             let is_open = framing.height_frac.is_none()
                 && framing.angle.is_none()

@@ -6,7 +6,6 @@ use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
 use super::facing::are_face_to_face;
-use super::open::as_orbit;
 
 /// Words that lead around.
 const AROUND: [&str; 5] = ["round", "around", "over", "across", "about"];
@@ -25,7 +24,7 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_own = |word: &str| linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == step.end.subjects);
-        let circles = matches!(as_orbit(step.movement), Move::OrbitLeft | Move::OrbitRight);
+        let circles = step.movement.is_circular();
         if let Some(side) = side_of_end(&words, &is_own).filter(|_| circles && step.amount.is_none()) {
             step.end.side = Some(side);
             if let Some(first) = side_of_start(&words) {

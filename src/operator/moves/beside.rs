@@ -152,20 +152,12 @@ fn first_beside(context: &StepContext, subject: &Subject, inner: &[DVec3]) -> Ca
     } else {
         let gate = inner.first().copied().unwrap_or(subject.center);
         let sign = if context.parameters[2] < 0.5 { -1.0 } else { 1.0 };
-        (swung(context, subject, gate, sign * lerp((0.9, 1.9), context.parameters[4])), gate)
+        (context.world.frame.swung(subject.center, gate, sign * lerp((0.9, 1.9), context.parameters[4])), gate)
     };
     let fov_deg = context.opening_framing().lens.map_or(NORMAL_LENS_DEG, lens_fov_deg);
     let fov_y_rad = lerp(fov_deg, context.parameters[5]).to_radians();
     let pose = Pose { position, rotation: glam::DQuat::IDENTITY };
     aimed(world, &CameraState { pose, fov_y_rad, focus_distance: None }, next)
-}
-
-/// A camera position turned about the upright axis through an object.
-fn swung(context: &StepContext, subject: &Subject, position: DVec3, angle_rad: f64) -> DVec3 {
-    let frame = &context.world.frame;
-    let away = position - subject.center;
-    let direction = frame.direction(frame.azimuth(away) + angle_rad);
-    subject.center + direction * frame.horizontal(away).length() + frame.up * frame.height(away)
 }
 
 /// The camera after the object where no end target is named: as far beyond the last inner point as the path came, looking
@@ -180,8 +172,8 @@ fn last_beside(context: &StepContext, subject: &Subject, first: &CameraState, in
     let azimuth = |p: DVec3| frame.azimuth(p - subject.center);
     let turn = rotation::short_turn(azimuth(gate) - azimuth(first.pose.position));
     let turn = turn.signum() * turn.abs().clamp(0.6, 1.9);
-    let position = swung(context, subject, gate, turn);
-    let onward = swung(context, subject, position, turn.signum() * 0.5) - position;
+    let position = context.world.frame.swung(subject.center, gate, turn);
+    let onward = context.world.frame.swung(subject.center, position, turn.signum() * 0.5) - position;
     aimed(context.world, &moved(first, position - first.pose.position), position + onward)
 }
 
@@ -273,7 +265,7 @@ fn things_on(
 ) -> Target {
     let frame = &context.world.frame;
     let height = (top - surface).max(0.5 * subject.reach(frame.up));
-    let at = |point: DVec3, height: f64| point + frame.up * (height - frame.height(point));
+    let at = |point: DVec3, height: f64| frame.at_height(point, height);
     let [long, short] = subject.level_axes(frame.up);
     let heights = [surface - TABLETOP_DEPTH * height, surface + height];
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
@@ -302,10 +294,8 @@ pub(super) fn reveal_from_behind(context: &StepContext) -> Option<Vec<MotionSegm
 
 /// The target with its aim on its top where other things stand there: a laid table is looked at from above its edge.
 fn on_its_top(context: &StepContext, target: Target) -> Target {
-    let frame = &context.world.frame;
-    let subject = target.ids.first().and_then(|id| context.world.subject(*id));
-    match subject.and_then(|subject| subject.borne_heights) {
-        Some([surface, _]) => Target { aim: target.aim + frame.up * (surface - frame.height(target.aim)), ..target },
+    match target.borne_heights(context.world) {
+        Some([surface, _]) => Target { aim: context.world.frame.at_height(target.aim, surface), ..target },
         None => target,
     }
 }
@@ -363,14 +353,7 @@ fn way_out(context: &StepContext, cover: &Subject, target: &Target, first: &Came
         Some(Move::TruckLeft | Move::PanLeft | Move::OrbitLeft | Move::ArcLeft) => -aside,
         Some(Move::TruckRight | Move::PanRight | Move::OrbitRight | Move::ArcRight) => aside,
         // Beside one chair at a table stands the next.
-        _ if target
-            .ids
-            .first()
-            .and_then(|id| context.world.subject(*id))
-            .is_some_and(|s| s.borne_heights.is_some()) =>
-        {
-            over
-        }
+        _ if target.borne_heights(context.world).is_some() => over,
         _ if context.parameters[5] < 0.5 => -aside,
         _ => aside,
     }

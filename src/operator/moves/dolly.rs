@@ -1,7 +1,5 @@
 //! Moves along the line to a subject: push in and pull out.
 
-use glam::DQuat;
-
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::dolly_length::{LEAST_RATIO, WALL_RADII, distance_ratio};
 use super::standing_view::stands;
@@ -78,13 +76,12 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
 
 /// The first camera of a pull-out to the room, on the side of its subject from which the way back is longest.
 fn with_room_behind(context: &StepContext, target: &Target, first: CameraState) -> CameraState {
-    let (world, away) = (context.world, first.pose.position - target.aim);
+    let world = context.world;
     if context.parameters[5] > MOST_BACKED {
         return first;
     }
     let swung = |i: i32| {
-        let turn = DQuat::from_axis_angle(world.frame.up, f64::from(i) * BACKING_STEP_RAD);
-        let position = target.aim + turn * away;
+        let position = world.frame.swung(target.aim, first.pose.position, -f64::from(i) * BACKING_STEP_RAD);
         aimed(world, &moved(&first, position - first.pose.position), target.aim)
     };
     let is_free = |state: &CameraState| {

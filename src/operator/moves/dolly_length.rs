@@ -14,7 +14,7 @@ pub(super) const LEAST_RATIO: f64 = 1.36;
 const MOST_RATIO: f64 = 50.0;
 /// Ratio from which on a pull-out to the whole of something ends in the room.
 const LONG_RATIO: f64 = 12.0;
-/// How far outside the bounds of a room it may end, over their size: the wall may be there.
+/// How far outside the core of a room it may end, over the scene size: the wall may be there.
 const OUTSIDE_FRAC: f64 = 0.1;
 /// Distance of a camera from the wall behind it, over its radius.
 pub(super) const WALL_RADII: f64 = 3.0;
@@ -109,10 +109,8 @@ fn whole_ratio(context: &StepContext, first: &CameraState, distance: f64) -> Opt
     let ratios = (0..54).map(|i| 1.32 * 1.07_f64.powi(i));
     let spare = lerp((1.0, 1.2), context.parameters[7]);
     // Of the longest ways many lead out of the room.
-    let bounds = &context.world.bounds;
-    let margin = DVec3::splat(OUTSIDE_FRAC * bounds.size());
-    let is_in = |eye: DVec3| eye.cmpge(bounds.core_min - margin).all() && eye.cmple(bounds.core_max + margin).all();
-    let stays = |ratio: &f64| *ratio < LONG_RATIO || !context.world.is_indoor() || is_in(back(*ratio).pose.position);
+    let is_in = |eye: DVec3| !context.world.is_indoor() || context.world.outside_frac(eye) <= OUTSIDE_FRAC;
+    let stays = |ratio: &f64| *ratio < LONG_RATIO || is_in(back(*ratio).pose.position);
     ratios
         .filter(stays)
         .find(|&ratio| in_frame_frac(context.world, &back(ratio), &corners, 0.02) >= 1.0)

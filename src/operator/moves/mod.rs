@@ -170,9 +170,8 @@ fn rounding(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let end = context.end.as_ref()?;
     let is_other = |target: &Target| target.ids.first() != end.ids.first();
     let starts_apart = context.start.as_ref().or(context.earlier.as_ref()).is_some_and(is_other);
-    let is_round = matches!(step.movement, Move::ArcLeft | Move::ArcRight | Move::OrbitLeft | Move::OrbitRight);
     let is_passed = !end.ids.iter().any(|id| via.objects.contains(id));
-    if !is_round || !starts_apart || !is_passed || step.amount.is_some() {
+    if !step.movement.is_circular() || !starts_apart || !is_passed || step.amount.is_some() {
         return None;
     }
     let way = Step { via: Some(Via { how: Pass::Front, ..via.clone() }), movement: Move::Follow, ..step.clone() };

@@ -82,7 +82,7 @@ const NUM_AROUND: u32 = 12;
 pub(super) fn amid_room(world: &World, state: &CameraState) -> CameraState {
     let frame = &world.frame;
     let height = frame.height(state.pose.position);
-    let at = |point: &DVec3| *point + frame.up * (height - frame.height(*point));
+    let at = |point: &DVec3| frame.at_height(*point, height);
     let free = |eye: &DVec3| {
         let ways =
             (0..NUM_AROUND).map(|i| frame.direction(f64::from(i) / f64::from(NUM_AROUND) * std::f64::consts::TAU));

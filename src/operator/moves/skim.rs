@@ -86,10 +86,9 @@ pub(super) fn skim(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let bend = |i: u32| aside * (context.parameters[if i == 1 { 0 } else { 3 }] * 2.0 - 1.0);
     let inner = |i: u32| {
         let at = first.pose.position.lerp(last.pose.position, f64::from(i) / f64::from(NUM_INNER + 1)) + bend(i);
-        let position = at + frame.up * (height - frame.height(at));
+        let position = frame.at_height(at, height);
         let state = moved(&CameraState { fov_y_rad: last.fov_y_rad, ..first }, position - first.pose.position);
-        let far = ends[1] + frame.up * (heights[0] - frame.height(ends[1]));
-        let ahead = context.end.as_ref().map_or(far, |end| end.aim);
+        let ahead = context.end.as_ref().map_or_else(|| frame.at_height(ends[1], heights[0]), |end| end.aim);
         aimed(world, &state, ahead)
     };
     let states = std::iter::once(first).chain((1..=NUM_INNER).map(inner)).chain([last]).collect();
@@ -130,7 +129,7 @@ fn first_camera(context: &StepContext, (from, way): (DVec3, DVec3), height: f64)
     }
     let fov_y_rad = lerp(LENS_DEG, context.parameters[5]).to_radians();
     let Some(start) = &context.start else {
-        let position = from + frame.up * (height - frame.height(from));
+        let position = frame.at_height(from, height);
         let pose = Pose { position, rotation: glam::DQuat::IDENTITY };
         return aimed(world, &CameraState { pose, fov_y_rad, focus_distance: None }, position + way);
     };
@@ -151,10 +150,9 @@ fn last_camera(
     let frame = &world.frame;
     let fov_y_rad = lerp(LENS_DEG, context.parameters[5]).to_radians();
     let Some(end) = &context.end else {
-        let at = |point: DVec3, height: f64| point + frame.up * (height - frame.height(point));
-        let position = at(to - way * lerp(SHORT_OF, context.parameters[7]) * half, height);
+        let position = frame.at_height(to - way * lerp(SHORT_OF, context.parameters[7]) * half, height);
         let pose = Pose { position, rotation: glam::DQuat::IDENTITY };
-        return aimed(world, &CameraState { pose, fov_y_rad, focus_distance: None }, at(to, surface));
+        return aimed(world, &CameraState { pose, fov_y_rad, focus_distance: None }, frame.at_height(to, surface));
     };
     let azimuth_rad = frame.azimuth(-way) + (context.parameters[2] - 0.5) * 0.8;
     let fill = Fill::Fit(lerp(LAST_FILL, context.parameters[7]));
