@@ -1,7 +1,7 @@
 //! `bench up`: how well the up axis is estimated from the shape of a scene alone.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use glam::{DQuat, DVec3};
@@ -15,6 +15,7 @@ use crate::cli::failure::Failure;
 use crate::cli::outputs::BenchFolder;
 use crate::cli::scene_args::{SceneOptions, parse_vector};
 
+use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::scene::{Gaussians, UpPrior, up_estimates};
 use cinesplat_bench::median;
 
@@ -27,6 +28,7 @@ const RIGHT_DEG: f64 = 10.0;
 Examples:
   cinesplat bench up synth:room:1:0.1 synth:tabletop:1:0.1 --rotations 20
   cinesplat bench up palm.splat guitar.ply --truth 0,-1,0 --truth 0,-1,0 -o bench
+  cinesplat bench up synth:room:1:0.3 --things 8
 Every scene is estimated in its own pose and in random rotations, without what its kind of file suggests. Prints one CSV
 line per scene, and one for all. An estimate within 10 degrees is right.")]
 pub(super) struct Args {
@@ -45,6 +47,9 @@ pub(super) struct Args {
     /// Seed of the rotations
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     seed: u64,
+    /// Largest true objects of every scene that are estimated alone as well
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    things: usize,
     #[command(flatten)]
     folder: BenchFolder,
 }
@@ -72,13 +77,13 @@ impl Args {
         console::data(&table)?;
         let mut all = Vec::new();
         for (idx, path) in self.scenes.iter().enumerate() {
-            let scene = self.options.open(path)?.scene;
-            let truth = self.truth.get(idx).copied().unwrap_or(scene.up).normalize();
-            let trials = self.trials(&scene.gaussians, truth);
-            let line = line(&scene_name(path), scene.gaussians.len(), &trials);
-            console::data(&line)?;
-            table.push_str(&line);
-            all.extend(trials);
+            for subject in self.subjects(path, self.truth.get(idx).copied())? {
+                let trials = self.trials(&subject.gaussians, subject.truth);
+                let line = line(&subject.name, subject.gaussians.len(), &trials);
+                console::data(&line)?;
+                table.push_str(&line);
+                all.extend(trials);
+            }
         }
         let line = line("all", 0, &all);
         console::data(&line)?;
@@ -86,12 +91,54 @@ impl Args {
         self.folder.write("up.csv", &table)
     }
 
-    fn trials(&self, gaussians: &Gaussians, truth: DVec3) -> Vec<Trial> {
+    /// A scene, and its largest things alone.
+    fn subjects(&self, path: &Path, truth: Option<DVec3>) -> Result<Vec<Subject>, Failure> {
+        let (scene, objects) = match self.things {
+            0 => (self.options.open(path)?.scene, ObjectSet::default()),
+            _ => self.options.open(path)?.with_objects(None)?,
+        };
+        let truth = truth.unwrap_or(scene.up).normalize();
+        let mut things: Vec<&Object> = objects.objects.iter().filter(|object| object.parent.is_none()).collect();
+        things.sort_by(|a, b| b.radius().total_cmp(&a.radius()).then(a.id.cmp(&b.id)));
+        let alone = |thing: &&Object| {
+            let is_own = |idx: &usize| u32::from(objects.labels[*idx]) == thing.id;
+            let own: Vec<usize> = (0..objects.labels.len()).filter(is_own).collect();
+            let name = format!("{}:{}", scene_name(path), thing.label);
+            Subject { name, gaussians: scene.gaussians.subset(&own), truth }
+        };
+        let is_upright = |thing: &&&Object| has_up(thing, truth);
+        let alone: Vec<Subject> = things.iter().filter(is_upright).take(self.things).map(alone).collect();
+        let whole = Subject { name: scene_name(path), gaussians: scene.gaussians.clone(), truth };
+        Ok(std::iter::once(whole).chain(alone).collect())
+    }
+
+    /// The pose of the file and random ones.
+    fn turns(&self) -> impl Iterator<Item = DQuat> {
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
         let turns: Vec<DQuat> = (0..self.rotations).map(|_| random_rotation(&mut random)).collect();
-        let turns = std::iter::once(DQuat::IDENTITY).chain(turns);
-        turns.map(|turn| trial(&rotated(gaussians, turn), turn * truth)).collect()
+        std::iter::once(DQuat::IDENTITY).chain(turns)
     }
+
+    fn trials(&self, gaussians: &Gaussians, truth: DVec3) -> Vec<Trial> {
+        self.turns().map(|turn| trial(&rotated(gaussians, turn), turn * truth)).collect()
+    }
+}
+
+/// What is estimated.
+struct Subject {
+    name: String,
+    gaussians: Gaussians,
+    truth: DVec3,
+}
+
+/// Height and depth over the longest side from which a thing shows which way is up: a rug and a door do not.
+const MIN_HEIGHT: f64 = 0.25;
+const MIN_DEPTH: f64 = 0.15;
+
+fn has_up(thing: &Object, up: DVec3) -> bool {
+    let [low, high] = thing.span_along(up);
+    let longest = thing.half_extents.max_element();
+    high - low >= MIN_HEIGHT * 2.0 * longest && thing.half_extents.min_element() >= MIN_DEPTH * longest
 }
 
 fn trial(gaussians: &Gaussians, truth: DVec3) -> Trial {

@@ -7,10 +7,11 @@ use glam::DVec3;
 
 use super::facets::Facet;
 use super::floor::{Floor, find_floor};
+use super::legs::legs;
 use super::sample::PatchSample;
 
 /// Number of kinds of evidence.
-pub(super) const NUM_EVIDENCE: usize = 20;
+pub(super) const NUM_EVIDENCE: usize = 21;
 
 /// Maximum number of patches that are measured along a direction.
 const MAX_PATCHES: usize = 6000;
@@ -61,6 +62,7 @@ pub(super) fn evidence(sample: &PatchSample, facets: &[Facet], up: DVec3) -> ([f
         taper,
         e * taper,
         column.skew(),
+        legs(sample, up),
     ];
     (values, floor)
 }

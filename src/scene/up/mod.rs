@@ -12,6 +12,7 @@ mod candidates;
 mod evidence;
 mod facets;
 mod floor;
+mod legs;
 mod prior;
 mod resting;
 mod sample;

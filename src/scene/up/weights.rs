@@ -3,7 +3,8 @@
 //! They maximize the likelihood of the true direction among the candidates (a conditional logit) over rooms, halves of
 //! rooms, single things and things on a disc of ground of 140 generated scenes, with noise and floaters, in random
 //! poses, and over the scans of the development set, each of which weighs an eighth of a kind of generated scene.
-//! `bench up` measures them.
+//! That of legs was added by hand. Single things were right less often than the fit was sure: [`TRUST`]. `bench up --things 10`
+//! measures them.
 
 use super::evidence::NUM_EVIDENCE;
 
@@ -29,9 +30,15 @@ const WEIGHTS: [(f64, f64); NUM_EVIDENCE] = [
     (-1.19, -0.90), // lower third wider than the upper
     (-0.61, -0.40), // the same, times the floor
     (0.52, -0.81),  // skewness of the heights
+    (8.75, 0.0),    // legs
 ];
+
+/// Factor on all weights: at 1 the things of 28 generated scenes, alone and in random poses, were right in half of the cases
+/// with a mean confidence of 74 %.
+const TRUST: f64 = 0.8;
 
 /// Score of a candidate, as the logarithm of odds. `floorless` is 1 in a scene without a floor, 0 with a perfect one.
 pub(super) fn score(evidence: &[f64; NUM_EVIDENCE], floorless: f64) -> f64 {
-    evidence.iter().zip(WEIGHTS).map(|(value, (always, alone))| value * (always + floorless * alone)).sum()
+    let weighted = |(value, (always, alone)): (&f64, (f64, f64))| value * (always + floorless * alone);
+    TRUST * evidence.iter().zip(WEIGHTS).map(weighted).sum::<f64>()
 }
