@@ -8,22 +8,29 @@ use super::parts::divide;
 use super::pieces::{drop_lumps, isolated_objects};
 use super::planes::{PlaneKind, ScenePlane, is_closed_room};
 use super::settings::FindSettings;
+use super::surroundings::surrounds;
 use super::voxels::VoxelGrid;
 use super::{closed_room, open_room};
 
 /// Groups the voxels of a scene into objects, by the kind of capture: a closed room has a floor, and a ceiling or
 /// walls on four sides; an open room has walls; every other capture shows single things, each a connected component.
 pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSettings) -> Vec<VoxelGroup> {
-    if is_closed_room(planes) {
+    let is_wall = |plane: &ScenePlane| matches!(plane.kind, PlaneKind::Wall | PlaneKind::Ceiling);
+    let has_walls = planes.iter().any(is_wall);
+    // The sides and the back of an armchair are walls only from its seat.
+    let is_room = has_walls && surrounds(grid);
+    if is_room && is_closed_room(planes) {
         return to_detail(grid, closed_room::group(grid, planes, settings), settings, 2);
     }
-    if planes.iter().any(|plane| matches!(plane.kind, PlaneKind::Wall | PlaneKind::Ceiling)) {
+    if is_room {
         return to_detail(grid, open_room::group(grid, planes, settings), settings, 2);
     }
-    let is_structure = structure(grid, planes, settings);
+    // Without a room around them, upright planes are sides of things.
+    let ground: Vec<ScenePlane> = planes.iter().filter(|plane| !is_wall(plane)).cloned().collect();
+    let is_structure = structure(grid, &ground, settings);
     let free: Vec<usize> = (0..is_structure.len()).filter(|&voxel| !is_structure[voxel]).collect();
     let mut objects = isolated_objects(grid, &free);
-    drop_lumps(grid, planes, &mut objects);
+    drop_lumps(grid, &ground, &mut objects);
     let wholes = objects.into_iter().map(|voxels| VoxelGroup::whole(voxels, false)).collect();
     to_detail(grid, wholes, settings, 1)
 }

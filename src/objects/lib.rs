@@ -57,6 +57,7 @@ mod shelves;
 mod silhouettes;
 mod standing;
 mod structure;
+mod surroundings;
 mod tidying;
 mod tops;
 mod up_views;

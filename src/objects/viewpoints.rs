@@ -24,6 +24,9 @@ const MAX_SPLAT_PX: i64 = 5;
 /// Diagonal of an object, over the scene size, from which the scene shows one thing and is seen from outside.
 const SINGLE_FRAC: f64 = 0.6;
 
+/// Share of the matter that is that of objects, from which on the scene is no room.
+const THINGS_FRAC: f64 = 0.9;
+
 /// Distance to the nearest Gaussian, over the scene size, below which a viewpoint counts as blocked.
 const CLEARANCE_FRAC: f64 = 0.04;
 
@@ -89,7 +92,7 @@ impl<'a> ViewpointSearch<'a> {
 
     /// The camera that shows the most objects, with little void and nothing close before the lens.
     pub(crate) fn overview(&self, intrinsics: Intrinsics) -> Camera {
-        if self.shows_one_thing() {
+        if self.shows_one_thing() || self.is_without_surroundings() {
             return self.outside(intrinsics);
         }
         let target = self.middle_of_objects();
@@ -118,6 +121,12 @@ impl<'a> ViewpointSearch<'a> {
         } else {
             self.set.objects.iter().any(is_large)
         }
+    }
+
+    /// Whether nearly all matter is that of objects: things without a room around them.
+    fn is_without_surroundings(&self) -> bool {
+        let owned = self.points.iter().filter(|(_, _, id)| *id > 0).count();
+        owned as f64 >= THINGS_FRAC * self.points.len() as f64
     }
 
     /// The camera outside the scene that shows most of the objects.

@@ -51,19 +51,22 @@ pub(super) struct CaptureRegion {
 
 impl CaptureRegion {
     /// Estimates the region of a scene. No viewpoint lies inside one of the `objects`: their inside is enclosed like a
-    /// room, but it was not captured.
+    /// room, but it was not captured. `surface`: points of the scene's matter.
     pub(super) fn of(
         matter: &OpacityGrid,
         clearance: &ClearanceIndex,
         bounds: &Bounds,
         frame: &LevelFrame,
         objects: &[Object],
+        surface: &[DVec3],
     ) -> Self {
         let free = |p: DVec3| {
             let open = clearance.nearest_within(p, 0.03 * bounds.size()).is_none();
             open && !objects.iter().any(|object| object.contains(p, 0.0))
         };
-        let (viewpoints, indoor) = viewpoints(matter, bounds, frame, free);
+        let (enclosed, is_enclosed) = viewpoints(matter, bounds, frame, free);
+        let indoor = is_enclosed && surrounds(matter, bounds, frame, &enclosed, surface);
+        let viewpoints = if indoor == is_enclosed { enclosed } else { ring(bounds, frame) };
         let (up, size) = (frame.up, bounds.size());
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
         let grounded = mean(viewpoints.iter().map(|&eye| grounded_frac(matter, eye, up, size, 96)).collect());
@@ -128,14 +131,7 @@ fn surface_samples(matter: &OpacityGrid, viewpoints: &[DVec3], size: f64) -> Vec
 
 /// Share of some points on surfaces that a point sees.
 fn seen_frac(matter: &OpacityGrid, samples: &[DVec3], point: DVec3) -> f64 {
-    let sees = |sample: &&DVec3| {
-        let to = **sample - point;
-        let reach = to.length();
-        let stop = reach - 2.0 * matter.grid.cell;
-        let Some(ray) = to.try_normalize() else { return true };
-        matter.hit_distance(point, ray, reach).is_none_or(|distance| distance >= stop)
-    };
-    samples.iter().filter(sees).count() as f64 / samples.len().max(1) as f64
+    samples.iter().filter(|sample| sees(matter, point, **sample)).count() as f64 / samples.len().max(1) as f64
 }
 
 /// The viewpoints of a scene, and whether it is indoor.
@@ -250,6 +246,40 @@ fn spread_out(first: DVec3, good: &[DVec3], matter: &OpacityGrid) -> Vec<DVec3> 
         }
     }
     chosen
+}
+
+/// Viewpoints inside of which it is told whether a scene surrounds them, and what they must see together, over what is seen from
+/// outside: between the flowers of a bouquet and on the seat of an armchair .05 to .36 is seen, in rooms at least .8.
+const NUM_INSIDE: usize = 8;
+const SURROUNDED_FRAC: f64 = 0.6;
+/// Places outside: directions, their angles above the horizon, and their distance over the scene size.
+const NUM_AROUND: usize = 12;
+const ABOVE_RAD: [f64; 2] = [0.1, 0.6];
+const OUTSIDE_FRAC: f64 = 1.1;
+
+/// Whether a scene is seen from inside: most of what anybody sees of its `surface` is seen from the `inside` viewpoints.
+fn surrounds(matter: &OpacityGrid, bounds: &Bounds, frame: &LevelFrame, inside: &[DVec3], surface: &[DVec3]) -> bool {
+    let place = |i: usize| {
+        let azimuth = std::f64::consts::TAU * (i % NUM_AROUND) as f64 / NUM_AROUND as f64;
+        let (sin, cos) = ABOVE_RAD[i / NUM_AROUND].sin_cos();
+        bounds.center() + (frame.direction(azimuth) * cos + frame.up * sin) * OUTSIDE_FRAC * bounds.size()
+    };
+    let outside: Vec<DVec3> = (0..NUM_AROUND * ABOVE_RAD.len()).map(place).collect();
+    let num_seen = |eyes: &[DVec3]| {
+        let is_seen = |point: &&DVec3| eyes.iter().any(|&eye| sees(matter, eye, **point));
+        surface.par_iter().filter(is_seen).count() as f64
+    };
+    let inside = &inside[..inside.len().min(NUM_INSIDE)];
+    num_seen(inside) >= SURROUNDED_FRAC * num_seen(&outside)
+}
+
+/// Whether a point sees one on a surface.
+fn sees(matter: &OpacityGrid, eye: DVec3, surface: DVec3) -> bool {
+    let to = surface - eye;
+    let reach = to.length();
+    let Some(ray) = to.try_normalize() else { return true };
+    let stop = reach - 2.0 * matter.grid.cell;
+    matter.hit_distance(eye, ray, reach).is_none_or(|distance| distance >= stop)
 }
 
 /// Viewpoints on two rings around an outdoor scene.

@@ -117,7 +117,8 @@ impl World {
         let bounds = Bounds::of(gaussians);
         let matter = OpacityGrid::of(Grid::around(&bounds, frame.up), gaussians, |_| true);
         let clearance = ClearanceIndex::new(gaussians);
-        let region = CaptureRegion::of(&matter, &clearance, &bounds, &frame, &objects.objects);
+        let surface = surface_points(gaussians, &bounds);
+        let region = CaptureRegion::of(&matter, &clearance, &bounds, &frame, &objects.objects, &surface);
         let subjects = objects
             .objects
             .iter()
@@ -293,6 +294,17 @@ impl World {
     pub(super) fn hit_distance(&self, eye: DVec3, direction: DVec3) -> Option<f64> {
         self.matter.hit_distance(eye, direction, 1.6 * self.bounds.size())
     }
+}
+
+/// Points on the surfaces of a scene of which it is told from where they are seen.
+const NUM_SURFACE_POINTS: usize = 500;
+
+/// Means of solid Gaussians in the core of a scene.
+fn surface_points(gaussians: &Gaussians, bounds: &Bounds) -> Vec<DVec3> {
+    let is_in = |mean: &DVec3| mean.cmpge(bounds.core_min).all() && mean.cmple(bounds.core_max).all();
+    let solid = (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= SOLID_OPACITY);
+    let means: Vec<DVec3> = solid.map(|i| gaussians.mean_world(i)).filter(is_in).collect();
+    means.iter().step_by(means.len().div_ceil(NUM_SURFACE_POINTS).max(1)).copied().collect()
 }
 
 /// The default of the camera's radius, scene units; above 0.

@@ -1,0 +1,124 @@
+//! Whether a scene surrounds those who look at it: a room, and no thing.
+//!
+//! Enters: voxels. A room is seen from inside, a thing from outside, whatever planes it has.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::voxels::VoxelGrid;
+
+/// Voxels of which it is told from where they are seen.
+const NUM_SEEN: usize = 300;
+
+/// Places along each side of the scene's box, and the cells around a place that must be empty.
+const NUM_ALONG: usize = 7;
+const CLEAR_CELLS: i32 = 3;
+
+/// Places inside that count, best first, and what they must see together, over what is seen from outside.
+const NUM_INSIDE: usize = 8;
+const SURROUNDED_FRAC: f64 = 0.6;
+
+/// Least share of all directions in which somebody inside meets matter, and the number of directions that are tried.
+const ENCLOSED_FRAC: f64 = 0.5;
+const NUM_DIRECTIONS: usize = 96;
+
+/// Places outside: directions around up, their angles above the horizon, and their distance over the diagonal.
+const NUM_AROUND: usize = 12;
+const ABOVE_RAD: [f32; 2] = [0.1, 0.6];
+const OUTSIDE_FRAC: f32 = 0.8;
+
+/// Of so many voxels one lies astray at each end of an axis.
+const ASTRAY: usize = 200;
+
+/// Cells before a voxel that do not hide it.
+const SKIN_CELLS: f32 = 2.5;
+
+/// Length of a step along a ray, cells.
+const STEP_CELLS: f32 = 0.7;
+
+/// Whether most of what anybody sees of the voxels is seen from inside.
+pub(crate) fn surrounds(grid: &VoxelGrid) -> bool {
+    let (low, high) = core(grid);
+    let is_in = |p: &Vec3| p.cmpge(low).all() && p.cmple(high).all();
+    let within: Vec<Vec3> = grid.voxels.iter().map(|voxel| voxel.position).filter(is_in).collect();
+    let targets: Vec<Vec3> = within.iter().step_by(within.len().div_ceil(NUM_SEEN).max(1)).copied().collect();
+    let seen_from = |eye: &Vec3| targets.iter().map(|&target| sees(grid, *eye, target, (low, high))).collect();
+    let seen = |eyes: &[Vec3]| -> Vec<Vec<bool>> { eyes.par_iter().map(seen_from).collect() };
+    let count = |flags: &[bool]| flags.iter().filter(|flag| **flag).count();
+    let places = places_inside(grid, low, high);
+    let mut inside: Vec<(Vec3, Vec<bool>)> = places.iter().copied().zip(seen(&places)).collect();
+    inside.sort_by_key(|(_, flags)| std::cmp::Reverse(count(flags)));
+    inside.truncate(NUM_INSIDE);
+    // A chair of thin bars is seen from anywhere, and stands around nobody.
+    if !inside.iter().any(|(eye, _)| enclosed_frac(grid, *eye, (low, high)) >= ENCLOSED_FRAC) {
+        return false;
+    }
+    let inside: Vec<Vec<bool>> = inside.into_iter().map(|(_, flags)| flags).collect();
+    let together = |views: &[Vec<bool>]| (0..targets.len()).filter(|&i| views.iter().any(|flags| flags[i])).count();
+    together(&inside) as f64 >= SURROUNDED_FRAC * together(&seen(&places_outside(low, high))) as f64
+}
+
+/// Corners of the box of the voxels without those astray.
+fn core(grid: &VoxelGrid) -> (Vec3, Vec3) {
+    let ends = [0, 1, 2].map(|axis| {
+        let mut values: Vec<f32> = grid.voxels.iter().map(|voxel| voxel.position[axis]).collect();
+        values.sort_unstable_by(f32::total_cmp);
+        let astray = values.len() / ASTRAY;
+        let end = |at: Option<usize>| at.and_then(|at| values.get(at)).copied().unwrap_or(0.0);
+        (end(Some(astray)), end(values.len().checked_sub(astray + 1)))
+    });
+    (Vec3::from_array(ends.map(|end| end.0)), Vec3::from_array(ends.map(|end| end.1)))
+}
+
+/// Free places on a lattice in the box of the scene.
+fn places_inside(grid: &VoxelGrid, low: Vec3, high: Vec3) -> Vec<Vec3> {
+    let at = |i: usize| (i as f32 + 0.5) / NUM_ALONG as f32;
+    let place = |i: usize| {
+        let steps = [i % NUM_ALONG, i / NUM_ALONG % NUM_ALONG, i / NUM_ALONG / NUM_ALONG];
+        low + (high - low) * Vec3::from_array(steps.map(at))
+    };
+    let is_free = |place: &Vec3| grid.around(grid.key_at(*place), CLEAR_CELLS).next().is_none();
+    (0..NUM_ALONG.pow(3)).map(place).filter(is_free).collect()
+}
+
+fn places_outside(low: Vec3, high: Vec3) -> Vec<Vec3> {
+    let distance = OUTSIDE_FRAC * (high - low).length();
+    let place = |i: usize| {
+        let (east, north) = (std::f32::consts::TAU * (i % NUM_AROUND) as f32 / NUM_AROUND as f32).sin_cos();
+        let (rise, level) = ABOVE_RAD[i / NUM_AROUND].sin_cos();
+        (low + high) / 2.0 + distance * Vec3::new(east * level, rise, north * level)
+    };
+    (0..NUM_AROUND * ABOVE_RAD.len()).map(place).collect()
+}
+
+/// Share of all directions in which matter is met from a place.
+fn enclosed_frac(grid: &VoxelGrid, eye: Vec3, (low, high): (Vec3, Vec3)) -> f64 {
+    let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+    let direction = |i: usize| {
+        let rise = 1.0 - 2.0 * (i as f32 + 0.5) / NUM_DIRECTIONS as f32;
+        let (sin, cos) = (golden * i as f32).sin_cos();
+        let level = (1.0 - rise * rise).sqrt();
+        Vec3::new(level * cos, rise, level * sin)
+    };
+    let length = (high - low).length();
+    let meets = |i: &usize| !sees(grid, eye + direction(*i) * length, eye, (low, high));
+    (0..NUM_DIRECTIONS).filter(meets).count() as f64 / NUM_DIRECTIONS as f64
+}
+
+/// Whether no voxel lies between a place and a target, in short steps.
+fn sees(grid: &VoxelGrid, eye: Vec3, target: Vec3, (low, high): (Vec3, Vec3)) -> bool {
+    let back = (eye - target).normalize_or_zero();
+    let length = (eye - target).length();
+    let mut along = SKIN_CELLS * grid.cell;
+    while along < length {
+        let point = target + back * along;
+        if point.cmplt(low - grid.cell).any() || point.cmpgt(high + grid.cell).any() {
+            return true;
+        }
+        if grid.find(grid.key_at(point)).is_some() {
+            return false;
+        }
+        along += STEP_CELLS * grid.cell;
+    }
+    true
+}
