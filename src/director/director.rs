@@ -7,7 +7,7 @@ use cinesplat_language::{
     scenery, tokenize, without_arrows, without_camera_settings, without_dictation, without_frame_shape,
     without_tolerances,
 };
-use cinesplat_objects::Object;
+use cinesplat_objects::{Object, only_whole};
 use cinesplat_operator::{Program, StepCameras};
 use cinesplat_trajectory::{CameraState, ModelRef};
 use glam::{DQuat, DVec3, Vec3};
@@ -34,7 +34,7 @@ use crate::pairs::name_pairs;
 use crate::placed::{Places, point_by_places};
 use crate::said::{frame_parts, take_said, take_said_of_all};
 use crate::said_again::point_to_said;
-use crate::scan_parts::own_parts;
+use crate::scan_parts::{described_part, own_parts};
 use crate::sized::point_by_size;
 use crate::times::ListedTimes;
 use crate::told::without_told;
@@ -153,10 +153,12 @@ impl Director {
             |(found, is_effect): &(&FoundMention, bool)| !is_effect || has_word_of_name(prompt, found, objects);
         let things = found.iter().zip(are_effects).filter(is_thing);
         let mentions: Vec<Mention> = things.map(|(found, _)| found.mention.clone()).collect();
+        let whole = only_whole(places.objects).map(|whole| whole.id);
         let part = |mention: &Mention| {
             let [id] = mention.ids[..] else { return Ok(None) };
             let label = objects.iter().find(|object| object.id == id).map_or("", |object| object.label.as_str());
-            part_of(prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default(), label)
+            let words = prompt.get(mention.bytes[0]..mention.bytes[1]).unwrap_or_default();
+            Ok(part_of(words, label)?.or(described_part(words, label, whole == Some(id))?))
         };
         let mut linked = Linked { scenery, acts, ..link_parts(prompt, &mentions, &part)? };
         for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {

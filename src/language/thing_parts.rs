@@ -71,8 +71,13 @@ impl Parts {
     /// The part that words end in, of a thing with such a label, and the number of its words.
     fn found(&self, words: &[Word], label: &[Word]) -> Option<(usize, PartPlace)> {
         let (last, before) = words.split_last()?;
-        let is_of =
-            |part: &Part| part.kinds.is_empty() || label.iter().any(|word| part.kinds.contains(&word.text.as_str()));
+        // `His face` is that of a person, whatever he is called.
+        let is_person = words.iter().any(|word| is_listed("his her", &word.text));
+        let is_of = |part: &Part| {
+            part.kinds.is_empty()
+                || label.iter().any(|word| part.kinds.contains(&word.text.as_str()))
+                || is_person && part.kinds.contains(&"person")
+        };
         let ends_in = |rest: &[&str]| {
             before.len() >= rest.len()
                 && before[before.len() - rest.len()..].iter().zip(rest).all(|(word, known)| word.text == *known)
@@ -171,6 +176,9 @@ mod tests {
         assert_eq!(place("the tip of its crown", "palm"), Some("top"));
         assert_eq!(place("the stand's foot", "tall brown object"), Some("bottom"));
         assert_eq!(place("the friend of the stand", "guitar"), None);
+        assert_eq!(place("his face", "large gray object"), Some("top"));
+        assert_eq!(place("her shoes", "large gray object"), Some("bottom"));
+        assert_eq!(place("his face", "head"), Some("front"));
     }
 
     #[test]

@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::boxes::UprightBox;
 use super::color;
 use super::object::Object;
+use super::seen_colors::seen_colors;
 use super::structure;
 use cinesplat_scene::{Gaussians, Scene};
 
@@ -36,7 +37,7 @@ pub(crate) fn describe(scene: &Scene, members: &[usize], fitted: &UprightBox, se
         ""
     };
     let (shape, noun) = if is_surface { ("", "surface") } else { form(gaussians, members, fitted) };
-    format!("{size}{shape}{} {noun}", color::name(typical_color(gaussians, members)))
+    format!("{size}{shape}{} {noun}", color_name(gaussians, members, fitted))
 }
 
 /// Adjective and noun for the proportions of a box and for how its Gaussians fill it.
@@ -69,6 +70,12 @@ fn is_box(gaussians: &Gaussians, members: &[usize], fitted: &UprightBox) -> bool
     let share =
         |least: usize| members.iter().filter(|i| num_faces(i) >= least).count() as f64 / members.len().max(1) as f64;
     share(1) >= MIN_ON_FACES && share(2) >= MIN_ON_EDGES
+}
+
+/// The color by which people call a thing.
+fn color_name(gaussians: &Gaussians, members: &[usize], fitted: &UprightBox) -> &'static str {
+    let seen = seen_colors(gaussians, members, fitted);
+    if seen.is_empty() { color::name(typical_color(gaussians, members)) } else { color::dominant(&seen) }
 }
 
 /// Median color, CIE Lab, of the more opaque half of the Gaussians.

@@ -6,6 +6,7 @@
 use glam::{Vec3, Vec4};
 
 use super::groups::VoxelGroup;
+use super::person;
 use super::standing::extent;
 use super::voxels::VoxelGrid;
 
@@ -33,16 +34,23 @@ const LONG: f32 = 2.5;
 /// Height over width (standard deviation of the widest part) of a tall thing.
 const TALL: f32 = 4.0;
 
+/// Length of the neck of an instrument over its width (standard deviation), at least.
+const LONG_NECK: f32 = 6.0;
+
 /// Weight of a doubling of the width, and of a color difference of 30 units of CIE Lab, is 1 each.
 const LAB_SCALE: f32 = 1.0 / 30.0;
 
 /// A piece of a thing across its axis.
-struct Slice {
+pub(crate) struct Slice {
     voxels: Vec<usize>,
     /// Binary logarithm of the width, and color.
     features: Vec4,
-    width: f32,
-    color_lab: Vec3,
+    /// Distance of the voxels from their middle, root mean square, scene units.
+    pub(crate) width: f32,
+    /// Mean color, CIE Lab.
+    pub(crate) color_lab: Vec3,
+    /// Share of the voxels that have the color of skin.
+    pub(crate) skin_frac: f32,
 }
 
 /// Adds the parts of every whole that has no parts yet. Parts take all voxels of their whole.
@@ -113,7 +121,8 @@ fn slice(grid: &VoxelGrid, voxels: Vec<usize>, axis: usize) -> Slice {
     let width = (voxels.iter().map(square).sum::<f32>() / count).sqrt().max(0.5 * grid.cell);
     let color_lab = voxels.iter().map(|&v| grid.voxels[v].color_lab).sum::<Vec3>() / count;
     let features = (color_lab * LAB_SCALE * Vec3::new(0.5, 1.0, 1.0)).extend((width / grid.cell).log2());
-    Slice { voxels, features, width, color_lab }
+    let skin = voxels.iter().filter(|&&v| person::is_skin(grid.voxels[v].color_lab)).count();
+    Slice { features, width, color_lab, skin_frac: skin as f32 / count, voxels }
 }
 
 /// Ranges of slices, one per part: the division of least squared deviation, with as many parts as pay.
@@ -173,12 +182,63 @@ fn names(scale: (usize, f32), slices: &[Slice], cuts: &[(usize, usize)]) -> Vec<
     let top = cuts.len() - 1;
     let widest = (0..cuts.len()).map(width).fold(0.0, f32::max);
     let is_tall = slices.len() as f32 * step > TALL * widest;
+    let is_long = |part: usize| length(part) * slices.len() as f32 * step > LONG_NECK * width(part);
+    let has_head = cuts.len() < 4 && person::has_head(step, slices, cuts[top]);
     match cuts.len() {
         2 if green(top) > 3.0 && green(0) < 0.5 * green(top) => vec!["pot", "crown"],
-        2 if is_tall && width(1) < 0.5 * width(0) && length(1) > 0.3 => vec!["body", "neck"],
+        2 if has_head => vec!["body", "head"],
+        2 if is_tall && width(1) < 0.5 * width(0) && length(1) > 0.3 && is_long(1) => vec!["body", "neck"],
         2 => vec!["base", "top"],
-        3 if width(2) < 0.8 * width(1) && length(2) < 0.25 && length(0) < 0.25 => vec!["feet", "trunk", "head"],
+        3 if has_head && length(0) < 0.55 => vec!["legs", "trunk", "head"],
         3 => vec!["base", "middle", "top"],
         _ => vec!["base", "lower part", "upper part", "top"],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slices 5 units thick of so many units of width (standard deviation) and of a color.
+    fn stack(parts: &[(usize, f32, Vec3)]) -> (Vec<Slice>, Vec<(usize, usize)>) {
+        let mut slices = Vec::new();
+        let mut cuts = Vec::new();
+        for &(count, width, color_lab) in parts {
+            cuts.push((slices.len(), slices.len() + count));
+            let skin_frac = f32::from(u8::from(person::is_skin(color_lab)));
+            let slice = |_| Slice { voxels: Vec::new(), features: Vec4::ZERO, width, color_lab, skin_frac };
+            slices.extend((0..count).map(slice));
+        }
+        (slices, cuts)
+    }
+
+    const SKIN: Vec3 = Vec3::new(60.0, 15.0, 20.0);
+    const CLOTH: Vec3 = Vec3::new(40.0, 2.0, -10.0);
+    const WHITE: Vec3 = Vec3::new(80.0, 0.0, 3.0);
+
+    fn named(parts: &[(usize, f32, Vec3)], joined: &[(usize, usize)]) -> Vec<&'static str> {
+        let (slices, _) = stack(parts);
+        names((1, 5.0), &slices, joined)
+    }
+
+    #[test]
+    fn only_a_person_has_a_head() {
+        // Legs and trunk, a neck, a head: a standing person of 180 units.
+        let person = [(24, 16.0, CLOTH), (5, 18.0, CLOTH), (2, 6.0, SKIN), (5, 8.5, SKIN)];
+        assert_eq!(named(&person, &[(0, 29), (29, 36)]), ["body", "head"]);
+        let bust = [(10, 18.0, CLOTH), (1, 6.0, SKIN), (5, 8.5, SKIN)];
+        assert_eq!(named(&bust, &[(0, 10), (10, 16)]), ["body", "head"]);
+        // A kettle on a cloth, and a statue without skin.
+        let kettle = [(2, 24.0, CLOTH), (12, 14.0, WHITE), (2, 12.0, WHITE)];
+        assert_eq!(named(&kettle, &[(0, 2), (2, 14), (14, 16)]), ["base", "middle", "top"]);
+        let pawn = [(10, 18.0, WHITE), (1, 6.0, WHITE), (5, 8.5, WHITE)];
+        assert_eq!(named(&pawn, &[(0, 10), (10, 16)]), ["base", "top"]);
+    }
+
+    #[test]
+    fn a_guitar_keeps_its_neck() {
+        let wood = Vec3::new(40.0, 15.0, 25.0);
+        let guitar = [(12, 16.0, wood), (18, 3.0, wood)];
+        assert_eq!(named(&guitar, &[(0, 12), (12, 30)]), ["body", "neck"]);
     }
 }

@@ -5,7 +5,7 @@ use super::interpreter::{Interpreter, names};
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use super::slant::{level_out, slant_of};
-use super::{guessed_things, lone_thing};
+use super::{few_things, guessed_things, lone_thing};
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, forbidding_words};
@@ -147,10 +147,11 @@ pub fn direct(
     let mut times = PhaseTimes::default();
     let up = scene.up.normalize_or_zero();
     let found = objects;
-    let named = guessed_things::named(prompt, found, up);
+    let named = few_things::named(prompt, found).or_else(|| guessed_things::named(prompt, found, up));
     let objects = named.as_ref().map_or(found, |named| &named.objects);
+    let said = named.as_ref().and_then(|named| named.prompt.as_deref()).unwrap_or(prompt);
     let (mut linked, objects) =
-        times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, prompt, objects, up))?;
+        times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, said, objects, up))?;
     named.iter().for_each(|named| named.warn(&mut linked));
     guessed_things::take_guesses(&mut linked, found, up);
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));

@@ -4,13 +4,16 @@
 //! such things are (a shelf, a worktop, what stands on the shelves), or is left out where other things are named. In a scene
 //! whose things have names, what it lacks stays missing.
 
-use cinesplat_language::{Group, Linked, Word, is_listed, tokenize};
+use super::few_things;
+use cinesplat_language::{Group, Linked, Relation, Things, Word, is_listed, tokenize};
 use cinesplat_objects::{Object, ObjectSet, is_description};
 use glam::DVec3;
 
 /// Least share of things with guessed names only, and fewest things of such a scan.
 const GUESSED_FRAC: f64 = 0.8;
 const FEWEST: usize = 6;
+/// Things on shelves from which on a scan is a room and not in pieces.
+const FEWEST_SHELVED: usize = 3;
 /// Nouns by where such things are.
 const FLOORS: &str = "floor tile flooring ground carpet floorboard";
 const COUNTERS: &str = "counter countertop worktop worksurface bench benchtop table tabletop desk surface island";
@@ -20,13 +23,17 @@ const CUPBOARDS: &str = "cupboard cabinet door drawer unit wardrobe dresser";
 const SMALL: &str = "teapot pot jar bottle mug cup plate bowl vase glass book spoon ladle utensil kettle tin can spice crockery \
     china dish ornament figurine toy candle basket collection tray jug pan";
 /// Colors that people call alike.
-const ALIKE: [&str; 6] = [
+const ALIKE: [&str; 10] = [
     "blue turquoise teal cyan azure aqua light-blue mint",
     "pink rose magenta salmon peach",
-    "white cream beige ivory",
+    "white cream beige ivory pale",
     "brown wooden wood oak tan",
     "gray grey silver metal steel",
     "red orange crimson",
+    "green olive lime emerald",
+    "yellow gold golden",
+    "purple violet lilac lavender",
+    "black",
 ];
 /// Share of the height of the scan, from its bottom, under which a top is one to work at, and from which a thing may be on a shelf.
 const COUNTER_FRAC: f64 = 0.55;
@@ -46,7 +53,9 @@ pub(super) struct Named {
     /// The objects.
     pub(super) objects: ObjectSet,
     /// The nouns and the objects that have them.
-    nouns: Vec<(String, Vec<u32>)>,
+    pub(super) nouns: Vec<(String, Vec<u32>)>,
+    /// The prompt with a noun for each word that only stands for one; `None` where it has none.
+    pub(super) prompt: Option<String>,
 }
 
 impl Named {
@@ -105,6 +114,11 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Name
     if labels.is_empty() {
         return None;
     }
+    Some(Named { objects: numbered(objects, &labels), nouns, prompt: None })
+}
+
+/// The objects with new labels, those that are alike with numbers.
+pub(super) fn numbered(objects: &ObjectSet, labels: &[(u32, String)]) -> ObjectSet {
     let mut named = objects.clone();
     let alike = |label: &str| labels.iter().filter(|(_, other)| other == label).count() > 1;
     for (nth, (id, label)) in labels.iter().enumerate() {
@@ -112,31 +126,32 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Name
         let label = if alike(label) { format!("{label} {earlier}") } else { label.clone() };
         named.objects.iter_mut().filter(|object| object.id == *id).for_each(|object| object.label.clone_from(&label));
     }
-    Some(Named { objects: named, nouns })
+    named
 }
 
 /// The color of a guessed name with a space behind it, as the words before a noun call it: `blue` for turquoise.
-fn color_said(label: &str, before: &[Word]) -> String {
-    let Some((colors, own)) = ALIKE.iter().find_map(|colors| {
-        let own = label.split(' ').find(|word| is_listed(colors, word))?;
-        Some((colors, own))
-    }) else {
-        return String::new();
-    };
-    let said = before.iter().rev().find(|word| is_listed(colors, &word.text)).map_or(own, |word| word.text.as_str());
-    format!("{said} ")
+pub(super) fn color_said(label: &str, before: &[Word]) -> String {
+    let own = |colors: &&&str| label.split(' ').rev().find(|word| is_listed(colors, word));
+    let said = |colors: &&str| before.iter().rev().find(|word| is_listed(colors, &word.text));
+    let alike = ALIKE.iter().filter(|colors| own(colors).is_some());
+    if let Some(word) = alike.clone().find_map(said) {
+        return format!("{} ", word.text);
+    }
+    alike.clone().find_map(|colors| own(&colors)).map_or_else(String::new, |color| format!("{color} "))
 }
 
 /// Takes the nouns that a scan of guessed names lacks for what is most probably meant, or leaves them out where other things are
 /// named. Elsewhere they stay missing.
 pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) {
     let scan = Scan::new(&objects.objects, up);
-    if !scan.is_guessed() || linked.missing_groups().next().is_none() {
+    let is_few = few_things::is_few(objects);
+    if !(is_few || scan.is_guessed()) || linked.missing_groups().next().is_none() {
         return;
     }
     let mut known: Vec<Vec<u32>> = Vec::new();
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
-        let ids = scan.guess(&group.name).filter(|ids| ids.len() == 1 || !known.contains(ids));
+        let guess = if is_few { Some(few_things::guess(&group.name, objects)) } else { scan.guess(&group.name) };
+        let ids = guess.filter(|ids| ids.len() == 1 || is_few || !known.contains(ids));
         let Some(ids) = ids else { continue };
         linked.warnings.push(taken_for(&group.name, &ids));
         known.push(ids.clone());
@@ -186,6 +201,11 @@ impl<'a> Scan<'a> {
     /// The things that are probably meant by a name.
     fn guess(&self, name: &str) -> Option<Vec<u32>> {
         let words = tokenize(name);
+        // `The owl's eyes`.
+        let owner: Vec<Word> = words.iter().take_while(|word| word.text != "'s").cloned().collect();
+        if owner.last().is_some_and(is_living) && self.shelved().len() < FEWEST_SHELVED {
+            return Some(self.largest());
+        }
         let nouns: Vec<&Word> = words.iter().take_while(|word| word.text != "of" && word.text != "on").collect();
         let head = nouns.iter().rev().find(|word| word.is_alphabetic())?;
         let is_plural = head.stem != head.text;
@@ -224,6 +244,15 @@ impl<'a> Scan<'a> {
         ids.truncate(MOST_THINGS);
         ids.sort_unstable();
         (!ids.is_empty()).then_some(ids)
+    }
+
+    /// The largest things, which are the pieces of what a scan of one thing shows.
+    fn largest(&self) -> Vec<u32> {
+        let mut things: Vec<&Object> = self.objects.iter().filter(|object| object.parent.is_none()).collect();
+        things.sort_by_key(|object| std::cmp::Reverse(object.num_gaussians));
+        let mut ids: Vec<u32> = things.into_iter().take(MOST_THINGS).map(|object| object.id).collect();
+        ids.sort_unstable();
+        ids
     }
 
     fn middle(&self, object: &Object) -> f64 {
@@ -314,7 +343,7 @@ impl<'a> Scan<'a> {
 }
 
 /// Those of some things whose guessed names have a color that the words say.
-fn of_color<'a>(things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
+pub(super) fn of_color<'a>(things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
     let said: Vec<&str> =
         ALIKE.iter().filter(|colors| words.iter().any(|word| is_listed(colors, &word.text))).copied().collect();
     let has = |object: &&&Object| said.iter().any(|colors| object.label.split(' ').any(|word| is_listed(colors, word)));
@@ -322,8 +351,19 @@ fn of_color<'a>(things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
 }
 
 /// Whether a label is that of what bounds a room, which a search names by its place.
-fn is_bound(label: &str) -> bool {
+pub(super) fn is_bound(label: &str) -> bool {
     label.split(' ').any(|word| matches!(word, "floor" | "ceiling" | "wall"))
+}
+
+/// Whether a noun is an animal or a person: what a scan is about, and no thing on a shelf.
+fn is_living(noun: &Word) -> bool {
+    let things = Things::embedded();
+    let related = things.related(&things.kinds_of(&noun.stem));
+    let is = |kind: &str| {
+        let relations = related.get(kind).copied().unwrap_or_default();
+        Relation::Broader.is_in(relations) || Relation::Same.is_in(relations)
+    };
+    is("animal") || is("person")
 }
 
 fn has_word(label: &str, word: &str) -> bool {

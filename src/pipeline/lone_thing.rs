@@ -9,12 +9,18 @@ use std::cmp::Reverse;
 use super::error::PipelineError;
 use super::interpreter::names;
 use cinesplat_director::{Director, Places};
-use cinesplat_language::{Linked, Relation, Things, Word, is_listed, part_of, tokenize};
+use cinesplat_language::{Linked, Relation, Things, Word, is_listed, own_part_at, part_of, tokenize};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_operator::{Amount, Framing, Program};
 use cinesplat_trajectory::Move;
 use glam::DVec3;
 
+/// People whom the list of kinds of things lacks.
+const PEOPLE: &str = "biker rider motorcyclist cyclist photographer dancer model player driver runner athlete mannequin singer \
+    musician fellow dude gentleman chap monk bride groom fighter boxer skater surfer hiker farmer sailor statue sculpture";
+/// The part that only people have, and what such a thing is called where the words do not say it.
+const HEAD: &str = "head";
+const PERSON: &str = "person";
 /// What a thing stands on: rarely what a scan is about.
 const GROUNDS: [&str; 10] =
     ["soil", "ground", "floor", "earth", "grass", "table", "stand", "pedestal", "plinth", "background"];
@@ -41,7 +47,8 @@ pub(super) fn link<'a>(
     let Some(whole) = objects.unnamed_whole() else {
         return Ok((director.link_placed(prompt, &names(&objects.objects), places)?, Cow::Borrowed(objects)));
     };
-    let name = name_of_whole(director, prompt, objects)?;
+    let has_head = objects.objects.iter().any(|object| object.parent == Some(whole.id) && object.label == HEAD);
+    let name = name_of_whole(director, prompt, objects)?.or_else(|| has_head.then(|| PERSON.to_owned()));
     let (id, description) = (whole.id, &whole.label);
     let mut renamed = objects.clone();
     if let Some(name) = &name {
@@ -51,7 +58,7 @@ pub(super) fn link<'a>(
     let is_place = |object: &&Object| object.parent == Some(id) && is_listed(PLACES, &object.label);
     let of_kinds: Vec<Object> = renamed.objects.iter().filter(|object| !is_place(object)).cloned().collect();
     let mut linked = director.link_placed(prompt, &names(&of_kinds), places)?;
-    let mut taken: Vec<String> = name.into_iter().collect();
+    let mut taken: Vec<String> = name.into_iter().filter(|name| name != PERSON).collect();
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
         group.members = vec![id];
         taken.push(group.name.clone());
@@ -107,13 +114,16 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     let stems = |text: &str| -> Vec<String> { tokenize(text).into_iter().map(|word| word.stem).collect() };
     let known: Vec<String> = objects.objects.iter().flat_map(|object| stems(&object.label)).collect();
     let is_known = |name: &str| stems(name).last().is_none_or(|head| known.contains(head));
-    let is_own = |name: &str| prompt.to_lowercase().contains(&format!("its {}", name.to_lowercase()));
+    let lower = prompt.to_lowercase();
+    let is_own = |name: &str| {
+        ["its", "his", "her"].iter().any(|owner| lower.contains(&format!("{owner} {}", name.to_lowercase())))
+    };
     let mut found: Vec<String> = linked
         .missing_groups()
         .map(|group| plain_name(&group.name))
         .filter(|name| !is_known(name) && !is_own(name))
         .collect();
-    let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty();
+    let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty() || is_listed(PEOPLE, word);
     let words = tokenize(prompt);
     let is_determined = |at: usize| {
         let before = words[at.saturating_sub(2)..at].iter();
@@ -187,6 +197,13 @@ fn is_part(name: &str, objects: &ObjectSet) -> Result<bool, PipelineError> {
     let is_view = is_listed(VIEWS, &phrase);
     let found = objects.objects.iter().filter(|object| object.parent.is_some()).any(is_named);
     let is_whole = stems.last().is_some_and(|head| is_listed(WHOLES, head));
+    // The helmet of a person is his head's.
+    let words = tokenize(name);
+    for object in objects.objects.iter().filter(|object| object.parent.is_some() && object.label == HEAD) {
+        if own_part_at(&words, &object.label)?.is_some() || part_of(&format!("his {name}"), "")?.is_some() {
+            return Ok(true);
+        }
+    }
     Ok(is_view || found && !is_whole || part_of(name, "")?.is_some_and(|part| part.is_small))
 }
 
@@ -194,7 +211,8 @@ fn is_part(name: &str, objects: &ObjectSet) -> Result<bool, PipelineError> {
 fn plain_name(name: &str) -> String {
     let words = tokenize(name);
     let is_amount = |word: &Word| is_listed("whole entire full complete all", &word.text);
-    let is_place = |word: &Word| is_listed("on in at with from by of under beside", &word.text);
+    // `The man's face` is that of the man.
+    let is_place = |word: &Word| is_listed("on in at with from by of under beside 's", &word.text);
     let front = words.iter().skip_while(|word| is_amount(word)).take_while(|word| !is_place(word));
     let front: Vec<&str> = front.map(|word| word.text.as_str()).collect();
     if front.is_empty() { name.to_owned() } else { front.join(" ") }

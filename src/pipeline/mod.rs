@@ -9,6 +9,7 @@ mod choose_film;
 mod clearance;
 mod direct;
 mod error;
+mod few_things;
 mod film;
 mod film_pictures;
 mod focus;

@@ -23,6 +23,11 @@ const EDGE_FRAC: f64 = 0.08;
 
 /// Words that only say to come closer.
 const CLOSER: &str = "closer nearer close and even still in , . then yet much a bit little";
+/// Words that keep something in the picture, of the picture, of a place in it, and of what was named before.
+const KEEPS: &str = "keep keeping keeps with have having hold holding";
+const SEEN: &str = "frame shot view picture sight visible screen image";
+const PLACES: &str = "top bottom upper lower left right center centre middle third corner edge centered centred";
+const PRONOUNS: &str = "him her it them he she";
 /// Verbs of a way along something, and of a way over it.
 const SLIDES: [&str; 9] = ["slide", "glide", "travel", "come", "go", "run", "move", "drift", "track"];
 const CLIMBS: [&str; 7] = ["climb", "rise", "lift", "crane", "boom", "jib", "float"];
@@ -41,6 +46,8 @@ pub(crate) fn frame_parts(linked: &Linked, (objects, up): (&[Object], DVec3), pr
     scanned.circle_the_whole(linked, &mut program.steps);
     scanned.come_closer(linked, &mut program.steps);
     for step in &mut program.steps {
+        scanned.keep_in_frame(linked, step);
+        scanned.end_on_whole(linked, step);
         scanned.slide_along(linked, step);
         scanned.rise_over(linked, step);
         for framing in [&mut step.start, &mut step.end] {
@@ -137,6 +144,65 @@ impl Scanned<'_> {
             } else if is_closer && step.movement == Move::PushIn && before.end.subjects == step.end.subjects {
                 step.end = Framing { size: Some(ShotSize::ExtremeCloseUp), ..before.end.clone() };
             }
+        }
+    }
+
+    /// Shows all of the thing where a part of it is only to stay in the frame: `arc around him, keep his head in frame`.
+    fn keep_in_frame(&self, linked: &Linked, step: &mut Step) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let kept = (0..words.len()).filter_map(|at| Some((at, linked.slot_at(words[at])?))).find(|(at, _)| {
+            let behind = words[at + 1..].iter().take(5);
+            let holds = words[..*at].iter().rev().take(6).any(|word| is_listed(KEEPS, word));
+            holds
+                && behind.clone().any(|word| is_listed(SEEN, word))
+                && !behind.clone().any(|word| is_listed(PLACES, word))
+        });
+        let Some((at, id)) = kept.filter(|(_, id)| self.is_own(*id)) else { return };
+        // What is said of nothing else is about the part.
+        let is_said = |word: &&str| is_listed(PRONOUNS, word) || linked.slot_at(word).is_some_and(|id| self.is_own(id));
+        let is_aside = words[..at].iter().chain(&words[at + 1..]).any(|word| is_said(&word));
+        let own = step.end.subjects.iter().all(|id| self.is_own(*id));
+        if !is_aside || !own || step.movement == Move::Static {
+            return;
+        }
+        let size = step.end.size;
+        step.end = Framing { subjects: vec![self.whole.id], size, whole: size.is_none(), ..Framing::default() };
+        if id != self.whole.id && !step.keep.contains(&id) {
+            step.keep.push(id);
+        }
+    }
+
+    /// Ends on all of the thing where the words end on all of it: `crane down from the lid and end on the whole jug`, `pull out
+    /// from his nose until we see all of him`.
+    fn end_on_whole(&self, linked: &Linked, step: &mut Step) {
+        let texts = linked.texts_in(step.words.unwrap_or_default());
+        let says_all = texts.windows(3).any(|three| {
+            matches!(three[..2], ["all" | "whole", "of"]) && is_listed(PRONOUNS, three[2]) && three[2] != "them"
+        });
+        let is_part = matches!(step.end.subjects[..], [id] if id != self.whole.id && self.is_own(id));
+        let widens = matches!(step.movement, Move::PullOut | Move::ZoomOut);
+        if says_all && is_part && widens {
+            if step.start.subjects.is_empty() {
+                step.start = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
+                step.start.size = Some(ShotSize::CloseUp);
+            }
+            step.end.subjects = vec![self.whole.id];
+            (step.end.part, step.end.whole) = (SubjectPart::Middle, true);
+            return;
+        }
+        let words: Vec<(&str, [usize; 2])> = linked.words_in(step.words.unwrap_or_default()).collect();
+        let last = words.iter().rev().find_map(|(word, span)| Some((linked.slot_at(word)?, span)));
+        let is_whole = last.is_some_and(|(id, span)| id == self.whole.id && linked.wholes.contains(span));
+        let is_end =
+            matches!(step.end.subjects[..], [id] if id == self.whole.id) && step.end.part != SubjectPart::Middle;
+        if !is_whole || !is_end {
+            return;
+        }
+        step.end =
+            Framing { part: SubjectPart::Middle, size: None, height_frac: None, whole: true, ..step.end.clone() };
+        let is_open = step.start.size.is_none() && step.start.height_frac.is_none() && !step.start.whole;
+        if is_open && step.start.part != SubjectPart::Middle && step.start.subjects == step.end.subjects {
+            step.start.height_frac = Some(if self.is_upright() { OF_UPRIGHT } else { OF_COMPACT });
         }
     }
 
@@ -258,6 +324,41 @@ mod tests {
         let wide = framing(1, SubjectPart::Top, Some(ShotSize::Long));
         let step = framed(Step { end: wide.clone(), ..Step::of(Move::PushIn) });
         assert_eq!(step.end, wide);
+    }
+
+    #[test]
+    fn a_part_that_stays_in_the_frame_is_no_place_in_it() {
+        let kept = |text: &str| {
+            let linked = Linked { slots: vec![3, 1], ..linked(text) };
+            let end = Framing {
+                place: Some(cinesplat_operator::FramePlace::AtUpper),
+                ..framing(1, SubjectPart::Middle, None)
+            };
+            let step = Step { end, words: Some([0, text.len()]), ..Step::of(Move::ArcLeft) };
+            let mut program = Program { steps: vec![step], ..Program::default() };
+            frame_parts(&linked, (&guitar(), DVec3::Y), &mut program);
+            program.steps.remove(0)
+        };
+        let step = kept("arc around it , keep <obj-0> in frame");
+        assert_eq!((step.end.place, &step.keep[..]), (None, &[3][..]));
+        assert!(kept("arc around it , keep <obj-0> in the upper third of the frame").end.place.is_some());
+    }
+
+    #[test]
+    fn a_descent_to_the_whole_thing_ends_on_all_of_it() {
+        let text = "crane down from <obj-0> to <obj-0>";
+        let linked = Linked { slots: vec![1], wholes: vec![[27, 34]], ..linked(text) };
+        let step = Step {
+            start: framing(1, SubjectPart::Top, None),
+            end: framing(1, SubjectPart::Bottom, None),
+            words: Some([0, text.len()]),
+            ..Step::of(Move::CraneDown)
+        };
+        let mut program = Program { steps: vec![step], ..Program::default() };
+        frame_parts(&linked, (&guitar(), DVec3::Y), &mut program);
+        let step = &program.steps[0];
+        assert!(step.end.whole && step.end.part == SubjectPart::Middle && step.end.height_frac.is_none());
+        assert_eq!(step.start.height_frac, Some(OF_UPRIGHT));
     }
 
     fn said(text: &str, step: Step) -> Step {
