@@ -54,7 +54,10 @@ fn back_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) ->
 /// Cost of showing a thing that has a front from elsewhere: nothing else tells which side to show.
 fn off_front_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let faced = |subject: &Subject| Some((subject.center, subject.front_rad?));
-    let front = constraints.iter().find_map(|constraint| constraint.shown(world).and_then(faced));
+    let mut shown = constraints.iter().filter_map(|constraint| constraint.shown(world)).peekable();
+    // A film of nothing that has a name is one of the thing that there is.
+    let of_all = world.front_rad.filter(|_| shown.peek().is_none()).map(|front_rad| (world.bounds.center(), front_rad));
+    let front = shown.find_map(faced).or(of_all);
     let Some((center, front_rad)) = front else { return 0.0 };
     let off = |state: &CameraState| {
         let azimuth = world.frame.azimuth(state.pose.position - center);
