@@ -13,16 +13,19 @@
 
 mod choice;
 mod critic;
+mod face;
 mod film;
 mod front;
 mod limits;
 mod marks;
 mod painted;
 mod picture;
+mod profile;
 mod report;
 mod resolution;
 mod review;
 mod settings;
+mod sides;
 mod subjects;
 mod terms;
 mod thinned;

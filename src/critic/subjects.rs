@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::painted::Painted;
-use super::thinned::thinned;
+use super::thinned::{MAX_BACKGROUND, thinned};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_scene::{Gaussians, SOLID_OPACITY};
 
@@ -71,7 +71,7 @@ impl Subjects {
             let label = subjects.len() as u16;
             own.into_iter().filter(|&i| labels[i] == 0).collect::<Vec<_>>().into_iter().for_each(|i| labels[i] = label);
         }
-        let (kept, growth) = thinned(gaussians, &labels);
+        let (kept, growth) = thinned(gaussians, &labels, MAX_BACKGROUND);
         let sizes: Vec<f32> = kept.iter().map(|&i| size(gaussians, i)).collect();
         let kept_labels: Vec<u16> = kept.iter().map(|&i| labels[i]).collect();
         let mut scene = gaussians.plain_subset(&kept);

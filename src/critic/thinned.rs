@@ -3,18 +3,19 @@
 use cinesplat_scene::Gaussians;
 
 /// Gaussians of a thinned scene besides those of its subjects. A picture of 128 by 72 pixels shows no more.
-const MAX_BACKGROUND: usize = 120_000;
+pub(super) const MAX_BACKGROUND: usize = 120_000;
 
-/// Indices of the Gaussians that stand for a scene, and the factor on their lengths.
+/// Indices of the Gaussians that stand for a scene, at most about `most` without a label, and the factor on the lengths of
+/// these.
 ///
 /// All Gaussians with a label stay. Of the others a share does, chosen by their color and opacity, so that neither their
 /// order nor the frame of the scene matters. They grow by the root of that share, so that they cover as much.
-pub(super) fn thinned(gaussians: &Gaussians, labels: &[u16]) -> (Vec<usize>, f32) {
+pub(super) fn thinned(gaussians: &Gaussians, labels: &[u16], most: usize) -> (Vec<usize>, f32) {
     let num_background = labels.iter().filter(|label| **label == 0).count();
-    if num_background <= MAX_BACKGROUND {
+    if num_background <= most {
         return ((0..gaussians.len()).collect(), 1.0);
     }
-    let share = MAX_BACKGROUND as f64 / num_background as f64;
+    let share = most as f64 / num_background as f64;
     let limit = (share * f64::from(u32::MAX)) as u32;
     let stays = |i: &usize| labels[*i] > 0 || mixed(gaussians, *i) <= limit;
     ((0..gaussians.len()).filter(stays).collect(), share.sqrt().recip() as f32)

@@ -24,6 +24,12 @@ pub(super) fn side_cost(world: &World, constraints: &[Constraint], states: &[Cam
     [back_cost, edge_cost, off_front_cost].map(|cost| cost(world, constraints, &ends)).into_iter().sum()
 }
 
+/// The subject that has to be visible, where its front is not known. Facets tell the outer sides of closed things alone: the
+/// surface of a chair's back that faces its seat lies behind the chair's middle, and counts as turned away from the front.
+fn unfaced<'a>(world: &'a World, constraint: &Constraint) -> Option<&'a Subject> {
+    constraint.shown(world).filter(|subject| subject.front_rad.is_none())
+}
+
 /// Breadth of a subject below which it is seen edge-on, and the cost of seeing nothing but its edge.
 const LEAST_BREADTH: f64 = 0.55;
 const EDGE_COST: f64 = 1.6;
@@ -31,7 +37,7 @@ const EDGE_COST: f64 = 1.6;
 /// Cost of cameras that see a flat subject edge-on, where it has to be visible: a picture on a wall from beside it.
 fn edge_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let edge_of = |constraint: &Constraint| {
-        let Some(subject) = constraint.shown(world) else { return 0.0 };
+        let Some(subject) = unfaced(world, constraint) else { return 0.0 };
         let picked = constraint.scope.of(ends);
         let breadth = |state: &CameraState| subject.facets.breadth(subject.center, state.pose.position, world.frame.up);
         let lack = picked.iter().filter_map(breadth).map(|breadth| (1.0 - breadth / LEAST_BREADTH).max(0.0));
@@ -43,7 +49,7 @@ fn edge_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) ->
 /// Cost of cameras that see a subject, where it has to be visible, from the side that was not captured.
 fn back_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let front_of = |constraint: &Constraint| {
-        let Some(subject) = constraint.shown(world) else { return 1.0 };
+        let Some(subject) = unfaced(world, constraint) else { return 1.0 };
         let picked = constraint.scope.of(ends).iter();
         picked.filter_map(|state| subject.facets.front_frac(state.pose.position)).fold(1.0, f64::min)
     };
@@ -54,7 +60,10 @@ fn back_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) ->
 /// Cost of showing a thing that has a front from elsewhere: nothing else tells which side to show.
 fn off_front_cost(world: &World, constraints: &[Constraint], ends: &[CameraState]) -> f64 {
     let faced = |subject: &Subject| Some((subject.center, subject.front_rad?));
-    let front = constraints.iter().find_map(|constraint| constraint.shown(world).and_then(faced));
+    let mut shown = constraints.iter().filter_map(|constraint| constraint.shown(world)).peekable();
+    // A film of nothing that has a name is one of the thing that there is.
+    let of_all = world.front_rad.filter(|_| shown.peek().is_none()).map(|front_rad| (world.bounds.center(), front_rad));
+    let front = shown.find_map(faced).or(of_all);
     let Some((center, front_rad)) = front else { return 0.0 };
     let off = |state: &CameraState| {
         let azimuth = world.frame.azimuth(state.pose.position - center);

@@ -52,6 +52,8 @@ pub struct World {
     /// Radius of the camera's ball, and how far effects take it from the path, scene units.
     pub(super) ball: [f64; 2],
     subjects: BTreeMap<u32, Subject>,
+    /// Azimuth of the front of the scene, seen from its middle, where it shows one thing that has a front.
+    pub(super) front_rad: Option<f64>,
     matter: OpacityGrid,
     clearance: ClearanceIndex,
     region: CaptureRegion,
@@ -145,6 +147,7 @@ impl World {
             camera_radius,
             ball: [camera_radius, 0.0],
             subjects,
+            front_rad: None,
             matter,
             clearance,
             region,
@@ -190,10 +193,22 @@ impl World {
         }
     }
 
-    /// Azimuth of the front of the subject with this middle, where it is known.
+    /// Says which way the front of the only thing of a scan faces, by a direction from its middle: it is the front of the
+    /// scene and of all parts of the thing.
+    pub fn set_front_of_all(&mut self, direction: DVec3) {
+        let azimuth = self.frame.azimuth(direction);
+        self.front_rad = Some(azimuth);
+        self.subjects.values_mut().for_each(|subject| subject.front_rad = Some(azimuth));
+    }
+
+    /// Azimuth of the front of the subject with this middle, or of the scene as a whole, where it is known.
     pub(super) fn known_front(&self, center: DVec3) -> Option<f64> {
         let tolerance = 1e-6 * self.bounds.size();
-        self.subjects.values().find(|subject| subject.center.distance(center) <= tolerance)?.front_rad
+        let subject = self.subjects.values().find(|subject| subject.center.distance(center) <= tolerance);
+        match subject {
+            Some(subject) => subject.front_rad,
+            None => self.front_rad,
+        }
     }
 
     /// Distance from a world point to the nearest matter, scene units; 0 inside. At most a little more than twice the

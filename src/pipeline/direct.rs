@@ -201,6 +201,27 @@ struct Script {
     model: Option<ModelRef>,
 }
 
+/// Tells a world the fronts of its subjects. All of a scan of one thing has the front of that thing, as a neck has that of its
+/// guitar.
+fn turn_to_fronts(
+    (scene, objects): (&Scene, &ObjectSet),
+    (subjects, ids): (&Subjects, &[u32]),
+    world: &mut World,
+) -> Result<(), PipelineError> {
+    match objects.only_whole() {
+        Some(whole) => {
+            let alone = (!ids.contains(&whole.id)).then(|| Subjects::new(&scene.gaussians, objects, &[whole.id]));
+            let front = alone.as_ref().unwrap_or(subjects).front(whole.id, &world.frame)?;
+            front.into_iter().for_each(|direction| world.set_front_of_all(direction));
+        }
+        None => {
+            let fronts = subjects.fronts(&world.frame)?;
+            fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
+        }
+    }
+    Ok(())
+}
+
 /// Searches the cameras of a script and chooses among the films.
 fn film(
     (scene, objects): (&Scene, &ObjectSet),
@@ -220,15 +241,7 @@ fn film(
     let looks = settings.solve != SolveLevel::Off;
     let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, objects, &ids)));
     if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
-        let fronts = times.measure(Phase::Judge, || match objects.only_whole() {
-            // A neck has the front of its guitar.
-            Some(whole) if !ids.contains(&whole.id) => {
-                let fronts = Subjects::new(&scene.gaussians, objects, &[whole.id]).fronts(&world.frame)?;
-                Ok(fronts.iter().flat_map(|(_, direction)| ids.iter().map(|id| (*id, *direction))).collect())
-            }
-            _ => subjects.fronts(&world.frame),
-        })?;
-        fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
+        times.measure(Phase::Judge, || turn_to_fronts((scene, objects), (subjects, &ids), &mut world))?;
     }
     let program = &direction.program;
     // A shaky camera keeps clear wherever the hand takes it.

@@ -4,6 +4,7 @@ use cinesplat::critic::Subjects;
 use cinesplat::geometry::LevelFrame;
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::scene::Gaussians;
+use cinesplat::synth::{SynthKind, SynthObject, SynthScene, SynthSettings, generate};
 use glam::{DVec3, Quat, Vec3};
 
 /// A closed box whose sides are gray except one, which is striped.
@@ -66,4 +67,32 @@ fn the_edge_of_a_board_is_not_its_front() {
     let frame = LevelFrame::new(DVec3::Y).unwrap();
     let fronts = Subjects::new(&scene, &objects, &[7]).fronts(&frame).unwrap();
     assert!(fronts.iter().all(|(_, front)| front.x.abs() < 0.8), "{fronts:?}");
+}
+
+/// Angle between the front that is found of an object of a generated room, cut out of it, and its own; `None` where none is
+/// found.
+fn off_front_deg(made: &SynthScene, object: &SynthObject) -> Option<f64> {
+    let own: Vec<usize> = (0..made.labels.len()).filter(|&i| u32::from(made.labels[i]) == object.id).collect();
+    let cloud = made.gaussians.plain_subset(&own);
+    let whole = Object::from_box(1, &object.label, object.center, object.half_extents);
+    let whole = Object { rotation: object.rotation, ..whole };
+    let objects = ObjectSet { objects: vec![whole], labels: Vec::new() };
+    let front = Subjects::new(&cloud, &objects, &[1]).front(1, &LevelFrame::new(made.up).unwrap()).unwrap()?;
+    Some(front.angle_between(object.rotation * DVec3::Z).to_degrees())
+}
+
+#[test]
+fn seats_face_away_from_their_backs() {
+    let (mut right, mut wrong) = (0, Vec::new());
+    for seed in [3, 5, 8, 11, 14, 21] {
+        let made = generate(&SynthSettings { seed, kind: SynthKind::Room, detail: 0.1 });
+        let is_seat = |object: &&SynthObject| object.label.ends_with("chair") || object.label.ends_with("sofa");
+        for object in made.objects.iter().filter(is_seat) {
+            match off_front_deg(&made, object) {
+                Some(deg) if deg < 30.0 => right += 1,
+                off => wrong.push(format!("{} of room {seed}: {off:?}", object.label)),
+            }
+        }
+    }
+    assert!(right > 0 && wrong.is_empty(), "{right} right, wrong: {wrong:#?}");
 }

@@ -1,7 +1,7 @@
 //! Which side of a subject a film shows where the words leave it open: the captured one, and the front of a lone thing.
 
 use cinesplat::objects::{Object, ObjectSet};
-use cinesplat::operator::{Framing, Step, World};
+use cinesplat::operator::{Amount, Framing, Step, World};
 use cinesplat::scene::Gaussians;
 use cinesplat::trajectory::Move;
 use glam::{DVec3, Quat, Vec3};
@@ -43,8 +43,8 @@ fn a_thing_captured_from_one_side_is_filmed_from_there() {
     }
 }
 
-#[test]
-fn a_lone_thing_is_filmed_from_its_front() {
+/// A cube that is all there is.
+fn cube() -> (Gaussians, ObjectSet) {
     let mut gaussians = Gaussians::default();
     for axis in 0..3 {
         let [u, v] = [DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]];
@@ -54,12 +54,49 @@ fn a_lone_thing_is_filmed_from_its_front() {
     }
     let cube = Object::from_box(1, "cube", DVec3::ZERO, DVec3::splat(0.5));
     let objects = vec![Object { num_gaussians: gaussians.len(), ..cube }];
-    let objects = ObjectSet { objects, labels: Vec::new() };
+    (gaussians, ObjectSet { objects, labels: Vec::new() })
+}
+
+fn off_deg(eye: DVec3, front: DVec3) -> f64 {
+    eye.with_y(0.0).angle_between(front).to_degrees()
+}
+
+#[test]
+fn a_lone_thing_is_filmed_from_its_front() {
+    let (gaussians, objects) = cube();
     for front in [DVec3::X, -DVec3::X, DVec3::Z] {
         let mut world = World::new(&gaussians, DVec3::Y, &objects, &[1]).unwrap();
         world.set_front(1, front);
-        let eye = film(&solved(&world, still_of(1)))[0].pose.position;
-        let off_deg = eye.with_y(0.0).angle_between(front).to_degrees();
+        let off_deg = off_deg(film(&solved(&world, still_of(1)))[0].pose.position, front);
         assert!(off_deg < 75.0, "front {front}, filmed {off_deg} degrees off");
+    }
+}
+
+#[test]
+fn a_film_that_names_nothing_shows_the_front_of_the_only_thing() {
+    let (gaussians, objects) = cube();
+    for front in [DVec3::X, -DVec3::X, DVec3::Z] {
+        let mut world = World::new(&gaussians, DVec3::Y, &objects, &[]).unwrap();
+        world.set_front_of_all(front);
+        let off_deg = off_deg(film(&solved(&world, vec![Step::of(Move::PushIn)]))[0].pose.position, front);
+        assert!(off_deg < 60.0, "front {front}, filmed {off_deg} degrees off");
+    }
+}
+
+#[test]
+fn a_full_circle_begins_at_the_front_and_an_arc_passes_it() {
+    let (gaussians, objects) = cube();
+    for front in [DVec3::X, -DVec3::Z] {
+        let mut world = World::new(&gaussians, DVec3::Y, &objects, &[1]).unwrap();
+        world.set_front_of_all(front);
+        let around = |amount| {
+            let end = Framing { subjects: vec![1], ..Framing::default() };
+            let orbit = Step { end, amount, either_way: true, ..Step::of(Move::OrbitLeft) };
+            film(&solved(&world, vec![orbit]))
+        };
+        let circle = around(Some(Amount::Degrees(360.0)));
+        assert!(off_deg(circle[0].pose.position, front) < 40.0, "begins {}", off_deg(circle[0].pose.position, front));
+        let nearest = around(None).iter().map(|state| off_deg(state.pose.position, front)).fold(180.0, f64::min);
+        assert!(nearest < 20.0, "passes {nearest} degrees off");
     }
 }
