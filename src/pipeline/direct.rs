@@ -208,16 +208,13 @@ fn turn_to_fronts(
     (subjects, ids): (&Subjects, &[u32]),
     world: &mut World,
 ) -> Result<(), PipelineError> {
-    match objects.only_whole() {
-        Some(whole) => {
-            let alone = (!ids.contains(&whole.id)).then(|| Subjects::new(&scene.gaussians, objects, &[whole.id]));
-            let front = alone.as_ref().unwrap_or(subjects).front(whole.id, &world.frame)?;
-            front.into_iter().for_each(|direction| world.set_front_of_all(direction));
-        }
-        None => {
-            let fronts = subjects.fronts(&world.frame)?;
-            fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
-        }
+    if let Some(whole) = objects.only_whole() {
+        let alone = (!ids.contains(&whole.id)).then(|| Subjects::new(&scene.gaussians, objects, &[whole.id]));
+        let front = alone.as_ref().unwrap_or(subjects).front(whole.id, &world.frame)?;
+        front.into_iter().for_each(|direction| world.set_front_of_all(direction));
+    } else {
+        let fronts = subjects.fronts(&world.frame)?;
+        fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));
     }
     Ok(())
 }

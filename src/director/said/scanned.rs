@@ -160,7 +160,7 @@ impl Scanned<'_> {
         let Some((at, id)) = kept.filter(|(_, id)| self.is_own(*id)) else { return };
         // What is said of nothing else is about the part.
         let is_said = |word: &&str| is_listed(PRONOUNS, word) || linked.slot_at(word).is_some_and(|id| self.is_own(id));
-        let is_aside = words[..at].iter().chain(&words[at + 1..]).any(|word| is_said(&word));
+        let is_aside = words[..at].iter().chain(&words[at + 1..]).any(is_said);
         let own = step.end.subjects.iter().all(|id| self.is_own(*id));
         if !is_aside || !own || step.movement == Move::Static {
             return;

@@ -125,10 +125,10 @@ fn take_piece(counts: &mut [usize], start: usize) -> Piece {
         }
         let place = [at / GRID, at % GRID];
         piece.count += count;
-        for axis in 0..2 {
-            piece.sum[axis] += (count * place[axis]) as f64;
-            piece.low[axis] = piece.low[axis].min(place[axis]);
-            piece.high[axis] = piece.high[axis].max(place[axis]);
+        for (axis, along) in place.into_iter().enumerate() {
+            piece.sum[axis] += (count * along) as f64;
+            piece.low[axis] = piece.low[axis].min(along);
+            piece.high[axis] = piece.high[axis].max(along);
         }
         for x in place[0].saturating_sub(1)..(place[0] + 2).min(GRID) {
             open.extend((place[1].saturating_sub(1)..(place[1] + 2).min(GRID)).map(|y| x * GRID + y));
