@@ -121,9 +121,10 @@ pub(crate) fn name(color_lab: Vec3) -> &'static str {
 /// The name of the color of a thing of which colors (CIE Lab) are seen, each on as much of it: that of most of it, where warm
 /// and saturated colors count more than their share. Shades of one color count together.
 pub(crate) fn dominant(seen: &[Vec3]) -> &'static str {
+    let own: Vec<Option<Hue>> = seen.iter().map(|color| nearest(*color, |_| true).map(|(_, hue)| hue)).collect();
     let of_hue = |hue: Hue| -> Vec<Vec3> {
-        let is_hue = |color: &&Vec3| nearest(**color, |_| true).is_some_and(|(_, own)| own == hue);
-        seen.iter().filter(is_hue).copied().collect()
+        let is_hue = |(_, own): &(&Vec3, &Option<Hue>)| **own == Some(hue);
+        seen.iter().zip(&own).filter(is_hue).map(|(color, _)| *color).collect()
     };
     let weight = |colors: &[Vec3], hue: Hue| {
         let share = colors.len() as f32 / seen.len().max(1) as f32;
@@ -135,9 +136,12 @@ pub(crate) fn dominant(seen: &[Vec3]) -> &'static str {
         let saturation = ((chroma - GRAY_CHROMA) / (SATURATED_CHROMA - GRAY_CHROMA)).clamp(0.0, 1.0);
         share * (1.0 + (hue.salience() - 1.0) * saturation)
     };
-    let hues = Hue::ALL.map(|hue| (hue, of_hue(hue)));
-    let most = hues.iter().max_by(|a, b| weight(&a.1, a.0).total_cmp(&weight(&b.1, b.0)));
-    let own = most.and_then(|(hue, colors)| nearest(median(colors), |other| other == *hue));
+    let weighed = |hue: Hue| {
+        let colors = of_hue(hue);
+        (weight(&colors, hue), hue, colors)
+    };
+    let most = Hue::ALL.map(weighed).into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let own = most.and_then(|(_, hue, colors)| nearest(median(&colors), |other| other == hue));
     own.map_or("gray", |(name, _)| name)
 }
 

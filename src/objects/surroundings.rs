@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::voxels::VoxelGrid;
 
-/// Voxels of which it is told from where they are seen.
+/// Number of voxels whose visibility is tested.
 const NUM_SEEN: usize = 300;
 
 /// Places along each side of the scene's box, and the cells around a place that must be empty.
@@ -18,10 +18,14 @@ const CLEAR_CELLS: i32 = 3;
 const NUM_INSIDE: usize = 8;
 const SURROUNDED_FRAC: f64 = 0.6;
 
-/// Places that must meet matter in most directions, of so many, and the least share of these: of the best six places a chair, an
-/// armchair and a relief reached .57 to .58 and scans of rooms .77 to .85.
+/// Least number of places inside that are enclosed.
 const NUM_ENCLOSED: usize = 6;
+
+/// Least share of directions in which an enclosed place meets matter. At the sixth best place a chair, an armchair and a relief
+/// had .57 to .58, scans of rooms .77 to .85.
 const ENCLOSED_FRAC: f64 = 0.67;
+
+/// Number of directions that are tried.
 const NUM_DIRECTIONS: usize = 96;
 
 /// Places outside: directions around up, their angles above the horizon, and their distance over the diagonal.

@@ -194,11 +194,10 @@ impl World {
     }
 
     /// Says which way the front of the only thing of a scan faces, by a direction from its middle: it is the front of the
-    /// scene and of all parts of the thing.
-    pub fn set_front_of_all(&mut self, direction: DVec3) {
-        let azimuth = self.frame.azimuth(direction);
-        self.front_rad = Some(azimuth);
-        self.subjects.values_mut().for_each(|subject| subject.front_rad = Some(azimuth));
+    /// scene and of the thing and its parts, by their `ids`.
+    pub fn set_front_of_whole(&mut self, ids: &[u32], direction: DVec3) {
+        self.front_rad = Some(self.frame.azimuth(direction));
+        ids.iter().for_each(|id| self.set_front(*id, direction));
     }
 
     /// Azimuth of the front of the subject with this middle, or of the scene as a whole, where it is known.
@@ -311,7 +310,7 @@ impl World {
     }
 }
 
-/// Points on the surfaces of a scene of which it is told from where they are seen.
+/// Number of points on the surfaces of a scene whose visibility is tested.
 const NUM_SURFACE_POINTS: usize = 500;
 
 /// Means of solid Gaussians in the core of a scene.

@@ -211,7 +211,8 @@ fn turn_to_fronts(
     if let Some(whole) = objects.only_whole() {
         let alone = (!ids.contains(&whole.id)).then(|| Subjects::new(&scene.gaussians, objects, &[whole.id]));
         let front = alone.as_ref().unwrap_or(subjects).front(whole.id, &world.frame)?;
-        front.into_iter().for_each(|direction| world.set_front_of_all(direction));
+        let all = objects.parts_of(whole.id);
+        front.into_iter().for_each(|direction| world.set_front_of_whole(&all, direction));
     } else {
         let fronts = subjects.fronts(&world.frame)?;
         fronts.into_iter().for_each(|(id, direction)| world.set_front(id, direction));

@@ -7,7 +7,7 @@
 use cinesplat_language::{Things, Word, is_listed, part_of, tokenize};
 use cinesplat_objects::{Object, ObjectSet, is_description};
 
-use super::guessed_things::{Named, color_said, is_bound, numbered, of_color};
+use super::guessed_names::{Named, color_said, is_bound, numbered, of_color};
 
 /// Number of things of such a scan.
 const NUM_THINGS: std::ops::RangeInclusive<usize> = 2..=5;
@@ -32,10 +32,10 @@ const NO_THINGS: &str = "camera shot frame view lens film video picture scene cl
 
 /// Whether a scan shows a few things with guessed names only.
 pub(super) fn is_few(objects: &ObjectSet) -> bool {
-    let roots = || objects.objects.iter().filter(|object| object.parent.is_none());
-    NUM_THINGS.contains(&roots().count())
+    let things = things(objects);
+    NUM_THINGS.contains(&things.len())
         && objects.only_whole().is_none()
-        && roots().all(|object| is_description(&object.label) || is_bound(&object.label))
+        && things.iter().all(|object| is_description(&object.label))
 }
 
 /// The objects with the nouns of a prompt for their guessed names; `None` for other scans and where the prompt has no such
@@ -90,20 +90,22 @@ fn only_ones(prompt: &str, words: &[Word], objects: &ObjectSet) -> Option<Named>
     Some(Named { objects: numbered(objects, &labels), nouns: Vec::new(), prompt: Some(said) })
 }
 
-/// The things that a name which no thing has may mean: all of them, those of a color, or the largest one.
-pub(super) fn guess(name: &str, objects: &ObjectSet) -> Vec<u32> {
+/// The things that a name which no thing has may mean: all of them, those of a color, or the largest one. `None` where there are
+/// none.
+pub(super) fn guess(name: &str, objects: &ObjectSet) -> Option<Vec<u32>> {
     let words = tokenize(name);
     let roots = things(objects);
     let is_all = words.iter().any(|word| is_listed(ALL, &word.stem));
     let Some(head) = words.iter().rev().find(|word| word.is_alphabetic()).filter(|_| !is_all) else {
-        return roots.iter().map(|object| object.id).collect();
+        return Some(roots.iter().map(|object| object.id).collect());
     };
     let is_kind = candidates(objects, head);
     let colored = of_color(&is_kind, &words);
     let fit = if colored.is_empty() { is_kind } else { colored };
     let is_known = is_listed(FLOWERS, &head.stem) || is_listed(LEAVES, &head.stem) || is_kind_of_thing(head);
     let count = if head.stem != head.text && is_known { fit.len() } else { 1 };
-    fit.into_iter().take(count).map(|object| object.id).collect()
+    let ids: Vec<u32> = fit.into_iter().take(count).map(|object| object.id).collect();
+    (!ids.is_empty()).then_some(ids)
 }
 
 /// The things of a scan, the largest first.
@@ -233,10 +235,10 @@ mod tests {
     fn what_nobody_knows_is_the_largest_thing_or_all() {
         assert_eq!(labels("circle the shoe")[..2], ["pink shoe", "large dark green object"]);
         assert_eq!(labels("circle the green shoe")[3], "green shoe");
-        assert_eq!(guess("whole plant", &pond()), [1, 3, 2, 4]);
-        assert_eq!(guess("yellow stamens", &pond()), [1]);
-        assert_eq!(guess("white blossoms", &pond()), [3]);
-        assert_eq!(guess("giraffe", &pond()), [1]);
+        assert_eq!(guess("whole plant", &pond()), Some(vec![1, 3, 2, 4]));
+        assert_eq!(guess("yellow stamens", &pond()), Some(vec![1]));
+        assert_eq!(guess("white blossoms", &pond()), Some(vec![3]));
+        assert_eq!(guess("giraffe", &pond()), Some(vec![1]));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! whose things have names, what it lacks stays missing.
 
 use super::few_things;
+use super::guessed_names::{Named, color_said, has_word, is_bound, numbered, of_color, taken_for};
 use cinesplat_language::{Group, Linked, Relation, Things, Word, is_listed, tokenize};
 use cinesplat_objects::{Object, ObjectSet, is_description};
 use glam::DVec3;
@@ -22,19 +23,6 @@ const CUPBOARDS: &str = "cupboard cabinet door drawer unit wardrobe dresser";
 /// What stands on shelves and tables, besides all that is said in the plural.
 const SMALL: &str = "teapot pot jar bottle mug cup plate bowl vase glass book spoon ladle utensil kettle tin can spice crockery \
     china dish ornament figurine toy candle basket collection tray jug pan";
-/// Colors that people call alike.
-const ALIKE: [&str; 10] = [
-    "blue turquoise teal cyan azure aqua light-blue mint",
-    "pink rose magenta salmon peach",
-    "white cream beige ivory pale",
-    "brown wooden wood oak tan",
-    "gray grey silver metal steel",
-    "red orange crimson",
-    "green olive lime emerald",
-    "yellow gold golden",
-    "purple violet lilac lavender",
-    "black",
-];
 /// Share of the height of the scan, from its bottom, under which a top is one to work at, and from which a thing may be on a shelf.
 const COUNTER_FRAC: f64 = 0.55;
 const SHELF_FRAC: f64 = 0.45;
@@ -47,34 +35,6 @@ const SAME_WALL_FRAC: f64 = 0.12;
 const COLORS_BEFORE: usize = 5;
 /// Most things of one picture.
 const MOST_THINGS: usize = 8;
-
-/// Objects with nouns of a prompt for names.
-pub(super) struct Named {
-    /// The objects.
-    pub(super) objects: ObjectSet,
-    /// The nouns and the objects that have them.
-    pub(super) nouns: Vec<(String, Vec<u32>)>,
-    /// The prompt with a noun for each word that only stands for one; `None` where it has none.
-    pub(super) prompt: Option<String>,
-}
-
-impl Named {
-    /// Warns of the nouns that the prompt says of these objects.
-    pub(super) fn warn(&self, linked: &mut Linked) {
-        let said = linked.expanded(&linked.slots);
-        let is_said = |ids: &[u32]| ids.iter().any(|id| said.contains(id));
-        let warnings: Vec<String> =
-            self.nouns.iter().filter(|(_, ids)| is_said(ids)).map(|(noun, ids)| taken_for(noun, ids)).collect();
-        linked.warnings.extend(warnings);
-    }
-}
-
-/// The warning of a noun that is taken for some objects.
-fn taken_for(noun: &str, ids: &[u32]) -> String {
-    let words: Vec<String> = ids.iter().take(3).map(|id| format!("<obj-{id}>")).collect();
-    let more = if ids.len() > 3 { " .." } else { "" };
-    format!("\"{noun}\" is taken for {}{more}, because the things of this scene have no names", words.join(" "))
-}
 
 /// The objects with the nouns of a prompt for their guessed names, where such things may be; `None` for other scenes and where
 /// the prompt has no such noun.
@@ -117,29 +77,6 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Name
     Some(Named { objects: numbered(objects, &labels), nouns, prompt: None })
 }
 
-/// The objects with new labels, those that are alike with numbers.
-pub(super) fn numbered(objects: &ObjectSet, labels: &[(u32, String)]) -> ObjectSet {
-    let mut named = objects.clone();
-    let alike = |label: &str| labels.iter().filter(|(_, other)| other == label).count() > 1;
-    for (nth, (id, label)) in labels.iter().enumerate() {
-        let earlier = labels[..nth].iter().filter(|(_, other)| other == label).count() + 1;
-        let label = if alike(label) { format!("{label} {earlier}") } else { label.clone() };
-        named.objects.iter_mut().filter(|object| object.id == *id).for_each(|object| object.label.clone_from(&label));
-    }
-    named
-}
-
-/// The color of a guessed name with a space behind it, as the words before a noun call it: `blue` for turquoise.
-pub(super) fn color_said(label: &str, before: &[Word]) -> String {
-    let own = |colors: &&&str| label.split(' ').rev().find(|word| is_listed(colors, word));
-    let said = |colors: &&str| before.iter().rev().find(|word| is_listed(colors, &word.text));
-    let alike = ALIKE.iter().filter(|colors| own(colors).is_some());
-    if let Some(word) = alike.clone().find_map(said) {
-        return format!("{} ", word.text);
-    }
-    alike.clone().find_map(|colors| own(&colors)).map_or_else(String::new, |color| format!("{color} "))
-}
-
 /// Takes the nouns that a scan of guessed names lacks for what is most probably meant, or leaves them out where other things are
 /// named. Elsewhere they stay missing.
 pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) {
@@ -150,7 +87,7 @@ pub(super) fn take_guesses(linked: &mut Linked, objects: &ObjectSet, up: DVec3) 
     }
     let mut known: Vec<Vec<u32>> = Vec::new();
     for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
-        let guess = if is_few { Some(few_things::guess(&group.name, objects)) } else { scan.guess(&group.name) };
+        let guess = if is_few { few_things::guess(&group.name, objects) } else { scan.guess(&group.name) };
         let ids = guess.filter(|ids| ids.len() == 1 || is_few || !known.contains(ids));
         let Some(ids) = ids else { continue };
         linked.warnings.push(taken_for(&group.name, &ids));
@@ -342,19 +279,6 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// Those of some things whose guessed names have a color that the words say.
-pub(super) fn of_color<'a>(things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
-    let said: Vec<&str> =
-        ALIKE.iter().filter(|colors| words.iter().any(|word| is_listed(colors, &word.text))).copied().collect();
-    let has = |object: &&&Object| said.iter().any(|colors| object.label.split(' ').any(|word| is_listed(colors, word)));
-    things.iter().filter(has).copied().collect()
-}
-
-/// Whether a label is that of what bounds a room, which a search names by its place.
-pub(super) fn is_bound(label: &str) -> bool {
-    label.split(' ').any(|word| matches!(word, "floor" | "ceiling" | "wall"))
-}
-
 /// Whether a noun is an animal or a person: what a scan is about, and no thing on a shelf.
 fn is_living(noun: &Word) -> bool {
     let things = Things::embedded();
@@ -364,10 +288,6 @@ fn is_living(noun: &Word) -> bool {
         Relation::Broader.is_in(relations) || Relation::Same.is_in(relations)
     };
     is("animal") || is("person")
-}
-
-fn has_word(label: &str, word: &str) -> bool {
-    label.split(' ').any(|own| own == word)
 }
 
 #[cfg(test)]

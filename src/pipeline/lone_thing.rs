@@ -27,6 +27,8 @@ const GROUNDS: [&str; 10] =
 
 /// Labels of parts that are only places.
 const PLACES: &str = "top base bottom middle front back";
+/// Words that make what follows a part of the thing that was named.
+const OWNERS: &str = "its his her their";
 /// How a thing is seen.
 const VIEWS: &str =
     "profile side view angle close-up closeup silhouette outline detail frame screen lens camera till until hole holes";
@@ -114,9 +116,12 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     let stems = |text: &str| -> Vec<String> { tokenize(text).into_iter().map(|word| word.stem).collect() };
     let known: Vec<String> = objects.objects.iter().flat_map(|object| stems(&object.label)).collect();
     let is_known = |name: &str| stems(name).last().is_none_or(|head| known.contains(head));
-    let lower = prompt.to_lowercase();
+    let words = tokenize(prompt);
     let is_own = |name: &str| {
-        ["its", "his", "her"].iter().any(|owner| lower.contains(&format!("{owner} {}", name.to_lowercase())))
+        let own = stems(name);
+        let names = |part: &[Word]| part.iter().zip(&own).all(|(word, stem)| word.stem == *stem);
+        let owned = |part: &[Word]| is_listed(OWNERS, &part[0].text) && names(&part[1..]);
+        words.windows(own.len() + 1).any(owned)
     };
     let mut found: Vec<String> = linked
         .missing_groups()
@@ -124,7 +129,6 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         .filter(|name| !is_known(name) && !is_own(name))
         .collect();
     let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty() || is_listed(PEOPLE, word);
-    let words = tokenize(prompt);
     let is_determined = |at: usize| {
         let before = words[at.saturating_sub(2)..at].iter();
         before.into_iter().any(|word| is_listed("the a an this that my our your his her", &word.text))
@@ -180,7 +184,7 @@ fn stands_for_all(words: &[Word], name: &str) -> bool {
     let is_part = |at: usize| {
         let before = (1..=3).filter_map(|back| at.checked_sub(back)).map(text);
         let leads = before.clone().any(|word| is_listed("from to until till top bottom foot feet side 's", word));
-        leads || before.take(2).any(|word| is_listed("its his her their", word)) || matches!(text(at + 1), "of" | "'s")
+        leads || before.take(2).any(|word| is_listed(OWNERS, word)) || matches!(text(at + 1), "of" | "'s")
     };
     !(0..words.len()).filter(|at| words[*at].stem == *last).any(is_part)
 }

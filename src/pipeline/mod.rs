@@ -15,6 +15,7 @@ mod film_pictures;
 mod focus;
 mod forecast;
 mod frames;
+mod guessed_names;
 mod guessed_things;
 mod interpreter;
 mod job;

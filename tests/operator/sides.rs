@@ -77,7 +77,7 @@ fn a_film_that_names_nothing_shows_the_front_of_the_only_thing() {
     let (gaussians, objects) = cube();
     for front in [DVec3::X, -DVec3::X, DVec3::Z] {
         let mut world = World::new(&gaussians, DVec3::Y, &objects, &[]).unwrap();
-        world.set_front_of_all(front);
+        world.set_front_of_whole(&[], front);
         let off_deg = off_deg(film(&solved(&world, vec![Step::of(Move::PushIn)]))[0].pose.position, front);
         assert!(off_deg < 60.0, "front {front}, filmed {off_deg} degrees off");
     }
@@ -88,7 +88,7 @@ fn a_full_circle_begins_at_the_front_and_an_arc_passes_it() {
     let (gaussians, objects) = cube();
     for front in [DVec3::X, -DVec3::Z] {
         let mut world = World::new(&gaussians, DVec3::Y, &objects, &[1]).unwrap();
-        world.set_front_of_all(front);
+        world.set_front_of_whole(&[1], front);
         let around = |amount| {
             let end = Framing { subjects: vec![1], ..Framing::default() };
             let orbit = Step { end, amount, either_way: true, ..Step::of(Move::OrbitLeft) };

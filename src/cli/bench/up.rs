@@ -101,8 +101,10 @@ impl Args {
         let mut things: Vec<&Object> = objects.objects.iter().filter(|object| object.parent.is_none()).collect();
         things.sort_by(|a, b| b.radius().total_cmp(&a.radius()).then(a.id.cmp(&b.id)));
         let alone = |thing: &&Object| {
-            let is_own = |idx: &usize| u32::from(objects.labels[*idx]) == thing.id;
-            let own: Vec<usize> = (0..objects.labels.len()).filter(is_own).collect();
+            let labels = objects.labels_of(thing.id);
+            let owns = thing.owns(&labels, 0.0);
+            let is_own = |idx: &usize| owns(*idx, scene.gaussians.mean_world(*idx));
+            let own: Vec<usize> = (0..scene.gaussians.len()).filter(is_own).collect();
             let name = format!("{}:{}", scene_name(path), thing.label);
             Subject { name, gaussians: scene.gaussians.subset(&own), truth }
         };
