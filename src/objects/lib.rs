@@ -57,6 +57,7 @@ mod sheet;
 mod sheet_html;
 mod shelves;
 mod silhouettes;
+mod slices;
 mod standing;
 mod structure;
 mod surroundings;

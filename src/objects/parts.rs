@@ -7,6 +7,7 @@ use glam::{Vec3, Vec4};
 
 use super::groups::VoxelGroup;
 use super::person;
+use super::slices::Slice;
 use super::standing::extent;
 use super::voxels::VoxelGrid;
 
@@ -39,19 +40,6 @@ const LONG_NECK: f32 = 6.0;
 
 /// Weight of a doubling of the width, and of a color difference of 30 units of CIE Lab, is 1 each.
 const LAB_SCALE: f32 = 1.0 / 30.0;
-
-/// A piece of a thing across its axis.
-pub(crate) struct Slice {
-    voxels: Vec<usize>,
-    /// Binary logarithm of the width, and color.
-    features: Vec4,
-    /// Distance of the voxels from their middle, root mean square, scene units.
-    pub(crate) width: f32,
-    /// Mean color, CIE Lab.
-    pub(crate) color_lab: Vec3,
-    /// Share of the voxels that have the color of skin.
-    pub(crate) skin_frac: f32,
-}
 
 /// Adds the parts of every whole that has no parts yet. Parts take all voxels of their whole.
 pub(crate) fn divide(grid: &VoxelGrid, groups: &mut Vec<VoxelGroup>) {

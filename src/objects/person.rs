@@ -5,7 +5,7 @@
 
 use glam::Vec3;
 
-use super::parts::Slice;
+use super::slices::Slice;
 
 /// Least and largest share of a head with its neck of the height of a thing.
 const HEAD_FRAC: [f32; 2] = [0.09, 0.48];

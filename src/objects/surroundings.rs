@@ -16,7 +16,7 @@ const CLEAR_CELLS: i32 = 3;
 
 /// Places inside that count, best first, and what they must see together, over what is seen from outside.
 const NUM_INSIDE: usize = 8;
-const SURROUNDED_FRAC: f64 = 0.6;
+const SURROUNDED_FRAC: f64 = 0.42;
 
 /// Least number of places inside that are enclosed.
 const NUM_ENCLOSED: usize = 6;

@@ -112,10 +112,10 @@ fn the_search_is_deterministic_and_independent_of_the_up_axis() {
 fn armchair() -> Gaussians {
     let mut gaussians = Gaussians::default();
     let green = Vec3::new(0.3, 0.5, 0.2);
-    push_box(&mut gaussians, DVec3::new(0.0, 0.25, 0.0), DVec3::new(0.5, 0.25, 0.5), 0.03, green);
-    push_box(&mut gaussians, DVec3::new(0.0, 0.75, -0.42), DVec3::new(0.5, 0.75, 0.08), 0.03, green);
+    push_box(&mut gaussians, DVec3::new(0.0, 0.25, 0.0), DVec3::new(0.5, 0.25, 0.5), 0.015, green);
+    push_box(&mut gaussians, DVec3::new(0.0, 0.75, -0.42), DVec3::new(0.5, 0.75, 0.08), 0.015, green);
     for x in [-0.45, 0.45] {
-        push_box(&mut gaussians, DVec3::new(x, 0.45, 0.0), DVec3::new(0.06, 0.45, 0.5), 0.03, green);
+        push_box(&mut gaussians, DVec3::new(x, 0.45, 0.0), DVec3::new(0.06, 0.45, 0.5), 0.015, green);
     }
     gaussians
 }

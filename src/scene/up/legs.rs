@@ -142,3 +142,32 @@ fn is_above(feet: &[[f64; 2]], below: &[[f64; 2]]) -> bool {
     let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= LEAN_CELLS;
     feet.iter().filter(|foot| below.iter().any(|other| near(foot, other))).count() >= *LEGS.start()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::Patch;
+    use super::*;
+
+    /// A chair of points: four legs half as long as it is high, a seat, and a back as large as the seat.
+    fn chair() -> PatchSample {
+        let steps = |count: i32| (0..count).map(move |i| f64::from(i) / f64::from(count - 1));
+        let mut points = Vec::new();
+        for (x, z) in [(0.0, 0.0), (0.0, 0.5), (0.5, 0.0), (0.5, 0.5)] {
+            points.extend(steps(60).map(|t| DVec3::new(x, 0.5 * t, z)));
+        }
+        for (a, b) in steps(30).flat_map(|a| steps(30).map(move |b| (a, b))) {
+            points.push(DVec3::new(0.5 * a, 0.5, 0.5 * b));
+            points.push(DVec3::new(0.5 * a, 0.5 + 0.5 * b, 0.0));
+        }
+        let patches = points.into_iter().map(|position| Patch { position, normal: DVec3::ZERO, luma: 0.5 }).collect();
+        PatchSample { patches, size: 1.2 }
+    }
+
+    #[test]
+    fn a_chair_has_legs_only_below() {
+        assert!(legs(&chair(), DVec3::Y) > 0.9);
+        for other in [DVec3::NEG_Y, DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z] {
+            assert!(legs(&chair(), other) < 0.1, "{other}");
+        }
+    }
+}
