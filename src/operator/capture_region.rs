@@ -248,11 +248,14 @@ fn spread_out(first: DVec3, good: &[DVec3], matter: &OpacityGrid) -> Vec<DVec3> 
     chosen
 }
 
-/// Number of viewpoints inside, and what they must see together over what is seen from outside, for the scene to be a room.
-/// Between the flowers of a bouquet, on the seat of an armchair and in a hollow figure .05 to .36 is seen, in rooms at least .8,
-/// or half of that where the ground outside was captured too.
+/// Number of viewpoints inside, and what they must see together over what is seen from outside, for the scene to be a room:
+/// between the flowers of a bouquet and on the seat of an armchair .2 to .36 is seen, in rooms at least .8.
 const NUM_INSIDE: usize = 8;
-const SURROUNDED_FRAC: f64 = 0.42;
+const SURROUNDED_FRAC: f64 = 0.6;
+/// Share of directions in which the best viewpoint meets matter from which the scene is closed around it, and the share that has to
+/// be seen there: the ground outside may have been captured too. Inside a hollow figure .05 is seen.
+const CLOSED_FRAC: f64 = 0.75;
+const CLOSED_SURROUNDED_FRAC: f64 = 0.15;
 /// Places outside: directions, their angles above the horizon, and their distance over the scene size.
 const NUM_AROUND: usize = 12;
 const ABOVE_RAD: [f64; 2] = [0.1, 0.6];
@@ -271,7 +274,9 @@ fn surrounds(matter: &OpacityGrid, bounds: &Bounds, frame: &LevelFrame, inside: 
         surface.par_iter().filter(is_seen).count() as f64
     };
     let inside = &inside[..inside.len().min(NUM_INSIDE)];
-    num_seen(inside) >= SURROUNDED_FRAC * num_seen(&outside)
+    let (hit_frac, _) = inside.first().map_or((0.0, 0.0), |&eye| openness(matter, eye, bounds.size()));
+    let needed_frac = if hit_frac >= CLOSED_FRAC { CLOSED_SURROUNDED_FRAC } else { SURROUNDED_FRAC };
+    num_seen(inside) >= needed_frac * num_seen(&outside)
 }
 
 /// Whether a point sees one on a surface.

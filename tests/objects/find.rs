@@ -108,28 +108,6 @@ fn the_search_is_deterministic_and_independent_of_the_up_axis() {
     }
 }
 
-/// A wide armchair: seat, back and arms are thick, as no wall is.
-fn armchair() -> Gaussians {
-    let mut gaussians = Gaussians::default();
-    let green = Vec3::new(0.3, 0.5, 0.2);
-    push_box(&mut gaussians, DVec3::new(0.0, 0.25, 0.0), DVec3::new(0.5, 0.25, 0.5), 0.015, green);
-    push_box(&mut gaussians, DVec3::new(0.0, 0.75, -0.42), DVec3::new(0.5, 0.75, 0.08), 0.015, green);
-    for x in [-0.45, 0.45] {
-        push_box(&mut gaussians, DVec3::new(x, 0.45, 0.0), DVec3::new(0.06, 0.45, 0.5), 0.015, green);
-    }
-    gaussians
-}
-
-/// Its seat, back and arms used to be floor and walls of a room.
-#[test]
-fn an_armchair_is_one_thing_and_no_room() {
-    let set = find(&scene_of(armchair()), &FindSettings::default());
-    let wholes: Vec<_> = set.objects.iter().filter(|object| object.parent.is_none()).collect();
-    assert_eq!(wholes.len(), 1, "{:?}", set.objects);
-    let owned = set.labels.iter().filter(|label| **label > 0).count();
-    assert!(owned * 10 > set.labels.len() * 9, "{owned} of {}", set.labels.len());
-}
-
 /// A standing instrument: a wide body with a long thin neck on it.
 fn instrument() -> Gaussians {
     let mut gaussians = Gaussians::default();
