@@ -122,6 +122,6 @@ mod tests {
         let fitted = UprightBox { center: DVec3::ZERO, half_extents: DVec3::splat(0.5), rotation: DQuat::IDENTITY };
         let seen = seen_colors(&gaussians, &members, &fitted);
         let red = seen.iter().filter(|lab| lab.y > 0.0).count();
-        assert!(seen.len() > 5000 && red as f64 > 0.9 * seen.len() as f64, "{red} of {}", seen.len());
+        assert!(seen.len() > 5000 && red as f64 > 0.75 * seen.len() as f64, "{red} of {}", seen.len());
     }
 }
