@@ -57,6 +57,17 @@ impl LevelFrame {
         self.north * azimuth_rad.cos() + self.east * azimuth_rad.sin()
     }
 
+    /// Unit directions on rings around up, ring by ring: at each elevation above the horizon (rad) `num_azimuths` ones, evenly
+    /// spaced from `north` on.
+    pub fn rings<'a>(&'a self, num_azimuths: usize, elevations_rad: &'a [f64]) -> impl Iterator<Item = DVec3> + 'a {
+        elevations_rad.iter().flat_map(move |elevation_rad| {
+            (0..num_azimuths).map(move |step| {
+                let level = self.direction(step as f64 * std::f64::consts::TAU / num_azimuths as f64);
+                level * elevation_rad.cos() + self.up * elevation_rad.sin()
+            })
+        })
+    }
+
     /// Azimuth of the horizontal part of a direction, rad, -pi..=pi.
     pub fn azimuth(&self, direction: DVec3) -> f64 {
         direction.dot(self.east).atan2(direction.dot(self.north))

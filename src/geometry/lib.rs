@@ -11,8 +11,10 @@ pub mod frames;
 mod level;
 mod pose;
 pub mod rotation;
+mod sphere;
 
 pub use camera::{Camera, Intrinsics};
 pub use error::GeometryError;
 pub use level::{LevelAngles, LevelFrame};
 pub use pose::Pose;
+pub use sphere::sphere_directions;

@@ -173,10 +173,20 @@ fn refined(grid: &VoxelGrid, free: &[usize], normal: Vec3, offset: f32) -> Scene
 
 /// Extent of some voxels along a direction, without the outer 2 % at both ends.
 fn extent_along(grid: &VoxelGrid, voxels: impl Iterator<Item = usize>, direction: Vec3) -> (f32, f32) {
+    extent_without(grid, voxels, direction, 50)
+}
+
+/// Extent of some voxels along a direction, where at both ends one of so many is `astray`.
+pub(crate) fn extent_without(
+    grid: &VoxelGrid,
+    voxels: impl Iterator<Item = usize>,
+    direction: Vec3,
+    astray: usize,
+) -> (f32, f32) {
     let mut values: Vec<f32> = voxels.map(|v| direction.dot(grid.voxels[v].position)).collect();
     values.sort_unstable_by(f32::total_cmp);
     let Some(last) = values.len().checked_sub(1) else { return (0.0, 0.0) };
-    (values[last / 50], values[last - last / 50])
+    (values[last / astray], values[last - last / astray])
 }
 
 fn length((low, high): (f32, f32)) -> f32 {

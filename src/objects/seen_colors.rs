@@ -107,9 +107,9 @@ mod tests {
     #[test]
     fn what_is_inside_is_not_seen() {
         let mut gaussians = Gaussians::default();
-        // A red shell around many green grains.
-        for i in 0..40 * 40 * 40 {
-            let at = [i % 40, i / 40 % 40, i / 1600].map(|along| along as f32 / 39.0 - 0.5);
+        // A red shell around many green grains, in rows of which every so many Gaussians do not leave out a side.
+        for i in 0..41 * 41 * 41 {
+            let at = [i % 41, i / 41 % 41, i / 1681].map(|along| along as f32 / 40.0 - 0.5);
             let on_shell = at.iter().any(|along| along.abs() > 0.49);
             let color = if on_shell { Vec3::new(0.8, 0.1, 0.1) } else { Vec3::new(0.1, 0.7, 0.1) };
             gaussians.means.push(Vec3::from(at));
@@ -122,6 +122,6 @@ mod tests {
         let fitted = UprightBox { center: DVec3::ZERO, half_extents: DVec3::splat(0.5), rotation: DQuat::IDENTITY };
         let seen = seen_colors(&gaussians, &members, &fitted);
         let red = seen.iter().filter(|lab| lab.y > 0.0).count();
-        assert!(seen.len() > 5000 && red as f64 > 0.75 * seen.len() as f64, "{red} of {}", seen.len());
+        assert!(seen.len() > 5000 && red as f64 > 0.9 * seen.len() as f64, "{red} of {}", seen.len());
     }
 }

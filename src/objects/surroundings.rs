@@ -2,9 +2,11 @@
 //!
 //! Enters: voxels. A room is seen from inside, a thing from outside, whatever planes it has.
 
-use glam::Vec3;
+use cinesplat_geometry::{LevelFrame, sphere_directions};
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::planes::extent_without;
 use super::voxels::VoxelGrid;
 
 /// Number of voxels whose visibility is tested.
@@ -30,7 +32,7 @@ const NUM_DIRECTIONS: usize = 96;
 
 /// Places outside: directions around up, their angles above the horizon, and their distance over the diagonal.
 const NUM_AROUND: usize = 12;
-const ABOVE_RAD: [f32; 2] = [0.1, 0.6];
+const ABOVE_RAD: [f64; 2] = [0.1, 0.6];
 const OUTSIDE_FRAC: f32 = 0.8;
 
 /// Of so many voxels one lies astray at each end of an axis.
@@ -66,13 +68,7 @@ pub(crate) fn surrounds(grid: &VoxelGrid) -> bool {
 
 /// Corners of the box of the voxels without those astray.
 fn core(grid: &VoxelGrid) -> (Vec3, Vec3) {
-    let ends = [0, 1, 2].map(|axis| {
-        let mut values: Vec<f32> = grid.voxels.iter().map(|voxel| voxel.position[axis]).collect();
-        values.sort_unstable_by(f32::total_cmp);
-        let astray = values.len() / ASTRAY;
-        let end = |at: Option<usize>| at.and_then(|at| values.get(at)).copied().unwrap_or(0.0);
-        (end(Some(astray)), end(values.len().checked_sub(astray + 1)))
-    });
+    let ends = Vec3::AXES.map(|axis| extent_without(grid, 0..grid.voxels.len(), axis, ASTRAY));
     (Vec3::from_array(ends.map(|end| end.0)), Vec3::from_array(ends.map(|end| end.1)))
 }
 
@@ -88,27 +84,17 @@ fn places_inside(grid: &VoxelGrid, low: Vec3, high: Vec3) -> Vec<Vec3> {
 }
 
 fn places_outside(low: Vec3, high: Vec3) -> Vec<Vec3> {
+    let Ok(frame) = LevelFrame::new(DVec3::Y) else { return Vec::new() };
     let distance = OUTSIDE_FRAC * (high - low).length();
-    let place = |i: usize| {
-        let (east, north) = (std::f32::consts::TAU * (i % NUM_AROUND) as f32 / NUM_AROUND as f32).sin_cos();
-        let (rise, level) = ABOVE_RAD[i / NUM_AROUND].sin_cos();
-        (low + high) / 2.0 + distance * Vec3::new(east * level, rise, north * level)
-    };
-    (0..NUM_AROUND * ABOVE_RAD.len()).map(place).collect()
+    let place = |away: DVec3| (low + high) / 2.0 + distance * away.as_vec3();
+    frame.rings(NUM_AROUND, &ABOVE_RAD).map(place).collect()
 }
 
 /// Share of all directions in which matter is met from a place.
 fn enclosed_frac(grid: &VoxelGrid, eye: Vec3, (low, high): (Vec3, Vec3)) -> f64 {
-    let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
-    let direction = |i: usize| {
-        let rise = 1.0 - 2.0 * (i as f32 + 0.5) / NUM_DIRECTIONS as f32;
-        let (sin, cos) = (golden * i as f32).sin_cos();
-        let level = (1.0 - rise * rise).sqrt();
-        Vec3::new(level * cos, rise, level * sin)
-    };
     let length = (high - low).length();
-    let meets = |i: &usize| !sees(grid, eye + direction(*i) * length, eye, (low, high));
-    (0..NUM_DIRECTIONS).filter(meets).count() as f64 / NUM_DIRECTIONS as f64
+    let meets = |direction: &DVec3| !sees(grid, eye + direction.as_vec3() * length, eye, (low, high));
+    sphere_directions(NUM_DIRECTIONS).iter().filter(|direction| meets(direction)).count() as f64 / NUM_DIRECTIONS as f64
 }
 
 /// Whether no voxel lies between a place and a target, in short steps.

@@ -133,16 +133,12 @@ impl<'a> ViewpointSearch<'a> {
     fn outside(&self, intrinsics: Intrinsics) -> Camera {
         let distance = 0.55 * self.size / (intrinsics.fov_y_rad() / 2.0).sin();
         let mut best = (-1.0, self.camera_at(self.center + self.frame.north * distance, self.center, intrinsics));
-        for elevation_rad in [0.3_f64, 0.1] {
-            for step in 0..16 {
-                let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 16.0);
-                let away = away * elevation_rad.cos() + self.frame.up * elevation_rad.sin();
-                let camera = self.camera_at(self.center + away * distance, self.center, intrinsics);
-                let picture = self.id_picture(&camera);
-                let seen = picture.ids.iter().filter(|id| **id > 0).count() as f64;
-                if seen > best.0 {
-                    best = (seen, camera);
-                }
+        for away in self.frame.rings(16, &[0.3, 0.1]) {
+            let camera = self.camera_at(self.center + away * distance, self.center, intrinsics);
+            let picture = self.id_picture(&camera);
+            let seen = picture.ids.iter().filter(|id| **id > 0).count() as f64;
+            if seen > best.0 {
+                best = (seen, camera);
             }
         }
         best.1
@@ -153,15 +149,11 @@ impl<'a> ViewpointSearch<'a> {
         let narrow = intrinsics.fov_y_rad() * intrinsics.aspect().min(1.0);
         let distance = object.radius().max(0.01 * self.size) * 1.15 / (narrow / 2.0).sin();
         let mut best = (-1.0, self.camera_at(object.center + self.frame.north * distance, object.center, intrinsics));
-        for elevation_rad in [0.35_f64, 0.1, 0.8] {
-            for step in 0..12 {
-                let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 12.0);
-                let away = away * elevation_rad.cos() + self.frame.up * elevation_rad.sin();
-                let camera = self.camera_at(object.center + away * distance, object.center, intrinsics);
-                let seen = self.visible_frac(object, &camera);
-                if seen > best.0 + 1e-9 {
-                    best = (seen, camera);
-                }
+        for away in self.frame.rings(12, &[0.35, 0.1, 0.8]) {
+            let camera = self.camera_at(object.center + away * distance, object.center, intrinsics);
+            let seen = self.visible_frac(object, &camera);
+            if seen > best.0 + 1e-9 {
+                best = (seen, camera);
             }
         }
         (best.1, best.0.max(0.0))

@@ -25,15 +25,11 @@ pub(crate) fn ring(
     let frame = frame.with_heading(object.rotation * DVec3::X);
     let distance = object.radius().max(f64::MIN_POSITIVE) * MARGIN / (FOV_Y_RAD / 2.0).sin();
     let intrinsics = Intrinsics::from_fov_y(size_px, size_px, FOV_Y_RAD);
-    let mut cameras = Vec::with_capacity(num_azimuths * elevations_rad.len());
-    for &elevation_rad in elevations_rad {
-        for step in 0..num_azimuths {
-            let azimuth_rad = step as f64 * std::f64::consts::TAU / num_azimuths as f64;
-            let away = frame.direction(azimuth_rad) * elevation_rad.cos() + frame.up * elevation_rad.sin();
-            let pose = Pose::facing(object.center + away * distance, -away, frame.up, Some(frame.east));
-            cameras.push(Camera { pose, intrinsics });
-        }
-    }
+    let camera = |away: DVec3| {
+        let pose = Pose::facing(object.center + away * distance, -away, frame.up, Some(frame.east));
+        Camera { pose, intrinsics }
+    };
+    let mut cameras: Vec<Camera> = frame.rings(num_azimuths, elevations_rad).map(camera).collect();
     let zoom = largest_zoom(&cameras, object);
     for camera in &mut cameras {
         camera.intrinsics.fx_px *= zoom;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::clearance::ClearanceIndex;
 use super::opacity_grid::OpacityGrid;
-use cinesplat_geometry::LevelFrame;
+use cinesplat_geometry::{LevelFrame, sphere_directions};
 use cinesplat_objects::Object;
 use cinesplat_scene::Bounds;
 
@@ -222,18 +222,6 @@ fn outer(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }
 
-/// Evenly distributed unit directions (Fibonacci spiral).
-pub(super) fn sphere_directions(count: usize) -> Vec<DVec3> {
-    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    let direction = |i: usize| {
-        let y = 1.0 - 2.0 * (i as f64 + 0.5) / count as f64;
-        let ring = (1.0 - y * y).sqrt();
-        let (sin, cos) = (golden * i as f64).sin_cos();
-        DVec3::new(ring * cos, y, ring * sin)
-    };
-    (0..count).map(direction).collect()
-}
-
 /// Farthest point sampling among the `good` places, from `first` on; each one is visible from one before it.
 fn spread_out(first: DVec3, good: &[DVec3], matter: &OpacityGrid) -> Vec<DVec3> {
     let mut chosen = vec![first];
@@ -263,12 +251,8 @@ const OUTSIDE_FRAC: f64 = 1.1;
 
 /// Whether a scene is seen from inside: most of what anybody sees of its `surface` is seen from the `inside` viewpoints.
 fn surrounds(matter: &OpacityGrid, bounds: &Bounds, frame: &LevelFrame, inside: &[DVec3], surface: &[DVec3]) -> bool {
-    let place = |i: usize| {
-        let azimuth = std::f64::consts::TAU * (i % NUM_AROUND) as f64 / NUM_AROUND as f64;
-        let (sin, cos) = ABOVE_RAD[i / NUM_AROUND].sin_cos();
-        bounds.center() + (frame.direction(azimuth) * cos + frame.up * sin) * OUTSIDE_FRAC * bounds.size()
-    };
-    let outside: Vec<DVec3> = (0..NUM_AROUND * ABOVE_RAD.len()).map(place).collect();
+    let place = |away: DVec3| bounds.center() + away * OUTSIDE_FRAC * bounds.size();
+    let outside: Vec<DVec3> = frame.rings(NUM_AROUND, &ABOVE_RAD).map(place).collect();
     let num_seen = |eyes: &[DVec3]| {
         let is_seen = |point: &&DVec3| eyes.iter().any(|&eye| sees(matter, eye, **point));
         surface.par_iter().filter(is_seen).count() as f64

@@ -1,9 +1,8 @@
 //! The outermost points of a subject, which have to be in the picture for all of it to be, and the size of its splats.
 
+use cinesplat_geometry::sphere_directions;
 use cinesplat_scene::Gaussians;
 use glam::DVec3;
-
-use super::capture_region::sphere_directions;
 
 /// Directions in which the outermost points are taken, and the samples of the subject among which they are.
 const NUM_DIRECTIONS: usize = 42;

@@ -16,6 +16,7 @@ const ALIKE: [&str; 10] = [
     "purple violet lilac lavender",
     "black",
 ];
+
 /// Objects with nouns of a prompt for names.
 pub(super) struct Named {
     /// The objects.
@@ -80,6 +81,7 @@ pub(super) fn is_bound(label: &str) -> bool {
     label.split(' ').any(|word| matches!(word, "floor" | "ceiling" | "wall"))
 }
 
+/// Whether a label has a word.
 pub(super) fn has_word(label: &str, word: &str) -> bool {
     label.split(' ').any(|own| own == word)
 }

@@ -64,3 +64,14 @@ fn points_move_along_up_and_about_it() {
     assert!((frame.height(after) - frame.height(before)).abs() < 1e-12);
     assert!((after.length() - before.length()).abs() < 1e-12);
 }
+
+#[test]
+fn rings_are_level_circles_from_north_on() {
+    let frame = frame();
+    let rings: Vec<DVec3> = frame.rings(4, &[0.0, 0.5]).collect();
+    assert_eq!(rings.len(), 8);
+    assert!((rings[0] - frame.north).length() < 1e-12 && (rings[1] - frame.east).length() < 1e-12);
+    let heights = rings[4..].iter().map(|away| frame.height(*away));
+    assert!(heights.into_iter().all(|height| (height - 0.5_f64.sin()).abs() < 1e-12));
+    assert!(rings.iter().all(|away| (away.length() - 1.0).abs() < 1e-12));
+}

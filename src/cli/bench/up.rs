@@ -110,7 +110,7 @@ impl Args {
         };
         let is_upright = |thing: &&&Object| has_up(thing, truth);
         let alone: Vec<Subject> = things.iter().filter(is_upright).take(self.things).map(alone).collect();
-        let whole = Subject { name: scene_name(path), gaussians: scene.gaussians.clone(), truth };
+        let whole = Subject { name: scene_name(path), gaussians: scene.gaussians, truth };
         Ok(std::iter::once(whole).chain(alone).collect())
     }
 

@@ -172,24 +172,8 @@ impl Scanned<'_> {
         }
     }
 
-    /// Ends on all of the thing where the words end on all of it: `crane down from the lid and end on the whole jug`, `pull out
-    /// from his nose until we see all of him`.
+    /// Ends on all of the thing where the words end on all of it: `crane down from the lid and end on the whole jug`.
     fn end_on_whole(&self, linked: &Linked, step: &mut Step) {
-        let texts = linked.texts_in(step.words.unwrap_or_default());
-        let says_all = texts.windows(3).any(|three| {
-            matches!(three[..2], ["all" | "whole", "of"]) && is_listed(PRONOUNS, three[2]) && three[2] != "them"
-        });
-        let is_part = matches!(step.end.subjects[..], [id] if id != self.whole.id && self.is_own(id));
-        let widens = matches!(step.movement, Move::PullOut | Move::ZoomOut);
-        if says_all && is_part && widens {
-            if step.start.subjects.is_empty() {
-                step.start = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
-                step.start.size = Some(ShotSize::CloseUp);
-            }
-            step.end.subjects = vec![self.whole.id];
-            (step.end.part, step.end.whole) = (SubjectPart::Middle, true);
-            return;
-        }
         let words: Vec<(&str, [usize; 2])> = linked.words_in(step.words.unwrap_or_default()).collect();
         let last = words.iter().rev().find_map(|(word, span)| Some((linked.slot_at(word)?, span)));
         let is_whole = last.is_some_and(|(id, span)| id == self.whole.id && linked.wholes.contains(span));

@@ -39,18 +39,23 @@ const MIN_SLICES: usize = 3;
 pub(super) fn legs(sample: &PatchSample, up: DVec3) -> f64 {
     let east = up.any_orthonormal_vector();
     let north = up.cross(east);
-    let mut points: Vec<(f64, [f64; 2])> = (sample.patches.iter())
+    let points: Vec<(f64, [f64; 2])> = (sample.patches.iter())
         .map(|patch| (patch.position.dot(up), [east, north].map(|axis| patch.position.dot(axis) / sample.size)))
         .collect();
-    points.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let Some(&(ground, _)) = points.get((BELOW_FRAC * points.len() as f64) as usize) else { return 0.0 };
+    let mut heights: Vec<f64> = points.iter().map(|(height, _)| *height).collect();
+    let rank = (BELOW_FRAC * heights.len() as f64) as usize;
+    if rank >= heights.len() {
+        return 0.0;
+    }
+    let ground = *heights.select_nth_unstable_by(rank, f64::total_cmp).1;
     let width = breadth(points.iter().map(|(_, at)| *at));
     let mut below: Option<Vec<[f64; 2]>> = None;
     for slice in 0..NUM_SLICES {
         let from = ground + slice as f64 * SLICE_FRAC * sample.size;
-        let start = points.partition_point(|(height, _)| *height < from);
-        let end = points.partition_point(|(height, _)| *height < from + SLICE_FRAC * sample.size);
-        let feet = feet(&points[start..end], width);
+        let within = from..from + SLICE_FRAC * sample.size;
+        let slice_points: Vec<[f64; 2]> =
+            points.iter().filter(|(height, _)| within.contains(height)).map(|(_, at)| *at).collect();
+        let feet = feet(&slice_points, width);
         let stands = feet.filter(|feet| below.as_ref().is_none_or(|below| is_above(feet, below)));
         let Some(feet) = stands else {
             return slice.saturating_sub(MIN_SLICES) as f64 / (NUM_SLICES - MIN_SLICES) as f64;
@@ -69,11 +74,11 @@ fn breadth(points: impl Iterator<Item = [f64; 2]>) -> f64 {
 }
 
 /// The middles of the legs in a slice; `None` where it is no slice through legs.
-fn feet(points: &[(f64, [f64; 2])], width: f64) -> Option<Vec<[f64; 2]>> {
+fn feet(points: &[[f64; 2]], width: f64) -> Option<Vec<[f64; 2]>> {
     let cell = |along: f64| (along * CELLS + GRID as f64 / 2.0).clamp(0.0, GRID as f64 - 1.0) as usize;
     let cell_of = |at: &[f64; 2]| cell(at[0]) * GRID + cell(at[1]);
     let mut counts = vec![0_usize; GRID * GRID];
-    points.iter().for_each(|(_, at)| counts[cell_of(at)] += 1);
+    points.iter().for_each(|at| counts[cell_of(at)] += 1);
     let mut feet = Vec::new();
     let mut held = 0;
     for start in 0..counts.len() {
