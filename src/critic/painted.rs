@@ -14,6 +14,12 @@ const NUM_FIXED: usize = 4;
 /// The logarithms of sizes over the scene size are moved up by this, since colors are not negative.
 const LOG_SHIFT: f32 = 32.0;
 
+/// Whether a label is that of a subject or of a part of it.
+fn belongs(label: u16, subject: usize, wholes: &[Vec<usize>]) -> bool {
+    let own = usize::from(label).checked_sub(1);
+    own.is_some_and(|own| own == subject || wholes[own].contains(&subject))
+}
+
 /// Painted copies of a scene: three channels each.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Painted {
@@ -38,8 +44,9 @@ pub(super) struct Shown {
 }
 
 impl Painted {
-    /// Paints a scene without view-dependent color. `sizes` are in scene units and above 0; `labels` are one more than the index of a subject, or 0.
-    pub(super) fn new(gaussians: &Gaussians, sizes: &[f32], labels: &[u16], num_subjects: usize) -> Self {
+    /// Paints a scene without view-dependent color. `sizes` are in scene units and above 0; `labels` are one more than the index of a subject, or 0;
+    /// `wholes` are the subjects of which each subject is a part.
+    pub(super) fn new(gaussians: &Gaussians, sizes: &[f32], labels: &[u16], wholes: &[Vec<usize>]) -> Self {
         let all = || (0..gaussians.len()).map(|i| gaussians.mean_world(i));
         let low = all().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
         let extent = (all().reduce(DVec3::max).unwrap_or(DVec3::ONE) - low).max(DVec3::splat(f64::MIN_POSITIVE));
@@ -47,8 +54,9 @@ impl Painted {
         let value = |i: usize, channel: usize| match channel {
             0..3 => ((gaussians.mean_world(i) - low) / extent)[channel] as f32,
             3 => ((sizes[i] / unit as f32).max(f32::MIN_POSITIVE).ln() + LOG_SHIFT).max(0.0),
-            _ => f32::from(u8::from(usize::from(labels[i]) == channel - NUM_FIXED + 1)),
+            _ => f32::from(u8::from(belongs(labels[i], channel - NUM_FIXED, wholes))),
         };
+        let num_subjects = wholes.len();
         let num_channels = NUM_FIXED + num_subjects;
         let copies = (0..num_channels).step_by(3).map(|first| painted(gaussians, |i, k| value(i, first + k))).collect();
         Self { copies, num_subjects, low, extent, unit }

@@ -58,18 +58,32 @@ pub(super) struct Facet {
 
 impl Subjects {
     /// The objects with these ids. An object has the Gaussians with its label, or else those in its box; a Gaussian of two
-    /// objects belongs to the first. Unknown ids are left out.
+    /// objects belongs to the first, and one of a part to its whole as well. Unknown ids are left out.
     pub fn new(gaussians: &Gaussians, objects: &ObjectSet, ids: &[u32]) -> Self {
-        let mut labels = vec![0; gaussians.len()];
+        let mut labels = vec![0_u16; gaussians.len()];
         let mut subjects: Vec<Subject> = Vec::new();
+        let mut members: Vec<Vec<usize>> = Vec::new();
         for object in ids.iter().filter_map(|&id| objects.get(id)) {
             if subjects.len() >= usize::from(u16::MAX) || subjects.iter().any(|known| known.id == object.id) {
                 continue;
             }
             let own = gaussians_of(gaussians, object, &objects.labels_of(object.id));
             subjects.push(Subject::new(gaussians, object, &own));
-            let label = subjects.len() as u16;
-            own.into_iter().filter(|&i| labels[i] == 0).collect::<Vec<_>>().into_iter().for_each(|i| labels[i] = label);
+            members.push(own);
+        }
+        let is_part = |part: usize, whole: usize| objects.parts_of(subjects[whole].id).contains(&subjects[part].id);
+        let wholes: Vec<Vec<usize>> = (0..subjects.len())
+            .map(|part| (0..subjects.len()).filter(|whole| is_part(part, *whole)).collect())
+            .collect();
+        // What a part of a part has is none of the whole's own.
+        let mut order: Vec<usize> = (0..subjects.len()).collect();
+        order.sort_by_key(|subject| std::cmp::Reverse(wholes[*subject].len()));
+        for subject in order {
+            for &i in &members[subject] {
+                if labels[i] == 0 {
+                    labels[i] = subject as u16 + 1;
+                }
+            }
         }
         let (kept, growth) = thinned(gaussians, &labels, MAX_BACKGROUND);
         let sizes: Vec<f32> = kept.iter().map(|&i| size(gaussians, i)).collect();
@@ -77,7 +91,7 @@ impl Subjects {
         let mut scene = gaussians.plain_subset(&kept);
         let background = scene.scales.iter_mut().zip(&kept_labels).filter(|(_, label)| **label == 0);
         background.for_each(|(scale, _)| *scale *= growth);
-        let painted = Painted::new(&scene, &sizes, &kept_labels, subjects.len());
+        let painted = Painted::new(&scene, &sizes, &kept_labels, &wholes);
         Self { scene, painted, thin: thin_matter(gaussians), subjects }
     }
 }

@@ -21,6 +21,8 @@ const CANVASES: &str = "painting picture canvas drawing portrait artwork";
 const BEARERS: &str = "wall board rack shelf stand panel";
 const COLORS: &str =
     "red orange yellow green blue navy purple pink white black grey gray brown cream teal gold golden silver";
+/// Largest number of words between a thing and what bears it.
+const MOST_BETWEEN: usize = 6;
 /// Words between a thing and what bears it.
 const HANGS: &str = "that which are is hang hangs hanging sit sits sitting stand standing hung mounted pinned up there on at against \
     along the a on";
@@ -29,12 +31,19 @@ const HANGS: &str = "that which are is hang hangs hanging sit sits sitting stand
 pub(crate) fn point_by_words(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>) {
     let mut easel: Option<Vec<u32>> = None;
     for nth in 0..found.len() {
-        if found[nth].mention.ids.is_empty() || is_number(said(prompt, &found[nth].mention)) {
+        if found[nth].mention.ids.is_empty() {
+            if let Some(ids) = borne(prompt, objects, found, nth) {
+                found[nth].mention.ids = ids;
+            }
+            continue;
+        }
+        if is_number(said(prompt, &found[nth].mention)) {
             continue;
         }
         let ids = held(prompt, objects, found, nth)
             .or_else(|| of_seat(prompt, objects, found, nth))
             .or_else(|| on_easel(prompt, objects, found, nth).inspect(|ids| easel = Some(ids.clone())))
+            .or_else(|| canvases(prompt, objects, found, nth))
             .or_else(|| easel.clone().filter(|_| is_only_canvas(said(prompt, &found[nth].mention))));
         if let Some(ids) = ids {
             found[nth].mention.ids = ids;
@@ -102,6 +111,31 @@ fn on_easel(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: 
     let named = found.get(nth + 1).map(|next| next.mention.ids.clone()).filter(|ids| has_easel(ids));
     let only = || easels().next().filter(|_| easels().count() == 1).map(|easel| vec![easel.id]);
     if is_on && !has_easel(&mention.ids) { named.or_else(only) } else { None }
+}
+
+/// The easels, where `the canvas` was taken for pictures on the wall: those are framed.
+fn canvases(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: usize) -> Option<Vec<u32>> {
+    let mention = &found[nth].mention;
+    let is_canvas =
+        tokenize(said(prompt, mention)).iter().any(|word| matches!(word.text.as_str(), "canvas" | "canvases"));
+    let is_easel = |id: &u32| label(objects, *id).and_then(head).as_deref() == Some("easel");
+    let easels: Vec<u32> = objects.iter().map(|object| object.id).filter(is_easel).collect();
+    (is_canvas && !easels.is_empty() && !mention.ids.iter().any(is_easel)).then_some(easels)
+}
+
+/// What bears a thing that the scene has no thing for, and is named for such things: the tool wall of `the hammers on the tool wall`.
+fn borne(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: usize) -> Option<Vec<u32>> {
+    let from = found[nth].mention.bytes[1];
+    let bears = |bearer: &&FoundMention| {
+        let [id] = bearer.mention.ids[..] else { return false };
+        let between = tokenize(prompt.get(from..bearer.mention.bytes[0]).unwrap_or_default());
+        let hangs =
+            between.len() <= MOST_BETWEEN && between.iter().any(|word| is_listed("on along hanging", &word.text));
+        let own = label(objects, id).unwrap_or_default();
+        let names_more = content(own).iter().filter(|word| !is_listed(COLORS, word)).count() > 1;
+        hangs && names_more && head(own).is_some_and(|head| is_listed(BEARERS, &head))
+    };
+    found[nth + 1..].iter().take(2).find(bears).map(|bearer| bearer.mention.ids.clone())
 }
 
 /// Whether words are only of a painting: `the painting`.
@@ -179,6 +213,25 @@ mod tests {
         point_by_words(prompt, &objects, &mut found);
         found.into_iter().flat_map(|found| found.mention.ids).collect()
     }
+
+    #[test]
+    fn a_canvas_is_on_an_easel_and_tools_are_on_their_wall() {
+        assert_eq!(pointed("push in on the canvas", &[("the canvas", 8)]), [7]);
+        assert_eq!(pointed("push in on the picture", &[("the picture", 8)]), [8]);
+        let mut found: Vec<FoundMention> = ["the hammers", "the tool wall"]
+            .into_iter()
+            .zip([vec![], vec![3]])
+            .map(|(words, ids)| {
+                let start = TOOLS.find(words).unwrap();
+                let mention = Mention { bytes: [start, start + words.len()], ids };
+                FoundMention { mention, probability: 1.0, nearest: Vec::new() }
+            })
+            .collect();
+        let objects = [NamedObject { id: 3, label: "tool wall".to_owned() }];
+        point_by_words(TOOLS, &objects, &mut found);
+        assert_eq!(found[0].mention.ids, [3]);
+    }
+    const TOOLS: &str = "first the hammers and other tools on the tool wall";
 
     #[test]
     fn what_is_in_a_thing_is_seen_in_it() {

@@ -32,7 +32,7 @@ use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::pairs::name_pairs;
 use crate::placed::{Places, point_by_places};
-use crate::said::{frame_parts, take_said, take_said_of_all};
+use crate::said::{frame_parts, pan_from_first_to_last, take_said, take_said_of_all};
 use crate::said_again::point_to_said;
 use crate::scan_parts::{described_part, own_parts};
 use crate::sized::point_by_size;
@@ -201,6 +201,7 @@ impl Director {
         }
         take_said_of_all(whole, scene.objects, &mut direction);
         frame_parts(whole, (scene.objects, scene.up), &mut direction.program);
+        pan_from_first_to_last((scene.objects, scene.up), &mut direction.program);
         direction.unmet.extend(&whole.acts);
         Ok(direction)
     }

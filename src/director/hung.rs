@@ -8,8 +8,8 @@ use crate::explained::{head, insert_mention};
 use crate::names::FoundMention;
 
 /// What hangs on walls, and what the scene may call it.
-const PICTURES: &str = "picture painting print poster photo photograph artwork canvas";
-const LABELS: &str = "picture painting print poster photo photograph artwork";
+pub(crate) const PICTURES: &str = "picture painting print poster photo photograph artwork canvas";
+pub(crate) const LABELS: &str = "picture painting print poster photo photograph artwork";
 /// Words before such a name, and most of them.
 const ARTICLES: &str = "the that this";
 const MOST_BEFORE: usize = 5;
@@ -17,7 +17,7 @@ const MOST_BEFORE: usize = 5;
 const LOOKS: &str = "big large huge small little framed abstract sunset landscape mountain seascape floral leaf botanical portrait \
     gold golden wooden black white colorful colourful old biggest largest smallest tall long";
 /// Words behind it by which it is on a wall.
-const PLACES: &str = "above over beside on by next near between";
+const PLACES: &str = "above over beside on by next near between nearest closest";
 
 /// Links a picture that the words describe or place and that names nothing yet with all of the scene, of which its place tells one.
 pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut Vec<FoundMention>) {

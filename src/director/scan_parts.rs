@@ -85,7 +85,7 @@ pub(crate) fn described_part(words: &str, label: &str, is_whole: bool) -> Result
     let is_label = |word: &Word| word.is_alphabetic() && label_words.iter().any(|own| own.stem == word.stem);
     match words.last() {
         Some(last) if is_whole && !words.iter().any(is_label) => match last.text.as_str() {
-            "top" => Ok(Some(PartPlace { place: "top", is_small: false })),
+            "top" => Ok(Some(PartPlace { place: "top", is_small: false, heights_percent: None })),
             part => part_of(part, label),
         },
         _ => Ok(None),

@@ -146,7 +146,7 @@ pub use quantity::{Quantity, QuantityKind};
 pub use rates::Rate;
 pub use scenery::scenery;
 pub use senses::{Senses, sense_names};
-pub use thing_parts::{PartPlace, own_part_at, part_of};
+pub use thing_parts::{PartPlace, SaidPart, own_part_at, part_of, said_parts};
 pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
 pub use timeline::{Beat, BeatLength, Timeline};
 pub use tokenizer::{Word, is_listed, tokenize};

@@ -11,7 +11,7 @@ use super::tokenizer::{Word, is_listed, tokenize};
 
 const FILE: &str = "prompts/parts.txt";
 static TEXT: &str = include_str!("../../prompts/parts.txt");
-const PLACES: [&str; 7] = ["top", "bottom", "front", "back", "left", "right", "middle"];
+const PLACES: [&str; 8] = ["top", "bottom", "front", "back", "left", "right", "middle", "sides"];
 /// Words before a part that say nothing else.
 const BEFORE: &str = "the a its his her their this that very guitar 's whole eye tuning both two skull near nearer far left right \
     one each other upper lower front rubber little small tiny big chunky fat knobbly";
@@ -21,10 +21,23 @@ const BEHIND: &str = "of on at in from";
 /// Where a part of a thing sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PartPlace {
-    /// `top`, `bottom`, `front`, `back`, `left`, `right` or `middle`.
+    /// `top`, `bottom`, `front`, `back`, `left`, `right`, `middle` or `sides`.
     pub place: &'static str,
     /// A picture of it is a close one.
     pub is_small: bool,
+    /// Where its lower and upper end are between those of the thing, percent; `None` where things differ too much.
+    pub heights_percent: Option<[u8; 2]>,
+}
+
+/// A part that a prompt names, of which it is known how high it sits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SaidPart {
+    /// Its name as the prompt says it.
+    pub name: String,
+    /// The words of the prompt that are its name.
+    pub words: std::ops::Range<usize>,
+    /// Where it sits.
+    pub place: PartPlace,
 }
 
 /// The parts of things of one kind, or of all.
@@ -33,6 +46,13 @@ struct Part {
     /// Words of labels; empty for all things.
     kinds: Vec<&'static str>,
     place: PartPlace,
+}
+
+impl Part {
+    /// Whether a thing with such a label is of one of its kinds.
+    fn is_of(&self, label: &[Word]) -> bool {
+        label.iter().any(|word| self.kinds.contains(&word.text.as_str()))
+    }
 }
 
 /// Parts by the last words of their names; what stands before it belongs to the name, too. In the order of the list.
@@ -49,17 +69,31 @@ impl Parts {
     fn parse(text: &'static str) -> Result<Self, LanguageError> {
         let mut parts = Self::default();
         for (number, line) in list_lines(text) {
-            let what = "expected \"PLACE | name\" or \"PLACE of KIND | name\"".to_owned();
+            let what = "expected \"PLACE | name\" or \"PLACE small LOW..HIGH of KIND | name\"".to_owned();
             let bad = || LanguageError::BadData { file: FILE, line: number, what: what.clone() };
             let (head, names) = line.split_once(" | ").ok_or_else(bad)?;
             let (place, kinds) = head.split_once(" of ").unwrap_or((head, ""));
-            let (place, is_small) = place.strip_suffix(" small").map_or((place, false), |place| (place, true));
+            let mut rest = place.split_ascii_whitespace();
+            let place = rest.next().ok_or_else(bad)?;
+            let mut is_small = false;
+            let mut heights_percent = None;
+            for word in rest {
+                match word.split_once("..") {
+                    None if word == "small" => is_small = true,
+                    Some((low, high)) => {
+                        let [low, high] =
+                            [low, high].map(|text| text.parse().ok().filter(|percent| *percent <= 100_u8));
+                        heights_percent = Some(low.zip(high).filter(|(low, high)| low < high).ok_or_else(bad)?.into());
+                    }
+                    None => return Err(bad()),
+                }
+            }
             let place = *PLACES.iter().find(|known| **known == place).ok_or_else(bad)?;
             let kinds: Vec<&str> = kinds.split(", ").filter(|kind| !kind.is_empty()).collect();
             for name in names.split(", ") {
                 let mut words: Vec<&str> = name.split_ascii_whitespace().collect();
                 let last = words.pop().ok_or_else(bad)?;
-                let part = Part { kinds: kinds.clone(), place: PartPlace { place, is_small } };
+                let part = Part { kinds: kinds.clone(), place: PartPlace { place, is_small, heights_percent } };
                 parts.0.entry(last).or_default().push((words, part));
             }
         }
@@ -68,22 +102,25 @@ impl Parts {
         Ok(parts)
     }
 
-    /// The part that words end in, of a thing with such a label, and the number of its words.
+    /// The part that words end in, of a thing with such a label, and the number of its words. Parts whose heights are known are
+    /// for scans of one thing, which is divided by them ([`said_parts`]).
     fn found(&self, words: &[Word], label: &[Word]) -> Option<(usize, PartPlace)> {
-        let (last, before) = words.split_last()?;
         // `His face` is that of a person, whatever he is called.
         let is_person = words.iter().any(|word| is_listed("his her", &word.text));
-        let is_of = |part: &Part| {
-            part.kinds.is_empty()
-                || label.iter().any(|word| part.kinds.contains(&word.text.as_str()))
-                || is_person && part.kinds.contains(&"person")
-        };
+        let is_of =
+            |part: &Part| part.kinds.is_empty() || part.is_of(label) || is_person && part.kinds.contains(&"person");
+        self.first(words, &is_of)
+    }
+
+    /// As [`Self::found`], among the parts that `fits` accepts.
+    fn first(&self, words: &[Word], fits: &dyn Fn(&Part) -> bool) -> Option<(usize, PartPlace)> {
+        let (last, before) = words.split_last()?;
         let ends_in = |rest: &[&str]| {
             before.len() >= rest.len()
                 && before[before.len() - rest.len()..].iter().zip(rest).all(|(word, known)| word.text == *known)
         };
         let mut named = self.0.get(last.text.as_str())?.iter();
-        let (rest, part) = named.find(|(rest, part)| ends_in(rest) && is_of(part))?;
+        let (rest, part) = named.find(|(rest, part)| ends_in(rest) && fits(part))?;
         Some((rest.len() + 1, part.place))
     }
 }
@@ -124,6 +161,33 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
     Ok(says_label.then_some(place))
 }
 
+/// The parts of a thing labelled `label` that a prompt names and whose heights are known, in the order of the prompt. Where the
+/// label tells nothing of its kind, it is the first of the list that has such a part.
+///
+/// # Errors
+/// [`LanguageError::BadData`] when the embedded list is malformed.
+pub fn said_parts(words: &[Word], label: &str) -> Result<Vec<SaidPart>, LanguageError> {
+    let (parts, label) = (Parts::embedded()?, tokenize(label));
+    let all = || parts.0.values().flatten().map(|(_, part)| part);
+    let is_known = all().any(|part| part.place.heights_percent.is_some() && part.is_of(&label));
+    let fits = |part: &Part| part.place.heights_percent.is_some() && (!is_known || part.is_of(&label));
+    let mut said: Vec<SaidPart> = Vec::new();
+    for end in 1..=words.len() {
+        let Some((len, place)) = parts.first(&words[..end], &fits) else { continue };
+        let named = &words[end - len..end];
+        let is_label = label.iter().any(|word| word.text.ends_with(&named[len - 1].text));
+        // `At eye level` is how high a camera is, and the `eye sockets` are no eye.
+        let is_more = words.get(end).is_some_and(|next| is_listed("level height sockets socket holes", &next.text));
+        if !is_label && !is_more {
+            // The `seat cushion` is no seat.
+            said.retain(|before| before.words.end <= end - len);
+            let name: Vec<&str> = named.iter().map(|word| word.text.as_str()).collect();
+            said.push(SaidPart { name: name.join(" "), words: end - len..end, place });
+        }
+    }
+    Ok(said)
+}
+
 /// Whether words name an end of something: `the very bottom`.
 fn is_end(words: &[Word]) -> bool {
     words
@@ -154,6 +218,27 @@ pub fn own_part_at(words: &[Word], label: &str) -> Result<Option<usize>, Languag
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parts_of_known_heights_are_found_in_a_prompt() {
+        let names = |prompt: &str, label: &str| -> Vec<String> {
+            said_parts(&tokenize(prompt), label).unwrap().into_iter().map(|part| part.name).collect()
+        };
+        assert_eq!(names("rise from the carved feet to the crest", "armchair"), ["feet", "crest"]);
+        assert_eq!(names("push in on the seat cushion", "armchair"), ["seat cushion"]);
+        // Whatever the thing is, it is what has such parts.
+        assert_eq!(names("close on one of the padded arms", "large cream object"), ["arms"]);
+        assert_eq!(names("at eye level, toward the eye sockets", "skull"), ["eye sockets"]);
+        assert_eq!(names("orbit the crest", "crest"), Vec::<String>::new());
+        assert_eq!(names("close on the lid", "guitar"), Vec::<String>::new());
+        let [boots] = &said_parts(&tokenize("boots first, then him"), "man").unwrap()[..] else { panic!() };
+        assert_eq!((boots.words.clone(), boots.place.heights_percent), (0..1, Some([0, 14])));
+        let parse = |text| Parts::parse(text).map(|_| ());
+        assert!(parse("top small 80..100 of jug | lid\n").is_ok());
+        for bad in ["top 90..80 | lid\n", "top 0..101 | lid\n", "top tiny | lid\n", "lid\n"] {
+            assert!(parse(bad).is_err(), "{bad}");
+        }
+    }
 
     #[test]
     fn a_part_of_a_thing_is_told_from_the_thing() {

@@ -31,9 +31,11 @@ pub(super) fn bettered(world: &World, program: &Program, mut segments: Vec<Motio
     if !world.is_indoor() {
         return segments;
     }
+    // A film that returns ends where it begins.
+    let returns = program.steps.iter().any(|step| step.returns);
     for index in 0..segments.len() {
         let Some(step) = program.steps.get(segments[index].step) else { continue };
-        let opens = (index == 0 || segments[index].cut) && is_open(&step.start);
+        let opens = (index == 0 && !returns || segments[index].cut) && is_open(&step.start);
         let closes = segments.get(index + 1).is_none_or(|next| next.cut) && is_open(&step.end);
         if is_bad(world, &segments[index]) {
             let slid = if opens && closes && is_slide(&segments[index]) {

@@ -151,7 +151,7 @@ pub fn direct(
     let objects = named.as_ref().map_or(found, |named| &named.objects);
     let said = named.as_ref().and_then(|named| named.prompt.as_deref()).unwrap_or(prompt);
     let (mut linked, objects) =
-        times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, said, objects, up))?;
+        times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, said, objects, scene))?;
     named.iter().for_each(|named| named.warn(&mut linked));
     guessed_things::take_guesses(&mut linked, found, up);
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
@@ -211,7 +211,8 @@ fn turn_to_fronts(
     if let Some(whole) = objects.only_whole() {
         let alone = (!ids.contains(&whole.id)).then(|| Subjects::new(&scene.gaussians, objects, &[whole.id]));
         let front = alone.as_ref().unwrap_or(subjects).front(whole.id, &world.frame)?;
-        let all = objects.parts_of(whole.id);
+        let mut all = objects.parts_of(whole.id);
+        all.push(whole.id);
         front.into_iter().for_each(|direction| world.set_front_of_whole(&all, direction));
     } else {
         let fronts = subjects.fronts(&world.frame)?;

@@ -7,7 +7,7 @@
 use cinesplat_language::{Things, Word, is_listed, part_of, tokenize};
 use cinesplat_objects::{Object, ObjectSet, is_description};
 
-use super::guessed_names::{Named, color_said, is_bound, numbered, of_color};
+use super::guessed_names::{Named, color_said, is_bound, is_color, numbered, of_color};
 
 /// Number of things of such a scan.
 const NUM_THINGS: std::ops::RangeInclusive<usize> = 2..=5;
@@ -58,7 +58,11 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet) -> Option<Named> {
         let free: Vec<&Object> = candidates(objects, noun).into_iter().filter(is_free).collect();
         let before = &words[at.saturating_sub(NEAR)..at];
         let chosen = chosen(free, &words, at);
-        let label = |object: &&Object| (object.id, format!("{}{}", color_of(&object.label, before), called(noun)));
+        let odd = odd_one(&chosen, &words);
+        let label = |object: &&Object| match odd {
+            Some((id, color)) if id == object.id => (id, format!("{color} {}", called(noun))),
+            _ => (object.id, format!("{}{}", color_of(&object.label, before), called(noun))),
+        };
         let new: Vec<(u32, String)> = chosen.iter().map(label).collect();
         if !new.is_empty() {
             nouns.push((noun.text.clone(), new.iter().map(|(id, _)| *id).collect()));
@@ -150,6 +154,24 @@ fn chosen<'a>(free: Vec<&'a Object>, words: &[Word], at: usize) -> Vec<&'a Objec
     }
 }
 
+/// The thing that is left for a color which none of some things has: of a pink and a pale pink one `the cream one`.
+fn odd_one<'a>(chosen: &[&Object], words: &'a [Word]) -> Option<(u32, &'a str)> {
+    let (known, other): (Vec<&Word>, Vec<&Word>) = (words.iter().filter(|word| is_color(&word.text)))
+        .partition(|word| !of_color(chosen, std::slice::from_ref(word)).is_empty());
+    let claimed: Vec<u32> = (known.into_iter())
+        .flat_map(|word| {
+            let said = std::slice::from_ref(word);
+            exact(of_color(chosen, said), said)
+        })
+        .map(|object| object.id)
+        .collect();
+    let mut left = chosen.iter().filter(|object| !claimed.contains(&object.id));
+    match (left.next(), left.next(), &other[..]) {
+        (Some(object), None, [color]) if !claimed.is_empty() => Some((object.id, &color.text)),
+        _ => None,
+    }
+}
+
 /// Those of some things of like colors that have exactly the color that is said, where there are such.
 fn exact<'a>(colored: Vec<&'a Object>, before: &[Word]) -> Vec<&'a Object> {
     let says = |word: &str| before.iter().any(|said| said.text == word);
@@ -229,6 +251,15 @@ mod tests {
         assert_eq!(said, ["pink lotus", "dark green leaves", "large cream object", "green leaves"]);
         assert_eq!(labels("from the white flower to the pink one")[2], "white flower");
         assert_eq!(labels("fly slowly through the scene"), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_color_that_no_thing_has_is_the_one_that_is_left() {
+        let mut set = pond();
+        set.objects[2].label = "large pale pink object".to_owned();
+        let named = named("glide from the pink lotus to the cream one", &set).unwrap();
+        let labels: Vec<&str> = named.objects.objects.iter().map(|object| object.label.as_str()).collect();
+        assert_eq!(labels[..3], ["pink lotus", "large dark green object", "cream lotus"]);
     }
 
     #[test]

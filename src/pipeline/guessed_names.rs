@@ -68,6 +68,11 @@ pub(super) fn color_said(label: &str, before: &[Word]) -> String {
     alike.clone().find_map(|colors| own(&colors)).map_or_else(String::new, |color| format!("{color} "))
 }
 
+/// Whether a word is one of a color.
+pub(super) fn is_color(word: &str) -> bool {
+    ALIKE.iter().any(|colors| is_listed(colors, word))
+}
+
 /// Those of some things whose guessed names have a color that the words say.
 pub(super) fn of_color<'a>(things: &[&'a Object], words: &[Word]) -> Vec<&'a Object> {
     let said: Vec<&str> =

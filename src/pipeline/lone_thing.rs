@@ -8,12 +8,15 @@ use std::cmp::Reverse;
 
 use super::error::PipelineError;
 use super::interpreter::names;
+use super::said_parts;
 use cinesplat_director::{Director, Places};
-use cinesplat_language::{Linked, Relation, Things, Word, is_listed, own_part_at, part_of, tokenize};
+use cinesplat_language::{
+    Linked, Relation, Things, Word, is_listed, own_part_at, part_of, said_parts as said_parts_of, tokenize,
+};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_operator::{Amount, Framing, Program};
+use cinesplat_scene::Scene;
 use cinesplat_trajectory::Move;
-use glam::DVec3;
 
 /// People whom the list of kinds of things lacks.
 const PEOPLE: &str = "biker rider motorcyclist cyclist photographer dancer model player driver runner athlete mannequin singer \
@@ -32,30 +35,46 @@ const OWNERS: &str = "its his her their";
 /// How a thing is seen.
 const VIEWS: &str =
     "profile side view angle close-up closeup silhouette outline detail frame screen lens camera till until hole holes";
+/// Words that tell where a thing is by another one.
+const BESIDE: &str = "beside near behind under next inside against";
+/// Words that say how much of a thing is meant.
+const AMOUNTS: &str = "whole entire full complete all";
 /// What people call a whole thing, which is no part of it.
 const WHOLES: &str = "plant tree palm houseplant flower instrument figure statue thing one";
 /// Words that make the name before them one of a kind of shop or film.
 const WARES: &str = "shop store brand company catalogue catalog film video clip ad advert commercial shot collection lover fan post \
     reel story page website feed profile picture loop teaser trailer listing auction";
 
-/// A prompt with its mentions, and the objects with the label that the prompt gives to the only thing.
+/// A prompt with its mentions, and the objects with the label and the parts that the prompt gives to the only thing.
 pub(super) fn link<'a>(
     director: &Director,
     prompt: &str,
     objects: &'a ObjectSet,
-    up: DVec3,
+    scene: &Scene,
 ) -> Result<(Linked, Cow<'a, ObjectSet>), PipelineError> {
-    let places = Places { objects: &objects.objects, up };
+    let up = scene.up.normalize_or_zero();
     let Some(whole) = objects.unnamed_whole() else {
-        return Ok((director.link_placed(prompt, &names(&objects.objects), places)?, Cow::Borrowed(objects)));
+        let mut divided = Cow::Borrowed(objects);
+        let warnings = said_parts::add(scene, prompt, &mut divided)?;
+        let places = Places { objects: &divided.objects, up };
+        let mut linked = director.link_placed(prompt, &names(&divided.objects), places)?;
+        linked.warnings.extend(warnings);
+        return Ok((linked, divided));
     };
     let has_head = objects.objects.iter().any(|object| object.parent == Some(whole.id) && object.label == HEAD);
     let name = name_of_whole(director, prompt, objects)?.or_else(|| has_head.then(|| PERSON.to_owned()));
     let (id, description) = (whole.id, &whole.label);
-    let mut renamed = objects.clone();
+    let mut renamed: Cow<'a, ObjectSet> = Cow::Owned(objects.clone());
     if let Some(name) = &name {
-        renamed.objects.iter_mut().filter(|object| object.id == id).for_each(|object| object.label.clone_from(name));
+        renamed
+            .to_mut()
+            .objects
+            .iter_mut()
+            .filter(|object| object.id == id)
+            .for_each(|object| object.label.clone_from(name));
     }
+    let parts = said_parts::add(scene, prompt, &mut renamed)?;
+    let places = Places { objects: &renamed.objects, up };
     // Words for its parts are known once its name is; `the top of the skull` says where to look at it.
     let is_place = |object: &&Object| object.parent == Some(id) && is_listed(PLACES, &object.label);
     let of_kinds: Vec<Object> = renamed.objects.iter().filter(|object| !is_place(object)).cloned().collect();
@@ -70,8 +89,8 @@ pub(super) fn link<'a>(
     let warnings = taken.iter().map(|name| {
         format!("\"{name}\" is taken for <obj-{id}> {description}, the only thing of this scene that has no name")
     });
-    linked.warnings.extend(warnings);
-    Ok((linked, Cow::Owned(renamed)))
+    linked.warnings.extend(warnings.chain(parts));
+    Ok((linked, renamed))
 }
 
 /// Lets what a program says of nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
@@ -123,10 +142,12 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
         let owned = |part: &[Word]| is_listed(OWNERS, &part[0].text) && names(&part[1..]);
         words.windows(own.len() + 1).any(owned)
     };
+    // `Close the entire way` names nothing.
+    let is_amount = |name: &str| tokenize(name).iter().all(|word| is_listed(AMOUNTS, &word.text));
     let mut found: Vec<String> = linked
         .missing_groups()
         .map(|group| plain_name(&group.name))
-        .filter(|name| !is_known(name) && !is_own(name))
+        .filter(|name| !is_known(name) && !is_own(name) && !is_amount(name))
         .collect();
     let is_kind = |word: &str| !Things::embedded().kinds_of(word).is_empty() || is_listed(PEOPLE, word);
     let is_determined = |at: usize| {
@@ -154,7 +175,9 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     let mut wholes = Vec::new();
     let mut parts = Vec::new();
     for name in found {
-        if part_of(&name, "")?.is_some_and(|part| !part.is_small) {
+        let named = tokenize(&name);
+        let is_said = said_parts_of(&named, "")?.iter().any(|part| part.words.end == named.len());
+        if is_said || part_of(&name, "")?.is_some_and(|part| !part.is_small) {
             parts.push(name.clone());
         }
         if !is_part(&name, objects)? {
@@ -164,13 +187,26 @@ fn name_of_whole(director: &Director, prompt: &str, objects: &ObjectSet) -> Resu
     // `Circle the head` is said of a scan of a head; `from the feet to the head` is not.
     let is_whole = |name: &String| !parts.contains(name) || parts.len() == 1 && stands_for_all(&words, name);
     let mut found: Vec<String> = wholes.into_iter().filter(is_whole).collect();
+    // `The screen beside the display case` is where the film is shown.
+    let is_elsewhere = |head: Option<&Word>| {
+        let at = words.iter().position(|word| head.is_some_and(|head| head.stem == word.stem));
+        let before = at.map_or(&words[..0], |at| &words[at.saturating_sub(3)..at]);
+        before.iter().any(|word| is_listed(BESIDE, &word.text))
+    };
     found.sort_by_key(|name| {
         let named = tokenize(name);
         let head = named.last();
         let times = words.iter().filter(|word| head.is_some_and(|head| head.stem == word.stem)).count();
         let is_plural = head.is_some_and(|head| head.stem != head.text);
         let is_ground = named.iter().any(|word| GROUNDS.contains(&word.stem.as_str()));
-        (is_ground, !head.is_some_and(|head| is_kind(&head.text)), is_plural, Reverse(times))
+        (
+            parts.contains(name),
+            is_ground,
+            is_elsewhere(head),
+            !head.is_some_and(|head| is_kind(&head.text)),
+            is_plural,
+            Reverse(times),
+        )
     });
     Ok(found.first().cloned())
 }
@@ -214,7 +250,7 @@ fn is_part(name: &str, objects: &ObjectSet) -> Result<bool, PipelineError> {
 /// A name without what says how much of the thing is meant and where it is: `whole guitar on its stand` is the guitar.
 fn plain_name(name: &str) -> String {
     let words = tokenize(name);
-    let is_amount = |word: &Word| is_listed("whole entire full complete all", &word.text);
+    let is_amount = |word: &Word| is_listed(AMOUNTS, &word.text);
     // `The man's face` is that of the man.
     let is_place = |word: &Word| is_listed("on in at with from by of under beside 's", &word.text);
     let front = words.iter().skip_while(|word| is_amount(word)).take_while(|word| !is_place(word));

@@ -5,6 +5,7 @@ use cinesplat_language::{EffectMention, Linked, effect_mentions, forbidding_word
 use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
+use super::doubtful_rests;
 use super::error::PipelineError;
 use super::interpreter::Interpreter;
 use super::stated;
@@ -130,6 +131,7 @@ pub fn read(
     merge_holds(&linked, &mut direction);
     keep_held_pictures(&mut direction.program.steps);
     begin_turns(prompt, &mut direction.program.steps);
+    doubtful_rests::approach(prompt, &mut direction);
     let mut problems = Vec::new();
     problems.extend(unmet(prompt, &direction, &effects));
     problems.extend(missing_aside(&linked, &mut direction.program));
@@ -300,8 +302,15 @@ fn uncertain(prompt: &str, direction: &mut Direction) -> Vec<Problem> {
         let mut others = steps.iter().enumerate().filter(|(other, _)| *other != nth).filter_map(|(_, step)| step.words);
         others.all(|[start, end]| end <= from || to <= start)
     };
+    // What would leave a film of rests alone is better carried out badly than left out.
+    let moves = |nth: &usize| steps.get(*nth).is_some_and(|step| step.movement != Move::Static);
+    let only_move =
+        Some((0..steps.len()).filter(moves)).filter(|all| all.clone().count() == 1).and_then(|mut all| all.next());
     let is_likely = |(nth, certainty): (usize, &StepCertainty)| {
-        certainty.probability >= LEAST_PROBABILITY || certainty.probability >= most || is_own(nth)
+        certainty.probability >= LEAST_PROBABILITY
+            || certainty.probability >= most
+            || is_own(nth)
+            || only_move == Some(nth)
     };
     let is_kept: Vec<bool> = direction.certainty.iter().enumerate().map(is_likely).collect();
     for ((certainty, step), is_kept) in direction.certainty.iter().zip(&direction.program.steps).zip(&is_kept) {

@@ -8,7 +8,7 @@ use cinesplat::synth::{SynthKind, SynthObject, SynthScene, SynthSettings, genera
 use glam::{DVec3, Quat, Vec3};
 
 /// A closed box whose sides are gray except one, which is striped.
-fn striped(toward: Option<DVec3>) -> (Gaussians, ObjectSet) {
+pub fn striped(toward: Option<DVec3>) -> (Gaussians, ObjectSet) {
     let mut scene = Gaussians::default();
     let steps = || (-12..=12).map(|i| f64::from(i) / 25.0);
     for normal in [DVec3::X, -DVec3::X, DVec3::Z, -DVec3::Z] {

@@ -1,7 +1,7 @@
 //! The critic on hand-made scenes with known answers.
 
 mod choice;
-mod fronts;
+pub mod fronts;
 mod limits;
 mod pictures;
 

@@ -8,7 +8,11 @@ use cinesplat::pipeline::{
 };
 use cinesplat::scene::LoadOptions;
 use cinesplat::trajectory::{ReportLine, Shot};
+use glam::DVec3;
 use std::path::Path;
+
+use crate::critic::fronts::striped;
+use crate::objects::scene_of;
 
 fn opened() -> OpenedScene {
     open_scene(Path::new("synth:tabletop:1:0.02"), &LoadOptions::default()).unwrap()
@@ -25,6 +29,22 @@ fn takes(opened: &OpenedScene, prompt: &str, solve: SolveLevel) -> Vec<Shot> {
 
 fn clearance_line(shot: &Shot) -> &ReportLine {
     shot.report.iter().find(|line| line.clause == "clear of matter").unwrap()
+}
+
+/// The thing itself had lost its front to its parts once.
+#[test]
+fn a_lone_thing_is_filmed_from_its_front() {
+    let interpreter = Interpreter::from(Director::embedded().unwrap());
+    let settings = DirectSettings { width: 320, height: 180, ..DirectSettings::default() };
+    for toward in [DVec3::X, -DVec3::X, DVec3::Z, -DVec3::Z] {
+        let (gaussians, objects) = striped(Some(toward));
+        let shot = direct(&scene_of(gaussians), &objects, "push in on the box", &interpreter, &settings).unwrap().shot;
+        for key in &shot.keyframes {
+            let eye = key.pose.position;
+            let level = eye - eye.y * DVec3::Y;
+            assert!(level.angle_between(toward).to_degrees() < 60.0, "striped toward {toward}, seen from {eye}");
+        }
+    }
 }
 
 /// The hand took part neither in the search nor in the report, but in the proof.

@@ -16,6 +16,7 @@ use flanks::{flanking, of_size};
 use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_way};
 
 use crate::explained::{content, head, is_number, label, said};
+use crate::hung;
 use crate::names::FoundMention;
 
 /// Words of another thing of the kind.
@@ -167,7 +168,8 @@ fn placed(
     let in_corner = words.last().is_some_and(|word| word.text == "corner");
     let words = if in_corner { words[..words.iter().position(|word| word.text == "in")?].to_vec() } else { words };
     let last = words.iter().rev().find(|word| word.is_alphabetic())?;
-    let is_plural = last.stem != last.text;
+    // A canvas is one.
+    let is_plural = last.stem != last.text && last.text != "canvas";
     let count = words.iter().find_map(|word| {
         let said = (2..=12_u32).find(|count| number_word(*count) == Some(&word.text));
         said.map(|count| count as usize).or_else(|| word.text.parse().ok())
@@ -221,8 +223,13 @@ fn placed_inside(
         if kind.text == "one" {
             return last_place.to_vec();
         }
-        let all: Vec<&NamedObject> =
-            objects.iter().filter(|object| head(&object.label).as_deref() == Some(&kind.stem)).collect();
+        let of_kind = |fits: &dyn Fn(&str) -> bool| -> Vec<&NamedObject> {
+            objects.iter().filter(|object| head(&object.label).is_some_and(|head| fits(&head))).collect()
+        };
+        let mut all = of_kind(&|head| head == kind.stem);
+        if all.is_empty() && is_listed(hung::PICTURES, &kind.text) {
+            all = of_kind(&|head| is_listed(hung::LABELS, head));
+        }
         // Of several those with all of the words, as `the blue door`.
         let told = |object: &&&NamedObject| {
             let names = content(&object.label);
@@ -233,9 +240,11 @@ fn placed_inside(
     };
     let last = front.iter().rev().find(|word| word.is_alphabetic())?;
     let alike = if last.text == "one" { before.to_vec() } else { named(front) };
-    // `The painting over the sofa` of things called pictures.
-    let alike = if alike.is_empty() { kind_of_all(objects, &mention.ids) } else { alike };
-    let is_one = last.stem == last.text;
+    // `The painting over the sofa` of things called pictures, `the canvas by the window` of easels.
+    let of_ids = kind_of_all(objects, &mention.ids);
+    let is_other = !of_ids.is_empty() && !of_ids.iter().any(|id| alike.contains(id));
+    let alike = if alike.is_empty() || is_other { of_ids } else { alike };
+    let is_one = last.stem == last.text || last.text == "canvas";
     let mut around = named(behind);
     if around.is_empty() {
         around = mention.ids.iter().filter(|id| !alike.contains(id)).copied().collect();

@@ -27,6 +27,7 @@ mod named_times;
 mod narrated;
 mod open;
 mod openings;
+mod pans;
 mod places;
 mod postures;
 mod ranges;
@@ -58,6 +59,7 @@ pub(crate) use briefs::directs;
 pub(crate) use directions::is_form;
 pub use levels::take_levels;
 pub(crate) use openings::abbreviated_size;
+pub(crate) use pans::pan_from_first_to_last;
 pub(crate) use scanned::frame_parts;
 
 use crate::direction::Direction;

@@ -69,12 +69,17 @@ pub(super) fn loop_steps(thing: &Object, speed: Speed) -> Vec<Step> {
 /// The views of the thing that the words want, in order.
 pub(super) fn views(text: &Text<'_>, linked: &Linked, thing: &Object, things: &Things<'_>) -> Vec<View> {
     let mut views: Vec<View> = Vec::new();
-    for at in (0..text.words.len()).filter(|at| !text.is_likeness(*at)) {
+    // `The strings side, not the back.`
+    for at in (0..text.words.len()).filter(|at| !text.is_likeness(*at) && !text.is_denied(*at)) {
         let Some(view) = view_at(text, linked, thing, things, at) else { continue };
         let is_known = views.last() == Some(&view) || view != View::Whole && views.contains(&view);
         if !is_known {
             views.push(view);
         }
+    }
+    // `The whole thing from the front first`.
+    if matches!(views[..], [View::Whole, View::Front, ..]) {
+        views.remove(0);
     }
     views
 }
@@ -230,6 +235,13 @@ mod tests {
         let text =
             "so get in amongst those long leaves , but also that lovely knobbly trunk . leave them with the full plant";
         assert_eq!(found(text, "palm"), [View::Top, View::Middle, View::Whole]);
+    }
+
+    #[test]
+    fn what_is_denied_is_no_view_and_the_whole_from_the_front_is_one() {
+        assert_eq!(found("the top of <obj-0> , then the full plant , not the back", "palm"), [View::Top, View::Whole]);
+        let text = "give them the whole thing from the front first , then the back";
+        assert_eq!(found(text, "armchair"), [View::Front, View::Back]);
     }
 
     #[test]
