@@ -79,13 +79,14 @@ impl Linked {
     /// `None` for prompts without one, or whose correction replaces nothing that is built alike.
     #[must_use]
     pub fn corrected(&self) -> Option<Self> {
-        if let Some(reversed) = self.reversed() {
-            return Some(reversed);
+        if let Some(turned) = self.reversed().or_else(|| self.turned()) {
+            return Some(turned);
         }
         let words: Vec<(&str, [usize; 2])> = self.words_in([0, usize::MAX]).collect();
         let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
         let [from, to] = (0..texts.len()).rev().find_map(|at| correction_at(&texts, at))?;
         let start = replaced(&texts[..from], &texts[to..])?;
+        let start = start - fillers_again(&texts[..start], &texts[to..]);
         let kept = (0..start).chain(to..words.len()).map(|at| words[at]);
         let corrected = self.of_words(kept, None);
         // Nobody corrects away all that he talks about.
@@ -152,7 +153,7 @@ fn denied_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
 }
 
 /// The words of the correction that begins at word `at`, with the marks around it.
-fn correction_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
+pub(super) fn correction_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
     let is_mark = |at: &usize| words.get(*at).is_some_and(|word| MARKS.contains(word));
     let end_of = |phrase: &&[&str]| {
         phrase.iter().try_fold(at, |next, wanted| {
@@ -201,6 +202,14 @@ fn replaced(before: &[&str], behind: &[&str]) -> Option<usize> {
     })
 }
 
+/// Number of the words before what is replaced that are said again with it: `to the left, no wait, to the right`.
+fn fillers_again(before: &[&str], behind: &[&str]) -> usize {
+    let again = behind.iter().take_while(|word| FILLERS.contains(word)).count();
+    let longest =
+        (1..=again.min(before.len())).rev().find(|num| before[before.len() - num..] == behind[again - num..again]);
+    longest.unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -209,6 +218,7 @@ mod tests {
         let words: Vec<&str> = text.split(' ').collect();
         let [from, to] = (0..words.len()).rev().find_map(|at| correction_at(&words, at))?;
         let start = replaced(&words[..from], &words[to..])?;
+        let start = start - fillers_again(&words[..start], &words[to..]);
         Some([&words[..start], &words[to..]].concat().join(" "))
     }
 
@@ -222,6 +232,12 @@ mod tests {
         );
         assert_eq!(corrected("hold on <obj-0> , no wait , hold longer"), None);
         assert_eq!(corrected("go left , no wait , go to <obj-0>"), None);
+    }
+
+    #[test]
+    fn words_before_a_direction_are_said_once() {
+        assert_eq!(corrected("slide to the left , no wait , to the right").as_deref(), Some("slide to the right"));
+        assert_eq!(corrected("go left , no , make that right , slowly").as_deref(), Some("go right , slowly"));
     }
 
     #[test]

@@ -116,6 +116,7 @@ mod things;
 mod timeline;
 mod tokenizer;
 mod tolerances;
+mod turned_ways;
 mod unknown;
 
 pub use blanks::blanked;

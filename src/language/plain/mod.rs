@@ -44,11 +44,10 @@ pub fn plain_words(prompt: &str, words: &[Word], is_name: &dyn Fn(&Word) -> bool
             continue;
         }
         let mut word = words[i].clone();
-        if !is_name[i]
-            && let Some(text) = spelling.mended(&word.text)
-        {
-            word.stem = stem(text);
-            text.clone_into(&mut word.text);
+        let mended = |word: &str| spelling.shortened(word).or_else(|| spelling.mended(word).map(str::to_owned));
+        if let Some(text) = mended(&word.text).filter(|_| !is_name[i]) {
+            word.stem = stem(&text);
+            word.text = text;
         }
         out.push(word);
         i += 1;
@@ -70,4 +69,21 @@ pub fn mend_names(words: &mut [Word], names: &BTreeSet<String>) -> Result<(), La
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tokenizer::tokenize;
+
+    #[test]
+    fn letters_said_at_length_are_written_once_or_twice() {
+        let plain = |prompt: &str| {
+            let words = plain_words(prompt, &tokenize(prompt), &|_| false).unwrap();
+            words.iter().map(|word| word.text.as_str()).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(plain("zooom in on the tellly, sloooowly"), "zoom in on the telly , slowly");
+        assert_eq!(plain("go up to the doooor, pleeease"), "go up to the door , please");
+        assert_eq!(plain("pan to the aaaxx and tilt up"), "pan to the aaaxx and tilt up");
+    }
 }

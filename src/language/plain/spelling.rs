@@ -56,6 +56,21 @@ impl Spelling {
         nearest(word, self.commands.iter().copied(), most)
     }
 
+    /// The known word that a word with a letter three times in a row means, which no English word has: `sloooow`, `tellly`.
+    pub(super) fn shortened(&self, word: &str) -> Option<String> {
+        let letters: Vec<char> = word.chars().collect();
+        let is_run = |at: usize| at > 1 && letters[at] == letters[at - 1] && letters[at] == letters[at - 2];
+        if !word.bytes().all(|byte| byte.is_ascii_lowercase()) || !(0..letters.len()).any(is_run) {
+            return None;
+        }
+        // Each run with as many letters as a word may have, two or one.
+        let with = |most: usize| -> String {
+            let runs = letters.chunk_by(|a, b| a == b);
+            runs.flat_map(|run| run.iter().take(if run.len() > 2 { most } else { run.len() })).collect()
+        };
+        [2, 1].into_iter().map(with).find(|word| word.len() >= MIN_LETTERS && self.is_known(word))
+    }
+
     /// The word of a name that a misspelled word means: one that is no English word, and near to one of `names` only.
     pub(super) fn mended_name<'a>(&self, word: &str, names: &'a BTreeSet<String>) -> Option<&'a str> {
         let letters = word.len();

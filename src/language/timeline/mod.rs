@@ -5,9 +5,11 @@
 //! ..`, `.. cut to ..`. A prompt with fewer than two beats is no timeline. The text before the first beat is the
 //! introduction.
 
+mod holds;
 mod stamp;
 
 use super::tokenizer::{Word, span_of, word_at};
+use holds::move_behind_hold;
 use stamp::{Stamp, StampKind, begins_item, cut_at, stamp_at};
 
 /// What a prompt says part by part.
@@ -171,7 +173,16 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
             return None;
         }
         cut |= stamp.kind == StampKind::Cut && nth > 0;
-        beats.push(Beat { bytes: span_of(&words[text[0]..text[1]]), start, length, cut });
+        let is_length = matches!(stamp.kind, StampKind::Length(_));
+        let behind = move_behind_hold(words, text).filter(|_| is_length);
+        let own = trimmed(words, text[0], behind.unwrap_or(text[1]));
+        let own = without_joint(words, own).0;
+        beats.push(Beat { bytes: span_of(&words[own[0]..own[1]]), start, length, cut });
+        if let Some(at) = behind {
+            let [from, to] = without_opening(words, trimmed(words, at, text[1]));
+            let bytes = span_of(&words[from..to]);
+            beats.push(Beat { bytes, start: bytes[0], length: None, cut: false });
+        }
         cut = cuts;
     }
     let [first, ..] = stamps else { return None };
@@ -210,6 +221,12 @@ fn without_joint(words: &[Word], [start, end]: [usize; 2]) -> ([usize; 2], bool)
     let cuts = words[kept..end].iter().any(|word| word.text == "cut");
     let is_joined = cuts || words[kept..end].iter().any(|word| matches!(word.text.as_str(), "then" | "and" | "next"));
     if is_joined { ([start, kept], cuts) } else { ([start, end], false) }
+}
+
+/// A part without the words that only lead to it: `then pan right`.
+fn without_opening(words: &[Word], [start, end]: [usize; 2]) -> [usize; 2] {
+    let leads = |at: &usize| matches!(word_at(words, *at), "then" | "and" | ",");
+    [start + (start..end).take_while(leads).count(), end]
 }
 
 /// The words `start..end` without marks at either end.
