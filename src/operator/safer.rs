@@ -16,8 +16,13 @@ type GiveUp = dyn Fn(&mut Step) -> Option<&'static str>;
 /// Programs in the order in which they are to be tried, each with what it gives up. Each gives up more than the one before;
 /// ones that change nothing are left out.
 pub(super) fn safer_programs(program: &Program, prompt: &str) -> Vec<(Program, Vec<ReportLine>)> {
-    let ways: [&GiveUp; 4] =
-        [&drop_places, &|step| shorten(step, ARCS_DEG[0]), &|step| shorten(step, ARCS_DEG[1]), &drop_pass];
+    let ways: [&GiveUp; 5] = [
+        &drop_last_height,
+        &drop_places,
+        &|step| shorten(step, ARCS_DEG[0]),
+        &|step| shorten(step, ARCS_DEG[1]),
+        &drop_pass,
+    ];
     let (mut safer, mut lines) = (program.clone(), Vec::new());
     let mut tries = Vec::new();
     for way in ways {
@@ -33,6 +38,15 @@ pub(super) fn safer_programs(program: &Program, prompt: &str) -> Vec<(Program, V
 /// Gives up some words of every step that has them; the lines of what.
 fn give_up(program: &mut Program, prompt: &str, way: &GiveUp) -> Vec<ReportLine> {
     program.steps.iter_mut().filter_map(|step| way(step).map(|what| line(prompt, step, what))).collect()
+}
+
+/// Begins a way in at the height that the words state, and ends it at any: `at ankle height, go up to the plant`.
+fn drop_last_height(step: &mut Step) -> Option<&'static str> {
+    let is_one = step.movement == Move::PushIn && step.start.height.is_some() && step.start.height == step.end.height;
+    if is_one {
+        step.end.height = None;
+    }
+    is_one.then_some("the height that the words state, up to the end")
 }
 
 /// Gives up the sides, heights and distances from which a step sees its subjects.
@@ -125,6 +139,16 @@ mod tests {
             ]
         );
         assert!(tries.iter().all(|(safer, _)| safer.steps[1] == program.steps[1]));
+    }
+
+    #[test]
+    fn a_way_in_gives_up_its_last_height_first() {
+        let at = |height: Option<f64>| Framing { subjects: vec![3], height, ..Framing::default() };
+        let step = Step { start: at(Some(0.1)), end: at(Some(0.1)), ..Step::of(Move::PushIn) };
+        let tries = safer_programs(&Program { steps: vec![step], ..Program::default() }, "");
+        let heights = |program: &Program| [program.steps[0].start.height, program.steps[0].end.height];
+        let found: Vec<[Option<f64>; 2]> = tries.iter().map(|(safer, _)| heights(safer)).collect();
+        assert_eq!(found, [[Some(0.1), None], [None, None]]);
     }
 
     #[test]

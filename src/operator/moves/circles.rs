@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::paths::end_view;
+use super::with::factor_beside_circle;
 use crate::composition::square_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
@@ -102,7 +103,8 @@ fn deg_to_side(context: &StepContext, target: &Target, from_rad: f64, sign: f64)
 /// Angle of an orbit: the stated one, or the usual meaning of its words.
 fn orbit_deg(context: &StepContext) -> f64 {
     let arc = matches!(context.step.movement, Move::ArcLeft | Move::ArcRight);
-    match context.step.amount {
+    let of_distance = factor_beside_circle(context.step).is_some();
+    match context.step.amount.filter(|_| !of_distance) {
         Some(Amount::Degrees(degrees)) => degrees.clamp(1.0, 1080.0),
         Some(Amount::Factor(turns)) => (turns * 360.0).clamp(1.0, 1080.0),
         Some(Amount::Slight) => 25.0,

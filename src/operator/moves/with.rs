@@ -9,7 +9,7 @@ use crate::cost::evenly_spaced;
 use crate::framing::Target;
 use crate::motion::MotionSegment;
 use crate::pacing::natural_secs;
-use crate::program::Amount;
+use crate::program::{Amount, Step};
 use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move};
@@ -183,6 +183,18 @@ fn beside_deg(context: &StepContext, second: Move) -> f64 {
 const SPIRAL_DEG: f64 = 150.0;
 const ASIDE_DEG: f64 = 40.0;
 
+/// Factor on the distance that the prompt states for a circle that comes nearer on its way, or goes away. Any other factor of a
+/// circle is a number of turns.
+pub(super) fn factor_beside_circle(step: &Step) -> Option<f64> {
+    let factor = match step.amount {
+        Some(Amount::Factor(factor)) if step.movement.is_circular() => factor,
+        _ => return None,
+    };
+    let nears = step.with.contains(&Move::PushIn) && factor > 0.0 && factor < 1.0;
+    let leaves = step.with.contains(&Move::PullOut) && factor > 1.0;
+    (nears || leaves).then_some(factor)
+}
+
 /// A state with `share` of the second move added: by the stated amount, or else the move's default.
 fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, share: f64) -> CameraState {
     let frame = &context.world.frame;
@@ -210,6 +222,9 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
         let place = aim + frame.direction(azimuth) * frame.horizontal(away).length() + frame.up * frame.height(away);
         aimed(context.world, &moved(state, place - state.pose.position), aim)
     };
+    if let (Move::PushIn | Move::PullOut, Some(factor)) = (second, factor_beside_circle(context.step)) {
+        return moved(state, away * ((factor - 1.0) * share));
+    }
     match second {
         Move::PanLeft => turn(-degrees(18.0), 0.0, 0.0),
         Move::PanRight => turn(degrees(18.0), 0.0, 0.0),
@@ -234,5 +249,24 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
         | Move::WhipPan
         | Move::RackFocus
         | Move::Handheld => *state,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_factor_beside_a_way_in_is_one_on_the_distance() {
+        let factor = |movement: Move, with: &[Move], factor: f64| {
+            let step = Step { with: with.to_vec(), amount: Some(Amount::Factor(factor)), ..Step::of(movement) };
+            factor_beside_circle(&step)
+        };
+        assert_eq!(factor(Move::ArcLeft, &[Move::PushIn], 0.75), Some(0.75));
+        assert_eq!(factor(Move::OrbitRight, &[Move::PullOut], 1.5), Some(1.5));
+        // Two turns, and three quarters of one.
+        assert_eq!(factor(Move::OrbitRight, &[Move::PushIn], 2.0), None);
+        assert_eq!(factor(Move::OrbitRight, &[], 0.75), None);
+        assert_eq!(factor(Move::PushIn, &[Move::PushIn], 0.75), None);
     }
 }
