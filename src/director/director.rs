@@ -13,6 +13,7 @@ use cinesplat_trajectory::{CameraState, ModelRef};
 use glam::{DQuat, DVec3, Vec3};
 
 use crate::acting::acts;
+use crate::alternatives::without_denied_turns;
 use crate::beats::direct_beats;
 use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
 use crate::compositions::direct_composed;
@@ -189,6 +190,8 @@ impl Director {
         let whole = linked;
         let asked = without_told(linked);
         let linked = asked.as_ref().unwrap_or(linked);
+        let done = without_denied_turns(linked);
+        let linked = done.as_ref().unwrap_or(linked);
         let times = ListedTimes::of(linked);
         let timeless = times.as_ref().and_then(|times| times.without(linked));
         let mut direction =
@@ -219,7 +222,7 @@ impl Director {
             && !as_meant.program.steps.is_empty()
             && !as_meant.program.object_ids().is_empty();
         let is_surer = as_meant.mean_certainty() > as_said.mean_certainty();
-        Ok(if keeps_back || is_surer { as_meant } else { as_said })
+        Ok(if keeps_back || is_surer || goes_other_way(&as_said, &as_meant) { as_meant } else { as_said })
     }
 
     /// The program and cameras of a prompt that is read as a whole.
@@ -252,6 +255,14 @@ impl Director {
         direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)
     }
+}
+
+/// Whether both directions have the same steps but for a way that one of them goes in the opposite direction: the one that is said
+/// last counts.
+fn goes_other_way(said: &Direction, meant: &Direction) -> bool {
+    let (said, meant) = (&said.program.steps, &meant.program.steps);
+    let mut pairs = said.iter().zip(meant);
+    said.len() == meant.len() && pairs.any(|(said, meant)| said.movement.opposite() == Some(meant.movement))
 }
 
 /// Whether a mention and the label of one of its objects have a word in common.

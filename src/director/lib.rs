@@ -16,6 +16,7 @@
 //! Only this crate and `training` use candle, and only this crate uses tokenizers.
 
 mod acting;
+mod alternatives;
 mod beats;
 mod calibration;
 pub mod codes;

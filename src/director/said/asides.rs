@@ -3,7 +3,7 @@
 
 use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_operator::{Amount, Framing, Program, Step};
-use cinesplat_trajectory::Move;
+use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::briefs::is_camera_verb;
 use super::directions::is_form;
@@ -35,6 +35,45 @@ pub(crate) fn drop_camera_heights(linked: &Linked, direction: &mut Direction) {
         {
             step.end.subjects = named;
         }
+    }
+}
+
+/// Takes what the words only compare a height with for no subject: `vase height, push in on the sofa`, `dropping to about shelf height`.
+pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
+    let words = linked.texts_in([0, usize::MAX]);
+    let is_height = |at: usize| {
+        let owned = at + 1 + usize::from(words.get(at + 1) == Some(&"'s"));
+        words.get(owned).is_some_and(|word| matches!(*word, "height" | "level"))
+    };
+    let mut heights: Vec<u32> =
+        (0..words.len()).filter(|at| is_height(*at)).filter_map(|at| linked.slot_at(words[at])).collect();
+    heights.retain(|id| !(0..words.len()).any(|at| linked.slot_at(words[at]) == Some(*id) && !is_height(at)));
+    let heights = linked.expanded(&heights);
+    let is_only_height = |ids: &[u32]| !ids.is_empty() && linked.expanded(ids).iter().all(|id| heights.contains(id));
+    for nth in (0..direction.program.steps.len()).rev() {
+        let steps = &direction.program.steps;
+        let step = &steps[nth];
+        if !is_only_height(&step.end.subjects) {
+            continue;
+        }
+        let own = linked.texts_in(step.words.unwrap_or_default());
+        let others = own.iter().filter_map(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
+        let named = others.filter(|ids| !is_only_height(ids)).next_back();
+        let is_bare = step.amount.is_none() && step.duration_secs.is_none() && named.is_none();
+        if is_bare && steps.len() > 1 && !(0..own.len()).any(|at| is_camera_verb(&own, at)) {
+            direction.remove_step(nth);
+            continue;
+        }
+        let before = nth.checked_sub(1).map(|before| steps[before].end.subjects.clone()).unwrap_or_default();
+        let shown = Some(step.start.subjects.clone()).filter(|ids| !ids.is_empty()).unwrap_or(before);
+        let subjects = named.unwrap_or(shown);
+        // `Static at that level` is about what it names, where nothing else is there.
+        if subjects.is_empty() {
+            continue;
+        }
+        let step = &mut direction.program.steps[nth];
+        step.end.angle = step.end.angle.filter(|angle| *angle != ShotAngle::EyeLevel);
+        step.end.subjects = subjects;
     }
 }
 
@@ -145,6 +184,29 @@ mod tests {
     use super::super::fixture::{about, direction, linked};
     use super::*;
     use cinesplat_language::Quantity;
+
+    #[test]
+    fn what_a_height_is_compared_with_is_no_subject() {
+        let shown = |text: &str, start: &[u32]| {
+            let mut step = about(Move::PullOut, &[7], [0, text.len()]);
+            step.end.angle = Some(ShotAngle::EyeLevel);
+            step.start.subjects = start.to_vec();
+            let mut direction = direction(vec![step]);
+            drop_height_subjects(&linked(text), &mut direction);
+            direction.program.steps[0].end.clone()
+        };
+        let of = |ids: &[u32]| Framing { subjects: ids.to_vec(), ..Framing::default() };
+        assert_eq!(shown("keep <obj-0> centered , back off , dropping to about <obj-1> height", &[]), of(&[5]));
+        assert_eq!(shown("back off , dropping to <obj-1> 's level", &[5]), of(&[5]));
+        assert_eq!(shown("static at <obj-1> level", &[]).subjects, [7]);
+        // A subject that is at its own height stays.
+        assert_eq!(shown("at <obj-1> height , back off from <obj-1>", &[5]).subjects, [7]);
+        let text = "<obj-1> height , push in on <obj-0>";
+        let steps = vec![about(Move::PushIn, &[7], [0, 14]), about(Move::PushIn, &[5], [17, text.len()])];
+        let mut direction = direction(steps);
+        drop_height_subjects(&linked(text), &mut direction);
+        assert_eq!(direction.program.steps.len(), 1);
+    }
 
     #[test]
     fn the_height_of_a_camera_is_no_move() {

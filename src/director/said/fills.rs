@@ -102,19 +102,53 @@ pub(crate) fn end_on_parts(linked: &Linked, steps: &mut [Step]) {
             words.iter().enumerate().rev().find_map(|(at, (word, span))| {
                 let (_, part) = linked.parts.iter().find(|(bytes, _)| bytes[0] <= span[0] && span[1] <= bytes[1])?;
                 let id = linked.slot_at(word).filter(|id| linked.expanded(&[*id]) == ids)?;
-                let own = words[..at].iter().rev().take_while(|(word, _)| !word.starts_with('<'));
-                let led = own.take(5).any(|(word, _)| leads.contains(word));
+                let own: Vec<&str> =
+                    words[..at].iter().rev().map(|(word, _)| *word).take_while(|word| !word.starts_with('<')).collect();
+                let led = own.iter().take(5).any(|word| leads.contains(word))
+                    || leads == TO && is_level_with(&own, words.get(at + 1).map_or("", |(word, _)| word));
                 led.then_some((id, subject_part(part.place)))
             })
         };
         let (start, end) = (linked.expanded(&step.start.subjects), linked.expanded(&step.end.subjects));
         for (framing, ids, leads) in [(&mut step.start, start, &FROM[..]), (&mut step.end, end, &TO[..])] {
             let is_open = framing.part == SubjectPart::Middle && ids.len() == 1;
-            if let Some((_, part)) = part_led(leads, &ids).filter(|_| is_open) {
+            let end_said = || Some((*ids.first()?, end_level_with(&words).filter(|_| leads == TO)?));
+            if let Some((_, part)) = part_led(leads, &ids).or_else(end_said).filter(|_| is_open) {
                 framing.part = part;
             }
         }
     }
+}
+
+/// Whether the words before a part, the last one first, rise or sink to its height: `until the lens is as high as its headstock`, `level
+/// with its top`. `next` stands behind the part.
+fn is_level_with(before: &[&str], next: &str) -> bool {
+    let compares =
+        |two: [&str; 2]| before.iter().take(4).collect::<Vec<_>>().windows(2).any(|pair| pair == [&two[1], &two[0]]);
+    let is_level =
+        [["high", "as"], ["low", "as"], ["level", "with"], ["height", "of"], ["height", "as"], ["flush", "with"]];
+    let leads = before.iter().take(12).any(|word| TO.contains(word) || matches!(*word, "til" | "'til" | "so"));
+    leads && (is_level.into_iter().any(compares) || matches!(next, "height" | "level"))
+}
+
+/// The end of its subject to whose height the words lead: `until we are level with its top`.
+fn end_level_with(words: &[(&str, [usize; 2])]) -> Option<SubjectPart> {
+    let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+    (1..texts.len()).find_map(|at| {
+        let part = match texts[at] {
+            "top" | "tip" | "crown" => SubjectPart::Top,
+            "bottom" | "foot" | "base" => SubjectPart::Bottom,
+            _ => return None,
+        };
+        let own = texts[..at]
+            .iter()
+            .rev()
+            .take_while(|word| matches!(**word, "very" | "the" | "its" | "their" | "his" | "her"));
+        let before: Vec<&str> = texts[..at - own.count()].iter().rev().copied().collect();
+        let is_of_other =
+            texts.get(at + 1) == Some(&"of") && texts.get(at + 2).is_none_or(|word| !word.starts_with('<'));
+        (!is_of_other && is_level_with(&before, "")).then_some(part)
+    })
 }
 
 fn is_upright(movement: Move) -> bool {
@@ -152,5 +186,33 @@ fn show_part(framing: &mut Framing, part: PartPlace, fills: bool) {
         }
         () if is_free && part.is_small => framing.size = Some(ShotSize::CloseUp),
         () => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, linked};
+    use super::*;
+
+    fn end_part(text: &str) -> SubjectPart {
+        let top = PartPlace { place: "top", is_small: false };
+        let last =
+            linked(text).words_in([0, usize::MAX]).filter(|(word, _)| *word == "<obj-0>").last().map(|(_, span)| span);
+        // The last mention stands for a part, as in `its headstock`.
+        let parts = last.filter(|_| text.contains("guitar")).map(|span| (span, top)).into_iter().collect();
+        let linked = Linked { parts, ..linked(text) };
+        let mut steps = [about(Move::CraneUp, &[5], [0, text.len()])];
+        end_on_parts(&linked, &mut steps);
+        steps[0].end.part
+    }
+
+    #[test]
+    fn a_rise_ends_at_the_height_of_the_part_that_is_told() {
+        assert_eq!(end_part("<obj-0> the guitar , boom up until the lens is as high as <obj-0>"), SubjectPart::Top);
+        assert_eq!(end_part("rise so that we are level with <obj-0> of the guitar"), SubjectPart::Top);
+        assert_eq!(end_part("boom up until we are level with its very top"), SubjectPart::Top);
+        assert_eq!(end_part("sink until the lens is at the height of its base"), SubjectPart::Bottom);
+        assert_eq!(end_part("boom up until we are level with <obj-0>"), SubjectPart::Middle);
+        assert_eq!(end_part("boom up from the top of <obj-0>"), SubjectPart::Middle);
     }
 }

@@ -12,7 +12,7 @@ const FIXED: [&str; 8] = ["fixed", "locked", "constant", "unchanged", "static", 
 /// Words between them.
 const BETWEEN: [&str; 6] = ["is", "stays", "remains", "kept", "held", "be"];
 /// Phrases of the same meaning.
-const PHRASES: [&[&str]; 23] = [
+const PHRASES: [&[&str]; 31] = [
     &["stays", "put"],
     &["stay", "put"],
     &["same", "spot"],
@@ -22,6 +22,14 @@ const PHRASES: [&[&str]; 23] = [
     &["tripod", "head"],
     &["tripod", "'s", "nailed"],
     &["tripod", "is", "nailed"],
+    &["on", "sticks"],
+    &["off", "sticks"],
+    &[",", "sticks"],
+    &["on", "a", "tripod"],
+    &["from", "a", "tripod"],
+    &["tripod", "throughout"],
+    &["single", "spot"],
+    &["feet", "still"],
     &["feet", "stay"],
     &["feet", "planted"],
     &["feet", "don", "'t", "move"],
@@ -182,5 +190,8 @@ mod tests {
         assert!(!says("move to a fixed position"));
         assert!(!says("the camera stays put for two seconds , then rises up to the shelf"));
         assert!(!says("the subject stays put"));
+        assert!(says("pan right past <obj-0> , stop on <obj-1> . one take , sticks ."));
+        assert!(says("look around from a tripod , ending on <obj-0>"));
+        assert!(!says("<obj-0> sticks out behind <obj-1>"));
     }
 }

@@ -15,9 +15,11 @@ mod endings;
 mod entries;
 mod facing;
 mod fills;
+mod first_pictures;
 mod fixed;
 #[cfg(test)]
 mod fixture;
+mod headlines;
 mod heights;
 mod lengths;
 mod levels;
@@ -25,6 +27,7 @@ mod looks;
 mod moods;
 mod named_times;
 mod narrated;
+mod nearings;
 mod open;
 mod openings;
 mod pans;
@@ -36,6 +39,7 @@ mod repeats;
 mod rests;
 mod scanned;
 mod senses;
+mod set_off;
 mod sides;
 mod small_moves;
 mod specified;
@@ -45,6 +49,8 @@ mod stillness;
 mod sweeps;
 mod taken_back;
 mod together;
+mod travels;
+mod unsaid_parts;
 mod until;
 mod visits;
 mod whole_film;
@@ -100,6 +106,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     together::complete_lists(linked, &mut direction.program);
     let steps = &mut direction.program.steps;
     together::show_both(linked, steps);
+    together::show_named_pair(linked, steps);
     together::keep_always(linked, steps);
     openings::take_sizes(linked, steps);
     openings::size_rests(linked, steps);
@@ -135,6 +142,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);
     asides::drop_camera_heights(linked, direction);
+    asides::drop_height_subjects(linked, direction);
     asides::drop_light(linked, direction);
     rests::rest_on_each(linked, direction);
     visits::visit_in_turn(linked, direction);
@@ -181,6 +189,8 @@ fn take_said_of_views(linked: &Linked, steps: &mut [Step]) {
     facing::rest_up_close(linked, steps);
     facing::look_down_on_tops(linked, steps);
     directions::lead_between_ends(linked, steps);
+    unsaid_parts::drop_unsaid_parts(linked, steps);
+    first_pictures::begin_at_named(linked, steps);
 }
 
 /// Corrects the moves of a direction, whose pictures are settled, by what the words say plainly.
@@ -190,6 +200,9 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
     specified::keep_level(linked, &mut direction.program);
+    travels::travel_instead_of_turning(linked, &mut direction.program);
+    set_off::begin_as_set_off(linked, &mut direction.program.steps);
+    nearings::come_nearer_round(linked, direction);
     fixed::stay_put(linked, &mut direction.program);
     fixed::turn_in_place(linked, &mut direction.program.steps);
     endings::stop_short(linked, &mut direction.program.steps);
@@ -206,6 +219,8 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     stands::stand_at_side(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     postures::stand_low(linked, direction);
+    postures::stay_up_and_down(linked, &mut direction.program.steps);
+    places::crane_from_above(&mut direction.program.steps);
     postures::rise_from_floor(linked, &mut direction.program.steps);
     heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
@@ -225,6 +240,8 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     if !narrated::film_narrated(linked, direction) && !wishes::film_wishes(linked, objects, direction) {
         briefs::film_briefs(linked, objects, direction);
     }
+    headlines::drop_headline(linked, direction);
+    headlines::cut_as_headlined(linked, &mut direction.program);
     carriers::flow_without_cuts(&mut direction.program);
     carriers::show_all_sides(linked, direction);
     let steps = &mut direction.program.steps;

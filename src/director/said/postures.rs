@@ -34,6 +34,43 @@ pub(crate) fn stand_low(linked: &Linked, direction: &mut Direction) {
     }
 }
 
+/// Verbs of a camera that stays in the air, words of where it is, and verbs of one that goes down.
+const HOVERS: [&str; 3] = ["hover", "hang", "float"];
+const ABOVE: [&str; 3] = ["above", "over", "overhead"];
+const DESCENDS: [&str; 12] =
+    ["lower", "drop", "sink", "descend", "crane", "boom", "come", "go", "dip", "fall", "dive", "settle"];
+/// Words of a way forward.
+const FORWARD: [&str; 6] = ["forward", "forwards", "closer", "nearer", "towards", "toward"];
+const GOES: [&str; 8] = ["come", "go", "move", "walk", "creep", "push", "glide", "step"];
+
+/// Rests above what the words hover over, and goes forward with a camera that is only down at a height: `we hover high above the plant,
+/// staring down at it`, `camera down at ankle height, now come forward`.
+pub(crate) fn stay_up_and_down(linked: &Linked, steps: &mut [Step]) {
+    let sinks = |step: &&mut Step| {
+        matches!(step.movement, Move::CraneDown | Move::PedestalDown) && step.with.is_empty() && step.amount.is_none()
+    };
+    for step in steps.iter_mut().filter(sinks) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_verb = |at: usize, verbs: &[&str]| verbs.iter().any(|verb| is_form(words[at], verb));
+        let hovers = (0..words.len())
+            .any(|at| is_verb(at, &HOVERS) && words[at + 1..].iter().take(3).any(|word| ABOVE.contains(word)));
+        let is_down = |at: usize| {
+            let before = words[..at].iter().rev().find(|word| !BETWEEN.contains(word));
+            words[at] == "down"
+                && matches!(words.get(at + 1), Some(&"at" | &"low"))
+                && before.is_some_and(|word| CAMERAS.contains(word))
+        };
+        let forward = (1..words.len()).any(|at| FORWARD.contains(&words[at]) && is_verb(at - 1, &GOES));
+        let is_there = step.end.subjects == step.start.subjects && step.start.angle.is_some();
+        if hovers && is_there && !(0..words.len()).any(|at| is_verb(at, &DESCENDS)) {
+            step.end = std::mem::take(&mut step.start);
+            (step.movement, step.either_way) = (Move::Static, false);
+        } else if forward && (0..words.len()).any(is_down) && !step.end.subjects.is_empty() {
+            (step.movement, step.either_way) = (Move::PushIn, false);
+        }
+    }
+}
+
 /// Who is on the floor when the film begins.
 const WAKES: [&str; 4] = ["wake", "lie", "sprawl", "lying"];
 /// Heights of eyes on the floor and of those of who stands, scene units.
@@ -89,6 +126,23 @@ mod tests {
         assert!(!low("get the camera down low on <obj-0>"));
         assert!(!low("come down low to <obj-0>"));
         assert!(!low("<obj-0> is down low"));
+    }
+
+    #[test]
+    fn a_camera_that_hovers_or_is_down_does_not_sink() {
+        let moved = |text: &str| {
+            let start = Framing { subjects: vec![5], angle: Some(ShotAngle::Overhead), ..Framing::default() };
+            let end = Framing { subjects: vec![5], ..Framing::default() };
+            let mut steps = [Step { start, end, words: Some([0, text.len()]), ..Step::of(Move::CraneDown) }];
+            stay_up_and_down(&super::super::fixture::linked(text), &mut steps);
+            steps[0].movement
+        };
+        assert_eq!(moved("we hover high above <obj-0> , staring down at it ."), Move::Static);
+        assert_eq!(moved("hanging over <obj-0> , looking straight down"), Move::Static);
+        assert_eq!(moved("hover above <obj-0> , then sink down to it"), Move::CraneDown);
+        assert_eq!(moved("camera down at ankle height , now come forwards to <obj-0>"), Move::PushIn);
+        assert_eq!(moved("camera down at last , close on <obj-0>"), Move::CraneDown);
+        assert_eq!(moved("come down low and forward to <obj-0>"), Move::CraneDown);
     }
 
     #[test]

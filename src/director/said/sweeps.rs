@@ -12,14 +12,14 @@ use super::directions::is_form;
 use crate::direction::Direction;
 
 /// Words by which a part of a sentence goes on with a way.
-const LEADS: &str =
-    "past over across along through via to onto into up down under from ending finishing landing starting beginning";
+const LEADS: &str = "past over across along through via to onto into up down under from ending finishing landing starting beginning \
+    stopping stop stops end ends finish land";
 /// Words that may stand before them.
 const OPENERS: &str = ", and then on right straight all the way slowly gently low close";
 /// Words before what a way leads to, and before what it leaves, behind `ending` and `starting`.
 const AT: &str = "at on with by in from";
 /// Words of an arrival.
-const ARRIVES: &str = "ending finishing landing land lands end ends finish finishes settle settles";
+const ARRIVES: &str = "ending finishing landing land lands end ends finish finishes settle settles stop stops stopping";
 /// Words between a word of a way and the thing.
 const BETWEEN: &str = "the a an both top bottom of front back very edge side end over on";
 /// Marks that end a sentence.
@@ -83,7 +83,8 @@ fn swept(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
     let before = linked.texts_in([from, start]);
     let all = linked.texts_in([from, to]);
     let num = all.iter().rposition(|word| linked.slot_at(word).is_some())?;
-    let is_one_sentence = !all[..num].iter().any(|word| is_listed(MARKS, word));
+    let way_from = way_begins(linked, &all[..num]);
+    let is_one_sentence = !all[way_from..num].iter().any(|word| is_listed(MARKS, word));
     let (left, way) = (way_of(linked, &before)?, way_of(linked, &all)?);
     let is_open = left.goal.is_none() && (left.source.is_some() || !left.passed.is_empty());
     if is_one_sentence && way.goal.is_some() && left.goal == way.goal && first.via.is_none() && !way.passed.is_empty() {
@@ -105,12 +106,36 @@ fn swept(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
         None => Framing::default(),
     };
     Some(Step {
-        start: framed(&way.source, [&first.start, &second.start]),
+        start: if way.source.is_some() {
+            framed(&way.source, [&first.start, &second.start])
+        } else {
+            first.start.clone()
+        },
         end: framed(&way.goal, [&second.end, &first.end]),
         via: via(&way, first.movement),
         words: first.joint_words(second),
         ..first.clone()
     })
+}
+
+/// Words of a sentence that only says where the film begins.
+const BEGINS: &str =
+    "begin begins beginning start starts starting open opens opening we on at with in the a film shot camera";
+
+/// The first word of the way that some words say: behind a sentence that only begins the film, and behind the colon of what heads a list
+/// of things, as in `Begin on the wall. Pan right: past the curtain, past the chair`.
+fn way_begins(linked: &Linked, words: &[&str]) -> usize {
+    let is_beginning = |words: &[&str]| {
+        words.first().is_some_and(|word| is_listed(BEGINS, word))
+            && words.iter().all(|word| is_listed(BEGINS, word) || linked.slot_at(word).is_some())
+    };
+    let mark = words.iter().position(|word| is_listed(MARKS, word));
+    let begun = mark.filter(|mark| words[*mark] != ":" && is_beginning(&words[..*mark])).map_or(0, |mark| mark + 1);
+    let heads = |colon: &usize| {
+        let before = &words[begun..*colon];
+        words[*colon] == ":" && before.len() < 5 && (0..before.len()).any(|at| is_camera_verb(before, at))
+    };
+    (begun..words.len()).find(|at| is_listed(MARKS, words[*at])).filter(heads).map_or(begun, |colon| colon + 1)
 }
 
 /// One step of two of the same words, the first of which ends at what the words pass on their way to the end of the second.
@@ -162,7 +187,10 @@ fn way_of(linked: &Linked, words: &[&str]) -> Option<Way> {
     while at < words.len() {
         let word = text(at);
         let leads_on = is_listed("to onto into", text(at + 1));
-        let (ends, begins) = (is_listed(ARRIVES, word), is_listed("starting beginning start begin", word));
+        let (ends, begins) = (
+            is_listed(ARRIVES, word),
+            is_listed("starting beginning start starts begin begins open opens opening", word),
+        );
         let how = match word {
             "past" | "via" => Some(Pass::Past),
             "over" | "across" | "above" if !leads_on => Some(Pass::Over),
@@ -308,6 +336,29 @@ mod tests {
         ] {
             assert_eq!(joined([first, second], [truck(), follow()]).len(), 2, "{first} {second}");
         }
+    }
+
+    #[test]
+    fn a_list_behind_a_beginning_is_one_way() {
+        let pan = || about(Move::PanRight, 5);
+        let follow = || about(Move::Follow, 11);
+        for [first, second] in [
+            ["begin on <obj-0> . pan right : past <obj-1> ,", "stop on <obj-3>"],
+            ["start on <obj-0> . pan right past <obj-1> ,", "stopping at <obj-3>"],
+            ["open on <obj-0> . pan right past <obj-1> ,", "finish on <obj-3>"],
+            ["start at <obj-0> . tilt up : past <obj-1> ,", "on to <obj-3>"],
+        ] {
+            let steps = joined([first, second], [pan(), follow()]);
+            assert_eq!((steps.len(), &steps[0].start.subjects[..]), (1, &[5][..]), "{first} {second}");
+            assert_eq!(steps[0].end.subjects, [11], "{first} {second}");
+        }
+        // A move of its own in the first sentence, and a stop that lasts.
+        assert_eq!(
+            joined(["push in on <obj-0> . pan right past <obj-1> ,", "stop on <obj-3>"], [pan(), follow()]).len(),
+            2
+        );
+        let held = Step { duration_secs: Some(2.0), ..follow() };
+        assert_eq!(joined(["start on <obj-0> . pan right past <obj-1> ,", "stop on <obj-3>"], [pan(), held]).len(), 2);
     }
 
     #[test]

@@ -145,6 +145,33 @@ pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words of a pair that is seen, behind its second thing.
+const ALL_SEEN: [&str; 3] = ["both", "together", "all"];
+
+/// Shows the two things of which the words say right behind them that both are seen, in the step that shows one of them with something
+/// else: `and finish with the vase and the television both in view`.
+pub(crate) fn show_named_pair(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
+    for at in 0..words.len() {
+        let Some([(first, _), (and, _), (second, span), (both, _), rest @ ..]) = words.get(at..) else { continue };
+        let is_pair = JOINTS.contains(and) && ALL_SEEN.contains(both);
+        let is_seen = rest.iter().take(4).any(|(word, _)| SEEN.contains(word))
+            && !rest.iter().take(5).any(|(word, _)| DENIALS.contains(word));
+        let (Some(first), Some(second)) = (linked.slot_at(first), linked.slot_at(second)) else { continue };
+        let pair = linked.expanded(&[first, second]);
+        let holds = |step: &&mut Step| step.words.is_some_and(|[from, to]| (from..to).contains(&span[0]));
+        let shows_other = |step: &&mut Step| {
+            let shown = linked.expanded(&step.end.subjects);
+            shown.len() > 1 && pair.iter().any(|id| shown.contains(id)) && !pair.iter().all(|id| shown.contains(id))
+        };
+        for step in steps.iter_mut().filter(holds).filter(shows_other).filter(|_| is_pair && is_seen && pair.len() == 2)
+        {
+            step.end.subjects.clone_from(&pair);
+            step.end.whole = true;
+        }
+    }
+}
+
 /// Single things that the words name, each once, the last named last.
 fn named_before(linked: &Linked, words: &[(&str, [usize; 2])]) -> Vec<u32> {
     let mut named: Vec<u32> = Vec::new();
@@ -160,5 +187,29 @@ fn show_pair(framing: &mut Framing, pair: [u32; 2]) {
     if matches!(framing.subjects[..], [only] if pair.contains(&only)) {
         framing.subjects = pair.to_vec();
         framing.whole = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, linked};
+    use super::*;
+    use cinesplat_trajectory::Move;
+
+    fn shown(text: &str, ids: &[u32]) -> Vec<u32> {
+        let linked = Linked { slots: vec![5, 7, 9], ..linked(text) };
+        let mut steps = [about(Move::Follow, ids, [0, text.len()])];
+        show_named_pair(&linked, &mut steps);
+        steps[0].end.subjects.clone()
+    }
+
+    #[test]
+    fn both_of_a_pair_are_those_that_are_named() {
+        let text = "from <obj-2> to <obj-0> , and finish with <obj-0> and <obj-1> both in view";
+        assert_eq!(shown(text, &[9, 7]), [5, 7]);
+        assert_eq!(shown(text, &[7]), [7]);
+        assert_eq!(shown("<obj-0> and <obj-1> together in frame at last", &[7, 9]), [5, 7]);
+        assert_eq!(shown("<obj-0> and <obj-1> both out of view", &[7, 9]), [7, 9]);
+        assert_eq!(shown("past <obj-0> and <obj-1> to <obj-2>", &[7, 9]), [7, 9]);
     }
 }

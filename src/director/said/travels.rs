@@ -1,0 +1,111 @@
+//! Turns that the words make travels: `a metre to the left`, `pan right half a meter`, `to the left, pointing the same way all along`.
+//!
+//! No turn is as long as a meter, and who rules turns out asks for none.
+
+use cinesplat_language::{Linked, QuantityKind, is_listed};
+use cinesplat_operator::{Amount, Motion, Program, Step};
+use cinesplat_trajectory::Move;
+
+use super::directions::is_form;
+
+/// Words between a length and the side to which it leads.
+const TO: &str = "to the towards toward over camera by about of";
+/// Verbs of a turn on the spot.
+const TURNS: [&str; 11] =
+    ["pan", "turn", "look", "swing", "rotate", "pivot", "swivel", "whip", "tilt", "sweep", "glance"];
+/// Words before such a verb that rule it out, and words between the two.
+const BANS: &str = "no not without never zero 't dont nor don";
+const BANNED: &str = "any a the or and , pan panning tilt tilting turn turning rotate rotating do it camera to";
+
+/// Travels to the side where a turn is as long as a length, or where the film rules turns out and no verb asks for one.
+pub(crate) fn travel_instead_of_turning(linked: &Linked, program: &mut Program) {
+    let forbidden = program.forbidden.clone();
+    for step in &mut program.steps {
+        let Some(travel) = travel_of(step.movement).filter(|_| step.start.subjects.is_empty()) else { continue };
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_banned = Motion::of(step.movement).is_some_and(|motion| forbidden.contains(&motion))
+            || forbidden.contains(&Motion::Turn);
+        let is_ruled_out = is_banned && !asks_for_turn(&words) && words.contains(&side(step.movement));
+        if is_length(linked, step, &words) || is_ruled_out {
+            (step.movement, step.either_way) = (travel, false);
+        }
+    }
+}
+
+/// The travel to the side to which a turn turns.
+fn travel_of(turn: Move) -> Option<Move> {
+    match turn {
+        Move::PanLeft => Some(Move::TruckLeft),
+        Move::PanRight => Some(Move::TruckRight),
+        Move::TiltUp => Some(Move::PedestalUp),
+        Move::TiltDown => Some(Move::PedestalDown),
+        _ => None,
+    }
+}
+
+fn side(turn: Move) -> &'static str {
+    match turn {
+        Move::PanLeft => "left",
+        Move::PanRight => "right",
+        Move::TiltUp => "up",
+        _ => "down",
+    }
+}
+
+/// Whether the extent of a step is a length that stands beside the side to which it leads.
+fn is_length(linked: &Linked, step: &Step, words: &[&str]) -> bool {
+    let Some(Amount::Units(units)) = step.amount else { return false };
+    let side = side(step.movement);
+    let is_own = |at: usize| {
+        let quantity = linked.quantity_at(words[at]).filter(|quantity| quantity.kind == QuantityKind::Units);
+        let behind = words[at + 1..].iter().find(|word| !is_listed(TO, word));
+        let before = words[..at].iter().rev().find(|word| !is_listed(TO, word));
+        quantity.is_some_and(|quantity| (quantity.value - units).abs() < 1e-9)
+            && [behind, before].into_iter().flatten().any(|word| *word == side)
+    };
+    (0..words.len()).any(is_own)
+}
+
+/// Whether words have a verb of a turn that they do not rule out.
+fn asks_for_turn(words: &[&str]) -> bool {
+    let is_ruled_out = |at: usize| {
+        let before = words[..at].iter().rev().find(|word| !is_listed(BANNED, word));
+        before.is_some_and(|word| is_listed(BANS, word))
+    };
+    (0..words.len()).any(|at| TURNS.iter().any(|verb| is_form(words[at], verb)) && !is_ruled_out(at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::linked;
+    use super::*;
+    use cinesplat_language::Quantity;
+
+    fn moved(text: &str, turn: Move, forbidden: &[Motion]) -> Move {
+        let quantity = Quantity { kind: QuantityKind::Units, value: 1.0 };
+        let linked = Linked { quantities: vec![quantity], ..linked(text) };
+        let amount = text.contains("<qty-0>").then_some(Amount::Units(1.0));
+        let steps = vec![Step { amount, words: Some([0, text.len()]), ..Step::of(turn) }];
+        let mut program = Program { steps, forbidden: forbidden.to_vec(), ..Program::default() };
+        travel_instead_of_turning(&linked, &mut program);
+        program.steps[0].movement
+    }
+
+    #[test]
+    fn a_length_to_a_side_is_a_travel() {
+        assert_eq!(moved("<qty-0> to the left would be grand", Move::PanLeft, &[]), Move::TruckLeft);
+        assert_eq!(moved("pan right <qty-0>", Move::PanRight, &[]), Move::TruckRight);
+        assert_eq!(moved("up by <qty-0> please", Move::TiltUp, &[]), Move::PedestalUp);
+        assert_eq!(moved("pan left to <obj-0> , which is <qty-0> away", Move::PanLeft, &[]), Move::PanLeft);
+        assert_eq!(moved("pan left to <obj-0>", Move::PanLeft, &[]), Move::PanLeft);
+    }
+
+    #[test]
+    fn who_rules_turns_out_travels() {
+        assert_eq!(moved("over to the left , no panning", Move::PanLeft, &[Motion::Pan]), Move::TruckLeft);
+        assert_eq!(moved("to the right without turning", Move::PanRight, &[Motion::Turn]), Move::TruckRight);
+        assert_eq!(moved("pan left , no tilting", Move::PanLeft, &[Motion::Tilt]), Move::PanLeft);
+        assert_eq!(moved("turn to the left , no panning", Move::PanLeft, &[Motion::Pan]), Move::PanLeft);
+        assert_eq!(moved("to <obj-0> , no panning", Move::PanLeft, &[Motion::Pan]), Move::PanLeft);
+    }
+}
