@@ -303,9 +303,8 @@ fn uncertain(prompt: &str, direction: &mut Direction) -> Vec<Problem> {
         others.all(|[start, end]| end <= from || to <= start)
     };
     // What would leave a film of rests alone is better carried out badly than left out.
-    let moves = |nth: &usize| steps.get(*nth).is_some_and(|step| step.movement != Move::Static);
-    let only_move =
-        Some((0..steps.len()).filter(moves)).filter(|all| all.clone().count() == 1).and_then(|mut all| all.next());
+    let mut moving = (0..steps.len()).filter(|nth| steps[*nth].movement != Move::Static);
+    let only_move = moving.next().filter(|_| moving.next().is_none());
     let is_likely = |(nth, certainty): (usize, &StepCertainty)| {
         certainty.probability >= LEAST_PROBABILITY
             || certainty.probability >= most

@@ -26,8 +26,8 @@ const HEAD: &str = "head";
 /// Words between a name and `the other`.
 const NEAR: usize = 6;
 
-/// Adds the parts of the only thing of a scan that a prompt names, and returns a warning for each. Heights of parts hold for what is there from end to end;
-/// of a person who is not there down to the feet they are measured in heads.
+/// Adds the parts of the only thing of a scan that a prompt names, and returns a warning for each. Heights of parts hold for what
+/// is there from end to end; of a person who is not there down to the feet they are measured in heads.
 ///
 /// # Errors
 /// [`PipelineError::Language`] for a damaged list of parts, [`PipelineError::Render`] when the thing cannot be looked at.

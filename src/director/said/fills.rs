@@ -195,7 +195,7 @@ mod tests {
     use super::*;
 
     fn end_part(text: &str) -> SubjectPart {
-        let top = PartPlace { place: "top", is_small: false };
+        let top = PartPlace { place: "top", is_small: false, heights_percent: None };
         let last =
             linked(text).words_in([0, usize::MAX]).filter(|(word, _)| *word == "<obj-0>").last().map(|(_, span)| span);
         // The last mention stands for a part, as in `its headstock`.

@@ -72,7 +72,12 @@ pub(super) fn views(text: &Text<'_>, linked: &Linked, thing: &Object, things: &T
     // `The strings side, not the back.`
     for at in (0..text.words.len()).filter(|at| !text.is_likeness(*at) && !text.is_denied(*at)) {
         let Some(view) = view_at(text, linked, thing, things, at) else { continue };
-        let is_known = views.last() == Some(&view) || view != View::Whole && views.contains(&view);
+        // `The carving at the very top` says where the carving is.
+        let place = text.words[at.saturating_sub(3)..at].iter().any(|word| is_listed("at on near", word));
+        let is_place = place
+            && matches!(views.last(), Some(View::Part(_)))
+            && matches!(view, View::Top | View::Middle | View::Bottom);
+        let is_known = is_place || views.last() == Some(&view) || view != View::Whole && views.contains(&view);
         if !is_known {
             views.push(view);
         }
@@ -109,7 +114,7 @@ fn view_at(text: &Text<'_>, linked: &Linked, thing: &Object, things: &Things<'_>
     let is_named =
         is_listed("the its his her both that those these and long lovely your", before(1)) || before(2) == "the";
     if is_listed(FACES, words[at]) && is_named {
-        return Some(View::Front);
+        return Some(things.part(thing.id, "head").map_or(View::Front, View::Part));
     }
     if is_listed(STEMS, words[at]) {
         return Some(View::Middle);
@@ -171,8 +176,12 @@ fn step_to(view: View, before: Option<View>, thing: &Object, things: &Things<'_>
         either_way: true,
         ..of(Move::ArcRight, Framing { side: Some(side), ..whole.clone() })
     };
-    let nears =
-        if before.is_some_and(|before| matches!(before, View::Top)) { Move::PedestalDown } else { Move::PushIn };
+    let nears = match before {
+        Some(View::Top) => Move::PedestalDown,
+        // From one close picture to another.
+        Some(View::Part(_)) => Move::Follow,
+        _ => Move::PushIn,
+    };
     match view {
         View::Front if before.is_none() => Step {
             start: Framing { side: Some(SubjectSide::FromFront), ..whole.clone() },
