@@ -56,16 +56,10 @@ fn denied_at(texts: &[&str], at: usize) -> Option<[usize; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::linked;
 
     fn left(text: &str) -> Option<String> {
-        let spans = text.split(' ').scan(0, |at, word| {
-            let from = *at;
-            *at += word.len() + 1;
-            Some([from, from + word.len()])
-        });
-        let linked =
-            Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() };
-        without_denied_turns(&linked).map(|linked| linked.tokens_text)
+        without_denied_turns(&linked(text)).map(|linked| linked.tokens_text)
     }
 
     #[test]

@@ -89,16 +89,10 @@ fn is_title(words: &[&str]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::linked;
 
     fn left(text: &str) -> Option<String> {
-        let spans = text.split(' ').scan(0, |at, word| {
-            let from = *at;
-            *at += word.len() + 1;
-            Some([from, from + word.len()])
-        });
-        let linked =
-            Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() };
-        without_told(&linked).map(|linked| linked.tokens_text)
+        without_told(&linked(text)).map(|linked| linked.tokens_text)
     }
 
     #[test]

@@ -57,8 +57,8 @@ pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
             continue;
         }
         let own = linked.texts_in(step.words.unwrap_or_default());
-        let others = own.iter().filter_map(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
-        let named = others.filter(|ids| !is_only_height(ids)).next_back();
+        let mut others = own.iter().filter_map(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
+        let named = others.rfind(|ids| !is_only_height(ids));
         let is_bare = step.amount.is_none() && step.duration_secs.is_none() && named.is_none();
         if is_bare && steps.len() > 1 && !(0..own.len()).any(|at| is_camera_verb(&own, at)) {
             direction.remove_step(nth);

@@ -1,4 +1,4 @@
-//! Linked prompts for the unit tests of this folder.
+//! Linked prompts for unit tests.
 
 use cinesplat_language::Linked;
 use cinesplat_operator::{Framing, Program, Step};
@@ -7,7 +7,7 @@ use cinesplat_trajectory::Move;
 use crate::direction::Direction;
 
 /// A prompt whose words and marks stand apart by spaces; `<obj-0>` is object 5, `<obj-1>` object 7.
-pub(super) fn linked(text: &str) -> Linked {
+pub(crate) fn linked(text: &str) -> Linked {
     let words = text.split(' ');
     let spans = words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()]));
     Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() }

@@ -18,7 +18,7 @@ mod fills;
 mod first_pictures;
 mod fixed;
 #[cfg(test)]
-mod fixture;
+pub(crate) mod fixture;
 mod headlines;
 mod heights;
 mod lengths;
