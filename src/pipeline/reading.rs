@@ -302,14 +302,8 @@ fn uncertain(prompt: &str, direction: &mut Direction) -> Vec<Problem> {
         let mut others = steps.iter().enumerate().filter(|(other, _)| *other != nth).filter_map(|(_, step)| step.words);
         others.all(|[start, end]| end <= from || to <= start)
     };
-    // What would leave a film of rests alone is better carried out badly than left out.
-    let mut moving = (0..steps.len()).filter(|nth| steps[*nth].movement != Move::Static);
-    let only_move = moving.next().filter(|_| moving.next().is_none());
     let is_likely = |(nth, certainty): (usize, &StepCertainty)| {
-        certainty.probability >= LEAST_PROBABILITY
-            || certainty.probability >= most
-            || is_own(nth)
-            || only_move == Some(nth)
+        certainty.probability >= LEAST_PROBABILITY || certainty.probability >= most || is_own(nth)
     };
     let is_kept: Vec<bool> = direction.certainty.iter().enumerate().map(is_likely).collect();
     for ((certainty, step), is_kept) in direction.certainty.iter().zip(&direction.program.steps).zip(&is_kept) {
