@@ -71,10 +71,9 @@ impl Subjects {
             subjects.push(Subject::new(gaussians, object, &own));
             members.push(own);
         }
-        let is_part = |part: usize, whole: usize| objects.parts_of(subjects[whole].id).contains(&subjects[part].id);
-        let wholes: Vec<Vec<usize>> = (0..subjects.len())
-            .map(|part| (0..subjects.len()).filter(|whole| is_part(part, *whole)).collect())
-            .collect();
+        let parts: Vec<Vec<u32>> = subjects.iter().map(|subject| objects.parts_of(subject.id)).collect();
+        let wholes_of = |part: &Subject| (0..parts.len()).filter(|whole| parts[*whole].contains(&part.id)).collect();
+        let wholes: Vec<Vec<usize>> = subjects.iter().map(wholes_of).collect();
         // What a part of a part has is none of the whole's own.
         let mut order: Vec<usize> = (0..subjects.len()).collect();
         order.sort_by_key(|subject| std::cmp::Reverse(wholes[*subject].len()));

@@ -87,7 +87,7 @@ fn footprint(flat: &[DVec2], yaw_rad: f64) -> (DVec2, DVec2) {
 }
 
 /// Smallest and largest value after trimming; 0 for none.
-fn trimmed(mut values: Vec<f64>) -> (f64, f64) {
+pub(crate) fn trimmed(mut values: Vec<f64>) -> (f64, f64) {
     let Some(last) = values.len().checked_sub(1) else { return (0.0, 0.0) };
     let cut = (values.len() as f64 * TRIM_FRAC) as usize;
     let low = *values.select_nth_unstable_by(cut, f64::total_cmp).1;

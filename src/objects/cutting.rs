@@ -7,8 +7,6 @@ use glam::DVec3;
 use super::boxes;
 use super::object::{Object, ObjectSet};
 
-/// Share of a thing's solid Gaussians beyond each end of its extent.
-const TRIM_FRAC: f64 = 0.005;
 /// Least number of Gaussians of a part.
 const MIN_GAUSSIANS: usize = 40;
 
@@ -35,8 +33,7 @@ impl ObjectSet {
     ) -> Option<u32> {
         let last = self.objects.iter().map(|object| object.id).max()?;
         let id = last.checked_add(1).filter(|id| u16::try_from(*id).is_ok())?;
-        let labels = self.labels_of(whole);
-        let own: Vec<usize> = (0..labels.len()).filter(|&i| u32::from(labels[i]) == whole).collect();
+        let own = self.members().remove(&whole)?;
         let is_solid = |i: &&usize| gaussians.opacities[**i] >= SOLID_OPACITY;
         let solid: Vec<usize> = own.iter().filter(is_solid).copied().collect();
         let mut members = if solid.len() < MIN_GAUSSIANS { own } else { solid };
@@ -64,11 +61,7 @@ impl ObjectSet {
 
 /// The coordinates along an axis between two shares of the extent of some Gaussians.
 fn interval(gaussians: &Gaussians, members: &[usize], axis: DVec3, [from, to]: [f64; 2]) -> [f64; 2] {
-    let mut values: Vec<f64> = members.iter().map(|&i| gaussians.mean_world(i).dot(axis)).collect();
-    let rank = |share: f64| (share * values.len() as f64) as usize;
-    let (first, last) = (rank(TRIM_FRAC), values.len().saturating_sub(rank(TRIM_FRAC) + 1));
-    values.sort_unstable_by(f64::total_cmp);
-    let (Some(low), Some(high)) = (values.get(first), values.get(last)) else { return [0.0, -1.0] };
+    let (low, high) = boxes::trimmed(members.iter().map(|&i| gaussians.mean_world(i).dot(axis)).collect());
     // What lies beyond the extent belongs to its ends.
     let at = |share: f64| match share {
         _ if share <= 0.0 => f64::NEG_INFINITY,

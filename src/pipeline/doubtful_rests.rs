@@ -2,7 +2,6 @@
 
 use cinesplat_director::Direction;
 use cinesplat_language::{is_listed, tokenize};
-use cinesplat_operator::Step;
 use cinesplat_trajectory::Move;
 
 /// Below this probability a rest is more likely a move that was not understood.
@@ -12,17 +11,15 @@ const STILL: &str = "static still stills locked lock lockdown fixed frozen freez
     hold holds holding held stay stays staying rest rests stop stops linger lingers wait photo photograph picture portrait postcard \
     snapshot shot frame framing composition tableau view thumbnail packshot";
 
-/// Comes slowly up to what a film of rests would show, where no step is likely to be one and no word asks for it: a request that
-/// is half understood is met better by a way to its subject than by a photograph.
+/// Comes up to what a film of one rest would show, where the rest is unlikely and no word asks for it: a request that is half
+/// understood is met better by a way to its subject than by a photograph.
 pub(super) fn approach(prompt: &str, direction: &mut Direction) {
-    let steps = &mut direction.program.steps;
-    let shows = |step: &Step| !step.end.subjects.is_empty();
-    let rests = steps.iter().all(|step| step.movement == Move::Static && step.with.is_empty() && step.via.is_none());
+    let [step] = &mut direction.program.steps[..] else { return };
+    let rests = step.movement == Move::Static && step.with.is_empty() && step.via.is_none();
     let is_doubtful =
         !direction.certainty.is_empty() && direction.certainty.iter().all(|certainty| certainty.probability < DOUBTFUL);
     let is_still = tokenize(prompt).iter().any(|word| is_listed(STILL, &word.text));
-    let [step] = &mut steps[..] else { return };
-    if !rests || !is_doubtful || is_still || !shows(step) {
+    if !rests || !is_doubtful || is_still || step.end.subjects.is_empty() {
         return;
     }
     // A way from one thing to another.
@@ -35,7 +32,7 @@ pub(super) fn approach(prompt: &str, direction: &mut Direction) {
 mod tests {
     use super::*;
     use cinesplat_director::StepCertainty;
-    use cinesplat_operator::{Framing, Program};
+    use cinesplat_operator::{Framing, Program, Step};
 
     fn movement(prompt: &str, probability: f64, start: &[u32]) -> Move {
         let framing = |ids: &[u32]| Framing { subjects: ids.to_vec(), ..Framing::default() };

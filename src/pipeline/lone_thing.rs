@@ -22,7 +22,7 @@ use cinesplat_trajectory::Move;
 const PEOPLE: &str = "biker rider motorcyclist cyclist photographer dancer model player driver runner athlete mannequin singer \
     musician fellow dude gentleman chap monk bride groom fighter boxer skater surfer hiker farmer sailor statue sculpture";
 /// The part that only people have, and what such a thing is called where the words do not say it.
-const HEAD: &str = "head";
+pub(super) const HEAD: &str = "head";
 const PERSON: &str = "person";
 /// What a thing stands on: rarely what a scan is about.
 const GROUNDS: [&str; 10] =

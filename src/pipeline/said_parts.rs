@@ -11,6 +11,7 @@ use cinesplat_scene::Scene;
 use glam::DVec3;
 
 use super::error::PipelineError;
+use super::lone_thing::HEAD;
 
 /// Depth of a part of the front or the back, and reach of one at a side, as shares of the thing.
 const FRONT: [f64; 2] = [0.4, 1.0];
@@ -21,8 +22,6 @@ const LEFT: [f64; 2] = [0.0, 0.3];
 /// from which on he is not there down to his feet.
 const HEAD_FRAC: f64 = 0.155;
 const CROPPED_FRAC: f64 = 0.2;
-/// Label of the head of a person that a search has found.
-const HEAD: &str = "head";
 /// Words between a name and `the other`.
 const NEAR: usize = 6;
 

@@ -116,6 +116,11 @@ fn is_one(words: &str) -> bool {
     is_last_singular && !words.iter().any(others)
 }
 
+/// Whether a noun is one of several things. A canvas is one.
+fn is_plural(noun: &Word) -> bool {
+    noun.stem != noun.text && noun.text != "canvas"
+}
+
 /// All things of the kind of a mention.
 pub(crate) fn kind_of(objects: &[NamedObject], prompt: &str, found: &FoundMention) -> Vec<u32> {
     if found.mention.ids.len() > 1 {
@@ -168,8 +173,7 @@ fn placed(
     let in_corner = words.last().is_some_and(|word| word.text == "corner");
     let words = if in_corner { words[..words.iter().position(|word| word.text == "in")?].to_vec() } else { words };
     let last = words.iter().rev().find(|word| word.is_alphabetic())?;
-    // A canvas is one.
-    let is_plural = last.stem != last.text && last.text != "canvas";
+    let is_plural = is_plural(last);
     let count = words.iter().find_map(|word| {
         let said = (2..=12_u32).find(|count| number_word(*count) == Some(&word.text));
         said.map(|count| count as usize).or_else(|| word.text.parse().ok())
@@ -244,7 +248,7 @@ fn placed_inside(
     let of_ids = kind_of_all(objects, &mention.ids);
     let is_other = !of_ids.is_empty() && !of_ids.iter().any(|id| alike.contains(id));
     let alike = if alike.is_empty() || is_other { of_ids } else { alike };
-    let is_one = last.stem == last.text || last.text == "canvas";
+    let is_one = !is_plural(last);
     let mut around = named(behind);
     if around.is_empty() {
         around = mention.ids.iter().filter(|id| !alike.contains(id)).copied().collect();

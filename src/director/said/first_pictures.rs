@@ -27,13 +27,13 @@ pub(crate) fn begin_at_named(linked: &Linked, steps: &mut [Step]) {
     let ids = linked.expanded(&[id]);
     let is_own = step.words.is_some_and(|[from, _]| linked.spans.first().is_some_and(|first| from <= first[1]));
     let is_open = step.start.subjects.is_empty() && step.movement != Move::Static && step.via.is_none();
+    let whole = says(WHOLES) && says(VIEWS);
     if is_own && linked.expanded(&step.start.subjects) == ids && step.start.size.is_none() {
-        step.start.whole |= says(WHOLES) && says(VIEWS);
+        step.start.whole |= whole;
     }
     let is_other = !step.end.subjects.is_empty() && linked.expanded(&step.end.subjects) != ids;
     if is_own && is_open && is_other && (leads_on || says(VIEWS)) {
         // The size was read from the words that call it whole.
-        let whole = says(WHOLES) && says(VIEWS);
         let size = step.start.size.filter(|_| !whole);
         step.start = Framing { subjects: ids, whole, size, part: SubjectPart::Middle, ..step.start.clone() };
     }

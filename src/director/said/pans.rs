@@ -1,5 +1,6 @@
 //! Pans over several things: `pan over both windows, left to right`.
 
+use cinesplat_geometry::LevelFrame;
 use cinesplat_objects::Object;
 use cinesplat_operator::{Framing, Program, Step};
 use cinesplat_trajectory::Move;
@@ -8,14 +9,12 @@ use glam::DVec3;
 /// Begins a pan over several things at the first of them and ends it at the last, as somebody sees them who stands in the middle of
 /// what there is.
 pub(crate) fn pan_from_first_to_last((objects, up): (&[Object], DVec3), program: &mut Program) {
-    let (right, ahead) = up.normalize_or_zero().any_orthonormal_pair();
+    let Ok(frame) = LevelFrame::new(up) else { return };
     let middle = objects.iter().map(|object| object.center).sum::<DVec3>() / objects.len().max(1) as f64;
-    let turn = right.cross(ahead).dot(up).signum();
-    // Grows to the left.
+    // Grows to the right.
     let azimuth = |id: &u32| {
         let object = objects.iter().find(|object| object.id == *id)?;
-        let away = object.center - middle;
-        Some(turn * away.dot(ahead).atan2(away.dot(right)))
+        Some(frame.azimuth(object.center - middle))
     };
     for step in program.steps.iter_mut().filter(|step| is_over_several(step)) {
         let mut seen: Vec<(f64, u32)> =
@@ -26,8 +25,8 @@ pub(crate) fn pan_from_first_to_last((objects, up): (&[Object], DVec3), program:
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The widest gap is where no pan leads.
         let gap = |at: usize| (seen[(at + 1) % seen.len()].0 - seen[at].0).rem_euclid(std::f64::consts::TAU);
-        let Some(leftmost) = (0..seen.len()).max_by(|a, b| gap(*a).total_cmp(&gap(*b))) else { continue };
-        let mut ends = [seen[leftmost].1, seen[(leftmost + 1) % seen.len()].1];
+        let Some(rightmost) = (0..seen.len()).max_by(|a, b| gap(*a).total_cmp(&gap(*b))) else { continue };
+        let mut ends = [seen[(rightmost + 1) % seen.len()].1, seen[rightmost].1];
         if step.movement == Move::PanLeft {
             ends.reverse();
         }
