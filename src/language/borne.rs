@@ -34,12 +34,12 @@ impl Linked {
     pub fn name_what_stands(&mut self, prompt: &str, things_on: &dyn Fn(u32) -> Vec<u32>) {
         let (mut from, mut has_named) = (0, false);
         while let Some(borne) = self.borne_after(prompt, from) {
-            from = borne.words[0] + 1;
             let members = things_on(borne.bearer);
-            if !members.is_empty() && members.len() <= MOST_THINGS {
-                self.replace(prompt, borne.words, members);
-                has_named = true;
-            }
+            let may_name = !members.is_empty() && members.len() <= MOST_THINGS;
+            let is_named = may_name && self.replace(prompt, borne.words, members);
+            // What stays is not looked at again.
+            from = if is_named { borne.words[0] + 1 } else { borne.words[1] };
+            has_named |= is_named;
         }
         if has_named {
             self.drop_unused_slots();
@@ -112,15 +112,16 @@ impl Linked {
         group.is_some_and(|group| group.name.split_whitespace().last().is_some_and(|name| is_listed(THINGS, name)))
     }
 
-    /// Puts a mention of `members` in the place of some words; the words stay where the prompt has no slot left.
-    fn replace(&mut self, prompt: &str, [from, to]: [usize; 2], members: Vec<u32>) {
+    /// Puts a mention of `members` in the place of some words, and says so; the words stay where the prompt has no slot left.
+    fn replace(&mut self, prompt: &str, [from, to]: [usize; 2], members: Vec<u32>) -> bool {
         let bytes = [self.spans[from][0], self.spans[to - 1][1]];
-        let Ok(slot) = self.slot_of(&Mention { bytes, ids: members }, prompt) else { return };
+        let Ok(slot) = self.slot_of(&Mention { bytes, ids: members }, prompt) else { return false };
         let placeholder = format!("{OBJECT}{slot}>");
         let mut words: Vec<&str> = self.tokens_text.split(' ').collect();
         words.splice(from..to, [placeholder.as_str()]);
         self.tokens_text = words.join(" ");
         self.spans.splice(from..to, [bytes]);
+        true
     }
 }
 
@@ -148,6 +149,17 @@ mod tests {
         assert_eq!(named("pan across the things on the table", "the things on the table"), expected);
         let (text, members) = named("glide along the table , looking at the objects on it", "the table");
         assert_eq!((text.as_str(), members), ("glide along <obj-0> , looking at <obj-1>", both));
+    }
+
+    #[test]
+    fn what_is_too_much_to_name_stays() {
+        for num in [0, 13] {
+            let prompt = "slide along the table , so I see each thing on it";
+            let mention = Mention { bytes: [12, 21], ids: vec![7] };
+            let mut linked = link_mentions(prompt, &[mention]).unwrap();
+            linked.name_what_stands(prompt, &|_| (20..20 + num).collect());
+            assert_eq!(linked.tokens_text, "slide along <obj-0> , so i see each thing on it");
+        }
     }
 
     #[test]

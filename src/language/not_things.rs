@@ -107,16 +107,16 @@ fn is_until(words: &[Word], [first, end]: [usize; 2]) -> bool {
 /// What a film shows at once, and words before it and behind it by which it is that.
 const FRAMES: &str = "picture image frame shot view";
 const INTO: &str = "in into within inside fill fills filling filled";
+const FRAME_ARTICLES: &str = "the our my your a one same single";
 const FRAME_ENDS: &str = "and then for at while until till before after together throughout all so but as too now hold stop \
     stay the";
 
 /// `Finish with both curtains in the picture`: the film's own picture, and none on the wall.
 fn is_frame(words: &[Word], [first, end]: [usize; 2]) -> bool {
-    let article = first + usize::from(matches!(word_at(words, first), "the" | "our" | "my" | "your"));
+    let is_article = |at: &usize| is_listed(FRAME_ARTICLES, word_at(words, *at));
+    let article = first + (first..end).take_while(is_article).count();
     let is_named = end == article + 1 && is_listed(FRAMES, word_at(words, article));
-    let before = first.checked_sub(1).map_or("", |before| word_at(words, before));
-    let is_article = matches!(before, "the" | "our" | "my" | "your" | "a");
-    let before = if is_article { first.checked_sub(2).map_or("", |before| word_at(words, before)) } else { before };
+    let before = (0..first).rev().find(|at| !is_article(at)).map_or("", |at| word_at(words, at));
     let next = word_at(words, end);
     is_named && is_listed(INTO, before) && (!next.starts_with(char::is_alphanumeric) || is_listed(FRAME_ENDS, next))
 }
@@ -229,6 +229,8 @@ mod tests {
         assert!(is_none("finish with both curtains in the picture", "the picture"));
         assert!(is_none("until both are in the picture, then stop", "picture"));
         assert!(is_none("creep in until they fill the frame", "the frame"));
+        assert!(is_none("show me both chairs in the one picture. then go on", "one picture"));
+        assert!(is_none("get both in the same shot", "shot"));
         assert!(!is_none("push in on the picture", "the picture"));
         assert!(!is_none("push in on the boat in the picture on the wall", "the picture"));
     }

@@ -114,3 +114,50 @@ fn sees(grid: &VoxelGrid, eye: Vec3, target: Vec3, (low, high): (Vec3, Vec3)) ->
     }
     true
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat_scene::Gaussians;
+    use glam::{DMat3, Quat};
+
+    /// The voxels of what is inside boxes, given by their middles and half sizes.
+    fn filled(boxes: &[([f32; 3], [f32; 3])], cell: f32) -> VoxelGrid {
+        let mut gaussians = Gaussians::default();
+        for (middle, half) in boxes {
+            let (middle, half) = (Vec3::from_array(*middle), Vec3::from_array(*half));
+            let num = (2.0 * half / cell).ceil().as_uvec3().max(glam::UVec3::ONE);
+            for i in 0..num.x * num.y * num.z {
+                let at = glam::UVec3::new(i % num.x, i / num.x % num.y, i / num.x / num.y);
+                let share = (at.as_vec3() + 0.5) / num.as_vec3();
+                gaussians.means.push(middle + half * (2.0 * share - 1.0));
+                gaussians.scales.push(Vec3::splat(0.6 * cell));
+                gaussians.rotations.push(Quat::IDENTITY);
+                gaussians.opacities.push(1.0);
+                gaussians.sh_dc.push(Vec3::ZERO);
+            }
+        }
+        VoxelGrid::new(&gaussians, f64::from(cell), DVec3::ZERO, DMat3::IDENTITY)
+    }
+
+    #[test]
+    fn a_room_surrounds_and_an_armchair_does_not() {
+        let wall = |middle: [f32; 3], half: [f32; 3]| (middle, half);
+        let mut room = vec![wall([0.0, -0.05, 0.0], [2.0, 0.05, 2.0])];
+        for side in [-2.0, 2.0] {
+            room.push(wall([side, 1.25, 0.0], [0.05, 1.25, 2.0]));
+            room.push(wall([0.0, 1.25, side], [2.0, 1.25, 0.05]));
+        }
+        assert!(surrounds(&filled(&room, 0.08)), "a room without a ceiling");
+        room.push(wall([0.0, 2.55, 0.0], [2.0, 0.05, 2.0]));
+        assert!(surrounds(&filled(&room, 0.08)), "a closed room");
+        // Seat, back and arms are thick, as no wall is.
+        let armchair = [
+            wall([0.0, 0.25, 0.0], [0.5, 0.25, 0.5]),
+            wall([0.0, 0.75, -0.42], [0.5, 0.75, 0.08]),
+            wall([-0.45, 0.45, 0.0], [0.06, 0.45, 0.5]),
+            wall([0.45, 0.45, 0.0], [0.06, 0.45, 0.5]),
+        ];
+        assert!(!surrounds(&filled(&armchair, 0.03)), "an armchair");
+    }
+}

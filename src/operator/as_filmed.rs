@@ -3,12 +3,14 @@
 use cinesplat_trajectory::{Move, ShotAngle};
 use glam::DVec3;
 
-use crate::program::{Framing, Look, Pass, Program, Step, Via};
+use crate::program::{Amount, Framing, Look, Pass, Program, Step, Via};
+use crate::view::LYING_RADII;
 use crate::world::World;
 
 /// The program with the move first where a step says `handheld` before it, with flights that set out from a thing at
 /// that thing, with ways in through a door that nothing lies behind as ways from the door, with flights over things to
-/// what the next step shows, and with slides from thing to thing that look where they go.
+/// what the next step shows, with descents to a worm's view that end at the floor, and with slides from thing to thing that
+/// look where they go.
 pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
     let mut filmed = program.clone();
     for (nth, step) in filmed.steps.iter_mut().enumerate() {
@@ -28,6 +30,14 @@ pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
         {
             step.end.subjects = via.objects;
             step.end.angle = Some(ShotAngle::High);
+        }
+        if sinks_to_floor(step) && world.is_indoor() {
+            (step.end.angle, step.end.height) = (None, Some(LYING_RADII * world.camera_radius));
+        }
+        if world.is_indoor() {
+            stay_above_tables(world, step);
+        } else {
+            circle_lone_thing(step);
         }
         if sways_first(step) {
             // The sway takes its time from the move.
@@ -63,6 +73,48 @@ fn flies_openly(step: &Step) -> bool {
 fn rises_above(step: &Step) -> bool {
     let over = step.via.as_ref().is_some_and(|via| via.how == Pass::Over && via.objects != step.start.subjects);
     step.movement == Move::CraneUp && over && !step.start.subjects.is_empty() && step.end == Framing::default()
+}
+
+/// Starts a circle around what stands on a table, and would begin below the table top, just above that instead.
+fn stay_above_tables(world: &World, step: &mut Step) {
+    let circles = step.movement.is_circular() || step.with.iter().any(|second| second.is_circular());
+    let is_short = matches!(step.amount, Some(Amount::Degrees(degrees)) if degrees < SHORT_ARC_DEG);
+    let subject = step.start.subjects.first().or(step.end.subjects.first()).and_then(|id| world.subject(*id));
+    let Some(subject) = subject.filter(|subject| circles && !is_short && subject.bearer.is_some()) else { return };
+    let foot = subject.center - world.frame.up * subject.reach(world.frame.up);
+    let height = world.height_above_floor(foot) + ABOVE_TABLE_RADII * world.camera_radius;
+    for framing in [&mut step.start, &mut step.end] {
+        let is_low = matches!(framing.angle, Some(ShotAngle::Low | ShotAngle::Worm));
+        if is_low && framing.height.is_none() && framing.elevation_deg.is_none() {
+            (framing.angle, framing.height) = (None, Some(height));
+        }
+    }
+}
+
+/// Angle of a circle up to which it may stay before the edge of a table, degrees, and height of a camera above a table top, over
+/// its radius.
+const SHORT_ARC_DEG: f64 = 100.0;
+const ABOVE_TABLE_RADII: f64 = 1.6;
+
+/// Circles a lone thing where a step rises or sinks `while turning`: beside it there is nothing to turn to.
+fn circle_lone_thing(step: &mut Step) {
+    let rises = matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+    let shows = !step.start.subjects.is_empty() || !step.end.subjects.is_empty();
+    for second in step.with.iter_mut().filter(|_| rises && shows) {
+        // A camera that goes round to its left turns to the right.
+        *second = match *second {
+            Move::PanRight => Move::ArcLeft,
+            Move::PanLeft => Move::ArcRight,
+            other => other,
+        };
+    }
+}
+
+/// Whether a step sinks to where a worm looks from, which in a room is its floor, whatever the elevation there.
+fn sinks_to_floor(step: &Step) -> bool {
+    let sinks = matches!(step.movement, Move::CraneDown | Move::PedestalDown);
+    let is_free = step.end.height.is_none() && step.end.elevation_deg.is_none() && step.amount.is_none();
+    sinks && is_free && step.end.angle == Some(ShotAngle::Worm)
 }
 
 /// Distance before and behind a door at which a camera would stand, over its radius.

@@ -214,10 +214,10 @@ fn is_sized(constraints: &[Constraint], id: u32, scope: Scope) -> bool {
     constraints.iter().any(|constraint| constraint.scope.covers(scope) && states_size(constraint))
 }
 
-/// Cost of a way to a thing that ends farther from it than it begins, and the factor on the distance at which it costs as
-/// much.
-const APPROACH_COST: f64 = 1.0;
-const FAR_RETREAT: f64 = 1.4;
+/// Cost of a way to a thing that ends hardly nearer to it than it begins or farther, and the factors on the distance at which it
+/// begins and is reached.
+const APPROACH_COST: f64 = 1.6;
+const RETREAT: (f64, f64) = (0.85, 1.3);
 
 /// Cost of a walk to a thing that leads away from it: `stroll over to the armchair` ends at the armchair.
 fn approach_cost(segment: &MotionSegment, states: &[CameraState]) -> f64 {
@@ -235,7 +235,7 @@ fn approach_cost(segment: &MotionSegment, states: &[CameraState]) -> f64 {
     let Some(goal) = goal.filter(|_| !segment.constraints.iter().any(sized)) else { return 0.0 };
     let distance = |state: &CameraState| state.pose.position.distance(goal.aim).max(1e-9);
     let retreat = distance(&states[states.len() - 1]) / distance(&states[0]);
-    APPROACH_COST * (retreat.ln() / FAR_RETREAT.ln()).clamp(0.0, 1.0)
+    APPROACH_COST * ((retreat / RETREAT.0).ln() / (RETREAT.1 / RETREAT.0).ln()).clamp(0.0, 1.0)
 }
 
 /// Cost of a pull-out that widens its lens because the room ends behind the camera: as one that stays in the room by

@@ -13,6 +13,7 @@ use super::handles::{MAX_FREE_FILM_SECS, handles, settle};
 use super::inward::turned_inward;
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
+use super::pictures::worst_void;
 use super::program::{Amount, Framing, Program, Step};
 use super::report;
 use super::safer::{indoor_programs, safer_programs};
@@ -179,8 +180,10 @@ fn solution(
     let is_clear = clearance.failure.is_none_or(|failure| failure.distance >= least);
     let stays = captured >= SAFE_CAPTURED_FRAC || !world.is_indoor();
     let leaves = captured < if is_clear { OUTSIDE_FRAC } else { THROUGH_WALL_FRAC };
-    let leaves_room = world.is_indoor() && leaves;
-    let is_safe = is_clear && stays && !segments.iter().any(|segment| squeezes(world, program, segment));
+    let is_lost = world.is_indoor() && most_void(world, &path, flow.secs()) > LOST_VOID;
+    let leaves_room = world.is_indoor() && leaves || is_lost;
+    let squeezes = || segments.iter().any(|segment| squeezes(world, program, segment));
+    let is_safe = is_clear && stays && !is_lost && !squeezes();
     report.extend(detours::clearance_lines(world, (program, prompt), (&segments, &flow.spans), &detours, &clearance));
     report.extend(forbidden::lines(world, program, &segments, &keys));
     report.extend(settings.slant.map(|slant| dutch::report_line(world, &segments, slant)));
@@ -197,6 +200,16 @@ fn solution(
         is_safe,
         leaves_room,
     }
+}
+
+/// Void of a picture of a room from which on a film shows nothing, and the pictures of a film that are looked at.
+const LOST_VOID: f64 = 0.85;
+const NUM_PICTURES: u32 = 9;
+
+/// Void of the emptiest picture of a film.
+fn most_void(world: &World, path: &CameraPath, secs: f64) -> f64 {
+    let at = |i: u32| path.sample(secs * f64::from(i) / f64::from(NUM_PICTURES - 1));
+    worst_void(world, (0..NUM_PICTURES).map(at))
 }
 
 /// Whether a camera circles a thing, whose size and how far around the words leave open, so closely that the thing does not

@@ -16,8 +16,9 @@ type GiveUp = dyn Fn(&mut Step) -> Option<&'static str>;
 /// Programs in the order in which they are to be tried, each with what it gives up. Each gives up more than the one before;
 /// ones that change nothing are left out.
 pub(super) fn safer_programs(program: &Program, prompt: &str) -> Vec<(Program, Vec<ReportLine>)> {
-    let ways: [&GiveUp; 5] = [
+    let ways: [&GiveUp; 6] = [
         &drop_last_height,
+        &drop_reveal,
         &drop_places,
         &|step| shorten(step, ARCS_DEG[0]),
         &|step| shorten(step, ARCS_DEG[1]),
@@ -47,6 +48,15 @@ fn drop_last_height(step: &mut Step) -> Option<&'static str> {
         step.end.height = None;
     }
     is_one.then_some("the height that the words state, up to the end")
+}
+
+/// Goes up to a subject that no place hides and shows.
+fn drop_reveal(step: &mut Step) -> Option<&'static str> {
+    let is_open = step.movement == Move::Reveal && step.via.is_none() && !step.end.subjects.is_empty();
+    if is_open {
+        (step.movement, step.with) = (Move::PushIn, Vec::new());
+    }
+    is_open.then_some("a reveal")
 }
 
 /// Gives up the sides, heights and distances from which a step sees its subjects.
@@ -139,6 +149,16 @@ mod tests {
             ]
         );
         assert!(tries.iter().all(|(safer, _)| safer.steps[1] == program.steps[1]));
+    }
+
+    #[test]
+    fn a_reveal_is_given_up_for_a_way_in() {
+        let end = Framing { subjects: vec![3], ..Framing::default() };
+        let step = Step { end: end.clone(), with: vec![Move::PanRight], ..Step::of(Move::Reveal) };
+        let tries = safer_programs(&Program { steps: vec![step], ..Program::default() }, "");
+        assert_eq!(tries.len(), 1);
+        assert_eq!(tries[0].0.steps[0], Step { end, ..Step::of(Move::PushIn) });
+        assert!(!tries[0].1[0].met);
     }
 
     #[test]

@@ -216,10 +216,10 @@ fn before_wall(world: &World, target: &Target, view: CameraState) -> CameraState
     if free > LEAST_SPACE * start && free < distance { moved(&view, away * (free - distance)) } else { view }
 }
 
-/// The view of a room, raised to the floor where it would lie under it: as low as a camera can lie, nearer for the
+/// The view raised to the floor of a room, or to the foot of a lone thing, where it would lie under it: as low as a camera can lie, nearer for the
 /// angle of the shot, with a wider lens for the same picture.
 fn above_floor(world: &World, target: &Target, angle: Option<ShotAngle>, view: CameraState) -> CameraState {
-    if !world.is_indoor() || world.sunk_frac(view.pose.position) <= 0.0 {
+    if world.sunk_frac(view.pose.position) <= 0.0 {
         return view;
     }
     let lying = LYING_RADII * world.camera_radius;

@@ -23,6 +23,14 @@ const CUPBOARDS: &str = "cupboard cabinet door drawer unit wardrobe dresser";
 /// What stands on shelves and tables, besides all that is said in the plural.
 const SMALL: &str = "teapot pot jar bottle mug cup plate bowl vase glass book spoon ladle utensil kettle tin can spice crockery \
     china dish ornament figurine toy candle basket collection tray jug pan";
+/// Nouns by what such things look like in a room without shelves, and colors of guessed names for what is dark.
+const SCREENS: &str = "television tv telly screen monitor";
+const DRAPES: &str = "curtain drape blind";
+const SEATS: &str = "armchair chair seat sofa couch settee recliner";
+const CHESTS: &str = "cabinet sideboard dresser chest commode cupboard credenza";
+const DARK: &str = "black dark navy";
+/// Share of the height of the scan under which the middle of a seat is.
+const SEAT_FRAC: f64 = 0.5;
 /// Share of the height of the scan, from its bottom, under which a top is one to work at, and from which a thing may be on a shelf.
 const COUNTER_FRAC: f64 = 0.55;
 const SHELF_FRAC: f64 = 0.45;
@@ -148,6 +156,9 @@ impl<'a> Scan<'a> {
         let is_plural = head.stem != head.text;
         let is = |list: &str| is_listed(list, &head.stem) || is_listed(list, &head.text);
         let says = |list: &str| words.iter().any(|word| is_listed(list, &word.text));
+        if let Some(id) = self.looks_like(head) {
+            return Some(vec![id]);
+        }
         let ids = match () {
             () if is(FLOORS) => return None,
             () if is(COUNTERS) => vec![self.counter()?.id],
@@ -181,6 +192,32 @@ impl<'a> Scan<'a> {
         ids.truncate(MOST_THINGS);
         ids.sort_unstable();
         (!ids.is_empty()).then_some(ids)
+    }
+
+    /// The thing of a room without shelves that looks most like what a noun means; `None` where none does.
+    fn looks_like(&self, noun: &Word) -> Option<u32> {
+        let is = |list: &str| is_listed(list, &noun.stem) || is_listed(list, &noun.text);
+        let has = |object: &Object, list: &str| object.label.split(' ').any(|word| is_listed(list, word));
+        let is_like = |object: &Object| match () {
+            () if is(SCREENS) => has(object, "panel") && has(object, DARK),
+            () if is(DRAPES) => has(object, "panel") && !has(object, DARK),
+            () if is(SEATS) => {
+                has(object, "object") && !has(object, "tall flat small") && {
+                    self.height_frac(self.middle(object)) < SEAT_FRAC
+                }
+            }
+            () if is(CHESTS) => has(object, "box"),
+            () if is(SMALL) => has(object, "object box") && !has(object, "large"),
+            () => false,
+        };
+        let is_root = |object: &&Object| object.parent.is_none() && !is_bound(&object.label);
+        let alike = self.objects.iter().filter(is_root).filter(|object| is_like(object));
+        let found = if is(SMALL) {
+            alike.min_by(|a, b| a.radius().total_cmp(&b.radius()))
+        } else {
+            alike.max_by_key(|object| object.num_gaussians)
+        };
+        found.filter(|_| self.shelved().len() < FEWEST_SHELVED).map(|object| object.id)
     }
 
     /// The largest things, which are the pieces of what a scan of one thing shows.
@@ -219,6 +256,10 @@ impl<'a> Scan<'a> {
             is_panel && self.height_frac(self.middle(object)) < COUNTER_FRAC
         };
         let mut fronts: Vec<&Object> = self.objects.iter().filter(is_front).collect();
+        // Where nothing stands on shelves there is no wall of cupboards, and panels are curtains.
+        if self.shelved().len() < FEWEST_SHELVED && fronts.iter().any(|front| has_word(&front.label, "box")) {
+            fronts.retain(|front| has_word(&front.label, "box"));
+        }
         fronts.sort_by_key(|object| std::cmp::Reverse(object.num_gaussians));
         fronts
     }
@@ -334,6 +375,30 @@ mod tests {
         assert_eq!(of("the worktop"), [1]);
         assert_eq!(of("the cupboards"), [2, 3]);
         assert_eq!(of("the blue cupboard"), [2]);
+        assert_eq!(of("the giraffe"), Vec::<u32>::new());
+    }
+
+    #[test]
+    fn things_of_a_room_without_shelves_are_what_they_look_like() {
+        let object = |id, label: &str, height: f64, half: [f64; 3]| Object {
+            num_gaussians: 100 - id as usize,
+            ..Object::from_box(id, label, DVec3::Y * height, DVec3::from_array(half))
+        };
+        let objects = vec![
+            object(1, "large dark brown box", 0.3, [0.9, 0.3, 0.4]),
+            object(2, "large white panel", 1.2, [0.1, 1.2, 0.6]),
+            object(3, "large light gray object", 0.4, [0.5, 0.4, 0.5]),
+            object(4, "large black panel", 1.3, [0.5, 0.3, 0.02]),
+            object(5, "large tall light gray object", 1.1, [0.05, 1.1, 0.05]),
+            object(6, "gray object", 0.8, [0.1, 0.15, 0.1]),
+        ];
+        let set = ObjectSet { objects, labels: Vec::new() };
+        let of = |name: &str| guessed(&format!("push in on {name}"), &[(name, &[])], &set).0.remove(0);
+        assert_eq!(of("the telly"), [4]);
+        assert_eq!(of("the curtains"), [2]);
+        assert_eq!(of("the armchair"), [3]);
+        assert_eq!(of("the cabinet"), [1]);
+        assert_eq!(of("the vase"), [6]);
         assert_eq!(of("the giraffe"), Vec::<u32>::new());
     }
 

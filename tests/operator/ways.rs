@@ -2,7 +2,7 @@
 
 use cinesplat::objects::{Object, ObjectSet};
 use cinesplat::operator::{Amount, Framing, Pass, Step, Via, World};
-use cinesplat::trajectory::{CameraState, Move, ShotSize};
+use cinesplat::trajectory::{CameraState, Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
 use super::composition::in_frame;
@@ -80,4 +80,71 @@ fn a_close_picture_of_a_thing_under_a_rod_is_one_of_its_body() {
     let state = film(&solved(&world, vec![Step { end: close, ..Step::of(Move::Static) }]))[0];
     let [body, tip] = [0.12, 0.66].map(|height| in_frame(&state, DVec3::new(0.0, height, -1.5)).y);
     assert!(body.abs() < tip.abs(), "the body is at {body}, the tip of the rod at {tip}");
+}
+
+#[test]
+fn a_way_in_begins_on_the_group_that_its_goal_belongs_to() {
+    let start = Framing { subjects: vec![1, 2], whole: true, ..Framing::default() };
+    let end = Framing { height_frac: Some(0.5), ..about(2) };
+    let frames = film(&solved(&world(), vec![Step { start, end, ..Step::of(Move::PushIn) }]));
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    for center in [BOX_1, BOX_2] {
+        assert!(in_frame(first, center).abs().max_element() < 0.5, "begins on both: {}", in_frame(first, center));
+    }
+    let at = in_frame(last, BOX_2);
+    assert!(at.abs().max_element() < 0.2, "ends on the second: {at}");
+    let [from, to] = [first, last].map(|state| state.pose.position.distance(BOX_2));
+    assert!(to < 0.8 * from, "goes from {from} to {to}");
+}
+
+#[test]
+fn a_camera_backs_out_between_two_things_with_its_eyes_on_a_third() {
+    let via = Some(Via { how: Pass::Between, objects: vec![1, 2] });
+    let frames =
+        film(&solved(&with_small_things(&[1, 2, 3]), vec![Step { end: about(3), via, ..Step::of(Move::PullOut) }]));
+    let radio = DVec3::new(0.0, 0.35, -1.5);
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    let [from, to] = [first, last].map(|state| state.pose.position.distance(radio));
+    assert!(to > 1.3 * from, "backs from {from} to {to}");
+    let off = frames.iter().map(|state| in_frame(state, radio).abs().max_element()).fold(0.0, f64::max);
+    assert!(off < 0.25, "looks away from it: {off}");
+    assert!(first.pose.position.z < 0.8 && last.pose.position.z > 0.9, "{:?} {:?}", first.pose, last.pose);
+    let crosses = |pair: &[CameraState]| (pair[0].pose.position.z < 0.85) != (pair[1].pose.position.z < 0.85);
+    let gate = frames.windows(2).find(|pair| crosses(pair)).unwrap()[0].pose.position;
+    assert!((-1.2..1.2).contains(&gate.x), "passes at {gate}");
+}
+
+#[test]
+fn a_camera_that_sinks_to_the_floor_backs_away_above_it() {
+    let end = Framing { angle: Some(ShotAngle::Worm), ..about(1) };
+    let step = Step { end, with: vec![Move::PullOut], ..Step::of(Move::CraneDown) };
+    let frames = film(&solved(&world(), vec![step]));
+    let (first, last) = (frames[0].pose.position, frames[frames.len() - 1].pose.position);
+    assert!((0.0..0.2).contains(&last.y), "ends at {last}");
+    assert!(first.y > last.y + 0.3, "sinks from {first} to {last}");
+    let level = |eye: DVec3| (eye - BOX_1).with_y(0.0).length();
+    assert!(level(last) > level(first), "backs away from {first} to {last}");
+}
+
+#[test]
+fn a_low_circle_around_what_stands_on_a_table_stays_above_the_table() {
+    let start = Framing { angle: Some(ShotAngle::Low), ..about(4) };
+    let step = Step {
+        start,
+        end: about(4),
+        with: vec![Move::CraneUp],
+        amount: Some(Amount::Degrees(360.0)),
+        ..Step::of(Move::OrbitLeft)
+    };
+    let frames = film(&solved(&with_small_things(&[1, 4]), vec![step]));
+    let lowest = frames.iter().map(|state| state.pose.position.y).fold(f64::INFINITY, f64::min);
+    assert!(lowest > 1.2, "goes down to {lowest}, below the top of the box");
+}
+
+#[test]
+fn a_lens_narrows_on_the_thing_that_it_is_to_narrow_on() {
+    let step = |movement: Move, id: u32| Step { end: about(id), ..Step::of(movement) };
+    let frames = film(&solved(&world(), vec![step(Move::Static, 1), step(Move::ZoomIn, 2)]));
+    let last = &frames[frames.len() - 1];
+    assert!(in_frame(last, BOX_2).abs().max_element() < 0.2, "{}", in_frame(last, BOX_2));
 }

@@ -104,8 +104,15 @@ fn rise(context: &StepContext, subject: &Subject) -> DVec3 {
     let frame = &context.world.frame;
     let low = context.world.camera_radius * 1.5 - context.world.height_above_floor(subject.center);
     let half = subject.reach(frame.up);
-    frame.up * lerp((-0.2 * half, 1.3 * half + 0.05 * context.world.bounds.size()), context.parameters[3]).max(low)
+    let usual = lerp((-0.2 * half, 1.3 * half + 0.05 * context.world.bounds.size()), context.parameters[3]);
+    // Who walks along cabinets on a wall stays on the floor.
+    let walks = context.world.is_indoor() && matches!(context.step.movement, Move::Follow | Move::PushIn);
+    let most = MOST_WALKING * context.world.eye_height() - context.world.height_above_floor(subject.center);
+    frame.up * if walks { usual.min(most) } else { usual }.max(low)
 }
+
+/// Height of a walking camera over that of a standing person's eyes.
+const MOST_WALKING: f64 = 1.05;
 
 /// The point behind or in front of an object.
 fn gate_beside(context: &StepContext, subject: &Subject, how: Pass) -> DVec3 {

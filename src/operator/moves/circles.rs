@@ -145,6 +145,8 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
     let band = match (end_angle, upward) {
         (Some(angle), _) => pitch_band_deg(angle),
         (None, true) => (-60.0, -7.0),
+        // From near the floor one looks up.
+        (None, false) if context.step.end.height.is_some() => (-40.0, 42.0),
         (None, false) => (-40.0, 6.0),
     };
     segment = segment.requiring(Scope::End, ConstraintKind::Pitch(band));
@@ -318,8 +320,8 @@ fn raised(context: &StepContext, first: &CameraState, target: &Target, upward: b
         }
         _ => (level.length() * elevation.clamp(-70.0, 70.0).to_radians().tan()) - frame.height(away),
     };
-    // The jib swings toward the subject as it rises.
-    let swings = context.step.end.elevation_deg.is_none();
+    // The jib swings toward the subject as it rises, unless it backs away.
+    let swings = context.step.end.elevation_deg.is_none() && !context.step.with.contains(&Move::PullOut);
     let swing: DVec3 = f64::from(u8::from(swings)) * -level * lerp((0.0, 0.3), context.parameters[7]) * rise.abs()
         / (rise.abs() + distance);
     aimed(context.world, &moved(first, frame.up * rise + swing), target.aim)

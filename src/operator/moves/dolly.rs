@@ -21,6 +21,9 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
         (true, false) => LONE_START,
         (false, _) => (0.6, 0.95),
     };
+    if let Some(start) = from_another(context, &target, inward) {
+        return vec![push_from(context, &start, &target, fill)];
+    }
     let (mut segments, first) = if context.before.is_none()
         && context.step.start.size.is_none()
         && !context.step.start.whole
@@ -72,6 +75,38 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     }
     segments.push(require_visible(segment, &target, Scope::All));
     segments
+}
+
+/// The first picture of a film that goes in on one thing from another picture: from a group that it belongs to, or from another
+/// thing. `None` where it goes in on what it shows first.
+fn from_another(context: &StepContext, target: &Target, inward: bool) -> Option<Target> {
+    let start = &context.step.start;
+    let is_other = start.subjects != context.step.end.subjects && !context.step.end.subjects.is_empty();
+    if !inward || !is_other || context.before.is_some() || stands(&context.standing()) || target.ids.is_empty() {
+        return None;
+    }
+    Target::of(context.world, &Framing { whole: start.whole || start.subjects.len() > 1, ..start.clone() })
+}
+
+/// Goes in on a target from a picture of something else, and turns to it on the way.
+fn push_from(context: &StepContext, start: &Target, target: &Target, fill: (f64, f64)) -> MotionSegment {
+    let opening = context.opening_framing();
+    let framing = Framing { whole: opening.whole || start.ids.len() > 1, ..opening };
+    let first = context.view(start, &framing, fill, NORMAL_LENS_DEG);
+    let ratio = distance_ratio(context, target, &first, true);
+    let way = (target.aim - first.pose.position) * (1.0 - ratio);
+    let last = aimed(context.world, &moved(&first, way), target.aim);
+    let segment = context
+        .segment(vec![first, last])
+        .requiring(Scope::Start, ConstraintKind::Centered(start.clone(), 0.2))
+        .requiring(Scope::End, ConstraintKind::Centered(target.clone(), 0.2));
+    let segment = if context.step.amount.is_some() {
+        segment
+    } else {
+        segment.requiring(Scope::All, ConstraintKind::DistanceRatio(target.aim, (0.0, 0.76)))
+    };
+    let segment = context.constrained_at_end(context.constrained_at_start(segment));
+    require_visible(require_visible(segment, start, Scope::Start), target, Scope::End)
 }
 
 /// The first camera of a pull-out to the room, on the side of its subject from which the way back is longest.

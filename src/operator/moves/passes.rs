@@ -57,11 +57,16 @@ pub(super) fn passing(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
-/// The subject that a pull-out under or through an object leaves behind.
+/// The subject that a pull-out under, through or between objects leaves behind.
 fn backward_subject(context: &StepContext) -> Option<Target> {
-    let how = context.step.via.as_ref().map(|via| via.how)?;
-    let backward = context.step.movement == Move::PullOut && matches!(how, Pass::Under | Pass::Through);
-    context.start.clone().or_else(|| context.earlier.clone()).filter(|_| backward)
+    let via = context.step.via.as_ref().filter(|_| context.step.movement == Move::PullOut)?;
+    let left = || context.start.clone().or_else(|| context.earlier.clone());
+    match via.how {
+        Pass::Under | Pass::Through => left(),
+        // What the words say to look at on the way is left, too.
+        Pass::Between if !through_one(via) => left().or_else(|| context.end.clone()),
+        _ => None,
+    }
 }
 
 /// Travels backward through the gate, aimed at the subject that it leaves.
@@ -79,7 +84,8 @@ fn backward(context: &StepContext, gate: DVec3, subject: &Target) -> Vec<MotionS
         .about(subject.aim)
         .requiring(Scope::All, ConstraintKind::Centered(subject.clone(), 0.17))
         .requiring(Scope::All, ConstraintKind::DistanceRatio(subject.aim, (1.32, f64::INFINITY)));
-    let segment = require_visible(segment, subject, Scope::Start);
+    let is_between = context.step.via.as_ref().is_some_and(|via| via.how == Pass::Between);
+    let segment = require_visible(segment, subject, if is_between { Scope::All } else { Scope::Start });
     segments.push(context.constrained_at_end(context.constrained_at_start(segment)));
     segments
 }

@@ -52,7 +52,10 @@ pub(super) fn fill_frame(context: &StepContext, segments: &mut Vec<MotionSegment
         return;
     }
     let third = segment.constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::OnThird(_)));
-    let first = Picture::of(context, &first, context.opening_target(), third);
+    // A move that keeps its direction is aimed at one subject from the beginning.
+    let opening =
+        if way == Way::Same && context.start.is_none() { context.main_target() } else { context.opening_target() };
+    let first = Picture::of(context, &first, opening, third);
     let end = Picture::of(context, &end, context.main_target(), third);
     let Some((from, to)) = turns(context, way, continues, &first, &end) else { return };
     if from == (0.0, 0.0) && to == (0.0, 0.0) {
@@ -112,7 +115,8 @@ fn turns(
     if way == Way::Same {
         let both = |at: IVec2| Some((first.cost(context, at)?.max(last.cost(context, at)?), at));
         let (_, at) = Picture::places().filter_map(both).min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let by = first.turn_to_before(context).unwrap_or_else(|| first.turn(context, at));
+        let keeps_last = |by: &(f64, f64)| last.keeps_subject(context, &turned_by(context, &last.state, *by));
+        let by = first.turn_to_before(context).filter(keeps_last).unwrap_or_else(|| first.turn(context, at));
         return Some((by, by));
     }
     let free = |_: IVec2| true;

@@ -217,11 +217,23 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
         CameraState { pose: Pose { rotation: frame.rotation(turned), ..state.pose }, ..*state }
     };
     let lens = |ratio: f64| with_fov(state, 2.0 * ((state.fov_y_rad / 2.0).tan() * ratio.powf(share)).atan());
+    // From one thing to another, the camera looks at what it would look at without the circle.
+    let leads = matches!((&context.start, &context.end), (Some(start), Some(end)) if start.ids != end.ids);
     let around = |sign: f64| {
-        let azimuth = frame.azimuth(away) + (sign * degrees(beside_deg(context, second)) * share).to_radians();
-        let place = aim + frame.direction(azimuth) * frame.horizontal(away).length() + frame.up * frame.height(away);
+        let swing = (sign * degrees(beside_deg(context, second)) * share).to_radians();
+        let place = frame.swung(aim, state.pose.position, swing);
+        if leads {
+            let angles = frame.angles(state.pose.rotation);
+            let yaw_rad = angles.yaw_rad + swing;
+            let rotation = frame.rotation(LevelAngles { yaw_rad, ..angles });
+            return CameraState { pose: Pose { position: place, rotation }, ..*state };
+        }
         aimed(context.world, &moved(state, place - state.pose.position), aim)
     };
+    // A crane or pedestal alone decides on the height.
+    let rises =
+        matches!(context.step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+    let back = if rises { frame.horizontal(away) } else { away };
     if let (Move::PushIn | Move::PullOut, Some(factor)) = (second, factor_beside_circle(context.step)) {
         return moved(state, away * ((factor - 1.0) * share));
     }
@@ -232,8 +244,8 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
         Move::TiltDown => turn(0.0, -degrees(12.0), 0.0),
         Move::RollCw => turn(0.0, 0.0, degrees(15.0)),
         Move::RollCcw => turn(0.0, 0.0, -degrees(15.0)),
-        Move::PushIn | Move::DollyZoomIn => shift(-away * reach),
-        Move::PullOut | Move::DollyZoomOut => shift(away * reach * 1.4),
+        Move::PushIn | Move::DollyZoomIn => shift(-back * reach),
+        Move::PullOut | Move::DollyZoomOut => shift(back * reach * 1.4),
         Move::TruckLeft => shift(-state.pose.right() * distance * reach),
         Move::TruckRight => shift(state.pose.right() * distance * reach),
         Move::PedestalUp | Move::CraneUp => shift(frame.up * distance * reach),
