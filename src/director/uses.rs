@@ -96,8 +96,9 @@ fn use_behind(words: &[Word], at: usize) -> Option<(usize, &'static str)> {
     // `Keep flowers in` before `keep`.
     fitting.sort_by_key(|(end, _)| std::cmp::Reverse(*end));
     let (end, kinds) = *fitting.first()?;
-    let behind = (end..end + 2).take_while(|at| is_listed(BEHIND, text(*at))).count();
-    Some((end + behind, kinds))
+    let behind = usize::from(is_listed(BEHIND, text(end)));
+    let of = usize::from(behind == 1 && text(end + 1) == "of");
+    Some((end + behind + of, kinds))
 }
 
 /// The word behind a use that begins at word `start`.

@@ -235,34 +235,34 @@ mod tests {
     use super::*;
     use crate::tokenizer::tokenize;
 
-    /// The first factor of a text, in hundredths.
-    fn factor(text: &str) -> Option<i64> {
+    /// The first factor of a text.
+    fn factor(text: &str) -> String {
         let words = tokenize(text);
         let found = (0..words.len()).find_map(|i| factor_at(&words, i));
-        found.map(|(_, quantity)| (100.0 * quantity.value).round() as i64)
+        found.map(|(_, quantity)| format!("{:.2}", quantity.value)).unwrap_or_default()
     }
 
     #[test]
     fn shares_of_a_distance_are_factors() {
-        assert_eq!(factor("get a third closer to the ladles"), Some(67));
-        assert_eq!(factor("go a quarter nearer"), Some(75));
-        assert_eq!(factor("halve the gap to the vase"), Some(50));
-        assert_eq!(factor("close two thirds of the distance"), Some(33));
-        assert_eq!(factor("two thirds of the distance"), Some(67));
-        assert_eq!(factor("back off by half again"), Some(150));
-        assert_eq!(factor("half again as far away"), Some(150));
-        assert_eq!(factor("come closer by a third"), Some(67));
-        assert_eq!(factor("go a third further away"), Some(133));
-        assert_eq!(factor("until the gap is a third of what it was"), Some(33));
-        assert_eq!(factor("half closer"), Some(50));
-        assert_eq!(factor("zoom in by a third on the vase"), Some(133));
-        assert_eq!(factor("twice as close"), Some(50));
+        assert_eq!(factor("get a third closer to the ladles"), "0.67");
+        assert_eq!(factor("go a quarter nearer"), "0.75");
+        assert_eq!(factor("halve the gap to the vase"), "0.50");
+        assert_eq!(factor("close two thirds of the distance"), "0.33");
+        assert_eq!(factor("two thirds of the distance"), "0.67");
+        assert_eq!(factor("back off by half again"), "1.50");
+        assert_eq!(factor("half again as far away"), "1.50");
+        assert_eq!(factor("come closer by a third"), "0.67");
+        assert_eq!(factor("go a third further away"), "1.33");
+        assert_eq!(factor("until the gap is a third of what it was"), "0.33");
+        assert_eq!(factor("half closer"), "0.50");
+        assert_eq!(factor("zoom in by a third on the vase"), "1.33");
+        assert_eq!(factor("twice as close"), "0.50");
     }
 
     #[test]
     fn other_shares_are_none() {
-        assert_eq!(factor("the left third of the frame"), None);
-        assert_eq!(factor("stop half a metre closer"), None);
-        assert_eq!(factor("the second half again"), None);
+        assert_eq!(factor("the left third of the frame"), "");
+        assert_eq!(factor("stop half a metre closer"), "");
+        assert_eq!(factor("the second half again"), "");
     }
 }
